@@ -6,8 +6,7 @@
 
 namespace nephroid::engine {
 
-const std::vector<const Engine*>& engines()
-{
+const std::vector<const Engine*>& engines() {
   static const std::vector<const Engine*> all{
       &spectral::engine,
       &environment::engine,

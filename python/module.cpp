@@ -8,13 +8,14 @@
 
 namespace {
 
-/// A Python exception with the program's own line: BadInput (a ValueError) for what the caller can mend, Error for the rest.
-void add_errors(pybind11::module_& module)
-{
+/// A Python exception with the program's own line: BadInput (a ValueError) for what the caller can mend, Error for the
+/// rest.
+void add_errors(pybind11::module_& module) {
   namespace py = pybind11;
   static py::exception<nephroid::Error> error(module, "Error", PyExc_RuntimeError);
   static py::handle bad_input;
-  bad_input = PyErr_NewException("nephroid.core._nephroid.BadInput", py::make_tuple(error, py::handle(PyExc_ValueError)).ptr(), nullptr);
+  bad_input = PyErr_NewException("nephroid.core._nephroid.BadInput",
+                                 py::make_tuple(error, py::handle(PyExc_ValueError)).ptr(), nullptr);
   module.attr("BadInput") = bad_input;
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
@@ -27,8 +28,7 @@ void add_errors(pybind11::module_& module)
 
 } // namespace
 
-PYBIND11_MODULE(_nephroid, module)
-{
+PYBIND11_MODULE(_nephroid, module) {
   module.attr("version") = std::string(nephroid::version());
   add_errors(module);
   nephroid::python::add_presets(module);

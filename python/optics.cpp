@@ -28,24 +28,24 @@ namespace {
 using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-std::string shape_of(const py::array& array)
-{
+std::string shape_of(const py::array& array) {
   std::string shape;
   for (py::ssize_t i = 0; i < array.ndim(); ++i) shape += fmt::format("{}{}", i > 0 ? " x " : "", array.shape(i));
   return shape.empty() ? "a number" : shape;
 }
 
 /// The array stays as it is while they are used.
-measure::Pixels pixels_of(const Floats& array, const std::string& name)
-{
+measure::Pixels pixels_of(const Floats& array, const std::string& name) {
   if (array.ndim() != 3 || array.shape(2) != 3 || array.size() == 0)
     throw bad_input(name, "is " + shape_of(array), "expected an array of height x width x 3, linear sRGB");
-  return {static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)), {array.data(), static_cast<std::size_t>(array.size())}, name};
+  return {static_cast<int>(array.shape(1)),
+          static_cast<int>(array.shape(0)),
+          {array.data(), static_cast<std::size_t>(array.size())},
+          name};
 }
 
 template <preset::Enumeration E>
-E chosen(const std::string& name, const std::string& word)
-{
+E chosen(const std::string& name, const std::string& word) {
   std::string words;
   for (const auto& choice : preset::choices<E>) {
     if (choice.name == word) return choice.value;
@@ -55,13 +55,13 @@ E chosen(const std::string& name, const std::string& word)
 }
 
 py::dict compare(const Floats& picture, const Floats& reference,
-                 const std::optional<py::array_t<bool, py::array::c_style | py::array::forcecast>>& mask)
-{
+                 const std::optional<py::array_t<bool, py::array::c_style | py::array::forcecast>>& mask) {
   const measure::Pixels a = pixels_of(picture, "picture"), b = pixels_of(reference, "reference");
   std::vector<unsigned char> counted;
   if (mask) {
     if (mask->ndim() != 2 || mask->shape(0) != b.height || mask->shape(1) != b.width)
-      throw bad_input("mask", "is " + shape_of(*mask), fmt::format("expected {} x {}, as the reference", b.height, b.width));
+      throw bad_input("mask", "is " + shape_of(*mask),
+                      fmt::format("expected {} x {}, as the reference", b.height, b.width));
     counted.assign(mask->data(), mask->data() + mask->size());
   }
   const auto metrics = [&] {
@@ -73,8 +73,7 @@ py::dict compare(const Floats& picture, const Floats& reference,
   return named;
 }
 
-py::tuple sampled(const optics::DispersionCurve& curve, const Doubles& nm)
-{
+py::tuple sampled(const optics::DispersionCurve& curve, const Doubles& nm) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> n, k;
   std::vector<std::uint8_t> extrapolated;
@@ -91,13 +90,14 @@ py::tuple sampled(const optics::DispersionCurve& curve, const Doubles& nm)
   return py::make_tuple(given(std::move(n), shape), given(std::move(k), shape), given(std::move(extrapolated), shape));
 }
 
-py::dict clusters(const Doubles& n, double threshold_deg, const std::string& method)
-{
+py::dict clusters(const Doubles& n, double threshold_deg, const std::string& method) {
   if (n.ndim() != 1 || n.size() != optics::wavelength_count)
-    throw bad_input("n", "is " + shape_of(n), fmt::format("expected {} values, one a wavelength of 380..780 nm", optics::wavelength_count));
+    throw bad_input("n", "is " + shape_of(n),
+                    fmt::format("expected {} values, one a wavelength of 380..780 nm", optics::wavelength_count));
   optics::Spectrum spectrum{};
   std::copy(n.data(), n.data() + n.size(), spectrum.begin());
-  const photons::Clustering made = photons::cluster_wavelengths(spectrum, threshold_deg, chosen<photons::ClusterMethod>("method", method));
+  const photons::Clustering made =
+      photons::cluster_wavelengths(spectrum, threshold_deg, chosen<photons::ClusterMethod>("method", method));
   py::list list;
   for (const photons::Cluster& cluster : made.clusters) {
     std::vector<int> nm;
@@ -111,16 +111,17 @@ py::dict clusters(const Doubles& n, double threshold_deg, const std::string& met
 }
 
 /// texels: height x width x 3, the top row +y, the middle column -z.
-py::dict segment(const Floats& texels, int lights, const std::string& method)
-{
+py::dict segment(const Floats& texels, int lights, const std::string& method) {
   const measure::Pixels map = pixels_of(texels, "environment");
   const auto wrong = std::ranges::find_if(map.rgb, [](float value) { return !(value >= 0) || std::isinf(value); });
-  if (wrong != map.rgb.end()) throw bad_input("environment", fmt::format("has the value {}", *wrong), "expected radiance, 0 or more");
+  if (wrong != map.rgb.end())
+    throw bad_input("environment", fmt::format("has the value {}", *wrong), "expected radiance, 0 or more");
   scene::Environment environment;
   environment.width = map.width;
   environment.height = map.height;
   environment.rgb.assign(map.rgb.begin(), map.rgb.end());
-  const environment::SegmentSettings settings{.lights = lights, .method = chosen<environment::SegmentMethod>("method", method)};
+  const environment::SegmentSettings settings{.lights = lights,
+                                              .method = chosen<environment::SegmentMethod>("method", method)};
   environment::Segmentation made;
   {
     const py::gil_scoped_release released;
@@ -135,15 +136,16 @@ py::dict segment(const Floats& texels, int lights, const std::string& method)
     solid_angles.push_back(region.solid_angle_sr);
     rectangles.insert(rectangles.end(), {region.face, region.rect.x0, region.rect.y0, region.rect.x1, region.rect.y1});
   }
-  return py::dict(py::arg("directions") = given(std::move(directions), {count, 3}), py::arg("flux") = given(std::move(flux), {count, 3}),
+  return py::dict(py::arg("directions") = given(std::move(directions), {count, 3}),
+                  py::arg("flux") = given(std::move(flux), {count, 3}),
                   py::arg("solid_angles_sr") = given(std::move(solid_angles), {count}),
-                  py::arg("rectangles") = given(std::move(rectangles), {count, 5}), py::arg("cube_size") = made.cube_size);
+                  py::arg("rectangles") = given(std::move(rectangles), {count, 5}),
+                  py::arg("cube_size") = made.cube_size);
 }
 
 } // namespace
 
-void add_optics(py::module_& module)
-{
+void add_optics(py::module_& module) {
   py::class_<optics::DispersionCurve>(module, "DispersionCurve")
       .def_readonly("name", &optics::DispersionCurve::name)
       .def_readonly("source", &optics::DispersionCurve::source)
@@ -152,7 +154,8 @@ void add_optics(py::module_& module)
   module.def(
       "load_dispersion",
       [](const std::string& name) {
-        return optics::load_dispersion(is_there(name) ? std::filesystem::path(name) : scene::find_dispersion(name, FileFinder(), name));
+        return optics::load_dispersion(is_there(name) ? std::filesystem::path(name)
+                                                      : scene::find_dispersion(name, FileFinder(), name));
       },
       py::arg("name"));
   module.def("clusters", &clusters, py::arg("n"), py::arg("threshold_deg"), py::arg("method"));

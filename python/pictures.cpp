@@ -11,14 +11,12 @@ namespace {
 using Snapshot = std::shared_ptr<job::Snapshot>;
 
 /// [row][column][3], as long as anybody has it.
-py::array pixels(const std::shared_ptr<const job::Picture>& picture, const std::vector<float>& rgb)
-{
+py::array pixels(const std::shared_ptr<const job::Picture>& picture, const std::vector<float>& rgb) {
   return lent<float, job::Picture>(picture, rgb, {picture->height, picture->width, 3});
 }
 
 /// By name.
-py::dict columns_of(const std::vector<std::string>& names, const std::vector<std::vector<double>>& rows)
-{
+py::dict columns_of(const std::vector<std::string>& names, const std::vector<std::vector<double>>& rows) {
   py::dict columns;
   for (std::size_t c = 0; c < names.size(); ++c) {
     std::vector<double> values;
@@ -30,8 +28,7 @@ py::dict columns_of(const std::vector<std::string>& names, const std::vector<std
   return columns;
 }
 
-py::dict history(const Snapshot& snapshot)
-{
+py::dict history(const Snapshot& snapshot) {
   std::vector<std::string> names{"seconds", "wall_seconds", "step", "work"};
   std::vector<std::vector<double>> rows;
   if (snapshot->history) {
@@ -44,8 +41,7 @@ py::dict history(const Snapshot& snapshot)
   return columns_of(names, rows);
 }
 
-py::dict figures(const Snapshot& snapshot)
-{
+py::dict figures(const Snapshot& snapshot) {
   py::dict groups;
   for (const job::Scalar& scalar : snapshot->scalars) {
     const py::str group(scalar.group);
@@ -57,8 +53,7 @@ py::dict figures(const Snapshot& snapshot)
 
 } // namespace
 
-void add_pictures(py::module_& module)
-{
+void add_pictures(py::module_& module) {
   py::class_<job::Snapshot, Snapshot>(module, "Snapshot")
       .def_readonly("stands_in", &job::Snapshot::stands_in)
       .def_readonly("caption", &job::Snapshot::caption)
@@ -74,7 +69,8 @@ void add_pictures(py::module_& module)
       .def("layers",
            [](const Snapshot& snapshot) {
              py::dict layers;
-             for (const job::Layer& layer : snapshot->picture->layers) layers[py::str(layer.name)] = pixels(snapshot->picture, layer.rgb);
+             for (const job::Layer& layer : snapshot->picture->layers)
+               layers[py::str(layer.name)] = pixels(snapshot->picture, layer.rgb);
              return layers;
            })
       .def("pictures",
@@ -85,11 +81,13 @@ void add_pictures(py::module_& module)
              return pictures;
            })
       .def("history", &history)
-      .def("error_column", [](const Snapshot& snapshot) { return snapshot->history ? snapshot->history->error_column : ""; })
+      .def("error_column",
+           [](const Snapshot& snapshot) { return snapshot->history ? snapshot->history->error_column : ""; })
       .def("figures", &figures)
       .def("curves", [](const Snapshot& snapshot) {
         py::dict curves;
-        for (const job::Curve& curve : snapshot->curves) curves[py::str(curve.name)] = columns_of(curve.columns, curve.rows);
+        for (const job::Curve& curve : snapshot->curves)
+          curves[py::str(curve.name)] = columns_of(curve.columns, curve.rows);
         return curves;
       });
 }

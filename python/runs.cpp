@@ -29,22 +29,15 @@ struct RunSettings {
   bool resume = false;
 };
 
-const char* word(job::State state)
-{
+const char* word(job::State state) {
   switch (state) {
   case job::State::idle:
-  case job::State::preparing:
-    return "preparing";
-  case job::State::running:
-    return "running";
-  case job::State::paused:
-    return "paused";
-  case job::State::finished:
-    return "finished";
-  case job::State::cancelled:
-    return "stopped";
-  case job::State::failed:
-    return "failed";
+  case job::State::preparing: return "preparing";
+  case job::State::running: return "running";
+  case job::State::paused: return "paused";
+  case job::State::finished: return "finished";
+  case job::State::cancelled: return "stopped";
+  case job::State::failed: return "failed";
   }
   return "";
 }
@@ -53,9 +46,7 @@ const char* word(job::State state)
 class Recorder final : public run::Recorder {
 public:
   Recorder(const run::ReadyRun& run, const std::string& folder, std::function<void(const std::string&)> tell)
-      : run::Recorder(run, {.folder = folder}), tell_(std::move(tell))
-  {
-  }
+      : run::Recorder(run, {.folder = folder}), tell_(std::move(tell)) {}
 
 private:
   void note(const std::string& sentence) override { tell_(sentence); }
@@ -66,8 +57,8 @@ private:
 
 class RunHandle final : private job::Observer {
 public:
-  explicit RunHandle(const RunSettings& settings) : process_(::getpid()), worker_(new job::Worker, [this](job::Worker* worker) { end(worker); })
-  {
+  explicit RunHandle(const RunSettings& settings)
+      : process_(::getpid()), worker_(new job::Worker, [this](job::Worker* worker) { end(worker); }) {
     use_opencl();
     worker_->set_observer(this);
     worker_->start([this, settings] { return make(settings); });
@@ -76,13 +67,13 @@ public:
   RunHandle(const RunHandle&) = delete;
   RunHandle& operator=(const RunHandle&) = delete;
 
-  /// A forked process has none of the threads: what waits for them would wait for ever, and a mutex may be locked for ever.
+  /// A forked process has none of the threads: what waits for them would wait for ever, and a mutex may be locked for
+  /// ever.
   bool is_of_this_process() const { return process_ == ::getpid(); }
 
   job::Status status() const { return worker()->status(); }
   std::shared_ptr<const job::Snapshot> snapshot() const { return worker()->snapshot(); }
-  void stop()
-  {
+  void stop() {
     const std::shared_ptr<job::Worker> held = worker();
     stopping_.request_stop();
     held->cancel();
@@ -91,22 +82,19 @@ public:
   void watch(std::optional<std::array<int, 2>> pixel) { worker()->watch_spectrum(pixel); }
   std::shared_ptr<const job::PixelSpectrum> spectrum() const { return worker()->spectrum(); }
   /// "reading bunny.obj"
-  std::string doing() const
-  {
+  std::string doing() const {
     check_process();
     const std::scoped_lock lock(mutex_);
     return doing_;
   }
-  std::vector<std::string> notes() const
-  {
+  std::vector<std::string> notes() const {
     check_process();
     const std::scoped_lock lock(mutex_);
     return notes_;
   }
 
   /// Waits for the slice in hand. A call of another thread that is at it keeps the worker until it returns.
-  void close()
-  {
+  void close() {
     if (!is_of_this_process()) return;
     stopping_.request_stop();
     const std::shared_ptr<job::Worker> dropped = [&] {
@@ -116,10 +104,10 @@ public:
   }
 
   /// As `nephroid run` writes them, but for a checkpoint. close() may come meanwhile.
-  void save(const std::string& folder) const
-  {
+  void save(const std::string& folder) const {
     std::shared_ptr<job::Worker> held = worker();
-    const bool finished = held->status().state == job::State::finished; // before the picture, which is the last one then
+    const bool finished =
+        held->status().state == job::State::finished; // before the picture, which is the last one then
     const std::shared_ptr<const job::Snapshot> shown = held->snapshot();
     held.reset();
     const std::shared_ptr<const Origin> origin = [&] {
@@ -134,15 +122,13 @@ public:
   }
 
 private:
-  void check_process() const
-  {
+  void check_process() const {
     if (!is_of_this_process())
       throw failed("run", "belongs to the process that started it, and this one was forked from that", {},
                    "use multiprocessing's start method 'spawn'");
   }
 
-  std::shared_ptr<job::Worker> worker() const
-  {
+  std::shared_ptr<job::Worker> worker() const {
     check_process();
     const std::scoped_lock lock(mutex_);
     if (!worker_) throw failed("run", "is closed");
@@ -150,8 +136,7 @@ private:
   }
 
   /// Waits for the slice in hand, and holds up no other Python thread meanwhile.
-  void end(job::Worker* worker)
-  {
+  void end(job::Worker* worker) {
     std::optional<py::gil_scoped_release> released;
     if (PyGILState_Check() != 0) released.emplace();
     delete worker;
@@ -161,41 +146,39 @@ private:
 
   // On the worker's thread
 
-  std::unique_ptr<job::Job> make(const RunSettings& settings)
-  {
+  std::unique_ptr<job::Job> make(const RunSettings& settings) {
     const Watch watch{stopping_.get_token(), [this](const std::string& doing) {
                         const std::scoped_lock lock(mutex_);
                         doing_ = doing;
                       }};
-    auto ready = std::make_unique<run::ReadyRun>([device = settings.device] { return compute::Context::open({.selector = device}); });
+    auto ready = std::make_unique<run::ReadyRun>(
+        [device = settings.device] { return compute::Context::open({.selector = device}); });
     const auto refuse = [](const Error& error) { throw error.noting("leave out 'resume' to start over"); };
     preset::at_origins(settings.preset, [&] {
       run::make_ready(*ready, settings.preset,
                       {.watch = watch, .folder = settings.folder, .resume = settings.resume, .bad_checkpoint = refuse});
     });
     ready_ = std::move(ready);
-    if (ready_->claimed) recorder_.emplace(*ready_, settings.folder, [this](const std::string& sentence) { add_note(sentence); });
+    if (ready_->claimed)
+      recorder_.emplace(*ready_, settings.folder, [this](const std::string& sentence) { add_note(sentence); });
     const std::scoped_lock lock(mutex_);
-    origin_ = std::make_shared<const Origin>(Origin{*ready_->prepared, ready_->device.opened().device(), ready_->reference});
+    origin_ =
+        std::make_shared<const Origin>(Origin{*ready_->prepared, ready_->device.opened().device(), ready_->reference});
     notes_ = ready_->prepared->plan->notes;
     doing_.clear();
     return std::move(ready_->job);
   }
-  void add_note(const std::string& sentence)
-  {
+  void add_note(const std::string& sentence) {
     const std::scoped_lock lock(mutex_);
     notes_.push_back(sentence);
   }
-  void begun(job::Job& job) override
-  {
+  void begun(job::Job& job) override {
     if (recorder_) recorder_->begun(job);
   }
-  void stepped(job::Job& job) override
-  {
+  void stepped(job::Job& job) override {
     if (recorder_) recorder_->stepped(job);
   }
-  void ended(job::Job& job) override
-  {
+  void ended(job::Job& job) override {
     if (recorder_) recorder_->ended(job);
     ready_->claimed.reset();
   }
@@ -213,16 +196,14 @@ private:
 
 /// In a forked process a run stays where it is: its threads may have left anything of it half done.
 struct Deleter {
-  void operator()(RunHandle* run) const
-  {
+  void operator()(RunHandle* run) const {
     if (run->is_of_this_process()) delete run;
   }
 };
 
 } // namespace
 
-void add_runs(py::module_& module)
-{
+void add_runs(py::module_& module) {
   const py::call_guard<py::gil_scoped_release> released;
   py::class_<job::Progress>(module, "Progress")
       .def_readonly("fraction", &job::Progress::fraction)
@@ -238,13 +219,14 @@ void add_runs(py::module_& module)
       .def("layers", [](const std::shared_ptr<job::PixelSpectrum>& spectrum) {
         py::dict layers;
         for (const job::PixelSpectrum::Layer& layer : spectrum->layers)
-          layers[py::str(layer.name)] =
-              lent<double, job::PixelSpectrum>(spectrum, layer.radiance, {static_cast<py::ssize_t>(layer.radiance.size())});
+          layers[py::str(layer.name)] = lent<double, job::PixelSpectrum>(
+              spectrum, layer.radiance, {static_cast<py::ssize_t>(layer.radiance.size())});
         return layers;
       });
   py::class_<RunHandle, std::unique_ptr<RunHandle, Deleter>>(module, "Run")
       .def(py::init([](const preset::Preset& preset, std::string device, std::string folder, bool resume) {
-             return std::unique_ptr<RunHandle, Deleter>(new RunHandle({preset, std::move(device), std::move(folder), resume}));
+             return std::unique_ptr<RunHandle, Deleter>(
+                 new RunHandle({preset, std::move(device), std::move(folder), resume}));
            }),
            py::arg("preset"), py::arg("device"), py::arg("folder"), py::arg("resume"), released)
       .def("state", [](const RunHandle& run) { return word(run.status().state); })
@@ -253,7 +235,8 @@ void add_runs(py::module_& module)
       .def("notes", &RunHandle::notes)
       .def("raise_failure",
            [](const RunHandle& run) {
-             if (const job::Status status = run.status(); status.state == job::State::failed && status.error) throw Error(*status.error);
+             if (const job::Status status = run.status(); status.state == job::State::failed && status.error)
+               throw Error(*status.error);
            })
       .def("snapshot", [](const RunHandle& run) { return std::const_pointer_cast<job::Snapshot>(run.snapshot()); })
       .def("stop", &RunHandle::stop)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes that are written or read piece by piece, so that nobody has to hold all of them: a checkpoint is as large as the films.
+// Bytes that are written or read piece by piece, so that nobody has to hold all of them: a checkpoint is as large as
+// the films.
 #pragma once
 #include "base/error.h"
 
@@ -18,8 +19,7 @@ public:
   /// Throws failed where they cannot be written.
   virtual void write(std::span<const std::byte> bytes) = 0;
   template <class T>
-  void value(const T& value)
-  {
+  void value(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
     write(std::as_bytes(std::span(&value, 1)));
   }
@@ -33,8 +33,7 @@ public:
   /// How many bytes are left.
   virtual std::uint64_t left() const = 0;
   template <class T>
-  void value(T& value)
-  {
+  void value(T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
     read(std::as_writable_bytes(std::span(&value, 1)));
   }
@@ -43,8 +42,7 @@ public:
 /// Keeps what is written.
 class ByteStore final : public ByteSink {
 public:
-  void write(std::span<const std::byte> bytes) override
-  {
+  void write(std::span<const std::byte> bytes) override {
     const std::size_t size = bytes_.size();
     bytes_.resize(size + bytes.size());
     if (!bytes.empty()) std::memcpy(bytes_.data() + size, bytes.data(), bytes.size());
@@ -59,8 +57,7 @@ private:
 class StoredBytes final : public ByteSource {
 public:
   StoredBytes(std::span<const std::byte> bytes, Place where) : bytes_(bytes), where_(std::move(where)) {}
-  void read(std::span<std::byte> into) override
-  {
+  void read(std::span<std::byte> into) override {
     if (into.size() > bytes_.size()) throw bad_input(where_, "is cut short");
     if (!into.empty()) std::memcpy(into.data(), bytes_.data(), into.size());
     bytes_ = bytes_.subspan(into.size());
@@ -81,8 +78,7 @@ public:
   bool is_read() const { return from_ != nullptr; }
 
   template <class T>
-  void value(T& value)
-  {
+  void value(T& value) {
     to_ ? to_->value(value) : from_->value(value);
   }
   void value(bool& value) // of a file a byte may be any number
@@ -93,19 +89,17 @@ public:
   }
   /// Items whose number both sides know.
   template <class T>
-  void items(std::span<T> items)
-  {
+  void items(std::span<T> items) {
     to_ ? to_->write(std::as_bytes(items)) : from_->read(std::as_writable_bytes(items));
   }
   template <class T>
-  void items(std::vector<T>& list)
-  {
+  void items(std::vector<T>& list) {
     items(std::span<T>(list));
   }
-  /// Items and their number. Throws bad_input at one that the rest cannot hold, so that no wrong number takes all memory.
+  /// Items and their number. Throws bad_input at one that the rest cannot hold, so that no wrong number takes all
+  /// memory.
   template <class T>
-  void list(std::vector<T>& list)
-  {
+  void list(std::vector<T>& list) {
     std::uint64_t count = list.size();
     value(count);
     if (is_read() && count > from_->left() / sizeof(T)) throw bad_input("checkpoint.bin", "is of another run");

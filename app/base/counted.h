@@ -8,8 +8,7 @@ namespace nephroid {
 
 /// "1 pass", "2 passes", "0 passes". many: the plural, where it is not `one` with an s behind it.
 template <std::integral Number>
-std::string counted(Number count, const std::string& one, const std::string& many = {})
-{
+std::string counted(Number count, const std::string& one, const std::string& many = {}) {
   return std::to_string(count) + " " + (count == 1 ? one : many.empty() ? one + "s" : many);
 }
 

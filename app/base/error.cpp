@@ -4,22 +4,19 @@
 namespace nephroid {
 namespace {
 
-std::string on_one_line(std::string text)
-{
+std::string on_one_line(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' '; // also what would move a terminal's cursor
   return text;
 }
 
-std::string joined(std::string what, const std::string& expected, const std::string& remedy)
-{
+std::string joined(std::string what, const std::string& expected, const std::string& remedy) {
   for (const std::string* part : {&expected, &remedy})
     if (!part->empty()) what += "; " + *part;
   return on_one_line(what);
 }
 
-std::string line_of(const Place& place, const std::string& text)
-{
+std::string line_of(const Place& place, const std::string& text) {
   const std::string where = place.text();
   return where.empty() ? text : on_one_line(where) + ": " + text;
 }
@@ -28,21 +25,19 @@ std::string line_of(const Place& place, const std::string& text)
 
 Error::Error(ErrorKind kind, Place place, std::string what, std::string expected, std::string remedy)
     : std::runtime_error(line_of(place, joined(what, expected, remedy))), kind_(kind), place_(std::move(place)),
-      text_(joined(std::move(what), expected, remedy))
-{
-}
+      text_(joined(std::move(what), expected, remedy)) {}
 
-std::string pointer_key(std::string_view key)
-{
+std::string pointer_key(std::string_view key) {
   std::string escaped;
   for (const char c : key) escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
   return escaped;
 }
 
-Place Place::operator/(std::string_view key) const { return {name, pointer.value_or("").append("/").append(pointer_key(key))}; }
+Place Place::operator/(std::string_view key) const {
+  return {name, pointer.value_or("").append("/").append(pointer_key(key))};
+}
 
-std::string Place::text() const
-{
+std::string Place::text() const {
   std::string text = name;
   if (pointer) text.append("#").append(*pointer);
   for (const std::size_t number : {line, column})

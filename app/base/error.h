@@ -35,13 +35,11 @@ private:
   std::string text_;
 };
 
-inline Error bad_input(Place place, std::string what, std::string expected = {}, std::string remedy = {})
-{
+inline Error bad_input(Place place, std::string what, std::string expected = {}, std::string remedy = {}) {
   return Error(ErrorKind::bad_input, std::move(place), std::move(what), std::move(expected), std::move(remedy));
 }
 
-inline Error failed(Place place, std::string what, std::string expected = {}, std::string remedy = {})
-{
+inline Error failed(Place place, std::string what, std::string expected = {}, std::string remedy = {}) {
   return Error(ErrorKind::failed, std::move(place), std::move(what), std::move(expected), std::move(remedy));
 }
 

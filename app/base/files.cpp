@@ -31,8 +31,7 @@ public:
   int number() const { return number_; }
   bool ok() const { return number_ >= 0; }
   /// False with errno set where the system reports a late write error.
-  bool close()
-  {
+  bool close() {
     const int number = std::exchange(number_, -1);
     return number < 0 || ::close(number) == 0;
   }
@@ -43,24 +42,23 @@ private:
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-std::string remedy_for(int error)
-{
+std::string remedy_for(int error) {
   if (error == ENOSPC || error == EDQUOT) return "free some space or choose another folder";
   if (error == EACCES || error == EPERM || error == EROFS) return "choose a folder that you may write to";
   return error == ENOENT ? "make the folder first" : "";
 }
 
 /// Says why the file could not be written.
-[[noreturn]] void give_up(const fs::path& path, int error)
-{
+[[noreturn]] void give_up(const fs::path& path, int error) {
   throw failed(path.string(), fmt::format("cannot be written: {}", reason(error)), {}, remedy_for(error));
 }
 
-Error unreadable(const fs::path& path, const std::string& why) { return bad_input(path.string(), "cannot be read: " + why); }
+Error unreadable(const fs::path& path, const std::string& why) {
+  return bad_input(path.string(), "cannot be read: " + why);
+}
 
 /// Only the descriptor of a regular file may be read: reading a device or a pipe might never end.
-Descriptor open_to_read(const fs::path& path, struct stat& status)
-{
+Descriptor open_to_read(const fs::path& path, struct stat& status) {
   // Without O_NONBLOCK a named pipe would be waited for here; on a regular file it does nothing.
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!file.ok() || ::fstat(file.number(), &status) != 0) throw unreadable(path, reason(errno));
@@ -70,8 +68,7 @@ Descriptor open_to_read(const fs::path& path, struct stat& status)
 }
 
 /// How many bytes were read: fewer than `count` only at the end of the file.
-std::size_t read_some(const Descriptor& file, const fs::path& path, void* into, std::size_t count)
-{
+std::size_t read_some(const Descriptor& file, const fs::path& path, void* into, std::size_t count) {
   std::size_t filled = 0;
   while (filled < count) {
     const ssize_t now = ::read(file.number(), static_cast<char*>(into) + filled, count - filled);
@@ -89,8 +86,7 @@ constexpr std::size_t file_buffer = 1 << 16;
 class FileSource final : public ByteSource {
 public:
   explicit FileSource(const fs::path& path) : path_(path), file_(open_to_read(path, status_)), unread_(size()) {}
-  void read(std::span<std::byte> into) override
-  {
+  void read(std::span<std::byte> into) override {
     if (into.size() > left()) throw unreadable(path_, "it ends early");
     const std::size_t waiting = std::min(into.size(), buffered_.size() - at_);
     std::copy_n(buffered_.begin() + static_cast<std::ptrdiff_t>(at_), waiting, into.begin());
@@ -109,8 +105,7 @@ public:
 
 private:
   std::uint64_t size() const { return static_cast<std::uint64_t>(status_.st_size); }
-  void from_file(std::span<std::byte> into)
-  {
+  void from_file(std::span<std::byte> into) {
     if (read_some(file_, path_, into.data(), into.size()) < into.size()) throw unreadable(path_, "it ends early");
     unread_ -= into.size();
   }
@@ -123,38 +118,34 @@ private:
   std::size_t at_ = 0;
 };
 
-/// path: what errors name. mode: of the file that is replaced; 0: there is none. close(), which flushes to disk, is the last call.
+/// path: what errors name. mode: of the file that is replaced; 0: there is none. close(), which flushes to disk, is the
+/// last call.
 class FileSink final : public ByteSink {
 public:
   FileSink(const fs::path& temporary, const fs::path& path, mode_t mode)
       : path_(path), mode_(mode & 07777),
-        file_(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode ? mode & 0777 : 0666))
-  {
+        file_(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode ? mode & 0777 : 0666)) {
     if (!file_.ok()) give_up(path_, errno);
   }
-  void write(std::span<const std::byte> bytes) override
-  {
+  void write(std::span<const std::byte> bytes) override {
     if (waiting_.size() + bytes.size() > file_buffer) flush();
     if (bytes.size() > file_buffer)
       to_file(bytes);
     else
       waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
   }
-  void close()
-  {
+  void close() {
     flush();
     if (mode_ != 0) ::fchmod(file_.number(), mode_); // some file systems have no modes
     if (::fsync(file_.number()) != 0 || !file_.close()) give_up(path_, errno);
   }
 
 private:
-  void flush()
-  {
+  void flush() {
     to_file(waiting_);
     waiting_.clear();
   }
-  void to_file(std::span<const std::byte> bytes)
-  {
+  void to_file(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
       const ssize_t written = ::write(file_.number(), bytes.data(), bytes.size());
       if (written < 0 && errno == EINTR) continue;
@@ -170,8 +161,7 @@ private:
 };
 
 /// The regular file that path is or leads to, and its status; path itself where there is none.
-fs::path file_to_replace(const fs::path& path, struct stat& status)
-{
+fs::path file_to_replace(const fs::path& path, struct stat& status) {
   if (::stat(path.c_str(), &status) != 0) {
     status.st_mode = 0;
     return path;
@@ -184,42 +174,40 @@ fs::path file_to_replace(const fs::path& path, struct stat& status)
 }
 
 /// ".STEM.PROCESS-COUNT.tmp.EXTENSION" beside path: no other writer has it.
-fs::path temporary_name(const fs::path& path)
-{
+fs::path temporary_name(const fs::path& path) {
   static std::atomic<unsigned> count{0}; // two threads may write the same file
-  return path.parent_path() / fmt::format(".{}.{}-{}.tmp{}", path.stem().string(), ::getpid(), count++, path.extension().string());
+  return path.parent_path() /
+         fmt::format(".{}.{}-{}.tmp{}", path.stem().string(), ::getpid(), count++, path.extension().string());
 }
 
 /// Renames a temporary file that is on disk to path.
-void commit_file(const fs::path& temporary, const fs::path& path)
-{
+void commit_file(const fs::path& temporary, const fs::path& path) {
   if (::rename(temporary.c_str(), path.c_str()) != 0) give_up(path, errno);
-  // The new name reaches the disk with its folder. Some file systems refuse to sync folders; the file itself is safe by then.
+  // The new name reaches the disk with its folder. Some file systems refuse to sync folders; the file itself is safe by
+  // then.
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (Descriptor entry(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)); entry.ok()) ::fsync(entry.number());
 }
 
 /// The folder of the running program, empty where /proc is not mounted.
-fs::path program_folder()
-{
+fs::path program_folder() {
   std::error_code ignored;
   // Of the program that this is part of; in another one, such as Python, of the library.
   Dl_info here{};
-  const bool is_library = ::dladdr(reinterpret_cast<void*>(&program_folder), &here) != 0 && fs::path(here.dli_fname).extension() == ".so";
+  const bool is_library =
+      ::dladdr(reinterpret_cast<void*>(&program_folder), &here) != 0 && fs::path(here.dli_fname).extension() == ".so";
   return is_library ? fs::weakly_canonical(here.dli_fname, ignored).parent_path()
                     : fs::read_symlink("/proc/self/exe", ignored).parent_path();
 }
 
-bool is_folder(const fs::path& path)
-{
+bool is_folder(const fs::path& path) {
   std::error_code ignored;
   return fs::is_directory(path, ignored);
 }
 
-/// Where a file of ours may lie: an installation has bin/nephroid, lib/nephroid and share/nephroid, and a build folder is laid out the
-/// same way. Test programs lie up to two folders deeper.
-std::vector<fs::path> candidates(const fs::path& name)
-{
+/// Where a file of ours may lie: an installation has bin/nephroid, lib/nephroid and share/nephroid, and a build folder
+/// is laid out the same way. Test programs lie up to two folders deeper.
+std::vector<fs::path> candidates(const fs::path& name) {
   std::vector<fs::path> result;
   fs::path folder = program_folder();
   for (int level = 0; level < 3 && folder.has_relative_path(); ++level) {
@@ -230,8 +218,7 @@ std::vector<fs::path> candidates(const fs::path& name)
 }
 
 /// The system's folders of models, from the data folders of the XDG base directory specification.
-std::vector<fs::path> model_folders()
-{
+std::vector<fs::path> model_folders() {
   const char* variable = std::getenv("XDG_DATA_DIRS");
   std::string_view list = variable && *variable ? variable : "/usr/local/share:/usr/share";
   std::vector<fs::path> folders;
@@ -244,10 +231,9 @@ std::vector<fs::path> model_folders()
   return folders;
 }
 
-/// nephroid in the folder that a variable of the XDG base directory specification names, else in this one of the user's; empty without
-/// HOME.
-fs::path user_folder(const char* variable, const char* in_home)
-{
+/// nephroid in the folder that a variable of the XDG base directory specification names, else in this one of the
+/// user's; empty without HOME.
+fs::path user_folder(const char* variable, const char* in_home) {
   const auto value = [](const char* key) {
     const char* text = std::getenv(key);
     return fs::path(text ? text : "");
@@ -259,14 +245,12 @@ fs::path user_folder(const char* variable, const char* in_home)
 
 } // namespace
 
-bool is_there(const fs::path& path)
-{
+bool is_there(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(path, ignored);
 }
 
-std::string read_file(const fs::path& path)
-{
+std::string read_file(const fs::path& path) {
   struct stat status {};
   const Descriptor file = open_to_read(path, status);
   std::string bytes;
@@ -282,13 +266,11 @@ std::string read_file(const fs::path& path)
 
 std::unique_ptr<ByteSource> open_file(const fs::path& path) { return std::make_unique<FileSource>(path); }
 
-void write_file_whole(const fs::path& path, std::string_view bytes)
-{
+void write_file_whole(const fs::path& path, std::string_view bytes) {
   write_file_whole(path, [bytes](ByteSink& file) { file.write(std::as_bytes(std::span(bytes))); });
 }
 
-void write_file_whole(const fs::path& path, const std::function<void(ByteSink&)>& write)
-{
+void write_file_whole(const fs::path& path, const std::function<void(ByteSink&)>& write) {
   struct stat status {};
   const fs::path target = file_to_replace(path, status), temporary = temporary_name(target);
   try {
@@ -302,29 +284,28 @@ void write_file_whole(const fs::path& path, const std::function<void(ByteSink&)>
   }
 }
 
-bool is_temporary_name(const fs::path& path)
-{
+bool is_temporary_name(const fs::path& path) {
   const auto has_form = [](const fs::path& name) { // ".FILE.12-3.tmp", as temporary_name makes it
     const std::string numbers = name.stem().extension().string(), digits = "0123456789";
     const std::size_t dash = std::min(numbers.find_first_not_of(digits, 1), numbers.size());
-    return name.extension() == ".tmp" && name.string().front() == '.' && name.stem().stem().string().size() > 1 && dash > 1 &&
-           numbers.size() > dash + 1 && numbers[dash] == '-' && numbers.find_first_not_of(digits, dash + 1) == std::string::npos;
+    return name.extension() == ".tmp" && name.string().front() == '.' && name.stem().stem().string().size() > 1 &&
+           dash > 1 && numbers.size() > dash + 1 && numbers[dash] == '-' &&
+           numbers.find_first_not_of(digits, dash + 1) == std::string::npos;
   };
   return has_form(path.filename()) || has_form(path.filename().stem()); // with the file's own ending behind it
 }
 
-fs::path cache_folder(const std::string& name)
-{
+fs::path cache_folder(const std::string& name) {
   const fs::path folder = user_folder("XDG_CACHE_HOME", ".cache");
   return folder.empty() ? folder : folder / name;
 }
 
 fs::path state_folder() { return user_folder("XDG_STATE_HOME", ".local/state"); }
 
-fs::path presets_folder()
-{
+fs::path presets_folder() {
   if (const char* variable = std::getenv("NEPHROID_PRESETS"); variable && *variable) {
-    if (!is_folder(variable)) throw failed("NEPHROID_PRESETS", fmt::format("'{}' is no folder", variable), "the folder of the presets");
+    if (!is_folder(variable))
+      throw failed("NEPHROID_PRESETS", fmt::format("'{}' is no folder", variable), "the folder of the presets");
     return variable;
   }
   std::vector<std::string> names;
@@ -332,11 +313,11 @@ fs::path presets_folder()
     if (is_folder(candidate)) return candidate;
     names.push_back(candidate.string());
   }
-  throw failed("presets", fmt::format("not found in {}", fmt::join(names, ", ")), {}, "set NEPHROID_PRESETS to their folder");
+  throw failed("presets", fmt::format("not found in {}", fmt::join(names, ", ")), {},
+               "set NEPHROID_PRESETS to their folder");
 }
 
-fs::path presets_folder_if_any()
-{
+fs::path presets_folder_if_any() {
   try {
     return presets_folder();
   } catch (const Error&) {
@@ -344,41 +325,37 @@ fs::path presets_folder_if_any()
   }
 }
 
-fs::path library_file(const std::string& name)
-{
+fs::path library_file(const std::string& name) {
   for (const fs::path& candidate : candidates(fs::path("lib/nephroid") / name))
     if (is_there(candidate)) return candidate;
-  throw failed(name, fmt::format("not found in lib/nephroid beside {}", program_folder().string()), {}, "build or install Nephroid again");
+  throw failed(name, fmt::format("not found in lib/nephroid beside {}", program_folder().string()), {},
+               "build or install Nephroid again");
 }
 
 FileNotFound::FileNotFound(Place where, const std::string& name, const std::string& looked_in)
-    : Error(ErrorKind::bad_input, std::move(where), fmt::format("'{}' not found", name), "looked in " + looked_in), name_(name),
-      looked_in_(looked_in)
-{
-}
+    : Error(ErrorKind::bad_input, std::move(where), fmt::format("'{}' not found", name), "looked in " + looked_in),
+      name_(name), looked_in_(looked_in) {}
 
-FileFinder::FileFinder(fs::path beside)
-{
+FileFinder::FileFinder(fs::path beside) {
   folders_.push_back(beside.empty() ? fs::path(".") : std::move(beside));
   if (fs::path presets = presets_folder_if_any(); !presets.empty()) add(std::move(presets));
   for (fs::path& folder : model_folders())
     if (is_folder(folder)) add(std::move(folder));
 }
 
-void FileFinder::add(fs::path folder)
-{
+void FileFinder::add(fs::path folder) {
   if (std::find(folders_.begin(), folders_.end(), folder) == folders_.end()) folders_.push_back(std::move(folder));
 }
 
-fs::path FileFinder::find(const std::string& name, const Place& where) const
-{
+fs::path FileFinder::find(const std::string& name, const Place& where) const {
   if (name.empty()) throw bad_input(where, "the file name is empty");
   std::string other_kind; // what has the name but cannot be read: a file of that name in a later folder still counts
   const auto is_file = [&](const fs::path& path) {
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
     if (fs::exists(status) && !fs::is_regular_file(status) && other_kind.empty())
-      other_kind = fmt::format("'{}' is {}", path.string(), fs::is_directory(status) ? "a folder" : "not a regular file");
+      other_kind =
+          fmt::format("'{}' is {}", path.string(), fs::is_directory(status) ? "a folder" : "not a regular file");
     return fs::is_regular_file(status);
   };
   std::vector<std::string> names;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes hashed while they are written or read, for files that end in a hash of what comes before it. The same bytes in other pieces have
-// the same hash.
+// Bytes hashed while they are written or read, for files that end in a hash of what comes before it. The same bytes in
+// other pieces have the same hash.
 #pragma once
 #include "base/bytes.h"
 
@@ -13,8 +13,7 @@
 namespace nephroid {
 
 /// FNV-1a: enough to tell contents apart and to notice damage; not against forgery. `hash` continues an earlier one.
-inline std::uint64_t hash_of(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325u)
-{
+inline std::uint64_t hash_of(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325u) {
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
   return hash;
 }
@@ -22,8 +21,7 @@ inline std::uint64_t hash_of(std::string_view bytes, std::uint64_t hash = 0xcbf2
 /// Eight bytes at a time: films and bakes have gigabytes. Tells contents apart and notices damage, not forgery.
 class PieceHash {
 public:
-  void add(std::span<const std::byte> bytes)
-  {
+  void add(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
       if (waiting_ == 0 && bytes.size() >= word_.size()) {
         mix(bytes.data());
@@ -40,8 +38,7 @@ public:
   std::uint64_t value() const { return hash_of({reinterpret_cast<const char*>(word_.data()), waiting_}, hash_); }
 
 private:
-  void mix(const std::byte* bytes)
-  {
+  void mix(const std::byte* bytes) {
     std::uint64_t word = 0;
     std::memcpy(&word, bytes, sizeof word);
     hash_ = (hash_ ^ word) * 0x9e3779b97f4a7c15u;
@@ -56,8 +53,7 @@ private:
 class HashedSink final : public ByteSink {
 public:
   explicit HashedSink(ByteSink& to) : to_(to) {}
-  void write(std::span<const std::byte> bytes) override
-  {
+  void write(std::span<const std::byte> bytes) override {
     hash_.add(bytes);
     to_.write(bytes);
   }
@@ -71,9 +67,9 @@ private:
 class HashedSource final : public ByteSource {
 public:
   /// where: what an error calls it. behind: bytes at the end of `from` that are not of it, such as the hash.
-  HashedSource(ByteSource& from, Place where, std::uint64_t behind = 0) : from_(from), where_(std::move(where)), behind_(behind) {}
-  void read(std::span<std::byte> into) override
-  {
+  HashedSource(ByteSource& from, Place where, std::uint64_t behind = 0)
+      : from_(from), where_(std::move(where)), behind_(behind) {}
+  void read(std::span<std::byte> into) override {
     if (into.size() > left()) throw bad_input(where_, "is cut short");
     from_.read(into);
     hash_.add(into);
@@ -89,10 +85,10 @@ private:
 };
 
 /// Reads what is left, to no end but to be through with it.
-inline void read_to_end(ByteSource& from)
-{
+inline void read_to_end(ByteSource& from) {
   std::vector<std::byte> piece(1 << 18);
-  while (from.left() > 0) from.read(std::span(piece).first(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), from.left()))));
+  while (from.left() > 0)
+    from.read(std::span(piece).first(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), from.left()))));
 }
 
 } // namespace nephroid

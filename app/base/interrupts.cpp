@@ -9,8 +9,7 @@
 namespace nephroid {
 namespace {
 
-sigset_t waited_signals()
-{
+sigset_t waited_signals() {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
@@ -19,16 +18,14 @@ sigset_t waited_signals()
 }
 
 /// Ends the process the way the signal does where nobody waits for it, so that shells see what happened.
-void die_of(int signal)
-{
+void die_of(int signal) {
   ::signal(signal, SIG_DFL);
   const sigset_t signals = waited_signals();
   ::pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
   ::raise(signal);
 }
 
-void wait_for_signals(const std::stop_token& ended, std::stop_source stop)
-{
+void wait_for_signals(const std::stop_token& ended, std::stop_source stop) {
   const sigset_t signals = waited_signals();
   const timespec look_up{0, 50'000'000}; // notice the owner's end within 50 ms
   while (!ended.stop_requested()) {
@@ -40,15 +37,13 @@ void wait_for_signals(const std::stop_token& ended, std::stop_source stop)
 
 } // namespace
 
-Interrupts::Interrupts()
-{
+Interrupts::Interrupts() {
   const sigset_t signals = waited_signals();
   ::pthread_sigmask(SIG_BLOCK, &signals, &before_);
   waiter_ = std::jthread([stop = stop_](const std::stop_token& ended) { wait_for_signals(ended, stop); });
 }
 
-Interrupts::~Interrupts()
-{
+Interrupts::~Interrupts() {
   waiter_ = {}; // asks it to end and joins
   ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }

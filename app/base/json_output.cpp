@@ -5,8 +5,7 @@
 
 namespace nephroid {
 
-std::string json_text(const nlohmann::ordered_json& value, int indent)
-{
+std::string json_text(const nlohmann::ordered_json& value, int indent) {
   return value.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

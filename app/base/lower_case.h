@@ -6,8 +6,7 @@
 namespace nephroid {
 
 /// A to Z become a to z, whatever the locale; all else stays.
-inline std::string lower_case(std::string text)
-{
+inline std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return text;

@@ -7,8 +7,8 @@
 
 namespace nephroid {
 
-/// The monotone piecewise cubic of Fritsch and Carlson (SIAM J. Numer. Anal. 17, 1980): continuous slope, and between two
-/// control points never above the higher or below the lower one. End values are held outside.
+/// The monotone piecewise cubic of Fritsch and Carlson (SIAM J. Numer. Anal. 17, 1980): continuous slope, and between
+/// two control points never above the higher or below the lower one. End values are held outside.
 class MonotoneCubic {
 public:
   using Row = std::array<double, 2>; ///< x and y of a control point

@@ -15,8 +15,7 @@ namespace nephroid {
 /// The number that all of the text is; nothing where it is none or out of range. "nan" and "inf" are numbers, "+3" is
 /// none.
 template <class Number>
-std::optional<Number> number_in(std::string_view text)
-{
+std::optional<Number> number_in(std::string_view text) {
   Number number{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
@@ -25,8 +24,7 @@ std::optional<Number> number_in(std::string_view text)
 /// A number as people type it: 3, +3, .02, 5., 1e5. Nothing where it is none or, of whole numbers, is not whole or not
 /// exact.
 template <class Number>
-std::optional<Number> typed_number(std::string_view text)
-{
+std::optional<Number> typed_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   if (const std::optional<Number> number = number_in<Number>(text)) return number;
   if constexpr (std::integral<Number>) {

@@ -10,8 +10,7 @@
 
 namespace nephroid {
 
-void for_blocks(std::size_t count, const std::function<void(std::size_t)>& work)
-{
+void for_blocks(std::size_t count, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;
   std::exception_ptr thrown;
   std::mutex mutex;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work on a picture in blocks, on every core. What a block gives depends on the block alone, so that sums over blocks, added in
-// their order, have the same bits on any number of cores.
+// Work on a picture in blocks, on every core. What a block gives depends on the block alone, so that sums over blocks,
+// added in their order, have the same bits on any number of cores.
 #pragma once
 #include <cstddef>
 #include <functional>
 
 namespace nephroid {
 
-/// Calls work(block) once for each block 0..count-1, on several threads at once; returns when all are done. Rethrows what a call
-/// threw, if any; blocks that were not begun by then are left out.
+/// Calls work(block) once for each block 0..count-1, on several threads at once; returns when all are done. Rethrows
+/// what a call threw, if any; blocks that were not begun by then are left out.
 void for_blocks(std::size_t count, const std::function<void(std::size_t)>& work);
 
 /// A half-open range of items.
@@ -18,8 +18,7 @@ struct Range {
 
 /// Calls work(block, range) over 0..items-1 in blocks of `size`.
 template <class Work>
-void for_ranges(std::size_t items, std::size_t size, const Work& work)
-{
+void for_ranges(std::size_t items, std::size_t size, const Work& work) {
   for_blocks((items + size - 1) / size, [&](std::size_t block) {
     const std::size_t begin = block * size;
     work(block, Range{begin, begin + size < items ? begin + size : items});

@@ -20,21 +20,19 @@ struct Place {
   Place(const char* subject) : name(subject) {}
   Place(const std::filesystem::path& file) : name(file.string()) {}
   Place(std::string file, std::size_t line_in_it, std::size_t column_in_it = 0)
-      : name(std::move(file)), line(line_in_it), column(column_in_it)
-  {
-  }
+      : name(std::move(file)), line(line_in_it), column(column_in_it) {}
   Place(std::string file, std::string pointer_in_it) : name(std::move(file)), pointer(std::move(pointer_in_it)) {}
 
   std::string name;                   ///< a file, or an option, a device, a kernel, a call; may be empty
   std::size_t line = 0, column = 0;   ///< in the file, from 1; 0: none
   std::optional<std::string> pointer; ///< JSON pointer of a value in the file; "" is the outermost value
-  std::string field; ///< JSON pointer of the preset's field whose value somebody else gave here (preset/origins.h); or empty
+  std::string
+      field; ///< JSON pointer of the preset's field whose value somebody else gave here (preset/origins.h); or empty
 
   /// The value's member or item.
   Place operator/(std::string_view key) const;
   template <std::integral Index>
-  Place operator/(Index index) const
-  {
+  Place operator/(Index index) const {
     return *this / std::to_string(index);
   }
   bool operator==(const Place&) const = default;

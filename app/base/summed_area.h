@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums of one channel of a picture over any square, from four numbers each (Crow 1984, "Summed-area tables for texture mapping").
+// Sums of one channel of a picture over any square, from four numbers each (Crow 1984, "Summed-area tables for texture
+// mapping").
 #pragma once
 #include "base/parallel.h"
 
@@ -13,8 +14,7 @@ class SummedArea {
 public:
   /// value(pixel): the channel of a pixel, row by row from the top; called on every core.
   template <class Value>
-  SummedArea(int width, int height, const Value& value) : width_(width), height_(height)
-  {
+  SummedArea(int width, int height, const Value& value) : width_(width), height_(height) {
     const std::size_t stride = static_cast<std::size_t>(width) + 1;
     sums_.assign(stride * (static_cast<std::size_t>(height) + 1), 0.0);
     const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
@@ -32,16 +32,14 @@ public:
   }
 
   /// Over the square that reaches so many pixels to each side of (x, y), as much of it as is in the picture.
-  double sum(int x, int y, int reach) const
-  {
+  double sum(int x, int y, int reach) const {
     const int left = std::max(x - reach, 0), right = std::min(x + reach + 1, width_);
     const int top = std::max(y - reach, 0), bottom = std::min(y + reach + 1, height_);
     return at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
   }
 
   /// The same, divided by the number of pixels.
-  double mean(int x, int y, int reach) const
-  {
+  double mean(int x, int y, int reach) const {
     const int columns = std::min(x + reach + 1, width_) - std::max(x - reach, 0),
               rows = std::min(y + reach + 1, height_) - std::max(y - reach, 0);
     return sum(x, y, reach) / (static_cast<double>(columns) * rows);
@@ -49,8 +47,7 @@ public:
 
 private:
   /// Of all pixels left of x and above y.
-  double at(int x, int y) const
-  {
+  double at(int x, int y) const {
     return sums_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(width_) + 1) + static_cast<std::size_t>(x)];
   }
   int width_, height_;

@@ -10,11 +10,11 @@ namespace nephroid {
 
 struct Watch {
   std::stop_token stop;
-  std::function<void(const std::string& doing)> tell; ///< "reading bunny.obj"; on the thread that works. Null: nobody listens
+  std::function<void(const std::string& doing)>
+      tell; ///< "reading bunny.obj"; on the thread that works. Null: nobody listens
 
   /// Before each part of the work. Throws interrupted where it shall end.
-  void begin(const std::string& doing) const
-  {
+  void begin(const std::string& doing) const {
     if (stop.stop_requested()) throw Error(ErrorKind::interrupted, "", "interrupted while " + doing);
     if (tell) tell(doing);
   }

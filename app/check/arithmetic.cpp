@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device's own functions against double precision. Tolerances are the full profile's of the OpenCL 1.2 specification, section
-// 7.4, table "ULP values for single precision built-in math functions": a compiler's fast mathematics shows here first.
+// The device's own functions against double precision. Tolerances are the full profile's of the OpenCL 1.2
+// specification, section 7.4, table "ULP values for single precision built-in math functions": a compiler's fast
+// mathematics shows here first.
 #include "check/check.h"
 #include "check/device_arrays.h"
 
@@ -20,8 +21,7 @@ enum class Function { exp, log, sqrt, rsqrt, sin, cos, divide, fma, difference }
 constexpr std::size_t sample_count = 1 << 16;
 
 /// Distance from the truth in spacings of floats there.
-double ulps(float got, double truth)
-{
+double ulps(float got, double truth) {
   if (!std::isfinite(got)) return std::numeric_limits<double>::infinity();
   int exponent = 0;
   std::frexp(truth, &exponent);
@@ -37,19 +37,16 @@ struct BuiltIn {
   double (*truth)(const float4&);
 };
 
-float uniform(std::mt19937_64& random, double low, double high)
-{
+float uniform(std::mt19937_64& random, double low, double high) {
   return static_cast<float>(std::uniform_real_distribution<double>(low, high)(random));
 }
 /// Of either sign where asked for, evenly over the exponents -e to e: results stay normal numbers.
-float any_size(std::mt19937_64& random, double e, bool negative = false)
-{
+float any_size(std::mt19937_64& random, double e, bool negative = false) {
   const double size = std::exp2(std::uniform_real_distribution<double>(-e, e)(random));
   return static_cast<float>(negative && random() % 2 ? -size : size);
 }
 /// x y close to z w in half of all cases, where one fused rounding would show.
-float4 products(std::mt19937_64& random)
-{
+float4 products(std::mt19937_64& random) {
   const float x = any_size(random, 4, true), y = any_size(random, 4, true), z = any_size(random, 4, true);
   return {x, y, z, random() % 2 ? any_size(random, 4, true) : x * y / z};
 }
@@ -60,7 +57,8 @@ float4 argument(float x) { return {x, 0, 0, 0}; }
 const BuiltIn built_ins[] = {
     {"exp", Function::exp, 3, "-87 to 88", [](auto& r) { return argument(uniform(r, -87, 88)); },
      [](const float4& a) { return std::exp(double(a.x)); }},
-    {"log", Function::log, 3, "2^-100 to 2^100", [](auto& r) { return argument(r() % 2 ? any_size(r, 100) : uniform(r, 0.5, 2)); },
+    {"log", Function::log, 3, "2^-100 to 2^100",
+     [](auto& r) { return argument(r() % 2 ? any_size(r, 100) : uniform(r, 0.5, 2)); },
      [](const float4& a) { return std::log(double(a.x)); }},
     {"sqrt", Function::sqrt, 3, "2^-100 to 2^100", [](auto& r) { return argument(any_size(r, 100)); },
      [](const float4& a) { return std::sqrt(double(a.x)); }},
@@ -82,15 +80,15 @@ const BuiltIn built_ins[] = {
      [](const float4& a) { return double(std::fma(a.x, a.y, a.z)); }},
 };
 
-Check built_in_check(const BuiltIn& b)
-{
+Check built_in_check(const BuiltIn& b) {
   return {fmt::format("built-in: {}", b.name), [&b](const compute::Context& context, std::uint64_t seed) {
             std::mt19937_64 random(seed);
             std::vector<float4> in(sample_count);
             for (float4& a : in) a = b.arguments(random);
             const compute::Buffer<float> out(context, "out", in.size());
-            run_kernel(context, "built_ins", in.size(),
-                     {{"function", static_cast<int>(b.function)}, {"in", compute::Buffer(context, "in", in)}, {"out", out}});
+            run_kernel(
+                context, "built_ins", in.size(),
+                {{"function", static_cast<int>(b.function)}, {"in", compute::Buffer(context, "in", in)}, {"out", out}});
             const std::vector<float> got = out.read();
             double worst = 0;
             for (std::size_t i = 0; i < in.size(); ++i) worst = std::max(worst, ulps(got[i], b.truth(in[i])));
@@ -99,15 +97,16 @@ Check built_in_check(const BuiltIn& b)
           }};
 }
 
-/// The signs of a ray's edge functions are exact only where no compiler fuses one of two products (kernels/tracing/bvh.h).
-Result products_round_apart(const compute::Context& context, std::uint64_t seed)
-{
+/// The signs of a ray's edge functions are exact only where no compiler fuses one of two products
+/// (kernels/tracing/bvh.h).
+Result products_round_apart(const compute::Context& context, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<float4> in(sample_count);
   for (float4& a : in) a = products(random);
   const compute::Buffer<float> out(context, "out", in.size());
-  run_kernel(context, "built_ins", in.size(),
-           {{"function", static_cast<int>(Function::difference)}, {"in", compute::Buffer(context, "in", in)}, {"out", out}});
+  run_kernel(
+      context, "built_ins", in.size(),
+      {{"function", static_cast<int>(Function::difference)}, {"in", compute::Buffer(context, "in", in)}, {"out", out}});
   const std::vector<float> got = out.read();
   double fused = 0;
   for (std::size_t i = 0; i < in.size(); ++i) {
@@ -115,12 +114,12 @@ Result products_round_apart(const compute::Context& context, std::uint64_t seed)
     const double truth = rounded(rounded(double(in[i].x) * in[i].y) - rounded(double(in[i].z) * in[i].w));
     fused += got[i] != truth;
   }
-  return judged(fused, 0, "results",
-                fmt::format("of {} differences of two products, those that FP_CONTRACT OFF did not keep apart", in.size()));
+  return judged(
+      fused, 0, "results",
+      fmt::format("of {} differences of two products, those that FP_CONTRACT OFF did not keep apart", in.size()));
 }
 
-Result quanta_round_to_even(const compute::Context& context, std::uint64_t seed)
-{
+Result quanta_round_to_even(const compute::Context& context, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<float> in{0.5f, 1.5f, 2.5f, -0.5f, -1.5f, -2.5f, 8388607.5f, -8388607.5f, 0x1p42f, -0x1p42f};
   while (in.size() < sample_count) in.push_back(any_size(random, 42, true));
@@ -129,14 +128,14 @@ Result quanta_round_to_even(const compute::Context& context, std::uint64_t seed)
   const std::vector<std::int64_t> got = out.read();
   double wrong = 0;
   for (std::size_t i = 0; i < in.size(); ++i) wrong += got[i] != std::llrint(in[i]);
-  return judged(wrong, 0, "results",
-                fmt::format("of {} floats up to 2^42, those not rounded to the nearest, even, 64-bit integer", in.size()));
+  return judged(
+      wrong, 0, "results",
+      fmt::format("of {} floats up to 2^42, those not rounded to the nearest, even, 64-bit integer", in.size()));
 }
 
 } // namespace
 
-Checks arithmetic_checks()
-{
+Checks arithmetic_checks() {
   Checks list;
   for (const BuiltIn& b : built_ins) list.push_back(built_in_check(b));
   list.push_back({"built-in: products round apart", products_round_apart});

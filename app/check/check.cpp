@@ -5,16 +5,14 @@
 
 namespace nephroid::check {
 
-std::vector<Check> checks()
-{
+std::vector<Check> checks() {
   std::vector<Check> list;
   for (const auto subject : {arithmetic_checks, exactness_checks, geometry_checks, interface_checks})
     for (Check& check : subject()) list.push_back(std::move(check));
   return list;
 }
 
-Result run_check(const Check& check, const compute::Context& context, std::uint64_t seed)
-{
+Result run_check(const Check& check, const compute::Context& context, std::uint64_t seed) {
   Result result;
   try {
     result = check.run(context, seed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numerical self-checks on any device: closed forms of optics through the real kernels, and kernels against the host in double
-// precision. What a person runs first on a new device, and what tests run on every device there is.
+// Numerical self-checks on any device: closed forms of optics through the real kernels, and kernels against the host in
+// double precision. What a person runs first on a new device, and what tests run on every device there is.
 #pragma once
 #include "compute/compute.h"
 
@@ -17,14 +17,13 @@ struct Result {
   std::string name;  ///< Check::name
   double figure = 0; ///< a distance from the truth
   double tolerance = 0;
-  std::string unit;                                                           ///< of both: "pixels", "sigma", "quanta", ""
-  std::string detail;                                                         ///< a sentence: what was compared with what
+  std::string unit;   ///< of both: "pixels", "sigma", "quanta", ""
+  std::string detail; ///< a sentence: what was compared with what
   bool passed() const { return figure <= tolerance && figure >= -tolerance; } // NaN: failed
 };
 
 /// Of a check that does not know its name.
-inline Result judged(double figure, double tolerance, std::string unit, std::string detail)
-{
+inline Result judged(double figure, double tolerance, std::string unit, std::string detail) {
   return {{}, figure, tolerance, std::move(unit), std::move(detail)};
 }
 
@@ -38,8 +37,8 @@ struct Check {
 /// Those of what all engines share. engine/engine.h has every engine's own too.
 std::vector<Check> checks();
 
-/// The check's result under its name. Where the device or the kernels' compiler fails, the figure is NaN and the detail says why,
-/// so that one broken kernel does not hide what the others do.
+/// The check's result under its name. Where the device or the kernels' compiler fails, the figure is NaN and the detail
+/// says why, so that one broken kernel does not hide what the others do.
 Result run_check(const Check& check, const compute::Context& context, std::uint64_t seed = 1);
 
 using Checks = std::vector<Check>;

@@ -11,17 +11,21 @@ namespace nephroid::check {
 
 using shared::float4;
 
-inline shared::uint2 device_seed(std::uint64_t seed) { return {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}; }
+inline shared::uint2 device_seed(std::uint64_t seed) {
+  return {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+}
 
 /// As the engine's kernels: a device that cannot run groups of so many cannot run those.
 inline constexpr std::size_t local_size = 64;
 
 /// Kernel `name` of a file over `count` items, which is its argument "count"; the others are given.
-inline void run_kernel(const compute::Context& context, const char* name, std::size_t count, std::initializer_list<compute::Argument> own,
-                     const char* file = "check/check.cl", const compute::Defines& defines = {})
-{
+inline void run_kernel(const compute::Context& context, const char* name, std::size_t count,
+                       std::initializer_list<compute::Argument> own, const char* file = "check/check.cl",
+                       const compute::Defines& defines = {}) {
   const auto items = static_cast<std::uint32_t>(count);
-  compute::Program(context, file, defines).kernel(name).run(count, local_size, std::array{compute::Argument("count", items)}, own);
+  compute::Program(context, file, defines)
+      .kernel(name)
+      .run(count, local_size, std::array{compute::Argument("count", items)}, own);
 }
 
 } // namespace nephroid::check

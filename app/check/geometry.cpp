@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The traversal of kernels/tracing/bvh.h against every triangle in double precision. Where a ray passes an edge within the rounding of
-// coordinates either side is right; nothing else may differ.
+// The traversal of kernels/tracing/bvh.h against every triangle in double precision. Where a ray passes an edge within
+// the rounding of coordinates either side is right; nothing else may differ.
 #include "check/check.h"
 #include "check/tracer.h"
 #include "scene/scene.h"
@@ -20,9 +20,9 @@ constexpr std::size_t ray_count = 1 << 13;
 constexpr double reach = 5.5, rounding = 0x1p-24 * reach;
 
 /// A rod of radius 1 with a brilliant in it: thin triangles, about 600.
-scene::Mesh rod_and_brilliant()
-{
-  scene::Mesh mesh = scene::make_shape({.type = preset::Shape::Type::cylinder, .radius = 1, .height = 2, .segments = 120});
+scene::Mesh rod_and_brilliant() {
+  scene::Mesh mesh =
+      scene::make_shape({.type = preset::Shape::Type::cylinder, .radius = 1, .height = 2, .segments = 120});
   const scene::Mesh inner = scene::make_shape({.type = preset::Shape::Type::brilliant, .radius = 0.7});
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), inner.positions.begin(), inner.positions.end());
@@ -31,16 +31,14 @@ scene::Mesh rod_and_brilliant()
   return mesh;
 }
 
-glm::vec3 direction(std::mt19937_64& random)
-{
+glm::vec3 direction(std::mt19937_64& random) {
   std::normal_distribution<float> normal; // of three such numbers every direction is as likely
   const float x = normal(random), y = normal(random), z = normal(random);
   return glm::normalize(glm::vec3(x, y, z));
 }
 
 /// From outside and from inside towards the mesh; some along an axis, some that end early.
-std::vector<Ray> rays_towards_the_mesh(std::uint64_t seed)
-{
+std::vector<Ray> rays_towards_the_mesh(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<float> uniform(-0.9f, 0.9f);
   std::vector<Ray> rays;
@@ -66,8 +64,7 @@ struct Rays {
   scene::Mesh mesh = rod_and_brilliant();
   std::vector<Ray> rays;
   std::vector<Hit> hits;
-  explicit Rays(const compute::Context& context, std::uint64_t seed) : rays(rays_towards_the_mesh(seed))
-  {
+  explicit Rays(const compute::Context& context, std::uint64_t seed) : rays(rays_towards_the_mesh(seed)) {
     KernelTracer tracer(context, mesh);
     hits = tracer.closest(rays);
     for (std::size_t i = 0; i < rays.size(); i += 8) rays[i].skip = hits[i].primitive;
@@ -75,8 +72,7 @@ struct Rays {
   }
 };
 
-Result closest_hits(const compute::Context& context, std::uint64_t seed)
-{
+Result closest_hits(const compute::Context& context, std::uint64_t seed) {
   const Rays traced(context, seed);
   const Judge judge(traced.mesh, 8 * rounding);
   double wrong = 0;
@@ -87,15 +83,17 @@ Result closest_hits(const compute::Context& context, std::uint64_t seed)
     hits += truth.primitive != no_primitive;
     differ += traced.hits[i].primitive != truth.primitive;
   }
-  return judged(wrong, 0, "rays",
-                fmt::format("{} rays at {} triangles, {} hits, {} decided otherwise than in double precision by rounding at an edge",
-                            traced.rays.size(), traced.mesh.triangles.size(), hits, differ - static_cast<std::size_t>(wrong)));
+  return judged(
+      wrong, 0, "rays",
+      fmt::format(
+          "{} rays at {} triangles, {} hits, {} decided otherwise than in double precision by rounding at an edge",
+          traced.rays.size(), traced.mesh.triangles.size(), hits, differ - static_cast<std::size_t>(wrong)));
 }
 
-/// t and the point (1 - u - v) a + u b + v c, against where the ray's line meets the triangle's plane. Barycentrics of a thin triangle
-/// have the error of the coordinates over its height, so the place is off by that times its longest edge.
-Result hit_places(const compute::Context& context, std::uint64_t seed)
-{
+/// t and the point (1 - u - v) a + u b + v c, against where the ray's line meets the triangle's plane. Barycentrics of
+/// a thin triangle have the error of the coordinates over its height, so the place is off by that times its longest
+/// edge.
+Result hit_places(const compute::Context& context, std::uint64_t seed) {
   const Rays traced(context, seed);
   const Judge judge(traced.mesh, 8 * rounding);
   double worst = 0;
@@ -105,7 +103,8 @@ Result hit_places(const compute::Context& context, std::uint64_t seed)
     const Exact exact = judge.exact(traced.rays[i], hit.primitive);
     worst = std::max(worst, std::abs(hit.t - exact.t) * exact.tilt);
     const glm::uvec3& corner = traced.mesh.triangles[hit.primitive];
-    const glm::dvec3 a = traced.mesh.positions[corner.x], b = traced.mesh.positions[corner.y], c = traced.mesh.positions[corner.z];
+    const glm::dvec3 a = traced.mesh.positions[corner.x], b = traced.mesh.positions[corner.y],
+                     c = traced.mesh.positions[corner.z];
     const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
     const double height = glm::length(glm::cross(b - a, c - a)) / longest;
     const glm::dvec3 place = a + double(hit.u) * (b - a) + double(hit.v) * (c - a);
@@ -113,22 +112,22 @@ Result hit_places(const compute::Context& context, std::uint64_t seed)
     worst = std::max(worst, glm::distance(place, truth) * exact.tilt * height / longest);
   }
   return judged(worst / rounding, 16, "roundings",
-                "distance and barycentric place of every hit, times the cosine there, in float spacings of the farthest coordinate");
+                "distance and barycentric place of every hit, times the cosine there, in float spacings of the "
+                "farthest coordinate");
 }
 
-Result any_hits(const compute::Context& context, std::uint64_t seed)
-{
+Result any_hits(const compute::Context& context, std::uint64_t seed) {
   const Rays traced(context, seed);
   const std::vector<std::uint32_t> any = KernelTracer(context, traced.mesh).any(traced.rays);
   double differ = 0;
   for (std::size_t i = 0; i < any.size(); ++i) differ += (any[i] != 0) != (traced.hits[i].primitive != no_primitive);
-  return judged(differ, 0, "rays",
-                fmt::format("of {} rays, those where \"is anything hit\" and \"what is hit first\" disagree", any.size()));
+  return judged(
+      differ, 0, "rays",
+      fmt::format("of {} rays, those where \"is anything hit\" and \"what is hit first\" disagree", any.size()));
 }
 
 /// From inside a closed mesh, aimed exactly at its vertices and at points of its edges, where a leak would be.
-Result no_leaks(const compute::Context& context, std::uint64_t seed)
-{
+Result no_leaks(const compute::Context& context, std::uint64_t seed) {
   const scene::Mesh mesh = rod_and_brilliant();
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<float> uniform(0, 1);
@@ -142,13 +141,14 @@ Result no_leaks(const compute::Context& context, std::uint64_t seed)
   }
   const std::vector<Hit> hits = KernelTracer(context, mesh).closest(rays);
   const auto escaped = std::ranges::count_if(hits, [](const Hit& h) { return h.primitive == no_primitive; });
-  return judged(static_cast<double>(escaped), 0, "rays",
-                fmt::format("of {} rays from inside at vertices and edges of a closed mesh, those that got out", rays.size()));
+  return judged(
+      static_cast<double>(escaped), 0, "rays",
+      fmt::format("of {} rays from inside at vertices and edges of a closed mesh, those that got out", rays.size()));
 }
 
-/// Spheres and ellipsoids, from outside and from inside: place by the plain quadratic in double, along the normal there.
-Result ellipsoid_hits(const compute::Context& context, std::uint64_t seed)
-{
+/// Spheres and ellipsoids, from outside and from inside: place by the plain quadratic in double, along the normal
+/// there.
+Result ellipsoid_hits(const compute::Context& context, std::uint64_t seed) {
   scene::Mesh mesh;
   mesh.ellipsoids = {{{0, 0, 0}, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, false},
                      {{0.1f, 0, 0}, {{{0.3f, 0.4f, 0}, {-0.32f, 0.24f, 0}, {0, 0, 0.7f}}}, false}};
@@ -173,13 +173,13 @@ Result ellipsoid_hits(const compute::Context& context, std::uint64_t seed)
     worst = std::max(worst, hit != (steepness > 0) ? INFINITY : hit ? std::abs(hits[i].t - nearest) * steepness : 0.0);
   }
   return judged(worst / rounding, 16, "roundings",
-                "distance of every hit of a sphere and an ellipsoid, times the cosine there, in float spacings of the farthest coordinate");
+                "distance of every hit of a sphere and an ellipsoid, times the cosine there, in float spacings of the "
+                "farthest coordinate");
 }
 
 } // namespace
 
-Checks geometry_checks()
-{
+Checks geometry_checks() {
   return {{"rays: closest hits", closest_hits},
           {"rays: distance and place of hits", hit_places},
           {"rays: any hit", any_hits},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Snell's and Fresnel's laws in kernels/tracing/fresnel.h against optics/fresnel.h in double precision, and nested media
-// (kernels/tracing/media.h).
+// Snell's and Fresnel's laws in kernels/tracing/fresnel.h against optics/fresnel.h in double precision, and nested
+// media (kernels/tracing/media.h).
 #include "check/check.h"
 #include "check/device_arrays.h"
 #include "optics/fresnel.h"
@@ -17,20 +17,20 @@ namespace {
 
 using std::numbers::pi;
 
-// The specification lets a division be off by 2.5 units in the last place and a square root by 3, so that sin_t = n_i / n_t sin_i may be
-// off by about 6 of 2^-24, or 4e-7, and its square and 1 - sin_t^2 by twice that; tolerances below are about twice what follows.
+// The specification lets a division be off by 2.5 units in the last place and a square root by 3, so that sin_t = n_i /
+// n_t sin_i may be off by about 6 of 2^-24, or 4e-7, and its square and 1 - sin_t^2 by twice that; tolerances below are
+// about twice what follows.
 constexpr float indices[] = {1, 1.0001f, 1.33f, 1.5f, 1.9f, 2.42f, 4};
 
-std::vector<float4> through(const compute::Context& context, const char* kernel, const std::vector<float4>& in, std::size_t outputs_each)
-{
+std::vector<float4> through(const compute::Context& context, const char* kernel, const std::vector<float4>& in,
+                            std::size_t outputs_each) {
   const compute::Buffer<float4> out(context, "out", in.size() * outputs_each);
   run_kernel(context, kernel, in.size(), {{"in", compute::Buffer(context, "in", in)}, {"out", out}});
   return out.read();
 }
 
 /// Every pair of indices at angles from 0 to 89.9999 degrees.
-std::vector<float4> interfaces()
-{
+std::vector<float4> interfaces() {
   std::vector<float4> in;
   for (const float near : indices)
     for (const float far : indices) {
@@ -40,56 +40,60 @@ std::vector<float4> interfaces()
   return in;
 }
 
-/// R changes with cos_t by the order of n_i / n_t + n_t / n_i, and cos_t has the error of its square over 2 cos_t: errors are judged
-/// in units of that. Closer to the critical angle than cos_t = 0.01 the next check but one judges.
-Result reflectance(const compute::Context& context, std::uint64_t)
-{
+/// R changes with cos_t by the order of n_i / n_t + n_t / n_i, and cos_t has the error of its square over 2 cos_t:
+/// errors are judged in units of that. Closer to the critical angle than cos_t = 0.01 the next check but one judges.
+Result reflectance(const compute::Context& context, std::uint64_t) {
   const std::vector<float4> in = interfaces(), out = through(context, "interfaces", in, 1);
   double worst = 0;
   for (std::size_t i = 0; i < in.size(); ++i) {
     const double cos_i = in[i].x, n_i = in[i].y, n_t = in[i].z;
     const auto cos_t = optics::refracted_cosine(cos_i, n_i, n_t);
     if (!cos_t || *cos_t < 0.01) continue;
-    const double condition = (n_i / n_t + n_t / n_i) / *cos_t, error = std::abs(out[i].y - optics::fresnel_reflectance(cos_i, n_i, n_t));
+    const double condition = (n_i / n_t + n_t / n_i) / *cos_t,
+                 error = std::abs(out[i].y - optics::fresnel_reflectance(cos_i, n_i, n_t));
     worst = std::isfinite(error) ? std::max(worst, error / condition) : error;
     if (!std::isfinite(worst)) break;
   }
-  return judged(
-      worst, 4e-6, "",
-      fmt::format("Fresnel's R at {} interfaces, n from 1 to 4, 0 to 89.9999 degrees, over its condition, against double precision",
-                  in.size()));
+  return judged(worst, 4e-6, "",
+                fmt::format("Fresnel's R at {} interfaces, n from 1 to 4, 0 to 89.9999 degrees, over its condition, "
+                            "against double precision",
+                            in.size()));
 }
 
 /// n_i sin(theta_i) = n_t sin(theta_t) and unit length; the reflected direction with its normal part turned round.
-Result refraction(const compute::Context& context, std::uint64_t)
-{
+Result refraction(const compute::Context& context, std::uint64_t) {
   std::vector<float4> in;
   for (const float near : indices)
     for (const float far : indices)
       for (int k = 0; k < 500; ++k) {
         const double theta = pi / 2 * k / 500, phi = k;
-        in.push_back({static_cast<float>(std::sin(theta) * std::cos(phi)), static_cast<float>(std::sin(theta) * std::sin(phi)),
-                      static_cast<float>(-std::cos(theta)), near / far});
+        in.push_back({static_cast<float>(std::sin(theta) * std::cos(phi)),
+                      static_cast<float>(std::sin(theta) * std::sin(phi)), static_cast<float>(-std::cos(theta)),
+                      near / far});
       }
   const std::vector<float4> out = through(context, "directions", in, 2);
   double worst = 0;
-  const auto compare = [&worst](double error) { worst = std::abs(error) <= worst ? worst : std::abs(error); }; // NaN stays
+  const auto compare = [&worst](double error) {
+    worst = std::abs(error) <= worst ? worst : std::abs(error);
+  }; // NaN stays
   for (std::size_t i = 0; i < in.size(); ++i) {
     const float4 &d = in[i], &r = out[2 * i], &t = out[2 * i + 1];
     compare(double(r.x) - d.x), compare(double(r.y) - d.y), compare(double(r.z) + d.z);
     if (t.w < 0) continue;
     // The longer of the two tangential parts is at most 1, so this is an absolute error of a unit vector.
-    compare((double(t.x) - double(d.w) * d.x) / std::max(1.0f, d.w)), compare((double(t.y) - double(d.w) * d.y) / std::max(1.0f, d.w));
+    compare((double(t.x) - double(d.w) * d.x) / std::max(1.0f, d.w)),
+        compare((double(t.y) - double(d.w) * d.y) / std::max(1.0f, d.w));
     compare(double(t.x) * t.x + double(t.y) * t.y + double(t.z) * t.z - 1);
     if (t.z > 0) worst = 2;
   }
   return judged(worst, 2e-6, "",
-                fmt::format("components of {} reflected and refracted directions, n from 1 to 4, against Snell's law", in.size()));
+                fmt::format("components of {} reflected and refracted directions, n from 1 to 4, against Snell's law",
+                            in.size()));
 }
 
-/// Cosines one float after the other about the critical angle: how far from it reflection is decided otherwise than by sin_t > 1.
-Result critical_angle(const compute::Context& context, std::uint64_t)
-{
+/// Cosines one float after the other about the critical angle: how far from it reflection is decided otherwise than by
+/// sin_t > 1.
+Result critical_angle(const compute::Context& context, std::uint64_t) {
   std::vector<float4> in;
   for (const float n : {1.1f, 1.33f, 1.5f, 2.42f, 4.0f}) {
     float cosine = static_cast<float>(std::cos(std::asin(1 / double(n))));
@@ -102,15 +106,15 @@ Result critical_angle(const compute::Context& context, std::uint64_t)
     const double beyond = std::acos(double(in[i].x)) - std::asin(1 / double(in[i].y));
     if ((out[i].x < 0) != (beyond > 0)) worst = std::max(worst, std::abs(beyond));
   }
-  return judged(
-      worst, 2e-6, "radians",
-      fmt::format("total reflection of {} cosines, float after float, about five critical angles: the farthest one decided wrongly",
-                  in.size()));
+  return judged(worst, 2e-6, "radians",
+                fmt::format("total reflection of {} cosines, float after float, about five critical angles: the "
+                            "farthest one decided wrongly",
+                            in.size()));
 }
 
-/// tan(theta) = n: nothing that is polarised in the plane of incidence is reflected, and of the rest ((n^2 - 1) / (n^2 + 1))^2.
-Result brewster(const compute::Context& context, std::uint64_t)
-{
+/// tan(theta) = n: nothing that is polarised in the plane of incidence is reflected, and of the rest ((n^2 - 1) / (n^2
+/// + 1))^2.
+Result brewster(const compute::Context& context, std::uint64_t) {
   std::vector<float4> in;
   for (int k = 1; k <= 300; ++k)
     in.push_back({static_cast<float>(1 / std::hypot(1, 1 + 0.01 * k)), 1, static_cast<float>(1 + 0.01 * k), 0});
@@ -120,21 +124,24 @@ Result brewster(const compute::Context& context, std::uint64_t)
     const double n2 = double(in[i].z) * in[i].z, s = (n2 - 1) / (n2 + 1), error = std::abs(out[i].y - s * s / 2);
     worst = error <= worst ? worst : error;
   }
-  return judged(worst, 2e-6, "",
-                fmt::format("R at Brewster's angle of {} glasses, n from 1.01 to 4, against ((n^2 - 1) / (n^2 + 1))^2 / 2", in.size()));
+  return judged(
+      worst, 2e-6, "",
+      fmt::format("R at Brewster's angle of {} glasses, n from 1.01 to 4, against ((n^2 - 1) / (n^2 + 1))^2 / 2",
+                  in.size()));
 }
 
-/// Which object is the medium, by the rule in words: of those entered and not left the one of highest priority, of equals the last.
-int medium(const std::vector<int>& entered, const std::vector<shared::DeviceObject>& objects)
-{
+/// Which object is the medium, by the rule in words: of those entered and not left the one of highest priority, of
+/// equals the last.
+int medium(const std::vector<int>& entered, const std::vector<shared::DeviceObject>& objects) {
   int best = -1;
   for (const int object : entered)
-    if (best < 0 || objects[static_cast<std::size_t>(object)].priority >= objects[static_cast<std::size_t>(best)].priority) best = object;
+    if (best < 0 ||
+        objects[static_cast<std::size_t>(object)].priority >= objects[static_cast<std::size_t>(best)].priority)
+      best = object;
   return best;
 }
 
-Result nested_media(const compute::Context& context, std::uint64_t seed)
-{
+Result nested_media(const compute::Context& context, std::uint64_t seed) {
   constexpr int object_count = 12, steps_each = 64;
   constexpr std::size_t walks = 512;
   std::mt19937_64 random(seed);
@@ -161,22 +168,22 @@ Result nested_media(const compute::Context& context, std::uint64_t seed)
   }
   const compute::Buffer<int> out(context, "mediums", steps.size());
   run_kernel(context, "media_walks", walks,
-           {{"objects", compute::Buffer(context, "objects", objects)},
-            {"steps", compute::Buffer(context, "steps", steps)},
-            {"mediums", out},
-            {"steps_each", steps_each}});
+             {{"objects", compute::Buffer(context, "objects", objects)},
+              {"steps", compute::Buffer(context, "steps", steps)},
+              {"mediums", out},
+              {"steps_each", steps_each}});
   const std::vector<int> got = out.read();
   double wrong = 0;
   for (std::size_t i = 0; i < got.size(); ++i) wrong += got[i] != truth[i];
-  return judged(wrong, 0, "steps",
-                fmt::format("of {} random steps into and out of {} nested objects, those after which the medium is another", steps.size(),
-                            object_count));
+  return judged(
+      wrong, 0, "steps",
+      fmt::format("of {} random steps into and out of {} nested objects, those after which the medium is another",
+                  steps.size(), object_count));
 }
 
 } // namespace
 
-Checks interface_checks()
-{
+Checks interface_checks() {
   return {{"interface: Fresnel's reflectance", reflectance},
           {"interface: Snell's directions", refraction},
           {"interface: critical angle", critical_angle},

@@ -7,28 +7,28 @@
 namespace nephroid::check {
 
 KernelTracer::KernelTracer(const compute::Context& context, const scene::Bvh& bvh, compute::Defines defines)
-    : bvh_(bvh), context_(context), nodes_(context, "nodes", std::span(bvh.nodes)), blocks_(context, "blocks", std::span(bvh.blocks))
-{
+    : bvh_(bvh), context_(context), nodes_(context, "nodes", std::span(bvh.nodes)),
+      blocks_(context, "blocks", std::span(bvh.blocks)) {
   defines.merge(scene::tree_defines(bvh));
   const compute::Program program(context, "tracing/trace.cl", defines);
   closest_ = program.kernel("closest_hits");
   any_ = program.kernel("any_hits");
 }
 
-void KernelTracer::set_rays(const std::vector<Ray>& rays)
-{
+void KernelTracer::set_rays(const std::vector<Ray>& rays) {
   std::vector<DeviceRay> packed;
   for (const Ray& r : rays)
-    packed.push_back({{r.origin.x, r.origin.y, r.origin.z}, r.t_max, {r.direction.x, r.direction.y, r.direction.z}, r.skip});
+    packed.push_back(
+        {{r.origin.x, r.origin.y, r.origin.z}, r.t_max, {r.direction.x, r.direction.y, r.direction.z}, r.skip});
   rays_ = {context_, "rays", packed};
   hits_ = {context_, "hits", rays.size()};
   found_ = {context_, "found", rays.size()};
 }
 
-void KernelTracer::run(compute::Kernel& kernel, const compute::Argument& answers)
-{
+void KernelTracer::run(compute::Kernel& kernel, const compute::Argument& answers) {
   const auto count = static_cast<std::uint32_t>(rays_.size());
-  kernel.run(count, 64, {{"nodes", nodes_}, {"blocks", blocks_}, {"root", bvh_.root}, {"rays", rays_}, {"count", count}, answers});
+  kernel.run(count, 64,
+             {{"nodes", nodes_}, {"blocks", blocks_}, {"root", bvh_.root}, {"rays", rays_}, {"count", count}, answers});
   context_.finish();
 }
 
@@ -36,22 +36,19 @@ void KernelTracer::run_closest() { run(closest_, {"hits", hits_}); }
 
 void KernelTracer::run_any() { run(any_, {"hit", found_}); }
 
-std::vector<Hit> KernelTracer::closest(const std::vector<Ray>& rays)
-{
+std::vector<Hit> KernelTracer::closest(const std::vector<Ray>& rays) {
   set_rays(rays);
   run_closest();
   return hits_.read();
 }
 
-std::vector<std::uint32_t> KernelTracer::any(const std::vector<Ray>& rays)
-{
+std::vector<std::uint32_t> KernelTracer::any(const std::vector<Ray>& rays) {
   set_rays(rays);
   run_any();
   return found_.read();
 }
 
-Judge::Judge(const scene::Mesh& mesh, double tolerance) : mesh_(mesh), tolerance_(tolerance)
-{
+Judge::Judge(const scene::Mesh& mesh, double tolerance) : mesh_(mesh), tolerance_(tolerance) {
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::dvec3 a = mesh.positions[t.x];
     x_.push_back(a.x), y_.push_back(a.y), z_.push_back(a.z);
@@ -60,8 +57,7 @@ Judge::Judge(const scene::Mesh& mesh, double tolerance) : mesh_(mesh), tolerance
   }
 }
 
-Exact Judge::exact(const Ray& ray, std::uint32_t primitive) const
-{
+Exact Judge::exact(const Ray& ray, std::uint32_t primitive) const {
   const glm::uvec3& corners = mesh_.triangles[primitive];
   const glm::dvec3 p[3] = {mesh_.positions[corners.x], mesh_.positions[corners.y], mesh_.positions[corners.z]};
   const glm::dvec3 o(ray.origin), d(ray.direction), area = glm::cross(p[1] - p[0], p[2] - p[0]);
@@ -80,8 +76,7 @@ Exact Judge::exact(const Ray& ray, std::uint32_t primitive) const
   return result;
 }
 
-Hit Judge::closest(const Ray& ray) const
-{
+Hit Judge::closest(const Ray& ray) const {
   Hit hit;
   double nearest = ray.t_max;
   for (const std::uint32_t i : candidates(ray)) {
@@ -95,8 +90,7 @@ Hit Judge::closest(const Ray& ray) const
   return hit;
 }
 
-Verdict Judge::judge(const Ray& ray, const Hit& ours, const Hit& theirs) const
-{
+Verdict Judge::judge(const Ray& ray, const Hit& ours, const Hit& theirs) const {
   if (ours.primitive == no_primitive && theirs.primitive == no_primitive) return Verdict::same;
   Verdict verdict = Verdict::tie;
   double limit = ray.t_max;
@@ -112,7 +106,8 @@ Verdict Judge::judge(const Ray& ray, const Hit& ours, const Hit& theirs) const
   for (const std::uint32_t i : candidates(ray)) {
     if (i == ours.primitive || i == ray.skip) continue;
     const Exact hit = exact(ray, i);
-    if (hit.t * hit.tilt < -tolerance_ || hit.margin < -tolerance_ || (limit - hit.t) * hit.tilt <= tolerance_) continue;
+    if (hit.t * hit.tilt < -tolerance_ || hit.margin < -tolerance_ || (limit - hit.t) * hit.tilt <= tolerance_)
+      continue;
     if (hit.t * hit.tilt <= tolerance_)
       verdict = Verdict::start;
     else if (hit.margin <= tolerance_)
@@ -124,8 +119,7 @@ Verdict Judge::judge(const Ray& ray, const Hit& ours, const Hit& theirs) const
 }
 
 /// Triangles that come near the ray's line: those whose first vertex is within the longest edge of it.
-std::vector<std::uint32_t> Judge::candidates(const Ray& ray) const
-{
+std::vector<std::uint32_t> Judge::candidates(const Ray& ray) const {
   const glm::dvec3 o(ray.origin), d = glm::normalize(glm::dvec3(ray.direction));
   const double reach = (longest_edge_ + tolerance_) * (longest_edge_ + tolerance_);
   std::vector<std::uint32_t> near;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/trace.cl, the traversal of kernels/tracing/bvh.h, over a list of rays, for checks, tests and benchmarks; and ray against
-// triangle in double precision, over every triangle of a mesh: who is right where two tracers differ.
+// kernels/tracing/trace.cl, the traversal of kernels/tracing/bvh.h, over a list of rays, for checks, tests and
+// benchmarks; and ray against triangle in double precision, over every triangle of a mesh: who is right where two
+// tracers differ.
 #pragma once
 #include "compute/compute.h"
 #include "scene/bvh.h"
@@ -40,7 +41,8 @@ static_assert(sizeof(Hit) == 16 && sizeof(DeviceRay) == 32);
 /// A mesh's tree on the device.
 class KernelTracer {
 public:
-  KernelTracer(const compute::Context& context, const scene::Mesh& mesh) : KernelTracer(context, scene::build_bvh(mesh)) {}
+  KernelTracer(const compute::Context& context, const scene::Mesh& mesh)
+      : KernelTracer(context, scene::build_bvh(mesh)) {}
   KernelTracer(const compute::Context& context, const scene::Bvh& bvh, compute::Defines defines = {});
 
   std::vector<Hit> closest(const std::vector<Ray>& rays);
@@ -84,9 +86,9 @@ public:
   /// The closest hit by asking every triangle; u and v are left 0. Of hits at one distance the lowest triangle.
   Hit closest(const Ray& ray) const;
 
-  /// Whether `ours` is a right answer. Same: as theirs. Tie: both at one distance. Edge: the ray passes an edge so closely that
-  /// the rounding of coordinates decides on which side. Start: they differ on a triangle that the ray starts on.
-  /// A ray's `skip` and `t_max` count.
+  /// Whether `ours` is a right answer. Same: as theirs. Tie: both at one distance. Edge: the ray passes an edge so
+  /// closely that the rounding of coordinates decides on which side. Start: they differ on a triangle that the ray
+  /// starts on. A ray's `skip` and `t_max` count.
   Verdict judge(const Ray& ray, const Hit& ours, const Hit& theirs) const;
 
 private:

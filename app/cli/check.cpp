@@ -26,36 +26,39 @@ struct CheckOptions {
 };
 
 /// What of the device matters to the kernels; no check, because each of these works or is refused.
-std::string properties(const compute::DeviceInfo& device)
-{
+std::string properties(const compute::DeviceInfo& device) {
   return fmt::format("{}; {}; groups of up to {} work items, of which 64 are used",
                      device.int64_atomics ? "64-bit atomics" : "no 64-bit atomics: sums by 32-bit halves",
-                     device.fp64 ? "double precision, which no kernel uses" : "no double precision, which no kernel uses",
+                     device.fp64 ? "double precision, which no kernel uses"
+                                 : "no double precision, which no kernel uses",
                      device.max_group_items);
 }
 
 constexpr const char* line_format = "{:<42}  {:>10}  {:>10}  {:<9}  {}\n";
 
-void print_row(const check::Result& result, bool details)
-{
-  fmt::print(fmt::runtime(line_format), result.name, std::isnan(result.figure) ? "none" : fmt::format("{:.3g}", result.figure),
+void print_row(const check::Result& result, bool details) {
+  fmt::print(fmt::runtime(line_format), result.name,
+             std::isnan(result.figure) ? "none" : fmt::format("{:.3g}", result.figure),
              fmt::format("{:.3g}", result.tolerance), result.unit, result.passed() ? "pass" : "FAIL");
   if (details || !result.passed()) fmt::print("    {}\n", result.detail);
   std::fflush(stdout);
 }
 
-nlohmann::ordered_json to_json(const std::string& device, const std::vector<check::Result>& results)
-{
+nlohmann::ordered_json to_json(const std::string& device, const std::vector<check::Result>& results) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const check::Result& r : results) // NaN becomes null
-    list.push_back(
-        {{"name", r.name}, {"figure", r.figure}, {"tolerance", r.tolerance}, {"unit", r.unit}, {"pass", r.passed()}, {"detail", r.detail}});
+    list.push_back({{"name", r.name},
+                    {"figure", r.figure},
+                    {"tolerance", r.tolerance},
+                    {"unit", r.unit},
+                    {"pass", r.passed()},
+                    {"detail", r.detail}});
   return {{"device", device}, {"checks", list}};
 }
 
 /// Runs every check on one device and prints them. Returns the names of those that failed.
-std::vector<std::string> check_device(const CheckOptions& options, const compute::DeviceOptions& which, const std::stop_token& interrupted)
-{
+std::vector<std::string> check_device(const CheckOptions& options, const compute::DeviceOptions& which,
+                                      const std::stop_token& interrupted) {
   const auto begin = Clock::now();
   const compute::Context context = compute::Context::open(which);
   const compute::DeviceInfo& device = context.device();
@@ -82,17 +85,16 @@ std::vector<std::string> check_device(const CheckOptions& options, const compute
   return failures;
 }
 
-std::vector<compute::DeviceOptions> devices_to_check(const CheckOptions& options)
-{
+std::vector<compute::DeviceOptions> devices_to_check(const CheckOptions& options) {
   if (!options.all) return {options.device};
   std::vector<compute::DeviceOptions> list;
-  for (const compute::DeviceInfo& device : compute::list_devices()) list.push_back({std::to_string(device.index), options.device.kernels});
+  for (const compute::DeviceInfo& device : compute::list_devices())
+    list.push_back({std::to_string(device.index), options.device.kernels});
   if (list.empty()) throw compute::no_device_error();
   return list;
 }
 
-void check_devices(const CheckOptions& options)
-{
+void check_devices(const CheckOptions& options) {
   const Interrupts interrupts; // before OpenCL starts its threads
   if (const std::string note = compute::prepare_kernel_cache(); !note.empty()) fmt::print(stderr, "note: {}\n", note);
   std::vector<std::string> failures;
@@ -105,19 +107,23 @@ void check_devices(const CheckOptions& options)
 
 } // namespace
 
-void add_check(CLI::App& program, Session&)
-{
+void add_check(CLI::App& program, Session&) {
   const auto options = std::make_shared<CheckOptions>();
-  Verb verb(program, "check", "Numerical self-checks of a device: run it first on a new one", {{"nephroid check --details", ""}},
+  Verb verb(program, "check", "Numerical self-checks of a device: run it first on a new one",
+            {{"nephroid check --details", ""}},
             "Each check has a figure, how far it is from the truth, and a tolerance. Exit code 1 where one fails.");
-  verb.option("--device", options->device.selector, {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
+  verb.option("--device", options->device.selector,
+              {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
   verb.flag("--all", options->all, "Every device there is, one after the other", "--device");
-  verb.option("--kernels", options->device.kernels, {.type = "DIR", .says = "Load kernels from this folder instead of the built-in ones"});
-  verb.option("--seed", options->seed,
-              {.type = "N", .says = "Of the random numbers (default 1); a right device passes with every one", .from = 0});
+  verb.option("--kernels", options->device.kernels,
+              {.type = "DIR", .says = "Load kernels from this folder instead of the built-in ones"});
+  verb.option(
+      "--seed", options->seed,
+      {.type = "N", .says = "Of the random numbers (default 1); a right device passes with every one", .from = 0});
   verb.flag("--details", options->details, "Say under each line what was compared with what");
   verb.flag("--json", options->json,
-            "One object a device: {\"device\",\"checks\":[{\"name\",\"figure\",\"tolerance\",\"unit\",\"pass\",\"detail\"}]}");
+            "One object a device: "
+            "{\"device\",\"checks\":[{\"name\",\"figure\",\"tolerance\",\"unit\",\"pass\",\"detail\"}]}");
   verb.work([options] { check_devices(*options); });
 }
 

@@ -19,52 +19,55 @@ namespace nephroid::cli {
 namespace {
 
 constexpr const char* summary =
-    "Nephroid is a caustics workbench: it renders, explores and designs the light that glass, water and mirrors throw. All that a run\n"
+    "Nephroid is a caustics workbench: it renders, explores and designs the light that glass, water and mirrors throw. "
+    "All that a run\n"
     "depends on is one JSON file, the preset. The window shows and edits it, `run` renders it.";
 constexpr const char* closing =
     "Without a verb the window opens. `nephroid VERB --help` explains a verb and has examples.\n"
     "Presets: `nephroid presets` lists those that come with the program, `nephroid schema` says what can be in one.\n"
-    "Docs: docs/README.md in the sources, share/doc/nephroid/README.md where it is installed. They begin with tours, a task each.\n"
+    "Docs: docs/README.md in the sources, share/doc/nephroid/README.md where it is installed. They begin with tours, a "
+    "task each.\n"
     "Exit codes: 0 done, 1 failed, 2 bad usage or bad input, 3 no usable device, 130 interrupted.";
 
-std::string description()
-{
-  std::vector<Example> list{{"nephroid first-light", "the window: a glass bunny and its caustic, to watch and to change"}};
+std::string description() {
+  std::vector<Example> list{
+      {"nephroid first-light", "the window: a glass bunny and its caustic, to watch and to change"}};
   for (const engine::Engine* engine : engine::engines())
     if (const engine::ShippedExample& shipped = engine->introduction.example; shipped.preset)
       list.push_back({fmt::format("nephroid run {}", shipped.preset), shipped.run});
   return fmt::format("{}\n\n{}\n", summary, examples(list));
 }
 
-std::vector<std::string> verb_names(const CLI::App& program)
-{
+std::vector<std::string> verb_names(const CLI::App& program) {
   std::vector<std::string> names;
-  for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; })) names.push_back(verb->get_name());
+  for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(verb->get_name());
   return names;
 }
 
-std::vector<std::string> option_names(const CLI::App& app)
-{
+std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   return names;
 }
 
-std::string did_you_mean(const std::string& name) { return name.empty() ? std::string() : fmt::format("did you mean '{}'?", name); }
+std::string did_you_mean(const std::string& name) {
+  return name.empty() ? std::string() : fmt::format("did you mean '{}'?", name);
+}
 
 /// The command line of whose parsing an error came: the verb where one was named, else the program itself.
-const CLI::App& erring_app(const CLI::App& program)
-{
+const CLI::App& erring_app(const CLI::App& program) {
   const std::vector<CLI::App*> verbs = program.get_subcommands();
   return verbs.empty() ? program : *verbs.front();
 }
 
-std::string help_command(const CLI::App& app) { return app.get_parent() ? "nephroid " + app.get_name() + " --help" : "nephroid --help"; }
+std::string help_command(const CLI::App& app) {
+  return app.get_parent() ? "nephroid " + app.get_name() + " --help" : "nephroid --help";
+}
 
 /// CLI11's errors in the program's own form, with the nearest name for what it does not know.
-Error usage_error(const CLI::App& program, const CLI::ParseError& error)
-{
+Error usage_error(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App& app = erring_app(program);
   const Place where = app.get_parent() ? app.get_name() : "";
   const std::string see = fmt::format("see {}", help_command(app));
@@ -72,20 +75,23 @@ Error usage_error(const CLI::App& program, const CLI::ParseError& error)
   for (const std::string& extra : extras) // before what is missing: a mistyped option often explains it
     if (extra.size() > 1 && extra.front() == '-') {
       const std::string name = extra.substr(0, extra.find('='));
-      return bad_input(where, fmt::format("unknown option '{}'", name), did_you_mean(nearest(name, option_names(app))), see);
+      return bad_input(where, fmt::format("unknown option '{}'", name), did_you_mean(nearest(name, option_names(app))),
+                       see);
     }
   std::string text = error.what();
-  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) { // "The following argument was not expected: WORDS"
+  if (error.get_exit_code() ==
+      static_cast<int>(CLI::ExitCodes::ExtrasError)) { // "The following argument was not expected: WORDS"
     const std::size_t words = text.find(": ");
-    return bad_input(where, fmt::format("unexpected argument '{}'", text.substr(words == std::string::npos ? 0 : words + 2)), {}, see);
+    return bad_input(where,
+                     fmt::format("unexpected argument '{}'", text.substr(words == std::string::npos ? 0 : words + 2)),
+                     {}, see);
   }
   while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
   return bad_input(where, text, {}, see);
 }
 
 /// `nephroid rum first-light`: a word that is no file, no shipped preset and nearly a verb was meant to be one.
-void refuse_mistyped_verb(const CLI::App& program, const std::string& word)
-{
+void refuse_mistyped_verb(const CLI::App& program, const std::string& word) {
   if (word.find_first_of("./") != std::string::npos || is_there(word)) return;
   std::vector<std::string> known = verb_names(program);
   known.insert(known.end(), {"help", "--version"});
@@ -95,16 +101,15 @@ void refuse_mistyped_verb(const CLI::App& program, const std::string& word)
   throw bad_input("", fmt::format("unknown verb '{}'", word), did_you_mean(verb), "see nephroid --help");
 }
 
-int open_window(const CLI::App& program, const Window& window, const std::vector<std::string>& files)
-{
+int open_window(const CLI::App& program, const Window& window, const std::vector<std::string>& files) {
   if (!files.empty()) refuse_mistyped_verb(program, files.front());
   if (window.open) return window.open(files);
   const std::string file = files.empty() ? "FILE" : files.front();
-  throw bad_input("", "this build has no window", {}, fmt::format("render with `nephroid run {}`; see nephroid --help", file));
+  throw bad_input("", "this build has no window", {},
+                  fmt::format("render with `nephroid run {}`; see nephroid --help", file));
 }
 
-int parse_and_run(int argc, const char* const* argv, const Window& window)
-{
+int parse_and_run(int argc, const char* const* argv, const Window& window) {
   Session session;
   std::vector<std::string> files;
   CLI::App program(description(), "nephroid");
@@ -115,9 +120,9 @@ int parse_and_run(int argc, const char* const* argv, const Window& window)
   program.require_subcommand(0, 1);
   program.add_option("FILE", files, "Open in the window: presets by path or shipped name");
   if (window.add_options) window.add_options(program);
-  for (const auto add :
-       {add_run, add_plan, add_dispersion, add_clusters, add_importance, add_segment, add_pictures, add_plate, add_compare, add_report,
-        add_presets, add_import, add_export, add_devices, add_check, add_schema, add_manual, add_completions, add_version})
+  for (const auto add : {add_run, add_plan, add_dispersion, add_clusters, add_importance, add_segment, add_pictures,
+                         add_plate, add_compare, add_report, add_presets, add_import, add_export, add_devices,
+                         add_check, add_schema, add_manual, add_completions, add_version})
     add(program, session);
   for (CLI::App* verb : program.get_subcommands({})) verb->group("Verbs");
   std::vector<std::string> words(argv + 1, argv + argc);
@@ -125,8 +130,8 @@ int parse_and_run(int argc, const char* const* argv, const Window& window)
     words.erase(words.begin());
     const std::vector<std::string> verbs = verb_names(program);
     if (!words.empty() && std::find(verbs.begin(), verbs.end(), words.front()) == verbs.end())
-      throw bad_input("help", fmt::format("unknown verb '{}'", words.front()), did_you_mean(nearest(words.front(), verbs)),
-                      "see nephroid help");
+      throw bad_input("help", fmt::format("unknown verb '{}'", words.front()),
+                      did_you_mean(nearest(words.front(), verbs)), "see nephroid help");
     words.emplace_back("--help");
   }
   std::reverse(words.begin(), words.end()); // CLI11 takes them from the end
@@ -141,23 +146,23 @@ int parse_and_run(int argc, const char* const* argv, const Window& window)
 }
 
 /// Results that cannot be written (a full disk, a closed pipe) are a failure, not silence.
-Error cannot_write_results(const std::error_code& reason)
-{
+Error cannot_write_results(const std::error_code& reason) {
   return failed("standard output", "cannot be written" + (reason ? ": " + reason.message() : std::string()));
 }
 
-void flush_results()
-{
+void flush_results() {
   errno = 0;
-  if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw cannot_write_results(std::error_code(errno, std::generic_category()));
+  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+    throw cannot_write_results(std::error_code(errno, std::generic_category()));
 }
 
-Error defect(const std::exception& error) { return failed("", error.what(), {}, "this is a defect of the program: please report it"); }
+Error defect(const std::exception& error) {
+  return failed("", error.what(), {}, "this is a defect of the program: please report it");
+}
 
 } // namespace
 
-int run_command_line(int argc, const char* const* argv, const Window& window)
-{
+int run_command_line(int argc, const char* const* argv, const Window& window) {
   const auto report = [](const Error& error) {
     std::fflush(stdout);
     fmt::print(stderr, "nephroid: {}\n", error.line());

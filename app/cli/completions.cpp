@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// `nephroid completions SHELL`: what a shell reads to complete verbs, options and their values, from the tables that --help prints. Names
-// of presets and devices are asked of the program when they are wanted. The build writes all three to share/.
+// `nephroid completions SHELL`: what a shell reads to complete verbs, options and their values, from the tables that
+// --help prints. Names of presets and devices are asked of the program when they are wanted. The build writes all three
+// to share/.
 #include "cli/verb.h"
 
 #include <CLI/CLI.hpp>
@@ -31,15 +32,14 @@ struct Values {
   Kind kind = Kind::nothing;
   std::string words = {}; ///< with spaces between them
 
-  std::string to(const char* ShellForms::*shell) const
-  {
+  std::string to(const char* ShellForms::*shell) const {
     return fmt::format(fmt::runtime(shell_forms[static_cast<int>(kind)].*shell), words);
   }
 };
 
-std::string replaced(std::string text, std::string_view from, std::string_view to)
-{
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
   return text;
 }
 
@@ -47,8 +47,7 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
 std::string plain(std::string text) { return replaced(replaced(std::move(text), "'", "’"), "\\", "/"); }
 
 /// As a spec of zsh takes it.
-std::string in_spec(const std::string& text)
-{
+std::string in_spec(const std::string& text) {
   std::string escaped;
   for (const char c : plain(text)) escaped += (c == '[' || c == ']' || c == ':' ? "\\" : "") + std::string(1, c);
   return escaped;
@@ -56,22 +55,21 @@ std::string in_spec(const std::string& text)
 
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
 
-Values values_of(const CLI::Option& option)
-{
+Values values_of(const CLI::Option& option) {
   if (is_flag(option)) return {};
   const std::string type = option.get_type_name(); // "FILE", or "TEXT:{even,draws}" where only these words will do
   const std::size_t open = type.find('{'), close = type.find('}');
   if (open != std::string::npos && close != std::string::npos)
     return {Kind::words, replaced(type.substr(open + 1, close - open - 1), ",", " ")};
-  if (option.get_positional()) return {option.get_description().find("preset") != std::string::npos ? Kind::presets : Kind::files};
+  if (option.get_positional())
+    return {option.get_description().find("preset") != std::string::npos ? Kind::presets : Kind::files};
   if (type == "SEL") return {Kind::devices};
   if (type == "DIR") return {Kind::folders};
   return {type == "FILE" ? Kind::files : Kind::nothing};
 }
 
 /// "-o" and "--output".
-std::vector<std::string> names_of(const CLI::Option& option)
-{
+std::vector<std::string> names_of(const CLI::Option& option) {
   std::vector<std::string> names;
   for (const std::string& name : option.get_snames()) names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
@@ -79,8 +77,7 @@ std::vector<std::string> names_of(const CLI::Option& option)
 }
 
 /// The arguments or the options of a verb, or of the program itself.
-std::vector<const CLI::Option*> options_of(const CLI::App& app, bool positional)
-{
+std::vector<const CLI::Option*> options_of(const CLI::App& app, bool positional) {
   std::vector<const CLI::Option*> options;
   for (const CLI::Option* option : app.get_options())
     if (option->get_positional() == positional) options.push_back(option);
@@ -88,16 +85,14 @@ std::vector<const CLI::Option*> options_of(const CLI::App& app, bool positional)
 }
 
 /// Of the first argument; the same for those that follow.
-Values argument_of(const CLI::App& app)
-{
+Values argument_of(const CLI::App& app) {
   const std::vector<const CLI::Option*> arguments = options_of(app, true);
   return arguments.empty() ? Values{} : values_of(*arguments.front());
 }
 
 std::vector<const CLI::App*> verbs_of(const CLI::App& program) { return program.get_subcommands({}); }
 
-std::string verb_list(const CLI::App& program)
-{
+std::string verb_list(const CLI::App& program) {
   std::string list = "help";
   for (const CLI::App* verb : verbs_of(program)) list += " " + verb->get_name();
   return list;
@@ -105,8 +100,7 @@ std::string verb_list(const CLI::App& program)
 
 // ---------------------------------------------------------------- bash
 
-void bash_case(const CLI::App& app)
-{
+void bash_case(const CLI::App& app) {
   std::string all;
   for (const CLI::Option* option : options_of(app, false)) {
     std::string pattern;
@@ -119,8 +113,7 @@ void bash_case(const CLI::App& app)
   fmt::print("      esac\n      options='{}' {} ;;\n", all, argument_of(app).to(&ShellForms::bash));
 }
 
-void print_bash(const CLI::App& program)
-{
+void print_bash(const CLI::App& program) {
   fmt::print("{}", R"(# What follows the word $1: sets kind, words, options.
 _nephroid_expected() {
   case $verb in
@@ -158,14 +151,14 @@ complete -o default -o bashdefault -F _nephroid nephroid
 
 // ---------------------------------------------------------------- zsh
 
-void zsh_arguments(const CLI::App& app)
-{
+void zsh_arguments(const CLI::App& app) {
   fmt::print("_arguments -s");
   for (const CLI::Option* option : options_of(app, false)) {
-    const std::string value = is_flag(*option)
-                                  ? ""
-                                  : fmt::format(":{}:{}", in_spec(option->get_lnames().empty() ? "value" : option->get_lnames().front()),
-                                                values_of(*option).to(&ShellForms::zsh));
+    const std::string value =
+        is_flag(*option)
+            ? ""
+            : fmt::format(":{}:{}", in_spec(option->get_lnames().empty() ? "value" : option->get_lnames().front()),
+                          values_of(*option).to(&ShellForms::zsh));
     for (const std::string& name : names_of(*option))
       fmt::print(" \\\n        '*{}[{}]{}'", name, in_spec(option->get_description()), value);
   }
@@ -174,8 +167,7 @@ void zsh_arguments(const CLI::App& app)
   fmt::print(" ;;\n");
 }
 
-void print_zsh(const CLI::App& program)
-{
+void print_zsh(const CLI::App& program) {
   fmt::print("{}", R"sh(_nephroid_presets() {
   local -a names=("${(@f)$(_call_program presets $_nephroid_program presets 2>/dev/null | sed 's/:/\\:/g; s/  */:/')}")
   _describe preset names
@@ -190,7 +182,8 @@ _nephroid() {
   local -a verbs=(
     'help:What a verb does'
 )sh");
-  for (const CLI::App* verb : verbs_of(program)) fmt::print("    '{}:{}'\n", verb->get_name(), in_spec(verb->get_description()));
+  for (const CLI::App* verb : verbs_of(program))
+    fmt::print("    '{}:{}'\n", verb->get_name(), in_spec(verb->get_description()));
   fmt::print("{}", R"sh(  )
   if (( CURRENT == 2 )); then
     _describe verb verbs
@@ -212,21 +205,20 @@ _nephroid() {
 
 // ---------------------------------------------------------------- fish
 
-void fish_lines(const CLI::App& app, const std::string& when)
-{
+void fish_lines(const CLI::App& app, const std::string& when) {
   const std::string start = fmt::format("complete -c nephroid -n '{}'", when);
   for (const CLI::Option* option : options_of(app, false)) {
     std::string names;
     for (const std::string& name : option->get_snames()) names += " -s " + name;
     for (const std::string& name : option->get_lnames()) names += " -l " + name;
-    fmt::print("{}{}{} -d '{}'\n", start, names, is_flag(*option) ? "" : " -r" + values_of(*option).to(&ShellForms::fish),
+    fmt::print("{}{}{} -d '{}'\n", start, names,
+               is_flag(*option) ? "" : " -r" + values_of(*option).to(&ShellForms::fish),
                plain(option->get_description()));
   }
   fmt::print("{}{}\n", start, argument_of(app).to(&ShellForms::fish));
 }
 
-void print_fish(const CLI::App& program)
-{
+void print_fish(const CLI::App& program) {
   fmt::print("{}", R"sh(function __nephroid_list
     set -l program (commandline -opc)[1]
     $program $argv 2>/dev/null | string replace -r '  +' \t
@@ -239,7 +231,8 @@ end
   const std::string none = "not __nephroid_verb " + verb_list(program);
   fmt::print("complete -c nephroid -n __fish_is_first_token -a help -d 'What a verb does'\n");
   for (const CLI::App* verb : verbs_of(program))
-    fmt::print("complete -c nephroid -n __fish_is_first_token -a {} -d '{}'\n", verb->get_name(), plain(verb->get_description()));
+    fmt::print("complete -c nephroid -n __fish_is_first_token -a {} -d '{}'\n", verb->get_name(),
+               plain(verb->get_description()));
   fmt::print("complete -c nephroid -n '__nephroid_verb help' -f -a '{}'\n", verb_list(program));
   for (const CLI::App* verb : verbs_of(program)) fish_lines(*verb, "__nephroid_verb " + verb->get_name());
   fish_lines(program, none);
@@ -247,8 +240,7 @@ end
 
 } // namespace
 
-void add_completions(CLI::App& program, Session&)
-{
+void add_completions(CLI::App& program, Session&) {
   const auto shell = std::make_shared<std::string>();
   Verb verb(program, "completions", "What a shell completes: verbs, options, presets, devices",
             {{"nephroid completions bash > nephroid.bash", "then `source nephroid.bash`"}},

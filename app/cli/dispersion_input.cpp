@@ -13,8 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The names of the shipped materials.
-std::vector<std::string> shipped_materials()
-{
+std::vector<std::string> shipped_materials() {
   std::vector<std::string> names;
   const fs::path presets = presets_folder_if_any();
   if (presets.empty()) return names;
@@ -25,8 +24,7 @@ std::vector<std::string> shipped_materials()
   return names;
 }
 
-fs::path find_file(const std::string& name)
-{
+fs::path find_file(const std::string& name) {
   if (is_there(name)) return name;
   try {
     return scene::find_dispersion(name, FileFinder(), name);
@@ -39,23 +37,24 @@ fs::path find_file(const std::string& name)
 
 } // namespace
 
-bool is_dispersion(const std::string& name)
-{
+bool is_dispersion(const std::string& name) {
   const std::vector<std::string> materials = shipped_materials();
   return fs::path(name).extension() == ".yml" || std::find(materials.begin(), materials.end(), name) != materials.end();
 }
 
 optics::DispersionCurve find_dispersion(const std::string& name) { return optics::load_dispersion(find_file(name)); }
 
-void add_outside_option(Verb& verb, std::string& chosen)
-{
+void add_outside_option(Verb& verb, std::string& chosen) {
   chosen = "automatic";
   verb.option("--outside", chosen,
               {.type = "POLICY",
-               .says = "Outside the data's range: hold its end, extrapolate, or refuse; default: extrapolate a formula, hold a table",
+               .says = "Outside the data's range: hold its end, extrapolate, or refuse; default: extrapolate a "
+                       "formula, hold a table",
                .words = words_of<preset::Extrapolation>()});
 }
 
-optics::Extrapolation outside_policy(const std::string& chosen) { return scene::outside_policy(chosen_of<preset::Extrapolation>(chosen)); }
+optics::Extrapolation outside_policy(const std::string& chosen) {
+  return scene::outside_policy(chosen_of<preset::Extrapolation>(chosen));
+}
 
 } // namespace nephroid::cli

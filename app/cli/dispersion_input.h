@@ -18,20 +18,19 @@ bool is_dispersion(const std::string& name);
 
 /// The words of an enumeration of presets, as an option takes them.
 template <preset::Enumeration E>
-std::vector<std::string> words_of()
-{
+std::vector<std::string> words_of() {
   std::vector<std::string> words;
   for (const auto& choice : preset::choices<E>) words.emplace_back(choice.name);
   return words;
 }
 /// word: one of them.
 template <preset::Enumeration E>
-E chosen_of(const std::string& word)
-{
+E chosen_of(const std::string& word) {
   return std::ranges::find(preset::choices<E>, word, &preset::Choice<E>::name)->value;
 }
 
-/// --outside hold|extrapolate|refuse; chosen is read back by outside_policy after parsing and is "automatic" without the option.
+/// --outside hold|extrapolate|refuse; chosen is read back by outside_policy after parsing and is "automatic" without
+/// the option.
 void add_outside_option(Verb& verb, std::string& chosen);
 optics::Extrapolation outside_policy(const std::string& chosen);
 

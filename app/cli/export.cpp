@@ -37,13 +37,14 @@ struct ExportOptions {
 preset::Preset still(preset::Preset preset) { return preset.animation ? preset::at_frame(preset, 0) : preset; }
 
 /// Of engine 1, whatever engine it is of, with photons on matt surfaces and nothing else.
-preset::Preset caustics_only(const ExportOptions& options, const preset::Preset& asked)
-{
+preset::Preset caustics_only(const ExportOptions& options, const preset::Preset& asked) {
   preset::Overrides overrides = options.run.overrides;
-  for (const char* more : {"engine=spectral", "spectral.direct=false", "spectral.background=false", "spectral.indirect=false",
-                           "spectral.caustic=true", "spectral.relight=false", "spectral.estimator=splat"})
+  for (const char* more :
+       {"engine=spectral", "spectral.direct=false", "spectral.background=false", "spectral.indirect=false",
+        "spectral.caustic=true", "spectral.relight=false", "spectral.estimator=splat"})
     overrides.emplace_back(more);
-  if (asked.settings.type().name != "spectral" && asked.scene.environment) overrides.emplace_back("scene.environment.lights=true");
+  if (asked.settings.type().name != "spectral" && asked.scene.environment)
+    overrides.emplace_back("scene.environment.lights=true");
   preset::Preset preset = still(preset::read_preset(options.run.preset, overrides));
   preset.white = 1; // whatever an animation says
   preset.reference.reset();
@@ -52,40 +53,44 @@ preset::Preset caustics_only(const ExportOptions& options, const preset::Preset&
   return preset;
 }
 
-std::string name_of(const scene::Scene& scene, const formats::Receiver& receiver)
-{
+std::string name_of(const scene::Scene& scene, const formats::Receiver& receiver) {
   return scene.objects[static_cast<std::size_t>(receiver.object)].name;
 }
 
 /// Those that are asked for, or all.
-std::vector<formats::Receiver> chosen(const ExportOptions& options, const scene::Scene& scene)
-{
+std::vector<formats::Receiver> chosen(const ExportOptions& options, const scene::Scene& scene) {
   std::vector<formats::Receiver> all = formats::receivers_of(scene);
   std::vector<std::string> names;
   for (const formats::Receiver& receiver : all) names.push_back(name_of(scene, receiver));
-  if (all.empty()) throw bad_input(options.run.preset, "has no flat matt object", "expected one that a caustic can fall on");
+  if (all.empty())
+    throw bad_input(options.run.preset, "has no flat matt object", "expected one that a caustic can fall on");
   const std::vector<std::string>& wanted = options.receivers;
   for (const std::string& name : wanted)
     if (std::ranges::count(names, name) == 0)
       throw bad_input("--receiver", fmt::format("no flat matt object is called '{}'", name),
                       fmt::format("one of: {}", fmt::join(names, ", ")));
   if (!wanted.empty())
-    std::erase_if(all, [&](const formats::Receiver& receiver) { return std::ranges::count(wanted, name_of(scene, receiver)) == 0; });
+    std::erase_if(all, [&](const formats::Receiver& receiver) {
+      return std::ranges::count(wanted, name_of(scene, receiver)) == 0;
+    });
   return all;
 }
 
-std::string no_photons(const plan::Plan& plan) { return std::ranges::find(plan.passes, "photons", &plan::Pass::name)->reason; }
+std::string no_photons(const plan::Plan& plan) {
+  return std::ranges::find(plan.passes, "photons", &plan::Pass::name)->reason;
+}
 
 /// Nothing where no light falls on the receiver.
-std::optional<formats::Caustic> caustic_on(const ExportOptions& options, const run::Prepared& prepared, const formats::Receiver& receiver,
-                                           const compute::Context& context, const std::stop_token& interrupted)
-{
+std::optional<formats::Caustic> caustic_on(const ExportOptions& options, const run::Prepared& prepared,
+                                           const formats::Receiver& receiver, const compute::Context& context,
+                                           const std::stop_token& interrupted) {
   const std::string name = name_of(prepared.loaded->scene, receiver);
-  const run::Prepared lit =
-      run::with_scene(prepared, formats::irradiance_view(prepared.loaded->scene, receiver, options.size), "choose a smaller --size");
+  const run::Prepared lit = run::with_scene(
+      prepared, formats::irradiance_view(prepared.loaded->scene, receiver, options.size), "choose a smaller --size");
   ProgressDisplay display(progress_style(false), {name, prepared.preset.name}, {});
   const job::Snapshot last = run::render_picture(lit, context, [&](const job::Progress& progress) {
-    if (interrupted.stop_requested()) throw Error(ErrorKind::interrupted, "export", "was interrupted", "nothing is written");
+    if (interrupted.stop_requested())
+      throw Error(ErrorKind::interrupted, "export", "was interrupted", "nothing is written");
     display.update(progress);
     return true;
   });
@@ -95,15 +100,17 @@ std::optional<formats::Caustic> caustic_on(const ExportOptions& options, const r
   return caustic;
 }
 
-void export_scene(const ExportOptions& options, const std::stop_token& interrupted)
-{
+void export_scene(const ExportOptions& options, const std::stop_token& interrupted) {
   const preset::Preset asked = still(preset::read_preset(options.run.preset, options.run.overrides));
   const engine::Engine& engine = engine::engine_of(asked);
   if (!engine.has_scene)
-    throw bad_input(asked.source, fmt::format("is of the engine '{}', which makes its glass only when it runs", engine::name_of(engine)),
-                    {}, fmt::format("run it first, then export {} of its folder", engine.introduction.result.file));
-  const fs::path folder =
-      options.run.folder.empty() ? fs::path("out") / (preset::stem_of(options.run.preset) + "-export") : options.run.folder;
+    throw bad_input(
+        asked.source,
+        fmt::format("is of the engine '{}', which makes its glass only when it runs", engine::name_of(engine)), {},
+        fmt::format("run it first, then export {} of its folder", engine.introduction.result.file));
+  const fs::path folder = options.run.folder.empty()
+                              ? fs::path("out") / (preset::stem_of(options.run.preset) + "-export")
+                              : options.run.folder;
   const preset::Preset preset = caustics_only(options, asked);
   preset::at_origins(preset, [&] {
     const Watch watch{interrupted, {}};
@@ -123,7 +130,8 @@ void export_scene(const ExportOptions& options, const std::stop_token& interrupt
       else
         notes.push_back(fmt::format("'{}' has no picture: no light comes to it through glass or from a mirror",
                                     name_of(prepared.loaded->scene, receiver)));
-    std::ranges::move(formats::write_export(folder, prepared.loaded->scene, asked, caustics, white), std::back_inserter(notes));
+    std::ranges::move(formats::write_export(folder, prepared.loaded->scene, asked, caustics, white),
+                      std::back_inserter(notes));
     for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
     for (const formats::Caustic& caustic : caustics)
       fmt::print("{}: {:.4g} luminous watts on '{}'\n", (folder / caustic.file).string(), caustic.watts,
@@ -134,22 +142,28 @@ void export_scene(const ExportOptions& options, const std::stop_token& interrupt
 
 } // namespace
 
-void add_export(CLI::App& program, Session&)
-{
+void add_export(CLI::App& program, Session&) {
   const auto options = std::make_shared<ExportOptions>();
-  Verb verb(program, "export", "A scene with its caustics for Blender and other renderers: glTF and pictures of irradiance",
-            {{"nephroid export first-light --receiver floor --seconds 4", "writes out/first-light-export"}},
-            "scene.glb holds meshes, materials, the camera, lamps, and each caustic as light that its receiver sends out.\n"
-            "caustic-N-NAME.exr is what falls on a flat matt object through glass and by way of mirrors, in luminous W/m^2.\n"
-            "blender.py puts all of it together: blender --python out/first-light-export/blender.py");
-  verb.option("PRESET", options->run.preset, {.says = "A preset file or the name of a shipped preset", .required = true});
-  verb.option("-o,--output", options->run.folder, {.type = "DIR", .says = "Folder for the files (default out/NAME-export)"});
+  Verb verb(
+      program, "export", "A scene with its caustics for Blender and other renderers: glTF and pictures of irradiance",
+      {{"nephroid export first-light --receiver floor --seconds 4", "writes out/first-light-export"}},
+      "scene.glb holds meshes, materials, the camera, lamps, and each caustic as light that its receiver sends out.\n"
+      "caustic-N-NAME.exr is what falls on a flat matt object through glass and by way of mirrors, in luminous W/m^2.\n"
+      "blender.py puts all of it together: blender --python out/first-light-export/blender.py");
+  verb.option("PRESET", options->run.preset,
+              {.says = "A preset file or the name of a shipped preset", .required = true});
+  verb.option("-o,--output", options->run.folder,
+              {.type = "DIR", .says = "Folder for the files (default out/NAME-export)"});
   verb.overrides(options->run.overrides);
-  verb.option("--receiver", options->receivers,
-              {.type = "NAME", .says = "Only this flat matt object's caustic; may be repeated (default: of all there are)"});
-  verb.option("--size", options->size, {.type = "N", .says = "Pixels of a picture's longer edge (default 1024)", .from = 1, .to = 16384});
-  verb.option("--seconds", options->seconds, {.type = "S", .says = "Work for each picture (default 30)", .from = 0.001, .to = 1e9});
-  verb.option("--device", options->run.device.selector, {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
+  verb.option(
+      "--receiver", options->receivers,
+      {.type = "NAME", .says = "Only this flat matt object's caustic; may be repeated (default: of all there are)"});
+  verb.option("--size", options->size,
+              {.type = "N", .says = "Pixels of a picture's longer edge (default 1024)", .from = 1, .to = 16384});
+  verb.option("--seconds", options->seconds,
+              {.type = "S", .says = "Work for each picture (default 30)", .from = 0.001, .to = 1e9});
+  verb.option("--device", options->run.device.selector,
+              {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
   verb.work([options] {
     const Interrupts interrupts; // before OpenCL starts its threads
     export_scene(*options, interrupts.token());

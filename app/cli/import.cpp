@@ -17,9 +17,9 @@ struct ImportOptions {
   bool replace = false;
 };
 
-void import_scene(const ImportOptions& options)
-{
-  const fs::path preset = options.output.empty() ? fs::path(options.file.filename()).replace_extension(".json") : options.output;
+void import_scene(const ImportOptions& options) {
+  const fs::path preset =
+      options.output.empty() ? fs::path(options.file.filename()).replace_extension(".json") : options.output;
   if (!options.replace && is_there(preset))
     throw bad_input(preset.string(), "is there already", {}, "choose another file with -o, or --replace it");
   const formats::Imported imported = formats::import_scene(options.file, preset);
@@ -29,12 +29,12 @@ void import_scene(const ImportOptions& options)
 
 } // namespace
 
-void add_import(CLI::App& program, Session&)
-{
+void add_import(CLI::App& program, Session&) {
   const auto options = std::make_shared<ImportOptions>();
   Verb verb(program, "import", "A preset from a glTF, Mitsuba or PBRT scene: meshes, camera, lights, materials",
             {{"nephroid import scene.gltf", "writes scene.json"}, {"nephroid run scene.json --seconds 10", ""}},
-            "Takes .gltf, .glb, .xml of Mitsuba and .pbrt. Meshes become PLY files in a folder beside the preset. What has no counterpart "
+            "Takes .gltf, .glb, .xml of Mitsuba and .pbrt. Meshes become PLY files in a folder beside the preset. What "
+            "has no counterpart "
             "is left out and said\n"
             "on standard error. Standard output has the preset's file: nephroid run takes it.");
   verb.option("FILE", options->file, {.says = "The scene", .required = true});

@@ -20,8 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void print_presets(bool json)
-{
+void print_presets(bool json) {
   const std::vector<preset::ShippedPreset> presets = preset::shipped_presets();
   if (json) {
     Json list = Json::array();
@@ -35,8 +34,7 @@ void print_presets(bool json)
   for (const preset::ShippedPreset& p : presets) fmt::print("{:{}}  {}\n", p.name, width, p.description);
 }
 
-Json to_json(const compute::DeviceInfo& device)
-{
+Json to_json(const compute::DeviceInfo& device) {
   return {{"index", device.index},
           {"name", device.name},
           {"type", device.type},
@@ -51,9 +49,9 @@ Json to_json(const compute::DeviceInfo& device)
           {"int64_atomics", device.int64_atomics}};
 }
 
-void print_devices(bool json)
-{
-  if (const std::string note = compute::prepare_kernel_cache(); !note.empty()) fmt::print(stderr, "nephroid: {}\n", note);
+void print_devices(bool json) {
+  if (const std::string note = compute::prepare_kernel_cache(); !note.empty())
+    fmt::print(stderr, "nephroid: {}\n", note);
   const std::vector<compute::DeviceInfo> devices = compute::list_devices();
   if (devices.empty()) throw compute::no_device_error();
   if (json) {
@@ -68,15 +66,14 @@ void print_devices(bool json)
 std::string dotted(int major, int minor, int patch) { return fmt::format("{}.{}.{}", major, minor, patch); }
 
 /// Libraries whose headers are compiled in; the versions of the others are their packages'.
-std::map<std::string, std::string> libraries()
-{
-  return {{"CLI11", CLI11_VERSION},
-          {"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
-          {"nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)}};
+std::map<std::string, std::string> libraries() {
+  return {
+      {"CLI11", CLI11_VERSION},
+      {"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+      {"nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)}};
 }
 
-void print_version(bool json)
-{
+void print_version(bool json) {
   const std::map<std::string, std::string> used = libraries();
   if (json) {
     const Json all{{"version", version()}, {"commit", commit()}, {"compiler", compiler()}, {"libraries", used}};
@@ -88,8 +85,7 @@ void print_version(bool json)
 }
 
 /// A verb without other options than --json, which says `json`.
-void list_verb(Verb&& verb, const char* json, void (*print)(bool json))
-{
+void list_verb(Verb&& verb, const char* json, void (*print)(bool json)) {
   const auto as_json = std::make_shared<bool>(false);
   verb.flag("--json", *as_json, json);
   verb.work([as_json, print] { print(*as_json); });
@@ -97,39 +93,37 @@ void list_verb(Verb&& verb, const char* json, void (*print)(bool json))
 
 } // namespace
 
-std::string device_line(const compute::DeviceInfo& device)
-{
+std::string device_line(const compute::DeviceInfo& device) {
   return fmt::format("{}  {}  ({}, {}, {:.1f} GB, {} {}{}{})", device.index, device.name, device.type,
-                     counted(device.compute_units, "compute unit"), static_cast<double>(device.memory_bytes) * 1e-9, device.platform,
-                     device.driver, device.fp64 ? "" : ", no fp64", device.int64_atomics ? "" : ", no 64-bit atomics");
+                     counted(device.compute_units, "compute unit"), static_cast<double>(device.memory_bytes) * 1e-9,
+                     device.platform, device.driver, device.fp64 ? "" : ", no fp64",
+                     device.int64_atomics ? "" : ", no 64-bit atomics");
 }
 
-void add_presets(CLI::App& program, Session&)
-{
+void add_presets(CLI::App& program, Session&) {
   list_verb({program,
              "presets",
              "The shipped presets, with a line each",
-             {{"nephroid presets", "their names; `nephroid run NAME` renders one"}, {"nephroid presets --json", "with the file of each"}}},
+             {{"nephroid presets", "their names; `nephroid run NAME` renders one"},
+              {"nephroid presets --json", "with the file of each"}}},
             "A list of {\"name\",\"description\",\"file\"}", print_presets);
 }
 
-void add_devices(CLI::App& program, Session&)
-{
+void add_devices(CLI::App& program, Session&) {
   list_verb({program, "devices", "The OpenCL devices that --device chooses from", {{"nephroid devices", ""}}},
             "One object: {\"devices\":[{\"index\",\"name\",\"type\",...}]}", print_devices);
 }
 
-void add_schema(CLI::App& program, Session&)
-{
-  Verb verb(program, "schema", "The JSON Schema of preset files, for editors",
-            {{"nephroid schema > schema.json", "name it as \"$schema\" in a preset, and an editor completes its keys"}});
+void add_schema(CLI::App& program, Session&) {
+  Verb verb(
+      program, "schema", "The JSON Schema of preset files, for editors",
+      {{"nephroid schema > schema.json", "name it as \"$schema\" in a preset, and an editor completes its keys"}});
   verb.work([] { fmt::print("{}\n", preset::schema()); });
 }
 
-void add_version(CLI::App& program, Session&)
-{
-  list_verb({program, "version", "The program's version, commit, compiler and libraries", {{"nephroid version", ""}}}, "One JSON object",
-            print_version);
+void add_version(CLI::App& program, Session&) {
+  list_verb({program, "version", "The program's version, commit, compiler and libraries", {{"nephroid version", ""}}},
+            "One JSON object", print_version);
 }
 
 } // namespace nephroid::cli

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `nephroid manual`: the man page, as roff, from the texts that --help prints. The build writes it to share/man/man1/nephroid.1.
+// `nephroid manual`: the man page, as roff, from the texts that --help prints. The build writes it to
+// share/man/man1/nephroid.1.
 #include "base/build_info.h"
 #include "cli/verb.h"
 
@@ -12,9 +13,9 @@
 namespace nephroid::cli {
 namespace {
 
-/// Text as roff takes it: a backslash and a hyphen that is a minus are escaped, and no line begins with a control character.
-std::string roff(std::string_view text)
-{
+/// Text as roff takes it: a backslash and a hyphen that is a minus are escaped, and no line begins with a control
+/// character.
+std::string roff(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
     if ((c == '.' || c == '\'') && (escaped.empty() || escaped.back() == '\n')) escaped += "\\&";
@@ -24,8 +25,7 @@ std::string roff(std::string_view text)
 }
 
 /// A text of a help: its paragraphs, and lines that are indented, such as examples, as they stand.
-void print_text(const std::string& text)
-{
+void print_text(const std::string& text) {
   std::istringstream lines(text);
   bool literal = false;
   for (std::string line; std::getline(lines, line);) {
@@ -40,18 +40,16 @@ void print_text(const std::string& text)
   if (literal) fmt::print(".RE\n.fi\n");
 }
 
-void print_options(const CLI::App& app, bool positional)
-{
+void print_options(const CLI::App& app, bool positional) {
   const CLI::Formatter format;
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_positional() != positional) continue;
-    fmt::print(".TP\n\\fB{}\\fR{}\n{}\n", roff(format.make_option_name(option, positional)), roff(format.make_option_opts(option)),
-               roff(option->get_description()));
+    fmt::print(".TP\n\\fB{}\\fR{}\n{}\n", roff(format.make_option_name(option, positional)),
+               roff(format.make_option_opts(option)), roff(option->get_description()));
   }
 }
 
-std::string usage(const CLI::App& app)
-{
+std::string usage(const CLI::App& app) {
   const CLI::Formatter format;
   std::string line = "\\fBnephroid";
   line += app.get_parent() ? " " + app.get_name() + "\\fR" : "\\fR";
@@ -61,8 +59,7 @@ std::string usage(const CLI::App& app)
   return line;
 }
 
-void print_manual(const CLI::App& program)
-{
+void print_manual(const CLI::App& program) {
   fmt::print(".\\\" Made by `nephroid manual`. Do not edit.\n");
   fmt::print(".TH NEPHROID 1 \"\" \"{}\" \"User commands\"\n", roff(program_name()));
   fmt::print(".SH NAME\nnephroid \\- a caustics workbench\n");
@@ -90,9 +87,9 @@ void print_manual(const CLI::App& program)
 
 } // namespace
 
-void add_manual(CLI::App& program, Session&)
-{
-  Verb verb(program, "manual", "The man page of this program, as roff", {{"nephroid manual > nephroid.1", "then `man -l nephroid.1`"}});
+void add_manual(CLI::App& program, Session&) {
+  Verb verb(program, "manual", "The man page of this program, as roff",
+            {{"nephroid manual > nephroid.1", "then `man -l nephroid.1`"}});
   verb.work([&program] { print_manual(program); });
 }
 

@@ -17,8 +17,7 @@ struct PlanOptions {
   bool json = false;
 };
 
-void print_plans(const PlanOptions& options)
-{
+void print_plans(const PlanOptions& options) {
   const std::vector<preset::Preset> presets = preset::read_presets(options.preset, options.overrides);
   for (const preset::Preset& preset : presets) {
     const auto prepared_plan = preset::at_origins(preset, [&] { return run::prepare(preset).plan; });
@@ -30,12 +29,11 @@ void print_plans(const PlanOptions& options)
 
 } // namespace
 
-void add_plan(CLI::App& program, Session&)
-{
+void add_plan(CLI::App& program, Session&) {
   const auto options = std::make_shared<PlanOptions>();
-  Verb verb(
-      program, "plan", "What a preset would run, what is left out and why, and the memory it takes",
-      {{"nephroid plan first-light", ""}, {"nephroid plan first-light --set leave_out=false", "what would run if nothing were left out"}});
+  Verb verb(program, "plan", "What a preset would run, what is left out and why, and the memory it takes",
+            {{"nephroid plan first-light", ""},
+             {"nephroid plan first-light --set leave_out=false", "what would run if nothing were left out"}});
   verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset", .required = true});
   verb.overrides(options->overrides);
   verb.flag("--json", options->json, "One JSON object a run, a line each, instead of text");

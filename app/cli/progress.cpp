@@ -19,61 +19,54 @@
 namespace nephroid::cli {
 namespace {
 
-std::chrono::milliseconds rhythm(ProgressStyle style)
-{
+std::chrono::milliseconds rhythm(ProgressStyle style) {
   return std::chrono::milliseconds(style == ProgressStyle::live ? 100 : style == ProgressStyle::json ? 500 : 3000);
 }
 
-int terminal_columns()
-{
+int terminal_columns() {
   winsize size{};
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
 /// "0:07", "12:30", "3:00:00"
-std::string clock_time(double seconds)
-{
+std::string clock_time(double seconds) {
   const auto whole = static_cast<long long>(std::min(std::round(seconds), 1e9));
   if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
 /// "pass 3 of 28": the one in hand, and after the last one that.
-std::string pass_text(const job::Progress& now)
-{
+std::string pass_text(const job::Progress& now) {
   if (now.steps < 0) return fmt::format("{} {}", now.units.step, now.step + 1);
   return fmt::format("{} {} of {}", now.units.step, std::min(now.step + 1, now.steps), now.steps);
 }
 
-std::string bar(double fraction, int width)
-{
+std::string bar(double fraction, int width) {
   const int done = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * width);
   return std::string(static_cast<std::size_t>(done), '#') + std::string(static_cast<std::size_t>(width - done), '-');
 }
 
 } // namespace
 
-ProgressStyle progress_style(bool json)
-{
+ProgressStyle progress_style(bool json) {
   if (json) return ProgressStyle::json;
   const char* terminal = std::getenv("TERM");
   const bool moves = terminal && std::string_view(terminal) != "dumb";
   return ::isatty(STDERR_FILENO) && moves ? ProgressStyle::live : ProgressStyle::lines;
 }
 
-std::string progress_line(const std::string& label, const job::Progress& now, const job::Pace& pace, int columns)
-{
+std::string progress_line(const std::string& label, const job::Progress& now, const job::Pace& pace, int columns) {
   std::string figures = fmt::format("{:3.0f} %  {}", std::floor(now.fraction * 100), pass_text(now));
   if (pace.work_per_second > 0) figures += "  " + job::rate_text(pace, now.units);
   if (pace.seconds_left >= 0) figures += fmt::format("  {} left", clock_time(pace.seconds_left));
   const int room = columns - static_cast<int>(label.size() + figures.size()) - 6;
-  std::string line = room >= 5 ? fmt::format("{}  [{}]  {}", label, bar(now.fraction, std::min(room, 30)), figures) : figures;
+  std::string line =
+      room >= 5 ? fmt::format("{}  [{}]  {}", label, bar(now.fraction, std::min(room, 30)), figures) : figures;
   line.resize(std::min(line.size(), static_cast<std::size_t>(std::max(columns, 1))));
   return line;
 }
 
-std::string progress_json(const ProgressSubject& subject, const job::Progress& now, const job::Pace& pace)
-{
+std::string progress_json(const ProgressSubject& subject, const job::Progress& now, const job::Pace& pace) {
   const nlohmann::ordered_json all{
       {"type", "progress"},
       {"name", subject.run},
@@ -88,40 +81,34 @@ std::string progress_json(const ProgressSubject& subject, const job::Progress& n
   return json_text(all);
 }
 
-void LiveLine::show(const std::string& text)
-{
+void LiveLine::show(const std::string& text) {
   fmt::print(stderr, "\r{}\033[K", text);
   std::fflush(stderr);
   is_shown_ = true;
 }
 
-void LiveLine::clear()
-{
+void LiveLine::clear() {
   if (!std::exchange(is_shown_, false)) return;
   fmt::print(stderr, "\r\033[K");
   std::fflush(stderr);
 }
 
-ProgressDisplay::ProgressDisplay(ProgressStyle style, ProgressSubject subject, const job::Progress& start, Clock::time_point time)
-    : style_(style), subject_(std::move(subject)), start_(start), next_(time + rhythm(style))
-{
-}
+ProgressDisplay::ProgressDisplay(ProgressStyle style, ProgressSubject subject, const job::Progress& start,
+                                 Clock::time_point time)
+    : style_(style), subject_(std::move(subject)), start_(start), next_(time + rhythm(style)) {}
 
-void ProgressDisplay::update(const job::Progress& now, Clock::time_point time)
-{
+void ProgressDisplay::update(const job::Progress& now, Clock::time_point time) {
   if (time < next_) return;
   show(now);
   next_ = time + rhythm(style_);
 }
 
-void ProgressDisplay::finish(const job::Progress& now)
-{
+void ProgressDisplay::finish(const job::Progress& now) {
   clear();
   if (style_ == ProgressStyle::json) show(now);
 }
 
-void ProgressDisplay::show(const job::Progress& now)
-{
+void ProgressDisplay::show(const job::Progress& now) {
   const job::Pace pace = job::pace_between(start_, now);
   if (style_ == ProgressStyle::json) {
     fmt::print("{}\n", progress_json(subject_, now, pace));

@@ -22,7 +22,8 @@ struct ProgressSubject {
 
 /// "first-light  [#####-----]  51 %  pass 26 of 50  1.21 M photons/s  0:07 left", at most `columns` wide.
 std::string progress_line(const std::string& label, const job::Progress& now, const job::Pace& pace, int columns);
-/// {"type":"progress","name","stage","fraction","step","steps","photons","work_seconds","photons_per_second","seconds_left"}
+/// {"type":"progress","name","stage","fraction","step","steps","photons","work_seconds",
+///  "photons_per_second","seconds_left"}
 std::string progress_json(const ProgressSubject& subject, const job::Progress& now, const job::Pace& pace);
 
 /// A line on standard error that is written again and again.
@@ -43,7 +44,8 @@ private:
 class ProgressDisplay {
 public:
   using Clock = std::chrono::steady_clock;
-  ProgressDisplay(ProgressStyle style, ProgressSubject subject, const job::Progress& start, Clock::time_point time = Clock::now());
+  ProgressDisplay(ProgressStyle style, ProgressSubject subject, const job::Progress& start,
+                  Clock::time_point time = Clock::now());
   void update(const job::Progress& now, Clock::time_point time = Clock::now());
   /// The last state at once, whatever the rhythm.
   void finish(const job::Progress& now);

@@ -5,15 +5,15 @@
 #include "base/interrupts.h"
 #include "cli/run_target.h"
 #include "cli/verb.h"
+#include "mpi/ranks.h"
 #include "preset/animation.h"
 #include "preset/check.h"
 #include "preset/origins.h"
 #include "preset/read.h"
+#include "report/report.h"
 #include "run/exposure.h"
 #include "run/folder.h"
 #include "run/prepare.h"
-#include "report/report.h"
-#include "mpi/ranks.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,15 +27,13 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A file's name has at most 255 bytes, and a folder at times a longer one beside it.
-std::string run_folder(const std::string& varies, std::size_t number)
-{
+std::string run_folder(const std::string& varies, std::size_t number) {
   constexpr std::size_t most = 200;
   return varies.size() <= most ? varies : fmt::format("{}..,{:03}", varies.substr(0, most), number);
 }
 
 /// In the order of the sweep, for the report: names alone put 10 before 2. There is a folder once a run has one.
-void write_order(const std::vector<Target>& targets)
-{
+void write_order(const std::vector<Target>& targets) {
   const fs::path folder = targets.front().folder.parent_path();
   if (targets.size() == 1 || !is_there(folder)) return;
   nlohmann::ordered_json order{{"runs", nlohmann::ordered_json::array()}};
@@ -44,8 +42,7 @@ void write_order(const std::vector<Target>& targets)
 }
 
 /// The runs to do: one, or those of a sweep, each in a folder that is called by what varies.
-std::vector<Target> targets_of(const RunOptions& options)
-{
+std::vector<Target> targets_of(const RunOptions& options) {
   std::vector<preset::Preset> presets = preset::read_presets(options.preset, options.overrides);
   const std::string stem = preset::stem_of(options.preset);
   const fs::path folder = options.folder.empty() ? fs::path("out") / stem : options.folder;
@@ -72,17 +69,16 @@ std::vector<Target> targets_of(const RunOptions& options)
 }
 
 /// Rounded to the milliseconds that their files' names have.
-void put_in_order(std::vector<double>& times)
-{
+void put_in_order(std::vector<double>& times) {
   std::set<double> sorted;
   for (const double time : times) sorted.insert(std::round(time * 1000) / 1000);
   times.assign(sorted.begin(), sorted.end());
 }
 
-/// Puts a number in place of "auto": rank 0's. The runs of a sweep and the frames of an animation have that of the first, so that their
-/// pictures can be compared; a run that goes on has its own.
-void fit_white(const RunOptions& options, Target& target, const std::stop_token& interrupted, RunSeries& series, const Communicator& communicator)
-{
+/// Puts a number in place of "auto": rank 0's. The runs of a sweep and the frames of an animation have that of the
+/// first, so that their pictures can be compared; a run that goes on has its own.
+void fit_white(const RunOptions& options, Target& target, const std::stop_token& interrupted, RunSeries& series,
+               const Communicator& communicator) {
   if (target.preset.white) return;
   if (communicator.is_root()) {
     if (const auto own = options.resume ? run::white_of_run(target.folder) : std::nullopt) series.white = own;
@@ -97,15 +93,17 @@ void fit_white(const RunOptions& options, Target& target, const std::stop_token&
   target.preset.white = communicator.broadcast(series.white);
 }
 
-void run_one(const RunOptions& options, Target& target, const std::stop_token& interrupted, RunSeries& series)
-{
+void run_one(const RunOptions& options, Target& target, const std::stop_token& interrupted, RunSeries& series) {
   const Communicator communicator(series.ranks);
   fit_white(options, target, interrupted, series, communicator);
   if (target.preset.animation) return render_animation(options, target, interrupted, series);
-  if (!options.frames.empty()) throw bad_input("--frames", "the preset has no animation", "expected one with the section 'animation'");
-  const auto done = options.resume && communicator.is_root() ? run::finished_run(target.folder, target.preset) : std::nullopt;
+  if (!options.frames.empty())
+    throw bad_input("--frames", "the preset has no animation", "expected one with the section 'animation'");
+  const auto done =
+      options.resume && communicator.is_root() ? run::finished_run(target.folder, target.preset) : std::nullopt;
   if (done && !done->changed.empty())
-    throw bad_input(target.folder, "this run is finished, but " + done->changed, {}, "run without --resume to start over");
+    throw bad_input(target.folder, "this run is finished, but " + done->changed, {},
+                    "run without --resume to start over");
   if (communicator.broadcast(done.has_value())) {
     if (!done) return; // rank 0 reports it
     fmt::print(stderr, "{}: this run is finished\n", target.label);
@@ -114,8 +112,8 @@ void run_one(const RunOptions& options, Target& target, const std::stop_token& i
   preset::at_origins(target.preset, [&] { render(options, target, interrupted, series); });
 }
 
-void run_all(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, RunSeries& series)
-{
+void run_all(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted,
+             RunSeries& series) {
   for (Target& target : targets) {
     if (&target != &targets.front()) write_order(targets);
     run_one(options, target, interrupted, series);
@@ -123,8 +121,7 @@ void run_all(const RunOptions& options, std::vector<Target>& targets, const std:
 }
 
 /// Throws bad_input on the ranks that were asked for other runs than rank 0, before any begins.
-void require_same_runs(const RunOptions& options, const std::vector<Target>& targets, mpi::Ranks& ranks)
-{
+void require_same_runs(const RunOptions& options, const std::vector<Target>& targets, mpi::Ranks& ranks) {
   std::string names, presets;
   for (const Target& target : targets) {
     names += (names.empty() ? "" : " ") + target.label;
@@ -132,15 +129,15 @@ void require_same_runs(const RunOptions& options, const std::vector<Target>& tar
   }
   constexpr std::size_t a_line = 200;
   mpi::require_same(ranks, "list of runs",
-                     names.size() <= a_line ? names : fmt::format("{} of them, {:016x}", targets.size(), hash_of(names)));
+                    names.size() <= a_line ? names
+                                           : fmt::format("{} of them, {:016x}", targets.size(), hash_of(names)));
   mpi::require_same(ranks, "list of frames", options.frames.empty() ? "all" : options.frames);
   mpi::require_same(ranks, "preset", fmt::format("{:016x}", hash_of(presets)));
 }
 
 /// Of a sweep each rank does the next run, alone, whenever it is free.
-void distribute_runs(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, RunSeries& series,
-               const std::shared_ptr<mpi::Ranks>& ranks)
-{
+void distribute_runs(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted,
+                     RunSeries& series, const std::shared_ptr<mpi::Ranks>& ranks) {
   const Communicator communicator(ranks);
   for (Target& target : targets) fit_white(options, target, interrupted, series, communicator);
   run::ReadyRun& run = series.run;
@@ -151,15 +148,17 @@ void distribute_runs(const RunOptions& options, std::vector<Target>& targets, co
     write_order(targets);
   }
   require_shared(*ranks, folder / report::sweep_file);
-  ranks->distribute(static_cast<std::int64_t>(targets.size()),
-              [&](std::int64_t number) { run_one(options, targets[static_cast<std::size_t>(number)], interrupted, series); });
+  ranks->distribute(static_cast<std::int64_t>(targets.size()), [&](std::int64_t number) {
+    run_one(options, targets[static_cast<std::size_t>(number)], interrupted, series);
+  });
 }
 
-void run_preset(const RunOptions& options, const std::stop_token& interrupted, const std::shared_ptr<mpi::Ranks>& ranks)
-{
+void run_preset(const RunOptions& options, const std::stop_token& interrupted,
+                const std::shared_ptr<mpi::Ranks>& ranks) {
   std::vector<Target> targets = targets_of(options);
   compute::DeviceOptions device = options.device;
-  if (ranks) device.turn = ranks->number_on_host(); // each its own of the devices that --device may mean, counted around
+  if (ranks)
+    device.turn = ranks->number_on_host(); // each its own of the devices that --device may mean, counted around
   RunSeries series{.ranks = nullptr, .run = run::ReadyRun(device_opener(std::move(device)))};
   if (!ranks) return run_all(options, targets, interrupted, series);
   require_same_runs(options, targets, *ranks);
@@ -169,61 +168,75 @@ void run_preset(const RunOptions& options, const std::stop_token& interrupted, c
 }
 
 /// Where one rank fails all end. What is wrong with the command rank 0 says for all of them.
-void run_on_ranks(const RunOptions& options, const std::stop_token& interrupted, const std::shared_ptr<mpi::Ranks>& ranks)
-{
+void run_on_ranks(const RunOptions& options, const std::stop_token& interrupted,
+                  const std::shared_ptr<mpi::Ranks>& ranks) {
   try {
     run_preset(options, interrupted, ranks);
     ranks->wait_for_root(); // which may still write files
   } catch (const Error& error) {
     const bool is_root = ranks->rank() == 0;
     if (!is_root) std::this_thread::sleep_for(std::chrono::seconds(1));
-    fmt::print(stderr, "nephroid: {}{}\n", is_root || error.place() == Place(ranks->name()) ? "" : ranks->name() + ": ", error.line());
+    fmt::print(stderr, "nephroid: {}{}\n", is_root || error.place() == Place(ranks->name()) ? "" : ranks->name() + ": ",
+               error.line());
     ranks->abort(error.exit_code());
   }
 }
 
 } // namespace
 
-void add_run(CLI::App& program, Session&)
-{
+void add_run(CLI::App& program, Session&) {
   const auto options = std::make_shared<RunOptions>();
-  Verb verb(
-      program, "run", "Render a preset into a folder",
-      {{"nephroid run first-light --passes 8 -o out/quick", "a first look, in seconds"},
-       {"nephroid run first-light -o out/daylight --set scene.lights.0.spectrum=D65", "the same in daylight"}},
-      "Ctrl-C saves the image and a checkpoint; `--resume` goes on from there with the same result as an uninterrupted run.\n"
-      "Files: image.exr (linear, with layers), image.png (as shown), preset.json (complete), plan.json, run.json, checkpoint.bin, and\n"
-      "where the run measures its error history.csv and, once it is finished, report.html.\n"
-      "An animation gives frame_0000.png and frame_0000.exr, ..., the other files of each frame in frames/0000, ..., figures of all in\n"
-      "frames.csv, and animation.mp4 where ffmpeg is installed.");
+  Verb verb(program, "run", "Render a preset into a folder",
+            {{"nephroid run first-light --passes 8 -o out/quick", "a first look, in seconds"},
+             {"nephroid run first-light -o out/daylight --set scene.lights.0.spectrum=D65", "the same in daylight"}},
+            "Ctrl-C saves the image and a checkpoint; `--resume` goes on from there with the same result as an "
+            "uninterrupted run.\n"
+            "Files: image.exr (linear, with layers), image.png (as shown), preset.json (complete), plan.json, "
+            "run.json, checkpoint.bin, and\n"
+            "where the run measures its error history.csv and, once it is finished, report.html.\n"
+            "An animation gives frame_0000.png and frame_0000.exr, ..., the other files of each frame in frames/0000, "
+            "..., figures of all in\n"
+            "frames.csv, and animation.mp4 where ffmpeg is installed.");
   verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset", .required = true});
   verb.option("-o,--output", options->folder,
               {.type = "DIR",
-               .says = "Folder for the run's files (default out/NAME; a sweep's runs each in one of its own inside: seed=1, seed=2, ...)"});
+               .says = "Folder for the run's files (default out/NAME; a sweep's runs each in one of its own inside: "
+                       "seed=1, seed=2, ...)"});
   verb.overrides(options->overrides);
-  verb.option("--seconds", options->seconds,
-              {.type = "S", .says = "Stop after this much work, instead of where the preset says", .from = 0.001, .to = 1e9});
+  verb.option(
+      "--seconds", options->seconds,
+      {.type = "S", .says = "Stop after this much work, instead of where the preset says", .from = 0.001, .to = 1e9});
   verb.option("--passes", options->passes,
-              {.type = "N", .says = "Stop after this many passes, instead of where the preset says", .from = 1, .to = preset::max_passes});
-  verb.option("--until-error", options->until_error,
-              {.type = "E",
-               .says = "Stop at this error (of stop.metric, CIELAB's mean distance unless set), instead of where the preset says",
-               .from = 1e-9,
-               .to = 1e9});
-  verb.option("--seed", options->seed, {.type = "N", .says = "Of the random numbers, instead of the preset's", .from = 0});
-  verb.option("--device", options->device.selector, {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
-  verb.option("--kernels", options->device.kernels, {.type = "DIR", .says = "Load kernels from this folder instead of the built-in ones"});
+              {.type = "N",
+               .says = "Stop after this many passes, instead of where the preset says",
+               .from = 1,
+               .to = preset::max_passes});
+  verb.option(
+      "--until-error", options->until_error,
+      {.type = "E",
+       .says =
+           "Stop at this error (of stop.metric, CIELAB's mean distance unless set), instead of where the preset says",
+       .from = 1e-9,
+       .to = 1e9});
+  verb.option("--seed", options->seed,
+              {.type = "N", .says = "Of the random numbers, instead of the preset's", .from = 0});
+  verb.option("--device", options->device.selector,
+              {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
+  verb.option("--kernels", options->device.kernels,
+              {.type = "DIR", .says = "Load kernels from this folder instead of the built-in ones"});
   verb.option("--checkpoint-seconds", options->checkpoint_seconds,
               {.type = "S", .says = "Work between checkpoints (default 10)", .from = 0.0, .to = 1e9});
-  verb.option(
-      "--pictures-at", options->pictures_at,
-      {.type = "S,S,...",
-       .says = "Also write the picture after this much work, with its error: 2,10,60 gives at-0002s.png and .exr, at-0010s.png, ...",
-       .separator = ',',
-       .from = 0.001,
-       .to = 1e9});
-  verb.option("--frames", options->frames, {.type = "N or N-M", .says = "Of an animation only these frames: 12, or 3-40"});
-  verb.flag("--resume", options->resume, "Go on from the folder's checkpoint; of an animation, at the first frame that is missing");
+  verb.option("--pictures-at", options->pictures_at,
+              {.type = "S,S,...",
+               .says = "Also write the picture after this much work, with its error: 2,10,60 gives at-0002s.png and "
+                       ".exr, at-0010s.png, ...",
+               .separator = ',',
+               .from = 0.001,
+               .to = 1e9});
+  verb.option("--frames", options->frames,
+              {.type = "N or N-M", .says = "Of an animation only these frames: 12, or 3-40"});
+  verb.flag("--resume", options->resume,
+            "Go on from the folder's checkpoint; of an animation, at the first frame that is missing");
   verb.flag("--json", options->json, "Progress and result as JSON lines on standard output");
   verb.work([options] {
     put_in_order(options->pictures_at);

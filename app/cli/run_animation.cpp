@@ -23,15 +23,15 @@ namespace nephroid::cli {
 namespace {
 
 /// The first and the last frame to render.
-std::pair<int, int> frames_of(const std::string& text, int frames)
-{
+std::pair<int, int> frames_of(const std::string& text, int frames) {
   if (text.empty()) return {0, frames - 1};
   const std::size_t dash = text.find('-');
   const std::string_view all = text;
   const auto first = typed_number<int>(all.substr(0, dash)),
              last = dash == std::string::npos ? first : typed_number<int>(all.substr(dash + 1));
   if (!first || !last || *first < 0 || *last < *first)
-    throw bad_input("--frames " + text, "names no frames", "expected one, such as 12, or the first and the last, such as 3-40");
+    throw bad_input("--frames " + text, "names no frames",
+                    "expected one, such as 12, or the first and the last, such as 3-40");
   if (*last >= frames)
     throw bad_input("--frames " + text, fmt::format("the animation has no frame {}", *last),
                     fmt::format("its frames are 0 to {}", frames - 1));
@@ -41,17 +41,16 @@ std::pair<int, int> frames_of(const std::string& text, int frames)
 class Frames {
 public:
   Frames(const RunOptions& options, const Target& target, const std::stop_token& interrupted, RunSeries& series)
-      : options_(options), target_(target), interrupted_(interrupted), series_(series), animation_(target.preset.animation.value()),
-        ranks_(std::exchange(series.ranks, nullptr)), range_(frames_of(options.frames, animation_.frames))
-  {
-  }
+      : options_(options), target_(target), interrupted_(interrupted), series_(series),
+        animation_(target.preset.animation.value()), ranks_(std::exchange(series.ranks, nullptr)),
+        range_(frames_of(options.frames, animation_.frames)) {}
 
-  void operator()()
-  {
+  void operator()() {
     for (int frame = range_.first; frame <= range_.second; ++frame)
       preset::at_frame(target_.preset, frame); // what cannot be is said at once
     run::ReadyRun& run = series_.run;
-    if (ranks_) run::require_same(*ranks_, run::prepare_next(run, target_.preset, {interrupted_, {}}), run.device.context());
+    if (ranks_)
+      run::require_same(*ranks_, run::prepare_next(run, target_.preset, {interrupted_, {}}), run.device.context());
     begin();
     if (ranks_)
       distribute_frames();
@@ -64,18 +63,17 @@ private:
   bool is_root() const { return !ranks_ || ranks_->rank() == 0; }
 
   /// Each rank renders the next one, alone, whenever it is free.
-  void distribute_frames()
-  {
+  void distribute_frames() {
     require_shared(*ranks_, target_.folder / "preset.json");
-    ranks_->distribute(range_.second - range_.first + 1, [&](std::int64_t number) { render_one(range_.first + static_cast<int>(number)); });
+    ranks_->distribute(range_.second - range_.first + 1,
+                       [&](std::int64_t number) { render_one(range_.first + static_cast<int>(number)); });
     std::int64_t rendered = rendered_;
     ranks_->all_reduce_sum({&rendered, 1});
     rendered_ = static_cast<int>(rendered);
   }
 
   /// The folder is of the animation as a whole: its preset, and the plan of frame 0.
-  void begin()
-  {
+  void begin() {
     preset::at_origins(target_.preset, [&] {
       run::ReadyRun& run = series_.run;
       const run::Prepared& prepared = run::prepare_next(run, target_.preset, {interrupted_, {}});
@@ -90,10 +88,10 @@ private:
       run::begin_run(target_.folder, *series_.run.prepared);
   }
 
-  void render_one(int frame)
-  {
+  void render_one(int frame) {
     const std::filesystem::path own = run::frame_folder(target_.folder, frame);
-    const Target target{preset::at_frame(target_.preset, frame), own, fmt::format("{}/{:04}", target_.label, frame), target_.folder};
+    const Target target{preset::at_frame(target_.preset, frame), own, fmt::format("{}/{:04}", target_.label, frame),
+                        target_.folder};
     const auto done = options_.resume ? run::finished_frame(target_.folder, frame, target.preset) : std::nullopt;
     if (done && done->changed.empty()) {
       run::show_frame(target_.folder, frame);
@@ -106,8 +104,7 @@ private:
     ++rendered_;
   }
 
-  void end() const
-  {
+  void end() const {
     const std::vector<int> finished = run::finished_frames(target_.folder, target_.preset);
     run::write_frame_figures(target_.folder, finished);
     const auto missing = static_cast<std::size_t>(animation_.frames) - finished.size();
@@ -127,7 +124,8 @@ private:
     } else {
       if (rendered_ == 0) fmt::print(stderr, "{}: these frames are finished\n", target_.label);
       if (!why_none)
-        fmt::print("{}: {}, {} a second\n", (target_.folder / "animation.mp4").string(), counted(finished.size(), "frame"), animation_.fps);
+        fmt::print("{}: {}, {} a second\n", (target_.folder / "animation.mp4").string(),
+                   counted(finished.size(), "frame"), animation_.fps);
     }
     std::fflush(stdout);
     if (why_none) fmt::print(stderr, "note: {}: there is no video: {}\n", target_.label, *why_none);
@@ -146,8 +144,8 @@ private:
 
 } // namespace
 
-void render_animation(const RunOptions& options, const Target& target, const std::stop_token& interrupted, RunSeries& series)
-{
+void render_animation(const RunOptions& options, const Target& target, const std::stop_token& interrupted,
+                      RunSeries& series) {
   Frames(options, target, interrupted, series)();
 }
 

@@ -3,9 +3,9 @@
 #pragma once
 #include "compute/compute.h"
 #include "job/job.h"
+#include "mpi/ranks.h"
 #include "preset/preset.h"
 #include "run/ready.h"
-#include "mpi/ranks.h"
 
 #include <set>
 #include <stop_token>
@@ -37,9 +37,9 @@ struct Target {
 /// What goes from one run of a command to the next.
 struct RunSeries {
   std::shared_ptr<mpi::Ranks> ranks; ///< that compute each run together; null: this process alone does
-  run::ReadyRun run;                  ///< the newest one: lends its device, its scene and, of a frame, its job
-  std::optional<double> white = {};   ///< in place of "auto"
-  std::set<std::string> notes = {};   ///< that were printed: frames are much alike
+  run::ReadyRun run;                 ///< the newest one: lends its device, its scene and, of a frame, its job
+  std::optional<double> white = {};  ///< in place of "auto"
+  std::set<std::string> notes = {};  ///< that were printed: frames are much alike
 };
 
 /// Opens the device, and says so where compiled kernels cannot be kept.
@@ -51,10 +51,11 @@ void require_shared(mpi::Ranks& ranks, const std::filesystem::path& file);
 /// Renders the target into its folder. Throws interrupted once its picture and a checkpoint are saved.
 void render(const RunOptions& options, const Target& target, const std::stop_token& interrupted, RunSeries& series);
 
-/// Renders the frames that options.frames names into target.folder (run/animation.h), each as a run of its own, then the video. With
-/// options.resume those that are finished are left as they are. Throws bad_input for a frame that there is not or that cannot be, before
-/// any is rendered.
-void render_animation(const RunOptions& options, const Target& target, const std::stop_token& interrupted, RunSeries& series);
+/// Renders the frames that options.frames names into target.folder (run/animation.h), each as a run of its own, then
+/// the video. With options.resume those that are finished are left as they are. Throws bad_input for a frame that there
+/// is not or that cannot be, before any is rendered.
+void render_animation(const RunOptions& options, const Target& target, const std::stop_token& interrupted,
+                      RunSeries& series);
 
 /// The last words about a run, on standard output: its picture, or with --json its files and figures.
 void report_result(const RunOptions& options, const Target& target, const job::Progress& progress, bool finished);

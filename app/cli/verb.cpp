@@ -22,24 +22,22 @@ struct ItemOf {
   using Type = Value;
 };
 template <class Item>
-struct ItemOf<std::vector<Item>> : ItemOf<Item> {
-};
+struct ItemOf<std::vector<Item>> : ItemOf<Item> {};
 template <class Item>
-struct ItemOf<std::optional<Item>> : ItemOf<Item> {
-};
+struct ItemOf<std::optional<Item>> : ItemOf<Item> {};
 template <class Item, std::size_t count>
-struct ItemOf<std::array<Item, count>> : ItemOf<Item> {
-};
+struct ItemOf<std::array<Item, count>> : ItemOf<Item> {};
 
 /// Refuses what is no number, is followed by anything else, or is out of range.
 template <class Number>
-CLI::Validator number_from_to(double from, double to)
-{
-  const auto lowest = static_cast<Number>(from), highest = std::isinf(to) ? std::numeric_limits<Number>::max() : static_cast<Number>(to);
+CLI::Validator number_from_to(double from, double to) {
+  const auto lowest = static_cast<Number>(from),
+             highest = std::isinf(to) ? std::numeric_limits<Number>::max() : static_cast<Number>(to);
   const auto check = [=](std::string& text) -> std::string {
     const std::optional<Number> number = typed_number<Number>(text);
     if (!number || !(*number >= lowest && *number <= highest))
-      return fmt::format("'{}' is not {} from {} to {}", text, std::integral<Number> ? "a whole number" : "a number", lowest, highest);
+      return fmt::format("'{}' is not {} from {} to {}", text, std::integral<Number> ? "a whole number" : "a number",
+                         lowest, highest);
     text = fmt::format("{}", *number); // as CLI11 reads it
     return {};
   };
@@ -48,8 +46,7 @@ CLI::Validator number_from_to(double from, double to)
 
 } // namespace
 
-std::string examples(const std::vector<Example>& list)
-{
+std::string examples(const std::vector<Example>& list) {
   std::size_t width = 0;
   for (const Example& example : list)
     if (!example.says.empty()) width = std::max(width, example.command.size());
@@ -61,14 +58,12 @@ std::string examples(const std::vector<Example>& list)
 }
 
 Verb::Verb(CLI::App& program, const char* name, const char* says, const std::vector<Example>& list, const char* more)
-    : app_(*program.add_subcommand(name, says))
-{
+    : app_(*program.add_subcommand(name, says)) {
   app_.footer(examples(list) + (*more ? std::string("\n\n") + more : std::string()));
 }
 
 template <class Value>
-void Verb::option(const char* names, Value& value, const Option& o)
-{
+void Verb::option(const char* names, Value& value, const Option& o) {
   CLI::Option& option = *app_.add_option(names, value, o.says)->required(o.required);
   if (o.type) option.type_name(o.type);
   if (group_) option.group(group_);
@@ -97,14 +92,12 @@ template void Verb::option(const char*, std::optional<std::uint64_t>&, const Opt
 template void Verb::option(const char*, std::optional<double>&, const Option&);
 template void Verb::option(const char*, std::optional<std::string>&, const Option&);
 
-void Verb::flag(const char* name, bool& value, const std::string& says, const char* excludes)
-{
+void Verb::flag(const char* name, bool& value, const std::string& says, const char* excludes) {
   CLI::Option* option = app_.add_flag(name, value, says);
   if (excludes) option->excludes(app_.get_option(excludes));
 }
 
-void Verb::overrides(std::vector<std::string>& values, const std::string& says)
-{
+void Verb::overrides(std::vector<std::string>& values, const std::string& says) {
   option("--set", values, {.type = "KEY=VALUE", .says = says});
 }
 

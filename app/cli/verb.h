@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A verb of the command line and its options. CLI11, which parses them, is known to verb.cpp, command_line.cpp, manual.cpp and
-// completions.cpp only: each file that includes it takes seconds more to compile.
+// A verb of the command line and its options. CLI11, which parses them, is known to verb.cpp, command_line.cpp,
+// manual.cpp and completions.cpp only: each file that includes it takes seconds more to compile.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -25,8 +25,8 @@ struct Example {
   std::string says;    ///< may be empty
 };
 
-/// "Examples:", then a line each: what says is a comment, so that a line can be pasted into a shell. tests/docs runs each of them as it
-/// stands, one after the other.
+/// "Examples:", then a line each: what says is a comment, so that a line can be pasted into a shell. tests/docs runs
+/// each of them as it stands, one after the other.
 std::string examples(const std::vector<Example>& list);
 
 struct Option {
@@ -43,17 +43,19 @@ struct Option {
 /// The values that options are read into must live until the work is done.
 class Verb {
 public:
-  Verb(CLI::App& program, const char* name, const char* says, const std::vector<Example>& examples, const char* more = "");
+  Verb(CLI::App& program, const char* name, const char* says, const std::vector<Example>& examples,
+       const char* more = "");
   /// The program itself, whose options then stand under `group` in its help.
   Verb(CLI::App& program, const char* group) : app_(program), group_(group) {}
 
-  /// names: "-o,--output", or of an argument "FILE". Value: a number, a std::string, a path, a std::optional of these; a std::array, or a
-  /// std::vector, for which the option may be repeated.
+  /// names: "-o,--output", or of an argument "FILE". Value: a number, a std::string, a path, a std::optional of these;
+  /// a std::array, or a std::vector, for which the option may be repeated.
   template <class Value>
   void option(const char* names, Value& value, const Option& option);
   void flag(const char* name, bool& value, const std::string& says, const char* excludes = nullptr);
   /// --set KEY=VALUE
-  void overrides(std::vector<std::string>& values, const std::string& says = "Change a setting: scene.lights.0.power_w=2; may be repeated");
+  void overrides(std::vector<std::string>& values,
+                 const std::string& says = "Change a setting: scene.lights.0.power_w=2; may be repeated");
   void work(std::function<void()> work);
 
 private:
@@ -70,9 +72,10 @@ struct Window {
 /// Parses and runs one command. Returns the exit code; every error is one line on standard error.
 int run_command_line(int argc, const char* const* argv, const Window& window);
 
-/// The verbs: one file a verb, each adding its subcommand here; those that only list what there is are in lists.cpp. A verb's callback does
-/// the work and throws Error; it sets the exit code where that is not 0. Results go to standard output, everything else to standard error.
-/// A verb that ends in order on Ctrl-C makes an Interrupts (base/interrupts.h).
+/// The verbs: one file a verb, each adding its subcommand here; those that only list what there is are in lists.cpp. A
+/// verb's callback does the work and throws Error; it sets the exit code where that is not 0. Results go to standard
+/// output, everything else to standard error. A verb that ends in order on Ctrl-C makes an Interrupts
+/// (base/interrupts.h).
 struct Session {
   int exit_code = 0;
 };

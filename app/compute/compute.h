@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenCL as the engines use it: a device, typed buffers, programs from kernels/, kernels that are called like functions.
-// The only folder that includes an OpenCL header. Every failure is an Error naming the call, the kernel and the build log.
+// OpenCL as the engines use it: a device, typed buffers, programs from kernels/, kernels that are called like
+// functions. The only folder that includes an OpenCL header. Every failure is an Error naming the call, the kernel and
+// the build log.
 #pragma once
 #include "base/error.h"
 
@@ -30,9 +31,10 @@ struct DeviceInfo {
   bool fp64 = false, int64_atomics = false;
 };
 
-/// PoCL compiles into a cache folder and shows no device where it has none. Where that folder is missing, unwritable or full,
-/// this sets POCL_CACHE_DIR to a private temporary folder and returns one line to show; empty where there is nothing to say.
-/// Call it before any thread starts (it may change the environment); list_devices and Context::open call it too, silently.
+/// PoCL compiles into a cache folder and shows no device where it has none. Where that folder is missing, unwritable or
+/// full, this sets POCL_CACHE_DIR to a private temporary folder and returns one line to show; empty where there is
+/// nothing to say. Call it before any thread starts (it may change the environment); list_devices and Context::open
+/// call it too, silently.
 std::string prepare_kernel_cache();
 
 /// Every device of every platform, in a stable order. An empty list is no error here.
@@ -54,7 +56,7 @@ private:
 struct DeviceOptions {
   std::string selector{};          ///< "": a GPU if there is one, else the first; an index; or part of a name
   std::filesystem::path kernels{}; ///< load kernels from this folder rather than the embedded ones
-  int turn = 0;                    ///< of several devices that the selector may mean, the one with this number, counted around
+  int turn = 0; ///< of several devices that the selector may mean, the one with this number, counted around
 };
 
 using Defines = std::map<std::string, std::string>;
@@ -86,7 +88,8 @@ class RawBuffer {
 public:
   RawBuffer() = default;
   RawBuffer(const Context& context, std::string name, std::size_t bytes, const void* initial);
-  /// To be read alone. A device that has the host's memory reads `items` where they are: they stay as they are while it lives.
+  /// To be read alone. A device that has the host's memory reads `items` where they are: they stay as they are while it
+  /// lives.
   static RawBuffer wrapping_host_memory(const Context& context, std::string name, std::size_t bytes, const void* items);
   void write(const void* from, std::size_t bytes, std::size_t offset_bytes);
   void read(void* to, std::size_t bytes, std::size_t offset_bytes) const; ///< waits
@@ -95,8 +98,8 @@ public:
 };
 
 /// count items of T on the device. An empty one is allocated with a few bytes, so that it can be passed to a kernel.
-/// Throws failed naming the buffer, its bytes and the device's memory where that is not enough. Many devices allocate when a buffer is
-/// first used: then writing and filling say so, and Kernel::run.
+/// Throws failed naming the buffer, its bytes and the device's memory where that is not enough. Many devices allocate
+/// when a buffer is first used: then writing and filling say so, and Kernel::run.
 template <class T>
 class Buffer : public RawBuffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -104,25 +107,22 @@ class Buffer : public RawBuffer {
 public:
   Buffer() = default;
   Buffer(const Context& context, std::string name, std::size_t count)
-      : RawBuffer(context, std::move(name), count * sizeof(T), nullptr), count_(count)
-  {
-  }
+      : RawBuffer(context, std::move(name), count * sizeof(T), nullptr), count_(count) {}
   Buffer(const Context& context, std::string name, std::span<const T> items)
-      : RawBuffer(context, std::move(name), items.size_bytes(), items.data()), count_(items.size())
-  {
-  }
-  static Buffer wrapping_host_memory(const Context& context, std::string name, std::span<const T> items)
-  {
+      : RawBuffer(context, std::move(name), items.size_bytes(), items.data()), count_(items.size()) {}
+  static Buffer wrapping_host_memory(const Context& context, std::string name, std::span<const T> items) {
     Buffer buffer;
-    static_cast<RawBuffer&>(buffer) = RawBuffer::wrapping_host_memory(context, std::move(name), items.size_bytes(), items.data());
+    static_cast<RawBuffer&>(buffer) =
+        RawBuffer::wrapping_host_memory(context, std::move(name), items.size_bytes(), items.data());
     buffer.count_ = items.size();
     return buffer;
   }
   std::size_t size() const { return count_; }
   std::size_t bytes() const { return count_ * sizeof(T); }
-  void write(std::span<const T> items, std::size_t first = 0) { RawBuffer::write(items.data(), items.size_bytes(), first * sizeof(T)); }
-  std::vector<T> read() const
-  {
+  void write(std::span<const T> items, std::size_t first = 0) {
+    RawBuffer::write(items.data(), items.size_bytes(), first * sizeof(T));
+  }
+  std::vector<T> read() const {
     std::vector<T> items(count_);
     if (count_) RawBuffer::read(items.data(), bytes(), 0);
     return items;
@@ -136,35 +136,31 @@ Buffer(const Context&, const char*, const std::vector<T>&) -> Buffer<T>;
 
 /// The same, all 0.
 template <class T>
-Buffer<T> zeroed(const Context& context, std::string name, std::size_t count)
-{
+Buffer<T> zeroed(const Context& context, std::string name, std::size_t count) {
   Buffer<T> buffer(context, std::move(name), count);
   buffer.fill_zero();
   return buffer;
 }
 
-/// What OpenCL C calls a type of the host: "uint", "float4" for std::array<float, 4>, "DeviceLight" for a struct, which has the same name
-/// on both sides.
+/// What OpenCL C calls a type of the host: "uint", "float4" for std::array<float, 4>, "DeviceLight" for a struct, which
+/// has the same name on both sides.
 std::string device_type_name(const std::type_info& type);
 
 /// An argument of a kernel by its name there. It refers to the value, which has to live until the kernel is queued.
 class Argument {
 public:
   template <class T>
-  Argument(std::string_view name, const Buffer<T>& buffer) : name_(name), type_(&type_of<T>()), buffer_(&buffer)
-  {
-  }
+  Argument(std::string_view name, const Buffer<T>& buffer) : name_(name), type_(&type_of<T>()), buffer_(&buffer) {}
   template <class T>
-  Argument(std::string_view name, const T& value) : name_(name), type_(&type_of<T>()), value_(&value), bytes_(sizeof(T))
-  {
+  Argument(std::string_view name, const T& value)
+      : name_(name), type_(&type_of<T>()), value_(&value), bytes_(sizeof(T)) {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_base_of_v<RawBuffer, T>);
   }
 
 private:
   friend class Kernel;
   template <class T>
-  static const std::string& type_of()
-  {
+  static const std::string& type_of() {
     static const std::string name = device_type_name(typeid(T));
     return name;
   }
@@ -178,42 +174,49 @@ private:
 /// A kernel of a built program.
 class Kernel {
 public:
-  /// Queues the kernel over `global` work items in groups of `local` (global is rounded up: kernels test their index). Every argument has
-  /// to be given once, `shared` and `own` together, in any order. Throws failed for an argument that the kernel does not have, has with
-  /// another type, or lacks; and where memory runs out, naming the largest of its buffers, their bytes and the device's memory.
-  void run(std::size_t global, std::size_t local, std::span<const Argument> shared, std::initializer_list<Argument> own);
-  void run(std::size_t global, std::size_t local, std::initializer_list<Argument> arguments) { run(global, local, {}, arguments); }
+  /// Queues the kernel over `global` work items in groups of `local` (global is rounded up: kernels test their index).
+  /// Every argument has to be given once, `shared` and `own` together, in any order. Throws failed for an argument that
+  /// the kernel does not have, has with another type, or lacks; and where memory runs out, naming the largest of its
+  /// buffers, their bytes and the device's memory.
+  void run(std::size_t global, std::size_t local, std::span<const Argument> shared,
+           std::initializer_list<Argument> own);
+  void run(std::size_t global, std::size_t local, std::initializer_list<Argument> arguments) {
+    run(global, local, {}, arguments);
+  }
   std::shared_ptr<detail::KernelState> state;
 
 private:
   void set(const Argument& argument, std::vector<bool>& given);
 };
 
-/// One .cl file built for the context's device. The compiler's -D come from `defines` and from the device's own properties
-/// (compute/program.cpp owns them all): NEPHROID_CPU or NEPHROID_GPU, NEPHROID_FP64 and NEPHROID_INT64_ATOMICS where the device has them.
-/// Built programs are kept in the context, while their sources stay the same, and in the OpenCL implementation's own cache.
+/// One .cl file built for the context's device. The compiler's -D come from `defines` and from the device's own
+/// properties (compute/program.cpp owns them all): NEPHROID_CPU or NEPHROID_GPU, NEPHROID_FP64 and
+/// NEPHROID_INT64_ATOMICS where the device has them. Built programs are kept in the context, while their sources stay
+/// the same, and in the OpenCL implementation's own cache.
 class Program {
 public:
-  /// file: its path in kernels/, e.g. "tracing/trace.cl". Throws BuildError; Error(failed) for a source or include that is missing.
+  /// file: its path in kernels/, e.g. "tracing/trace.cl". Throws BuildError; Error(failed) for a source or include that
+  /// is missing.
   Program(const Context& context, const std::string& file, const Defines& defines = {});
   /// Throws failed naming the kernels there are.
   Kernel kernel(const std::string& name) const;
   std::shared_ptr<detail::ProgramState> state;
 };
 
-/// The text of every .cl file in the folder `folder` of kernels/ with all that they include, as this context would build it; empty where
-/// there is no such folder: an engine may have no kernels. Throws failed where it cannot be read.
+/// The text of every .cl file in the folder `folder` of kernels/ with all that they include, as this context would
+/// build it; empty where there is no such folder: an engine may have no kernels. Throws failed where it cannot be read.
 std::string kernel_sources(const Context& context, std::string_view folder);
 /// The text of a kernel source ("photons/photons.cl") with everything that it includes, as this context would build it.
 std::string kernel_source(const Context& context, const std::string& file);
-/// When each file in a kernels folder was last written, so that somebody who watches it sees a change. Empty where it cannot be read. Knows
-/// no context: a thread may call it while another one builds programs.
+/// When each file in a kernels folder was last written, so that somebody who watches it sees a change. Empty where it
+/// cannot be read. Knows no context: a thread may call it while another one builds programs.
 using KernelTimes = std::map<std::filesystem::path, std::filesystem::file_time_type>;
 KernelTimes kernel_times(const std::filesystem::path& folder);
 
-/// Who waits for kernels to be compiled is told so: the first run with a new option takes seconds to begin. As long as this is there,
-/// tell() is called before the context compiles a kernel source, by the thread that uses it, and not for programs that it has already.
-/// What it throws ends the build. OpenCL may go on compiling until each kernel has run once.
+/// Who waits for kernels to be compiled is told so: the first run with a new option takes seconds to begin. As long as
+/// this is there, tell() is called before the context compiles a kernel source, by the thread that uses it, and not for
+/// programs that it has already. What it throws ends the build. OpenCL may go on compiling until each kernel has run
+/// once.
 class TellOfCompiling {
 public:
   TellOfCompiling(Context context, std::function<void()> tell);

@@ -13,14 +13,12 @@
 namespace nephroid::compute {
 namespace {
 
-std::string type_name(cl_device_type type)
-{
+std::string type_name(cl_device_type type) {
   if (type & CL_DEVICE_TYPE_GPU) return "gpu";
   return type & CL_DEVICE_TYPE_CPU ? "cpu" : "accelerator";
 }
 
-DeviceInfo describe(const cl::Platform& platform, const cl::Device& device, int index)
-{
+DeviceInfo describe(const cl::Platform& platform, const cl::Device& device, int index) {
   const auto extensions = device.getInfo<CL_DEVICE_EXTENSIONS>();
   DeviceInfo info;
   info.index = index;
@@ -38,8 +36,7 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device, int 
   return info;
 }
 
-std::vector<cl::Platform> platforms()
-{
+std::vector<cl::Platform> platforms() {
   std::vector<cl::Platform> found;
   try {
     cl::Platform::get(&found);
@@ -48,15 +45,13 @@ std::vector<cl::Platform> platforms()
   return found;
 }
 
-bool matches(const DeviceInfo& info, const std::string& selector)
-{
+bool matches(const DeviceInfo& info, const std::string& selector) {
   const bool number = std::ranges::all_of(selector, [](unsigned char c) { return std::isdigit(c) != 0; });
   if (number) return std::to_string(info.index) == selector;
   return lower_case(info.name).find(lower_case(selector)) != std::string::npos;
 }
 
-detail::Device choose(const std::vector<detail::Device>& devices, const std::string& selector, int turn)
-{
+detail::Device choose(const std::vector<detail::Device>& devices, const std::string& selector, int turn) {
   std::vector<detail::Device> meant;
   std::ranges::copy_if(devices, std::back_inserter(meant), [&](const detail::Device& device) {
     return selector.empty() ? device.info.type == "gpu" : matches(device.info, selector);
@@ -71,17 +66,16 @@ detail::Device choose(const std::vector<detail::Device>& devices, const std::str
 }
 
 /// PoCL's compiler would end the process.
-void refuse_without_kernel_cache(const DeviceInfo& device)
-{
+void refuse_without_kernel_cache(const DeviceInfo& device) {
   if (device.platform != "Portable Computing Language") return;
   const std::string problem = detail::kernel_cache_problem();
-  if (!problem.empty()) throw Error(ErrorKind::no_device, device.name, problem, {}, "set POCL_CACHE_DIR to a folder that can be written");
+  if (!problem.empty())
+    throw Error(ErrorKind::no_device, device.name, problem, {}, "set POCL_CACHE_DIR to a folder that can be written");
 }
 
 } // namespace
 
-std::vector<detail::Device> detail::enumerate_devices(std::vector<std::string>& problems)
-{
+std::vector<detail::Device> detail::enumerate_devices(std::vector<std::string>& problems) {
   prepare_kernel_cache();
   std::vector<Device> found;
   for (const cl::Platform& platform : platforms()) {
@@ -89,25 +83,25 @@ std::vector<detail::Device> detail::enumerate_devices(std::vector<std::string>& 
       std::vector<cl::Device> handles;
       platform.getDevices(CL_DEVICE_TYPE_ALL, &handles);
       for (const cl::Device& handle : handles)
-        if (handle.getInfo<CL_DEVICE_AVAILABLE>()) found.push_back({handle, describe(platform, handle, static_cast<int>(found.size()))});
+        if (handle.getInfo<CL_DEVICE_AVAILABLE>())
+          found.push_back({handle, describe(platform, handle, static_cast<int>(found.size()))});
     } catch (const cl::Error& error) { // one broken driver must not hide the devices of the others
-      problems.push_back(fmt::format("{}: {} gave {}", platform.getInfo<CL_PLATFORM_NAME>(), error.what(), error_name(error.err())));
+      problems.push_back(
+          fmt::format("{}: {} gave {}", platform.getInfo<CL_PLATFORM_NAME>(), error.what(), error_name(error.err())));
     }
   }
   if (platforms().empty()) problems.emplace_back("no OpenCL platform is installed");
   return found;
 }
 
-std::vector<DeviceInfo> list_devices()
-{
+std::vector<DeviceInfo> list_devices() {
   std::vector<std::string> problems;
   std::vector<DeviceInfo> infos;
   for (const detail::Device& device : detail::enumerate_devices(problems)) infos.push_back(device.info);
   return infos;
 }
 
-Error no_device_error()
-{
+Error no_device_error() {
   std::vector<std::string> problems;
   detail::enumerate_devices(problems);
   if (const std::string problem = detail::kernel_cache_problem(); !problem.empty()) problems.push_back(problem);
@@ -116,8 +110,7 @@ Error no_device_error()
                "for a CPU device: apt install pocl-opencl-icd");
 }
 
-Context Context::open(const DeviceOptions& options)
-{
+Context Context::open(const DeviceOptions& options) {
   std::vector<std::string> problems;
   const std::vector<detail::Device> devices = detail::enumerate_devices(problems);
   if (devices.empty()) throw no_device_error();
@@ -141,13 +134,11 @@ Context Context::open(const DeviceOptions& options)
   return context;
 }
 
-TellOfCompiling::TellOfCompiling(Context context, std::function<void()> tell) : context_(std::move(context))
-{
+TellOfCompiling::TellOfCompiling(Context context, std::function<void()> tell) : context_(std::move(context)) {
   context_.state->tell_of_compiling = std::move(tell);
 }
 
-TellOfCompiling::~TellOfCompiling()
-{
+TellOfCompiling::~TellOfCompiling() {
   context_.state->tell_of_compiling = [] {};
 }
 
@@ -157,8 +148,7 @@ bool Context::is_cold() const { return state->cold; }
 
 void Context::set_warm() const { state->cold = false; }
 
-void Context::finish()
-{
+void Context::finish() {
   try {
     state->queue.finish();
   } catch (const cl::Error& error) {

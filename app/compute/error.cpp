@@ -9,11 +9,9 @@
 namespace nephroid::compute {
 namespace detail {
 
-std::string error_name(cl_int code)
-{
-#define NEPHROID_NAME(name)                                                                                                                \
-  case name:                                                                                                                               \
-    return #name
+std::string error_name(cl_int code) {
+#define NEPHROID_NAME(name)                                                                                            \
+  case name: return #name
   switch (code) {
     NEPHROID_NAME(CL_DEVICE_NOT_FOUND);
     NEPHROID_NAME(CL_DEVICE_NOT_AVAILABLE);
@@ -51,16 +49,13 @@ std::string error_name(cl_int code)
     NEPHROID_NAME(CL_INVALID_GLOBAL_WORK_SIZE);
     NEPHROID_NAME(CL_INVALID_COMPILER_OPTIONS);
     NEPHROID_NAME(CL_INVALID_LINKER_OPTIONS);
-  case -1001:
-    return "CL_PLATFORM_NOT_FOUND_KHR"; // cl_khr_icd; CL/cl_ext.h only
-  default:
-    return fmt::format("OpenCL error {}", code);
+  case -1001: return "CL_PLATFORM_NOT_FOUND_KHR"; // cl_khr_icd; CL/cl_ext.h only
+  default: return fmt::format("OpenCL error {}", code);
   }
 #undef NEPHROID_NAME
 }
 
-Error call_failed(const cl::Error& error, const Place& where)
-{
+Error call_failed(const cl::Error& error, const Place& where) {
   const std::string what = fmt::format("{} gave {}", error.what(), error_name(error.err()));
   if (const std::string problem = kernel_cache_problem(); !problem.empty())
     return failed(where, what, problem, "free space there or set POCL_CACHE_DIR to a folder that can be written");
@@ -69,8 +64,8 @@ Error call_failed(const cl::Error& error, const Place& where)
 
 std::string megabytes(std::uint64_t bytes) { return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6); }
 
-Error buffers_failed(const cl::Error& error, const Place& where, const DeviceInfo& device, std::vector<const BufferState*> buffers)
-{
+Error buffers_failed(const cl::Error& error, const Place& where, const DeviceInfo& device,
+                     std::vector<const BufferState*> buffers) {
   const cl_int code = error.err();
   if (code != CL_MEM_OBJECT_ALLOCATION_FAILURE && code != CL_OUT_OF_RESOURCES && code != CL_OUT_OF_HOST_MEMORY &&
       code != CL_INVALID_BUFFER_SIZE)
@@ -82,15 +77,14 @@ Error buffers_failed(const cl::Error& error, const Place& where, const DeviceInf
   for (const BufferState* buffer : buffers)
     names += fmt::format("{}buffer {} of {}", names.empty() ? "" : ", ", buffer->name, megabytes(buffer->bytes));
   return failed(fmt::format("{} on {}", names.empty() ? where.text() : names, device.name),
-                fmt::format("{} gave {}", error.what(), error_name(code)), fmt::format("the device has {}", megabytes(device.memory_bytes)),
+                fmt::format("{} gave {}", error.what(), error_name(code)),
+                fmt::format("the device has {}", megabytes(device.memory_bytes)),
                 "use a smaller image, mesh or number of photons");
 }
 
 } // namespace detail
 
 BuildError::BuildError(Place where, std::string what, std::string log)
-    : Error(ErrorKind::failed, std::move(where), std::move(what)), log_(std::move(log))
-{
-}
+    : Error(ErrorKind::failed, std::move(where), std::move(what)), log_(std::move(log)) {}
 
 } // namespace nephroid::compute

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Device memory; running kernels in it. Arguments are checked here, because PoCL checks few of them and crashes on the rest.
+// Device memory; running kernels in it. Arguments are checked here, because PoCL checks few of them and crashes on the
+// rest.
 #include "compute/state.h"
 
 #include <cxxabi.h>
@@ -20,8 +21,7 @@ struct Zeros {
 
 /// Calls work(), and names the buffer where that fails.
 template <class Work>
-void named(const detail::BufferState& buffer, const Work& work)
-{
+void named(const detail::BufferState& buffer, const Work& work) {
   try {
     work();
   } catch (const cl::Error& error) {
@@ -29,8 +29,7 @@ void named(const detail::BufferState& buffer, const Work& work)
   }
 }
 
-detail::BufferState buffer_state(const Context& context, std::string name, std::size_t bytes)
-{
+detail::BufferState buffer_state(const Context& context, std::string name, std::size_t bytes) {
   const DeviceInfo& device = context.device();
   if (bytes > device.max_buffer_bytes)
     throw failed("buffer " + name, fmt::format("{} do not fit on {}", detail::megabytes(bytes), device.name),
@@ -39,59 +38,57 @@ detail::BufferState buffer_state(const Context& context, std::string name, std::
   return {context.state, std::move(name), {}, bytes};
 }
 
-void check_range(const char* does, std::size_t bytes, std::size_t offset_bytes, const detail::BufferState& buffer)
-{
+void check_range(const char* does, std::size_t bytes, std::size_t offset_bytes, const detail::BufferState& buffer) {
   if (offset_bytes > buffer.bytes || bytes > buffer.bytes - offset_bytes)
-    throw failed("buffer " + buffer.name, fmt::format("{} {} bytes at {} of {}", does, bytes, offset_bytes, buffer.bytes));
+    throw failed("buffer " + buffer.name,
+                 fmt::format("{} {} bytes at {} of {}", does, bytes, offset_bytes, buffer.bytes));
 }
 
 } // namespace
 
 RawBuffer::RawBuffer(const Context& context, std::string name, std::size_t bytes, const void* initial)
-    : state(std::make_shared<detail::BufferState>(buffer_state(context, std::move(name), bytes)))
-{
+    : state(std::make_shared<detail::BufferState>(buffer_state(context, std::move(name), bytes))) {
   const std::size_t allocated = std::max<std::size_t>((bytes + sizeof(Zeros) - 1) / sizeof(Zeros), 1) * sizeof(Zeros);
   named(*state, [&] { state->buffer = cl::Buffer(context.state->context, CL_MEM_READ_WRITE, allocated); });
   if (bytes > 0 && initial) write(initial, bytes, 0);
 }
 
-RawBuffer RawBuffer::wrapping_host_memory(const Context& context, std::string name, std::size_t bytes, const void* items)
-{
+RawBuffer RawBuffer::wrapping_host_memory(const Context& context, std::string name, std::size_t bytes,
+                                          const void* items) {
   if (bytes == 0 || context.device().type != "cpu") return {context, std::move(name), bytes, items};
   RawBuffer buffer;
   buffer.state = std::make_shared<detail::BufferState>(buffer_state(context, std::move(name), bytes));
   named(*buffer.state, [&] {
-    buffer.state->buffer =
-        cl::Buffer(context.state->context, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, bytes, const_cast<void*>(items)); // which only reads it
+    buffer.state->buffer = cl::Buffer(context.state->context, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, bytes,
+                                      const_cast<void*>(items)); // which only reads it
   });
   return buffer;
 }
 
-void RawBuffer::write(const void* from, std::size_t bytes, std::size_t offset_bytes)
-{
+void RawBuffer::write(const void* from, std::size_t bytes, std::size_t offset_bytes) {
   if (bytes == 0) return;
   check_range("writing", bytes, offset_bytes, *state);
   named(*state, [&] { state->context->queue.enqueueWriteBuffer(state->buffer, CL_TRUE, offset_bytes, bytes, from); });
 }
 
-void RawBuffer::read(void* to, std::size_t bytes, std::size_t offset_bytes) const
-{
+void RawBuffer::read(void* to, std::size_t bytes, std::size_t offset_bytes) const {
   if (bytes == 0) return;
   check_range("reading", bytes, offset_bytes, *state);
   named(*state, [&] { state->context->queue.enqueueReadBuffer(state->buffer, CL_TRUE, offset_bytes, bytes, to); });
 }
 
-void RawBuffer::fill_zero()
-{
-  named(*state, [&] { state->context->queue.enqueueFillBuffer(state->buffer, Zeros{}, 0, state->buffer.getInfo<CL_MEM_SIZE>()); });
+void RawBuffer::fill_zero() {
+  named(*state, [&] {
+    state->context->queue.enqueueFillBuffer(state->buffer, Zeros{}, 0, state->buffer.getInfo<CL_MEM_SIZE>());
+  });
 }
 
-std::string device_type_name(const std::type_info& type)
-{
+std::string device_type_name(const std::type_info& type) {
   static const std::map<std::string, std::string> names{{"unsigned int", "uint"},     {"long", "long"},
                                                         {"unsigned long", "ulong"},   {"short", "short"},
                                                         {"unsigned short", "ushort"}, {"unsigned char", "uchar"}};
-  const std::unique_ptr<char, void (*)(void*)> demangled(abi::__cxa_demangle(type.name(), nullptr, nullptr, nullptr), std::free);
+  const std::unique_ptr<char, void (*)(void*)> demangled(abi::__cxa_demangle(type.name(), nullptr, nullptr, nullptr),
+                                                         std::free);
   const std::string name = demangled.get();
   const std::size_t open = name.find('<'), comma = name.rfind(", ");
   const bool vector = name.starts_with("std::array<") && comma != std::string::npos; // "std::array<float, 4ul>"
@@ -101,8 +98,7 @@ std::string device_type_name(const std::type_info& type)
          (vector ? name.substr(comma + 2, name.find("ul>") - comma - 2) : "");
 }
 
-void Kernel::set(const Argument& argument, std::vector<bool>& given)
-{
+void Kernel::set(const Argument& argument, std::vector<bool>& given) {
   const auto& parameters = state->parameters;
   std::size_t index = 0;
   while (index < parameters.size() && parameters[index].name != argument.name_) ++index;
@@ -115,8 +111,9 @@ void Kernel::set(const Argument& argument, std::vector<bool>& given)
   given[index] = true;
   const std::string& type = *argument.type_;
   if (type != parameter.type || parameter.is_pointer != (argument.buffer_ != nullptr))
-    throw refuse(fmt::format(" is {} {}", argument.buffer_ ? "a buffer of" : "a value of type", type),
-                 fmt::format("it takes {} {}", parameter.is_pointer ? "a buffer of" : "a value of type", parameter.type));
+    throw refuse(
+        fmt::format(" is {} {}", argument.buffer_ ? "a buffer of" : "a value of type", type),
+        fmt::format("it takes {} {}", parameter.is_pointer ? "a buffer of" : "a value of type", parameter.type));
   if (argument.buffer_ && !argument.buffer_->state) throw refuse(" is a buffer that was never made", {});
   try {
     if (argument.buffer_)
@@ -128,8 +125,8 @@ void Kernel::set(const Argument& argument, std::vector<bool>& given)
   }
 }
 
-void Kernel::run(std::size_t global, std::size_t local, std::span<const Argument> shared, std::initializer_list<Argument> own)
-{
+void Kernel::run(std::size_t global, std::size_t local, std::span<const Argument> shared,
+                 std::initializer_list<Argument> own) {
   std::vector<bool> given(state->parameters.size(), false);
   for (const Argument& argument : shared) set(argument, given);
   for (const Argument& argument : own) set(argument, given);
@@ -145,8 +142,8 @@ void Kernel::run(std::size_t global, std::size_t local, std::span<const Argument
     for (const std::span<const Argument> arguments : {shared, std::span<const Argument>(own)})
       for (const Argument& argument : arguments)
         if (argument.buffer_) buffers.push_back(argument.buffer_->state.get());
-    throw detail::buffers_failed(error, fmt::format("{} over {} items in groups of {}", state->name, rounded, local), state->context->info,
-                                 std::move(buffers));
+    throw detail::buffers_failed(error, fmt::format("{} over {} items in groups of {}", state->name, rounded, local),
+                                 state->context->info, std::move(buffers));
   }
 }
 

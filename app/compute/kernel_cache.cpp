@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PoCL's kernel cache: PoCL writes every kernel to a folder before it runs it, and where it cannot, it shows no device at all
-// (no HOME) or fails later with an unrelated code. So the folder is looked at before PoCL is first called.
+// PoCL's kernel cache: PoCL writes every kernel to a folder before it runs it, and where it cannot, it shows no device
+// at all (no HOME) or fails later with an unrelated code. So the folder is looked at before PoCL is first called.
 #include "compute/state.h"
 
 #include <fmt/format.h>
@@ -16,28 +16,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string environment(const char* name)
-{
+std::string environment(const char* name) {
   const char* value = std::getenv(name);
   return value ? value : "";
 }
 
 /// Where PoCL 3 looks, in its order (pocl_cache_init_topdir). Empty: it has no place.
-fs::path cache_folder()
-{
+fs::path cache_folder() {
   if (const std::string folder = environment("POCL_CACHE_DIR"); !folder.empty()) return folder;
-  if (const std::string folder = environment("XDG_CACHE_HOME"); !folder.empty()) return fs::path(folder) / "pocl/kcache";
+  if (const std::string folder = environment("XDG_CACHE_HOME"); !folder.empty())
+    return fs::path(folder) / "pocl/kcache";
   if (const std::string folder = environment("HOME"); !folder.empty()) return fs::path(folder) / ".cache/pocl/kcache";
   return {};
 }
 
-/// Room for a run's kernels and what the compiler leaves beside them. On a disk that fills up while it writes, LLVM ends the
-/// whole process, so there must be enough from the start.
+/// Room for a run's kernels and what the compiler leaves beside them. On a disk that fills up while it writes, LLVM
+/// ends the whole process, so there must be enough from the start.
 constexpr std::uintmax_t needed_bytes = 64'000'000;
 
 /// Makes the folder and a file in it. Returns why PoCL could not work there; empty where it can.
-std::string write_problem(const fs::path& folder)
-{
+std::string write_problem(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return error.message();
@@ -55,10 +53,9 @@ std::string write_problem(const fs::path& folder)
                      static_cast<double>(needed_bytes) * 1e-6);
 }
 
-/// A folder of this user alone: kernels found there are run, so nobody else may write to it. Its name stays the same, so that
-/// kernels are kept for the next run. Empty where `parent` has no place for one.
-fs::path private_folder(const fs::path& parent)
-{
+/// A folder of this user alone: kernels found there are run, so nobody else may write to it. Its name stays the same,
+/// so that kernels are kept for the next run. Empty where `parent` has no place for one.
+fs::path private_folder(const fs::path& parent) {
   if (parent.empty()) return {};
   const fs::path folder = parent / fmt::format("nephroid-kernels-{}", getuid());
   mkdir(folder.c_str(), S_IRWXU);
@@ -69,8 +66,7 @@ fs::path private_folder(const fs::path& parent)
 }
 
 /// The temporary files' folder, or the memory's where that one is full, too.
-fs::path private_folder()
-{
+fs::path private_folder() {
   std::error_code error;
   const fs::path folder = private_folder(fs::temp_directory_path(error));
   return folder.empty() ? private_folder("/dev/shm") : folder;
@@ -78,16 +74,14 @@ fs::path private_folder()
 
 } // namespace
 
-std::string detail::kernel_cache_problem()
-{
+std::string detail::kernel_cache_problem() {
   const fs::path folder = cache_folder();
   if (folder.empty()) return "PoCL has no folder for its kernels: HOME is not set";
   const std::string reason = write_problem(folder);
   return reason.empty() ? "" : fmt::format("PoCL's kernel cache {} cannot be used: {}", folder.string(), reason);
 }
 
-std::string prepare_kernel_cache()
-{
+std::string prepare_kernel_cache() {
   const std::string problem = detail::kernel_cache_problem();
   if (problem.empty()) return {};
   const fs::path folder = private_folder();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Building programs: the one place that composes compiler options and reads the compiler's log. The compiler gets one text with every
-// include in its place, so that no file is needed at run time and messages still name the file and line that a person edits.
+// Building programs: the one place that composes compiler options and reads the compiler's log. The compiler gets one
+// text with every include in its place, so that no file is needed at run time and messages still name the file and line
+// that a person edits.
 #include "base/files.h"
 #include "compute/embedded.h"
 #include "compute/state.h"
@@ -20,10 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string source_text(const fs::path& folder, const std::string& file, const Place& where)
-{
+std::string source_text(const fs::path& folder, const std::string& file, const Place& where) {
   if (!folder.empty()) {
-    if (!fs::exists(folder / file)) throw failed(where, fmt::format("there is no kernel source {}", (folder / file).string()));
+    if (!fs::exists(folder / file))
+      throw failed(where, fmt::format("there is no kernel source {}", (folder / file).string()));
     return read_file(folder / file);
   }
   std::string names;
@@ -35,8 +36,7 @@ std::string source_text(const fs::path& folder, const std::string& file, const P
 }
 
 /// FILE of a line `#include "FILE"`; empty of any other.
-std::string included_file(std::string_view line)
-{
+std::string included_file(std::string_view line) {
   for (const std::string_view word : {"#", "include", "\""}) {
     line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
     if (!line.starts_with(word)) return {};
@@ -51,8 +51,7 @@ struct Joiner {
   std::set<std::string> included = {};
   std::string text = {};
 
-  void add(const std::string& file, const Place& where)
-  {
+  void add(const std::string& file, const Place& where) {
     if (!included.insert(file).second) return;
     std::istringstream lines(source_text(folder, file, where));
     text += fmt::format("#line 1 \"{}\"\n", file);
@@ -71,17 +70,17 @@ struct Joiner {
 };
 
 /// Options are one string that every vendor splits at white space in its own way, so a definition holds none.
-void check_define(const std::string& name, const std::string& value)
-{
+void check_define(const std::string& name, const std::string& value) {
   const auto in_name = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-  const bool identifier = !name.empty() && std::ranges::all_of(name, in_name) && !(name.front() >= '0' && name.front() <= '9');
+  const bool identifier =
+      !name.empty() && std::ranges::all_of(name, in_name) && !(name.front() >= '0' && name.front() <= '9');
   if (!identifier || value.find_first_of(" \t\n\v\f\r\"'\\") != std::string::npos)
-    throw failed("-D" + name + "=" + value, "cannot be passed to a kernel compiler", "a name, and a value without spaces and quotes");
+    throw failed("-D" + name + "=" + value, "cannot be passed to a kernel compiler",
+                 "a name, and a value without spaces and quotes");
 }
 
 /// A definition that the source does not name is left out: programs that differ by nothing else are built once.
-std::string compiler_options(const DeviceInfo& device, const Defines& defines, const std::string& source)
-{
+std::string compiler_options(const DeviceInfo& device, const Defines& defines, const std::string& source) {
   std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
   options += device.type == "cpu" ? " -DNEPHROID_CPU=1" : " -DNEPHROID_GPU=1";
   if (device.fp64) options += " -DNEPHROID_FP64=1";
@@ -94,8 +93,7 @@ std::string compiler_options(const DeviceInfo& device, const Defines& defines, c
 }
 
 /// A line of the compiler's log as place and message; nothing where it names no place.
-std::optional<std::pair<Place, std::string>> located(std::string line)
-{
+std::optional<std::pair<Place, std::string>> located(std::string line) {
   for (const std::string_view word : {"fatal error: ", "error: "})
     if (const std::size_t at = line.find(word); at != std::string::npos) line.erase(at, word.size());
   std::array<char, 256> file{};
@@ -109,20 +107,22 @@ std::optional<std::pair<Place, std::string>> located(std::string line)
 
 /// The first error of the compiler's log as place and message. Compilers write "trace.cl:12:5: error: ...", PoCL 3
 /// "error: trace.cl:12:5: ...".
-BuildError build_error(const std::string& file, const std::string& device, const std::string& log)
-{
+BuildError build_error(const std::string& file, const std::string& device, const std::string& log) {
   std::istringstream lines(log);
   std::string first;
   for (std::string line; std::getline(lines, line);) {
     if (line.find("error: ") == std::string::npos) continue;
-    if (const auto error = located(line)) return {error->first, fmt::format("{} (building {} for {})", error->second, file, device), log};
+    if (const auto error = located(line))
+      return {error->first, fmt::format("{} (building {} for {})", error->second, file, device), log};
     if (first.empty()) first = line;
   }
-  return {file, fmt::format("clBuildProgram gave CL_BUILD_PROGRAM_FAILURE for {}: {}", device, first.empty() ? log : first), log};
+  return {file,
+          fmt::format("clBuildProgram gave CL_BUILD_PROGRAM_FAILURE for {}: {}", device, first.empty() ? log : first),
+          log};
 }
 
-cl::Program build(detail::ContextState& context, const std::string& file, const std::string& source, const std::string& options)
-{
+cl::Program build(detail::ContextState& context, const std::string& file, const std::string& source,
+                  const std::string& options) {
   context.tell_of_compiling();
   context.cold = true;
   cl::Program program(context.context, source);
@@ -136,10 +136,10 @@ cl::Program build(detail::ContextState& context, const std::string& file, const 
   return program;
 }
 
-detail::KernelState::Parameter parameter_of(const cl::Kernel& kernel, cl_uint index)
-{
-  detail::KernelState::Parameter parameter{kernel.getArgInfo<CL_KERNEL_ARG_NAME>(index), kernel.getArgInfo<CL_KERNEL_ARG_TYPE_NAME>(index),
-                                           kernel.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(index) != CL_KERNEL_ARG_ADDRESS_PRIVATE};
+detail::KernelState::Parameter parameter_of(const cl::Kernel& kernel, cl_uint index) {
+  detail::KernelState::Parameter parameter{
+      kernel.getArgInfo<CL_KERNEL_ARG_NAME>(index), kernel.getArgInfo<CL_KERNEL_ARG_TYPE_NAME>(index),
+      kernel.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(index) != CL_KERNEL_ARG_ADDRESS_PRIVATE};
   const std::size_t end = parameter.type.find_first_of(" *"); // implementations write "float*" and "float *"
   if (end != std::string::npos) parameter.type.resize(end);
   return parameter;
@@ -147,8 +147,7 @@ detail::KernelState::Parameter parameter_of(const cl::Kernel& kernel, cl_uint in
 
 } // namespace
 
-Program::Program(const Context& context, const std::string& file, const Defines& defines)
-{
+Program::Program(const Context& context, const std::string& file, const Defines& defines) {
   detail::ContextState& s = *context.state;
   const std::string source = kernel_source(context, file);
   const std::string options = compiler_options(s.info, defines, source);
@@ -161,8 +160,7 @@ Program::Program(const Context& context, const std::string& file, const Defines&
   }
 }
 
-Kernel Program::kernel(const std::string& name) const
-{
+Kernel Program::kernel(const std::string& name) const {
   Kernel kernel;
   kernel.state = std::make_shared<detail::KernelState>();
   kernel.state->context = state->context;
@@ -180,8 +178,7 @@ Kernel Program::kernel(const std::string& name) const
   return kernel;
 }
 
-std::string kernel_sources(const Context& context, std::string_view folder)
-{
+std::string kernel_sources(const Context& context, std::string_view folder) {
   const fs::path& kernels = context.state->kernels;
   const std::string prefix = fmt::format("{}/", folder);
   std::set<std::string> files;
@@ -201,15 +198,13 @@ std::string kernel_sources(const Context& context, std::string_view folder)
   return all;
 }
 
-std::string kernel_source(const Context& context, const std::string& file)
-{
+std::string kernel_source(const Context& context, const std::string& file) {
   Joiner joiner{context.state->kernels};
   joiner.add(file, "kernels");
   return joiner.text;
 }
 
-KernelTimes kernel_times(const fs::path& folder)
-{
+KernelTimes kernel_times(const fs::path& folder) {
   KernelTimes times;
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {

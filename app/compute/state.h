@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What compute.h hides: the OpenCL objects behind its handles and how a failed call becomes an Error. Private to this folder.
+// What compute.h hides: the OpenCL objects behind its handles and how a failed call becomes an Error. Private to this
+// folder.
 #pragma once
 #include "base/place.h"
 #include "compute/compute.h"
@@ -34,7 +35,8 @@ struct ContextState {
   cl::Context context;
   cl::CommandQueue queue;
   std::filesystem::path kernels; ///< empty: the embedded sources
-  /// By file and compiler options. One of an older text is replaced, so that hours of editing kernels do not fill the memory.
+  /// By file and compiler options. One of an older text is replaced, so that hours of editing kernels do not fill the
+  /// memory.
   std::map<std::pair<std::string, std::string>, BuiltProgram> programs;
   std::function<void()> tell_of_compiling = [] {};
   bool cold = false; ///< Context::is_cold
@@ -71,9 +73,10 @@ std::string error_name(cl_int code);
 /// which PoCL itself reports as an unrelated code without a reason.
 Error call_failed(const cl::Error& error, const Place& where);
 
-/// The same for a call over buffers. Where memory ran out it names the largest of them instead, their bytes, the device's memory and what
-/// to do.
-Error buffers_failed(const cl::Error& error, const Place& where, const DeviceInfo& device, std::vector<const BufferState*> buffers);
+/// The same for a call over buffers. Where memory ran out it names the largest of them instead, their bytes, the
+/// device's memory and what to do.
+Error buffers_failed(const cl::Error& error, const Place& where, const DeviceInfo& device,
+                     std::vector<const BufferState*> buffers);
 
 std::string megabytes(std::uint64_t bytes);
 

@@ -10,8 +10,7 @@
 namespace nephroid::environment {
 namespace {
 
-preset::Preset ball_preset(std::uint64_t seed)
-{
+preset::Preset ball_preset(std::uint64_t seed) {
   preset::Preset preset;
   preset.settings = preset::Settings(settings_type());
   preset.seed = seed;
@@ -31,8 +30,7 @@ preset::Preset ball_preset(std::uint64_t seed)
 }
 
 /// The bright spot behind the ball, its rim, what it reflects: near the ball, where rays cross, and far away.
-check::Result ball_in_parallel_light(const compute::Context& context, std::uint64_t seed)
-{
+check::Result ball_in_parallel_light(const compute::Context& context, std::uint64_t seed) {
   const glm::dvec3 light = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
   BakeTask task = make_task(ball_preset(seed));
   task.directions = {light};
@@ -55,8 +53,7 @@ check::Result ball_in_parallel_light(const compute::Context& context, std::uint6
 
 } // namespace
 
-RaysOfHeight ball_rays(double n, int inner_most)
-{
+RaysOfHeight ball_rays(double n, int inner_most) {
   return [n, inner_most](double h) {
     std::vector<optics::BallRay> rays;
     for (int inner = -1; inner <= inner_most; ++inner) rays.push_back(optics::ball_ray(h, n, inner));
@@ -64,17 +61,17 @@ RaysOfHeight ball_rays(double n, int inner_most)
   };
 }
 
-glm::dvec2 crossing(const optics::BallRay& ray, double r)
-{
+glm::dvec2 crossing(const optics::BallRay& ray, double r) {
   const glm::dvec2 from(ray.x, ray.y), way(std::cos(ray.angle), std::sin(ray.angle));
   const double along = glm::dot(from, way);
   return from + (std::sqrt(along * along + r * r - glm::dot(from, from)) - along) * way;
 }
 
-std::vector<double> ball_map(const SphereMap& map, const glm::dvec3& light, double r, const RaysOfHeight& rays_of, int rings, int azimuths)
-{
+std::vector<double> ball_map(const SphereMap& map, const glm::dvec3& light, double r, const RaysOfHeight& rays_of,
+                             int rings, int azimuths) {
   constexpr double pi = std::numbers::pi, size2 = 4; // of a ball of radius 1
-  const glm::dvec3 x = glm::normalize(glm::cross(light, std::abs(light.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0))),
+  const glm::dvec3 x = glm::normalize(
+                       glm::cross(light, std::abs(light.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0))),
                    y = glm::cross(light, x);
   std::vector<double> texels(map.texels());
   for (int i = 0; i < rings; ++i) {

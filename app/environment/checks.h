@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closed forms of engine 2, for `nephroid check`, and what they and tests hold baked spheres against: what a sphere about a ball should
-// get, from rays in double precision.
+// Closed forms of engine 2, for `nephroid check`, and what they and tests hold baked spheres against: what a sphere
+// about a ball should get, from rays in double precision.
 #pragma once
 #include "check/check.h"
 #include "environment/bake/bake.h"
@@ -17,10 +17,10 @@ using RaysOfHeight = std::function<std::vector<optics::BallRay>(double h)>;
 /// Of a ball of index n; what was reflected inside more than `inner_most` times is left out.
 RaysOfHeight ball_rays(double n, int inner_most = 10);
 
-/// E r^2 over size^2 (Bake::at) in each texel of the sphere of radius r, for light along `light`, a unit vector: the power of rings of
-/// equal width, each at as many azimuths, goes to the texels where the rays cross the sphere.
-std::vector<double> ball_map(const SphereMap& map, const glm::dvec3& light, double r, const RaysOfHeight& rays_of, int rings = 1500,
-                             int azimuths = 720);
+/// E r^2 over size^2 (Bake::at) in each texel of the sphere of radius r, for light along `light`, a unit vector: the
+/// power of rings of equal width, each at as many azimuths, goes to the texels where the rays cross the sphere.
+std::vector<double> ball_map(const SphereMap& map, const glm::dvec3& light, double r, const RaysOfHeight& rays_of,
+                             int rings = 1500, int azimuths = 720);
 
 /// Where a ray of the plane of optics::BallRay crosses the sphere of radius r when it has left.
 glm::dvec2 crossing(const optics::BallRay& ray, double r);

@@ -11,16 +11,14 @@
 namespace nephroid::environment {
 namespace {
 
-shared::float4 to_rgb(const optics::Colour& xyz)
-{
+shared::float4 to_rgb(const optics::Colour& xyz) {
   const optics::Colour rgb = optics::xyz_to_linear_srgb(xyz);
   return tracing::to_float4({rgb[0], rgb[1], rgb[2]});
 }
 
 } // namespace
 
-std::vector<shared::float4> white_light()
-{
+std::vector<shared::float4> white_light() {
   std::vector<shared::float4> light;
   glm::dvec3 sum(0);
   const auto colour_of = [](int w) {
@@ -35,15 +33,13 @@ std::vector<shared::float4> white_light()
   return light;
 }
 
-std::vector<shared::float4> lit_colours(const tracing::WavelengthTables& tables)
-{
+std::vector<shared::float4> lit_colours(const tracing::WavelengthTables& tables) {
   std::vector<shared::float4> colours;
   for (const shared::float4& xyz : tables.reflected_xyz_all) colours.push_back(to_rgb({xyz.x, xyz.y, xyz.z}));
   return colours;
 }
 
-std::vector<shared::float4> reflected_primaries(const tracing::WavelengthTables& tables)
-{
+std::vector<shared::float4> reflected_primaries(const tracing::WavelengthTables& tables) {
   std::vector<shared::float4> colours;
   for (std::size_t r = 0; r < static_cast<std::size_t>(tables.reflector_count); ++r)
     for (optics::Spectrum primary : optics::primary_spectra()) {
@@ -53,8 +49,7 @@ std::vector<shared::float4> reflected_primaries(const tracing::WavelengthTables&
   return colours;
 }
 
-std::vector<float> channel_cdf()
-{
+std::vector<float> channel_cdf() {
   const std::vector<shared::float4> light = white_light();
   std::vector<float> cdf;
   for (const auto channel : {&shared::float4::x, &shared::float4::y, &shared::float4::z}) {

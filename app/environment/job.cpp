@@ -29,13 +29,14 @@ using Clock = std::chrono::steady_clock;
 class EnvironmentJob final : public job::Job {
 public:
   EnvironmentJob(const preset::Preset& preset, const EnvironmentPlan& plan, const mpi::RankContext& context)
-      : context_(context), preset_(preset), width_(preset.scene.camera.resolution[0]), height_(preset.scene.camera.resolution[1]),
-        sphere_white_(plan.render ? 0.2 : preset.white.value()), stop_(preset.stop),
+      : context_(context), preset_(preset), width_(preset.scene.camera.resolution[0]),
+        height_(preset.scene.camera.resolution[1]), sphere_white_(plan.render ? 0.2 : preset.white.value()),
+        stop_(preset.stop),
         // Where there is no light the bake is all, and the preset's passes are directions.
         baking_(plan.task, plan.key, plan.bake_file, !plan.bakes,
-                !plan.render && stop_.passes ? static_cast<std::size_t>(*stop_.passes) : plan.task->directions.size(), context),
-        photons_(context)
-  {
+                !plan.render && stop_.passes ? static_cast<std::size_t>(*stop_.passes) : plan.task->directions.size(),
+                context),
+        photons_(context) {
     if (!plan.render) return;
     if (stop_.passes || !stop_.seconds) passes_ = stop_.passes.value_or(preset::default_passes);
     view_.emplace(preset, plan.render, plan.task->caster, context);
@@ -44,10 +45,10 @@ public:
     if (plan.photons) photons_.begin(preset, renderer()->scene(), renderer()->bvh(), *plan.photons);
   }
 
-  void advance() override
-  {
+  void advance() override {
     if (renderer()) renderer()->renew_tree();
-    const bool photons_next = wants_photons(), rests = !renderer() || (!photons_next && renderer()->passes() >= most_passes());
+    const bool photons_next = wants_photons(),
+               rests = !renderer() || (!photons_next && renderer()->passes() >= most_passes());
     bakes_next_ = !baking_.is_complete() && (rests || !bakes_next_); // else by turns
     if (bakes_next_)
       timed(bake_seconds_, [&] { bake(); });
@@ -57,28 +58,26 @@ public:
       timed(render_seconds_, [&] { renderer()->advance(); });
   }
 
-  bool finished() const override
-  {
+  bool finished() const override {
     if (stop_.seconds && work_seconds() >= *stop_.seconds) return true;
     if (view_) return baking_.is_complete() && renderer() && passes() >= most_passes();
     return baking_.is_complete() || (stop_.passes && baking_.directions() >= *stop_.passes);
   }
   bool estimates_error() const override { return refines() && !view_->has_medium(); }
 
-  job::Progress progress() const override
-  {
+  job::Progress progress() const override {
     job::Progress p;
     p.work_seconds = work_seconds();
     if (view_)
       add_view(p);
     else
       add_bake(p);
-    p.fraction = finished() ? 1 : std::min(1.0, std::max(p.fraction, stop_.seconds ? work_seconds() / *stop_.seconds : 0));
+    p.fraction =
+        finished() ? 1 : std::min(1.0, std::max(p.fraction, stop_.seconds ? work_seconds() / *stop_.seconds : 0));
     return p;
   }
 
-  job::Snapshot snapshot() override
-  {
+  job::Snapshot snapshot() override {
     job::Snapshot snapshot;
     if (!renderer() || renderer()->passes() > 0 || finished()) // not before the first picture, which it would hold up
       spheres_.update(baking_.bake(), width_, height_, sphere_white_);
@@ -99,8 +98,7 @@ public:
     return snapshot;
   }
 
-  void save(ByteSink& sink) override
-  {
+  void save(ByteSink& sink) override {
     tracing::State state(sink, context_.communicator());
     bool complete = baking_.is_complete();
     state.value(bake_seconds_);
@@ -111,8 +109,7 @@ public:
   }
 
   /// A bake that was complete is in its file, or is baked again.
-  void load(ByteSource& source) override
-  {
+  void load(ByteSource& source) override {
     tracing::State state(source, context_.communicator());
     double bake_seconds = 0, render_seconds = 0;
     bool complete = false;
@@ -133,12 +130,14 @@ public:
     render_seconds_ = render_seconds;
   }
 
-  /// While the object is baked, the change waits until it is rendered. After one that failed there is no renderer to go on with.
-  bool adopt(const preset::Preset& preset) override
-  {
-    if (!view_ || ((baking_.is_complete() || refines()) && !renderer()) || !engine::adoptable(preset_, preset)) return false;
+  /// While the object is baked, the change waits until it is rendered. After one that failed there is no renderer to go
+  /// on with.
+  bool adopt(const preset::Preset& preset) override {
+    if (!view_ || ((baking_.is_complete() || refines()) && !renderer()) || !engine::adoptable(preset_, preset))
+      return false;
     const preset::Preset turned = with_view_of(preset_, preset);
-    const bool relit = turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
+    const bool relit =
+        turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
     if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown
     if (renderer() && view_->show(preset)) {                          // another picture begins
       photons_.end();
@@ -154,8 +153,7 @@ private:
   const Renderer* renderer() const { return view_ ? view_->renderer() : nullptr; }
 
   template <class Work>
-  static void timed(double& seconds, const Work& work)
-  {
+  static void timed(double& seconds, const Work& work) {
     const auto begin = Clock::now();
     work();
     seconds += std::chrono::duration<double>(Clock::now() - begin).count();
@@ -168,14 +166,12 @@ private:
   std::int64_t most_passes() const { return passes_ >= 0 ? passes_ : preset::max_passes; }
 
   /// Of the whole picture.
-  std::int64_t passes() const
-  {
+  std::int64_t passes() const {
     if (!renderer()) return 0;
     return photons_.has_begun() ? std::min(renderer()->passes(), photons_.complete_passes()) : renderer()->passes();
   }
 
-  void bake()
-  {
+  void bake() {
     baking_.advance();
     if (!baking_.is_complete()) return;
     photons_.stay_ahead();
@@ -183,29 +179,30 @@ private:
   }
 
   /// Shows what there is to show.
-  void begin_view()
-  {
+  void begin_view() {
     if (!view_) return;
     if (!renderer()) view_->begin(preset_);
     if (baking_.is_complete()) view_->set_bake(baking_.bake());
   }
 
-  void add_view(job::Progress& p) const
-  {
+  void add_view(job::Progress& p) const {
     p.step = passes();
     p.steps = passes_;
     const double seen = renderer() ? static_cast<double>(renderer()->passes()) + renderer()->fraction_done() : 0;
     p.work = photons_.has_begun() ? photons_.sent() : static_cast<std::uint64_t>(seen * width_ * height_);
     if (!refines()) p.units = {.step = "pass", .steps = "passes", .work = "path", .works = "paths"};
     const double sent = photons_.has_begun() ? photons_.passes() : seen;
-    const auto part = [&](double passes) { return passes_ > 0 ? std::min(passes / static_cast<double>(passes_), 1.0) : 0; };
+    const auto part = [&](double passes) {
+      return passes_ > 0 ? std::min(passes / static_cast<double>(passes_), 1.0) : 0;
+    };
     const double rendered = std::min((part(seen) + part(sent)) / 2, 0.999); // maps of photons come last
     // A bake takes about as long as all passes.
-    p.fraction = !baking_.is_complete() ? 0.5 * baking_.fraction_done() : bake_seconds_ > 0 ? 0.5 + 0.5 * rendered : rendered;
+    p.fraction = !baking_.is_complete() ? 0.5 * baking_.fraction_done()
+                 : bake_seconds_ > 0    ? 0.5 + 0.5 * rendered
+                                        : rendered;
   }
 
-  void add_bake(job::Progress& p) const
-  {
+  void add_bake(job::Progress& p) const {
     const auto directions = static_cast<std::int64_t>(baking_.task().directions.size());
     p.steps = stop_.passes ? std::min<std::int64_t>(directions, *stop_.passes) : directions;
     p.step = baking_.directions();
@@ -215,18 +212,17 @@ private:
   }
 
   /// Of a picture that lacks spheres, which come, or light.
-  std::string caption() const
-  {
+  std::string caption() const {
     if (!view_) return "There is no light: the object's caustic spheres, as far as they are baked";
     if (!renderer()) return "The object is baked first: its caustic spheres, as far as they are";
     if (baking_.is_complete()) return "";
     const std::optional<double> left = baking_.seconds_left();
-    return fmt::format("Photons alone: the caustic spheres of {} join when they are baked, {:.0f} % are{}", baking_.task().caster.name,
-                       100 * baking_.fraction_done(), left ? fmt::format("; {:.0f} s left", std::ceil(*left)) : "");
+    return fmt::format("Photons alone: the caustic spheres of {} join when they are baked, {:.0f} % are{}",
+                       baking_.task().caster.name, 100 * baking_.fraction_done(),
+                       left ? fmt::format("; {:.0f} s left", std::ceil(*left)) : "");
   }
 
-  std::shared_ptr<const job::Picture> picture()
-  {
+  std::shared_ptr<const job::Picture> picture() {
     std::vector<Renderer::Layer> layers = renderer()->layers();
     const Renderer::Layer smooth = std::move(layers[Renderer::smooth]);
     layers.erase(layers.begin() + Renderer::smooth);
@@ -235,18 +231,19 @@ private:
     picture->width = width_;
     picture->height = height_;
     picture->rgb.resize(layers.front().rgb.size());
-    if (estimates_error() && std::ranges::none_of(layers, [](const Renderer::Layer& layer) { return layer.draw.empty(); }))
+    if (estimates_error() &&
+        std::ranges::none_of(layers, [](const Renderer::Layer& layer) { return layer.draw.empty(); }))
       picture->error_draw.resize(picture->rgb.size());
     for (Renderer::Layer& layer : layers) {
       std::ranges::transform(picture->rgb, layer.rgb, picture->rgb.begin(), std::plus());
-      if (!picture->error_draw.empty()) std::ranges::transform(picture->error_draw, layer.draw, picture->error_draw.begin(), std::plus());
+      if (!picture->error_draw.empty())
+        std::ranges::transform(picture->error_draw, layer.draw, picture->error_draw.begin(), std::plus());
       picture->layers.push_back({layer.name, std::move(layer.rgb)});
     }
     return picture;
   }
 
-  void state_of_picture(tracing::State& state)
-  {
+  void state_of_picture(tracing::State& state) {
     double caustics_seconds = view_->caustics_seconds();
     state.value(caustics_seconds);
     state.value(photon_seconds_);
@@ -256,13 +253,14 @@ private:
   }
 
   /// As the panel Environment has them.
-  void add_lights(job::Snapshot& snapshot) const
-  {
-    snapshot.curves.push_back({"lights", {"light", "azimuth_deg", "elevation_deg", "red", "green", "blue", "visible"}, {}});
+  void add_lights(job::Snapshot& snapshot) const {
+    snapshot.curves.push_back(
+        {"lights", {"light", "azimuth_deg", "elevation_deg", "red", "green", "blue", "visible"}, {}});
     const double rotate_deg = view_->backdrop_rotate_deg();
     const std::vector<Region>& lights = renderer()->segmentation().lights;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-      const glm::dvec3 from = turned(lights[i].direction, rotate_deg), all = lights[i].flux, left = renderer()->visible()[i].flux;
+      const glm::dvec3 from = turned(lights[i].direction, rotate_deg), all = lights[i].flux,
+                       left = renderer()->visible()[i].flux;
       const double sum = all.x + all.y + all.z;
       snapshot.curves.back().rows.push_back({static_cast<double>(i + 1), glm::degrees(std::atan2(from.x, -from.z)),
                                              glm::degrees(std::asin(from.y)), all.x, all.y, all.z,
@@ -287,8 +285,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan, const mpi::RankContext& context)
-{
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan,
+                                   const mpi::RankContext& context) {
   return std::make_unique<EnvironmentJob>(preset, plan, context);
 }
 

@@ -9,8 +9,9 @@
 
 namespace nephroid::environment {
 
-/// Reads the bake where the plan has one, else bakes; then renders until the preset's stop. Where there is no light the bake is all, and a
-/// pass of the stop is a direction. Throws failed where the device has not enough memory.
-std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan, const mpi::RankContext& context);
+/// Reads the bake where the plan has one, else bakes; then renders until the preset's stop. Where there is no light the
+/// bake is all, and a pass of the stop is a direction. Throws failed where the device has not enough memory.
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan,
+                                   const mpi::RankContext& context);
 
 } // namespace nephroid::environment

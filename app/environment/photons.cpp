@@ -12,8 +12,7 @@ namespace nephroid::environment {
 namespace {
 
 /// It is this engine's to stop, and the halves are what photons are mixed by.
-preset::Preset without_stop(preset::Preset preset)
-{
+preset::Preset without_stop(preset::Preset preset) {
   preset.stop = {};
   preset.measure.estimate = true;
   return preset;
@@ -21,8 +20,7 @@ preset::Preset without_stop(preset::Preset preset)
 
 } // namespace
 
-photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
-{
+photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) {
   photons::Settings photons;
   photons.direct = photons.background = false;
   photons.caustic = settings(preset).cast;
@@ -31,35 +29,32 @@ photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& 
   return plan;
 }
 
-std::unique_ptr<photons::PhotonJob> make_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
-                                           const photons::RunPlan& plan, const mpi::RankContext& context)
-{
+std::unique_ptr<photons::PhotonJob> make_photons(const preset::Preset& preset, const scene::Scene& scene,
+                                                 const scene::Bvh& bvh, const photons::RunPlan& plan,
+                                                 const mpi::RankContext& context) {
   if (plan.layers == 0) return nullptr;
   return photons::make_job(without_stop(preset), scene, bvh, plan, context);
 }
 
-void JoinedPhotons::begin(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const photons::RunPlan& plan)
-{
+void JoinedPhotons::begin(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
+                          const photons::RunPlan& plan) {
   run_ = make_photons(preset, scene, bvh, plan, context_);
   has_planned_ = true;
 }
 
-void JoinedPhotons::end()
-{
+void JoinedPhotons::end() {
   run_.reset();
   has_planned_ = false;
   ahead_ = 0;
 }
 
-bool JoinedPhotons::wants_turn(std::int64_t eye_passes, std::int64_t most) const
-{
+bool JoinedPhotons::wants_turn(std::int64_t eye_passes, std::int64_t most) const {
   if (!run_) return !has_planned_;
   const auto done = static_cast<double>(eye_passes);
   return complete_passes() < most && (eye_passes >= most || passes() < std::max((done + 1) / 4, done - 0.75) + ahead_);
 }
 
-void JoinedPhotons::advance(const SceneView& view)
-{
+void JoinedPhotons::advance(const SceneView& view) {
   if (run_) return run_->advance();
   const Renderer& renderer = *view.renderer();
   scene::Scene scene = renderer.scene();
@@ -68,13 +63,11 @@ void JoinedPhotons::advance(const SceneView& view)
   begin(view.shown(), scene, renderer.bvh(), plan_photons(view.shown(), scene, renderer.bvh()));
 }
 
-void JoinedPhotons::set_white(double white)
-{
+void JoinedPhotons::set_white(double white) {
   if (run_) run_->set_white(white);
 }
 
-void JoinedPhotons::join(std::vector<Renderer::Layer>& layers, const Renderer::Layer& smooth, bool has_spheres)
-{
+void JoinedPhotons::join(std::vector<Renderer::Layer>& layers, const Renderer::Layer& smooth, bool has_spheres) {
   Renderer::Layer &direct = layers[Renderer::direct], &caustic = layers[Renderer::caustic];
   if (direct.draw.empty()) direct.rgb = smooth.rgb;
   if (!run_ || run_->batches() < 2) return;
@@ -84,8 +77,7 @@ void JoinedPhotons::join(std::vector<Renderer::Layer>& layers, const Renderer::L
   caustic = {"caustic", sent->layers.front().rgb, sent->error_draw};
 }
 
-void JoinedPhotons::state(tracing::State& state, const SceneView& view)
-{
+void JoinedPhotons::state(tracing::State& state, const SceneView& view) {
   bool has_run = run_ != nullptr;
   state.value(ahead_);
   state.value(has_run);

@@ -17,80 +17,83 @@ namespace nephroid::environment {
 namespace {
 
 /// fault: bake_file_fault.
-plan::Pass bake_pass(const EnvironmentPlan& plan, const Settings& s, const std::optional<std::string>& fault)
-{
-  if (!fault) return {"bake", false, fmt::format("{} has it: the same object, material and settings", plan.bake_file.string())};
+plan::Pass bake_pass(const EnvironmentPlan& plan, const Settings& s, const std::optional<std::string>& fault) {
+  if (!fault)
+    return {"bake", false, fmt::format("{} has it: the same object, material and settings", plan.bake_file.string())};
   return {"bake", true,
-          fmt::format("{}{}: {} photons from each of {} directions onto {} spheres with {} radii", fault->empty() ? "" : "anew, ",
-                      plan.task->caster.name, s.photons, s.directions, s.spheres, preset::word(s.radii))};
+          fmt::format("{}{}: {} photons from each of {} directions onto {} spheres with {} radii",
+                      fault->empty() ? "" : "anew, ", plan.task->caster.name, s.photons, s.directions, s.spheres,
+                      preset::word(s.radii))};
 }
 
-plan::Pass colours_pass(const BakeTask& task)
-{
+plan::Pass colours_pass(const BakeTask& task) {
   return {"colours", task.coloured,
-          task.coloured ? "each photon has one wavelength of white light" : "all wavelengths go the same way and lose alike: one channel"};
+          task.coloured ? "each photon has one wavelength of white light"
+                        : "all wavelengths go the same way and lose alike: one channel"};
 }
 
 /// Of the omissions of kernels those that photons on their way through the object have.
-std::vector<plan::Pass> code_passes(const preset::Preset& preset, const BakeTask& task)
-{
+std::vector<plan::Pass> code_passes(const preset::Preset& preset, const BakeTask& task) {
   static constexpr std::array<std::string_view, 4> names{"mirrors", "bending", "attenuation", "smooth normals"};
-  std::vector<plan::Pass> passes =
-      tracing::code_omissions(tracing::LeaveOut{.all = preset.leave_out}, task.caster.scene, task.tables.wavelengths.attenuator_count)
-          .passes;
+  std::vector<plan::Pass> passes = tracing::code_omissions(tracing::LeaveOut{.all = preset.leave_out},
+                                                           task.caster.scene, task.tables.wavelengths.attenuator_count)
+                                       .passes;
   std::erase_if(passes, [](const plan::Pass& pass) { return !std::ranges::count(names, pass.name); });
   return passes;
 }
 
 /// Whether a person can see caustics at all, and by what light.
-std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTask* render)
-{
+std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTask* render) {
   const Settings& s = settings(preset);
   if (!render) return {{"view", false, "the scene has no light: only the spheres are shown"}};
   const std::size_t lights = render->segmentation.lights.size();
   const bool sky = render->cube.size > 0;
   std::vector<plan::Pass> passes;
   const bool even = is_cut_evenly(preset, render->cube);
-  passes.push_back({"segments", sky && !even,
-                    !sky   ? "there is no environment, only lamps"
-                    : even ? fmt::format("the environment has one colour all around: {} equal lights", lights)
-                           : fmt::format("the environment is cut into {} lights by {}", lights, preset::word(s.segmentation))});
+  passes.push_back(
+      {"segments", sky && !even,
+       !sky   ? "there is no environment, only lamps"
+       : even ? fmt::format("the environment has one colour all around: {} equal lights", lights)
+              : fmt::format("the environment is cut into {} lights by {}", lights, preset::word(s.segmentation))});
   passes.push_back({"occlusion", sky && render->has_surroundings,
-                    !sky                       ? "there is no environment"
-                    : render->has_surroundings ? fmt::format("{} rays a light from all over the object", samples_per_light(lights))
-                                               : "nothing stands around the object"});
+                    !sky ? "there is no environment"
+                    : render->has_surroundings
+                        ? fmt::format("{} rays a light from all over the object", samples_per_light(lights))
+                        : "nothing stands around the object"});
   const bool receivers = tracing::count_objects(*render->scene).diffuse > 0;
   passes.push_back({"cast", receivers && s.cast,
                     !s.cast     ? "environment.cast is false"
                     : receivers ? "caustics on diffuse surfaces, where a path ends"
                                 : "no surface is diffuse"});
-  passes.push_back(
-      {"volume", render->has_medium,
-       render->has_medium ? "caustics in the air: 128 steps a path" : "there is no medium: environment.extinction or albedo is 0"});
+  passes.push_back({"volume", render->has_medium,
+                    render->has_medium ? "caustics in the air: 128 steps a path"
+                                       : "there is no medium: environment.extinction or albedo is 0"});
   passes.push_back({"colours of the view", render->coloured,
-                    render->coloured ? "glass is looked through in three colours" : "all wavelengths go the same way and lose alike"});
+                    render->coloured ? "glass is looked through in three colours"
+                                     : "all wavelengths go the same way and lose alike"});
   return passes;
 }
 
 /// Whether photons join, and how.
-std::vector<plan::Pass> photon_passes(const Settings& s, const photons::RunPlan* photons)
-{
+std::vector<plan::Pass> photon_passes(const Settings& s, const photons::RunPlan* photons) {
   const char* const field = "/environment/refine";
-  if (!s.refine) return {{"photons", false, "environment.refine is false: spheres alone, as in the thesis", field, true}};
+  if (!s.refine)
+    return {{"photons", false, "environment.refine is false: spheres alone, as in the thesis", field, true}};
   const auto row = [&](std::string_view name) { return *std::ranges::find(photons->passes, name, &plan::Pass::name); };
   const plan::Pass sent = row("photons");
   if (!sent.runs) return {{"photons", false, s.cast ? sent.reason : "environment.cast is false"}};
   const plan::Pass maps = row("photon maps");
-  return {{"photons", true, sent.reason + ", mixed with what the spheres say as their two halves say is best", field, true},
-          {"photon maps", maps.runs, maps.reason}};
+  return {
+      {"photons", true, sent.reason + ", mixed with what the spheres say as their two halves say is best", field, true},
+      {"photon maps", maps.runs, maps.reason}};
 }
 
-std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake)
-{
+std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake) {
   const scene::Scene& s = *render.scene;
   const std::uint64_t sky = s.environment ? tracing::bytes_of(s.environment->rgb) : 0;
   std::uint64_t whole = 0;
-  for (const plan::PlannedBuffer& buffer : tracing::planned_buffers(s, *render.bvh, render.tables)) whole += buffer.bytes;
+  for (const plan::PlannedBuffer& buffer : tracing::planned_buffers(s, *render.bvh, render.tables))
+    whole += buffer.bytes;
   return {{"caustic spheres", Caustics::bytes(bake.empty_bake())},
           {"whole scene", whole},
           {"environment", sky},
@@ -100,8 +103,7 @@ std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const Ba
           {"environment (host)", 2 * sky + tracing::bytes_of(render.cube.flux), true}};
 }
 
-std::vector<plan::PlannedBuffer> buffers_of(const BakeTask& task, const scene::Scene& scene, bool bakes)
-{
+std::vector<plan::PlannedBuffer> buffers_of(const BakeTask& task, const scene::Scene& scene, bool bakes) {
   const std::uint64_t sums = task.film_bytes() / task.radii.size(),
                       meshes = tracing::mesh_bytes(scene) + tracing::mesh_bytes(task.caster.scene);
   std::vector<plan::PlannedBuffer> list{{"scene (host)", meshes + tracing::tree_bytes(task.bvh), true},
@@ -116,13 +118,13 @@ std::vector<plan::PlannedBuffer> buffers_of(const BakeTask& task, const scene::S
 
 } // namespace
 
-EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
-{
+EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) {
   const Settings& s = settings(preset);
   EnvironmentPlan plan;
   plan.task = std::make_shared<const BakeTask>(make_task(preset));
   const BakeTask& task = *plan.task;
-  if (has_light(scene)) plan.render = std::make_shared<const RenderTask>(make_render_task(preset, scene, bvh, task.caster));
+  if (has_light(scene))
+    plan.render = std::make_shared<const RenderTask>(make_render_task(preset, scene, bvh, task.caster));
   if (plan.render && s.refine) plan.photons = plan_photons(preset, *plan.render->scene, *plan.render->bvh);
   plan.engine = "environment";
   plan.key = bake_key(preset, task.caster);
@@ -132,7 +134,8 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   plan.passes = {bake_pass(plan, s, fault), colours_pass(task)};
   for (plan::Pass& pass : view_passes(preset, plan.render.get())) plan.passes.push_back(std::move(pass));
   if (plan.render)
-    for (plan::Pass& pass : photon_passes(s, plan.photons ? &*plan.photons : nullptr)) plan.passes.push_back(std::move(pass));
+    for (plan::Pass& pass : photon_passes(s, plan.photons ? &*plan.photons : nullptr))
+      plan.passes.push_back(std::move(pass));
   for (plan::Pass& pass : code_passes(preset, task)) plan.passes.push_back(std::move(pass));
   plan.buffers = buffers_of(task, scene, plan.bakes);
   if (plan.render)
@@ -146,29 +149,32 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
     }
   plan.defines = task.defines;
   plan.layers = plan.render ? Renderer::layers(*plan.render) : 1;
-  plan.smaller =
-      "choose a smaller scene.camera.resolution, fewer environment.directions or environment.spheres, or a smaller environment.resolution";
+  plan.smaller = "choose a smaller scene.camera.resolution, fewer environment.directions or environment.spheres, or a "
+                 "smaller environment.resolution";
   plan.notes = scene.warnings;
-  if (fault && !fault->empty()) plan.notes.push_back(fmt::format("{}: {}; it is baked again", plan.bake_file.string(), *fault));
+  if (fault && !fault->empty())
+    plan.notes.push_back(fmt::format("{}: {}; it is baked again", plan.bake_file.string(), *fault));
   if (!plan.render && (scene.environment || !scene.lights.empty()))
     plan.notes.push_back("the scene's lights are black: the picture is a sheet of the baked spheres");
   if (plan.render && plan.render->cube.size > 0 && plan.render->segmentation.lights.empty())
-    plan.notes.push_back(
-        fmt::format("no part of the environment is above environment.threshold {}, so its light makes no caustics", s.threshold));
+    plan.notes.push_back(fmt::format(
+        "no part of the environment is above environment.threshold {}, so its light makes no caustics", s.threshold));
   if (const double depth = s.extinction * task.radii.back(); plan.render && plan.render->has_medium && depth > 2)
-    plan.notes.push_back(
-        fmt::format("environment.extinction {}: the largest sphere has a radius of {:.3g} extinction lengths; caustics in the air "
-                    "are right in a thin medium, of less than 2, and fade in a thicker one",
-                    s.extinction, depth));
+    plan.notes.push_back(fmt::format(
+        "environment.extinction {}: the largest sphere has a radius of {:.3g} extinction lengths; caustics in the air "
+        "are right in a thin medium, of less than 2, and fade in a thicker one",
+        s.extinction, depth));
   if (!task.caster.extent.middle_inside)
-    plan.notes.push_back(fmt::format("{}: its middle, about which the spheres stand, is outside of it; the smallest sphere has the radius "
-                                     "{:.4g}, as the surface is {:.4g} from there",
-                                     task.caster.name, task.radii.front(), task.caster.extent.nearest));
+    plan.notes.push_back(fmt::format(
+        "{}: its middle, about which the spheres stand, is outside of it; the smallest sphere has the radius "
+        "{:.4g}, as the surface is {:.4g} from there",
+        task.caster.name, task.radii.front(), task.caster.extent.nearest));
   for (const scene::Object& object : task.caster.scene.objects)
     if (!object.closed && material_of(task.caster.scene, object).type == scene::Material::Type::dielectric)
-      plan.notes.push_back(fmt::format("object '{}': its mesh is open: light that comes in by its surface and leaves by a hole marks "
-                                       "spheres only on its last way",
-                                       object.name));
+      plan.notes.push_back(
+          fmt::format("object '{}': its mesh is open: light that comes in by its surface and leaves by a hole marks "
+                      "spheres only on its last way",
+                      object.name));
   return plan;
 }
 

@@ -19,8 +19,7 @@ constexpr int least_width = 200, most_cells = 6;
 constexpr int gap = 4;
 constexpr float grey = 0.02f; ///< that parts black spheres
 
-std::vector<std::size_t> spread(std::size_t count, int fit)
-{
+std::vector<std::size_t> spread(std::size_t count, int fit) {
   const std::size_t shown = std::min(count, static_cast<std::size_t>(std::clamp(fit, 1, most_cells)));
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < shown; ++i) chosen.push_back(shown > 1 ? i * (count - 1) / (shown - 1) : 0);
@@ -28,8 +27,8 @@ std::vector<std::size_t> spread(std::size_t count, int fit)
 }
 
 /// Mean of a few places in each pixel, for a pixel has several texels.
-std::vector<float> latitude_longitude(const Bake& bake, std::size_t direction, std::size_t sphere, int width, int height, double white)
-{
+std::vector<float> latitude_longitude(const Bake& bake, std::size_t direction, std::size_t sphere, int width,
+                                      int height, double white) {
   constexpr int places = 2;
   std::vector<float> rgb(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   if (direction >= bake.baked.size()) return rgb;
@@ -41,8 +40,10 @@ std::vector<float> latitude_longitude(const Bake& bake, std::size_t direction, s
           const int below = i / places, right = i % places;
           const double down = (static_cast<double>(row) + (below + 0.5) / places) / height,
                        across = (static_cast<double>(column) + (right + 0.5) / places) / width;
-          const double zenith = std::numbers::pi * down, azimuth = 2 * std::numbers::pi * (across - 0.5); // from -z to +x
-          const glm::dvec3 way(std::sin(zenith) * std::sin(azimuth), std::cos(zenith), -std::sin(zenith) * std::cos(azimuth));
+          const double zenith = std::numbers::pi * down,
+                       azimuth = 2 * std::numbers::pi * (across - 0.5); // from -z to +x
+          const glm::dvec3 way(std::sin(zenith) * std::sin(azimuth), std::cos(zenith),
+                               -std::sin(zenith) * std::cos(azimuth));
           sum += bake.at(direction, sphere, bake.map.texel(way));
         }
         for (int c = 0; c < 3; ++c)
@@ -55,8 +56,7 @@ std::vector<float> latitude_longitude(const Bake& bake, std::size_t direction, s
 
 } // namespace
 
-Shown choose_shown(const Bake& bake, int width, int height)
-{
+Shown choose_shown(const Bake& bake, int width, int height) {
   Shown shown;
   shown.spheres = spread(bake.radii.size(), width / (least_width + gap));
   const int cell = width / static_cast<int>(shown.spheres.size());
@@ -64,8 +64,7 @@ Shown choose_shown(const Bake& bake, int width, int height)
   return shown;
 }
 
-std::shared_ptr<const job::Picture> sheet(const Bake& bake, const Shown& shown, int width, int height, double white)
-{
+std::shared_ptr<const job::Picture> sheet(const Bake& bake, const Shown& shown, int width, int height, double white) {
   auto picture = std::make_shared<job::Picture>();
   picture->width = width;
   picture->height = height;
@@ -87,24 +86,22 @@ std::shared_ptr<const job::Picture> sheet(const Bake& bake, const Shown& shown, 
   return picture;
 }
 
-std::shared_ptr<const job::Picture> spheres_picture(const Bake& bake, std::size_t direction, const std::vector<std::size_t>& spheres,
-                                                    double white)
-{
+std::shared_ptr<const job::Picture> spheres_picture(const Bake& bake, std::size_t direction,
+                                                    const std::vector<std::size_t>& spheres, double white) {
   auto picture = std::make_shared<job::Picture>();
   picture->width = picture_width;
   picture->height = picture_height;
   picture->rgb.assign(std::size_t{3} * picture_width * picture_height, 0.0f);
   for (const std::size_t sphere : spheres) {
-    picture->layers.push_back(
-        {fmt::format("sphere_{:02}", sphere + 1), latitude_longitude(bake, direction, sphere, picture_width, picture_height, white)});
+    picture->layers.push_back({fmt::format("sphere_{:02}", sphere + 1),
+                               latitude_longitude(bake, direction, sphere, picture_width, picture_height, white)});
     const std::vector<float>& layer = picture->layers.back().rgb;
     std::transform(layer.begin(), layer.end(), picture->rgb.begin(), picture->rgb.begin(), std::plus());
   }
   return picture;
 }
 
-void SpherePictures::update(const Bake& bake, int width, int height, double white)
-{
+void SpherePictures::update(const Bake& bake, int width, int height, double white) {
   const Shown shown = choose_shown(bake, width, height);
   const auto baked = static_cast<std::size_t>(
       std::ranges::count_if(shown.directions, [&](std::size_t direction) { return direction < bake.baked.size(); }));
@@ -112,29 +109,30 @@ void SpherePictures::update(const Bake& bake, int width, int height, double whit
   if (baked < directions_.size()) directions_.clear(); // an earlier state was loaded
   sheet_ = sheet(bake, shown, width, height, white);
   for (std::size_t i = directions_.size(); i < baked; ++i)
-    directions_.push_back(
-        {fmt::format("direction_{:03}", shown.directions[i] + 1), spheres_picture(bake, shown.directions[i], shown.spheres, white)});
+    directions_.push_back({fmt::format("direction_{:03}", shown.directions[i] + 1),
+                           spheres_picture(bake, shown.directions[i], shown.spheres, white)});
 }
 
-void add_figures(const Bake& bake, job::Snapshot& snapshot)
-{
+void add_figures(const Bake& bake, job::Snapshot& snapshot) {
   snapshot.curves.push_back({"directions", {"direction", "x", "y", "z", "met", "sent", "absorbed", "lost"}, {}});
   BakedDirection sum;
   for (std::size_t i = 0; i < bake.baked.size(); ++i) {
     const BakedDirection& d = bake.baked[i];
     const glm::dvec3& way = bake.directions[i];
-    snapshot.curves.back().rows.push_back({static_cast<double>(i + 1), way.x, way.y, way.z, d.met, d.sent, d.absorbed, d.lost});
+    snapshot.curves.back().rows.push_back(
+        {static_cast<double>(i + 1), way.x, way.y, way.z, d.met, d.sent, d.absorbed, d.lost});
     sum.met += d.met;
     sum.sent += d.sent;
     sum.absorbed += d.absorbed;
     sum.lost += d.lost;
   }
-  snapshot.scalars.insert(snapshot.scalars.end(),
-                          {{"bake", "size", bake.size},
-                           {"bake", "smallest_radius", bake.radii.front()},
-                           {"bake", "largest_radius", bake.radii.back()},
-                           {"bake", "channels", static_cast<double>(bake.channels)},
-                           {"bake", "bytes", static_cast<double>((bake.light.size() + bake.ways.size()) * sizeof(std::uint16_t))}});
+  snapshot.scalars.insert(
+      snapshot.scalars.end(),
+      {{"bake", "size", bake.size},
+       {"bake", "smallest_radius", bake.radii.front()},
+       {"bake", "largest_radius", bake.radii.back()},
+       {"bake", "channels", static_cast<double>(bake.channels)},
+       {"bake", "bytes", static_cast<double>((bake.light.size() + bake.ways.size()) * sizeof(std::uint16_t))}});
   if (sum.met <= 0) return;
   snapshot.scalars.insert(snapshot.scalars.end(), {{"energy", "met", sum.met / static_cast<double>(bake.baked.size())},
                                                    {"energy", "sent", sum.sent / sum.met},
@@ -142,10 +140,10 @@ void add_figures(const Bake& bake, job::Snapshot& snapshot)
                                                    {"energy", "lost", sum.lost / sum.met}});
 }
 
-std::uint64_t picture_bytes(const BakeTask& task)
-{
+std::uint64_t picture_bytes(const BakeTask& task) {
   const auto shown = [](std::size_t count) { return std::min<std::uint64_t>(count, most_cells); };
-  return sizeof(float) * 3 * picture_width * picture_height * (shown(task.radii.size()) + 1) * shown(task.directions.size());
+  return sizeof(float) * 3 * picture_width * picture_height * (shown(task.radii.size()) + 1) *
+         shown(task.directions.size());
 }
 
 } // namespace nephroid::environment

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The seam between image.cpp and the module that knows OpenImageIO (oiio/module.cpp). Plain C, so that the two can be compiled
-// apart and the module be loaded late. Not for others: include image/image.h.
+// The seam between image.cpp and the module that knows OpenImageIO (oiio/module.cpp). Plain C, so that the two can be
+// compiled apart and the module be loaded late. Not for others: include image/image.h.
 #pragma once
 #include <cstddef>
 
@@ -11,7 +11,8 @@ struct NephroidAttribute {
   const char* value;
 };
 
-/// A picture lent for the time of a call. Interleaved channels, row 0 at the top; exactly one of floats, bytes and words is set.
+/// A picture lent for the time of a call. Interleaved channels, row 0 at the top; exactly one of floats, bytes and
+/// words is set.
 struct NephroidPicture {
   int width, height, channel_count;
   const char* const* channels;
@@ -30,14 +31,20 @@ struct NephroidBand {
   int orientation;   ///< as Exif counts them, 1..8
 };
 
-/// Calls take(context, band) for one band after the other from the top, as long as it returns true. Null or the reason, as below.
-using NephroidReadBands = const char* (*)(const char* file, bool (*take)(void* context, const NephroidBand* band), void* context);
-/// Calls take(context, picture) once and returns null, or returns the reason in words (valid until the thread's next call).
-using NephroidRead = const char* (*)(const char* file, void (*take)(void* context, const NephroidPicture* picture), void* context);
-/// Encodes floats as 32-bit EXR (zip), bytes and words as PNG, and calls take(context, data, size) once. Null or the reason, as above.
-using NephroidEncode = const char* (*)(const NephroidPicture* picture, void (*take)(void* context, const void* data, std::size_t size),
-                                       void* context);
-/// Draws text, letters so many pixels high, with the named font: one channel, 0..1, no wider and higher than the text. Null or the reason.
+/// Calls take(context, band) for one band after the other from the top, as long as it returns true. Null or the reason,
+/// as below.
+using NephroidReadBands = const char* (*)(const char* file, bool (*take)(void* context, const NephroidBand* band),
+                                          void* context);
+/// Calls take(context, picture) once and returns null, or returns the reason in words (valid until the thread's next
+/// call).
+using NephroidRead = const char* (*)(const char* file, void (*take)(void* context, const NephroidPicture* picture),
+                                     void* context);
+/// Encodes floats as 32-bit EXR (zip), bytes and words as PNG, and calls take(context, data, size) once. Null or the
+/// reason, as above.
+using NephroidEncode = const char* (*)(const NephroidPicture* picture,
+                                       void (*take)(void* context, const void* data, std::size_t size), void* context);
+/// Draws text, letters so many pixels high, with the named font: one channel, 0..1, no wider and higher than the text.
+/// Null or the reason.
 using NephroidText = const char* (*)(const char* text, int height, const char* font,
                                      void (*take)(void* context, const NephroidPicture* picture), void* context);
 }

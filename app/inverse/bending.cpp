@@ -10,8 +10,7 @@ namespace nephroid::inverse {
 
 glm::dvec3 direction_of(const glm::dvec2& slope) { return glm::normalize(glm::dvec3(slope, -1)); }
 
-std::optional<glm::dvec3> facet_normal(const glm::dvec3& in, const glm::dvec3& out, double n)
-{
+std::optional<glm::dvec3> facet_normal(const glm::dvec3& in, const glm::dvec3& out, double n) {
   glm::dvec3 normal = n * in - out;
   if (n < 1) normal = -normal; // out of the object is the way that light goes
   const double length = glm::length(normal);
@@ -19,24 +18,23 @@ std::optional<glm::dvec3> facet_normal(const glm::dvec3& in, const glm::dvec3& o
   return normal / length;
 }
 
-double slope_limit(double n)
-{
+double slope_limit(double n) {
   const double cosine = std::min(n, 1 / n);
   return std::sqrt(1 - cosine * cosine) / cosine;
 }
 
-double slope_behind(double tilt_radians, double n)
-{
+double slope_behind(double tilt_radians, double n) {
   const double sine = n * std::sin(tilt_radians);
   return sine < 1 ? std::tan(std::abs(std::asin(sine) - tilt_radians)) : std::numeric_limits<double>::infinity();
 }
 
-glm::dvec3 light_inside(const glm::dvec2& sines, double n) { return {sines, -std::sqrt(n * n - glm::dot(sines, sines))}; }
+glm::dvec3 light_inside(const glm::dvec2& sines, double n) {
+  return {sines, -std::sqrt(n * n - glm::dot(sines, sines))};
+}
 
 glm::dvec2 slope_inside(const glm::dvec2& sines, double n) { return sines / -light_inside(sines, n).z; }
 
-glm::dvec2 facet_slope(const glm::dvec2& gradient, double n, const glm::dvec2& sines)
-{
+glm::dvec2 facet_slope(const glm::dvec2& gradient, double n, const glm::dvec2& sines) {
   const glm::dvec3 in = light_inside(sines, n), normal = glm::normalize(glm::dvec3(gradient, -1));
   const double along = glm::dot(in, normal);
   const glm::dvec3 out = in - (along - std::sqrt(std::max(0.0, 1 - n * n + along * along))) * normal;
@@ -45,9 +43,9 @@ glm::dvec2 facet_slope(const glm::dvec2& gradient, double n, const glm::dvec2& s
 
 glm::dvec2 flat_slope(const glm::dvec2& sines) { return sines / std::sqrt(1 - glm::dot(sines, sines)); }
 
-bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, double steepest)
-{
-  const double n2 = n > 1 ? n * n : 1 / (n * n), most2 = usable_part * usable_part * (n2 - 1); // of usable_slope, squared
+bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, double steepest) {
+  const double n2 = n > 1 ? n * n : 1 / (n * n),
+               most2 = usable_part * usable_part * (n2 - 1); // of usable_slope, squared
   if (sines == glm::dvec2(0)) {
     if (glm::dot(slope, slope) > most2) return false;
   } else {
@@ -59,29 +57,27 @@ bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, doubl
   return glm::dot(g, g) <= steepest * steepest;
 }
 
-glm::dvec2 nearest_reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, double steepest)
-{
+glm::dvec2 nearest_reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, double steepest) {
   if (reachable(slope, n, sines, steepest)) return slope;
-  return last_good(flat_slope(sines), slope, 50, [&](const glm::dvec2& middle) { return reachable(middle, n, sines, steepest); });
+  return last_good(flat_slope(sines), slope, 50,
+                   [&](const glm::dvec2& middle) { return reachable(middle, n, sines, steepest); });
 }
 
-glm::dvec2 facet_gradient(const glm::dvec2& slope, double n, const glm::dvec2& sines)
-{
+glm::dvec2 facet_gradient(const glm::dvec2& slope, double n, const glm::dvec2& sines) {
   const glm::dvec3 along = light_inside(sines, n) - direction_of(slope);
   return -glm::dvec2(along) / along.z;
 }
 
-double transmitted(const glm::dvec2& slope, double n, const glm::dvec2& sines)
-{
+double transmitted(const glm::dvec2& slope, double n, const glm::dvec2& sines) {
   const glm::dvec3 in = light_inside(sines, n) / n;
   const std::optional<glm::dvec3> normal = facet_normal(in, direction_of(slope), n);
   return normal ? 1 - optics::fresnel_reflectance(std::min(1.0, glm::dot(*normal, in)), n, 1) : 0;
 }
 
-// Snell's law for the unit normal N out of the object: out = k - (k.N - c) N with c^2 = 1 - k^2 + (k.N)^2, so that for a change dk of k and
-// dn of |k|, c dc = -n dn + (k.N) (dk.N) and dout = dk - (dk.N - dc) N. Of k only z answers to the two: k_z = -sqrt(n^2 - sines^2).
-SlopeChange slope_change(const glm::dvec2& slope, double n, const glm::dvec2& sines)
-{
+// Snell's law for the unit normal N out of the object: out = k - (k.N - c) N with c^2 = 1 - k^2 + (k.N)^2, so that for
+// a change dk of k and dn of |k|, c dc = -n dn + (k.N) (dk.N) and dout = dk - (dk.N - dc) N. Of k only z answers to the
+// two: k_z = -sqrt(n^2 - sines^2).
+SlopeChange slope_change(const glm::dvec2& slope, double n, const glm::dvec2& sines) {
   const glm::dvec3 k = light_inside(sines, n), out = direction_of(slope);
   const std::optional<glm::dvec3> normal = facet_normal(k / n, out, n);
   if (!normal) return {};

@@ -30,7 +30,8 @@ inline constexpr Choice<inverse::Settings::Method> choices<inverse::Settings::Me
      "Facet after facet goes where the pictures lack most light, until a sweep gains little; then all move together."},
     {inverse::Settings::Method::thesis, "thesis",
      "Draws from the pictures' joint probability, which two annealings and a correction adjust."},
-    {inverse::Settings::Method::lens, "lens", "One picture by a smooth surface, whose light takes the shortest ways there."}};
+    {inverse::Settings::Method::lens, "lens",
+     "One picture by a smooth surface, whose light takes the shortest ways there."}};
 
 template <>
 inline constexpr Choice<inverse::Settings::Heights> choices<inverse::Settings::Heights>[] = {
@@ -51,8 +52,10 @@ inline constexpr Choice<inverse::Thesis::Sampling> choices<inverse::Thesis::Samp
 
 template <>
 inline constexpr Choice<inverse::Thesis::Adjust> choices<inverse::Thesis::Adjust>[] = {
-    {inverse::Thesis::Adjust::convergence, "convergence", "One number: how wide the light is at the last receiver, over the object."},
-    {inverse::Thesis::Adjust::each, "each", "Four numbers a picture: its size, its place across and down, its distance."}};
+    {inverse::Thesis::Adjust::convergence, "convergence",
+     "One number: how wide the light is at the last receiver, over the object."},
+    {inverse::Thesis::Adjust::each, "each",
+     "Four numbers a picture: its size, its place across and down, its distance."}};
 
 } // namespace nephroid::preset
 
@@ -60,8 +63,7 @@ namespace nephroid::inverse {
 
 inline constexpr std::string_view receiver_part = "parts of the receiver's shorter side";
 
-inline void describe(preset::Fields& v, Picture& p)
-{
+inline void describe(preset::Fields& v, Picture& p) {
   v.about("InversePicture", "A grey picture that the object casts.");
   v.shorthand(preset::BareValue::text, Picture::Type::file, "file");
   using Type = Picture::Type;
@@ -74,11 +76,12 @@ inline void describe(preset::Fields& v, Picture& p)
   const bool straight = p.type == Type::cross || p.type == Type::bars;
   if (p.type == Type::file) v.field("file", "A picture file.", p.file, {.text = preset::Text::file, .required = true});
   if (p.type == Type::file)
-    v.field("tone", "Exponent on the file's luminance, of which the brightest pixel has 1: more than 1 darkens its greys.", p.tone,
-            {.bounds = preset::within(0.1, 10)});
+    v.field("tone",
+            "Exponent on the file's luminance, of which the brightest pixel has 1: more than 1 darkens its greys.",
+            p.tone, {.bounds = preset::within(0.1, 10)});
   if (p.type == Type::file) {
-    v.field("levels", "Contrast: brightness, after the tone, that becomes dark, and that which becomes the brightest.", p.levels,
-            {.unit = "parts of the file's brightest", .bounds = preset::within(0, 1)});
+    v.field("levels", "Contrast: brightness, after the tone, that becomes dark, and that which becomes the brightest.",
+            p.levels, {.unit = "parts of the file's brightest", .bounds = preset::within(0, 1)});
     v.field("vignette", "Width of the edge over which the file fades to the background.", p.vignette,
             {.unit = "parts of half the file's shorter side", .bounds = preset::within(0, 1)});
   }
@@ -91,26 +94,28 @@ inline void describe(preset::Fields& v, Picture& p)
   if (p.type == Type::bars || p.type == Type::star)
     v.field("count", "How many bars, or points of the star.", p.count, {.bounds = preset::within(1, 100)});
   if (p.type != Type::file && p.type != Type::qr && p.type != Type::disc && p.type != Type::ring)
-    v.field("turn_deg", "How far it is turned, counterclockwise.", p.turn_deg, {.unit = "degrees", .bounds = preset::within(-3600, 3600)});
-  v.field("background", "Brightness where nothing is drawn; the drawing has 1.", p.background, {.bounds = preset::within(0, 0.99)});
+    v.field("turn_deg", "How far it is turned, counterclockwise.", p.turn_deg,
+            {.unit = "degrees", .bounds = preset::within(-3600, 3600)});
+  v.field("background", "Brightness where nothing is drawn; the drawing has 1.", p.background,
+          {.bounds = preset::within(0, 0.99)});
 }
 
-inline void describe(preset::Fields& v, Receiver& r)
-{
+inline void describe(preset::Fields& v, Receiver& r) {
   v.about("InverseReceiver", "A screen across the light, and its picture.");
   v.field("distance_mm", "From the object's facets, against which it is parallel.", r.distance_mm,
           {.unit = "mm", .bounds = preset::within(0.01, 1e6), .required = true});
   v.field("offset_mm",
-          "Of its middle beside that of the object: to the right and up. Pictures that are beside each other fight less. With the method "
+          "Of its middle beside that of the object: to the right and up. Pictures that are beside each other fight "
+          "less. With the method "
           "'assign'.",
           r.offset_mm, {.unit = "mm", .bounds = preset::within(-1e6, 1e6)});
   v.field("picture", "What the object casts there: a file, or an object.", r.picture, {.required = true});
-  v.field("weight", "How much its picture counts beside the others'; the costs that are reported are of all pictures alike.", r.weight,
-          {.bounds = preset::within(0.01, 100)});
+  v.field("weight",
+          "How much its picture counts beside the others'; the costs that are reported are of all pictures alike.",
+          r.weight, {.bounds = preset::within(0.01, 100)});
 }
 
-inline void describe(preset::Fields& v, Light& l)
-{
+inline void describe(preset::Fields& v, Light& l) {
   v.about("InverseLight", "What falls on the front of the object.");
   v.type("type", "Where the light comes from.", l.type);
   if (l.type == Light::Type::parallel) {
@@ -124,26 +129,29 @@ inline void describe(preset::Fields& v, Light& l)
             {.unit = "mm", .bounds = preset::within(-1e5, 1e5)});
   }
   v.field("spectrum",
-          "Its colours: a CIE illuminant by name, or an object. Luminance counts then, and pictures are judged in colours. Without it the "
+          "Its colours: a CIE illuminant by name, or an object. Luminance counts then, and pictures are judged in "
+          "colours. Without it the "
           "light is of wavelength_nm and band_nm, energy counts, and pictures are grey.",
           l.spectrum);
 }
 
-inline void describe(preset::Fields& v, Thesis& t)
-{
+inline void describe(preset::Fields& v, Thesis& t) {
   v.about("InverseThesis", "Constants of the method \"thesis\".");
   using preset::within;
   const auto share = [&](std::string_view name, std::string_view sentence, auto& value, std::string_view unit = {}) {
     v.field(name, sentence, value, {.unit = unit, .bounds = within(0, 1)});
   };
   v.field("sampling", "How directions are drawn from the joint probability (5.1).", t.sampling);
-  v.field("directions", "Directions across and down that a facet's light is tried in; they cover the receivers as the facet sees them.",
-          t.directions, {.bounds = within(1, 1024)});
+  v.field(
+      "directions",
+      "Directions across and down that a facet's light is tried in; they cover the receivers as the facet sees them.",
+      t.directions, {.bounds = within(1, 1024)});
   v.field("draws", "Draws of every facet that a cost is the mean of.", t.draws, {.bounds = within(1, 1024)});
   v.field("adjust", "What the first annealing changes.", t.adjust);
   v.field("cycles", "Cycles of each annealing; 0 leaves both out.", t.cycles, {.bounds = within(0, 1000)});
   v.field("moves", "Moves of a cycle, at one temperature.", t.moves, {.bounds = within(1, 1000)});
-  v.field("temperature", "Temperature of the first cycle: a move that raises the cost by so much is taken with probability 1 / e.",
+  v.field("temperature",
+          "Temperature of the first cycle: a move that raises the cost by so much is taken with probability 1 / e.",
           t.temperature, {.unit = "of cost", .bounds = within(0, 1)});
   share("cooling", "The temperature of a cycle over that of the cycle before.", t.cooling);
   share("size_step", "Largest change in a move of the convergence, or of a picture's size.", t.size_step);
@@ -153,61 +161,75 @@ inline void describe(preset::Fields& v, Thesis& t)
   share("distance_step", "Largest change in a move of a picture's distance.", t.distance_step, "parts of the distance");
   v.field("distance_limit", "Largest change of that in all.", t.distance_limit,
           {.unit = "parts of the distance", .bounds = within(0, 0.9)});
-  share("extension_step", "Largest change in a move of k, the part of a picture's largest extension.", t.extension_step);
-  share("overshoot_step", "Largest change in a move of o, the part of a picture's largest overshoot.", t.overshoot_step);
-  v.field("corrections", "Rounds of the intensity correction at most; 0 leaves it out.", t.corrections, {.bounds = within(0, 1000)});
+  share("extension_step", "Largest change in a move of k, the part of a picture's largest extension.",
+        t.extension_step);
+  share("overshoot_step", "Largest change in a move of o, the part of a picture's largest overshoot.",
+        t.overshoot_step);
+  v.field("corrections", "Rounds of the intensity correction at most; 0 leaves it out.", t.corrections,
+          {.bounds = within(0, 1000)});
   v.field("patience", "Rounds without a gain after which no more follow.", t.patience, {.bounds = within(1, 1000)});
   v.field("worth", "A gain below this is none.", t.worth, {.unit = "of cost", .bounds = within(0, 1)});
-  v.field("ratio_limit", "A round makes a cell brighter, or darker, by this factor at most, also where no light reached it.", t.ratio_limit,
-          {.bounds = within(1, 1000)});
+  v.field("ratio_limit",
+          "A round makes a cell brighter, or darker, by this factor at most, also where no light reached it.",
+          t.ratio_limit, {.bounds = within(1, 1000)});
 }
 
-inline void describe(preset::Fields& v, Settings& s)
-{
+inline void describe(preset::Fields& v, Settings& s) {
   v.about("Inverse", "Settings of the engine \"inverse\".");
   using preset::within;
   v.field("method", "How the facets' slopes are found.", s.method);
   v.field("size_mm", "Width and height of the object.", s.size_mm, {.unit = "mm", .bounds = within(0.1, 1e5)});
   v.field("outline", "What the object looks like from the front; light beside it is not there.", s.outline);
-  v.field("thickness_mm", "From the middle of the relief to the flat front.", s.thickness_mm, {.unit = "mm", .bounds = within(0.01, 1e5)});
+  v.field("thickness_mm", "From the middle of the relief to the flat front.", s.thickness_mm,
+          {.unit = "mm", .bounds = within(0.01, 1e5)});
   v.field("heights", "Where the middles of the facets are.", s.heights);
-  v.field("min_thickness_mm", "No part of the object may be thinner.", s.min_thickness_mm, {.unit = "mm", .bounds = within(0.001, 1e5)});
+  v.field("min_thickness_mm", "No part of the object may be thinner.", s.min_thickness_mm,
+          {.unit = "mm", .bounds = within(0.001, 1e5)});
   v.field("max_relief_mm", "From the lowest corner of a facet to the highest, at most.", s.max_relief_mm,
           {.unit = "mm", .bounds = within(0.001, 1e5)});
   v.field("max_slope_deg", "How far a facet may be tilted against the front.", s.max_slope_deg,
           {.unit = "degrees", .bounds = within(0.01, 90)});
-  v.field("tool_radius_mm", "Of the cutter that mills the facets, each of which must be as wide as the cutter at least.", s.tool_radius_mm,
-          {.unit = "mm", .bounds = within(0.001, 1e4)});
-  v.field("layer_mm", "Thickness of the layers of a printer, which lie along the front: says how many the relief has.", s.layer_mm,
-          {.unit = "mm", .bounds = within(0.001, 10)});
-  v.field("draft_deg", "How far walls between facets lean at least, so that they can be milled or leave a mould.", s.draft_deg,
-          {.unit = "degrees", .bounds = within(0, 30)});
+  v.field("tool_radius_mm",
+          "Of the cutter that mills the facets, each of which must be as wide as the cutter at least.",
+          s.tool_radius_mm, {.unit = "mm", .bounds = within(0.001, 1e4)});
+  v.field("layer_mm", "Thickness of the layers of a printer, which lie along the front: says how many the relief has.",
+          s.layer_mm, {.unit = "mm", .bounds = within(0.001, 10)});
+  v.field("draft_deg", "How far walls between facets lean at least, so that they can be milled or leave a mould.",
+          s.draft_deg, {.unit = "degrees", .bounds = within(0, 30)});
   v.field("smoothing_normals",
           "Weight of facets that are unlike their neighbours, over 'smoothing_pictures': alpha_N of the thesis' (6.1).",
           s.smoothing_normals, {.bounds = within(0, 1000)});
-  v.field("smoothing_pictures", "Weight of the pictures' error, where 'smoothing_normals' is above 0: alpha_P of (6.1).",
+  v.field("smoothing_pictures",
+          "Weight of the pictures' error, where 'smoothing_normals' is above 0: alpha_P of (6.1).",
           s.smoothing_pictures, {.bounds = within(0.001, 1000)});
   v.field("facets", "Facets across and down.", s.facets, {.bounds = within(1, 1024)});
   v.field("mesh_error",
-          "Of the method \"lens\": how far the mesh's flat triangles may send light from where the smooth surface sends it, in the mean of "
+          "Of the method \"lens\": how far the mesh's flat triangles may send light from where the smooth surface "
+          "sends it, in the mean of "
           "squares. Half of it takes up to four times as many triangles.",
           s.mesh_error, {.unit = "cells", .bounds = within(0.001, 10)});
   v.field("index", "Index of refraction: a number, a file or an object.", s.index);
-  v.field("wavelength_nm", "The wavelength that the index is taken at, where light.spectrum does not say it.", s.wavelength_nm,
-          {.unit = "nm", .bounds = within(380, 780)});
-  v.field("band_nm", "Width of the light's band about wavelength_nm: its colours leave the object apart, which blurs the pictures.",
-          s.band_nm, {.unit = "nm", .bounds = within(0, 400)});
+  v.field("wavelength_nm", "The wavelength that the index is taken at, where light.spectrum does not say it.",
+          s.wavelength_nm, {.unit = "nm", .bounds = within(380, 780)});
+  v.field(
+      "band_nm",
+      "Width of the light's band about wavelength_nm: its colours leave the object apart, which blurs the pictures.",
+      s.band_nm, {.unit = "nm", .bounds = within(0, 400)});
   v.field("light", "What falls on the front.", s.light);
   v.field("sun_deg", "Diameter of the light's disc, which blurs the pictures; the sun's own is 0.53.", s.sun_deg,
           {.unit = "degrees", .bounds = within(0, 20)});
-  v.field("scatter_deg", "How far a rough surface turns light, as a standard deviation; it blurs the pictures.", s.scatter_deg,
-          {.unit = "degrees", .bounds = within(0, 10)});
+  v.field("scatter_deg", "How far a rough surface turns light, as a standard deviation; it blurs the pictures.",
+          s.scatter_deg, {.unit = "degrees", .bounds = within(0, 10)});
   v.field("receiver_mm", "Width and height of every receiver; without, the object's.", s.receiver_mm,
           {.unit = "mm", .bounds = within(0.1, 1e6)});
   v.field("cells", "Cells of every picture, across and down.", s.cells, {.bounds = within(2, 1024)});
-  v.field("frames", "How many pictures the judge takes between each receiver and the next one, as a screen that moves would show them.",
+  v.field("frames",
+          "How many pictures the judge takes between each receiver and the next one, as a screen that moves would show "
+          "them.",
           s.frames, {.bounds = within(0, 64)});
-  v.field("tolerances", "Judges the object with errors of making and of putting it up, too; takes five times as long again as to judge it.",
+  v.field("tolerances",
+          "Judges the object with errors of making and of putting it up, too; takes five times as long again as to "
+          "judge it.",
           s.tolerances);
   v.field("receivers", "The screens that light reaches, the nearest first.", s.receivers, {.count = {1, 16}});
   v.field("thesis", "Constants of the method \"thesis\".", s.thesis);

@@ -17,21 +17,24 @@ namespace nephroid::inverse {
 namespace {
 
 /// A receiver with a drawing casts it now, or else the first one.
-engine::PictureEdit take_picture(preset::Preset& preset, const std::filesystem::path& file)
-{
+engine::PictureEdit take_picture(preset::Preset& preset, const std::filesystem::path& file) {
   std::vector<Receiver>& receivers = settings(preset).receivers;
-  if (receivers.empty()) throw bad_input(file.string(), "the preset has no receiver to cast it on", "", "add one in Parameters");
-  auto receiver = std::ranges::find_if(receivers, [](const Receiver& r) { return r.picture.type != Picture::Type::file; });
+  if (receivers.empty())
+    throw bad_input(file.string(), "the preset has no receiver to cast it on", "", "add one in Parameters");
+  auto receiver =
+      std::ranges::find_if(receivers, [](const Receiver& r) { return r.picture.type != Picture::Type::file; });
   if (receiver == receivers.end()) receiver = receivers.begin();
   receiver->picture = {};
   receiver->picture.type = Picture::Type::file;
   receiver->picture.file = std::filesystem::absolute(file).string();
   const std::string name = file.filename().string();
-  return {"cast " + name, fmt::format("{} is the picture at {:g} mm; Parameters has the others", name, receiver->distance_mm)};
+  return {"cast " + name,
+          fmt::format("{} is the picture at {:g} mm; Parameters has the others", name, receiver->distance_mm)};
 }
 
 constexpr const char* new_scene = R"({
-  "name": "untitled", "description": "One piece of acrylic that casts a ring and a cross", "engine": "inverse", "unit": "mm",
+  "name": "untitled", "description": "One piece of acrylic that casts a ring and a cross",
+  "engine": "inverse", "unit": "mm",
   "scene": {"camera": {"resolution": [768, 384]}},
   "inverse": {
     "size_mm": [100, 100], "facets": [64, 64], "index": 1.5, "cells": [64, 64],
@@ -53,27 +56,30 @@ constinit const engine::Engine engine{
       plan->notes = notes_of(preset, *plan->design);
       return plan;
     },
-    .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&, const plan::Plan& plan,
-              const mpi::RankContext& context) { return make_job(preset, dynamic_cast<const InversePlan&>(plan), context); },
+    .job =
+        [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&, const plan::Plan& plan,
+           const mpi::RankContext& context) {
+          return make_job(preset, dynamic_cast<const InversePlan&>(plan), context);
+        },
     .reference = [](const preset::Preset& preset, int) { return preset.reference->settings.value_or(preset.settings); },
     .checks = closed_forms,
     .adoptable = adoptable,
     .has_scene = false,
     .camera = view_camera,
     .take_picture = take_picture,
-    .introduction =
-        {.example = {.preset = "inverse/shapes",
-                     .title = "Designed glass",
-                     .sentence =
-                         "Say which pictures a piece of glass shall cast, and how far away. It is found, judged by rays, and written as "
-                         "a closed mesh.",
-                     .run = "design glass that casts a ring, a cross and a disc"},
-         .new_scene = {.preset = new_scene, .what = "An object that casts two drawings"},
-         .result = {.file = glass_view_file, .action = "Show as glass", .what = "as lit glass over its receivers"},
-         .badge = {112, 84, 62}}};
+    .introduction = {.example = {.preset = "inverse/shapes",
+                                 .title = "Designed glass",
+                                 .sentence = "Say which pictures a piece of glass shall cast, and how far away. It is "
+                                             "found, judged by rays, and written as "
+                                             "a closed mesh.",
+                                 .run = "design glass that casts a ring, a cross and a disc"},
+                     .new_scene = {.preset = new_scene, .what = "An object that casts two drawings"},
+                     .result = {.file = glass_view_file,
+                                .action = "Show as glass",
+                                .what = "as lit glass over its receivers"},
+                     .badge = {112, 84, 62}}};
 
-bool adoptable(const preset::Preset& before, const preset::Preset& now)
-{
+bool adoptable(const preset::Preset& before, const preset::Preset& now) {
   if (settings(before).receivers.size() != settings(now).receivers.size()) return false;
   preset::Preset same = now;
   same.name = before.name;

@@ -12,11 +12,13 @@
 
 namespace nephroid::inverse {
 
-/// Where a snapshot has a receiver's figures: its distance and size, what the search believes of its picture and what the judge says.
+/// Where a snapshot has a receiver's figures: its distance and size, what the search believes of its picture and what
+/// the judge says.
 std::string receiver_group(std::size_t receiver);
 
 /// Of all pictures and of each receiver. judged: empty as long as nothing is.
-void add_costs(job::Snapshot& snapshot, const Layout& layout, const std::vector<Cost>& believed, const std::vector<Cost>& judged);
+void add_costs(job::Snapshot& snapshot, const Layout& layout, const std::vector<Cost>& believed,
+               const std::vector<Cost>& judged);
 
 /// How much of the judge's figures is noise.
 void add_noise(job::Snapshot& snapshot, const Cost& noise);
@@ -27,6 +29,7 @@ void add_conflicts(job::Snapshot& snapshot, const Conflicts& conflicts);
 /// Where the light goes.
 void add_fates(job::Snapshot& snapshot, const RayOutcomes& outcomes);
 
-void add_object(job::Snapshot& snapshot, const Layout& layout, const Solid& solid, const std::vector<glm::dvec2>& slopes);
+void add_object(job::Snapshot& snapshot, const Layout& layout, const Solid& solid,
+                const std::vector<glm::dvec2>& slopes);
 
 } // namespace nephroid::inverse

@@ -24,13 +24,11 @@ constexpr int view_height = 600, least_width = 600, most_width = 1800;
 /// From one object's middle to the next: the light beside a receiver falls beside the others, too.
 double spacing(const Layout& layout) { return 1.4 * 2 * layout.half_room().x; }
 
-double column(const Layout& layout, std::size_t receiver)
-{
+double column(const Layout& layout, std::size_t receiver) {
   return (static_cast<double>(receiver) - (static_cast<double>(layout.distances.size()) - 1) / 2) * spacing(layout);
 }
 
-preset::Object object_over(const Layout& layout, std::size_t receiver)
-{
+preset::Object object_over(const Layout& layout, std::size_t receiver) {
   preset::Object object;
   object.name = fmt::format("object over receiver {}", receiver + 1);
   object.mesh = "object.obj";
@@ -40,8 +38,7 @@ preset::Object object_over(const Layout& layout, std::size_t receiver)
 }
 
 /// A rectangle that faces the light.
-preset::Object screen(const std::string& name, const glm::dvec2& size, const glm::dvec3& at)
-{
+preset::Object screen(const std::string& name, const glm::dvec2& size, const glm::dvec3& at) {
   preset::Object quad;
   quad.name = quad.material = name;
   quad.shape.emplace();
@@ -52,29 +49,28 @@ preset::Object screen(const std::string& name, const glm::dvec2& size, const glm
   return quad;
 }
 
-preset::Object receiver_at(const Layout& layout, std::size_t receiver)
-{
-  preset::Object quad =
-      screen("receiver", layout.receiver,
-             glm::dvec3(column(layout, receiver), 0, -layout.distances[receiver]) + glm::dvec3(layout.offset(receiver), 0));
+preset::Object receiver_at(const Layout& layout, std::size_t receiver) {
+  preset::Object quad = screen("receiver", layout.receiver,
+                               glm::dvec3(column(layout, receiver), 0, -layout.distances[receiver]) +
+                                   glm::dvec3(layout.offset(receiver), 0));
   quad.name = fmt::format("receiver {}", receiver + 1);
   return quad;
 }
 
-/// Half of the rectangle about the object's middle, in the plane of its front, through which light comes straight to a receiver.
-glm::dvec2 half_lit(const Layout& layout, const glm::dvec3& falls)
-{
+/// Half of the rectangle about the object's middle, in the plane of its front, through which light comes straight to a
+/// receiver.
+glm::dvec2 half_lit(const Layout& layout, const glm::dvec3& falls) {
   glm::dvec2 half(0);
   for (std::size_t j = 0; j < layout.distances.size(); ++j)
-    half = glm::max(half, glm::abs(layout.offset(j) + glm::dvec2(falls) / falls.z * (layout.distances[j] + layout.thickness)) +
-                              layout.receiver / 2.0);
+    half = glm::max(
+        half, glm::abs(layout.offset(j) + glm::dvec2(falls) / falls.z * (layout.distances[j] + layout.thickness)) +
+                  layout.receiver / 2.0);
   return half;
 }
 
-/// Four dark strips around the object, as a screen with a hole for it, that stop what would pass it and reach a receiver; none where
-/// nothing would.
-std::vector<preset::Object> mask(const Layout& layout, std::size_t receiver, const glm::dvec3& falls)
-{
+/// Four dark strips around the object, as a screen with a hole for it, that stop what would pass it and reach a
+/// receiver; none where nothing would.
+std::vector<preset::Object> mask(const Layout& layout, std::size_t receiver, const glm::dvec3& falls) {
   const glm::dvec2 inner = layout.size / 2.0, wanted = glm::max(half_lit(layout, falls), inner),
                    outer(std::min(wanted.x, spacing(layout) / 2), wanted.y);
   std::vector<preset::Object> strips;
@@ -85,23 +81,23 @@ std::vector<preset::Object> mask(const Layout& layout, std::size_t receiver, con
       size[1 - axis] = 2 * (axis == 0 ? outer : inner)[1 - axis];
       middle[axis] = side * (inner[axis] + size[axis] / 2);
       if (!(size[axis] > 1e-6 * inner[axis])) continue;
-      strips.push_back(screen("ground", size, glm::dvec3(column(layout, receiver), 0, layout.thickness) + glm::dvec3(middle, 0)));
+      strips.push_back(
+          screen("ground", size, glm::dvec3(column(layout, receiver), 0, layout.thickness) + glm::dvec3(middle, 0)));
       strips.back().name = fmt::format("mask {} over receiver {}", strips.size(), receiver + 1);
     }
   return strips;
 }
 
 /// Dark, and much larger than what stands over it: what glass is seen against.
-preset::Object ground(const Layout& layout)
-{
+preset::Object ground(const Layout& layout) {
   const double side = 4 * (spacing(layout) * static_cast<double>(layout.distances.size()) + layout.distances.back());
-  return screen("ground", {side, side}, {0, 0, -layout.distances.back() - 0.2 * std::max(layout.size.x, layout.size.y)});
+  return screen("ground", {side, side},
+                {0, 0, -layout.distances.back() - 0.2 * std::max(layout.size.x, layout.size.y)});
 }
 
-/// The line from a receiver's far edge to the camera passes the mask's near edge, or the object's, where it rises by the distance over half
-/// of both and the receiver's offset.
-double elevation(const Layout& layout, const glm::dvec3& falls)
-{
+/// The line from a receiver's far edge to the camera passes the mask's near edge, or the object's, where it rises by
+/// the distance over half of both and the receiver's offset.
+double elevation(const Layout& layout, const glm::dvec3& falls) {
   const double near = std::max(layout.size.y / 2, half_lit(layout, falls).y);
   double free = glm::half_pi<double>();
   for (std::size_t j = 0; j < layout.distances.size(); ++j)
@@ -109,9 +105,9 @@ double elevation(const Layout& layout, const glm::dvec3& falls)
   return std::clamp(0.85 * free, glm::radians(20.0), glm::radians(50.0));
 }
 
-preset::Camera camera(const Layout& layout, const glm::dvec3& falls)
-{
-  const double up = elevation(layout, falls), last = layout.distances.back(), count = static_cast<double>(layout.distances.size());
+preset::Camera camera(const Layout& layout, const glm::dvec3& falls) {
+  const double up = elevation(layout, falls), last = layout.distances.back(),
+               count = static_cast<double>(layout.distances.size());
   const double wide = (count - 1) * spacing(layout) + 2 * layout.half_room().x;
   const double high = (last + layout.thickness) * std::cos(up) + 2 * layout.half_room().y * std::sin(up);
   const double deep = (last + layout.thickness) * std::sin(up) + 2 * layout.half_room().y * std::cos(up);
@@ -128,23 +124,23 @@ preset::Camera camera(const Layout& layout, const glm::dvec3& falls)
 }
 
 /// With the file, if any, where it is found from every folder.
-preset::Dispersion dispersion_of(const preset::Preset& preset)
-{
+preset::Dispersion dispersion_of(const preset::Preset& preset) {
   preset::Dispersion index = settings(preset).index;
   const std::filesystem::path source(preset.source);
   if (index.type == preset::Dispersion::Type::file)
-    index.file =
-        std::filesystem::absolute(scene::find_dispersion(index.file, FileFinder(source.parent_path()), Place(preset.source))).string();
+    index.file = std::filesystem::absolute(
+                     scene::find_dispersion(index.file, FileFinder(source.parent_path()), Place(preset.source)))
+                     .string();
   return index;
 }
 
 } // namespace
 
-std::string glass_view(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset)
-{
+std::string glass_view(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset) {
   const preset::LightSpectrum spectrum = settings(preset).light.spectrum.value_or(preset::LightSpectrum{});
-  const double luminous_part = optics::to_xyz(scene::make_light_spectrum(spectrum, Place(preset.source)))[1]; // without its factor
-  double brightest = 0; // over light that is spread evenly
+  const double luminous_part =
+      optics::to_xyz(scene::make_light_spectrum(spectrum, Place(preset.source)))[1]; // without its factor
+  double brightest = 0;                                                              // over light that is spread evenly
   for (const Target& target : targets) brightest = std::max(brightest, *std::max_element(target.begin(), target.end()));
   brightest *= static_cast<double>(layout.cell_count());
   const glm::dvec3 falls = light_ray(layout, {0, 0, layout.thickness}).direction;

@@ -28,13 +28,10 @@ constexpr double judge_part = 0.1;
 class InverseJob final : public job::Job {
 public:
   InverseJob(const preset::Preset& preset, const InversePlan& plan, const mpi::RankContext& context)
-      : context_(context), preset_(preset), layout_(plan.design->layout), targets_(plan.design->targets), best_(plan.design->best()),
-        search_(preset_, layout_, targets_, plan.triangles, context)
-  {
-  }
+      : context_(context), preset_(preset), layout_(plan.design->layout), targets_(plan.design->targets),
+        best_(plan.design->best()), search_(preset_, layout_, targets_, plan.triangles, context) {}
 
-  void advance() override
-  {
+  void advance() override {
     const Clock::time_point begin = Clock::now();
     while (!finished() && context_.communicator().broadcast(since(begin) < slice_seconds)) advance_stage();
     if (judgement_)
@@ -46,20 +43,19 @@ public:
   bool finished() const override { return judgement_ && judgement_->finished(); }
   bool estimates_error() const override { return false; }
 
-  job::Progress progress() const override
-  {
+  job::Progress progress() const override {
     job::Progress p;
     p.step = search_.method().steps();
     p.steps = judgement_ ? p.step : search_.last_step();
     p.work = search_.method().tried();
     p.work_seconds = search_.seconds() + judge_seconds_;
-    p.fraction = judgement_ ? 1 - judge_part + judge_part * judgement_->fraction_done() : std::min(1.0, search_.fraction_done()) * (1 - judge_part);
+    p.fraction = judgement_ ? 1 - judge_part + judge_part * judgement_->fraction_done()
+                            : std::min(1.0, search_.fraction_done()) * (1 - judge_part);
     p.units = search_.method().units();
     return p;
   }
 
-  job::Snapshot snapshot() override
-  {
+  job::Snapshot snapshot() override {
     const RunState run{preset_, layout_, targets_, best_, search_.method(), judgement_ ? &*judgement_ : nullptr};
     job::Snapshot snapshot;
     const auto receivers = add_pictures(snapshot, run);
@@ -83,8 +79,7 @@ public:
   }
 
   /// The stop counts from here.
-  bool adopt(const preset::Preset& preset) override
-  {
+  bool adopt(const preset::Preset& preset) override {
     if (!engine::adoptable(preset_, preset)) return false;
     if (settings(preset) != settings(preset_) || preset.stop != preset_.stop) {
       const Design design(preset);
@@ -100,13 +95,11 @@ public:
     return true;
   }
 
-  void save(ByteSink& to) override
-  {
+  void save(ByteSink& to) override {
     State saved(to);
     state(saved);
   }
-  void load(ByteSource& from) override
-  {
+  void load(ByteSource& from) override {
     State saved(from);
     state(saved);
     find_conflicts();
@@ -114,8 +107,7 @@ public:
 
 private:
   /// A run that ended at its stop goes on where it is given more steps or time; what it had judged then counts no more.
-  void state(State& state)
-  {
+  void state(State& state) {
     search_.state_of_method(state);
     state.value(judge_seconds_);
     search_.state_of_count(state);
@@ -127,8 +119,7 @@ private:
     if (state.is_read() && !search_.is_over()) stop_judging();
   }
 
-  void advance_stage()
-  {
+  void advance_stage() {
     if (judgement_) return judgement_->advance();
     if (search_.is_over()) {
       begin_judging();
@@ -140,15 +131,13 @@ private:
 
   void begin_judging() { judgement_.emplace(preset_, context_, layout_, targets_, search_.method().solid()); }
 
-  void stop_judging()
-  {
+  void stop_judging() {
     judgement_.reset();
     conflicts_.reset();
   }
 
   /// Which facets' light falls where it is not wanted; which pictures fight once the slopes are found.
-  void find_conflicts()
-  {
+  void find_conflicts() {
     const Method& method = search_.method();
     std::vector<std::vector<double>> light;
     for (std::size_t j = 0; j < targets_.size(); ++j) light.push_back(method.light(j));
@@ -158,8 +147,7 @@ private:
     if (judgement_) conflicts_ = search.picture_conflicts();
   }
 
-  void add_scalars(job::Snapshot& snapshot, const RunState& run) const
-  {
+  void add_scalars(job::Snapshot& snapshot, const RunState& run) const {
     const bool judged = run.is_judged();
     add_costs(snapshot, layout_, run.method.costs(), judged ? run.costs() : std::vector<Cost>());
     if (judged) add_noise(snapshot, mean(judgement_->judge().noise(targets_)));
@@ -184,8 +172,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan, const mpi::RankContext& context)
-{
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan,
+                                   const mpi::RankContext& context) {
   return std::make_unique<InverseJob>(preset, plan, context);
 }
 

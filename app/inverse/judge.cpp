@@ -24,14 +24,12 @@ int rays_along(const Layout& layout) { return std::clamp(1448 / std::max(layout.
 
 constexpr int least_rounds = 2, most_rounds = 4;
 
-shared::float4 four(const glm::dvec3& v, double w = 0)
-{
+shared::float4 four(const glm::dvec3& v, double w = 0) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
 
 /// Outward, of each triangle, and its part.
-std::vector<shared::float4> normals_of(const Solid& solid)
-{
+std::vector<shared::float4> normals_of(const Solid& solid) {
   std::vector<shared::float4> normals;
   normals.reserve(solid.parts.size());
   for (std::size_t i = 0; i < solid.parts.size(); ++i) {
@@ -43,15 +41,13 @@ std::vector<shared::float4> normals_of(const Solid& solid)
 }
 
 /// A step through so many parts that meets each, and spreads neighbours: about the fifth power of 1 / g (see judge.cl).
-std::uint32_t part_step(int parts)
-{
+std::uint32_t part_step(int parts) {
   int step = std::max(1, static_cast<int>(0.5316 * parts));
   while (std::gcd(step, parts) != 1) ++step;
   return static_cast<std::uint32_t>(step);
 }
 
-shared::DeviceFront front_of(const Layout& l, std::size_t screens)
-{
+shared::DeviceFront front_of(const Layout& l, std::size_t screens) {
   const auto number = [](double value) { return static_cast<float>(value); };
   const bool lamp = l.light.lamp.has_value();
   const glm::dvec3 beside = l.light.lamp.value_or(glm::dvec3(0));
@@ -80,8 +76,7 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens)
 }
 
 /// Of receivers, then of the frames between them.
-std::vector<shared::DeviceReceiver> screens_of(const Layout& l)
-{
+std::vector<shared::DeviceReceiver> screens_of(const Layout& l) {
   std::vector<shared::DeviceReceiver> screens;
   const auto add = [&](double distance, const glm::dvec2& middle) {
     screens.push_back({static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(distance), 1});
@@ -89,26 +84,27 @@ std::vector<shared::DeviceReceiver> screens_of(const Layout& l)
   for (std::size_t j = 0; j < l.distances.size(); ++j) add(l.distances[j], l.offset(j));
   for (std::size_t k = 0; k < l.frames.size(); ++k) {
     const std::size_t each = l.frames.size() / (l.distances.size() - 1), j = k / each;
-    add(l.frames[k], glm::mix(l.offset(j), l.offset(j + 1), static_cast<double>(k % each + 1) / static_cast<double>(each + 1)));
+    add(l.frames[k],
+        glm::mix(l.offset(j), l.offset(j + 1), static_cast<double>(k % each + 1) / static_cast<double>(each + 1)));
   }
   return screens;
 }
 
 /// As the kernel has them, each over its share of the rays.
-std::vector<shared::float4> parts_of(const Layout& l, int count)
-{
+std::vector<shared::float4> parts_of(const Layout& l, int count) {
   std::vector<shared::float4> parts;
   if (l.spectrum)
     for (const LightPart& part : equal_parts(l.spectrum->parts, static_cast<std::size_t>(count))) {
       const glm::dvec3 xyz = part.xyz * static_cast<double>(count);
-      parts.push_back({static_cast<float>(part.n), static_cast<float>(xyz.x), static_cast<float>(xyz.y), static_cast<float>(xyz.z)});
+      parts.push_back({static_cast<float>(part.n), static_cast<float>(xyz.x), static_cast<float>(xyz.y),
+                       static_cast<float>(xyz.z)});
     }
   return parts;
 }
 
 /// RankContext::all_reduced_sum gives it again.
-void write_sum(compute::Buffer<std::int64_t>& buffer, const std::vector<std::int64_t>& sum, const Communicator& communicator)
-{
+void write_sum(compute::Buffer<std::int64_t>& buffer, const std::vector<std::int64_t>& sum,
+               const Communicator& communicator) {
   buffer.fill_zero();
   if (communicator.is_root()) buffer.write(sum);
 }
@@ -116,12 +112,13 @@ void write_sum(compute::Buffer<std::int64_t>& buffer, const std::vector<std::int
 std::size_t channels(const Layout& l) { return l.coloured() ? 3 : 1; }
 
 /// The parallelogram's law: with noise, each half is farther from what is wanted than their mean is, by its square.
-double noise_of(double whole, double a, double b) { return std::sqrt(std::max(0.0, (a * a + b * b) / 2 - whole * whole)); }
+double noise_of(double whole, double a, double b) {
+  return std::sqrt(std::max(0.0, (a * a + b * b) / 2 - whole * whole));
+}
 
 } // namespace
 
-SolidOnDevice::SolidOnDevice(const compute::Context& context, const Solid& solid, bool spreads, bool coloured)
-{
+SolidOnDevice::SolidOnDevice(const compute::Context& context, const Solid& solid, bool spreads, bool coloured) {
   scene::Bvh bvh = scene::build_bvh(solid.mesh);
   nodes = compute::Buffer(context, "solid's tree", std::exchange(bvh.nodes, {})); // a large one is in memory once
   blocks = compute::Buffer(context, "solid's triangles", std::exchange(bvh.blocks, {}));
@@ -133,8 +130,8 @@ SolidOnDevice::SolidOnDevice(const compute::Context& context, const Solid& solid
   program.emplace(context, "inverse/judge.cl", defines);
 }
 
-std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, double n, const std::vector<Ray>& rays)
-{
+std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, double n,
+                           const std::vector<Ray>& rays) {
   SolidOnDevice on_device(context, solid, false, false);
   std::vector<shared::float4> from, directions;
   for (const Ray& ray : rays) {
@@ -158,7 +155,11 @@ std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, 
             {"ways", ways}});
   std::vector<WayOut> made;
   for (const shared::DeviceWayOut& w : ways.read())
-    made.push_back({{w.from.x, w.from.y, w.from.z}, {w.direction.x, w.direction.y, w.direction.z}, w.part, w.reflected, w.met_wall != 0});
+    made.push_back({{w.from.x, w.from.y, w.from.z},
+                    {w.direction.x, w.direction.y, w.direction.z},
+                    w.part,
+                    w.reflected,
+                    w.met_wall != 0});
   return made;
 }
 
@@ -166,34 +167,31 @@ Judge::Judge(const mpi::RankContext& context, const Layout& layout, const Solid&
              const std::vector<Target>& targets)
     : context_(context), layout_(layout), targets_(targets),
       solid_(context, solid, layout.blurs(), layout.coloured()), seed_{static_cast<std::uint32_t>(seed),
-                                                                       static_cast<std::uint32_t>(seed >> 32)}
-{
+                                                                       static_cast<std::uint32_t>(seed >> 32)} {
   const std::vector<shared::DeviceReceiver> screens = screens_of(layout);
   front_ = front_of(layout, screens.size());
   parts_ = compute::Buffer(context, "parts of the spectrum", parts_of(layout, front_.along * front_.along));
   screens_ = compute::Buffer(context, "screens", screens);
   for (auto& half : light_on_screens_)
-    half = compute::zeroed<std::int64_t>(context, "light on the screens", layout.cell_count() * screens.size() * channels(layout));
+    half = compute::zeroed<std::int64_t>(context, "light on the screens",
+                                         layout.cell_count() * screens.size() * channels(layout));
   outcomes_ = compute::zeroed<std::int64_t>(context, "where the light goes", std::size_t{FATES} * FATE_SUMS);
   judge_ = solid_.program->kernel("judge");
   light_.assign(screens.size(), std::vector<double>(layout.cell_count()));
   halves_.fill(light_);
 }
 
-double Judge::fraction_done() const
-{
+double Judge::fraction_done() const {
   const int rounds = std::max(least_rounds, (round_ + 2) / 2 * 2);
   return finished_ ? 1 : (round_ + static_cast<double>(row_) / layout_.facets.y) / rounds;
 }
 
-std::uint64_t rays_of(const Layout& layout)
-{
+std::uint64_t rays_of(const Layout& layout) {
   const auto along = static_cast<std::uint64_t>(rays_along(layout));
   return layout.facet_count() * along * along;
 }
 
-void Judge::advance()
-{
+void Judge::advance() {
   const int rays_a_row = layout_.facets.x * front_.along * front_.along;
   const Communicator& communicator = context_.communicator();
   const int rows = std::min(layout_.facets.y - row_, std::max(1, rays_a_slice / rays_a_row) * communicator.size());
@@ -208,8 +206,7 @@ void Judge::advance()
   if (++round_ % 2 == 0) end_pair();
 }
 
-void Judge::judge_rows(std::uint32_t first, std::uint32_t count, std::uint32_t turn)
-{
+void Judge::judge_rows(std::uint32_t first, std::uint32_t count, std::uint32_t turn) {
   judge_.run(count, group,
              {{"nodes", solid_.nodes},
               {"blocks", solid_.blocks},
@@ -226,8 +223,7 @@ void Judge::judge_rows(std::uint32_t first, std::uint32_t count, std::uint32_t t
               {"fates", outcomes_}});
 }
 
-void Judge::end_pair()
-{
+void Judge::end_pair() {
   read_sums();
   finished_ = round_ >= most_rounds || targets_.empty();
   if (finished_) return;
@@ -235,26 +231,27 @@ void Judge::end_pair()
   finished_ = noisy.cost <= said.cost / 3 && noisy.rel_l2 <= said.rel_l2 / 3;
 }
 
-void Judge::read_sums()
-{
+void Judge::read_sums() {
   const std::size_t cells = layout_.cell_count(), screen = cells * channels(layout_);
   for (std::size_t half = 0; half < 2; ++half) {
     const std::vector<std::int64_t> light = context_.all_reduced_sum(light_on_screens_[half]);
     for (std::size_t j = 0; j < light_.size(); ++j)
-      for (std::size_t c = 0; c < cells; ++c) halves_[half][j][c] = static_cast<double>(light[j * screen + c]) / RAY_QUANTA * 2 / round_;
+      for (std::size_t c = 0; c < cells; ++c)
+        halves_[half][j][c] = static_cast<double>(light[j * screen + c]) / RAY_QUANTA * 2 / round_;
   }
   for (std::size_t j = 0; j < light_.size(); ++j)
     for (std::size_t c = 0; c < cells; ++c) light_[j][c] = (halves_[0][j][c] + halves_[1][j][c]) / 2;
   const std::vector<std::int64_t> outcomes = context_.all_reduced_sum(outcomes_);
   std::array<std::int64_t, FATES> sums{};
   for (std::size_t i = 0; i < outcomes.size(); ++i) sums[i % FATES] += outcomes[i];
-  const auto facets = [&](int fate) { return static_cast<double>(sums[static_cast<std::size_t>(fate)]) / RAY_QUANTA / round_; };
+  const auto facets = [&](int fate) {
+    return static_cast<double>(sums[static_cast<std::size_t>(fate)]) / RAY_QUANTA / round_;
+  };
   sum_ = {facets(FATE_REFLECTED), facets(FATE_LOST), facets(FATE_SENT), facets(FATE_BY_WALLS)};
   if (finished()) solid_ = {}; // no ray follows
 }
 
-std::vector<glm::dvec3> Judge::colours(std::size_t screen) const
-{
+std::vector<glm::dvec3> Judge::colours(std::size_t screen) const {
   const std::size_t cells = layout_.cell_count();
   std::vector<glm::dvec3> xyz(cells);
   for (const auto& half : light_on_screens_) {
@@ -267,26 +264,26 @@ std::vector<glm::dvec3> Judge::colours(std::size_t screen) const
   return xyz;
 }
 
-RayOutcomes Judge::outcomes() const
-{
+RayOutcomes Judge::outcomes() const {
   const double all = static_cast<double>(layout_.facet_count());
   return {sum_.reflected / all, sum_.lost / all, sum_.sent / all, sum_.by_walls / all};
 }
 
-std::vector<Cost> Judge::costs(const std::vector<Target>& targets) const { return costs_of(targets, light_, sum_.sent); }
+std::vector<Cost> Judge::costs(const std::vector<Target>& targets) const {
+  return costs_of(targets, light_, sum_.sent);
+}
 
-std::vector<Cost> Judge::noise(const std::vector<Target>& targets) const
-{
+std::vector<Cost> Judge::noise(const std::vector<Target>& targets) const {
   std::vector<Cost> noise = costs(targets);
   const std::vector<Cost> a = costs_of(targets, halves_[0], sum_.sent), b = costs_of(targets, halves_[1], sum_.sent);
   for (std::size_t j = 0; j < noise.size(); ++j)
-    noise[j] = {noise_of(noise[j].cost, a[j].cost, b[j].cost), noise_of(noise[j].cost_all, a[j].cost_all, b[j].cost_all),
+    noise[j] = {noise_of(noise[j].cost, a[j].cost, b[j].cost),
+                noise_of(noise[j].cost_all, a[j].cost_all, b[j].cost_all),
                 noise_of(noise[j].rel_l2, a[j].rel_l2, b[j].rel_l2), std::abs(a[j].missed - b[j].missed) / 2};
   return noise;
 }
 
-void Judge::state(State& state)
-{
+void Judge::state(State& state) {
   state.value(row_);
   state.value(round_);
   state.value(finished_);
@@ -304,9 +301,9 @@ void Judge::state(State& state)
 
 namespace {
 
-/// A single facet is a prism: light through its middle leaves with the slope that it was made for, from the place where it left.
-check::Result one_facet(const compute::Context& context, std::uint64_t seed)
-{
+/// A single facet is a prism: light through its middle leaves with the slope that it was made for, from the place where
+/// it left.
+check::Result one_facet(const compute::Context& context, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   double farthest = 0;
   for (int i = 0; i < 20; ++i) {
@@ -316,9 +313,11 @@ check::Result one_facet(const compute::Context& context, std::uint64_t seed)
     layout.distances = {100};
     const auto about_0 = [&] { return uniform(random) - 0.5; };
     const glm::dvec2 slope(about_0(), about_0()), at = 0.8 * glm::dvec2(about_0(), about_0());
-    const WayOut way = follow(context, make_solid(layout, {slope}), layout.n, {{{at, layout.thickness + 1}, {0, 0, -1}}}).front();
+    const WayOut way =
+        follow(context, make_solid(layout, {slope}), layout.n, {{{at, layout.thickness + 1}, {0, 0, -1}}}).front();
     const double z = glm::dot(facet_gradient(slope, layout.n), at), distance = layout.distances[0];
-    const glm::dvec2 spot = glm::dvec2(way.from) - glm::dvec2(way.direction) / way.direction.z * (distance + way.from.z);
+    const glm::dvec2 spot =
+        glm::dvec2(way.from) - glm::dvec2(way.direction) / way.direction.z * (distance + way.from.z);
     farthest = std::max(farthest, glm::length(spot - (at + slope * (distance + z))));
   }
   return check::judged(farthest, 0.01, "mm", "the spot of a facet over 100 mm against its slope");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The finished solid's own pictures: rays through its mesh, walls and all, by Snell's law, on the device (kernels/inverse/judge.cl).
+// The finished solid's own pictures: rays through its mesh, walls and all, by Snell's law, on the device
+// (kernels/inverse/judge.cl).
 #pragma once
 #include "base/bytes.h"
 #include "check/check.h"
@@ -8,8 +9,8 @@
 #include "inverse/facets/solid.h"
 #include "inverse/layout.h"
 #include "kernels/inverse/facet_types.h"
-#include "scene/bvh.h"
 #include "mpi/rank_context.h"
+#include "scene/bvh.h"
 
 #include <array>
 #include <cstdint>
@@ -38,8 +39,8 @@ struct Ray {
   glm::dvec3 from{0}, direction{0, 0, -1};
 };
 
-/// Follows rays that start in front of the object. Light is refracted, less Fresnel's reflectance; total reflection is followed. The
-/// object's sides are black: a frame holds them, or a saw has left them rough.
+/// Follows rays that start in front of the object. Light is refracted, less Fresnel's reflectance; total reflection is
+/// followed. The object's sides are black: a frame holds them, or a saw has left them rough.
 std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, double n, const std::vector<Ray>& rays);
 
 /// What kernels need of a solid.
@@ -57,12 +58,13 @@ struct SolidOnDevice {
 /// What falls on the facets of such an object in a round.
 std::uint64_t rays_of(const Layout& layout);
 
-/// Rays fall evenly on all facets, a jittered lattice on each, in rounds. Rounds are drawn apart, so that what those of even and odd number
-/// differ by is noise. Of a spectrum, each ray of a facet has another part. The same seed gives the same bits on any number of threads.
+/// Rays fall evenly on all facets, a jittered lattice on each, in rounds. Rounds are drawn apart, so that what those of
+/// even and odd number differ by is noise. Of a spectrum, each ray of a facet has another part. The same seed gives the
+/// same bits on any number of threads.
 class Judge {
 public:
-  /// layout and targets outlive it. Two rounds, about four million rays. Where noise is then more than a third of what a figure of these
-  /// targets says, two more. Throws as SolidOnDevice.
+  /// layout and targets outlive it. Two rounds, about four million rays. Where noise is then more than a third of what
+  /// a figure of these targets says, two more. Throws as SolidOnDevice.
   Judge(const mpi::RankContext& context, const Layout& layout, const Solid& solid, std::uint64_t seed,
         const std::vector<Target>& targets = no_targets);
 
@@ -71,7 +73,9 @@ public:
   double fraction_done() const; ///< of the rounds that it knows of
   /// What counts in each cell, in what falls on a facet: luminance of coloured light, else energy.
   const std::vector<double>& light(std::size_t receiver) const { return light_[receiver]; }
-  const std::vector<double>& frame(std::size_t i) const { return light_[layout_.distances.size() + i]; } ///< the same of layout.frames
+  const std::vector<double>& frame(std::size_t i) const {
+    return light_[layout_.distances.size() + i];
+  } ///< the same of layout.frames
   /// XYZ of each cell, y being light(). Of coloured light; screens are the receivers, then the frames.
   std::vector<glm::dvec3> colours(std::size_t screen) const;
   RayOutcomes outcomes() const;
@@ -94,14 +98,15 @@ private:
   SolidOnDevice solid_;
   shared::uint2 seed_;
   shared::DeviceFront front_{};
-  compute::Buffer<shared::float4> parts_;                         ///< of the spectrum: index and XYZ
-  compute::Buffer<shared::DeviceReceiver> screens_;               ///< the receivers, then the frames
-  std::array<compute::Buffer<std::int64_t>, 2> light_on_screens_; ///< of even and of odd rounds: [screen][y, x, z][cell]
+  compute::Buffer<shared::float4> parts_;           ///< of the spectrum: index and XYZ
+  compute::Buffer<shared::DeviceReceiver> screens_; ///< the receivers, then the frames
+  std::array<compute::Buffer<std::int64_t>, 2>
+      light_on_screens_; ///< of even and of odd rounds: [screen][y, x, z][cell]
   compute::Buffer<std::int64_t> outcomes_;
   compute::Kernel judge_;
   int row_ = 0, round_ = 0;
   bool finished_ = false;
-  RayOutcomes sum_;                                              ///< in facets; of all rows and rounds
+  RayOutcomes sum_;                                        ///< in facets; of all rows and rounds
   std::vector<std::vector<double>> light_;                 ///< [screen][cell], in facets
   std::array<std::vector<std::vector<double>>, 2> halves_; ///< the same of even and odd rounds
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of slopes once they are found: the solid, its judge, and the same with errors of making where they are asked for.
+// What becomes of slopes once they are found: the solid, its judge, and the same with errors of making where they are
+// asked for.
 #pragma once
 #include "inverse/tolerances.h"
 #include "mpi/rank_context.h"
@@ -14,10 +15,10 @@ namespace nephroid::inverse {
 class Judgement {
 public:
   /// Preset, context, layout and targets outlive it. Throws as Judge.
-  Judgement(const preset::Preset& preset, const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
-            Solid solid)
-      : solid_(std::make_shared<const Solid>(std::move(solid))), judge_(context, layout, *solid_, preset.seed, targets)
-  {
+  Judgement(const preset::Preset& preset, const mpi::RankContext& context, const Layout& layout,
+            const std::vector<Target>& targets, Solid solid)
+      : solid_(std::make_shared<const Solid>(std::move(solid))),
+        judge_(context, layout, *solid_, preset.seed, targets) {
     if (settings(preset).tolerances) tolerances_.emplace(context, layout, targets, *solid_, preset.seed);
   }
 
@@ -25,9 +26,10 @@ public:
   bool is_judged() const { return judge_.finished(); }
   bool finished() const { return is_judged() && (!tolerances_ || tolerances_->finished()); }
   /// 0..1, each error of the tolerances being as much as the object itself.
-  double fraction_done() const
-  {
-    return tolerances_ ? (judge_.fraction_done() + Tolerances::count * tolerances_->fraction_done()) / (1 + Tolerances::count) : judge_.fraction_done();
+  double fraction_done() const {
+    return tolerances_
+               ? (judge_.fraction_done() + Tolerances::count * tolerances_->fraction_done()) / (1 + Tolerances::count)
+               : judge_.fraction_done();
   }
 
   const std::shared_ptr<const Solid>& solid() const { return solid_; }
@@ -36,8 +38,7 @@ public:
   /// None where they are not asked for.
   const std::optional<Tolerances>& tolerances() const { return tolerances_; }
 
-  void state(State& state)
-  {
+  void state(State& state) {
     judge_.state(state);
     if (tolerances_) tolerances_->state(state);
   }

@@ -13,37 +13,40 @@
 namespace nephroid::inverse {
 namespace {
 
-/// The most that a facet can reach from z = 0 at its corners: the normal of the steepest one is as far from the light inside as that of
-/// the steepest one for light straight on.
-double most_relief(const Layout& layout)
-{
+/// The most that a facet can reach from z = 0 at its corners: the normal of the steepest one is as far from the light
+/// inside as that of the steepest one for light straight on.
+double most_relief(const Layout& layout) {
   double tilt = glm::length(layout.light.sines);
   if (layout.light.lamp)
     for (const glm::dvec2& corner : {glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(1, -1), glm::dvec2(-1, -1)})
       tilt = std::max(tilt, glm::length(incoming_at(layout, corner * layout.size / 2.0).sines));
-  const double bent = std::atan(glm::length(facet_gradient({usable_slope(layout.n), 0}, layout.n))) + std::asin(tilt / layout.n);
+  const double bent =
+      std::atan(glm::length(facet_gradient({usable_slope(layout.n), 0}, layout.n))) + std::asin(tilt / layout.n);
   constexpr double upright = 1.5; // radians, 86 degrees
   return std::min(std::tan(std::min(bent, upright)), layout.steepest) * glm::length(layout.facet()) / 2;
 }
 
-/// The least turn that brings a facet's light to a place of a receiver, as the slope of light that came straight on and is turned as far.
-double least_turn(const Layout& layout, const glm::dvec2& to, double distance)
-{
+/// The least turn that brings a facet's light to a place of a receiver, as the slope of light that came straight on and
+/// is turned as far.
+double least_turn(const Layout& layout, const glm::dvec2& to, double distance) {
   constexpr int across = 9;
   double closest = -1; // cosine
   for (int i = 0; i < across * across; ++i) {
-    const glm::dvec2 middle = (glm::dvec2(i % across, i / across) / (across - 1.0) - 0.5) * (layout.size - layout.facet());
-    for (const glm::dvec2& from : {middle, glm::clamp(to, -(layout.size - layout.facet()) / 2.0, (layout.size - layout.facet()) / 2.0)}) {
+    const glm::dvec2 middle =
+        (glm::dvec2(i % across, i / across) / (across - 1.0) - 0.5) * (layout.size - layout.facet());
+    for (const glm::dvec2& from :
+         {middle, glm::clamp(to, -(layout.size - layout.facet()) / 2.0, (layout.size - layout.facet()) / 2.0)}) {
       const glm::dvec2 sines = layout.light.facets ? incoming_at(layout, from).sines : glm::dvec2(0);
-      closest = std::max(closest, glm::dot(light_inside(sines, layout.n), direction_of((to - from) / distance)) / layout.n);
+      closest =
+          std::max(closest, glm::dot(light_inside(sines, layout.n), direction_of((to - from) / distance)) / layout.n);
     }
   }
-  return closest > 0 ? std::sqrt(std::max(0.0, 1 - closest * closest)) / closest : std::numeric_limits<double>::infinity();
+  return closest > 0 ? std::sqrt(std::max(0.0, 1 - closest * closest)) / closest
+                     : std::numeric_limits<double>::infinity();
 }
 
 /// The lit cells that lie farthest to 16 sides.
-std::array<glm::dvec2, 16> farthest_lit(const Layout& layout, const Target& target, std::size_t receiver)
-{
+std::array<glm::dvec2, 16> farthest_lit(const Layout& layout, const Target& target, std::size_t receiver) {
   std::array<glm::dvec2, 16> to{};
   std::array<double, 16> farthest{};
   farthest.fill(-std::numeric_limits<double>::infinity());
@@ -61,100 +64,103 @@ std::array<glm::dvec2, 16> farthest_lit(const Layout& layout, const Target& targ
   return to;
 }
 
-/// Free heights leave this part of the thickness, and of the way to the nearest receiver, where no constraint says more.
+/// Free heights leave this part of the thickness, and of the way to the nearest receiver, where no constraint says
+/// more.
 constexpr double spared = 0.1;
 
-double band_of(const Settings& s, const Place& own)
-{
+double band_of(const Settings& s, const Place& own) {
   double band = std::numeric_limits<double>::infinity();
-  if (s.heights == Settings::Heights::free) band = (1 - spared) * std::min(s.thickness_mm, s.receivers.front().distance_mm);
+  if (s.heights == Settings::Heights::free)
+    band = (1 - spared) * std::min(s.thickness_mm, s.receivers.front().distance_mm);
   if (s.max_relief_mm) band = std::min(band, *s.max_relief_mm / 2);
   if (!s.min_thickness_mm) return band;
   if (*s.min_thickness_mm >= s.thickness_mm)
     throw bad_input(own / "min_thickness_mm",
-                    fmt::format("is {} mm, and the object is {} mm thick in the middle of its relief", *s.min_thickness_mm, s.thickness_mm),
+                    fmt::format("is {} mm, and the object is {} mm thick in the middle of its relief",
+                                *s.min_thickness_mm, s.thickness_mm),
                     "expected less than 'thickness_mm', of which half the relief is taken away",
                     fmt::format("choose a thickness_mm above {}", *s.min_thickness_mm));
   return std::min(band, s.thickness_mm - *s.min_thickness_mm);
 }
 
 /// Constraints that keep light within the cell that it would reach straight on leave no picture.
-void check_constraints(const Layout& l, const Settings& s, const Place& own)
-{
+void check_constraints(const Layout& l, const Settings& s, const Place& own) {
   const double slope = std::min(l.cell().x, l.cell().y) / l.distances.back();
   if (usable_slope(l) >= slope || usable_slope(l.n) < slope) return;
-  const double needed = glm::length(facet_gradient({slope, 0}, l.n)) * glm::length(l.facet()) / 2; // from its middle to its corners
+  const double needed =
+      glm::length(facet_gradient({slope, 0}, l.n)) * glm::length(l.facet()) / 2; // from its middle to its corners
   const bool too_shallow = l.band < needed;
   const char* const field = !too_shallow                                        ? "max_slope_deg"
                             : s.max_relief_mm && *s.max_relief_mm / 2 <= l.band ? "max_relief_mm"
                             : s.min_thickness_mm                                ? "min_thickness_mm"
                                                                                 : "heights";
   const double least = glm::degrees(std::atan(glm::length(facet_gradient({slope, 0}, l.n))));
-  throw bad_input(own / field,
-                  fmt::format("lets facets of {:.4g} x {:.4g} mm move light by {:.3g} mm over {} mm, less than a cell of {:.3g} mm",
-                              l.facet().x, l.facet().y, usable_slope(l) * l.distances.back(), l.distances.back(),
-                              std::min(l.cell().x, l.cell().y)),
-                  too_shallow ? fmt::format("expected room for a relief of at least {:.3g} mm", 2 * needed)
-                              : fmt::format("expected at least {:.3g} degrees", least),
-                  too_shallow ? "choose a deeper relief or more facets" : "choose a larger angle or a receiver further away");
+  throw bad_input(
+      own / field,
+      fmt::format("lets facets of {:.4g} x {:.4g} mm move light by {:.3g} mm over {} mm, less than a cell of {:.3g} mm",
+                  l.facet().x, l.facet().y, usable_slope(l) * l.distances.back(), l.distances.back(),
+                  std::min(l.cell().x, l.cell().y)),
+      too_shallow ? fmt::format("expected room for a relief of at least {:.3g} mm", 2 * needed)
+                  : fmt::format("expected at least {:.3g} degrees", least),
+      too_shallow ? "choose a deeper relief or more facets" : "choose a larger angle or a receiver further away");
 }
 
 /// A cutter must fit onto a facet.
-void check_tool(const Layout& l, const Settings& s, const Place& own)
-{
+void check_tool(const Layout& l, const Settings& s, const Place& own) {
   if (!s.tool_radius_mm) return;
   const double width = 2 * *s.tool_radius_mm;
   if (width > std::min(l.size.x, l.size.y))
-    throw bad_input(
-        own / "tool_radius_mm",
-        fmt::format("is {} mm, a tool that is wider than the object of {:.4g} x {:.4g} mm", *s.tool_radius_mm, l.size.x, l.size.y),
-        "expected the radius of a tool that fits onto a facet");
-  if (s.method == Settings::Method::lens || width <= std::min(l.facet().x, l.facet().y)) return; // a lens has no corners
-  throw bad_input(
-      own / "tool_radius_mm",
-      fmt::format("is {} mm, a tool that is wider than a facet of {:.4g} x {:.4g} mm", *s.tool_radius_mm, l.facet().x, l.facet().y),
-      fmt::format("expected at most {:.4g} mm", std::min(l.facet().x, l.facet().y) / 2),
-      fmt::format("or choose at most {} x {} facets", static_cast<int>(l.size.x / width), static_cast<int>(l.size.y / width)));
+    throw bad_input(own / "tool_radius_mm",
+                    fmt::format("is {} mm, a tool that is wider than the object of {:.4g} x {:.4g} mm",
+                                *s.tool_radius_mm, l.size.x, l.size.y),
+                    "expected the radius of a tool that fits onto a facet");
+  if (s.method == Settings::Method::lens || width <= std::min(l.facet().x, l.facet().y))
+    return; // a lens has no corners
+  throw bad_input(own / "tool_radius_mm",
+                  fmt::format("is {} mm, a tool that is wider than a facet of {:.4g} x {:.4g} mm", *s.tool_radius_mm,
+                              l.facet().x, l.facet().y),
+                  fmt::format("expected at most {:.4g} mm", std::min(l.facet().x, l.facet().y) / 2),
+                  fmt::format("or choose at most {} x {} facets", static_cast<int>(l.size.x / width),
+                              static_cast<int>(l.size.y / width)));
 }
 
 /// Light must be aimed at a cell, by facets that the solid turns a little.
-void check_aim(const Layout& l, const Place& own)
-{
-  const double cell = std::min(l.cell().x, l.cell().y), turn = std::abs(l.n - 1) * corners_join, last = l.distances.back();
+void check_aim(const Layout& l, const Place& own) {
+  const double cell = std::min(l.cell().x, l.cell().y), turn = std::abs(l.n - 1) * corners_join,
+               last = l.distances.back();
   if (last * turn <= cell / 2) return;
-  throw bad_input(
-      own / "receivers" / (l.distances.size() - 1) / "distance_mm",
-      fmt::format("is {} mm, where {:.2g} in its slope, the finest that facets are made, moves light by {:.4g} mm over a cell of {:.4g} mm",
-                  last, turn, last * turn, cell),
-      fmt::format("expected at most {:.6g} mm", cell / 2 / turn), "choose a nearer receiver, a larger receiver_mm or fewer cells");
+  throw bad_input(own / "receivers" / (l.distances.size() - 1) / "distance_mm",
+                  fmt::format("is {} mm, where {:.2g} in its slope, the finest that facets are made, moves light by "
+                              "{:.4g} mm over a cell of {:.4g} mm",
+                              last, turn, last * turn, cell),
+                  fmt::format("expected at most {:.6g} mm", cell / 2 / turn),
+                  "choose a nearer receiver, a larger receiver_mm or fewer cells");
 }
 
 /// Facets must leave the object in one piece, and the nearest receiver free.
-void check_room(const Layout& l, const Place& own)
-{
+void check_room(const Layout& l, const Place& own) {
   const double relief = most_relief(l);
   const auto refuse = [&](const Place& where, double value, const char* what) {
     if (value > relief) return;
     throw bad_input(where,
-                    fmt::format("is {} mm, and facets of {:.4g} x {:.4g} mm can reach {:.4g} mm from their middle", value, l.facet().x,
-                                l.facet().y, relief),
-                    fmt::format("expected more than that, so that {}", what), "choose more facets, a larger value here or another index");
+                    fmt::format("is {} mm, and facets of {:.4g} x {:.4g} mm can reach {:.4g} mm from their middle",
+                                value, l.facet().x, l.facet().y, relief),
+                    fmt::format("expected more than that, so that {}", what),
+                    "choose more facets, a larger value here or another index");
   };
   refuse(own / "thickness_mm", l.thickness, "the object holds together");
   refuse(own / "receivers" / 0 / "distance_mm", l.distances.front(), "the receiver is free of the object");
 }
 
 template <class Of>
-auto of_receivers(const Settings& s, const Of& of)
-{
+auto of_receivers(const Settings& s, const Of& of) {
   std::vector<decltype(of(s.receivers.front()))> values;
   for (const Receiver& receiver : s.receivers) values.push_back(of(receiver));
   return values;
 }
 
 /// So many between each receiver and the next.
-std::vector<double> frames_of(const Settings& s)
-{
+std::vector<double> frames_of(const Settings& s) {
   std::vector<double> frames;
   for (std::size_t j = 1; j < s.receivers.size(); ++j)
     for (int k = 1; k <= s.frames; ++k)
@@ -162,17 +168,16 @@ std::vector<double> frames_of(const Settings& s)
   return frames;
 }
 
-std::optional<std::vector<glm::dvec2>> offsets_of(const Settings& s)
-{
+std::optional<std::vector<glm::dvec2>> offsets_of(const Settings& s) {
   const auto offsets = of_receivers(s, [](const Receiver& r) { return glm::dvec2(r.offset_mm[0], r.offset_mm[1]); });
-  if (std::ranges::all_of(offsets, [](const glm::dvec2& offset) { return offset == glm::dvec2(0); })) return std::nullopt;
+  if (std::ranges::all_of(offsets, [](const glm::dvec2& offset) { return offset == glm::dvec2(0); }))
+    return std::nullopt;
   return offsets;
 }
 
 } // namespace
 
-Layout make_layout(const preset::Preset& preset)
-{
+Layout make_layout(const preset::Preset& preset) {
   const Settings& s = settings(preset);
   const Place own = Place(preset.source) / "inverse";
   const glm::dvec2 size(s.size_mm[0], s.size_mm[1]);
@@ -207,8 +212,7 @@ Layout make_layout(const preset::Preset& preset)
   return l;
 }
 
-std::vector<std::size_t> some_facets(const Layout& layout, int a_side)
-{
+std::vector<std::size_t> some_facets(const Layout& layout, int a_side) {
   const glm::ivec2 step = (layout.facets + a_side - 1) / a_side;
   std::vector<std::size_t> facets;
   for (int y = step.y / 2; y < layout.facets.y; y += step.y)
@@ -216,29 +220,35 @@ std::vector<std::size_t> some_facets(const Layout& layout, int a_side)
   return facets;
 }
 
-double usable_slope(const Layout& layout) { return std::min(usable_slope(layout.n), slope_behind(std::atan(layout.steepest), layout.n)); }
+double usable_slope(const Layout& layout) {
+  return std::min(usable_slope(layout.n), slope_behind(std::atan(layout.steepest), layout.n));
+}
 
-void check_reach(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset)
-{
+void check_reach(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset) {
   const double limit = layout.light.facets ? usable_slope(layout.n) : usable_slope(layout);
-  const std::string limits = limit < usable_slope(layout.n) ? "the constraints on the facets let it have a slope of"
-                                                            : fmt::format("an index of {:.4g} bends it by a slope of", layout.n);
+  const std::string limits = limit < usable_slope(layout.n)
+                                 ? "the constraints on the facets let it have a slope of"
+                                 : fmt::format("an index of {:.4g} bends it by a slope of", layout.n);
   for (std::size_t j = 0; j < targets.size(); ++j) {
     const double distance = layout.distances[j];
     const std::array<glm::dvec2, 16> lit = farthest_lit(layout, targets[j], j);
     const auto turn = [&](const glm::dvec2& to, double over) { return least_turn(layout, to, over); };
-    const glm::dvec2 place = *std::max_element(
-        lit.begin(), lit.end(), [&](const glm::dvec2& a, const glm::dvec2& b) { return turn(a, distance) < turn(b, distance); });
+    const glm::dvec2 place = *std::max_element(lit.begin(), lit.end(), [&](const glm::dvec2& a, const glm::dvec2& b) {
+      return turn(a, distance) < turn(b, distance);
+    });
     if (turn(place, distance) <= limit) continue;
     double far = distance;
     while (far < 1e7 && turn(place, far) > limit) far *= 1.01;
     throw bad_input(
         Place(preset.source) / "inverse" / "receivers" / j / "distance_mm",
-        fmt::format("light must reach ({:.4g}, {:.4g}) mm over {:.4g} mm, a turn by a slope of {:.3g}", place.x, place.y, distance,
-                    turn(place, distance)),
+        fmt::format("light must reach ({:.4g}, {:.4g}) mm over {:.4g} mm, a turn by a slope of {:.3g}", place.x,
+                    place.y, distance, turn(place, distance)),
         fmt::format("{} {:.3g} at most", limits, limit),
-        far < 1e7 ? fmt::format("choose a distance of at least {:.4g} mm, a larger object, or a smaller receiver_mm or offset_mm", far)
-                  : "choose an index farther from 1, or light that is tilted less");
+        far < 1e7
+            ? fmt::format(
+                  "choose a distance of at least {:.4g} mm, a larger object, or a smaller receiver_mm or offset_mm",
+                  far)
+            : "choose an index farther from 1, or light that is tilted less");
   }
 }
 

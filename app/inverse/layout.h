@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stands where, in millimetres: facets about z = 0, light through the flat front at z = thickness, receivers at
-// z = -distance, all of them centred on the z axis, but for receivers with an offset. y is up, and row 0 of facets and cells is at the top:
-// a person who looks along the light sees the pictures as they are.
+// z = -distance, all of them centred on the z axis, but for receivers with an offset. y is up, and row 0 of facets and
+// cells is at the top: a person who looks along the light sees the pictures as they are.
 #pragma once
 #include "base/error.h"
 #include "inverse/settings.h"
@@ -20,9 +20,11 @@ namespace nephroid::inverse {
 /// Light that falls on a facet's middle through the flat front.
 struct Incoming {
   glm::dvec2 sines{0};  ///< x and y of its unit direction before the front: see bending.h
-  glm::dvec2 around{0}; ///< the facet's gradient as its neighbours see it; at first of one that lights the middle of the last receiver
+  glm::dvec2 around{0}; ///< the facet's gradient as its neighbours see it; at first of one that lights the middle of
+                        ///< the last receiver
   double power = 1;     ///< on the facet as if it lay flat, over the mean of all facets
-  glm::dmat2 spread{0}; ///< of the sines over x and y: a lamp's light falls on each place of the facet from another side
+  glm::dmat2 spread{
+      0}; ///< of the sines over x and y: a lamp's light falls on each place of the facet from another side
 };
 
 /// Where the light comes from, and what of it falls on the facets.
@@ -34,8 +36,7 @@ struct Illumination {
 };
 
 /// Where column and row are among values that are kept row by row, `columns` of them a row.
-inline std::size_t index_at(int column, int row, int columns)
-{
+inline std::size_t index_at(int column, int row, int columns) {
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
 }
 
@@ -44,16 +45,17 @@ struct Layout {
   bool round = false;        ///< it is the ellipse within this size
   double thickness = 10;
   glm::ivec2 facets{128, 128};
-  double n = 1.5;                                 ///< Refraction::n
-  std::optional<Spectrum> spectrum;               ///< Refraction::spectrum
-  glm::dvec2 receiver{100, 100};                  ///< size of every receiver
-  glm::ivec2 cells{64, 64};                       ///< of every receiver
-  std::vector<double> distances;                  ///< ascending
-  std::vector<double> frames;                     ///< distances of further screens, which the judge alone looks at; ascending
-  std::optional<std::vector<double>> weights;     ///< of each receiver's picture; none: they count alike
-  std::optional<std::vector<glm::dvec2>> offsets; ///< of each receiver's middle beside the z axis; none: all are centred on it
-  double sun_radius = 0;                          ///< of the sun's disc: tangent of its half angle
-  double scatter = 0;                             ///< standard deviation of a slope, along x and along y
+  double n = 1.5;                   ///< Refraction::n
+  std::optional<Spectrum> spectrum; ///< Refraction::spectrum
+  glm::dvec2 receiver{100, 100};    ///< size of every receiver
+  glm::ivec2 cells{64, 64};         ///< of every receiver
+  std::vector<double> distances;    ///< ascending
+  std::vector<double> frames;       ///< distances of further screens, which the judge alone looks at; ascending
+  std::optional<std::vector<double>> weights; ///< of each receiver's picture; none: they count alike
+  std::optional<std::vector<glm::dvec2>>
+      offsets;           ///< of each receiver's middle beside the z axis; none: all are centred on it
+  double sun_radius = 0; ///< of the sun's disc: tangent of its half angle
+  double scatter = 0;    ///< standard deviation of a slope, along x and along y
   Illumination light;
 
   bool free_heights = false;                                 ///< else every facet's middle is at z = 0
@@ -81,40 +83,42 @@ struct Layout {
   glm::dvec2 middle(std::size_t i) const { return middle_of(i, facets, size); }
   glm::dvec2 middle_of_cell(std::size_t i) const { return middle_of(i, cells, receiver); }
   /// Of part i of a centred rectangle that has so many parts across and down.
-  static glm::dvec2 middle_of(std::size_t i, const glm::ivec2& parts, const glm::dvec2& whole)
-  {
+  static glm::dvec2 middle_of(std::size_t i, const glm::ivec2& parts, const glm::dvec2& whole) {
     const auto columns = static_cast<std::size_t>(parts.x);
     const glm::dvec2 at = glm::dvec2(i % columns, i / columns) + 0.5, part = whole / glm::dvec2(parts);
     return {at.x * part.x - whole.x / 2, whole.y / 2 - at.y * part.y};
   }
   glm::dvec2 sines_on(std::size_t facet) const { return light.facets ? (*light.facets)[facet].sines : glm::dvec2(0); }
   /// Half of the rectangle about the z axis that the object and all receivers fill.
-  glm::dvec2 half_room() const
-  {
+  glm::dvec2 half_room() const {
     glm::dvec2 half = glm::max(size, receiver) / 2.0;
-    for (std::size_t j = 0; offsets && j < offsets->size(); ++j) half = glm::max(half, glm::abs(offset(j)) + receiver / 2.0);
+    for (std::size_t j = 0; offsets && j < offsets->size(); ++j)
+      half = glm::max(half, glm::abs(offset(j)) + receiver / 2.0);
     return half;
   }
   glm::dvec2 offset(std::size_t receiver_index) const { return offsets ? (*offsets)[receiver_index] : glm::dvec2(0); }
   /// Of a point of a receiver, from its middle, in cells from its top left corner.
-  glm::dvec2 in_cells(const glm::dvec2& p) const { return {(p.x + receiver.x / 2) / cell().x, (receiver.y / 2 - p.y) / cell().y}; }
+  glm::dvec2 in_cells(const glm::dvec2& p) const {
+    return {(p.x + receiver.x / 2) / cell().x, (receiver.y / 2 - p.y) / cell().y};
+  }
   /// Where a point of a receiver lies, given from its middle; empty: beside it.
-  std::optional<std::size_t> cell_at(const glm::dvec2& p) const
-  {
+  std::optional<std::size_t> cell_at(const glm::dvec2& p) const {
     const glm::dvec2 at = in_cells(p);
     if (!(at.x >= 0 && at.y >= 0 && at.x < cells.x && at.y < cells.y)) return std::nullopt;
     return index_at(static_cast<int>(at.x), static_cast<int>(at.y), cells.x);
   }
 };
 
-/// The solid makes heights equal that are closer than this part of a facet's shorter side. It turns a facet by that much at most.
+/// The solid makes heights equal that are closer than this part of a facet's shorter side. It turns a facet by that
+/// much at most.
 inline constexpr double corners_join = 1e-4;
 
 /// A receiver's wanted light: a value a cell, row 0 at the top, which sum to 1.
 using Target = std::vector<double>;
 
-/// Reads the index. Throws bad_input where that cannot be read or is 1, where a constraint or the light leaves no picture, where facets
-/// would reach the front or the nearest receiver, and where the farthest is too far for the solid to aim at its cells.
+/// Reads the index. Throws bad_input where that cannot be read or is 1, where a constraint or the light leaves no
+/// picture, where facets would reach the front or the nearest receiver, and where the farthest is too far for the solid
+/// to aim at its cells.
 Layout make_layout(const preset::Preset& preset);
 
 /// A lattice of facets that speaks for all: every one up to so many a side.

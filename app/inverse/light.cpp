@@ -15,30 +15,28 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Facets whose light falls in with a slope t meet 1 + t . g of it; above this value most of a facet lies in its neighbour's shadow.
+/// Facets whose light falls in with a slope t meet 1 + t . g of it; above this value most of a facet lies in its
+/// neighbour's shadow.
 constexpr double most_shadow = 1;
 
-/// A lamp at distance a before the front, b thick, and a facet at r beside it. The sine q of the light's angle before the front solves
-/// r(q) = a q / sqrt(1 - q^2) + b q / sqrt(n^2 - q^2) = r, which grows with q.
+/// A lamp at distance a before the front, b thick, and a facet at r beside it. The sine q of the light's angle before
+/// the front solves r(q) = a q / sqrt(1 - q^2) + b q / sqrt(n^2 - q^2) = r, which grows with q.
 struct LampWay {
   double a, b, n;
   double r(double q) const { return q * (a / std::sqrt(1 - q * q) + b / std::sqrt(n * n - q * q)); }
   double change(double q) const { return a / std::pow(1 - q * q, 1.5) + b * n * n / std::pow(n * n - q * q, 1.5); }
-  double sine(double at) const
-  {
+  double sine(double at) const {
     return last_good(0.0, std::min(1.0, n), 60, [&](double q) { return r(q) < at; });
   }
 };
 
 /// The part of a facet whose light comes through the front, not through a side.
-double through_front(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& sines)
-{
+double through_front(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& sines) {
   const glm::dvec2 from = middle + layout.thickness / light_inside(sines, layout.n).z * sines;
   return part_within(layout, from, layout.facet()) * (layout.round ? part_within(layout, middle, layout.facet()) : 1);
 }
 
-Incoming from_lamp(const Layout& layout, const glm::dvec2& middle)
-{
+Incoming from_lamp(const Layout& layout, const glm::dvec2& middle) {
   const glm::dvec2 to = middle - glm::dvec2(*layout.light.lamp);
   const LampWay way{layout.light.lamp->z - layout.thickness, layout.thickness, layout.n};
   const double r = glm::length(to), q = way.sine(r), radial = 1 / way.change(q), around = r > 0 ? q / r : radial;
@@ -54,12 +52,12 @@ Incoming from_lamp(const Layout& layout, const glm::dvec2& middle)
 /// Solid angle of a rectangle from the corner over which a lamp stands, z above it.
 double solid_angle(double x, double y, double z) { return std::atan(x * y / (z * std::sqrt(x * x + y * y + z * z))); }
 
-double solid_angle_of_front(const Layout& layout)
-{
+double solid_angle_of_front(const Layout& layout) {
   const glm::dvec2 low = -layout.size / 2.0 - glm::dvec2(*layout.light.lamp), high = low + layout.size;
   const double z = layout.light.lamp->z - layout.thickness;
   if (!layout.round)
-    return solid_angle(high.x, high.y, z) - solid_angle(low.x, high.y, z) - solid_angle(high.x, low.y, z) + solid_angle(low.x, low.y, z);
+    return solid_angle(high.x, high.y, z) - solid_angle(low.x, high.y, z) - solid_angle(high.x, low.y, z) +
+           solid_angle(low.x, low.y, z);
   constexpr int across = 256;
   const glm::dvec2 part = layout.size / (1.0 * across);
   double sum = 0;
@@ -71,39 +69,38 @@ double solid_angle_of_front(const Layout& layout)
   return sum;
 }
 
-/// The largest t . g of facets that send their light to the place of the last receiver that is nearest to where it goes straight on.
-/// Infinite where one cannot.
-double worst_shadow(const Layout& layout)
-{
+/// The largest t . g of facets that send their light to the place of the last receiver that is nearest to where it goes
+/// straight on. Infinite where one cannot.
+double worst_shadow(const Layout& layout) {
   constexpr int across = 9;
   double worst = 0;
   for (int i = 0; i < across * across; ++i) {
-    const glm::dvec2 middle = (glm::dvec2(i % across, i / across) / (across - 1.0) - 0.5) * (layout.size - layout.facet());
+    const glm::dvec2 middle =
+        (glm::dvec2(i % across, i / across) / (across - 1.0) - 0.5) * (layout.size - layout.facet());
     const glm::dvec2 sines = incoming_at(layout, middle).sines;
-    const glm::dvec2 straight = middle + flat_slope(sines) * layout.distances.back(), last = layout.offset(layout.distances.size() - 1);
+    const glm::dvec2 straight = middle + flat_slope(sines) * layout.distances.back(),
+                     last = layout.offset(layout.distances.size() - 1);
     const glm::dvec2 slope =
-        (glm::clamp(straight, last - layout.receiver / 2.0, last + layout.receiver / 2.0) - middle) / layout.distances.back();
+        (glm::clamp(straight, last - layout.receiver / 2.0, last + layout.receiver / 2.0) - middle) /
+        layout.distances.back();
     if (!reachable(slope, layout.n, sines)) return std::numeric_limits<double>::infinity();
     worst = std::max(worst, glm::dot(slope_inside(sines, layout.n), facet_gradient(slope, layout.n, sines)));
   }
   return worst;
 }
 
-Layout with_tilt(Layout layout, double tilt_deg, double turn_deg)
-{
+Layout with_tilt(Layout layout, double tilt_deg, double turn_deg) {
   const double turn = glm::radians(turn_deg);
   layout.light.sines = std::sin(glm::radians(tilt_deg)) * glm::dvec2(std::cos(turn), std::sin(turn));
   return layout;
 }
 
-Layout with_lamp(Layout layout, double distance, const std::array<double, 2>& offset)
-{
+Layout with_lamp(Layout layout, double distance, const std::array<double, 2>& offset) {
   layout.light.lamp = {offset[0], offset[1], layout.thickness + distance};
   return layout;
 }
 
-Layout tilted(const Layout& layout, const Light& light, const Place& where)
-{
+Layout tilted(const Layout& layout, const Light& light, const Place& where) {
   if (light.tilt_deg == 0) return layout; // light straight on casts no shadow, whatever a facet can do with it
   const double most = glm::degrees(std::asin(std::min(1.0, layout.n)));
   if (std::abs(light.tilt_deg) >= most)
@@ -112,62 +109,65 @@ Layout tilted(const Layout& layout, const Light& light, const Place& where)
   const auto good = [&](double tilt) { return worst_shadow(with_tilt(layout, tilt, light.turn_deg)) <= most_shadow; };
   if (!good(light.tilt_deg))
     throw bad_input(
-        where, fmt::format("is {} degrees, and facets that bend such light to the receivers stand in each other's shadow", light.tilt_deg),
+        where,
+        fmt::format("is {} degrees, and facets that bend such light to the receivers stand in each other's shadow",
+                    light.tilt_deg),
         fmt::format("expected at most {:.3g}", std::abs(last_good(0.0, light.tilt_deg, 40, good))),
         "tilt it less, or move the receivers away");
   return with_tilt(layout, light.tilt_deg, light.turn_deg);
 }
 
-Layout lit_by_lamp(const Layout& layout, const Light& light, const Place& where)
-{
+Layout lit_by_lamp(const Layout& layout, const Light& light, const Place& where) {
   if (light.distance_mm <= 0)
     throw bad_input(where, fmt::format("is {} mm, and the light would stand behind the front", light.distance_mm),
                     "expected more than 0 mm");
-  const auto good = [&](double distance) { return worst_shadow(with_lamp(layout, distance, light.offset_mm)) <= most_shadow; };
+  const auto good = [&](double distance) {
+    return worst_shadow(with_lamp(layout, distance, light.offset_mm)) <= most_shadow;
+  };
   if (!good(light.distance_mm)) {
     double far = 2 * light.distance_mm;
     while (!good(far) && far < 1e9) far *= 2;
-    throw bad_input(
-        where,
-        fmt::format("is {} mm, so near that facets at the rim, to bend its light to the receivers, stand in each other's shadow",
-                    light.distance_mm),
-        fmt::format("expected at least {:.4g} mm", last_good(far, light.distance_mm, 40, good)),
-        "move the light away, or make the object smaller");
+    throw bad_input(where,
+                    fmt::format("is {} mm, so near that facets at the rim, to bend its light to the receivers, stand "
+                                "in each other's shadow",
+                                light.distance_mm),
+                    fmt::format("expected at least {:.4g} mm", last_good(far, light.distance_mm, 40, good)),
+                    "move the light away, or make the object smaller");
   }
   return with_lamp(layout, light.distance_mm, light.offset_mm);
 }
 
 } // namespace
 
-Incoming incoming_at(const Layout& layout, const glm::dvec2& middle)
-{
+Incoming incoming_at(const Layout& layout, const glm::dvec2& middle) {
   Incoming in;
   in.sines = layout.light.sines;
   if (layout.light.lamp) in = from_lamp(layout, middle);
   const double cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
-  in.around = facet_gradient(nearest_reachable((layout.offset(layout.distances.size() - 1) - middle) / layout.distances.back(), layout.n,
-                                               in.sines, layout.steepest),
-                             layout.n, in.sines);
+  in.around =
+      facet_gradient(nearest_reachable((layout.offset(layout.distances.size() - 1) - middle) / layout.distances.back(),
+                                       layout.n, in.sines, layout.steepest),
+                     layout.n, in.sines);
   in.power *= (1 - optics::fresnel_reflectance(cosine, 1, layout.n)) * through_front(layout, middle, in.sines);
   return in;
 }
 
-Illumination make_illumination(Layout layout, const Light& light, const Place& where)
-{
-  layout = light.type == Light::Type::point ? lit_by_lamp(layout, light, where / "distance_mm") : tilted(layout, light, where / "tilt_deg");
+Illumination make_illumination(Layout layout, const Light& light, const Place& where) {
+  layout = light.type == Light::Type::point ? lit_by_lamp(layout, light, where / "distance_mm")
+                                            : tilted(layout, light, where / "tilt_deg");
   layout.light.facets = light_on_facets(layout);
   const std::span<const Incoming> facets = layout.incoming();
   if (layout.light.facets && std::ranges::none_of(facets, [](const Incoming& in) { return in.power > 0; }))
     throw bad_input(
         where,
-        fmt::format("comes so much from the side that all of it leaves through a side of an object {:.4g} mm thick", layout.thickness),
+        fmt::format("comes so much from the side that all of it leaves through a side of an object {:.4g} mm thick",
+                    layout.thickness),
         "expected light that reaches some facet through the front",
         "choose a smaller thickness_mm, or light that comes more from the front");
   return layout.light;
 }
 
-std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout)
-{
+std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout) {
   if (!layout.light.lamp && layout.light.sines == glm::dvec2(0) && !layout.round) return std::nullopt;
   std::vector<Incoming> facets(layout.facet_count());
   for_ranges(facets.size(), 1024, [&](std::size_t, const Range& range) {
@@ -179,8 +179,7 @@ std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout)
   return facets;
 }
 
-double part_within(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& size)
-{
+double part_within(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& size) {
   const glm::dvec2 half = layout.size / 2.0;
   if (!layout.round) {
     const glm::dvec2 low = glm::max(middle - size / 2.0, -half), high = glm::min(middle + size / 2.0, half);
@@ -193,16 +192,16 @@ double part_within(const Layout& layout, const glm::dvec2& middle, const glm::dv
   if (away - reach > 1) return 0;
   int within = 0;
   for (int i = 0; i < across * across; ++i) {
-    const glm::dvec2 at =
-        middle + ((glm::dvec2(i % across, i / across) + 0.5) / (1.0 * across) - 0.5) * size; // NOLINT(bugprone-integer-division)
+    const glm::dvec2 at = middle + ((glm::dvec2(i % across, i / across) + 0.5) / (1.0 * across) - 0.5) *
+                                       size; // NOLINT(bugprone-integer-division)
     within += glm::length(at / half) <= 1;
   }
   return within / (1.0 * across * across);
 }
 
-LightRay light_ray(const Layout& layout, const glm::dvec3& front)
-{
-  if (!layout.light.lamp) return {glm::dvec3(layout.light.sines, -std::sqrt(1 - glm::dot(layout.light.sines, layout.light.sines))), 1};
+LightRay light_ray(const Layout& layout, const glm::dvec3& front) {
+  if (!layout.light.lamp)
+    return {glm::dvec3(layout.light.sines, -std::sqrt(1 - glm::dot(layout.light.sines, layout.light.sines))), 1};
   const glm::dvec3 way = front - *layout.light.lamp;
   const double length = glm::length(way), angle = -way.z / (length * length * length); // of a square millimetre
   return {way / length, angle * lamp_weight(layout)};

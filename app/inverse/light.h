@@ -5,14 +5,17 @@
 
 namespace nephroid::inverse {
 
-/// Of a layout whose light is not known yet. Throws bad_input, naming the tilt or distance that would do, for light from behind the front,
-/// and where facets would stand in each other's light; also where no light that enters through the front reaches a facet.
+/// Of a layout whose light is not known yet. Throws bad_input, naming the tilt or distance that would do, for light
+/// from behind the front, and where facets would stand in each other's light; also where no light that enters through
+/// the front reaches a facet.
 Illumination make_illumination(Layout layout, const Light& light, const Place& where);
 
-/// Illumination::facets, where sines and lamp are known. No value of `power` is above 0 where no light reaches any facet.
+/// Illumination::facets, where sines and lamp are known. No value of `power` is above 0 where no light reaches any
+/// facet.
 std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout);
 
-/// At a facet's middle. power: over light that falls straight on or, of a lamp, in units of its intensity over a square millimetre.
+/// At a facet's middle. power: over light that falls straight on or, of a lamp, in units of its intensity over a square
+/// millimetre.
 Incoming incoming_at(const Layout& layout, const glm::dvec2& middle);
 
 /// How much of a rectangle lies within the object's outline.

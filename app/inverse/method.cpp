@@ -8,9 +8,8 @@
 
 namespace nephroid::inverse {
 
-std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets,
-                                    const mpi::RankContext& context)
-{
+std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& layout,
+                                    const std::vector<Target>& targets, const mpi::RankContext& context) {
   const Settings& s = settings(preset);
   if (s.method == Settings::Method::thesis) return std::make_unique<Pipeline>(layout, targets, s.thesis, preset.seed);
   if (s.method == Settings::Method::lens)

@@ -27,27 +27,29 @@ constexpr double empty_sheet = 0.02, rim = 0.25, rim_width = 0.008;
 constexpr dvec3 tint{0.72, 0.88, 0.84};
 
 /// A dark room: what is seen beside the glass.
-dvec3 backdrop(const dvec3& d) { return glm::mix(dvec3(0.012, 0.013, 0.016), dvec3(0.03, 0.035, 0.045), 0.5 + 0.5 * d.z); }
-/// The same with six upright lamps around, which the glass mirrors and bends; seen directly they would outshine the pictures.
-dvec3 room(const dvec3& d)
-{
+dvec3 backdrop(const dvec3& d) {
+  return glm::mix(dvec3(0.012, 0.013, 0.016), dvec3(0.03, 0.035, 0.045), 0.5 + 0.5 * d.z);
+}
+/// The same with six upright lamps around, which the glass mirrors and bends; seen directly they would outshine the
+/// pictures.
+dvec3 room(const dvec3& d) {
   const double lamps = std::pow(std::abs(std::cos(3 * std::atan2(d.y, d.x))), 6) * std::exp(-2 * d.z * d.z);
   return backdrop(d) + lamps * dvec3(0.55, 0.62, 0.7);
 }
 
 class ObjectRenderer {
 public:
-  explicit ObjectRenderer(const ObjectView& object) : object_(object), l_(object.layout), half_(l_.size / 2.0), gradients_(object.slopes.size())
-  {
+  explicit ObjectRenderer(const ObjectView& object)
+      : object_(object), l_(object.layout), half_(l_.size / 2.0), gradients_(object.slopes.size()) {
     for_ranges(gradients_.size(), 4096, [&](std::size_t, Range range) {
-      for (std::size_t i = range.begin; i < range.end; ++i) gradients_[i] = facet_gradient(object.slopes[i], l_.n, l_.sines_on(i));
+      for (std::size_t i = range.begin; i < range.end; ++i)
+        gradients_[i] = facet_gradient(object.slopes[i], l_.n, l_.sines_on(i));
     });
     for (std::size_t i = 0; i < gradients_.size(); ++i)
       lowest_ = std::min(lowest_, object.heights[i] - glm::dot(glm::abs(gradients_[i]), l_.facet()) / 2);
   }
 
-  dvec3 seen(const dvec3& from, const dvec3& d) const
-  {
+  dvec3 seen(const dvec3& from, const dvec3& d) const {
     const double down = (lowest_ - from.z) / d.z, up = (l_.thickness - from.z) / d.z, first = std::min(down, up);
     const dvec2 sides = within_sides(from, d);
     const double enter = std::max({sides.x, first, 0.0}), leave = std::min(sides.y, std::max(down, up));
@@ -70,20 +72,19 @@ public:
 
 private:
   /// From where to where a line is between the object's upright sides.
-  dvec2 within_sides(const dvec3& from, const dvec3& d) const
-  {
+  dvec2 within_sides(const dvec3& from, const dvec3& d) const {
     const dvec2 p = dvec2(from) / half_, way = dvec2(d) / half_;
     if (!l_.round) {
       const dvec2 a = (-1.0 - p) / way, b = (1.0 - p) / way, first = glm::min(a, b), last = glm::max(a, b);
       return {std::max(first.x, first.y), std::min(last.x, last.y)};
     }
-    const double a = glm::dot(way, way), b = glm::dot(p, way), root = b * b - a * (glm::dot(p, p) - 1); // |p + t way| = 1
+    const double a = glm::dot(way, way), b = glm::dot(p, way),
+                 root = b * b - a * (glm::dot(p, p) - 1); // |p + t way| = 1
     if (root < 0 || a == 0) return root < 0 ? dvec2(without_end, -without_end) : dvec2(-without_end, without_end);
     return {(-b - std::sqrt(root)) / a, (-b + std::sqrt(root)) / a};
   }
 
-  dvec3 side_normal(const dvec3& at) const
-  {
+  dvec3 side_normal(const dvec3& at) const {
     const dvec2 p = dvec2(at) / half_;
     if (l_.round) return glm::normalize(dvec3(p / half_, 0));
     return std::abs(p.x) > std::abs(p.y) ? dvec3(glm::sign(p.x), 0, 0) : dvec3(0, glm::sign(p.y), 0);
@@ -95,8 +96,7 @@ private:
   };
 
   /// The facets' side at a place.
-  Surface surface(const dvec3& p) const
-  {
+  Surface surface(const dvec3& p) const {
     const dvec2 at = glm::clamp(dvec2(p.x + half_.x, half_.y - p.y) / l_.facet(), dvec2(0), dvec2(l_.facets) - 1e-9);
     if (!object_.smooth) {
       const std::size_t i = index_at(static_cast<int>(at.x), static_cast<int>(at.y), l_.facets.x);
@@ -119,16 +119,14 @@ private:
   }
 
   /// Where a way inside meets the facets' side: some steps towards the height that the place before had.
-  double way_to_facets(const dvec3& from, const dvec3& d) const
-  {
+  double way_to_facets(const dvec3& from, const dvec3& d) const {
     double t = -from.z / d.z;
     for (int i = 0; i < 3; ++i) t = (surface(from + t * d).z - from.z) / d.z;
     return std::max(0.0, t);
   }
 
   /// The same from below them, within so long a way: between two of some steps.
-  std::optional<double> way_from_below(const dvec3& from, const dvec3& d, double way) const
-  {
+  std::optional<double> way_from_below(const dvec3& from, const dvec3& d, double way) const {
     constexpr int steps = 32;
     const auto below = [&](double t) { return from.z + t * d.z < surface(from + t * d).z; };
     for (int i = 1; i <= steps; ++i)
@@ -136,12 +134,14 @@ private:
     return std::nullopt;
   }
 
-  dvec3 inside(dvec3 from, dvec3 d, dvec3 weight) const
-  {
+  dvec3 inside(dvec3 from, dvec3 d, dvec3 weight) const {
     for (int i = 0; i < most_surfaces; ++i) {
       double way = std::max(0.0, within_sides(from, d).y);
       dvec3 out = side_normal(from + way * d);
-      if (const double t = d.z > 0 ? (l_.thickness - from.z) / d.z : d.z < -1e-9 ? way_to_facets(from, d) : way; t < way) {
+      if (const double t = d.z > 0       ? (l_.thickness - from.z) / d.z
+                           : d.z < -1e-9 ? way_to_facets(from, d)
+                                         : way;
+          t < way) {
         way = t;
         out = d.z > 0 ? dvec3(0, 0, 1) : surface(from + t * d).normal;
       }
@@ -159,8 +159,7 @@ private:
   }
 
   /// The light of all receivers on the way.
-  dvec3 sheets(const dvec3& from, const dvec3& d, double to) const
-  {
+  dvec3 sheets(const dvec3& from, const dvec3& d, double to) const {
     dvec3 sum(0);
     for (std::size_t j = 0; j < l_.distances.size(); ++j) {
       const double t = (-l_.distances[j] - from.z) / d.z;
@@ -189,8 +188,7 @@ struct Axes {
   dvec3 right, up, ahead;
 };
 
-Axes axes_of(const preset::Camera& camera)
-{
+Axes axes_of(const preset::Camera& camera) {
   const dvec3 ahead = glm::normalize(scene::to_dvec3(camera.target) - scene::to_dvec3(camera.position));
   dvec3 right = glm::cross(ahead, scene::to_dvec3(camera.up));
   right = glm::length(right) > 1e-9 ? glm::normalize(right) : dvec3(1, 0, 0); // it looks along its up
@@ -198,16 +196,14 @@ Axes axes_of(const preset::Camera& camera)
 }
 
 /// Half the picture's width and height, one length ahead of the camera.
-dvec2 tangents(const preset::Camera& camera)
-{
+dvec2 tangents(const preset::Camera& camera) {
   const double up = std::tan(glm::radians(camera.fov_deg) / 2);
   return {up * camera.resolution[0] / camera.resolution[1], up};
 }
 
 } // namespace
 
-std::shared_ptr<const job::Picture> view_of(const ObjectView& object, const preset::Camera& camera)
-{
+std::shared_ptr<const job::Picture> view_of(const ObjectView& object, const preset::Camera& camera) {
   const ObjectRenderer renderer(object);
   const Axes axes = axes_of(camera);
   const dvec2 half = tangents(camera);
@@ -222,14 +218,14 @@ std::shared_ptr<const job::Picture> view_of(const ObjectView& object, const pres
       for (std::size_t x = 0; x < width; ++x) {
         const dvec2 at = (2.0 * (dvec2(x, y) + 0.5) / dvec2(width, height) - 1.0) * half;
         const dvec3 seen = renderer.seen(from, glm::normalize(axes.ahead + at.x * axes.right - at.y * axes.up));
-        for (int c = 0; c < 3; ++c) picture->rgb[3 * (y * width + x) + static_cast<std::size_t>(c)] = static_cast<float>(seen[c]);
+        for (int c = 0; c < 3; ++c)
+          picture->rgb[3 * (y * width + x) + static_cast<std::size_t>(c)] = static_cast<float>(seen[c]);
       }
   });
   return picture;
 }
 
-preset::Camera view_camera(const preset::Preset& preset)
-{
+preset::Camera view_camera(const preset::Preset& preset) {
   preset::Camera camera = preset.scene.camera, untouched;
   untouched.fov_deg = camera.fov_deg;
   untouched.resolution = camera.resolution;
@@ -238,7 +234,8 @@ preset::Camera view_camera(const preset::Preset& preset)
   const auto receiver = s.receiver_mm.value_or(s.size_mm);
   dvec3 high(s.size_mm[0] / 2, s.size_mm[1] / 2, s.thickness_mm);
   for (const Receiver& r : s.receivers)
-    for (int axis = 0; axis < 2; ++axis) high[axis] = std::max(high[axis], std::abs(r.offset_mm[axis]) + receiver[axis] / 2);
+    for (int axis = 0; axis < 2; ++axis)
+      high[axis] = std::max(high[axis], std::abs(r.offset_mm[axis]) + receiver[axis] / 2);
   const dvec3 low(-high.x, -high.y, -s.receivers.back().distance_mm), middle = (low + high) / 2.0;
   const double up = glm::radians(28.0), aside = glm::radians(-25.0);
   const dvec3 to_camera(std::sin(aside) * std::cos(up), -std::cos(aside) * std::cos(up), std::sin(up));

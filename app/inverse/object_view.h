@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The object while it is designed, as the window shows it: glass, with its receivers below it as sheets of light. A quick look along one
-// path a pixel, not a rendering: light is the search's or the judge's, walls between facets are not drawn, and no receiver hides another.
+// The object while it is designed, as the window shows it: glass, with its receivers below it as sheets of light. A
+// quick look along one path a pixel, not a rendering: light is the search's or the judge's, walls between facets are
+// not drawn, and no receiver hides another.
 #pragma once
 #include "inverse/layout.h"
 #include "job/job.h"
@@ -20,8 +21,8 @@ struct ObjectView {
 
 std::shared_ptr<const job::Picture> view_of(const ObjectView& object, const preset::Camera& camera);
 
-/// The preset's camera, in millimetres about the middle of the facets, light falling along -z. Where it was left as it is in every preset,
-/// one that has the object and all receivers in sight.
+/// The preset's camera, in millimetres about the middle of the facets, light falling along -z. Where it was left as it
+/// is in every preset, one that has the object and all receivers in sight.
 preset::Camera view_camera(const preset::Preset& preset);
 
 } // namespace nephroid::inverse

@@ -20,24 +20,24 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Measured: a triangle of the solid, with its vertices and its tree while that is made, and of a copy with errors; what a facet takes on
-/// the host, with its pictures.
+/// Measured: a triangle of the solid, with its vertices and its tree while that is made, and of a copy with errors;
+/// what a facet takes on the host, with its pictures.
 constexpr std::uint64_t triangle_bytes = 145, copied_triangle_bytes = 21, facet_bytes = 400;
 
-/// Of the solid, about: some 14 a facet with its walls. Of a lens, whose surface is not known yet, as many as photographs took, or a fifth
-/// of that for a drawing: mesh_parts() cuts facets into the more parts the more they bend light.
-std::uint64_t triangles_of(const Settings& s, const Layout& l)
-{
+/// Of the solid, about: some 14 a facet with its walls. Of a lens, whose surface is not known yet, as many as
+/// photographs took, or a fifth of that for a drawing: mesh_parts() cuts facets into the more parts the more they bend
+/// light.
+std::uint64_t triangles_of(const Settings& s, const Layout& l) {
   if (s.method != Settings::Method::lens) return 14 * l.facet_count();
   const Layout mesh = mesh_layout(l);
-  const double miss =
-      std::max(mesh.facet().x, mesh.facet().y) / std::min(l.cell().x, l.cell().y) / 2; // of light that is gathered in a point
+  const double miss = std::max(mesh.facet().x, mesh.facet().y) / std::min(l.cell().x, l.cell().y) /
+                      2; // of light that is gathered in a point
   const double bends = s.receivers.front().picture.type == Picture::Type::file ? 24 : 4.5;
-  return static_cast<std::uint64_t>((4 + bends * std::pow(miss / s.mesh_error, 2)) * static_cast<double>(mesh.facet_count()));
+  return static_cast<std::uint64_t>((4 + bends * std::pow(miss / s.mesh_error, 2)) *
+                                    static_cast<double>(mesh.facet_count()));
 }
 
-std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
-{
+std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l) {
   const bool blurred = l.blurs(), straight = !l.light.facets;
   const bool assign = s.method == Settings::Method::assign, thesis = s.method == Settings::Method::thesis,
              lens = s.method == Settings::Method::lens;
@@ -45,52 +45,48 @@ std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
                                        counted(l.distances.size(), "receiver"), usable_slope(l));
   const std::string chosen = fmt::format("inverse.method is '{}'", preset::word(s.method));
   const bool anneals = thesis && s.thesis.cycles > 0, corrects = thesis && s.thesis.corrections > 0;
-  return {
-      {"assign", assign, assign ? what : chosen},
-      {"sampling", thesis, thesis ? what : chosen},
-      {"annealing", anneals,
-       anneals  ? "sizes, then extension and overshoot"
-       : thesis ? "inverse.thesis.cycles is 0"
-                : chosen},
-      {"correction", corrects,
-       corrects ? "of intensities, cell by cell"
-       : thesis ? "inverse.thesis.corrections is 0"
-                : chosen},
-      {"blur", blurred,
-       blurred ? "the sun's disc, a rough surface or dispersion, in every footprint"
-               : "inverse.sun_deg and scatter_deg are 0, and the light has one index"},
-      {"smoothing", assign && l.smoothing > 0,
-       !assign           ? "the method 'assign' alone has it"
-       : l.smoothing > 0 ? "facets unlike their neighbours cost something"
-                         : "inverse.smoothing_normals is 0: no term"},
-      {"heights", l.free_heights,
-       l.free_heights ? "facets move along z to where their walls are lowest"
-       : lens         ? "a smooth surface has no walls"
-                      : "inverse.heights is flat: nothing is solved"},
-      {"transport", lens, lens ? what : chosen},
-      {"incoming", !straight,
-       straight  ? "parallel light straight on: one direction for all facets"
-       : l.round ? "a direction and a power of its own for each facet: none beside the round outline"
-                 : "a direction of its own for each facet"},
-      {"judge", true,
-       l.coloured() ? "in colours, by rays through the finished solid, walls and all" : "rays through the finished solid, walls and all"}};
+  return {{"assign", assign, assign ? what : chosen},
+          {"sampling", thesis, thesis ? what : chosen},
+          {"annealing", anneals,
+           anneals  ? "sizes, then extension and overshoot"
+           : thesis ? "inverse.thesis.cycles is 0"
+                    : chosen},
+          {"correction", corrects,
+           corrects ? "of intensities, cell by cell"
+           : thesis ? "inverse.thesis.corrections is 0"
+                    : chosen},
+          {"blur", blurred,
+           blurred ? "the sun's disc, a rough surface or dispersion, in every footprint"
+                   : "inverse.sun_deg and scatter_deg are 0, and the light has one index"},
+          {"smoothing", assign && l.smoothing > 0,
+           !assign           ? "the method 'assign' alone has it"
+           : l.smoothing > 0 ? "facets unlike their neighbours cost something"
+                             : "inverse.smoothing_normals is 0: no term"},
+          {"heights", l.free_heights,
+           l.free_heights ? "facets move along z to where their walls are lowest"
+           : lens         ? "a smooth surface has no walls"
+                          : "inverse.heights is flat: nothing is solved"},
+          {"transport", lens, lens ? what : chosen},
+          {"incoming", !straight,
+           straight  ? "parallel light straight on: one direction for all facets"
+           : l.round ? "a direction and a power of its own for each facet: none beside the round outline"
+                     : "a direction of its own for each facet"},
+          {"judge", true,
+           l.coloured() ? "in colours, by rays through the finished solid, walls and all"
+                        : "rays through the finished solid, walls and all"}};
 }
 
 } // namespace
 
 Design::Design(const preset::Preset& preset)
-    : layout(make_layout(preset)), targets(make_targets(preset, layout)), settings_(settings(preset))
-{
-}
+    : layout(make_layout(preset)), targets(make_targets(preset, layout)), settings_(settings(preset)) {}
 
-const std::vector<Target>& Design::best() const
-{
+const std::vector<Target>& Design::best() const {
   std::call_once(has_best_, [&] { best_ = best_possible(blurring_layout(settings_, layout), targets); });
   return best_;
 }
 
-InversePlan make_plan(const preset::Preset& preset)
-{
+InversePlan make_plan(const preset::Preset& preset) {
   const Settings& s = settings(preset);
   InversePlan plan;
   plan.design = std::make_shared<const Design>(preset);
@@ -106,34 +102,38 @@ InversePlan make_plan(const preset::Preset& preset)
   const int cut = 2 * halvings(l);
   const std::uint64_t with_errors = (cut > 0 ? triangle_bytes : copied_triangle_bytes) * (triangles << cut) +
                                     light_channels * sizeof(std::int64_t) * l.cell_count() * l.distances.size();
-  plan.buffers = {{"light on the facets (host)", 2 * sizeof(Incoming) * l.incoming().size(), true},
-                  {"light on the receivers (host)", 8 * sizeof(double) * l.cell_count() * l.distances.size(), true},
-                  {"facets and what the pictures lack", s.method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
-                  {"a lens's fine grids (host)", s.method == Settings::Method::lens ? Lens::bytes(l) : 0, true},
-                  {"light on the frames (host)", 5 * sizeof(double) * l.cell_count() * l.frames.size(), true},
-                  {"the judge's light", light_channels * sizeof(std::int64_t) * l.cell_count() * (l.distances.size() + l.frames.size())},
-                  {"the facets and their pictures (host)", facet_bytes * l.facet_count(), true},
-                  {"the solid and its tree (host)", triangle_bytes * triangles, true},
-                  {"a solid with errors (host)", s.tolerances ? with_errors : 0, true}};
+  plan.buffers = {
+      {"light on the facets (host)", 2 * sizeof(Incoming) * l.incoming().size(), true},
+      {"light on the receivers (host)", 8 * sizeof(double) * l.cell_count() * l.distances.size(), true},
+      {"facets and what the pictures lack", s.method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
+      {"a lens's fine grids (host)", s.method == Settings::Method::lens ? Lens::bytes(l) : 0, true},
+      {"light on the frames (host)", 5 * sizeof(double) * l.cell_count() * l.frames.size(), true},
+      {"the judge's light",
+       light_channels * sizeof(std::int64_t) * l.cell_count() * (l.distances.size() + l.frames.size())},
+      {"the facets and their pictures (host)", facet_bytes * l.facet_count(), true},
+      {"the solid and its tree (host)", triangle_bytes * triangles, true},
+      {"a solid with errors (host)", s.tolerances ? with_errors : 0, true}};
   return plan;
 }
 
-std::vector<std::string> notes_of(const preset::Preset& preset, const Design& design)
-{
+std::vector<std::string> notes_of(const preset::Preset& preset, const Design& design) {
   const Settings& s = settings(preset);
   const Layout& l = design.layout;
   std::vector<std::string> notes;
   const bool drawn_by_lens = s.method == Settings::Method::lens && s.receivers[0].picture.type != Picture::Type::file;
-  if (!drawn_by_lens && (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)) // a lens gathers a drawing's light
-    notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
-                                "soft; choose more facets or fewer cells",
-                                l.facet().x, l.facet().y, l.cell().x, l.cell().y));
+  if (!drawn_by_lens && (l.facet().x > l.cell().x / 2 * 1.001 ||
+                         l.facet().y > l.cell().y / 2 * 1.001)) // a lens gathers a drawing's light
+    notes.push_back(fmt::format(
+        "facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
+        "soft; choose more facets or fewer cells",
+        l.facet().x, l.facet().y, l.cell().x, l.cell().y));
   std::ranges::move(picture_notes(s, l, design.targets, design.best()), std::back_inserter(notes));
   std::ranges::move(workshop_notes(s, l), std::back_inserter(notes));
   const std::int64_t trials = Pipeline::trials_of(s.thesis);
   if (s.method == Settings::Method::thesis && preset.stop.passes.value_or(trials) < trials)
-    notes.push_back(fmt::format("the thesis' pipeline takes up to {} trials and stops after {}: a 'stop.passes' of {} lets it end", trials,
-                                *preset.stop.passes, trials));
+    notes.push_back(
+        fmt::format("the thesis' pipeline takes up to {} trials and stops after {}: a 'stop.passes' of {} lets it end",
+                    trials, *preset.stop.passes, trials));
   return notes;
 }
 

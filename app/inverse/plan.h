@@ -21,7 +21,8 @@ public:
   const Layout layout;
   const std::vector<Target> targets; ///< of each receiver
 
-  /// How close to each target an object comes at best (pictures/preview.h). The first call works it out, in up to a second.
+  /// How close to each target an object comes at best (pictures/preview.h). The first call works it out, in up to a
+  /// second.
   const std::vector<Target>& best() const;
 
 private:

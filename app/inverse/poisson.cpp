@@ -16,15 +16,16 @@ namespace {
 
 using Complex = std::complex<double>;
 
-double eigenvalue(int k, int nodes, double spacing) { return 2 * (1 - std::cos(glm::pi<double>() * k / nodes)) / (spacing * spacing); }
+double eigenvalue(int k, int nodes, double spacing) {
+  return 2 * (1 - std::cos(glm::pi<double>() * k / nodes)) / (spacing * spacing);
+}
 
 enum class Transform { forward, inverse };
 
-/// Every row u becomes sum over i of u_i cos(pi k (i + 1/2) / nodes), or the other way round: by a Fourier transform as long as the row,
-/// of its even nodes and then its odd ones backwards (Makhoul 1980, "A fast cosine transform in one and two dimensions"). Two rows are the
-/// real and the imaginary part of one transform.
-void transform_rows(Grid& grid, Transform way)
-{
+/// Every row u becomes sum over i of u_i cos(pi k (i + 1/2) / nodes), or the other way round: by a Fourier transform as
+/// long as the row, of its even nodes and then its odd ones backwards (Makhoul 1980, "A fast cosine transform in one
+/// and two dimensions"). Two rows are the real and the imaginary part of one transform.
+void transform_rows(Grid& grid, Transform way) {
   const Eigen::Index count = grid.cols(), last = grid.rows() - 1;
   if (count == 1) return;
   std::vector<Complex> turns;
@@ -37,8 +38,11 @@ void transform_rows(Grid& grid, Transform way)
     std::vector<Complex> values(static_cast<std::size_t>(count)), changed(values);
     for (std::size_t pair = range.begin; pair < range.end; ++pair) {
       double* const a = grid.row(2 * static_cast<Eigen::Index>(pair)).data();
-      double* const b = grid.row(std::min(2 * static_cast<Eigen::Index>(pair) + 1, last)).data(); // of an odd number the last one twice
-      const auto at = [](std::vector<Complex>& of, Eigen::Index i) -> Complex& { return of[static_cast<std::size_t>(i)]; };
+      double* const b = grid.row(std::min(2 * static_cast<Eigen::Index>(pair) + 1, last))
+                            .data(); // of an odd number the last one twice
+      const auto at = [](std::vector<Complex>& of, Eigen::Index i) -> Complex& {
+        return of[static_cast<std::size_t>(i)];
+      };
       if (way == Transform::forward) {
         for (Eigen::Index i = 0; i < count; ++i) at(values, i) = {a[place(i)], b[place(i)]};
         fft.fwd(changed.data(), values.data(), count);
@@ -65,15 +69,13 @@ void transform_rows(Grid& grid, Transform way)
 
 } // namespace
 
-Poisson::Poisson(int columns, int rows, const glm::dvec2& spacing) : one_over_value_(Grid::Zero(columns, rows))
-{
+Poisson::Poisson(int columns, int rows, const glm::dvec2& spacing) : one_over_value_(Grid::Zero(columns, rows)) {
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x)
       if (x + y > 0) one_over_value_(x, y) = 1 / (eigenvalue(x, columns, spacing.x) + eigenvalue(y, rows, spacing.y));
 }
 
-Grid Poisson::solve(const Grid& f) const
-{
+Grid Poisson::solve(const Grid& f) const {
   Grid rows = f;
   transform_rows(rows, Transform::forward);
   Grid columns = rows.transpose();

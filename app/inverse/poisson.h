@@ -9,8 +9,8 @@ namespace nephroid::inverse {
 /// A value a node or a cell; a row of the grid is a row here.
 using Grid = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Minus the Laplacian is sum over neighbours of (u - u_neighbour) / spacing^2. Cosines are its eigenvectors (Strang 1999, "The Discrete
-/// Cosine Transform", DCT-2), so that solving is a transform there and back along either axis.
+/// Minus the Laplacian is sum over neighbours of (u - u_neighbour) / spacing^2. Cosines are its eigenvectors (Strang
+/// 1999, "The Discrete Cosine Transform", DCT-2), so that solving is a transform there and back along either axis.
 class Poisson {
 public:
   Poisson(int columns, int rows, const glm::dvec2& spacing);

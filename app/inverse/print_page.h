@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pages to print in real size: SVG whose unit is the millimetre, on the smallest ISO sheet from A4 on that holds what is shown.
+// Pages to print in real size: SVG whose unit is the millimetre, on the smallest ISO sheet from A4 on that holds what
+// is shown.
 #pragma once
 #include "inverse/facets/plate.h"
 #include "inverse/layout.h"
@@ -14,7 +15,8 @@ namespace nephroid::inverse {
 std::string object_page(const Layout& layout, const std::string& name);
 
 /// What is cast on a receiver, seen along the light, with the object's outline over it where both have one middle.
-std::string receiver_page(const Layout& layout, std::size_t receiver, const job::Picture& cast, const std::string& name);
+std::string receiver_page(const Layout& layout, std::size_t receiver, const job::Picture& cast,
+                          const std::string& name);
 
 /// The rectangles that bodies on a plate take, each with its name.
 std::string plate_page(const glm::dvec2& plate, const std::vector<PlatePart>& bodies);

@@ -17,39 +17,41 @@ namespace nephroid::inverse {
 namespace {
 
 /// What the object is made of, in words.
-std::string material_of(const Settings& s, double n)
-{
+std::string material_of(const Settings& s, double n) {
   const std::string name = s.index.type == preset::Dispersion::Type::file ? s.index.file + ", " : "";
   return fmt::format("{}index of refraction {:.6g} {}", name, n,
-                     s.light.spectrum ? "in the mean over the light's luminance" : fmt::format("at {} nm", s.wavelength_nm));
+                     s.light.spectrum ? "in the mean over the light's luminance"
+                                      : fmt::format("at {} nm", s.wavelength_nm));
 }
 
 } // namespace
 
 double RunState::brightest(std::size_t receiver) const { return *std::ranges::max_element(targets[receiver]); }
 
-std::shared_ptr<const job::Picture> RunState::picture_of(std::size_t screen, double most) const
-{
+std::shared_ptr<const job::Picture> RunState::picture_of(std::size_t screen, double most) const {
   if (!is_judged()) return received_picture(method.light(screen), most, layout);
   const Judge& judge = judgement->judge();
   if (layout.coloured()) return coloured_picture(judge.colours(screen), most, layout);
-  return received_picture(screen < targets.size() ? judge.light(screen) : judge.frame(screen - targets.size()), most, layout);
+  return received_picture(screen < targets.size() ? judge.light(screen) : judge.frame(screen - targets.size()), most,
+                          layout);
 }
 
-std::vector<std::shared_ptr<const job::Picture>> add_pictures(job::Snapshot& snapshot, const RunState& run)
-{
+std::vector<std::shared_ptr<const job::Picture>> add_pictures(job::Snapshot& snapshot, const RunState& run) {
   std::vector<std::vector<Captioned>> columns;
   std::vector<std::shared_ptr<const job::Picture>> receivers;
   const std::vector<Cost> costs = run.costs();
   for (std::size_t j = 0; j < run.targets.size(); ++j) {
     const double brightest = run.brightest(j);
-    const auto wanted = grey_picture(run.targets[j], 1 / brightest, run.layout.cells), received = run.picture_of(j, brightest);
+    const auto wanted = grey_picture(run.targets[j], 1 / brightest, run.layout.cells),
+               received = run.picture_of(j, brightest);
     columns.push_back({{wanted, fmt::format("wanted at {} mm", run.layout.distances[j])},
                        {received, fmt::format("cast: cost {:.3f}", costs[j].cost)},
                        {difference_picture(*wanted, *received), "red: too much, blue: too little"}});
     const char* const names[] = {"target", "receiver", "difference"};
-    for (std::size_t i = 0; i < 3; ++i) snapshot.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i].picture});
-    snapshot.pictures.push_back({fmt::format("best_{}", j + 1), grey_picture(run.best[j], 1 / brightest, run.layout.cells)});
+    for (std::size_t i = 0; i < 3; ++i)
+      snapshot.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i].picture});
+    snapshot.pictures.push_back(
+        {fmt::format("best_{}", j + 1), grey_picture(run.best[j], 1 / brightest, run.layout.cells)});
     receivers.push_back(received);
   }
   snapshot.pictures.push_back({"slopes", slopes_picture(run.method.slopes(), run.method.heights(), run.layout)});
@@ -58,8 +60,7 @@ std::vector<std::shared_ptr<const job::Picture>> add_pictures(job::Snapshot& sna
   return receivers;
 }
 
-void add_frames(job::Snapshot& snapshot, const RunState& run)
-{
+void add_frames(job::Snapshot& snapshot, const RunState& run) {
   const Layout& layout = run.layout;
   if (layout.frames.empty()) return;
   snapshot.curves.push_back({"frames", {"frame", "distance_mm"}, {}});
@@ -79,17 +80,19 @@ void add_frames(job::Snapshot& snapshot, const RunState& run)
   }
 }
 
-void add_files(job::Snapshot& snapshot, const RunState& run)
-{
+void add_files(job::Snapshot& snapshot, const RunState& run) {
   const Judgement& judgement = *run.judgement;
   const std::string name = run.preset.name.empty() ? "The object" : run.preset.name;
-  const auto layout = std::make_shared<const Layout>(run.layout); // one for all files: a lamp's has a table of the facets
+  const auto layout =
+      std::make_shared<const Layout>(run.layout); // one for all files: a lamp's has a table of the facets
   const auto add = [&](const std::string& file, auto write) {
-    snapshot.files.push_back({file, [write, solid = judgement.solid(), layout](ByteSink& to) { write(*layout, *solid, to); }});
+    snapshot.files.push_back(
+        {file, [write, solid = judgement.solid(), layout](ByteSink& to) { write(*layout, *solid, to); }});
   };
   add("object.obj", [](const Layout&, const Solid& solid, ByteSink& to) { write_obj(solid.mesh, to); });
   add("object.stl", [](const Layout&, const Solid& solid, ByteSink& to) { write_stl(solid.mesh, to); });
-  add("object.ply", [](const Layout&, const Solid& solid, ByteSink& to) { scene::write_ply(solid.mesh, to, mesh_title); });
+  add("object.ply",
+      [](const Layout&, const Solid& solid, ByteSink& to) { scene::write_ply(solid.mesh, to, mesh_title); });
   add("facets.json", write_facets);
   add("heights.exr", write_height_exr);
   add("heights.png", write_height_png);
@@ -109,19 +112,20 @@ void add_files(job::Snapshot& snapshot, const RunState& run)
     csv = tolerance_csv(run.costs(), tolerances->rows());
   }
   const Settings& s = settings(run.preset);
-  add_text("workshop.md", [material = material_of(s, run.layout.n), table, making = Manufacturing{s.tool_radius_mm, s.layer_mm}](
-                              const Layout& of, const Solid& solid) { return workshop_page(of, solid, material, making) + table; });
+  add_text("workshop.md",
+           [material = material_of(s, run.layout.n), table, making = Manufacturing{s.tool_radius_mm, s.layer_mm}](
+               const Layout& of, const Solid& solid) { return workshop_page(of, solid, material, making) + table; });
   if (!csv.empty()) add_text("tolerance.csv", [csv](const auto&...) { return csv; });
   add_text("print_object.svg", [name](const Layout& of, const Solid&) { return object_page(of, name); });
   for (std::size_t j = 0; j < run.targets.size(); ++j)
-    add_text(fmt::format("print_{}.svg", j + 1), [name, j, cast = run.picture_of(j, run.brightest(j))](const Layout& of, const Solid&) {
-      return receiver_page(of, j, *cast, name);
-    });
+    add_text(fmt::format("print_{}.svg", j + 1),
+             [name, j, cast = run.picture_of(j, run.brightest(j))](const Layout& of, const Solid&) {
+               return receiver_page(of, j, *cast, name);
+             });
 }
 
-std::shared_ptr<const job::Picture> ObjectPicture::of(const RunState& run,
-                                                      const std::vector<std::shared_ptr<const job::Picture>>& receivers)
-{
+std::shared_ptr<const job::Picture>
+ObjectPicture::of(const RunState& run, const std::vector<std::shared_ptr<const job::Picture>>& receivers) {
   const preset::Camera camera = view_camera(run.preset);
   const bool finished = run.judgement && run.judgement->finished();
   const Shown now{run.method.steps(), static_cast<int>(4 * run.method.fraction_done()), finished, camera};

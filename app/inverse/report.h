@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a snapshot has of a run: pictures of what is wanted and what is cast on each receiver, of the slopes and of screens between
-// receivers; and the files of a finished one.
+// What a snapshot has of a run: pictures of what is wanted and what is cast on each receiver, of the slopes and of
+// screens between receivers; and the files of a finished one.
 #pragma once
 #include "inverse/judgement.h"
 #include "inverse/method.h"
@@ -25,16 +25,17 @@ struct RunState {
   std::vector<Cost> costs() const { return is_judged() ? judgement->judge().costs(targets) : method.costs(); }
   /// Wanted on a receiver, as a part of all light, in a cell.
   double brightest(std::size_t receiver) const;
-  /// On a receiver as judged where that is done, else as believed; or, once it is judged, on a frame behind them. In colours where the
-  /// judge has them.
+  /// On a receiver as judged where that is done, else as believed; or, once it is judged, on a frame behind them. In
+  /// colours where the judge has them.
   std::shared_ptr<const job::Picture> picture_of(std::size_t screen, double most) const;
 };
 
 /// Of each receiver. Returns what it shows.
 std::vector<std::shared_ptr<const job::Picture>> add_pictures(job::Snapshot& snapshot, const RunState& run);
 
-/// The receivers' pictures and those between them in the order of their distance, as a screen that moves away would show them: as bright
-/// as is wanted at the receivers, and between them from the one to the other. Of a run that is judged.
+/// The receivers' pictures and those between them in the order of their distance, as a screen that moves away would
+/// show them: as bright as is wanted at the receivers, and between them from the one to the other. Of a run that is
+/// judged.
 void add_frames(job::Snapshot& snapshot, const RunState& run);
 
 /// Meshes, tables, pages for the workshop, and the object as a scene of its own. Of a run that is judged.
@@ -43,7 +44,8 @@ void add_files(job::Snapshot& snapshot, const RunState& run);
 /// The object in the window's camera: the same picture until a quarter of a step, the judge or the camera changes it.
 class ObjectPicture {
 public:
-  std::shared_ptr<const job::Picture> of(const RunState& run, const std::vector<std::shared_ptr<const job::Picture>>& receivers);
+  std::shared_ptr<const job::Picture> of(const RunState& run,
+                                         const std::vector<std::shared_ptr<const job::Picture>>& receivers);
   void clear() { picture_.reset(); }
 
 private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search for slopes: a method, step after step, until it gains no more or the preset's stop, of whose seconds the judge gets its part.
+// The search for slopes: a method, step after step, until it gains no more or the preset's stop, of whose seconds the
+// judge gets its part.
 #pragma once
 #include "inverse/method.h"
 #include "mpi/rank_context.h"
@@ -14,8 +15,8 @@ namespace nephroid::inverse {
 class Search {
 public:
   /// triangles: of the solid, about. Preset, layout and targets outlive it.
-  Search(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets, std::uint64_t triangles,
-         const mpi::RankContext& context);
+  Search(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets,
+         std::uint64_t triangles, const mpi::RankContext& context);
 
   const Method& method() const { return *method_; }
   /// Asks how long the judge takes, where seconds end the search. The same on each rank.
@@ -23,7 +24,8 @@ public:
   /// A short piece of work. True: a step is complete now.
   bool advance();
 
-  /// The stop counts from here, and facets keep their slopes, where the preset, the layout and the targets are other ones now.
+  /// The stop counts from here, and facets keep their slopes, where the preset, the layout and the targets are other
+  /// ones now.
   void go_on();
 
   double seconds() const { return seconds_; } ///< of work
@@ -33,7 +35,9 @@ public:
   /// When it ends; -1: by time.
   std::int64_t last_step() const { return most_steps() ? began_.steps + *most_steps() : -1; }
   /// Neither the method nor the stop's passes ended it.
-  bool has_steps_left() const { return !method_->finished() && !(most_steps() && method_->steps() - began_.steps >= *most_steps()); }
+  bool has_steps_left() const {
+    return !method_->finished() && !(most_steps() && method_->steps() - began_.steps >= *most_steps());
+  }
 
   /// The curve "cost", and what the method alone has to tell.
   void show(job::Snapshot& snapshot) const;

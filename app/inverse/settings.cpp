@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of engine 3 as the preset knows them, and what one of their fields cannot say alone. What needs a file read is refused by
-// the plan (layout.cpp, pictures/target.cpp).
+// The settings of engine 3 as the preset knows them, and what one of their fields cannot say alone. What needs a file
+// read is refused by the plan (layout.cpp, pictures/target.cpp).
 #include "inverse/settings.h"
 
 #include "base/error.h"
@@ -17,11 +17,11 @@ using preset::Where;
 /// Bytes of a text that is drawn. A QR code says itself what it holds.
 constexpr std::size_t most_text = 100;
 
-void check_picture(const Picture& p, const std::string& pointer, const Where& where)
-{
+void check_picture(const Picture& p, const std::string& pointer, const Where& where) {
   const bool hollow = p.type == Picture::Type::ring || p.type == Picture::Type::star;
   if (hollow && p.inner >= p.radius)
-    throw bad_input(where(preset::child(pointer, "inner")), fmt::format("is {}, and the outer radius {}", p.inner, p.radius),
+    throw bad_input(where(preset::child(pointer, "inner")),
+                    fmt::format("is {}, and the outer radius {}", p.inner, p.radius),
                     "expected less than the outer radius");
   const bool words = p.type == Picture::Type::text, code = p.type == Picture::Type::qr;
   if (((words || code) && p.text.empty()) || (words && p.text.size() > most_text))
@@ -30,27 +30,29 @@ void check_picture(const Picture& p, const std::string& pointer, const Where& wh
   if (words)
     for (const char c : p.text)
       if (c < ' ' || c > '~')
-        throw bad_input(where(preset::child(pointer, "text")), fmt::format("is \"{}\", and only printable ASCII is drawn", p.text),
-                        "expected letters without accents, digits and signs in one line", "draw other ones as a picture file");
+        throw bad_input(
+            where(preset::child(pointer, "text")), fmt::format("is \"{}\", and only printable ASCII is drawn", p.text),
+            "expected letters without accents, digits and signs in one line", "draw other ones as a picture file");
   if (p.levels[0] >= p.levels[1])
     throw bad_input(where(preset::child(pointer, "levels")), fmt::format("is [{}, {}]", p.levels[0], p.levels[1]),
                     "expected the darker one first");
   if (p.type == Picture::Type::star && p.count < 2)
-    throw bad_input(where(preset::child(pointer, "count")), fmt::format("is {}", p.count), "expected a star of at least 2 points");
+    throw bad_input(where(preset::child(pointer, "count")), fmt::format("is {}", p.count),
+                    "expected a star of at least 2 points");
 }
 
-void check_receivers(const Settings& s, const std::string& pointer, const Where& where)
-{
+void check_receivers(const Settings& s, const std::string& pointer, const Where& where) {
   for (std::size_t j = 0; j < s.receivers.size(); ++j) {
     const std::string at = preset::child(pointer, j);
     check_picture(s.receivers[j].picture, preset::child(at, "picture"), where);
     if (s.method == Settings::Method::thesis && s.receivers[j].weight != 1)
       throw bad_input(where(preset::child(at, "weight")),
-                      fmt::format("is {}, and the method 'thesis' has all pictures alike", s.receivers[j].weight), "expected 1",
-                      "or choose the method 'assign'");
+                      fmt::format("is {}, and the method 'thesis' has all pictures alike", s.receivers[j].weight),
+                      "expected 1", "or choose the method 'assign'");
     if (s.method != Settings::Method::assign && s.receivers[j].offset_mm != std::array<double, 2>{0, 0})
-      throw bad_input(where(preset::child(at, "offset_mm")), "is for the method 'assign'; the others have all pictures before the object",
-                      "expected [0, 0]", "or choose the method 'assign'");
+      throw bad_input(where(preset::child(at, "offset_mm")),
+                      "is for the method 'assign'; the others have all pictures before the object", "expected [0, 0]",
+                      "or choose the method 'assign'");
     if (j == 0) continue;
     const double before = s.receivers[j - 1].distance_mm, now = s.receivers[j].distance_mm;
     if (now < before)
@@ -59,25 +61,24 @@ void check_receivers(const Settings& s, const std::string& pointer, const Where&
                       "expected receivers in the order of their distance", "sort them, the nearest first");
     if (now == before && s.receivers[j].offset_mm == s.receivers[j - 1].offset_mm)
       throw bad_input(where(preset::child(at, "distance_mm")),
-                      fmt::format("is {} mm, and the receiver before stands at the same place", now), "expected each at its own",
-                      "choose another distance_mm or offset_mm");
+                      fmt::format("is {} mm, and the receiver before stands at the same place", now),
+                      "expected each at its own", "choose another distance_mm or offset_mm");
   }
 }
 
 /// The camera gives the size of the sheet of pictures; whatever else a scene has, this engine has none of it.
-void check_scene(const preset::Preset& preset, const Where& where)
-{
+void check_scene(const preset::Preset& preset, const Where& where) {
   const auto refuse = [&](const char* key) {
-    throw bad_input(where(preset::child("/scene", key)), "has no meaning for the engine 'inverse', which makes its own object and light",
-                    "expected none", "remove it");
+    throw bad_input(where(preset::child("/scene", key)),
+                    "has no meaning for the engine 'inverse', which makes its own object and light", "expected none",
+                    "remove it");
   };
   if (!preset.scene.objects.empty()) refuse("objects");
   if (!preset.scene.lights.empty()) refuse("lights");
   if (preset.scene.environment) refuse("environment");
 }
 
-void check(const preset::Preset& preset, const Where& where)
-{
+void check(const preset::Preset& preset, const Where& where) {
   using Method = Settings::Method;
   const Settings& s = settings(preset);
   const auto refuse = [&](const char* field, const std::string& what, const char* expected, const char* remedy = "") {
@@ -87,12 +88,13 @@ void check(const preset::Preset& preset, const Where& where)
   check_scene(preset, where);
   check_receivers(s, "/inverse/receivers", where);
   if (s.frames > 0 && s.receivers.size() == 1)
-    refuse("frames", fmt::format("is {}, and there is one receiver", s.frames), "expected two or more, between which a screen can move",
-           "add a receiver, or take 'frames' away");
+    refuse("frames", fmt::format("is {}, and there is one receiver", s.frames),
+           "expected two or more, between which a screen can move", "add a receiver, or take 'frames' away");
   if (s.index.type == preset::Dispersion::Type::constant && s.index.n == 1)
     refuse("index", "is 1, which bends no light", "expected another index, such as 1.5");
   if (free_heights && s.method == Method::thesis)
-    refuse("heights", "is free, and the method 'thesis' aims from facets in one plane", "expected 'flat'", "or choose the method 'assign'");
+    refuse("heights", "is free, and the method 'thesis' aims from facets in one plane", "expected 'flat'",
+           "or choose the method 'assign'");
   if (lens && s.receivers.size() > 1)
     refuse("method", fmt::format("is \"lens\", and there are {} receivers", s.receivers.size()),
            "expected one, because a smooth surface casts one picture", "choose \"assign\", or keep one receiver");
@@ -100,16 +102,17 @@ void check(const preset::Preset& preset, const Where& where)
     refuse("outline", fmt::format("is \"round\", and the method \"{}\" makes rows of facets", preset::word(s.method)),
            "expected \"rectangle\"", "or choose the method \"lens\"");
   if (lens && free_heights)
-    refuse("heights", "is \"free\", and the method \"lens\" makes a surface without steps", "expected none", "remove it");
+    refuse("heights", "is \"free\", and the method \"lens\" makes a surface without steps", "expected none",
+           "remove it");
   if (lens && s.draft_deg > 0)
-    refuse("draft_deg", fmt::format("is {}, and the method \"lens\" makes a surface without walls", s.draft_deg), "expected 0",
-           "remove it");
+    refuse("draft_deg", fmt::format("is {}, and the method \"lens\" makes a surface without walls", s.draft_deg),
+           "expected 0", "remove it");
   if (s.smoothing_normals > 0 && s.method != Method::assign)
-    refuse("smoothing_normals", fmt::format("is {}, and only the method 'assign' has such a term", s.smoothing_normals), "expected 0",
-           "or choose the method 'assign'");
+    refuse("smoothing_normals", fmt::format("is {}, and only the method 'assign' has such a term", s.smoothing_normals),
+           "expected 0", "or choose the method 'assign'");
   if (s.light.spectrum && s.band_nm > 0)
-    refuse("band_nm", fmt::format("is {} nm, and light.spectrum has the light's wavelengths", s.band_nm), "expected one of both",
-           "remove it");
+    refuse("band_nm", fmt::format("is {} nm, and light.spectrum has the light's wavelengths", s.band_nm),
+           "expected one of both", "remove it");
   const double first_nm = s.wavelength_nm - s.band_nm / 2, last_nm = s.wavelength_nm + s.band_nm / 2;
   if (first_nm < 380 || last_nm > 780)
     refuse("band_nm", fmt::format("is {} nm, and the light would have {} to {} nm", s.band_nm, first_nm, last_nm),
@@ -121,12 +124,11 @@ void check(const preset::Preset& preset, const Where& where)
 
 } // namespace
 
-const preset::SettingsType& settings_type()
-{
-  static constexpr std::string_view without[] = {"scene.materials", "scene.objects", "scene.lights", "scene.environment",
-                                                 "white",           "reference",     "stop.error"};
-  static const preset::SettingsType type =
-      preset::settings_type<Settings>("inverse", "One refractive object that casts several pictures at several distances.", check, without);
+const preset::SettingsType& settings_type() {
+  static constexpr std::string_view without[] = {
+      "scene.materials", "scene.objects", "scene.lights", "scene.environment", "white", "reference", "stop.error"};
+  static const preset::SettingsType type = preset::settings_type<Settings>(
+      "inverse", "One refractive object that casts several pictures at several distances.", check, without);
   return type;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of engine 3: the section "inverse" of a preset. Lengths are in millimetres, whatever the preset's unit is, because a
-// workshop works in them.
+// The settings of engine 3: the section "inverse" of a preset. Lengths are in millimetres, whatever the preset's unit
+// is, because a workshop works in them.
 #pragma once
 #include "preset/preset.h"
 
 namespace nephroid::inverse {
 
-/// Constants of the thesis' pipeline: the section "inverse.thesis". The thesis prints draws, cycles, moves, cooling, corrections, patience
-/// and worth; temperature, steps, limits and directions are ours.
+/// Constants of the thesis' pipeline: the section "inverse.thesis". The thesis prints draws, cycles, moves, cooling,
+/// corrections, patience and worth; temperature, steps, limits and directions are ours.
 struct Thesis {
   enum class Sampling { exact, rejection };
   enum class Adjust { convergence, each };
@@ -15,10 +15,11 @@ struct Thesis {
   int directions = 128; ///< across and down, that a facet's light is tried in
   int draws = 32;       ///< of every facet, that a cost is the mean of
   Adjust adjust = Adjust::convergence;
-  int cycles = 10, moves = 10;  ///< of an annealing, and of a cycle
-  double temperature = 0.005;   ///< of the first cycle, in cost
-  double cooling = 0.5;         ///< from cycle to cycle
-  double size_step = 0.02;      ///< largest change in a move; this and the limit below: of the convergence, or of each picture's size
+  int cycles = 10, moves = 10; ///< of an annealing, and of a cycle
+  double temperature = 0.005;  ///< of the first cycle, in cost
+  double cooling = 0.5;        ///< from cycle to cycle
+  double size_step =
+      0.02; ///< largest change in a move; this and the limit below: of the convergence, or of each picture's size
   double size_limit = 0.1;      ///< largest change in all
   double shift_step = 0.01;     ///< in parts of the receiver
   double shift_limit = 0.05;    ///< the same
@@ -33,8 +34,8 @@ struct Thesis {
   bool operator==(const Thesis&) const = default;
 };
 
-/// A grey picture that fills a receiver. Sizes are in parts of the receiver's shorter side, places are about its middle. JSON: a string
-/// (a picture file) or an object with "type".
+/// A grey picture that fills a receiver. Sizes are in parts of the receiver's shorter side, places are about its
+/// middle. JSON: a string (a picture file) or an object with "type".
 struct Picture {
   enum class Type { file, disc, ring, cross, bars, star, gradient, face, text, qr };
   Type type = Type::disc;
@@ -69,7 +70,8 @@ struct Light {
   double turn_deg = 0;                   ///< parallel: the side to which tilted light goes, counterclockwise from +x
   double distance_mm = 1000;             ///< point: from the front
   std::array<double, 2> offset_mm{0, 0}; ///< point: beside the middle of the object
-  /// Then what counts is luminance, because people look at pictures, and the judge sees colours. Without: one wavelength or a band.
+  /// Then what counts is luminance, because people look at pictures, and the judge sees colours. Without: one
+  /// wavelength or a band.
   std::optional<preset::LightSpectrum> spectrum{};
   bool operator==(const Light&) const = default;
 };
@@ -92,13 +94,13 @@ struct Settings {
   double smoothing_normals = 0;             ///< alpha_N of the thesis' (6.1): weight of facets unlike their neighbours
   double smoothing_pictures = 1;            ///< alpha_P: weight of the pictures' error
   std::array<int, 2> facets{128, 128};      ///< across and down
-  double mesh_error = 0.3;                  ///< of a lens: how far triangles send light from where its surface does, in cells
-  preset::Dispersion index{};               ///< of the object, in air
-  double wavelength_nm = 550;               ///< at which the index is taken, without light.spectrum
-  double band_nm = 0;                       ///< width of the light's band about it
+  double mesh_error = 0.3;    ///< of a lens: how far triangles send light from where its surface does, in cells
+  preset::Dispersion index{}; ///< of the object, in air
+  double wavelength_nm = 550; ///< at which the index is taken, without light.spectrum
+  double band_nm = 0;         ///< width of the light's band about it
   Light light;
-  double sun_deg = 0;                                 ///< diameter of the sun's disc
-  double scatter_deg = 0;                             ///< standard deviation of the directions that a rough surface gives one ray
+  double sun_deg = 0;     ///< diameter of the sun's disc
+  double scatter_deg = 0; ///< standard deviation of the directions that a rough surface gives one ray
   std::optional<std::array<double, 2>> receiver_mm{}; ///< size of every receiver; without: the object's
   std::array<int, 2> cells{64, 64};                   ///< of every receiver, across and down
   int frames = 0;                                     ///< pictures between a receiver and the next one

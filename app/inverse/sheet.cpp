@@ -11,8 +11,7 @@ namespace nephroid::inverse {
 namespace {
 
 /// Into a rectangle of pixels, each by the cell that it shows.
-void paste(const job::Picture& from, job::Picture& into, int left, int top, int width, int height)
-{
+void paste(const job::Picture& from, job::Picture& into, int left, int top, int width, int height) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const int u = x * from.width / width, v = y * from.height / height;
@@ -29,12 +28,13 @@ struct SlotGrid {
   glm::ivec2 corner(const glm::ivec2& at) const { return at * slot + (slot - size - glm::ivec2(0, line)) / 2; }
 };
 
-SlotGrid grid_of(const glm::ivec2& counts, const glm::dvec2& shape, const glm::ivec2& sheet)
-{
+SlotGrid grid_of(const glm::ivec2& counts, const glm::dvec2& shape, const glm::ivec2& sheet) {
   constexpr int least_line = 12, least_slot = 80; // pixels in which words can be read
   SlotGrid grid{counts, sheet / counts, {}};
   const int gap = std::max(1, std::min(grid.slot.x, grid.slot.y) / 32);
-  if (const int line = std::clamp(grid.slot.y / 12, least_line, 28); grid.slot.x >= least_slot && grid.slot.y >= 4 * line) grid.line = line;
+  if (const int line = std::clamp(grid.slot.y / 12, least_line, 28);
+      grid.slot.x >= least_slot && grid.slot.y >= 4 * line)
+    grid.line = line;
   const glm::dvec2 room = glm::dvec2(grid.slot - gap) - glm::dvec2(0, grid.line);
   const double scale = std::max(0.0, std::min(room.x / shape.x, room.y / shape.y));
   grid.size = glm::ivec2(scale * shape);
@@ -42,8 +42,7 @@ SlotGrid grid_of(const glm::ivec2& counts, const glm::dvec2& shape, const glm::i
 }
 
 /// White, at the left of the box and in its middle, as large as fits.
-void write(const std::string& words, job::Picture& into, const glm::ivec2& corner, const glm::ivec2& box)
-{
+void write(const std::string& words, job::Picture& into, const glm::ivec2& corner, const glm::ivec2& box) {
   constexpr int least = 7; // of a letter, in pixels
   if (box.y == 0 || words.empty()) return;
   try {
@@ -57,7 +56,8 @@ void write(const std::string& words, job::Picture& into, const glm::ivec2& corne
     const int top = corner.y + std::max(0, box.y - text.height) / 2;
     for (int y = 0; y < std::min(text.height, box.y); ++y)
       for (int x = 0; x < std::min(text.width, box.x); ++x) {
-        const float value = text.data[static_cast<std::size_t>(y) * static_cast<std::size_t>(text.width) + static_cast<std::size_t>(x)];
+        const float value =
+            text.data[static_cast<std::size_t>(y) * static_cast<std::size_t>(text.width) + static_cast<std::size_t>(x)];
         float* const pixel = into.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(top + y) * into.width + corner.x + x);
         for (int c = 0; c < 3; ++c) pixel[c] = std::max(pixel[c], value);
       }
@@ -67,8 +67,7 @@ void write(const std::string& words, job::Picture& into, const glm::ivec2& corne
 
 } // namespace
 
-std::shared_ptr<const job::Picture> grey_picture(std::span<const double> values, double scale, const glm::ivec2& size)
-{
+std::shared_ptr<const job::Picture> grey_picture(std::span<const double> values, double scale, const glm::ivec2& size) {
   auto picture = std::make_shared<job::Picture>();
   picture->width = size.x;
   picture->height = size.y;
@@ -76,14 +75,13 @@ std::shared_ptr<const job::Picture> grey_picture(std::span<const double> values,
   return picture;
 }
 
-std::shared_ptr<const job::Picture> received_picture(std::span<const double> light, double most, const Layout& layout)
-{
+std::shared_ptr<const job::Picture> received_picture(std::span<const double> light, double most, const Layout& layout) {
   const double sum = std::accumulate(light.begin(), light.end(), 0.0);
   return grey_picture(light, sum > 0 ? 1 / (sum * most) : 0, layout.cells);
 }
 
-std::shared_ptr<const job::Picture> coloured_picture(std::span<const glm::dvec3> xyz, double most, const Layout& layout)
-{
+std::shared_ptr<const job::Picture> coloured_picture(std::span<const glm::dvec3> xyz, double most,
+                                                     const Layout& layout) {
   double sum = 0;
   for (const glm::dvec3& colour : xyz) sum += colour.y;
   auto picture = std::make_shared<job::Picture>();
@@ -95,8 +93,7 @@ std::shared_ptr<const job::Picture> coloured_picture(std::span<const glm::dvec3>
   return picture;
 }
 
-std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wanted, const job::Picture& received)
-{
+std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wanted, const job::Picture& received) {
   auto picture = std::make_shared<job::Picture>(wanted);
   for (std::size_t i = 0; i < wanted.rgb.size(); i += 3) {
     const float* const rgb = received.rgb.data() + i;
@@ -109,8 +106,7 @@ std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wante
 }
 
 std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> slopes, std::span<const double> heights,
-                                                   const Layout& layout)
-{
+                                                   const Layout& layout) {
   auto picture = std::make_shared<job::Picture>();
   picture->width = layout.facets.x;
   picture->height = layout.facets.y;
@@ -119,18 +115,20 @@ std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> s
   return picture;
 }
 
-std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<Captioned>>& lists, const glm::dvec2& shape, int width, int height)
-{
+std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<Captioned>>& lists, const glm::dvec2& shape,
+                                          int width, int height) {
   auto picture = std::make_shared<job::Picture>();
   picture->width = width;
   picture->height = height;
-  picture->rgb.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.02f); // a grey that parts black pictures
+  picture->rgb.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                      0.02f); // a grey that parts black pictures
   const glm::ivec2 counts(lists.size(), lists.front().size());
   const auto grid_with = [&](int across, int down) { return grid_of({across, down}, shape, {width, height}); };
   const SlotGrid upright = grid_with(counts.x, counts.y), lying = grid_with(counts.y, counts.x);
   const bool lies = lying.size.x > upright.size.x;
   SlotGrid grid = lies ? lying : upright;
-  const SlotGrid square = grid_with(2, (counts.y + 1) / 2); // of one list, which in a row would leave most of a square sheet empty
+  const SlotGrid square =
+      grid_with(2, (counts.y + 1) / 2); // of one list, which in a row would leave most of a square sheet empty
   const bool wraps = counts.x == 1 && square.size.x > grid.size.x;
   if (wraps) grid = square;
   for (int list = 0; list < counts.x; ++list)

@@ -24,8 +24,7 @@ struct Index {
   Place where;
   const char* remedy;
 
-  double at(double nm) const
-  {
+  double at(double nm) const {
     const optics::IndexSample sample = curve.sample(nm, outside);
     if (!sample.n) throw bad_input(where, fmt::format("has no n at {} nm", nm), remedy);
     if (std::abs(*sample.n - 1) < 1e-3 * (1 - 1e-9))
@@ -35,20 +34,18 @@ struct Index {
   }
 };
 
-std::vector<LightPart> coloured(const optics::Spectrum& power, const Index& index)
-{
+std::vector<LightPart> coloured(const optics::Spectrum& power, const Index& index) {
   const optics::ColourMatching& eye = optics::cie_1931();
   const double luminance = optics::to_xyz(power)[1];
   std::vector<LightPart> parts;
   for (std::size_t i = 0; i < power.size(); ++i)
     if (power[i] > 0)
-      parts.push_back(
-          {index.at(optics::wavelength_nm(static_cast<int>(i))), power[i] / luminance * glm::dvec3(eye.x[i], eye.y[i], eye.z[i])});
+      parts.push_back({index.at(optics::wavelength_nm(static_cast<int>(i))),
+                       power[i] / luminance * glm::dvec3(eye.x[i], eye.y[i], eye.z[i])});
   return parts;
 }
 
-std::vector<LightPart> band(const Settings& s, const Index& index)
-{
+std::vector<LightPart> band(const Settings& s, const Index& index) {
   const int count = s.band_nm > 0 ? band_samples : 1;
   std::vector<LightPart> parts;
   for (int i = 0; i < count; ++i)
@@ -58,8 +55,7 @@ std::vector<LightPart> band(const Settings& s, const Index& index)
 
 } // namespace
 
-std::vector<LightPart> equal_parts(const std::vector<LightPart>& spectrum, std::size_t count)
-{
+std::vector<LightPart> equal_parts(const std::vector<LightPart>& spectrum, std::size_t count) {
   double sum = 0;
   for (const LightPart& piece : spectrum) sum += weight_of(piece);
   const double full = sum / static_cast<double>(count);
@@ -83,17 +79,18 @@ std::vector<LightPart> equal_parts(const std::vector<LightPart>& spectrum, std::
   return parts;
 }
 
-Refraction make_refraction(const preset::Preset& preset)
-{
+Refraction make_refraction(const preset::Preset& preset) {
   const Settings& s = settings(preset);
   const Place own = Place(preset.source) / "inverse";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   const bool is_coloured = s.light.spectrum.has_value();
-  const Index index{scene::make_curve(s.index, finder, own / "index"), scene::outside_policy(s.index.outside), own / "index",
+  const Index index{scene::make_curve(s.index, finder, own / "index"), scene::outside_policy(s.index.outside),
+                    own / "index",
                     is_coloured ? "expected one for all wavelengths of light.spectrum"
                                 : "expected another wavelength_nm or a narrower band_nm"};
   const std::vector<LightPart> parts =
-      is_coloured ? coloured(scene::make_light_spectrum(*s.light.spectrum, own / "light" / "spectrum"), index) : band(s, index);
+      is_coloured ? coloured(scene::make_light_spectrum(*s.light.spectrum, own / "light" / "spectrum"), index)
+                  : band(s, index);
   if (!is_coloured && std::ranges::all_of(parts, [&](const LightPart& part) { return part.n == parts.front().n; }))
     return {parts.front().n, std::nullopt};
   double n = 0;

@@ -23,15 +23,16 @@ struct Spectrum {
 
 /// What the object's material does to the light.
 struct Refraction {
-  double n = 1.5;                   ///< index of the object over that of what is around it: the mean over what counts of the light
+  double n = 1.5; ///< index of the object over that of what is around it: the mean over what counts of the light
   std::optional<Spectrum> spectrum; ///< none: one index and no colours
 };
 
-/// Throws bad_input where the index cannot be read, is 1 or is not known for all of the light, and for a spectrum without power.
+/// Throws bad_input where the index cannot be read, is 1 or is not known for all of the light, and for a spectrum
+/// without power.
 Refraction make_refraction(const preset::Preset& preset);
 
-/// The spectrum, which is not empty, in so many parts with as much of x + y + z, so that what is violet has its share: neighbours, whose
-/// index is the mean of theirs.
+/// The spectrum, which is not empty, in so many parts with as much of x + y + z, so that what is violet has its share:
+/// neighbours, whose index is the mean of theirs.
 std::vector<LightPart> equal_parts(const std::vector<LightPart>& spectrum, std::size_t count);
 
 } // namespace nephroid::inverse

@@ -21,13 +21,14 @@ struct PerturbedSolid {
   double waves_mm = 0, turn_deg = 0, farther = 0;
 };
 constexpr std::array<PerturbedSolid, Tolerances::count> errors{
-    PerturbedSolid{.what = "heights off by 1 um", .waves_mm = 0.001}, PerturbedSolid{.what = "heights off by 5 um", .waves_mm = 0.005},
-    PerturbedSolid{.what = "heights off by 20 um", .waves_mm = 0.02}, PerturbedSolid{.what = "turned by 1 degree", .turn_deg = 1},
+    PerturbedSolid{.what = "heights off by 1 um", .waves_mm = 0.001},
+    PerturbedSolid{.what = "heights off by 5 um", .waves_mm = 0.005},
+    PerturbedSolid{.what = "heights off by 20 um", .waves_mm = 0.02},
+    PerturbedSolid{.what = "turned by 1 degree", .turn_deg = 1},
     PerturbedSolid{.what = "receivers 1 % farther", .farther = 0.01}};
 
 /// About the x axis. Rays begin in front of what is turned towards them.
-void turn(double radians, Layout& layout, Solid& solid)
-{
+void turn(double radians, Layout& layout, Solid& solid) {
   const double sine = std::sin(radians), cosine = std::cos(radians), pivot = layout.thickness / 2;
   for (glm::vec3& p : solid.mesh.positions) {
     const double y = p.y, z = p.z - pivot;
@@ -37,19 +38,21 @@ void turn(double radians, Layout& layout, Solid& solid)
   layout.thickness += std::abs(sine) * layout.size.y / 2;
 }
 
-/// Each triangle as four, by the middles of its edges: a closed surface stays closed, because both triangles of an edge have the same
-/// middle.
-Solid halved(const Solid& solid)
-{
+/// Each triangle as four, by the middles of its edges: a closed surface stays closed, because both triangles of an edge
+/// have the same middle.
+Solid halved(const Solid& solid) {
   Solid fine = solid;
   fine.mesh.triangles.clear();
   fine.parts.clear();
   for (std::size_t i = 0; i < solid.parts.size(); ++i) {
     const glm::uvec3& t = solid.mesh.triangles[i];
     const auto first = static_cast<glm::uint>(fine.mesh.positions.size());
-    for (int k = 0; k < 3; ++k) fine.mesh.positions.push_back((solid.mesh.positions[t[k]] + solid.mesh.positions[t[(k + 1) % 3]]) / 2.0f);
-    for (const glm::uvec3& part :
-         {glm::uvec3(t.x, first, first + 2), {first, t.y, first + 1}, {first + 2, first + 1, t.z}, {first, first + 1, first + 2}})
+    for (int k = 0; k < 3; ++k)
+      fine.mesh.positions.push_back((solid.mesh.positions[t[k]] + solid.mesh.positions[t[(k + 1) % 3]]) / 2.0f);
+    for (const glm::uvec3& part : {glm::uvec3(t.x, first, first + 2),
+                                   {first, t.y, first + 1},
+                                   {first + 2, first + 1, t.z},
+                                   {first, first + 1, first + 2}})
       fine.mesh.triangles.push_back(part);
     fine.parts.insert(fine.parts.end(), 4, solid.parts[i]);
   }
@@ -58,15 +61,13 @@ Solid halved(const Solid& solid)
 
 } // namespace
 
-int halvings(const Layout& layout)
-{
+int halvings(const Layout& layout) {
   constexpr double least_a_wave = 4; // triangles' sides
   const double sides = std::max(layout.facet().x, layout.facet().y) / (wave_mm / least_a_wave);
   return std::max(0, static_cast<int>(std::ceil(std::log2(sides))));
 }
 
-Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t seed)
-{
+Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t seed) {
   constexpr int count = 32;
   std::mt19937_64 random(seed);
   std::array<glm::dvec3, count> waves; // across and up in radians a millimetre, and where it begins
@@ -85,21 +86,18 @@ Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t
   return solid;
 }
 
-Tolerances::Tolerances(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets, const Solid& solid,
-                       std::uint64_t seed)
-    : context_(context), layout_(layout), targets_(targets), solid_(solid), seed_(seed)
-{
-}
+Tolerances::Tolerances(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
+                       const Solid& solid, std::uint64_t seed)
+    : context_(context), layout_(layout), targets_(targets), solid_(solid), seed_(seed) {}
 
 bool Tolerances::finished() const { return rows_.size() == errors.size(); }
 
-double Tolerances::fraction_done() const
-{
-  return (static_cast<double>(rows_.size()) + (judge_ ? judge_->fraction_done() : 0)) / static_cast<double>(errors.size());
+double Tolerances::fraction_done() const {
+  return (static_cast<double>(rows_.size()) + (judge_ ? judge_->fraction_done() : 0)) /
+         static_cast<double>(errors.size());
 }
 
-void Tolerances::begin()
-{
+void Tolerances::begin() {
   const PerturbedSolid& wrong = errors[rows_.size()];
   changed_layout_ = layout_;
   changed_layout_.frames.clear();
@@ -109,8 +107,7 @@ void Tolerances::begin()
   judge_.emplace(context_, changed_layout_, changed_, seed_, targets_);
 }
 
-void Tolerances::advance()
-{
+void Tolerances::advance() {
   if (!judge_) begin();
   judge_->advance();
   if (!judge_->finished()) return;
@@ -118,8 +115,7 @@ void Tolerances::advance()
   judge_.reset();
 }
 
-void Tolerances::state(State& state)
-{
+void Tolerances::state(State& state) {
   std::size_t done = rows_.size();
   state.value(done);
   if (state.is_read()) {
@@ -136,9 +132,9 @@ void Tolerances::state(State& state)
   judge_->state(state);
 }
 
-std::string tolerance_table(const std::vector<Cost>& judged, const std::vector<Tolerances::Row>& rows)
-{
-  std::string table = "\n## Tolerances\n\nWhat the judge says of the object with one error at a time.\n\n| error | cost | rel_l2 |";
+std::string tolerance_table(const std::vector<Cost>& judged, const std::vector<Tolerances::Row>& rows) {
+  std::string table =
+      "\n## Tolerances\n\nWhat the judge says of the object with one error at a time.\n\n| error | cost | rel_l2 |";
   const auto to = std::back_inserter(table);
   for (std::size_t j = 0; j < judged.size(); ++j) fmt::format_to(to, " {}: cost | {}: rel_l2 |", j + 1, j + 1);
   table += "\n|---|---|---|";
@@ -154,8 +150,7 @@ std::string tolerance_table(const std::vector<Cost>& judged, const std::vector<T
   return table;
 }
 
-std::string tolerance_csv(const std::vector<Cost>& judged, const std::vector<Tolerances::Row>& rows)
-{
+std::string tolerance_csv(const std::vector<Cost>& judged, const std::vector<Tolerances::Row>& rows) {
   std::string csv = "error,receiver,cost,rel_l2\n";
   const auto add = [&](std::string_view what, const std::vector<Cost>& costs) {
     for (std::size_t j = 0; j < costs.size(); ++j)

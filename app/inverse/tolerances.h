@@ -8,16 +8,17 @@
 
 namespace nephroid::inverse {
 
-/// One error at a time: heights that are off by 1, 5 and 20 micrometres, the object turned by a degree about its middle, the receivers 1 %
-/// too far. Heights are off as milling and polishing leave them: in waves along the surface, so that neighbouring places are off alike;
-/// the figure is their root mean square. Their length decides over the slopes that they add: see wave_mm.
+/// One error at a time: heights that are off by 1, 5 and 20 micrometres, the object turned by a degree about its
+/// middle, the receivers 1 % too far. Heights are off as milling and polishing leave them: in waves along the surface,
+/// so that neighbouring places are off alike; the figure is their root mean square. Their length decides over the
+/// slopes that they add: see wave_mm.
 class Tolerances {
 public:
   static constexpr int count = 5; ///< of errors
 
   /// All of them outlive it.
-  Tolerances(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets, const Solid& solid,
-             std::uint64_t seed);
+  Tolerances(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
+             const Solid& solid, std::uint64_t seed);
 
   /// A few rows of facets of the judge's.
   void advance();
@@ -52,7 +53,8 @@ inline constexpr double wave_mm = 5;
 /// How often each triangle is cut into four where facets are wide beside such waves.
 int halvings(const Layout& layout);
 
-/// Its surface but the flat front is off along z, in waves of this root mean square. Triangles that are too wide for waves are cut.
+/// Its surface but the flat front is off along z, in waves of this root mean square. Triangles that are too wide for
+/// waves are cut.
 Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t seed);
 
 /// A section of workshop.md, and the same figures as CSV. judged: without errors.

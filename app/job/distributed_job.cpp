@@ -18,8 +18,7 @@ public:
 class DeferringSink final : public ByteSink {
 public:
   explicit DeferringSink(ByteSink& to) : to_(to) {}
-  void write(std::span<const std::byte> bytes) override
-  {
+  void write(std::span<const std::byte> bytes) override {
     if (thrown_) return;
     try {
       to_.write(bytes);
@@ -27,8 +26,7 @@ public:
       thrown_ = std::current_exception();
     }
   }
-  void rethrow() const
-  {
+  void rethrow() const {
     if (thrown_) std::rethrow_exception(thrown_);
   }
 
@@ -39,10 +37,10 @@ private:
 
 class DistributedJob final : public Job {
 public:
-  DistributedJob(std::unique_ptr<Job> job, const Communicator& communicator) : job_(std::move(job)), communicator_(communicator) {}
+  DistributedJob(std::unique_ptr<Job> job, const Communicator& communicator)
+      : job_(std::move(job)), communicator_(communicator) {}
   /// What failed ends all ranks anyway.
-  ~DistributedJob() override
-  {
+  ~DistributedJob() override {
     if (std::uncaught_exceptions() > 0 || thrown_) return;
     try {
       communicator_.broadcast(Call::end);
@@ -51,15 +49,13 @@ public:
     }
   }
 
-  void advance() override
-  {
+  void advance() override {
     call(Call::advance);
     job_->advance();
   }
   bool finished() const override { return job_->finished(); }
   Progress progress() const override { return job_->progress(); }
-  Snapshot snapshot() override
-  {
+  Snapshot snapshot() override {
     call(Call::snapshot);
     Snapshot snapshot = remembering_failure([&] { return job_->snapshot(); });
     const Communicator::Traffic traffic = communicator_.traffic();
@@ -70,15 +66,13 @@ public:
     return snapshot;
   }
   bool estimates_error() const override { return job_->estimates_error(); }
-  void save(ByteSink& to) override
-  {
+  void save(ByteSink& to) override {
     call(Call::save);
     DeferringSink sink(to);
     remembering_failure([&] { job_->save(sink); });
     sink.rethrow();
   }
-  void load(ByteSource& from) override
-  {
+  void load(ByteSource& from) override {
     call(Call::load);
     std::vector<std::byte> bytes(from.left());
     from.read(bytes);
@@ -89,14 +83,12 @@ public:
   }
 
 private:
-  void call(Call next)
-  {
+  void call(Call next) {
     if (thrown_) std::rethrow_exception(thrown_); // half way through a call: the ranks are no longer in step
     communicator_.broadcast(next);
   }
   template <class Work>
-  std::invoke_result_t<Work> remembering_failure(Work work)
-  {
+  std::invoke_result_t<Work> remembering_failure(Work work) {
     try {
       return work();
     } catch (...) {
@@ -112,29 +104,23 @@ private:
 
 } // namespace
 
-std::unique_ptr<Job> distributed(std::unique_ptr<Job> job, const Communicator& communicator) { return std::make_unique<DistributedJob>(std::move(job), communicator); }
+std::unique_ptr<Job> distributed(std::unique_ptr<Job> job, const Communicator& communicator) {
+  return std::make_unique<DistributedJob>(std::move(job), communicator);
+}
 
-void follow_root(Job& job, const Communicator& communicator)
-{
+void follow_root(Job& job, const Communicator& communicator) {
   NullSink null_sink;
   while (true) switch (communicator.broadcast(Call::end)) {
-    case Call::advance:
-      job.advance();
-      break;
-    case Call::snapshot:
-      job.snapshot();
-      break;
-    case Call::save:
-      job.save(null_sink);
-      break;
+    case Call::advance: job.advance(); break;
+    case Call::snapshot: job.snapshot(); break;
+    case Call::save: job.save(null_sink); break;
     case Call::load: {
       const std::vector<std::byte> bytes = communicator.broadcast(std::vector<std::byte>());
       StoredBytes all(bytes, "checkpoint.bin");
       job.load(all);
       break;
     }
-    case Call::end:
-      return;
+    case Call::end: return;
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Error against run time: what a job noted about its own error while it worked, a row for each measurement. This is the data only:
-// measure/measured_job.h measures, measure/run_files.h reads and writes the file.
+// Error against run time: what a job noted about its own error while it worked, a row for each measurement. This is the
+// data only: measure/measured_job.h measures, measure/run_files.h reads and writes the file.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -21,20 +21,22 @@ struct HistoryRow {
   bool operator==(const HistoryRow&) const = default;
 };
 
-/// Columns are metrics, named as in measure/metrics.h: against the reference ("lab_mean"), the same of the mask's pixels alone
+/// Columns are metrics, named as in measure/metrics.h: against the reference ("lab_mean"), the same of the mask's
+/// pixels alone
 /// ("masked_lab_mean"), and the run's own estimate, which needs no reference ("estimated_lab_mean").
 struct History {
   std::vector<std::string> columns;
-  std::vector<HistoryRow> rows;    ///< seconds never fall
-  std::vector<double> noise_floor; ///< of each column: what the reference itself is off by; NaN: not known. Empty: known of none
-  std::string error_column;        ///< the one that a run can stop at and that panels show first; empty where nothing is measured
-  std::optional<double> target;    ///< of error_column: stop.error
-  double measuring_seconds = 0;    ///< spent on measuring so far, which `seconds` does not contain
+  std::vector<HistoryRow> rows; ///< seconds never fall
+  std::vector<double>
+      noise_floor; ///< of each column: what the reference itself is off by; NaN: not known. Empty: known of none
+  std::string
+      error_column; ///< the one that a run can stop at and that panels show first; empty where nothing is measured
+  std::optional<double> target; ///< of error_column: stop.error
+  double measuring_seconds = 0; ///< spent on measuring so far, which `seconds` does not contain
 };
 
 /// A row's error in a column by its name; NaN where the history has no such column.
-inline double error_in(const History& history, const HistoryRow& row, std::string_view column)
-{
+inline double error_in(const History& history, const HistoryRow& row, std::string_view column) {
   for (std::size_t i = 0; i < history.columns.size(); ++i)
     if (history.columns[i] == column) return row.errors.at(i);
   return std::numeric_limits<double>::quiet_NaN();

@@ -19,9 +19,9 @@ struct Picture {
   int width = 0, height = 0;
   std::vector<float> rgb; ///< the sum of the layers
   std::vector<Layer> layers;
-  /// An independent draw of the picture's own error, laid out like rgb. It is the difference of two independent halves of a and b samples,
-  /// times sqrt(a b) / (a + b). Its expectation is 0, its covariance that of rgb. Empty where no halves are kept, or where one of them has
-  /// no sample yet.
+  /// An independent draw of the picture's own error, laid out like rgb. It is the difference of two independent halves
+  /// of a and b samples, times sqrt(a b) / (a + b). Its expectation is 0, its covariance that of rgb. Empty where no
+  /// halves are kept, or where one of them has no sample yet.
   std::vector<float> error_draw;
 };
 
@@ -60,8 +60,8 @@ struct Curve {
   std::vector<std::vector<double>> rows; ///< a value a column
 };
 
-/// A file that an engine adds to a run's folder: a mesh, a list. It is made while it is written, since a mesh's file can be as large as
-/// the memory.
+/// A file that an engine adds to a run's folder: a mesh, a list. It is made while it is written, since a mesh's file
+/// can be as large as the memory.
 struct ExtraFile {
   std::string name;
   std::function<void(ByteSink&)> write; ///< the same bytes whenever it is called; holds what it needs
@@ -70,9 +70,10 @@ struct ExtraFile {
 struct Snapshot {
   std::shared_ptr<const Picture> picture; ///< the one that the window shows first and that is measured
   std::shared_ptr<const Picture> in_view; ///< what the window shows alone, in the place of `picture`; null: that itself
-  std::string caption;                    ///< a sentence on what it shows, where that is not what the preset asks for; else empty
-  bool stands_in = false;                 ///< true: the picture shows the work before the first one of what was asked for, and is no result
-  std::vector<NamedPicture> pictures;     ///< the others
+  std::string caption; ///< a sentence on what it shows, where that is not what the preset asks for; else empty
+  bool stands_in =
+      false; ///< true: the picture shows the work before the first one of what was asked for, and is no result
+  std::vector<NamedPicture> pictures; ///< the others
   Progress progress;
   std::vector<Scalar> scalars;
   std::vector<Curve> curves;
@@ -80,12 +81,11 @@ struct Snapshot {
   std::vector<std::string> warnings;                  ///< what makes the picture doubtful, a sentence each
   std::vector<std::pair<std::string, double>> phases; ///< seconds a phase, e.g. {"photons", 3.2}
   std::shared_ptr<const History> history;             ///< of its error so far; null where nothing is measured
-  std::uint64_t adoption = 0;                         ///< the newest Worker::adopt() that it knows of; the worker's to set
+  std::uint64_t adoption = 0; ///< the newest Worker::adopt() that it knows of; the worker's to set
 };
 
 /// A scalar's value; NaN where there is none.
-inline double scalar(const Snapshot& snapshot, std::string_view group, std::string_view name)
-{
+inline double scalar(const Snapshot& snapshot, std::string_view group, std::string_view name) {
   for (const Scalar& s : snapshot.scalars)
     if (s.group == group && s.name == name) return s.value;
   return std::numeric_limits<double>::quiet_NaN();
@@ -98,8 +98,8 @@ public:
   virtual void advance() = 0;
   virtual bool finished() const = 0;
   virtual Progress progress() const = 0;
-  /// Reads the device's state and makes a picture of it. Takes a few milliseconds; with smoothing a tenth of a second or more where the
-  /// picture is large.
+  /// Reads the device's state and makes a picture of it. Takes a few milliseconds; with smoothing a tenth of a second
+  /// or more where the picture is large.
   virtual Snapshot snapshot() = 0;
   /// Whether its pictures come with a draw of their error (Picture::error_draw).
   virtual bool estimates_error() const { return true; }
@@ -107,17 +107,19 @@ public:
   virtual std::shared_ptr<const History> history() const { return nullptr; }
   /// Writes everything needed to go on later with the same bits. Opaque; of the engine's state_version.
   virtual void save(ByteSink& to) = 0;
-  /// Reads what save() wrote of the same preset, to its end (run/checkpoint.cpp sees to both). Throws bad_input where that is cut.
+  /// Reads what save() wrote of the same preset, to its end (run/checkpoint.cpp sees to both). Throws bad_input where
+  /// that is cut.
   virtual void load(ByteSource& from) = 0;
-  /// Takes on another preset without starting again, and keeps what was computed so far. True only where the engine can do so
-  /// (engine::adoptable): a relighting run can where only the light differs. Throws bad_input at FILE#/scene/lights/... for a
-  /// spectrum that cannot be used. Where it returns false or throws bad_input, nothing has changed. After any other exception the next
-  /// adopt() comes before any step() or snapshot(); where the job cannot go on from there, it returns false.
+  /// Takes on another preset without starting again, and keeps what was computed so far. True only where the engine can
+  /// do so (engine::adoptable): a relighting run can where only the light differs. Throws bad_input at
+  /// FILE#/scene/lights/... for a spectrum that cannot be used. Where it returns false or throws bad_input, nothing has
+  /// changed. After any other exception the next adopt() comes before any step() or snapshot(); where the job cannot go
+  /// on from there, it returns false.
   virtual bool adopt(const preset::Preset&) { return false; }
 };
 
-/// What some jobs can tell besides their picture. It is made when somebody asks (Worker::watch_spectrum): what it is made of stays on the
-/// device.
+/// What some jobs can tell besides their picture. It is made when somebody asks (Worker::watch_spectrum): what it is
+/// made of stays on the device.
 struct PixelSpectrum {
   struct Layer {
     std::string name;             ///< as in the picture
@@ -125,8 +127,8 @@ struct PixelSpectrum {
   };
   std::array<int, 2> pixel{}; ///< column and row from the top
   std::vector<Layer> layers;
-  std::string why_not;            ///< why the run has none, with what to do; else empty
-  std::string remedy;             ///< the change of the preset with which a run has one, as for --set; empty: there is none
+  std::string why_not; ///< why the run has none, with what to do; else empty
+  std::string remedy;  ///< the change of the preset with which a run has one, as for --set; empty: there is none
   std::vector<std::string> notes; ///< how it differs from the picture's pixel, a sentence each
 };
 
@@ -134,7 +136,8 @@ struct PixelSpectrum {
 class SpectrumSource {
 public:
   virtual ~SpectrumSource() = default;
-  /// As the picture of a snapshot at the same time. On the job's thread. Null outside of the picture, and where it never has one.
+  /// As the picture of a snapshot at the same time. On the job's thread. Null outside of the picture, and where it
+  /// never has one.
   virtual std::shared_ptr<const PixelSpectrum> spectrum(const std::array<int, 2>& pixel) = 0;
 };
 

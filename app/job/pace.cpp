@@ -7,8 +7,7 @@
 
 namespace nephroid::job {
 
-Pace pace_between(const Progress& start, const Progress& now)
-{
+Pace pace_between(const Progress& start, const Progress& now) {
   Pace pace;
   const double seconds = now.work_seconds - start.work_seconds, fraction = now.fraction - start.fraction;
   if (seconds <= 0) return pace;
@@ -18,8 +17,7 @@ Pace pace_between(const Progress& start, const Progress& now)
   return pace;
 }
 
-std::string rate_text(const Pace& pace, const Units& units)
-{
+std::string rate_text(const Pace& pace, const Units& units) {
   const char* const prefixes[] = {"", "k ", "M ", "G ", "T "};
   double rate = pace.work_per_second;
   int prefix = 0;

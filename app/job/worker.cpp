@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One thread, one mutex, one condition variable. The mutex guards only the commands and what readers copy; it is never held
-// while a job works, so no reader ever waits for the device.
+// One thread, one mutex, one condition variable. The mutex guards only the commands and what readers copy; it is never
+// held while a job works, so no reader ever waits for the device.
 #include "job/worker.h"
 
 #include <algorithm>
@@ -19,19 +19,17 @@ using Clock = std::chrono::steady_clock;
 /// Longer than a frame of the window.
 constexpr std::chrono::milliseconds adoption_linger{25};
 
-/// After a snapshot the job works at least so many times as long as that took: large pictures may take longer than the interval. In a
-/// job's first second each picture is much better than the one before: then half of that is enough, and the interval is at most half the
-/// job's age.
+/// After a snapshot the job works at least so many times as long as that took: large pictures may take longer than the
+/// interval. In a job's first second each picture is much better than the one before: then half of that is enough, and
+/// the interval is at most half the job's age.
 constexpr int work_a_snapshot = 4;
 constexpr std::chrono::seconds youth{1};
 
-bool is_over(State state)
-{
+bool is_over(State state) {
   return state == State::idle || state == State::finished || state == State::cancelled || state == State::failed;
 }
 
-Error error_of(const std::exception_ptr& error)
-{
+Error error_of(const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
   } catch (const Error& known) {
@@ -81,8 +79,7 @@ struct Worker::Impl {
   bool must_stop(std::uint64_t generation) const { return cancelled || ending || status.generation != generation; }
 
   /// start() with the mutex held; number: of the newest adoption that make() knows of.
-  void begin(Make make, std::uint64_t number)
-  {
+  void begin(Make make, std::uint64_t number) {
     next = std::move(make);
     next_adoption = number;
     adoption.reset();
@@ -97,8 +94,7 @@ struct Worker::Impl {
   }
 
   /// With the mutex held, where the job in hand does not adopt. What was commanded after the adoption still holds.
-  void begin_instead(const Adoption& refused)
-  {
+  void begin_instead(const Adoption& refused) {
     if (cancelled || adoption) return; // a newer one is the job's to adopt
     const bool pause = paused_since_adoption;
     begin(refused.otherwise, refused.number);
@@ -107,24 +103,21 @@ struct Worker::Impl {
 
   /// Calls change() with the mutex held, unless the job in hand was replaced: then the status is no longer about it.
   template <class Change>
-  void update(std::uint64_t generation, Change change)
-  {
+  void update(std::uint64_t generation, Change change) {
     const std::lock_guard lock(mutex);
     if (status.generation != generation) return;
     change();
     changed.notify_all();
   }
 
-  void set_state(std::uint64_t generation, State state)
-  {
+  void set_state(std::uint64_t generation, State state) {
     update(generation, [&] {
       status.state = state;
       status.error.reset();
     });
   }
 
-  void set_failed(std::uint64_t generation, const Error& error)
-  {
+  void set_failed(std::uint64_t generation, const Error& error) {
     update(generation, [&] {
       status.state = State::failed;
       status.error = error;
@@ -132,25 +125,25 @@ struct Worker::Impl {
     });
   }
 
-  void publish(std::uint64_t generation, Job& job)
-  {
+  void publish(std::uint64_t generation, Job& job) {
     const Clock::time_point begin = Clock::now();
     Snapshot made = job.snapshot();
     snapshot_took = Clock::now() - begin;
     made.adoption = adopted;
-    auto shared = std::make_shared<const Snapshot>(std::move(made)); // the old one is freed after the lock: pictures are megabytes
+    auto shared = std::make_shared<const Snapshot>(
+        std::move(made)); // the old one is freed after the lock: pictures are megabytes
     update(generation, [&] {
       std::swap(snapshot, shared);
       status.progress = snapshot->progress;
       // Together: a job that was finished and took on a preset is not finished with its first picture.
-      if (!job.finished() && (status.state == State::finished || status.state == State::failed)) status.state = State::running;
+      if (!job.finished() && (status.state == State::finished || status.state == State::failed))
+        status.state = State::running;
     });
     tell_spectrum(generation, job);
   }
 
   /// Makes the spectrum that is watched.
-  void tell_spectrum(std::uint64_t generation, Job& job)
-  {
+  void tell_spectrum(std::uint64_t generation, Job& job) {
     std::unique_lock lock(mutex);
     watch_changed = false;
     const auto pixel = watched;
@@ -164,10 +157,9 @@ struct Worker::Impl {
 
   enum class Move { step, adopt, tell, stop };
 
-  /// What an unfinished job does next. Waits while paused and, after an adoption, a moment for the next: while somebody drags a spectrum
-  /// every step would only delay the picture.
-  Move next_move(std::uint64_t generation, std::optional<Clock::time_point> adopted_at)
-  {
+  /// What an unfinished job does next. Waits while paused and, after an adoption, a moment for the next: while somebody
+  /// drags a spectrum every step would only delay the picture.
+  Move next_move(std::uint64_t generation, std::optional<Clock::time_point> adopted_at) {
     std::unique_lock lock(mutex);
     const auto commanded = [&] { return must_stop(generation) || adoption || watch_changed; };
     if (adopted_at) changed.wait_until(lock, *adopted_at + adoption_linger, commanded);
@@ -181,16 +173,14 @@ struct Worker::Impl {
   }
 
   /// What a finished job does next.
-  Move last_move() const
-  {
+  Move last_move() const {
     const std::lock_guard lock(mutex);
     return adoption ? Move::adopt : watch_changed ? Move::tell : Move::stop;
   }
 
-  /// Lets the job take on the newest preset, or makes a new one begin where it cannot. False where that failed: the job has to wait for the
-  /// next adoption, and the state is failed unless that is there already.
-  bool adopt_newest(std::uint64_t generation, Job& job)
-  {
+  /// Lets the job take on the newest preset, or makes a new one begin where it cannot. False where that failed: the job
+  /// has to wait for the next adoption, and the state is failed unless that is there already.
+  bool adopt_newest(std::uint64_t generation, Job& job) {
     std::unique_lock lock(mutex);
     const Adoption newest = *std::exchange(adoption, std::nullopt);
     lock.unlock();
@@ -214,15 +204,14 @@ struct Worker::Impl {
   }
 
   /// Between a snapshot and the next of a job that has worked for so long, with the mutex held.
-  Clock::duration pause_after_snapshot(Clock::duration age) const
-  {
+  Clock::duration pause_after_snapshot(Clock::duration age) const {
     if (age < youth) return std::max(std::min<Clock::duration>(interval, age / 2), work_a_snapshot / 2 * snapshot_took);
     return std::max<Clock::duration>(interval, work_a_snapshot * snapshot_took);
   }
 
-  /// Steps the job until it is finished, has to stop or could not adopt; its last state is shown either way. Returns the state then.
-  State advance(std::uint64_t generation, Job& job)
-  {
+  /// Steps the job until it is finished, has to stop or could not adopt; its last state is shown either way. Returns
+  /// the state then.
+  State advance(std::uint64_t generation, Job& job) {
     const Clock::time_point began = Clock::now();
     std::optional<Clock::time_point> shown, adopted_at;
     while (true) {
@@ -255,15 +244,14 @@ struct Worker::Impl {
   }
 
   /// False where nobody will look at the job again.
-  bool is_wanted(std::uint64_t generation) const
-  {
+  bool is_wanted(std::uint64_t generation) const {
     const std::lock_guard lock(mutex);
     return !ending && status.generation == generation;
   }
 
-  /// A job that is finished, or could not adopt, waits for the next adoption, and tells spectra. False where it has to go.
-  bool wait_for_adoption(std::uint64_t generation, Job& job)
-  {
+  /// A job that is finished, or could not adopt, waits for the next adoption, and tells spectra. False where it has to
+  /// go.
+  bool wait_for_adoption(std::uint64_t generation, Job& job) {
     while (true) {
       std::unique_lock lock(mutex);
       changed.wait(lock, [&] { return must_stop(generation) || adoption || watch_changed; });
@@ -274,8 +262,7 @@ struct Worker::Impl {
     }
   }
 
-  void run_one(std::uint64_t generation, const Make& make)
-  {
+  void run_one(std::uint64_t generation, const Make& make) {
     const auto stopped = [&] {
       const std::lock_guard lock(mutex);
       return must_stop(generation);
@@ -300,13 +287,13 @@ struct Worker::Impl {
     }
     update(generation, [&] {
       has_job = false;
-      if (!is_over(status.state)) status.state = State::cancelled; // together with an adoption that had overtaken one that failed
+      if (!is_over(status.state))
+        status.state = State::cancelled; // together with an adoption that had overtaken one that failed
       if (const auto left = std::exchange(adoption, std::nullopt)) begin_instead(*left);
     });
   }
 
-  void loop()
-  {
+  void loop() {
     std::unique_lock lock(mutex);
     while (true) {
       changed.wait(lock, [&] { return ending || next; });
@@ -321,13 +308,11 @@ struct Worker::Impl {
   }
 };
 
-Worker::Worker() : impl_(std::make_unique<Impl>())
-{
+Worker::Worker() : impl_(std::make_unique<Impl>()) {
   impl_->thread = std::thread([impl = impl_.get()] { impl->loop(); });
 }
 
-Worker::~Worker()
-{
+Worker::~Worker() {
   {
     const std::lock_guard lock(impl_->mutex);
     impl_->ending = true;
@@ -336,15 +321,14 @@ Worker::~Worker()
   impl_->thread.join();
 }
 
-std::shared_ptr<const Snapshot> Worker::start(std::function<std::unique_ptr<Job>()> make)
-{
+std::shared_ptr<const Snapshot> Worker::start(std::function<std::unique_ptr<Job>()> make) {
   const std::lock_guard lock(impl_->mutex);
   impl_->begin(std::move(make), impl_->adoptions);
   return impl_->snapshot;
 }
 
-std::uint64_t Worker::adopt(std::shared_ptr<const preset::Preset> preset, std::function<std::unique_ptr<Job>()> otherwise)
-{
+std::uint64_t Worker::adopt(std::shared_ptr<const preset::Preset> preset,
+                            std::function<std::unique_ptr<Job>()> otherwise) {
   const std::lock_guard lock(impl_->mutex);
   const std::uint64_t number = ++impl_->adoptions;
   if (impl_->has_job && !impl_->cancelled) {
@@ -356,34 +340,29 @@ std::uint64_t Worker::adopt(std::shared_ptr<const preset::Preset> preset, std::f
   return number;
 }
 
-void Worker::cancel()
-{
+void Worker::cancel() {
   const std::lock_guard lock(impl_->mutex);
   impl_->cancelled = true;
   impl_->changed.notify_all();
 }
 
-void Worker::pause(bool paused)
-{
+void Worker::pause(bool paused) {
   const std::lock_guard lock(impl_->mutex);
   impl_->paused = impl_->paused_since_adoption = paused;
   impl_->changed.notify_all();
 }
 
-Status Worker::status() const
-{
+Status Worker::status() const {
   const std::lock_guard lock(impl_->mutex);
   return impl_->status;
 }
 
-std::shared_ptr<const Snapshot> Worker::snapshot() const
-{
+std::shared_ptr<const Snapshot> Worker::snapshot() const {
   const std::lock_guard lock(impl_->mutex);
   return impl_->snapshot;
 }
 
-void Worker::watch_spectrum(std::optional<std::array<int, 2>> pixel)
-{
+void Worker::watch_spectrum(std::optional<std::array<int, 2>> pixel) {
   const std::lock_guard lock(impl_->mutex);
   if (impl_->watched == pixel) return;
   impl_->watched = pixel;
@@ -392,26 +371,22 @@ void Worker::watch_spectrum(std::optional<std::array<int, 2>> pixel)
   impl_->changed.notify_all();
 }
 
-std::shared_ptr<const PixelSpectrum> Worker::spectrum() const
-{
+std::shared_ptr<const PixelSpectrum> Worker::spectrum() const {
   const std::lock_guard lock(impl_->mutex);
   return impl_->spectrum;
 }
 
-void Worker::set_snapshot_interval(std::chrono::milliseconds interval)
-{
+void Worker::set_snapshot_interval(std::chrono::milliseconds interval) {
   const std::lock_guard lock(impl_->mutex);
   impl_->interval = interval;
 }
 
-void Worker::set_observer(Observer* observer)
-{
+void Worker::set_observer(Observer* observer) {
   const std::lock_guard lock(impl_->mutex);
   impl_->observer = observer;
 }
 
-void Worker::wait()
-{
+void Worker::wait() {
   std::unique_lock lock(impl_->mutex);
   impl_->changed.wait(lock, [&] { return is_over(impl_->status.state); });
 }

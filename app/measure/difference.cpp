@@ -19,32 +19,25 @@ namespace {
 
 constexpr std::size_t map_block_pixels = 8192;
 
-double lab_distance(const float* a, const float* b)
-{
+double lab_distance(const float* a, const float* b) {
   const std::array<double, 3> la = lab_of(a), lb = lab_of(b);
   return std::hypot(la[0] - lb[0], la[1] - lb[1], la[2] - lb[2]);
 }
 
 /// The mean over the channels of what `of` makes of a and b.
 template <class Of>
-double channel_mean(const float* a, const float* b, const Of& of)
-{
+double channel_mean(const float* a, const float* b, const Of& of) {
   return (of(double{a[0]}, double{b[0]}) + of(double{a[1]}, double{b[1]}) + of(double{a[2]}, double{b[2]})) / 3;
 }
 
-double value(const float* a, const float* b, DifferenceMetric metric)
-{
+double value(const float* a, const float* b, DifferenceMetric metric) {
   switch (metric) {
-  case DifferenceMetric::lab:
-    return lab_distance(a, b);
-  case DifferenceMetric::absolute:
-    return channel_mean(a, b, [](double x, double y) { return std::fabs(x - y); });
+  case DifferenceMetric::lab: return lab_distance(a, b);
+  case DifferenceMetric::absolute: return channel_mean(a, b, [](double x, double y) { return std::fabs(x - y); });
   case DifferenceMetric::relative:
     return channel_mean(a, b, [](double x, double y) { return std::fabs(x - y) / (std::fabs(y) + 0.01); });
-  case DifferenceMetric::square:
-    return channel_mean(a, b, [](double x, double y) { return (x - y) * (x - y); });
-  case DifferenceMetric::luminance:
-    return luminance(a) - luminance(b);
+  case DifferenceMetric::square: return channel_mean(a, b, [](double x, double y) { return (x - y) * (x - y); });
+  case DifferenceMetric::luminance: return luminance(a) - luminance(b);
   case DifferenceMetric::flip: // not of a pixel alone: flip_map
     break;
   }
@@ -55,8 +48,7 @@ double value(const float* a, const float* b, DifferenceMetric metric)
 constexpr int blue_to_red[] = {5,   48,  97,  33,  102, 172, 67,  147, 195, 146, 197, 222, 209, 229, 240, 247, 247,
                                247, 253, 219, 199, 244, 165, 130, 214, 96,  77,  178, 24,  43,  103, 0,   31};
 
-std::array<float, 3> diverging(double position)
-{
+std::array<float, 3> diverging(double position) {
   constexpr std::size_t last = std::size(blue_to_red) / 3 - 1;
   const double entry = position * last;
   const auto below = std::min(static_cast<std::size_t>(entry), last - 1);
@@ -77,16 +69,14 @@ constexpr int digit_width = 5, digit_height = 9, digit_step = digit_width + 2, p
 constexpr int bar_margin = 6, bar_width = 14, gap = 4, longest_number = 7; ///< "-2.5E-7"
 
 /// Segments a to g as bits 0 to 6: top, right above, right below, bottom, left below, left above, middle.
-int segments(char character)
-{
+int segments(char character) {
   constexpr std::array<int, 10> digits{0x3f, 0x06, 0x5b, 0x4f, 0x66, 0x6d, 0x7d, 0x07, 0x7f, 0x6f};
   if (character >= '0' && character <= '9') return digits[static_cast<std::size_t>(character - '0')];
   return character == 'E' ? 0x79 : character == '-' ? 0x40 : 0;
 }
 
 /// Three digits at most, exponents as short as they can be: 0.05, 12.5, 1E-6.
-std::string number_text(double value)
-{
+std::string number_text(double value) {
   std::string text = fmt::format("{:.3G}", value == 0 ? 0.0 : value);
   const std::size_t exponent = text.find('E');
   if (exponent == std::string::npos) return text;
@@ -97,26 +87,24 @@ std::string number_text(double value)
 
 } // namespace
 
-Bitmap::Bitmap(int w, int h) : width(w), height(h), rgba(std::size_t{4} * static_cast<std::size_t>(w) * static_cast<std::size_t>(h), 255)
-{
+Bitmap::Bitmap(int w, int h)
+    : width(w), height(h), rgba(std::size_t{4} * static_cast<std::size_t>(w) * static_cast<std::size_t>(h), 255) {
   fill(0, 0, w, h, ground);
 }
 
-void Bitmap::set(int x, int y, const Colour& colour)
-{
+void Bitmap::set(int x, int y, const Colour& colour) {
   if (x < 0 || y < 0 || x >= width || y >= height) return;
-  const std::size_t at = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+  const std::size_t at =
+      4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
   std::copy(colour.begin(), colour.end(), rgba.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-void Bitmap::fill(int x, int y, int w, int h, const Colour& colour)
-{
+void Bitmap::fill(int x, int y, int w, int h, const Colour& colour) {
   for (int row = y; row < y + h; ++row)
     for (int column = x; column < x + w; ++column) set(column, row, colour);
 }
 
-void draw_number(Bitmap& bitmap, int x, int y, int unit, std::string_view text)
-{
+void draw_number(Bitmap& bitmap, int x, int y, int unit, std::string_view text) {
   struct Stroke {
     int x, y, w, h;
   };
@@ -137,13 +125,13 @@ void draw_number(Bitmap& bitmap, int x, int y, int unit, std::string_view text)
     const int on = segments(character);
     if (on == 0) continue;
     for (std::size_t s = 0; s < strokes.size(); ++s)
-      if (on >> s & 1) bitmap.fill(x + strokes[s].x * unit, y + strokes[s].y * unit, strokes[s].w * unit, strokes[s].h * unit, ink);
+      if (on >> s & 1)
+        bitmap.fill(x + strokes[s].x * unit, y + strokes[s].y * unit, strokes[s].w * unit, strokes[s].h * unit, ink);
     x += digit_step * unit;
   }
 }
 
-ColourBar colour_bar(int picture_height, double scale, bool is_signed)
-{
+ColourBar colour_bar(int picture_height, double scale, bool is_signed) {
   ColourBar bar{};
   bar.unit = std::max(1, picture_height / 400);
   bar.height = std::max(picture_height, 4 * digit_height * bar.unit);
@@ -154,22 +142,22 @@ ColourBar colour_bar(int picture_height, double scale, bool is_signed)
   return bar;
 }
 
-void draw(Bitmap& bitmap, int x, const ColourBar& bar)
-{
+void draw(Bitmap& bitmap, int x, const ColourBar& bar) {
   const int top = bar_margin * bar.unit, length = bar.height - 2 * top;
   const int left = x + bar_margin * bar.unit, right = left + bar_width * bar.unit;
-  for (int y = 0; y < length; ++y) bitmap.fill(left, top + y, bar_width * bar.unit, 1, map_colour(1 - (y + 0.5) / length, bar.is_signed));
+  for (int y = 0; y < length; ++y)
+    bitmap.fill(left, top + y, bar_width * bar.unit, 1, map_colour(1 - (y + 0.5) / length, bar.is_signed));
   for (int i = 0; i < bar.numbers; ++i) {
     const double share = static_cast<double>(i) / (bar.numbers - 1);
     const int middle =
-        top + static_cast<int>(std::lround((1 - share) * (length - bar.unit))); // of the number: no stroke, it reads as minus
+        top +
+        static_cast<int>(std::lround((1 - share) * (length - bar.unit))); // of the number: no stroke, it reads as minus
     draw_number(bitmap, right + gap * bar.unit, middle - digit_height / 2 * bar.unit, bar.unit,
                 number_text(bar.scale * (bar.is_signed ? 2 * share - 1 : share)));
   }
 }
 
-std::vector<float> difference_map(const Pixels& picture, const Pixels& reference, DifferenceMetric metric)
-{
+std::vector<float> difference_map(const Pixels& picture, const Pixels& reference, DifferenceMetric metric) {
   check_same_size(picture, reference.width, reference.height, reference.name);
   check_pixels(picture);
   check_pixels(reference);
@@ -178,13 +166,13 @@ std::vector<float> difference_map(const Pixels& picture, const Pixels& reference
   std::vector<float> map(picture.rgb.size() / 3);
   for_ranges(map.size(), map_block_pixels, [&](std::size_t, Range range) {
     for (std::size_t p = range.begin; p < range.end; ++p)
-      map[p] = static_cast<float>(std::clamp(value(&picture.rgb[3 * p], &reference.rgb[3 * p], metric), -largest, largest));
+      map[p] =
+          static_cast<float>(std::clamp(value(&picture.rgb[3 * p], &reference.rgb[3 * p], metric), -largest, largest));
   });
   return map;
 }
 
-double colour_scale(std::span<const float> values)
-{
+double colour_scale(std::span<const float> values) {
   constexpr double least = 1e-6;
   std::vector<float> sizes(values.size());
   std::transform(values.begin(), values.end(), sizes.begin(), [](float v) { return std::fabs(v); });
@@ -197,19 +185,19 @@ double colour_scale(std::span<const float> values)
       if (const double scale = digit * std::pow(10.0, power); scale >= *nth) return scale;
 }
 
-std::array<unsigned char, 3> map_colour(double position, bool is_signed)
-{
+std::array<unsigned char, 3> map_colour(double position, bool is_signed) {
   const double clipped = position > 0 ? std::min(position, 1.0) : 0; // and NaN is 0
   const std::array<float, 3> colour = is_signed ? diverging(clipped) : magma(clipped);
   std::array<unsigned char, 3> bytes{};
-  std::transform(colour.begin(), colour.end(), bytes.begin(), [](float c) { return static_cast<unsigned char>(std::lround(255 * c)); });
+  std::transform(colour.begin(), colour.end(), bytes.begin(),
+                 [](float c) { return static_cast<unsigned char>(std::lround(255 * c)); });
   return bytes;
 }
 
 bool is_signed(DifferenceMetric metric) { return metric == DifferenceMetric::luminance; }
 
-ColouredDifference coloured_difference(const Pixels& picture, const Pixels& reference, DifferenceMetric metric, double scale)
-{
+ColouredDifference coloured_difference(const Pixels& picture, const Pixels& reference, DifferenceMetric metric,
+                                       double scale) {
   const std::vector<float> map = difference_map(picture, reference, metric);
   if (scale == 0) scale = colour_scale(map);
   const bool both_ways = is_signed(metric);
@@ -221,7 +209,9 @@ ColouredDifference coloured_difference(const Pixels& picture, const Pixels& refe
   Bitmap drawn(result.width, result.height);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
-      const double share = map[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x)] / scale;
+      const double share =
+          map[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x)] /
+          scale;
       drawn.set(x, y, map_colour(both_ways ? (1 + share) / 2 : share, both_ways));
     }
   draw(drawn, picture.width, bar);

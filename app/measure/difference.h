@@ -17,19 +17,21 @@ enum class DifferenceMetric {
 };
 
 /// What the command line calls them, in the order of the enumeration.
-inline constexpr std::array<const char*, 6> difference_names{"lab", "absolute", "relative", "square", "luminance", "flip"};
+inline constexpr std::array<const char*, 6> difference_names{"lab",    "absolute",  "relative",
+                                                             "square", "luminance", "flip"};
 
 /// A value a pixel, at most the largest float. Throws as compare does.
 std::vector<float> difference_map(const Pixels& picture, const Pixels& reference, DifferenceMetric metric);
-/// Where the colours end: a round number (1, 2, 5 times a power of ten) that 99 % of the values do not exceed; at least 1e-6.
+/// Where the colours end: a round number (1, 2, 5 times a power of ten) that 99 % of the values do not exceed; at least
+/// 1e-6.
 double colour_scale(std::span<const float> values);
-/// A colour of the map, sRGB-encoded, 8 bits a channel: position 0..1, magma from black to light yellow; signed maps from blue over
-/// white at 0.5, no difference, to red. Positions outside are clipped, NaN is 0.
+/// A colour of the map, sRGB-encoded, 8 bits a channel: position 0..1, magma from black to light yellow; signed maps
+/// from blue over white at 0.5, no difference, to red. Positions outside are clipped, NaN is 0.
 std::array<unsigned char, 3> map_colour(double position, bool is_signed = false);
 bool is_signed(DifferenceMetric metric);
 
-// The scale beside a difference picture: the colours from bottom to top, with numbers in seven-segment digits, so that a picture needs
-// no font. Not for windows, which have text.
+// The scale beside a difference picture: the colours from bottom to top, with numbers in seven-segment digits, so that
+// a picture needs no font. Not for windows, which have text.
 
 /// A picture to draw on, opaque dark grey at first.
 struct Bitmap {
@@ -62,7 +64,9 @@ struct ColouredDifference {
   std::vector<unsigned char> rgba; ///< 4 a pixel, opaque
   double scale = 1;                ///< the value at the end of the colours
 };
-/// The map in the left top corner. scale: the value at the end of the colours, above 0; or 0: colour_scale of the values.
-ColouredDifference coloured_difference(const Pixels& picture, const Pixels& reference, DifferenceMetric metric, double scale = 0);
+/// The map in the left top corner. scale: the value at the end of the colours, above 0; or 0: colour_scale of the
+/// values.
+ColouredDifference coloured_difference(const Pixels& picture, const Pixels& reference, DifferenceMetric metric,
+                                       double scale = 0);
 
 } // namespace nephroid::measure

@@ -19,11 +19,11 @@ using Neighbours = std::array<double, most>;
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most>;
 
 constexpr std::size_t weights_block_rows = 16;
-constexpr double tiny = 1e-15; ///< the authors' threshold: a variance or a weight below counts as none (2.2e-16 moves results by 1e-6)
+constexpr double tiny =
+    1e-15; ///< the authors' threshold: a variance or a weight below counts as none (2.2e-16 moves results by 1e-6)
 
 /// The 3 x 3 pixels about (x, y), then the parent's pixel if there is one. Returns how many.
-std::size_t gather(Neighbours& y, const Plane& plane, const Plane& parent, std::size_t column, std::size_t row)
-{
+std::size_t gather(Neighbours& y, const Plane& plane, const Plane& parent, std::size_t column, std::size_t row) {
   std::size_t n = 0;
   for (std::size_t r = row - 1; r <= row + 1; ++r)
     for (std::size_t c = column - 1; c <= column + 1; ++c) y[n++] = plane.row(r)[c];
@@ -32,8 +32,7 @@ std::size_t gather(Neighbours& y, const Plane& plane, const Plane& parent, std::
 }
 
 /// The mean of y y^T over all inner pixels.
-Matrix covariance(const Plane& plane, const Plane& parent, std::size_t n)
-{
+Matrix covariance(const Plane& plane, const Plane& parent, std::size_t n) {
   const std::size_t rows = plane.height - 2;
   std::vector<std::array<double, most * most>> blocks((rows + weights_block_rows - 1) / weights_block_rows);
   for_ranges(rows, weights_block_rows, [&](std::size_t block, Range range) {
@@ -50,7 +49,8 @@ Matrix covariance(const Plane& plane, const Plane& parent, std::size_t n)
   Matrix result = Matrix::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
   for (const auto& sums : blocks)
     for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j) result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) += sums[i * most + j];
+      for (std::size_t j = 0; j < n; ++j)
+        result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) += sums[i * most + j];
   return result / static_cast<double>(rows * (plane.width - 2));
 }
 
@@ -58,12 +58,13 @@ Matrix covariance(const Plane& plane, const Plane& parent, std::size_t n)
 struct Mixture {
   std::size_t n = 0;
   std::array<double, most> eigenvalues{};
-  std::array<Neighbours, most> inverse{}; ///< of the covariance; on what it spans where it is singular (a flat reference: zero)
+  std::array<Neighbours, most>
+      inverse{}; ///< of the covariance; on what it spans where it is singular (a flat reference: zero)
 
-  explicit Mixture(const Matrix& c) : n(static_cast<std::size_t>(c.rows()))
-  {
+  explicit Mixture(const Matrix& c) : n(static_cast<std::size_t>(c.rows())) {
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(c);
-    // Rounding makes eigenvalues negative: they become 0, and the others are scaled so that the variance stays (the authors' way).
+    // Rounding makes eigenvalues negative: they become 0, and the others are scaled so that the variance stays (the
+    // authors' way).
     const auto positive = solver.eigenvalues().cwiseMax(0).eval();
     const double scale = positive.sum() > 0 ? solver.eigenvalues().sum() / positive.sum() : 0;
     const double least = positive.maxCoeff() * static_cast<double>(most) * std::numeric_limits<double>::epsilon();
@@ -78,8 +79,7 @@ struct Mixture {
   }
 
   /// The local strength, y^T C^-1 y / n.
-  double strength(const Neighbours& y) const
-  {
+  double strength(const Neighbours& y) const {
     double sum = 0;
     for (std::size_t i = 0; i < most; ++i) {
       double product = 0;
@@ -95,8 +95,7 @@ struct Distortion {
   double gain = 0, noise = 0;
 };
 
-Distortion distortion(const Plane& reference, const Plane& picture, std::size_t column, std::size_t row)
-{
+Distortion distortion(const Plane& reference, const Plane& picture, std::size_t column, std::size_t row) {
   double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
   for (std::size_t r = row - 1; r <= row + 1; ++r)
     for (std::size_t c = column - 1; c <= column + 1; ++c) {
@@ -109,7 +108,8 @@ Distortion distortion(const Plane& reference, const Plane& picture, std::size_t 
     }
   x /= 9;
   y /= 9;
-  const double covariance_xy = xy / 9 - x * y, variance_x = std::fmax(0, xx / 9 - x * x), variance_y = std::fmax(0, yy / 9 - y * y);
+  const double covariance_xy = xy / 9 - x * y, variance_x = std::fmax(0, xx / 9 - x * x),
+               variance_y = std::fmax(0, yy / 9 - y * y);
   if (variance_y < tiny) return {0, 0};
   if (variance_x < tiny) return {0, variance_y};
   const double gain = covariance_xy / (variance_x + tiny);
@@ -117,24 +117,23 @@ Distortion distortion(const Plane& reference, const Plane& picture, std::size_t 
 }
 
 /// Bits that eye and picture share with the scene, equation 22 of the paper: the sum over the eigenvalues of
-/// log2(1 + ((v + (1 + g^2) s) S L + s v) / s^2), with s the variance of the eye's own noise. One logarithm of the product: each
-/// factor is below 1e20.
-double bits(const Mixture& mixture, double strength, const Distortion& d)
-{
+/// log2(1 + ((v + (1 + g^2) s) S L + s v) / s^2), with s the variance of the eye's own noise. One logarithm of the
+/// product: each factor is below 1e20.
+double bits(const Mixture& mixture, double strength, const Distortion& d) {
   constexpr double eye = 0.4;
   double product = 1;
   for (std::size_t k = 0; k < mixture.n; ++k)
-    product *= 1 + ((d.noise + (1 + d.gain * d.gain) * eye) * strength * mixture.eigenvalues[k] + eye * d.noise) / (eye * eye);
+    product *=
+        1 + ((d.noise + (1 + d.gain * d.gain) * eye) * strength * mixture.eigenvalues[k] + eye * d.noise) / (eye * eye);
   const double result = std::log2(product);
   return result < tiny ? 0 : result;
 }
 
-/// How much a person learns from each place of a pyramid's level (Wang and Li: Information Content Weighting for Perceptual Image Quality
-/// Assessment, IEEE Trans. Image Processing 20 (5), 2011): a weight a pixel of the level, its outermost ring of pixels left out, in bits:
-/// 2 less wide and high than the level. Reference and picture: the same level of both pyramids; parent: of the reference, as large as the
-/// level, or empty where it is not to be used.
-Plane information_weights(const Plane& reference, const Plane& picture, const Plane& parent)
-{
+/// How much a person learns from each place of a pyramid's level (Wang and Li: Information Content Weighting for
+/// Perceptual Image Quality Assessment, IEEE Trans. Image Processing 20 (5), 2011): a weight a pixel of the level, its
+/// outermost ring of pixels left out, in bits: 2 less wide and high than the level. Reference and picture: the same
+/// level of both pyramids; parent: of the reference, as large as the level, or empty where it is not to be used.
+Plane information_weights(const Plane& reference, const Plane& picture, const Plane& parent) {
   Neighbours example{};
   const Mixture mixture(covariance(reference, parent, gather(example, reference, parent, 1, 1)));
   Plane weights(reference.width - 2, reference.height - 2);
@@ -143,21 +142,22 @@ Plane information_weights(const Plane& reference, const Plane& picture, const Pl
     for (std::size_t row = rows.begin; row < rows.end; ++row)
       for (std::size_t column = 0; column < weights.width; ++column) {
         gather(y, reference, parent, column + 1, row + 1);
-        weights.row(row)[column] = bits(mixture, mixture.strength(y), distortion(reference, picture, column + 1, row + 1));
+        weights.row(row)[column] =
+            bits(mixture, mixture.strength(y), distortion(reference, picture, column + 1, row + 1));
       }
   });
   return weights;
 }
 
 constexpr int scale_count = 5;
-constexpr std::array<double, scale_count> scale_weights{0.0448, 0.2856, 0.3001, 0.2363, 0.1333}; ///< Wang et al. 2003; sum 1.0001
+constexpr std::array<double, scale_count> scale_weights{0.0448, 0.2856, 0.3001, 0.2363,
+                                                        0.1333}; ///< Wang et al. 2003; sum 1.0001
 constexpr std::size_t window = 11, margin = window / 2;
 constexpr double luminance_constant = (0.01 * 255) * (0.01 * 255), contrast_constant = (0.03 * 255) * (0.03 * 255);
 constexpr std::size_t block_rows = 32;
 
 /// Gaussian of standard deviation 1.5, sum 1.
-std::array<double, window> gaussian()
-{
+std::array<double, window> gaussian() {
   std::array<double, window> taps{};
   for (std::size_t i = 0; i < window; ++i) {
     const double x = static_cast<double>(i) - margin;
@@ -168,13 +168,13 @@ std::array<double, window> gaussian()
   return taps;
 }
 
-Plane luma(const Pixels& picture)
-{
+Plane luma(const Pixels& picture) {
   Plane plane(static_cast<std::size_t>(picture.width), static_cast<std::size_t>(picture.height));
   for_ranges(plane.values.size(), std::size_t{1} << 14, [&](std::size_t, Range range) {
     for (std::size_t p = range.begin; p < range.end; ++p) {
       const float* const rgb = &picture.rgb[3 * p];
-      plane.values[p] = 255 * (0.299 * encode_clipped(rgb[0]) + 0.587 * encode_clipped(rgb[1]) + 0.114 * encode_clipped(rgb[2]));
+      plane.values[p] =
+          255 * (0.299 * encode_clipped(rgb[0]) + 0.587 * encode_clipped(rgb[1]) + 0.114 * encode_clipped(rgb[2]));
     }
   });
   return plane;
@@ -185,8 +185,8 @@ enum Moment { mean_a, mean_b, mean_aa, mean_bb, mean_ab, moment_count };
 using Moments = std::array<Plane, moment_count>;
 
 /// The moments along one row; valid windows only.
-void row_moments(Moments& moments, std::size_t to, const double* a, const double* b, const std::array<double, window>& taps)
-{
+void row_moments(Moments& moments, std::size_t to, const double* a, const double* b,
+                 const std::array<double, window>& taps) {
   for (std::size_t x = 0; x < moments[0].width; ++x) {
     std::array<double, moment_count> sums{};
     for (std::size_t i = 0; i < window; ++i) {
@@ -201,8 +201,7 @@ void row_moments(Moments& moments, std::size_t to, const double* a, const double
   }
 }
 
-double similarity(const std::array<double, moment_count>& m, bool with_luminance)
-{
+double similarity(const std::array<double, moment_count>& m, bool with_luminance) {
   const double aa = m[mean_a] * m[mean_a], bb = m[mean_b] * m[mean_b], ab = m[mean_a] * m[mean_b];
   const double variances = std::max(0.0, m[mean_aa] - aa) + std::max(0.0, m[mean_bb] - bb);
   const double structure = (2 * (m[mean_ab] - ab) + contrast_constant) / (variances + contrast_constant);
@@ -210,15 +209,15 @@ double similarity(const std::array<double, moment_count>& m, bool with_luminance
 }
 
 /// SSIM's contrast and structure, with luminance if asked for, of every window that lies wholly inside.
-Plane similarities(const Plane& a, const Plane& b, bool with_luminance)
-{
+Plane similarities(const Plane& a, const Plane& b, bool with_luminance) {
   const std::array<double, window> taps = gaussian();
   Plane result(a.width - 2 * margin, a.height - 2 * margin);
   for_ranges(result.height, block_rows, [&](std::size_t, Range rows) {
     const std::size_t count = rows.end - rows.begin;
     Moments moments;
     moments.fill(Plane(result.width, count + 2 * margin));
-    for (std::size_t y = 0; y < count + 2 * margin; ++y) row_moments(moments, y, a.row(rows.begin + y), b.row(rows.begin + y), taps);
+    for (std::size_t y = 0; y < count + 2 * margin; ++y)
+      row_moments(moments, y, a.row(rows.begin + y), b.row(rows.begin + y), taps);
     for (std::size_t y = 0; y < count; ++y)
       for (std::size_t x = 0; x < result.width; ++x) {
         std::array<double, moment_count> sums{};
@@ -236,12 +235,14 @@ struct ScaleMask {
   std::size_t width;
   int scale;
 
-  bool operator()(std::size_t x, std::size_t y) const { return counts(mask, ((y + margin) << scale) * width + ((x + margin) << scale)); }
+  bool operator()(std::size_t x, std::size_t y) const {
+    return counts(mask, ((y + margin) << scale) * width + ((x + margin) << scale));
+  }
 };
 
-/// The mean of the similarities that count, weighted where there are weights (of all but the outermost ring of the level's pixels).
-std::optional<double> pooled(const Plane& similarity, const Plane* weights, const ScaleMask& mask)
-{
+/// The mean of the similarities that count, weighted where there are weights (of all but the outermost ring of the
+/// level's pixels).
+std::optional<double> pooled(const Plane& similarity, const Plane* weights, const ScaleMask& mask) {
   double sum = 0, weight_sum = 0, plain_sum = 0;
   std::size_t windows = 0;
   for (std::size_t y = 0; y < similarity.height; ++y)
@@ -259,10 +260,12 @@ std::optional<double> pooled(const Plane& similarity, const Plane* weights, cons
 
 } // namespace
 
-std::vector<std::optional<double>> iw_ssim_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks)
-{
-  if (std::min(picture.width, picture.height) < iw_ssim_smallest_side) return std::vector<std::optional<double>>(masks.size());
-  const std::vector<Plane> a = laplacian_pyramid(luma(picture), scale_count), b = laplacian_pyramid(luma(reference), scale_count);
+std::vector<std::optional<double>> iw_ssim_each(const Pixels& picture, const Pixels& reference,
+                                                std::span<const Mask> masks) {
+  if (std::min(picture.width, picture.height) < iw_ssim_smallest_side)
+    return std::vector<std::optional<double>>(masks.size());
+  const std::vector<Plane> a = laplacian_pyramid(luma(picture), scale_count),
+                           b = laplacian_pyramid(luma(reference), scale_count);
   const double weight_sum = std::accumulate(scale_weights.begin(), scale_weights.end(), 0.0);
   std::vector<std::optional<double>> results(masks.size(), 1.0);
   for (std::size_t s = 0; s < scale_count; ++s) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Laplacian pyramid of Burt and Adelson (1983) as IW-SSIM takes it: the conventions are those of Simoncelli's matlabPyrTools.
+// The Laplacian pyramid of Burt and Adelson (1983) as IW-SSIM takes it: the conventions are those of Simoncelli's
+// matlabPyrTools.
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -17,12 +18,13 @@ struct Plane {
   const double* row(std::size_t y) const { return values.data() + y * width; }
 };
 
-/// `levels` planes: level 0 has the picture's size, each further one half of it, rounded up; the last is the low pass that is left.
-/// Every level but the last is its low pass minus what the next level tells of it. Sides of at least 2 at every level.
+/// `levels` planes: level 0 has the picture's size, each further one half of it, rounded up; the last is the low pass
+/// that is left. Every level but the last is its low pass minus what the next level tells of it. Sides of at least 2 at
+/// every level.
 std::vector<Plane> laplacian_pyramid(Plane picture, int levels);
 
-/// The parent of a level as large as twice itself, cropped to width x height: bilinear between pixel centres to 4 n - 3, a border
-/// extrapolated linearly, every second sample (imenlarge2 of Wang and Li).
+/// The parent of a level as large as twice itself, cropped to width x height: bilinear between pixel centres to 4 n -
+/// 3, a border extrapolated linearly, every second sample (imenlarge2 of Wang and Li).
 Plane enlarged_parent(const Plane& parent, std::size_t width, std::size_t height);
 
 } // namespace nephroid::measure

@@ -20,16 +20,17 @@
 namespace nephroid::measure {
 namespace {
 
-/// A history in a checkpoint, before the job's own bytes, so that a resumed run goes on with one history: wall and measuring seconds,
-/// column names, rows. How they lie there is part of the checkpoint's format (run/checkpoint.cpp). from: what is read; null where the
-/// history is written. Throws bad_input where the checkpoint is cut.
-void history_state(State state, const ByteSource* from, job::History& history, double& wall_seconds)
-{
-  /// Items of at least so many bytes each, which the rest of the checkpoint has to hold: so that no wrong count takes all memory.
+/// A history in a checkpoint, before the job's own bytes, so that a resumed run goes on with one history: wall and
+/// measuring seconds, column names, rows. How they lie there is part of the checkpoint's format (run/checkpoint.cpp).
+/// from: what is read; null where the history is written. Throws bad_input where the checkpoint is cut.
+void history_state(State state, const ByteSource* from, job::History& history, double& wall_seconds) {
+  /// Items of at least so many bytes each, which the rest of the checkpoint has to hold: so that no wrong count takes
+  /// all memory.
   const auto sized = [&](auto& items, std::size_t bytes_each) {
     std::uint64_t count = items.size();
     state.value(count);
-    if (from && count > from->left() / bytes_each) throw bad_input("checkpoint", "is cut", "", "delete it and start again");
+    if (from && count > from->left() / bytes_each)
+      throw bad_input("checkpoint", "is cut", "", "delete it and start again");
     items.resize(static_cast<std::size_t>(count));
   };
   state.value(wall_seconds);
@@ -50,9 +51,9 @@ void history_state(State state, const ByteSource* from, job::History& history, d
   }
 }
 
-/// The rows with other columns: what a row has no value of is NaN. A resumed run may have got a reference that it had not before.
-std::vector<job::HistoryRow> rows_in_columns(const job::History& history, const std::vector<std::string>& columns)
-{
+/// The rows with other columns: what a row has no value of is NaN. A resumed run may have got a reference that it had
+/// not before.
+std::vector<job::HistoryRow> rows_in_columns(const job::History& history, const std::vector<std::string>& columns) {
   std::vector<job::HistoryRow> rows = history.rows;
   for (job::HistoryRow& row : rows) {
     std::vector<double> errors;
@@ -72,8 +73,7 @@ constexpr double spacing = 1.2;
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 /// The metrics of which a run has columns: those that it estimates, or those against a reference.
-std::vector<const Metric*> noted_metrics(bool are_estimates, bool perceptual)
-{
+std::vector<const Metric*> noted_metrics(bool are_estimates, bool perceptual) {
   std::vector<const Metric*> metrics;
   for (const Metric& metric : all_metrics())
     if (are_estimates ? metric.kind == Metric::Kind::estimated : perceptual || metric.kind != Metric::Kind::perceptual)
@@ -81,8 +81,7 @@ std::vector<const Metric*> noted_metrics(bool are_estimates, bool perceptual)
   return metrics;
 }
 
-std::string names_of_estimates()
-{
+std::string names_of_estimates() {
   std::vector<std::string_view> names;
   for (const Metric* metric : noted_metrics(true, false)) names.push_back(metric->name);
   return fmt::format("{}", fmt::join(names, ", "));
@@ -92,15 +91,16 @@ class MeasuredJob final : public job::Job, public job::SpectrumSource {
 public:
   MeasuredJob(std::unique_ptr<job::Job> job, const preset::Preset& preset, std::shared_ptr<const Reference> reference,
               Clock::time_point began, std::vector<double> times)
-      : job_(std::move(job)), settings_(preset.measure), reference_(std::move(reference)), times_(std::move(times)), began_(began)
-  {
+      : job_(std::move(job)), settings_(preset.measure), reference_(std::move(reference)), times_(std::move(times)),
+        began_(began) {
     if (!job_->estimates_error()) settings_.estimate = false;
     if (reference_) {
       against_.emplace(reference_->pixels());
       if (!reference_->mask.empty()) masked_.emplace(reference_->pixels(), reference_->mask);
     }
     const std::string metric(preset::word(preset.stop.metric));
-    is_mean_square_ = preset.stop.metric == preset::Stop::Metric::mse || preset.stop.metric == preset::Stop::Metric::rel_mse;
+    is_mean_square_ =
+        preset.stop.metric == preset::Stop::Metric::mse || preset.stop.metric == preset::Stop::Metric::rel_mse;
     history_.target = preset.stop.error;
     name_columns();
     for (const std::string& column : {metric, "estimated_" + metric, std::string("estimated_lab_mean")})
@@ -108,16 +108,16 @@ public:
         history_.error_column = column;
     if (history_.target && !history_.error_column.ends_with(metric))
       throw bad_input(Place(preset.source) / "stop" / "error", "nothing measures the error of this run in " + metric,
-                      settings_.estimate ? "expected a 'reference', or a 'stop.metric' that can be estimated: " + names_of_estimates()
-                                         : "expected a 'reference', or 'measure.estimate' true");
+                      settings_.estimate
+                          ? "expected a 'reference', or a 'stop.metric' that can be estimated: " + names_of_estimates()
+                          : "expected a 'reference', or 'measure.estimate' true");
     show();
   }
 
   bool estimates_error() const override { return job_->estimates_error(); }
   bool finished() const override { return target_reached() || (job_->finished() && !is_due()); }
 
-  void advance() override
-  {
+  void advance() override {
     if (unnoted_)
       note(*std::exchange(unnoted_, std::nullopt));
     else if (is_due())
@@ -126,8 +126,7 @@ public:
       job_->advance();
   }
 
-  job::Progress progress() const override
-  {
+  job::Progress progress() const override {
     job::Progress progress = job_->progress();
     if (finished())
       progress.fraction = 1;
@@ -136,8 +135,7 @@ public:
     return progress;
   }
 
-  job::Snapshot snapshot() override
-  {
+  job::Snapshot snapshot() override {
     job::Snapshot snapshot = job_->snapshot();
     if (may_note(snapshot.progress)) {
       const bool is_asked_for = !times_.empty() && times_.front() <= snapshot.progress.work_seconds;
@@ -153,23 +151,20 @@ public:
 
   std::shared_ptr<const job::History> history() const override { return shown_; }
 
-  std::shared_ptr<const job::PixelSpectrum> spectrum(const std::array<int, 2>& pixel) override
-  {
+  std::shared_ptr<const job::PixelSpectrum> spectrum(const std::array<int, 2>& pixel) override {
     auto* source = dynamic_cast<job::SpectrumSource*>(job_.get());
     return source ? source->spectrum(pixel) : nullptr;
   }
 
-  void save(ByteSink& to) override
-  {
+  void save(ByteSink& to) override {
     double wall = wall_seconds();
     history_state(State(to), nullptr, history_, wall);
     job_->save(to);
   }
 
-  /// The history starts anew: its rows are of the old light's picture, and so is the reference. Where stop.error hangs on the reference,
-  /// the run has to start again to get another one.
-  bool adopt(const preset::Preset& preset) override
-  {
+  /// The history starts anew: its rows are of the old light's picture, and so is the reference. Where stop.error hangs
+  /// on the reference, the run has to start again to get another one.
+  bool adopt(const preset::Preset& preset) override {
     const bool stops_by_reference = history_.target && !history_.error_column.starts_with("estimated_");
     if (stops_by_reference || !job_->adopt(preset)) return false;
     if (reference_) {
@@ -179,7 +174,8 @@ public:
       history_.columns.clear();
       history_.noise_floor.clear();
       name_columns();
-      if (!history_.error_column.starts_with("estimated_")) history_.error_column = history_.columns.empty() ? "" : "estimated_lab_mean";
+      if (!history_.error_column.starts_with("estimated_"))
+        history_.error_column = history_.columns.empty() ? "" : "estimated_lab_mean";
     }
     history_.rows.clear();
     unnoted_.reset();
@@ -192,8 +188,7 @@ public:
     return true;
   }
 
-  void load(ByteSource& from) override
-  {
+  void load(ByteSource& from) override {
     job::History saved;
     history_state(State(from), &from, saved, wall_before_);
     job_->load(from);
@@ -206,8 +201,7 @@ public:
   }
 
 private:
-  void name_columns()
-  {
+  void name_columns() {
     const auto add = [&](const char* prefix, const std::optional<Metrics>& floor, bool are_estimates) {
       for (const Metric* metric : noted_metrics(are_estimates, settings_.perceptual)) {
         history_.columns.push_back(fmt::format("{}{}", prefix, metric->name));
@@ -222,16 +216,14 @@ private:
   double wall_seconds() const { return wall_before_ + seconds_since(began_); }
 
   /// The first whole picture is the first that is worth a row; the end is always one.
-  bool is_due() const
-  {
+  bool is_due() const {
     if (history_.columns.empty()) return false;
     const job::Progress progress = job_->progress();
     if (job_->finished()) return progress.work_seconds > last_seconds_;
     return progress.whole && progress.work_seconds > last_seconds_ && progress.work_seconds >= next_;
   }
 
-  void measure()
-  {
+  void measure() {
     const auto begin = Clock::now();
     const job::Snapshot snapshot = job_->snapshot();
     history_.measuring_seconds += seconds_since(begin);
@@ -239,15 +231,14 @@ private:
   }
 
   /// Whether a picture that somebody else asked for shall have a row: that costs little.
-  bool may_note(const job::Progress& progress) const
-  {
-    return !history_.columns.empty() && progress.whole && progress.work_seconds > last_seconds_ && progress.work_seconds >= wanted_ &&
+  bool may_note(const job::Progress& progress) const {
+    return !history_.columns.empty() && progress.whole && progress.work_seconds > last_seconds_ &&
+           progress.work_seconds >= wanted_ &&
            progress.work_seconds >= (history_.measuring_seconds + noting_seconds_) / measuring_share;
   }
 
   /// Adds a row.
-  void note(const job::Snapshot& snapshot)
-  {
+  void note(const job::Snapshot& snapshot) {
     const auto begin = Clock::now();
     const job::Progress& progress = snapshot.progress;
     const bool tells = !snapshot.stands_in && (reference_ || !snapshot.picture->error_draw.empty());
@@ -267,14 +258,12 @@ private:
   }
 
   /// What others see: a copy that is made when there is a new row, not at every step that asks.
-  void show()
-  {
+  void show() {
     if (!history_.columns.empty()) shown_ = std::make_shared<const job::History>(history_);
   }
 
   /// One a column, in their order.
-  std::vector<double> errors_of(const job::Picture& picture) const
-  {
+  std::vector<double> errors_of(const job::Picture& picture) const {
     const Pixels pixels{picture.width, picture.height, picture.rgb, "the run"};
     std::vector<double> errors;
     const auto add = [&](const std::optional<Metrics>& metrics, bool are_estimates) {
@@ -283,18 +272,17 @@ private:
     };
     if (against_) add(metrics_against(pixels, {}, *against_), false);
     if (masked_) add(metrics_against(pixels, reference_->mask, *masked_), false);
-    if (settings_.estimate) add(picture.error_draw.empty() ? std::nullopt : std::optional(estimate_error(picture)), true);
+    if (settings_.estimate)
+      add(picture.error_draw.empty() ? std::nullopt : std::optional(estimate_error(picture)), true);
     return errors;
   }
 
-  Metrics metrics_against(const Pixels& pixels, Mask mask, const QuickComparison& quick) const
-  {
+  Metrics metrics_against(const Pixels& pixels, Mask mask, const QuickComparison& quick) const {
     return settings_.perceptual ? compare(pixels, reference_->pixels(), mask) : quick.against(pixels);
   }
 
   /// The newest value of the error column; NaN before the first row.
-  double error() const
-  {
+  double error() const {
     if (history_.rows.empty()) return none;
     return job::error_in(history_, history_.rows.back(), history_.error_column);
   }
@@ -302,16 +290,14 @@ private:
   bool target_reached() const { return history_.target && error() <= *history_.target; }
 
   /// The work after which the target should be reached: errors fall as 1 / sqrt(work), those of squares as 1 / work.
-  std::optional<double> target_seconds() const
-  {
+  std::optional<double> target_seconds() const {
     const double now = error();
     if (!history_.target || !(now > 0)) return std::nullopt;
     const double ratio = now / *history_.target;
     return last_seconds_ * (is_mean_square_ ? ratio : ratio * ratio);
   }
 
-  void plan_next()
-  {
+  void plan_next() {
     const double one = history_.measuring_seconds / static_cast<double>(std::max<std::size_t>(history_.rows.size(), 1));
     const double affordable = (history_.measuring_seconds + one) / measuring_share;
     wanted_ = last_seconds_ * spacing;
@@ -328,8 +314,9 @@ private:
   bool is_mean_square_ = false; ///< the error that may stop the run
   job::History history_;
   std::shared_ptr<const job::History> shown_;
-  std::optional<job::Snapshot> unnoted_; ///< the first whole picture, for which somebody waits: its row is made with the next step
-  std::vector<double> times_;            ///< to measure at whatever it takes
+  std::optional<job::Snapshot>
+      unnoted_;               ///< the first whole picture, for which somebody waits: its row is made with the next step
+  std::vector<double> times_; ///< to measure at whatever it takes
   Clock::time_point began_;
   double wall_before_ = 0;    ///< of a resumed run's earlier parts
   double last_seconds_ = 0;   ///< of work at the newest row
@@ -340,9 +327,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<job::Job> measured(std::unique_ptr<job::Job> job, const preset::Preset& preset, std::shared_ptr<const Reference> reference,
-                                   std::chrono::steady_clock::time_point began, std::vector<double> times)
-{
+std::unique_ptr<job::Job> measured(std::unique_ptr<job::Job> job, const preset::Preset& preset,
+                                   std::shared_ptr<const Reference> reference,
+                                   std::chrono::steady_clock::time_point began, std::vector<double> times) {
   return std::make_unique<MeasuredJob>(std::move(job), preset, std::move(reference), began, std::move(times));
 }
 

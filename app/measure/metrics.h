@@ -24,13 +24,15 @@ using Mask = std::span<const unsigned char>;
 
 struct Metrics {
   double lab_mean = 0, lab_rms = 0,
-         lab_max = 0;             ///< distance of a pixel in CIELAB (D65), not clipped above: mean, root mean square, largest
-  double mse = 0;                 ///< mean of (a - b)^2 over pixels and channels
-  double rel_mse = 0;             ///< mean of (a - b)^2 / (b^2 + 0.01)
-  double rel_l2 = 0;              ///< |a - b| / |b|; of a black reference 0 where a is black too, else infinity
-  std::optional<double> psnr_db;  ///< of sRGB-encoded clipped pictures, peak 1; none where those are identical
-  std::optional<double> iw_ssim;  ///< Wang and Li 2011; none below 161 pixels a side, or where only quick ones were asked for
-  std::optional<double> flip;     ///< Andersson et al. 2020, 67.02 pixels a degree; none where only quick ones were asked for
+         lab_max = 0; ///< distance of a pixel in CIELAB (D65), not clipped above: mean, root mean square, largest
+  double mse = 0;     ///< mean of (a - b)^2 over pixels and channels
+  double rel_mse = 0; ///< mean of (a - b)^2 / (b^2 + 0.01)
+  double rel_l2 = 0;  ///< |a - b| / |b|; of a black reference 0 where a is black too, else infinity
+  std::optional<double> psnr_db; ///< of sRGB-encoded clipped pictures, peak 1; none where those are identical
+  std::optional<double>
+      iw_ssim; ///< Wang and Li 2011; none below 161 pixels a side, or where only quick ones were asked for
+  std::optional<double>
+      flip; ///< Andersson et al. 2020, 67.02 pixels a degree; none where only quick ones were asked for
   std::optional<double> hdr_flip; ///< Andersson et al. 2021; none where only quick ones were asked for
   std::size_t pixels = 0;         ///< that were counted
 };
@@ -38,10 +40,12 @@ struct Metrics {
 enum class MetricSet { quick, full }; ///< metrics
 
 /// FLIP's maps and IW-SSIM's are made of the whole pictures and averaged over the mask.
-/// Throws bad_input naming the picture: sizes that differ, NaN or infinity, a mask of another size or with no pixel that counts.
+/// Throws bad_input naming the picture: sizes that differ, NaN or infinity, a mask of another size or with no pixel
+/// that counts.
 Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask = {}, MetricSet which = MetricSet::full);
 /// The same for several masks, one after the other, at little more than the cost of one.
-std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks, MetricSet which = MetricSet::full);
+std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks,
+                                  MetricSet which = MetricSet::full);
 
 struct MetricText {
   std::string label; ///< "mean CIELAB distance"
@@ -59,8 +63,8 @@ struct Metric {
   std::string_view name;    ///< "lab_mean"
   std::string_view meaning; ///< what it is made of, for who compares pictures
   MetricText text;
-  /// estimated: a run estimates it from its halves, as it does not hang on few pixels, as lab_max does, nor on what is right in the
-  /// darkest ones, as rel_mse does. perceptual: not among the quick ones.
+  /// estimated: a run estimates it from its halves, as it does not hang on few pixels, as lab_max does, nor on what is
+  /// right in the darkest ones, as rel_mse does. perceptual: not among the quick ones.
   enum class Kind { estimated, other, perceptual } kind;
   double (*of)(const Metrics& metrics); ///< NaN where it is none
 };
@@ -69,7 +73,8 @@ const std::vector<Metric>& all_metrics();
 /// Their names and values.
 std::vector<std::pair<std::string, double>> named(const Metrics& metrics);
 
-/// The quick metrics again and again against one reference, whose share of the work is done once. 512 x 512: about 20 ms a call.
+/// The quick metrics again and again against one reference, whose share of the work is done once. 512 x 512: about 20
+/// ms a call.
 class QuickComparison {
 public:
   /// Throws as compare does. Copies what it needs of both.
@@ -86,8 +91,8 @@ private:
   std::vector<unsigned char> mask_;
 };
 
-/// Throws bad_input naming the picture and the pixel (column, row; 0, 0 is the top left) where a value is NaN or infinite, and failed
-/// where the values do not fit the size.
+/// Throws bad_input naming the picture and the pixel (column, row; 0, 0 is the top left) where a value is NaN or
+/// infinite, and failed where the values do not fit the size.
 void check_pixels(const Pixels& picture);
 /// Throws bad_input where the sizes differ.
 void check_same_size(const Pixels& picture, int width, int height, const std::string& reference_name);

@@ -13,16 +13,14 @@
 namespace nephroid::measure {
 namespace {
 
-void decode(std::vector<float>& rgb)
-{
+void decode(std::vector<float>& rgb) {
   for_ranges(rgb.size(), std::size_t{1} << 15, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) rgb[i] = static_cast<float>(image::decoded_srgb(rgb[i]));
   });
 }
 
 /// "caustic", where there is a channel "caustic.R".
-std::vector<std::string> layer_names(const image::Image& picture)
-{
+std::vector<std::string> layer_names(const image::Image& picture) {
   std::vector<std::string> layers;
   for (const std::string& channel : picture.channels)
     if (channel.ends_with(".R")) layers.push_back(channel.substr(0, channel.size() - 2));
@@ -30,8 +28,7 @@ std::vector<std::string> layer_names(const image::Image& picture)
 }
 
 /// The picture's channels of that name, as R, G, B.
-image::Image layer_of(const image::Image& picture, const std::string& layer, const std::string& file)
-{
+image::Image layer_of(const image::Image& picture, const std::string& layer, const std::string& file) {
   const std::vector<std::string> layers = layer_names(picture);
   std::array<std::size_t, 3> at{};
   std::size_t found = 0;
@@ -40,7 +37,8 @@ image::Image layer_of(const image::Image& picture, const std::string& layer, con
       if (picture.channels[c] == layer + "." + "RGB"[i]) at[i] = c, ++found;
   if (found != at.size())
     throw bad_input(file, fmt::format("has no layer '{}'", layer),
-                    layers.empty() ? "expected a picture with layers" : fmt::format("expected one of {}", fmt::join(layers, ", ")),
+                    layers.empty() ? "expected a picture with layers"
+                                   : fmt::format("expected one of {}", fmt::join(layers, ", ")),
                     "compare image.exr of a run");
   const std::size_t stride = picture.channels.size();
   image::Image rgb{picture.width, picture.height, {"R", "G", "B"}, {}, picture.attributes, picture.integers};
@@ -49,37 +47,37 @@ image::Image layer_of(const image::Image& picture, const std::string& layer, con
   return rgb;
 }
 
-LinearPicture linear(image::Image picture, const std::filesystem::path& file)
-{
+LinearPicture linear(image::Image picture, const std::filesystem::path& file) {
   image::Rgb rgb = image::rgb_of(picture, file.string());
   if (picture.integers) decode(rgb.values);
-  return {picture.width, picture.height, std::move(rgb.values), file.string(), rgb.grey, picture.integers, std::move(picture.attributes)};
+  return {picture.width, picture.height,   std::move(rgb.values),        file.string(),
+          rgb.grey,      picture.integers, std::move(picture.attributes)};
 }
 
-std::vector<job::Layer> layers_of(const image::Image& picture, const std::filesystem::path& file)
-{
+std::vector<job::Layer> layers_of(const image::Image& picture, const std::filesystem::path& file) {
   std::vector<job::Layer> layers;
   for (const std::string& name : layer_names(picture))
-    if (std::ranges::count(picture.channels, name + ".G") == 1 && std::ranges::count(picture.channels, name + ".B") == 1)
+    if (std::ranges::count(picture.channels, name + ".G") == 1 &&
+        std::ranges::count(picture.channels, name + ".B") == 1)
       layers.push_back({name, linear(layer_of(picture, name, file.string()), file).rgb});
   return layers;
 }
 
-bool has_channel(const image::Image& picture, const char* name) { return std::ranges::count(picture.channels, name) > 0; }
+bool has_channel(const image::Image& picture, const char* name) {
+  return std::ranges::count(picture.channels, name) > 0;
+}
 
 } // namespace
 
 LinearPicture read_linear_rgb(const std::filesystem::path& file) { return linear(image::read_image(file), file); }
 
-LinearPicture read_linear_rgb(const std::filesystem::path& file, std::vector<job::Layer>& layers)
-{
+LinearPicture read_linear_rgb(const std::filesystem::path& file, std::vector<job::Layer>& layers) {
   const image::Image picture = image::read_image(file);
   layers = layers_of(picture, file);
   return linear(picture, file);
 }
 
-OpenedPicture open_picture(const std::filesystem::path& file)
-{
+OpenedPicture open_picture(const std::filesystem::path& file) {
   image::Image picture = image::read_image(file);
   OpenedPicture opened;
   opened.layers = layers_of(picture, file);
@@ -92,13 +90,11 @@ OpenedPicture open_picture(const std::filesystem::path& file)
   return opened;
 }
 
-LinearPicture read_linear_layer(const std::filesystem::path& file, const std::string& layer)
-{
+LinearPicture read_linear_layer(const std::filesystem::path& file, const std::string& layer) {
   return linear(layer_of(image::read_image(file), layer, file.string()), file);
 }
 
-std::vector<unsigned char> read_mask(const std::filesystem::path& file, int width, int height)
-{
+std::vector<unsigned char> read_mask(const std::filesystem::path& file, int width, int height) {
   const image::Image picture = image::read_image(file);
   const std::vector<float> rgb = image::rgb_of(picture, file.string()).values;
   const Pixels pixels{picture.width, picture.height, rgb, file.string()};

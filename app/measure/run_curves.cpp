@@ -11,8 +11,7 @@ constexpr std::size_t least_points = 4;
 constexpr double least_time_ratio = 2;
 
 /// The half distances to the neighbours on the log time axis (the trapezoid rule's weights).
-std::vector<double> log_time_weights(const std::vector<double>& x)
-{
+std::vector<double> log_time_weights(const std::vector<double>& x) {
   std::vector<double> weights(x.size());
   for (std::size_t i = 0; i + 1 < x.size(); ++i) {
     const double half = (x[i + 1] - x[i]) / 2;
@@ -23,8 +22,7 @@ std::vector<double> log_time_weights(const std::vector<double>& x)
 }
 
 /// Where the segment between two points has the error, which lies between theirs.
-double seconds_on_segment(const Curve& curve, std::size_t end, double error)
-{
+double seconds_on_segment(const Curve& curve, std::size_t end, double error) {
   const double before = std::log(curve.errors[end - 1]), after = std::log(curve.errors[end]);
   const double share = (std::log(error) - before) / (after - before);
   return curve.seconds[end - 1] * std::pow(curve.seconds[end] / curve.seconds[end - 1], share);
@@ -32,16 +30,14 @@ double seconds_on_segment(const Curve& curve, std::size_t end, double error)
 
 constexpr std::string_view estimated_prefix = "estimated_", masked = "masked_";
 
-/// How many times the floor is an error of which the floor, at a right angle to it, makes up `share`: 1 - sqrt(1 - 1/k^2) = share, where
-/// k = 2 gives 13 % and k = 3 gives 6 %. Of mean squares k squared.
-double above_floor(const RunCurves& curves, double times)
-{
+/// How many times the floor is an error of which the floor, at a right angle to it, makes up `share`: 1 - sqrt(1 -
+/// 1/k^2) = share, where k = 2 gives 13 % and k = 3 gives 6 %. Of mean squares k squared.
+double above_floor(const RunCurves& curves, double times) {
   if (curves.is_judged_by_estimate()) return 0;
   return curves.noise_floor * (metric_text(curves.metric).is_mean_square() ? times * times : times);
 }
 
-Curve column_curve(const job::History& history, std::size_t column, bool falls)
-{
+Curve column_curve(const job::History& history, std::size_t column, bool falls) {
   Curve curve;
   for (const job::HistoryRow& row : history.rows) {
     if (column >= row.errors.size()) continue;
@@ -57,8 +53,7 @@ Curve column_curve(const job::History& history, std::size_t column, bool falls)
 
 bool can_be_drawn(double value) { return value > 1e-100 && value < 1e100; }
 
-std::optional<PowerLaw> fit_power_law(const Curve& curve, double lowest_error)
-{
+std::optional<PowerLaw> fit_power_law(const Curve& curve, double lowest_error) {
   std::vector<double> x, y;
   for (std::size_t i = 0; i < curve.seconds.size(); ++i) {
     if (curve.errors[i] < lowest_error) continue;
@@ -83,14 +78,12 @@ std::optional<PowerLaw> fit_power_law(const Curve& curve, double lowest_error)
   return PowerLaw{exponent, std::exp(mean_y - exponent * mean_x), x.size()};
 }
 
-std::optional<ErrorRange> errors_reached(const Curve& curve)
-{
+std::optional<ErrorRange> errors_reached(const Curve& curve) {
   if (curve.errors.empty()) return std::nullopt;
   return ErrorRange{*std::min_element(curve.errors.begin(), curve.errors.end()), curve.errors.front()};
 }
 
-std::optional<ErrorRange> errors_both_reached(const Curve& a, const Curve& b, double lowest_error)
-{
+std::optional<ErrorRange> errors_both_reached(const Curve& a, const Curve& b, double lowest_error) {
   const auto of_a = errors_reached(a), of_b = errors_reached(b);
   if (!of_a || !of_b) return std::nullopt;
   const ErrorRange both{std::max({of_a->lowest, of_b->lowest, lowest_error}), std::min(of_a->highest, of_b->highest)};
@@ -98,8 +91,7 @@ std::optional<ErrorRange> errors_both_reached(const Curve& a, const Curve& b, do
   return both;
 }
 
-std::optional<double> seconds_to_reach(const Curve& curve, double error)
-{
+std::optional<double> seconds_to_reach(const Curve& curve, double error) {
   if (curve.errors.empty() || curve.errors.front() < error) return std::nullopt;
   for (std::size_t i = 0; i < curve.errors.size(); ++i) {
     if (curve.errors[i] > error) continue;
@@ -108,15 +100,13 @@ std::optional<double> seconds_to_reach(const Curve& curve, double error)
   return std::nullopt;
 }
 
-std::optional<EqualError> at_equal_error(const Curve& a, const Curve& b, double error)
-{
+std::optional<EqualError> at_equal_error(const Curve& a, const Curve& b, double error) {
   const auto seconds_a = seconds_to_reach(a, error), seconds_b = seconds_to_reach(b, error);
   if (!seconds_a || !seconds_b) return std::nullopt;
   return EqualError{error, *seconds_a, *seconds_b};
 }
 
-std::vector<double> round_levels(double lowest, double highest)
-{
+std::vector<double> round_levels(double lowest, double highest) {
   std::vector<double> levels;
   if (!(lowest > 0) || !std::isfinite(highest)) return levels;
   constexpr double slack = 1e-9; // 0.2 and 2 * 10^-1 may differ in the last bit
@@ -129,14 +119,12 @@ std::vector<double> round_levels(double lowest, double highest)
   return levels;
 }
 
-ErrorColumn error_column_of(std::string_view column)
-{
+ErrorColumn error_column_of(std::string_view column) {
   if (column.starts_with(estimated_prefix)) return {std::string(column.substr(estimated_prefix.size())), true};
   return {std::string(column), false};
 }
 
-MetricText metric_text(std::string_view metric)
-{
+MetricText metric_text(std::string_view metric) {
   if (metric.starts_with(masked)) {
     MetricText text = metric_text(metric.substr(masked.size()));
     text.label += ", inside the mask";
@@ -146,30 +134,27 @@ MetricText metric_text(std::string_view metric)
   return known == all_metrics().end() ? MetricText{std::string(metric), "", std::nullopt, false} : known->text;
 }
 
-std::vector<std::string> metric_names(const job::History& history)
-{
+std::vector<std::string> metric_names(const job::History& history) {
   std::vector<std::string> metrics;
   for (const std::string& column : history.columns)
-    if (std::string metric = error_column_of(column).metric; std::find(metrics.begin(), metrics.end(), metric) == metrics.end())
+    if (std::string metric = error_column_of(column).metric;
+        std::find(metrics.begin(), metrics.end(), metric) == metrics.end())
       metrics.push_back(std::move(metric));
   return metrics;
 }
 
 double RunCurves::lowest_meaningful() const { return above_floor(*this, 2); }
 
-std::optional<PowerLaw> RunCurves::slope() const
-{
+std::optional<PowerLaw> RunCurves::slope() const {
   if (!falls) return std::nullopt;
   return fit_power_law(judged(), above_floor(*this, 3));
 }
 
-bool is_error(const job::History& history, const std::string& metric)
-{
+bool is_error(const job::History& history, const std::string& metric) {
   return metric_text(metric).falls || metric == error_column_of(history.error_column).metric;
 }
 
-RunCurves run_curves(const job::History& history, const std::string& metric, bool falls)
-{
+RunCurves run_curves(const job::History& history, const std::string& metric, bool falls) {
   RunCurves curves;
   curves.metric = metric;
   curves.falls = falls;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curves of one run, metric by metric, as the window and the report draw and compare them; what the columns of a history are called;
-// and what is read off curves of error against time: slopes, the time to an error, speed-ups at equal error. Pure functions. Between its
-// points a curve is a straight line on two logarithmic axes, where Monte Carlo's error = c / sqrt(t) is one.
+// The curves of one run, metric by metric, as the window and the report draw and compare them; what the columns of a
+// history are called; and what is read off curves of error against time: slopes, the time to an error, speed-ups at
+// equal error. Pure functions. Between its points a curve is a straight line on two logarithmic axes, where Monte
+// Carlo's error = c / sqrt(t) is one.
 #pragma once
 #include "job/history.h"
 #include "measure/metrics.h"
 
 namespace nephroid::measure {
 
-/// Whether a value has a place on a logarithmic axis: above 0, and within 1e-100..1e100 so that its powers are finite as well.
+/// Whether a value has a place on a logarithmic axis: above 0, and within 1e-100..1e100 so that its powers are finite
+/// as well.
 bool can_be_drawn(double value);
 
 /// Errors at times, in the order of time; on logarithmic axes all can be drawn.
@@ -22,10 +24,10 @@ struct PowerLaw {
   std::size_t points = 0; ///< that it was fitted to
 };
 
-/// Least squares of log error against log seconds over the points with an error of at least lowest_error (0: all). Every point
-/// counts as much as the part of the log time axis that it stands for: the error of a running mean times sqrt(t) is a stationary
-/// process in log t, so that many rows close together say no more than one. Nothing where fewer than 4 points are left, or the
-/// last is not at twice the time of the first.
+/// Least squares of log error against log seconds over the points with an error of at least lowest_error (0: all).
+/// Every point counts as much as the part of the log time axis that it stands for: the error of a running mean times
+/// sqrt(t) is a stationary process in log t, so that many rows close together say no more than one. Nothing where fewer
+/// than 4 points are left, or the last is not at twice the time of the first.
 std::optional<PowerLaw> fit_power_law(const Curve& curve, double lowest_error = 0);
 
 struct ErrorRange {
@@ -36,7 +38,8 @@ std::optional<ErrorRange> errors_reached(const Curve& curve);
 /// The errors that both curves came down to, not below lowest_error; nothing where there are none.
 std::optional<ErrorRange> errors_both_reached(const Curve& a, const Curve& b, double lowest_error = 0);
 
-/// When the curve first falls to the error; nothing where it never does, or begins below it: then nobody knows when it was there.
+/// When the curve first falls to the error; nothing where it never does, or begins below it: then nobody knows when it
+/// was there.
 std::optional<double> seconds_to_reach(const Curve& curve, double error);
 
 struct EqualError {
@@ -50,8 +53,8 @@ std::optional<EqualError> at_equal_error(const Curve& a, const Curve& b, double 
 /// 1, 2 and 5 times powers of ten from lowest to highest, both included, the largest first. Both above 0, else none.
 std::vector<double> round_levels(double lowest, double highest);
 
-/// A column of a history taken apart: "estimated_lab_mean" is the estimate of "lab_mean"; a mask's metrics ("masked_lab_mean") are
-/// metrics of their own.
+/// A column of a history taken apart: "estimated_lab_mean" is the estimate of "lab_mean"; a mask's metrics
+/// ("masked_lab_mean") are metrics of their own.
 struct ErrorColumn {
   std::string metric;
   bool is_estimate = false;
@@ -75,8 +78,8 @@ struct RunCurves {
   /// A run is judged by its estimate only where it has nothing better.
   bool is_judged_by_estimate() const { return error.errors.empty(); }
   const Curve& judged() const { return is_judged_by_estimate() ? estimate : error; }
-  /// Errors below it are not compared: twice the floor (four times that of a mean square), where 13 % of the error are the reference's.
-  /// 0 for estimates and where no floor is known.
+  /// Errors below it are not compared: twice the floor (four times that of a mean square), where 13 % of the error are
+  /// the reference's. 0 for estimates and where no floor is known.
   double lowest_meaningful() const;
   /// Of the judged curve down to three times the floor (nine times), where 6 % of the error are the reference's.
   std::optional<PowerLaw> slope() const;

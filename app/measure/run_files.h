@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of a run read back: JSON with the place of whatever is missing or of another type than a run writes, and its error history.
+// The files of a run read back: JSON with the place of whatever is missing or of another type than a run writes, and
+// its error history.
 #pragma once
 #include "job/history.h"
 
@@ -14,7 +15,8 @@ class RunDocument {
 public:
   enum class Type { text, number, whole, flag, list, object, numbers };
 
-  /// Throws bad_input naming the file: missing, empty, cut, no JSON, no object, nested deeper than anything a run writes.
+  /// Throws bad_input naming the file: missing, empty, cut, no JSON, no object, nested deeper than anything a run
+  /// writes.
   explicit RunDocument(const std::filesystem::path& file);
 
   const nlohmann::ordered_json& json() const { return json_; }
@@ -28,16 +30,16 @@ private:
   nlohmann::ordered_json json_;
 };
 
-/// The folder's history.csv (read_history), with what its run.json, where there is one, says of the reference: noise_floor and
-/// error_column. Throws bad_input as both do.
+/// The folder's history.csv (read_history), with what its run.json, where there is one, says of the reference:
+/// noise_floor and error_column. Throws bad_input as both do.
 job::History read_run_history(const std::filesystem::path& folder);
 
-/// history.csv: `seconds,wall_seconds,step,work,` then a column a metric, one row a measurement. Numbers round-trip; an undefined error is
-/// an empty cell. Noise floor, error column and measuring time are in run.json, not here.
+/// history.csv: `seconds,wall_seconds,step,work,` then a column a metric, one row a measurement. Numbers round-trip; an
+/// undefined error is an empty cell. Noise floor, error column and measuring time are in run.json, not here.
 std::string to_csv(const job::History& history);
-/// The columns and the rows, nothing else of History. Throws bad_input at FILE:LINE: empty, another first line, a column that is there
-/// twice, a row with too few or too many cells or a last line without a line feed (a cut file), a cell that is no number, seconds that
-/// fall.
+/// The columns and the rows, nothing else of History. Throws bad_input at FILE:LINE: empty, another first line, a
+/// column that is there twice, a row with too few or too many cells or a last line without a line feed (a cut file), a
+/// cell that is no number, seconds that fall.
 job::History read_history(const std::filesystem::path& file);
 
 } // namespace nephroid::measure

@@ -15,8 +15,7 @@ namespace nephroid::mpi {
 namespace {
 
 /// How many processes were started together, as Open MPI's mpirun or a srun says it; 1 where nobody does.
-int started_together()
-{
+int started_together() {
   for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
     if (const char* value = std::getenv(variable)) return std::atoi(value);
   // srun --mpi=pmix names the ranks alone, and the job says how many there are.
@@ -25,20 +24,19 @@ int started_together()
 }
 
 /// Throws failed where this build has none: several processes would write into one folder.
-std::filesystem::path module_file(int count)
-{
+std::filesystem::path module_file(int count) {
   try {
     return library_file(module_name);
   } catch (const Error&) {
-    throw failed("mpirun", fmt::format("nephroid was started as one of {} processes, and this build knows no MPI", count), {},
+    throw failed("mpirun",
+                 fmt::format("nephroid was started as one of {} processes, and this build knows no MPI", count), {},
                  "install libopenmpi-dev and build it anew, or start one process");
   }
 }
 
 } // namespace
 
-std::shared_ptr<Ranks> open_ranks()
-{
+std::shared_ptr<Ranks> open_ranks() {
   const int count = started_together();
   if (count <= 1) return nullptr;
   const std::filesystem::path file = module_file(count);
@@ -47,13 +45,13 @@ std::shared_ptr<Ranks> open_ranks()
   if (!library) throw failed(file.string(), fmt::format("cannot be loaded: {}", ::dlerror()), {}, "install Open MPI");
   std::shared_ptr<Ranks> ranks(reinterpret_cast<OpenRanks>(::dlsym(library, open_symbol))());
   if (ranks->size() != count)
-    throw failed("mpirun", fmt::format("it has started {} processes, and Open MPI knows {} of them", count, ranks->size()), {},
+    throw failed("mpirun",
+                 fmt::format("it has started {} processes, and Open MPI knows {} of them", count, ranks->size()), {},
                  "start them by Open MPI's mpirun, or by srun --mpi=pmix");
   return ranks;
 }
 
-void require_all(Ranks& ranks, const std::optional<Error>& error)
-{
+void require_all(Ranks& ranks, const std::optional<Error>& error) {
   std::int64_t errors = error ? 1 : 0;
   ranks.all_reduce_sum({&errors, 1});
   if (error) throw *error;
@@ -62,8 +60,7 @@ void require_all(Ranks& ranks, const std::optional<Error>& error)
   throw failed(ranks.name(), "another rank has failed");
 }
 
-void require_same(Ranks& ranks, const std::string& what, const std::string& mine)
-{
+void require_same(Ranks& ranks, const std::string& what, const std::string& mine) {
   std::uint64_t size = mine.size();
   ranks.broadcast(std::as_writable_bytes(std::span(&size, 1)));
   std::string first = mine;

@@ -14,16 +14,14 @@ using Matrix = std::array<Colour, 3>;
 /// Linear sRGB to XYZ with the four digits that IEC 61966-2-1 prints.
 constexpr Matrix srgb_to_xyz_matrix{{{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}}};
 
-constexpr Colour multiply(const Matrix& m, const Colour& v)
-{
+constexpr Colour multiply(const Matrix& m, const Colour& v) {
   Colour result{};
   for (std::size_t row = 0; row < 3; ++row) result[row] = m[row][0] * v[0] + m[row][1] * v[1] + m[row][2] * v[2];
   return result;
 }
 
 /// Cofactors over the determinant: exact to the last digits, so that there and back is the identity.
-constexpr Matrix inverse(const Matrix& m)
-{
+constexpr Matrix inverse(const Matrix& m) {
   Matrix result{};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
@@ -39,14 +37,12 @@ constexpr Matrix inverse(const Matrix& m)
 constexpr Matrix xyz_to_srgb_matrix = inverse(srgb_to_xyz_matrix);
 
 /// The cube root of CIELAB with its straight start below (6/29)^3 (CIE 015).
-double lab_root(double t)
-{
+double lab_root(double t) {
   constexpr double delta = 6.0 / 29;
   return t > delta * delta * delta ? std::cbrt(t) : t / (3 * delta * delta) + 4.0 / 29;
 }
 
-ColourMatching read_cie_1931()
-{
+ColourMatching read_cie_1931() {
   const Table table = read_table("cie-1931-2deg-1nm");
   ColourMatching result{};
   Spectrum* const functions[] = {&result.x, &result.y, &result.z};
@@ -57,18 +53,20 @@ ColourMatching read_cie_1931()
   return result;
 }
 
-Colour cross(const Colour& a, const Colour& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+Colour cross(const Colour& a, const Colour& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 double dot(const Colour& a, const Colour& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// The one way in which a smoothest spectrum may be curved; see make_primary_spectra.
-Spectrum curved(const Spectrum& straight)
-{
+Spectrum curved(const Spectrum& straight) {
   constexpr std::size_t count = wavelength_count;
   const ColourMatching& eye = cie_1931();
   Spectrum one{};
   one.fill(1);
   const Colour mu = cross(to_xyz(one), to_xyz(straight));
-  // D^T w = c: w[i] - 2 w[i - 1] + w[i - 2] = c[i]. The last two of these equations hold because c is orthogonal to straight lines.
+  // D^T w = c: w[i] - 2 w[i - 1] + w[i - 2] = c[i]. The last two of these equations hold because c is orthogonal to
+  // straight lines.
   std::array<double, count - 2> w{};
   for (std::size_t i = 0; i < w.size(); ++i) {
     const double c = mu[0] * eye.x[i] + mu[1] * eye.y[i] + mu[2] * eye.z[i];
@@ -85,15 +83,16 @@ Spectrum curved(const Spectrum& straight)
   return g;
 }
 
-/// Of all spectra s with A s = b (A the three colour-matching functions, b an XYZ) the one with the smallest |D s|^2 (D second differences)
-/// has D^T D s = A^T mu with Lagrange's multipliers mu (3 numbers). D loses straight lines, so v^T A^T mu = 0 for v = 1 and v = the
-/// wavelength: two conditions, which leave mu one number: it is orthogonal to A 1 and to A (wavelength). So s is a sum of three
-/// fixed functions, a constant, a straight line and one curve, and the three equations A s = b say how much there is of each.
-std::array<Spectrum, 3> make_primary_spectra()
-{
+/// Of all spectra s with A s = b (A the three colour-matching functions, b an XYZ) the one with the smallest |D s|^2 (D
+/// second differences) has D^T D s = A^T mu with Lagrange's multipliers mu (3 numbers). D loses straight lines, so v^T
+/// A^T mu = 0 for v = 1 and v = the wavelength: two conditions, which leave mu one number: it is orthogonal to A 1 and
+/// to A (wavelength). So s is a sum of three fixed functions, a constant, a straight line and one curve, and the three
+/// equations A s = b say how much there is of each.
+std::array<Spectrum, 3> make_primary_spectra() {
   std::array<Spectrum, 3> ways{};
   ways[0].fill(1);
-  for (std::size_t i = 0; i < ways[1].size(); ++i) ways[1][i] = 2.0 * static_cast<double>(i) / (wavelength_count - 1) - 1;
+  for (std::size_t i = 0; i < ways[1].size(); ++i)
+    ways[1][i] = 2.0 * static_cast<double>(i) / (wavelength_count - 1) - 1;
   ways[2] = curved(ways[1]);
   const std::array<Colour, 3> columns{to_xyz(ways[0]), to_xyz(ways[1]), to_xyz(ways[2])};
   const double determinant = dot(columns[0], cross(columns[1], columns[2]));
@@ -112,14 +111,12 @@ std::array<Spectrum, 3> make_primary_spectra()
 
 } // namespace
 
-const ColourMatching& cie_1931()
-{
+const ColourMatching& cie_1931() {
   static const ColourMatching functions = read_cie_1931();
   return functions;
 }
 
-Colour to_xyz(const Spectrum& spectrum)
-{
+Colour to_xyz(const Spectrum& spectrum) {
   const ColourMatching& cie = cie_1931();
   Colour xyz{};
   for (std::size_t i = 0; i < spectrum.size(); ++i) {
@@ -134,8 +131,7 @@ Colour xyz_to_linear_srgb(const Colour& xyz) { return multiply(xyz_to_srgb_matri
 
 Colour linear_srgb_to_xyz(const Colour& rgb) { return multiply(srgb_to_xyz_matrix, rgb); }
 
-double srgb_encode(double linear)
-{
+double srgb_encode(double linear) {
   const double size = std::fabs(linear);
   const double encoded = size <= 0.0031308 ? 12.92 * size : 1.055 * std::pow(size, 1 / 2.4) - 0.055;
   return std::copysign(encoded, linear);
@@ -143,8 +139,7 @@ double srgb_encode(double linear)
 
 double lightness(double relative_luminance) { return 116 * lab_root(relative_luminance) - 16; }
 
-const std::array<Spectrum, 3>& primary_spectra()
-{
+const std::array<Spectrum, 3>& primary_spectra() {
   static const std::array<Spectrum, 3> spectra = make_primary_spectra();
   return spectra;
 }

@@ -19,21 +19,19 @@ namespace {
 /// Range ends are printed in micrometres with few digits: .5893 um times 1000 is above 589.3 nm.
 constexpr double range_tolerance = 1e-6;
 
-bool is_outside(double nm, double low_nm, double high_nm)
-{
+bool is_outside(double nm, double low_nm, double high_nm) {
   return nm < low_nm * (1 - range_tolerance) || nm > high_nm * (1 + range_tolerance);
 }
 
-Error refusal(const DispersionCurve& curve, const char* quantity, double nm, double low_nm, double high_nm)
-{
+Error refusal(const DispersionCurve& curve, const char* quantity, double nm, double low_nm, double high_nm) {
   return bad_input(curve.source, fmt::format("{} has no {} at {} nm", curve.name, quantity, nm),
                    fmt::format("expected a wavelength in its range {:.6g}..{:.6g} nm", low_nm, high_nm),
                    "outside \"hold\" or \"extrapolate\" goes beyond it");
 }
 
-/// A formula that gives no n at a wavelength: past its range it may be held instead, inside it its coefficients are wrong.
-Error no_index(const DispersionCurve& curve, double nm, Extrapolation outside)
-{
+/// A formula that gives no n at a wavelength: past its range it may be held instead, inside it its coefficients are
+/// wrong.
+Error no_index(const DispersionCurve& curve, double nm, Extrapolation outside) {
   const double low = curve.n->low_nm, high = curve.n->high_nm;
   const std::string what = fmt::format("the formula of {} gives no number at {} nm", curve.name, nm);
   if (is_outside(nm, low, high) && outside != Extrapolation::hold)
@@ -43,21 +41,18 @@ Error no_index(const DispersionCurve& curve, double nm, Extrapolation outside)
                    "check the coefficients: does a resonance lie inside the range?");
 }
 
-double value_at(const Curve& curve, double nm, Extrapolation outside)
-{
+double value_at(const Curve& curve, double nm, Extrapolation outside) {
   const bool hold = outside == Extrapolation::hold || !curve.formula;
   return curve.value(hold ? std::clamp(nm, curve.low_nm, curve.high_nm) : nm);
 }
 
-void require_finite(std::span<const double> values, const char* kind)
-{
+void require_finite(std::span<const double> values, const char* kind) {
   if (values.empty()) throw bad_input(kind, "there are no coefficients", "expected at least one");
   for (double value : values)
     if (!std::isfinite(value)) throw bad_input(kind, "a coefficient is not finite");
 }
 
-void require_range(double low_nm, double high_nm, const char* kind)
-{
+void require_range(double low_nm, double high_nm, const char* kind) {
   if (!(low_nm > 0) || !(high_nm >= low_nm))
     throw bad_input(kind, fmt::format("the range is {}..{} nm", low_nm, high_nm), "expected 0 < low <= high");
 }
@@ -72,8 +67,7 @@ public:
 
   /// The sum of term(factor, parameter) over the pairs from (first, first + 1) to the end.
   template <class Term>
-  double sum(std::size_t first, Term term) const
-  {
+  double sum(std::size_t first, Term term) const {
     double result = 0;
     for (std::size_t i = first; i <= values_.size(); i += 2)
       if ((*this)[i] != 0) result += term((*this)[i], (*this)[i + 1]);
@@ -85,82 +79,66 @@ private:
 };
 
 /// Formula 4's resonance c l^p / (l^2 - a^b); 0 where c is 0, even on the pole (a = b = 0 gives a^b = 1).
-double resonance(double c, double p, double a, double b, double um)
-{
+double resonance(double c, double p, double a, double b, double um) {
   return c == 0 ? 0 : c * std::pow(um, p) / (um * um - std::pow(a, b));
 }
 
-double gas(const Coefficients& c, double um)
-{
+double gas(const Coefficients& c, double um) {
   return 1 + c[1] + c.sum(2, [&](double b, double pole) { return b / (pole - 1 / (um * um)); });
 }
 
-double herzberger(const Coefficients& c, double um)
-{
+double herzberger(const Coefficients& c, double um) {
   const double l2 = um * um, pole = 1 / (l2 - 0.028);
   return c[1] + c[2] * pole + c[3] * pole * pole + c[4] * l2 + c[5] * l2 * l2 + c[6] * l2 * l2 * l2;
 }
 
 /// Formula 8, a Lorentz-Lorenz form: (n^2 - 1) / (n^2 + 2) = r, so n^2 = (1 + 2 r) / (1 - r).
-double retro(const Coefficients& c, double um)
-{
+double retro(const Coefficients& c, double um) {
   const double l2 = um * um;
   const double r = c[1] + (c[2] == 0 ? 0 : c[2] * l2 / (l2 - c[3])) + c[4] * l2;
   return std::sqrt((1 + 2 * r) / (1 - r));
 }
 
-double exotic(const Coefficients& c, double um)
-{
+double exotic(const Coefficients& c, double um) {
   const double l2 = um * um, d = um - c[5];
   return std::sqrt(c[1] + (c[2] == 0 ? 0 : c[2] / (l2 - c[3])) + (c[4] == 0 ? 0 : c[4] * d / (d * d + c[6])));
 }
 
 } // namespace
 
-int most_coefficients(int formula)
-{
+int most_coefficients(int formula) {
   constexpr int most[formula_count] = {0, 0, 0, 17, 0, 0, 6, 4, 6};
   return most[formula - 1];
 }
 
-double index_by_formula(int formula, std::span<const double> coefficients, double um)
-{
+double index_by_formula(int formula, std::span<const double> coefficients, double um) {
   const Coefficients c(coefficients);
   const double l2 = um * um;
   const auto power = [&](double factor, double exponent) { return factor * std::pow(um, exponent); };
   switch (formula) {
-  case 1:
-    return std::sqrt(1 + c[1] + c.sum(2, [&](double b, double pole) { return b * l2 / (l2 - pole * pole); }));
-  case 2:
-    return std::sqrt(1 + c[1] + c.sum(2, [&](double b, double pole) { return b * l2 / (l2 - pole); }));
-  case 3:
-    return std::sqrt(c[1] + c.sum(2, power));
+  case 1: return std::sqrt(1 + c[1] + c.sum(2, [&](double b, double pole) { return b * l2 / (l2 - pole * pole); }));
+  case 2: return std::sqrt(1 + c[1] + c.sum(2, [&](double b, double pole) { return b * l2 / (l2 - pole); }));
+  case 3: return std::sqrt(c[1] + c.sum(2, power));
   case 4:
-    return std::sqrt(c[1] + resonance(c[2], c[3], c[4], c[5], um) + resonance(c[6], c[7], c[8], c[9], um) + c.sum(10, power));
-  case 5:
-    return c[1] + c.sum(2, power);
-  case 6:
-    return gas(c, um);
-  case 7:
-    return herzberger(c, um);
-  case 8:
-    return retro(c, um);
-  case 9:
-    return exotic(c, um);
-  default:
-    return std::numeric_limits<double>::quiet_NaN();
+    return std::sqrt(c[1] + resonance(c[2], c[3], c[4], c[5], um) + resonance(c[6], c[7], c[8], c[9], um) +
+                     c.sum(10, power));
+  case 5: return c[1] + c.sum(2, power);
+  case 6: return gas(c, um);
+  case 7: return herzberger(c, um);
+  case 8: return retro(c, um);
+  case 9: return exotic(c, um);
+  default: return std::numeric_limits<double>::quiet_NaN();
   }
 }
 
-std::array<double, 2> DispersionCurve::range_nm() const
-{
+std::array<double, 2> DispersionCurve::range_nm() const {
   const std::optional<Curve>& main = n ? n : k;
   return main ? std::array{main->low_nm, main->high_nm} : std::array{0.0, 0.0};
 }
 
-IndexSample DispersionCurve::sample(double nm, Extrapolation outside) const
-{
-  if (!std::isfinite(nm) || !(nm > 0)) throw bad_input(source, fmt::format("the wavelength is {} nm", nm), "expected a number above 0");
+IndexSample DispersionCurve::sample(double nm, Extrapolation outside) const {
+  if (!std::isfinite(nm) || !(nm > 0))
+    throw bad_input(source, fmt::format("the wavelength is {} nm", nm), "expected a number above 0");
   const auto [low, high] = range_nm();
   IndexSample result;
   result.nm = nm;
@@ -174,25 +152,26 @@ IndexSample DispersionCurve::sample(double nm, Extrapolation outside) const
   return result;
 }
 
-Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside)
-{
-  if (!curve.n) throw bad_input(curve.source, curve.name + " has no index of refraction n, only k", {}, "choose another file");
+Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside) {
+  if (!curve.n)
+    throw bad_input(curve.source, curve.name + " has no index of refraction n, only k", {}, "choose another file");
   if (const auto gap = curve.n->gap_nm; gap && outside == Extrapolation::refuse)
-    throw bad_input(curve.source, fmt::format("{} has no n between {:.6g} and {:.6g} nm", curve.name, gap->front(), gap->back()),
-                    "expected a table without gaps from 380 to 780 nm", "outside \"hold\" draws a straight line across");
+    throw bad_input(
+        curve.source, fmt::format("{} has no n between {:.6g} and {:.6g} nm", curve.name, gap->front(), gap->back()),
+        "expected a table without gaps from 380 to 780 nm", "outside \"hold\" draws a straight line across");
   Spectrum result{};
   for (int i = 0; i < wavelength_count; ++i) {
     const double nm = wavelength_nm(i);
     const std::optional<double> n = curve.sample(nm, outside).n;
     if (!n) throw no_index(curve, nm, outside);
-    if (!(*n > 0)) throw bad_input(curve.source, fmt::format("{} has n = {} at {} nm", curve.name, *n, nm), "expected n above 0");
+    if (!(*n > 0))
+      throw bad_input(curve.source, fmt::format("{} has n = {} at {} nm", curve.name, *n, nm), "expected n above 0");
     result[static_cast<std::size_t>(i)] = *n;
   }
   return result;
 }
 
-Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside)
-{
+Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside) {
   Spectrum result{};
   if (!curve.k) return result;
   for (int i = 0; i < wavelength_count; ++i) {
@@ -205,15 +184,13 @@ Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside)
   return result;
 }
 
-Curve curve_of(LinearTable table)
-{
+Curve curve_of(LinearTable table) {
   const double low = table.low(), high = table.high();
   const auto gap = gap_between(table.rows(), first_nm, last_nm);
   return {std::move(table), low, high, false, gap};
 }
 
-std::string outside_note(const DispersionCurve& curve, Extrapolation outside)
-{
+std::string outside_note(const DispersionCurve& curve, Extrapolation outside) {
   if (!curve.n) return {};
   const double low = curve.n->low_nm, high = curve.n->high_nm;
   std::string where;
@@ -223,21 +200,21 @@ std::string outside_note(const DispersionCurve& curve, Extrapolation outside)
   std::vector<std::string> notes;
   const bool held = outside == Extrapolation::hold || !curve.n->formula;
   if (!where.empty())
-    notes.push_back(fmt::format("n is {} {} (data: {:.6g}..{:.6g} nm)", held ? "held" : "extrapolated", where, low, high));
+    notes.push_back(
+        fmt::format("n is {} {} (data: {:.6g}..{:.6g} nm)", held ? "held" : "extrapolated", where, low, high));
   if (const auto gap = curve.n->gap_nm)
-    notes.push_back(fmt::format("n is a straight line from {:.6g} to {:.6g} nm, where the table has a gap", gap->front(), gap->back()));
+    notes.push_back(fmt::format("n is a straight line from {:.6g} to {:.6g} nm, where the table has a gap",
+                                gap->front(), gap->back()));
   return notes.empty() ? std::string{} : fmt::format("{}: {}", curve.name, fmt::join(notes, "; "));
 }
 
-DispersionCurve constant_index(double n)
-{
+DispersionCurve constant_index(double n) {
   if (!std::isfinite(n) || !(n > 0))
     throw bad_input("constant", fmt::format("the index of refraction is {}", n), "expected a number above 0");
   return index_only("constant", {[n](double) { return n; }, 0, std::numeric_limits<double>::infinity(), true});
 }
 
-DispersionCurve sellmeier(std::span<const double> b, std::span<const double> c_um2, double low_nm, double high_nm)
-{
+DispersionCurve sellmeier(std::span<const double> b, std::span<const double> c_um2, double low_nm, double high_nm) {
   if (b.size() != c_um2.size())
     throw bad_input("sellmeier", fmt::format("there are {} values of b and {} of c", b.size(), c_um2.size()),
                     "expected as many of one as of the other");
@@ -250,8 +227,7 @@ DispersionCurve sellmeier(std::span<const double> b, std::span<const double> c_u
   return index_only("sellmeier", {value, low_nm, high_nm, true});
 }
 
-DispersionCurve cauchy(std::span<const double> coefficients, double low_nm, double high_nm)
-{
+DispersionCurve cauchy(std::span<const double> coefficients, double low_nm, double high_nm) {
   require_finite(coefficients, "cauchy");
   require_range(low_nm, high_nm, "cauchy");
   // Horner's rule in 1 / l^2.
@@ -264,13 +240,11 @@ DispersionCurve cauchy(std::span<const double> coefficients, double low_nm, doub
   return index_only("cauchy", {value, low_nm, high_nm, true});
 }
 
-DispersionCurve tabulated(std::span<const std::array<double, 2>> nm_n)
-{
+DispersionCurve tabulated(std::span<const std::array<double, 2>> nm_n) {
   return index_only("table", curve_of(LinearTable(sorted_rows(nm_n, Duplicates::refuse, "table"))));
 }
 
-DispersionCurve control_points(std::span<const std::array<double, 2>> nm_n)
-{
+DispersionCurve control_points(std::span<const std::array<double, 2>> nm_n) {
   std::vector<Row> rows = sorted_rows(nm_n, Duplicates::refuse, "points");
   const double low = rows.front()[0], high = rows.back()[0];
   return index_only("points", {MonotoneCubic(std::move(rows)), low, high, false});

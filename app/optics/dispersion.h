@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dispersion: index of refraction n and extinction coefficient k as functions of wavelength, from formulas, tables, control
-// points and any refractiveindex.info file. Not here: what to do with them (clusters are in spectral/).
+// Dispersion: index of refraction n and extinction coefficient k as functions of wavelength, from formulas, tables,
+// control points and any refractiveindex.info file. Not here: what to do with them (clusters are in spectral/).
 #pragma once
 #include "optics/wavelength.h"
 
@@ -12,8 +12,8 @@
 
 namespace nephroid::optics {
 
-/// What to answer outside the data's own range. automatic: extrapolate a formula, hold a table. hold: the value at the nearest end.
-/// extrapolate: a formula goes on; a table has no law to go on by, so it holds. refuse: an error.
+/// What to answer outside the data's own range. automatic: extrapolate a formula, hold a table. hold: the value at the
+/// nearest end. extrapolate: a formula goes on; a table has no law to go on by, so it holds. refuse: an error.
 enum class Extrapolation { automatic, hold, extrapolate, refuse };
 
 struct IndexSample {
@@ -23,12 +23,14 @@ struct IndexSample {
   bool extrapolated = false; ///< nm lies outside the data's own range (beyond a relative tolerance of 1e-6 at its ends)
 };
 
-/// n(lambda) or k(lambda) on its own range. The value function is defined everywhere a formula is; a table holds its ends.
+/// n(lambda) or k(lambda) on its own range. The value function is defined everywhere a formula is; a table holds its
+/// ends.
 struct Curve {
   std::function<double(double nm)> value;
   double low_nm = 0, high_nm = 0;
-  bool formula = false;                          ///< may be extrapolated
-  std::optional<std::array<double, 2>> gap_nm{}; ///< a table's widest hole within 380..780 nm: outside the data, and bridged by a line
+  bool formula = false; ///< may be extrapolated
+  std::optional<std::array<double, 2>>
+      gap_nm{}; ///< a table's widest hole within 380..780 nm: outside the data, and bridged by a line
 };
 
 struct DispersionCurve {
@@ -42,20 +44,21 @@ struct DispersionCurve {
   IndexSample sample(double nm, Extrapolation outside = Extrapolation::automatic) const;
 };
 
-/// n on the 401 wavelengths. Throws bad_input naming the curve and the first wavelength where n is missing, not finite or <= 0, and,
-/// with Extrapolation::refuse, for a gap.
+/// n on the 401 wavelengths. Throws bad_input naming the curve and the first wavelength where n is missing, not finite
+/// or <= 0, and, with Extrapolation::refuse, for a gap.
 Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside);
 /// k on the 401 wavelengths (0 where the data has none or a negative value; ends held unless refused).
 Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside);
-/// What a run must say when its 380..780 nm reach beyond the data of n, e.g. "N-SF66: n is extrapolated below 390 nm (data:
-/// 390..2500 nm)", or into a gap of it; empty where they do not.
+/// What a run must say when its 380..780 nm reach beyond the data of n, e.g. "N-SF66: n is extrapolated below 390 nm
+/// (data: 390..2500 nm)", or into a gap of it; empty where they do not.
 std::string outside_note(const DispersionCurve& curve, Extrapolation outside);
 
 /// The same n > 0 at every wavelength.
 DispersionCurve constant_index(double n);
 /// n^2 = 1 + sum b l^2 / (l^2 - c); l in micrometres, c in square micrometres. low/high: the range the fit is good for.
 /// Throws bad_input where b and c differ in length or are empty.
-DispersionCurve sellmeier(std::span<const double> b, std::span<const double> c_um2, double low_nm = 380, double high_nm = 780);
+DispersionCurve sellmeier(std::span<const double> b, std::span<const double> c_um2, double low_nm = 380,
+                          double high_nm = 780);
 /// n = c0 + c1 / l^2 + c2 / l^4 + ...; l in micrometres. At least one coefficient.
 DispersionCurve cauchy(std::span<const double> coefficients, double low_nm = 380, double high_nm = 780);
 /// Linear between (nm, n) rows. Rows are sorted; a wavelength given twice with different values is refused.
@@ -69,8 +72,9 @@ inline constexpr int formula_count = 9;
 /// The most coefficients that formula 1..9 can use; 0: any number (formulas 1, 2, 3, 5 and 6 are sums of pairs).
 int most_coefficients(int formula);
 
-/// n by formula 1..9 at a wavelength in micrometres. Coefficients that are not there count as 0, and a term whose factor is 0
-/// is left out before its denominator is looked at. NaN or infinite where the formula has no value (n^2 < 0, a pole).
+/// n by formula 1..9 at a wavelength in micrometres. Coefficients that are not there count as 0, and a term whose
+/// factor is 0 is left out before its denominator is looked at. NaN or infinite where the formula has no value (n^2 <
+/// 0, a pole).
 double index_by_formula(int formula, std::span<const double> coefficients, double um);
 
 } // namespace nephroid::optics

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the YAML files of the refractiveindex.info database as they are: one of formulas 1-9, or tables of n, k or both, or a
-// constant, and any of these for n beside a table for k. Oddities that the database really holds are read, not refused:
-// rows out of order, wavelengths given twice (their mean counts), one row, blank rows, negative n or k, few coefficients.
+// Reads the YAML files of the refractiveindex.info database as they are: one of formulas 1-9, or tables of n, k or
+// both, or a constant, and any of these for n beside a table for k. Oddities that the database really holds are read,
+// not refused: rows out of order, wavelengths given twice (their mean counts), one row, blank rows, negative n or k,
+// few coefficients.
 #include "optics/dispersion_file.h"
 
 #include "base/error.h"
@@ -30,8 +31,7 @@ Place place(const std::string& file, const YAML::Node& node) { return place(file
 /// The beginning of a text that a file may have of any length.
 std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", text.substr(0, 40)); }
 
-std::vector<std::string_view> words(std::string_view text)
-{
+std::vector<std::string_view> words(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\n";
   std::vector<std::string_view> result;
   while (true) {
@@ -44,32 +44,29 @@ std::vector<std::string_view> words(std::string_view text)
   }
 }
 
-double number(std::string_view word, const Place& where)
-{
+double number(std::string_view word, const Place& where) {
   const auto value = typed_number<double>(word);
   if (!value || !std::isfinite(*value))
     throw bad_input(where, in_quotes(word) + " is no number", "expected a finite number such as 1.5168 or 2.86E-06");
   return *value;
 }
 
-std::vector<double> numbers(std::string_view text, const Place& where)
-{
+std::vector<double> numbers(std::string_view text, const Place& where) {
   std::vector<double> result;
   for (std::string_view word : words(text)) result.push_back(number(word, where));
   return result;
 }
 
 /// The text of a block's key. Throws where it is missing or is not text.
-YAML::Node text_of(const YAML::Node& block, const char* key, const std::string& file)
-{
+YAML::Node text_of(const YAML::Node& block, const char* key, const std::string& file) {
   const YAML::Node node = block[key];
   if (!node.IsDefined()) throw bad_input(place(file, block), fmt::format("the entry has no \"{}\"", key));
-  if (!node.IsScalar()) throw bad_input(place(file, node), fmt::format("\"{}\" is not text", key), "expected numbers separated by blanks");
+  if (!node.IsScalar())
+    throw bad_input(place(file, node), fmt::format("\"{}\" is not text", key), "expected numbers separated by blanks");
   return node;
 }
 
-Curve formula_curve(const YAML::Node& block, int formula, const std::string& file)
-{
+Curve formula_curve(const YAML::Node& block, int formula, const std::string& file) {
   const YAML::Node range_node = text_of(block, "wavelength_range", file), values = text_of(block, "coefficients", file);
   const std::vector<double> range = numbers(range_node.Scalar(), place(file, range_node));
   if (range.size() != 2 || !(range[0] > 0) || !(range[1] >= range[0]))
@@ -83,13 +80,14 @@ Curve formula_curve(const YAML::Node& block, int formula, const std::string& fil
     throw bad_input(place(file, values), fmt::format("formula {} has {} coefficients", formula, coefficients.size()),
                     fmt::format("expected at most {}", most));
 
-  const auto value = [formula, c = std::move(coefficients)](double nm) { return index_by_formula(formula, c, nm / 1000); };
+  const auto value = [formula, c = std::move(coefficients)](double nm) {
+    return index_by_formula(formula, c, nm / 1000);
+  };
   return {value, range[0] * 1000, range[1] * 1000, true};
 }
 
 /// A table's rows of `columns` numbers, wavelengths still in micrometres.
-std::vector<std::vector<double>> table_rows(const YAML::Node& block, std::size_t columns, const std::string& file)
-{
+std::vector<std::vector<double>> table_rows(const YAML::Node& block, std::size_t columns, const std::string& file) {
   const YAML::Node data = text_of(block, "data", file);
   std::vector<std::vector<double>> rows;
   // "data: |" starts the text on the line after its own.
@@ -103,46 +101,45 @@ std::vector<std::vector<double>> table_rows(const YAML::Node& block, std::size_t
     if (row.empty()) continue;
     if (row.size() != columns)
       throw bad_input(where, fmt::format("the row has {} numbers", row.size()),
-                      fmt::format("expected {}: the wavelength in micrometres{}", columns, columns == 3 ? ", n and k" : " and the value"));
-    if (!(row[0] > 0)) throw bad_input(where, fmt::format("the wavelength is {} um", row[0]), "expected a wavelength above 0");
+                      fmt::format("expected {}: the wavelength in micrometres{}", columns,
+                                  columns == 3 ? ", n and k" : " and the value"));
+    if (!(row[0] > 0))
+      throw bad_input(where, fmt::format("the wavelength is {} um", row[0]), "expected a wavelength above 0");
     rows.push_back(std::move(row));
   }
   if (rows.empty()) throw bad_input(place(file, data), "the table is empty", "expected at least one row of numbers");
   return rows;
 }
 
-Curve table_curve(const std::vector<std::vector<double>>& rows, std::size_t column, const Place& where)
-{
+Curve table_curve(const std::vector<std::vector<double>>& rows, std::size_t column, const Place& where) {
   std::vector<Row> pairs;
   for (const auto& row : rows) pairs.push_back({row[0] * 1000, row[column]});
   return curve_of(LinearTable(sorted_rows(pairs, Duplicates::mean, where)));
 }
 
-/// The first entry that gives n and the first that gives k count (one file has n by a formula and again in a table with k).
-void keep_first(std::optional<Curve>& kept, Curve curve)
-{
+/// The first entry that gives n and the first that gives k count (one file has n by a formula and again in a table with
+/// k).
+void keep_first(std::optional<Curve>& kept, Curve curve) {
   if (!kept) kept = std::move(curve);
 }
 
-Curve constant_curve(const YAML::Node& block, const std::string& file)
-{
+Curve constant_curve(const YAML::Node& block, const std::string& file) {
   const YAML::Node value = text_of(block, "value", file);
   const double n = number(value.Scalar(), place(file, value));
   return {[n](double) { return n; }, 0, std::numeric_limits<double>::infinity(), true};
 }
 
 /// "formula 3" gives 3; 0 for anything else.
-int formula_number(const std::string& type)
-{
+int formula_number(const std::string& type) {
   const std::vector<std::string_view> parts = words(type);
   if (parts.size() != 2 || parts[0] != "formula" || parts[1].size() != 1) return 0;
   const int number = parts[1][0] - '0';
   return number >= 1 && number <= formula_count ? number : 0;
 }
 
-void read_block(const YAML::Node& block, DispersionCurve& curve, const std::string& file)
-{
-  if (!block.IsMap()) throw bad_input(place(file, block), "the entry is not a map", "expected \"- type: ...\" and its data");
+void read_block(const YAML::Node& block, DispersionCurve& curve, const std::string& file) {
+  if (!block.IsMap())
+    throw bad_input(place(file, block), "the entry is not a map", "expected \"- type: ...\" and its data");
   const YAML::Node type_node = text_of(block, "type", file);
   const std::string& type = type_node.Scalar();
   if (const int formula = formula_number(type)) return keep_first(curve.n, formula_curve(block, formula, file));
@@ -159,28 +156,31 @@ void read_block(const YAML::Node& block, DispersionCurve& curve, const std::stri
                                               "formula 6",    "formula 7",   "formula 8",  "formula 9", "constant",
                                               "tabulated nk", "tabulated n", "tabulated k"};
   const std::string near = nearest(type, known);
-  throw bad_input(place(file, type_node), "the type is " + in_quotes(type), "expected formula 1 to 9, tabulated n, nk or k, or constant",
+  throw bad_input(place(file, type_node), "the type is " + in_quotes(type),
+                  "expected formula 1 to 9, tabulated n, nk or k, or constant",
                   near.empty() ? std::string{} : fmt::format("did you mean \"{}\"?", near));
 }
 
 } // namespace
 
-DispersionCurve parse_dispersion(const std::string& yaml, const std::filesystem::path& source)
-{
+DispersionCurve parse_dispersion(const std::string& yaml, const std::filesystem::path& source) {
   const std::string file = source.string();
   DispersionCurve curve;
   curve.name = source.stem().string();
   curve.source = file;
   try {
     const YAML::Node root = YAML::Load(yaml);
-    if (!root.IsMap()) throw bad_input(file, "this is no refractiveindex.info file", "expected a YAML map with a DATA list");
+    if (!root.IsMap())
+      throw bad_input(file, "this is no refractiveindex.info file", "expected a YAML map with a DATA list");
     const YAML::Node data = root["DATA"];
     if (!data.IsDefined()) throw bad_input(file, "there is no DATA", "expected a DATA list with formulas or tables");
     if (!data.IsSequence() || data.size() == 0)
-      throw bad_input(place(file, data), "DATA is not a list with entries", "expected a list of \"- type: ...\" entries");
+      throw bad_input(place(file, data), "DATA is not a list with entries",
+                      "expected a list of \"- type: ...\" entries");
     for (const YAML::Node& block : data) read_block(block, curve, file);
   } catch (const YAML::Exception& error) {
-    throw bad_input(place(file, error.mark.line), "broken YAML: " + error.msg, "expected a file of the refractiveindex.info database");
+    throw bad_input(place(file, error.mark.line), "broken YAML: " + error.msg,
+                    "expected a file of the refractiveindex.info database");
   }
   return curve;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Snell's law and Fresnel's equations at a smooth interface, and a glass ball by them, in double precision: the truth that the kernels are
-// tested against.
+// Snell's law and Fresnel's equations at a smooth interface, and a glass ball by them, in double precision: the truth
+// that the kernels are tested against.
 #pragma once
 #include <optional>
 
@@ -13,10 +13,10 @@ double fresnel_reflectance(double cos_i, double n_i, double n_t);
 
 /// A ray through a glass ball of radius 1 about the origin, in parallel light along +x, in the plane of the ray.
 ///
-/// A ray at height h = sin(i) meets the ball at the polar angle pi - i (from +x) and is bent by i - t towards the axis, sin(t) = h / n.
-/// Inside, every chord spans pi - 2 t as seen from the centre, and every reflection turns the ray by as much; at each end the angle is t,
-/// so the reflectance F there is that of the entry. Having left after `inner` reflections the ray has been turned by
-/// 2 (i - t) + inner (pi - 2 t), and has (1 - F)^2 F^inner of its power.
+/// A ray at height h = sin(i) meets the ball at the polar angle pi - i (from +x) and is bent by i - t towards the axis,
+/// sin(t) = h / n. Inside, every chord spans pi - 2 t as seen from the centre, and every reflection turns the ray by as
+/// much; at each end the angle is t, so the reflectance F there is that of the entry. Having left after `inner`
+/// reflections the ray has been turned by 2 (i - t) + inner (pi - 2 t), and has (1 - F)^2 F^inner of its power.
 struct BallRay {
   double x = 0, y = 0; ///< where it leaves the ball
   double angle = 0;    ///< of its direction, counter-clockwise from +x

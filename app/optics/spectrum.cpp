@@ -15,8 +15,7 @@ namespace nephroid::optics {
 namespace {
 
 /// Divides by the sum over 380..780 nm. Throws bad_input where there is nothing to divide.
-Spectrum normalised(Spectrum spectrum, const std::string& what)
-{
+Spectrum normalised(Spectrum spectrum, const std::string& what) {
   double sum = 0;
   for (double value : spectrum) sum += value;
   if (!(sum > 0) || !std::isfinite(sum))
@@ -27,8 +26,7 @@ Spectrum normalised(Spectrum spectrum, const std::string& what)
 }
 
 /// Linear between the rows; outside them the end values are held, or 0.
-Spectrum sampled(const LinearTable& table, bool hold)
-{
+Spectrum sampled(const LinearTable& table, bool hold) {
   Spectrum spectrum{};
   for (int i = 0; i < wavelength_count; ++i) {
     const double nm = wavelength_nm(i);
@@ -37,30 +35,29 @@ Spectrum sampled(const LinearTable& table, bool hold)
   return spectrum;
 }
 
-void require_no_negative_power(std::span<const Row> rows)
-{
+void require_no_negative_power(std::span<const Row> rows) {
   for (const Row& row : rows)
-    if (row[1] < 0) throw bad_input({}, fmt::format("the light's power at {} nm is {}", row[0], row[1]), "expected 0 or more");
+    if (row[1] < 0)
+      throw bad_input({}, fmt::format("the light's power at {} nm is {}", row[0], row[1]), "expected 0 or more");
 }
 
 /// A column by its name. Throws bad_input that lists the known names.
-LinearTable column(const Table& table, const char* kind, const std::string& name)
-{
+LinearTable column(const Table& table, const char* kind, const std::string& name) {
   const auto place = std::ranges::find(table.columns, name);
-  if (place != table.columns.end()) return LinearTable(table.rows(static_cast<std::size_t>(place - table.columns.begin())));
+  if (place != table.columns.end())
+    return LinearTable(table.rows(static_cast<std::size_t>(place - table.columns.begin())));
   const std::string near = nearest(name, table.columns);
-  throw bad_input({}, fmt::format("no {} is called \"{}\"", kind, name), fmt::format("expected one of {}", fmt::join(table.columns, ", ")),
+  throw bad_input({}, fmt::format("no {} is called \"{}\"", kind, name),
+                  fmt::format("expected one of {}", fmt::join(table.columns, ", ")),
                   near.empty() ? std::string{} : fmt::format("did you mean \"{}\"?", near));
 }
 
-const Table& illuminants()
-{
+const Table& illuminants() {
   static const Table table = read_table("illuminants");
   return table;
 }
 
-const Table& colorchecker()
-{
+const Table& colorchecker() {
   static const Table table = read_table("colorchecker-24-ohta");
   return table;
 }
@@ -69,17 +66,16 @@ const Table& colorchecker()
 
 const std::vector<std::string>& illuminant_names() { return illuminants().columns; }
 
-Spectrum illuminant(const std::string& name)
-{
+Spectrum illuminant(const std::string& name) {
   return normalised(sampled(column(illuminants(), "illuminant", name), false), "illuminant " + name);
 }
 
-Spectrum blackbody(double temperature_k)
-{
+Spectrum blackbody(double temperature_k) {
   if (!std::isfinite(temperature_k) || !(temperature_k > 0))
     throw bad_input({}, fmt::format("a black body of {} K", temperature_k), "expected a temperature above 0 K");
-  // Planck: lambda^-5 / (exp(c2 / (lambda T)) - 1), with c2 = h c / k_B (SI 2019, exact figures). Divided by its value at the red
-  // end, exponents stay small: a body of 1 K has e^-18000 of its red light in the blue, which is 0 here, and no 0 / 0.
+  // Planck: lambda^-5 / (exp(c2 / (lambda T)) - 1), with c2 = h c / k_B (SI 2019, exact figures). Divided by its value
+  // at the red end, exponents stay small: a body of 1 K has e^-18000 of its red light in the blue, which is 0 here, and
+  // no 0 / 0.
   constexpr double c2_nm_k = 1.438776877503933e7;
   const double reference = c2_nm_k / (last_nm * temperature_k);
   Spectrum spectrum{};
@@ -91,14 +87,12 @@ Spectrum blackbody(double temperature_k)
   return normalised(spectrum, fmt::format("a black body of {} K", temperature_k));
 }
 
-Spectrum light_table(std::span<const std::array<double, 2>> nm_power)
-{
+Spectrum light_table(std::span<const std::array<double, 2>> nm_power) {
   require_no_negative_power(nm_power);
   return normalised(sampled(LinearTable(sorted_rows(nm_power, Duplicates::refuse, {})), false), "the light's table");
 }
 
-Spectrum light_lines(std::span<const std::array<double, 2>> nm_power)
-{
+Spectrum light_lines(std::span<const std::array<double, 2>> nm_power) {
   require_no_negative_power(nm_power);
   Spectrum spectrum{};
   for (const auto& [nm, power] : nm_power) {
@@ -115,17 +109,18 @@ Spectrum light_lines(std::span<const std::array<double, 2>> nm_power)
 
 const std::vector<std::string>& colorchecker_names() { return colorchecker().columns; }
 
-Spectrum colorchecker_patch(const std::string& name) { return sampled(column(colorchecker(), "ColorChecker patch", name), true); }
+Spectrum colorchecker_patch(const std::string& name) {
+  return sampled(column(colorchecker(), "ColorChecker patch", name), true);
+}
 
-Spectrum reflectance_table(std::span<const std::array<double, 2>> nm_reflectance)
-{
+Spectrum reflectance_table(std::span<const std::array<double, 2>> nm_reflectance) {
   for (const auto& [nm, value] : nm_reflectance)
-    if (!(value >= 0 && value <= 1)) throw bad_input({}, fmt::format("the reflectance at {} nm is {}", nm, value), "expected 0 to 1");
+    if (!(value >= 0 && value <= 1))
+      throw bad_input({}, fmt::format("the reflectance at {} nm is {}", nm, value), "expected 0 to 1");
   return sampled(LinearTable(sorted_rows(nm_reflectance, Duplicates::refuse, {})), true);
 }
 
-Spectrum constant_spectrum(double value)
-{
+Spectrum constant_spectrum(double value) {
   Spectrum spectrum{};
   spectrum.fill(value);
   return spectrum;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of (wavelength in nm, value): put in order, and straight lines between them; and the colour tables that are built into the program
-// (app/optics/data, embedded by EmbedFiles.cmake), as columns of numbers.
+// Rows of (wavelength in nm, value): put in order, and straight lines between them; and the colour tables that are
+// built into the program (app/optics/data, embedded by EmbedFiles.cmake), as columns of numbers.
 #pragma once
 #include "base/place.h"
 #include "optics/dispersion.h"
@@ -19,12 +19,13 @@ using Row = std::array<double, 2>;
 /// What to do with a wavelength that is given twice with different values.
 enum class Duplicates { refuse, mean };
 
-/// The rows by rising wavelength, each wavelength once. Throws bad_input at `where` for no rows, a number that is not finite,
-/// a wavelength that is not positive, or a repeat that is refused.
+/// The rows by rising wavelength, each wavelength once. Throws bad_input at `where` for no rows, a number that is not
+/// finite, a wavelength that is not positive, or a repeat that is refused.
 std::vector<Row> sorted_rows(std::span<const Row> rows, Duplicates repeats, const Place& where);
 
-/// The widest step between neighbouring rows that reaches into low..high, where it is a hole in the data and not their usual
-/// step: at least 20 nm of it lie there, and it is five times the median of the steps there, which are four or more. rows: sorted.
+/// The widest step between neighbouring rows that reaches into low..high, where it is a hole in the data and not their
+/// usual step: at least 20 nm of it lie there, and it is five times the median of the steps there, which are four or
+/// more. rows: sorted.
 std::optional<std::array<double, 2>> gap_between(std::span<const Row> rows, double low_nm, double high_nm);
 
 /// Straight lines between sorted rows; the end values are held outside.

@@ -20,8 +20,7 @@ inline constexpr int wavelength_nm(int index) { return first_nm + index; }
 inline constexpr double line_f_nm = 486.1327, line_e_nm = 546.0740, line_d_nm = 587.5618, line_c_nm = 656.2725;
 
 /// Every index in order: one cluster of all wavelengths, where a path has all of them, or any one.
-inline std::vector<int> all_wavelengths()
-{
+inline std::vector<int> all_wavelengths() {
   std::vector<int> indices(wavelength_count);
   std::iota(indices.begin(), indices.end(), 0);
   return indices;

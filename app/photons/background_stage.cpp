@@ -20,8 +20,7 @@ namespace {
 using optics::Spectrum;
 using optics::wavelength_count;
 
-optics::Colour one_wavelength(const Spectrum& spectrum, std::size_t w)
-{
+optics::Colour one_wavelength(const Spectrum& spectrum, std::size_t w) {
   const optics::ColourMatching& eye = optics::cie_1931();
   return {spectrum[w] * eye.x[w], spectrum[w] * eye.y[w], spectrum[w] * eye.z[w]};
 }
@@ -35,8 +34,7 @@ struct BackgroundTables {
 };
 
 /// pixel_samples: that the film is to hold.
-BackgroundTables make_background_tables(const scene::Environment& environment, int pixel_samples)
-{
+BackgroundTables make_background_tables(const scene::Environment& environment, int pixel_samples) {
   BackgroundTables tables;
   tables.size = tracing::picture_size(environment);
   std::vector<double> weights(wavelength_count, 0.0); // of grey
@@ -52,15 +50,15 @@ BackgroundTables make_background_tables(const scene::Environment& environment, i
   }
   tables.spectrum_cdf = tracing::exact_cdf(weights);
   // 2^24 quanta for a mean texel; all samples of a pixel together cannot leave 63 bits.
-  const double mean = std::accumulate(environment.rgb.begin(), environment.rgb.end(), 0.0) / static_cast<double>(environment.rgb.size());
+  const double mean = std::accumulate(environment.rgb.begin(), environment.rgb.end(), 0.0) /
+                      static_cast<double>(environment.rgb.size());
   tables.film_scale = tracing::power_of_two_below(0x1p24 / mean);
   tables.limit = 0x1p62 / pixel_samples;
   return tables;
 }
 
 /// Whether no glass that an object is of bends one wavelength otherwise than another.
-bool goes_one_way(const scene::Scene& scene)
-{
+bool goes_one_way(const scene::Scene& scene) {
   return std::ranges::none_of(scene.objects, [&](const scene::Object& object) {
     const scene::Material& material = material_of(scene, object);
     const auto same = [&](double n) { return n == material.n.front(); };
@@ -76,8 +74,7 @@ public:
         texels_(compute::Buffer(world.context, "environment", scene.environment->rgb)),
         primary_xyz_(compute::Buffer(world.context, "colours of the primaries", tables_.primary_xyz)),
         wavelengths_(compute::Buffer(world.context, "wavelengths", optics::all_wavelengths())),
-        spectrum_cdf_(compute::Buffer(world.context, "wavelengths of the environment", tables_.spectrum_cdf))
-  {
+        spectrum_cdf_(compute::Buffer(world.context, "wavelengths of the environment", tables_.spectrum_cdf)) {
     compute::Defines defines = world.defines;
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every path has a wavelength of its own
     defines.insert_or_assign("NEPHROID_ONE_WAY", std::to_string(goes_one_way(scene) ? 1 : 0));
@@ -85,8 +82,7 @@ public:
   }
 
 private:
-  void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override
-  {
+  void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override {
     world_.run(kernel_, count, 64,
                {{"texels", texels_},
                 {"primary_xyz", primary_xyz_},
@@ -108,8 +104,7 @@ private:
   compute::Kernel kernel_;
 };
 
-plan::Pass background_pass(const PlanInput& input)
-{
+plan::Pass background_pass(const PlanInput& input) {
   const char* const name = "background";
   const auto& environment = input.scene.environment;
   if (!input.settings.background) return not_asked_for(name, name);
@@ -121,10 +116,10 @@ plan::Pass background_pass(const PlanInput& input)
           "/spectral/background", true};
 }
 
-PlanPart plan_background(const PlanInput& input)
-{
+PlanPart plan_background(const PlanInput& input) {
   const std::uint64_t texels = input.scene.environment ? input.scene.environment->rgb.size() : 0;
-  return part_of(background_pass(input), {{"environment", texels * sizeof(float)}, {"film background", input.film_bytes()}});
+  return part_of(background_pass(input),
+                 {{"environment", texels * sizeof(float)}, {"film background", input.film_bytes()}});
 }
 
 } // namespace

@@ -12,22 +12,22 @@
 namespace nephroid::photons {
 namespace {
 
-/// The pixels that a kernel of Smoothing may need, in the mean of all light: with more, caustics are smoothed in larger blocks.
+/// The pixels that a kernel of Smoothing may need, in the mean of all light: with more, caustics are smoothed in larger
+/// blocks.
 constexpr double most_needed = 24;
 
 /// The pixels that a kernel of single ones would need, in the mean of all light. layer: with a value for each block.
-double pixels_needed(const Blocks& blocks, const LayerEstimate& layer)
-{
-  const std::vector<double> light = light_of(layer.rgb), portion = portions(light, layer.draw, blocks.across(), blocks.down());
+double pixels_needed(const Blocks& blocks, const LayerEstimate& layer) {
+  const std::vector<double> light = light_of(layer.rgb),
+                            portion = portions(light, layer.draw, blocks.across(), blocks.down());
   const double light_sum = std::reduce(light.begin(), light.end());
   const double needed = std::reduce(portion.begin(), portion.end()) / (Smoothing::noise * Smoothing::noise);
   return light_sum > 0 ? needed / light_sum * blocks.edge * blocks.edge : 1;
 }
 
-/// Adds to the draw of a layer in blocks what these hide of the picture: about as much as blocks twice as large hide of it, and no more
-/// than there is.
-void add_hidden(const Blocks& blocks, LayerEstimate& layer)
-{
+/// Adds to the draw of a layer in blocks what these hide of the picture: about as much as blocks twice as large hide of
+/// it, and no more than there is.
+void add_hidden(const Blocks& blocks, LayerEstimate& layer) {
   const Blocks pairs{blocks.across(), blocks.down(), 2};
   const std::vector<float> larger = between_blocks(pairs, mean_of_blocks(pairs, layer.rgb));
   for (std::size_t i = 0; i < layer.draw.size(); ++i) {
@@ -38,34 +38,31 @@ void add_hidden(const Blocks& blocks, LayerEstimate& layer)
 
 } // namespace
 
-LayerEstimate means(const Blocks& blocks, const LayerEstimate& layer)
-{
+LayerEstimate means(const Blocks& blocks, const LayerEstimate& layer) {
   return {mean_of_blocks(blocks, layer.rgb), layer.draw.empty() ? layer.draw : mean_of_blocks(blocks, layer.draw)};
 }
 
-LayerEstimate between(const Blocks& blocks, const LayerEstimate& layer)
-{
+LayerEstimate between(const Blocks& blocks, const LayerEstimate& layer) {
   return {between_blocks(blocks, layer.rgb), layer.draw.empty() ? layer.draw : between_blocks(blocks, layer.draw)};
 }
 
-BlockSmoothing::BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread, int first_preview_edge)
-    : first_{scene.camera.width, scene.camera.height, first_preview_edge}
-{
+BlockSmoothing::BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread,
+                               int first_preview_edge)
+    : first_{scene.camera.width, scene.camera.height, first_preview_edge} {
   const std::shared_ptr<const Smoothing::View> view = Smoothing::view_of(scene, bvh);
-  for (Blocks blocks{first_.width, first_.height, first_preview_edge > 1 ? 2 * first_preview_edge : 1}; blocks.edge > 0; blocks.edge /= 2)
+  for (Blocks blocks{first_.width, first_.height, first_preview_edge > 1 ? 2 * first_preview_edge : 1}; blocks.edge > 0;
+       blocks.edge /= 2)
     levels_.push_back({blocks, Smoothing(view, blocks.across(), blocks.down(), spread)});
 }
 
-LayerEstimate BlockSmoothing::pixels_of(const Blocks& blocks, LayerEstimate layer)
-{
+LayerEstimate BlockSmoothing::pixels_of(const Blocks& blocks, LayerEstimate layer) {
   const auto level = std::ranges::find(levels_, blocks.edge, [](const Level& of) { return of.blocks.edge; });
   level->smoothing.spread(layer.rgb, layer.draw);
   add_hidden(blocks, layer);
   return between(blocks, layer);
 }
 
-void BlockSmoothing::spread(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known)
-{
+void BlockSmoothing::spread(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known) {
   std::size_t chosen = levels_.size() - 1;
   if (first_.edge > 1) {
     const double needed = pixels_needed(first_, means(first_, caustics));
@@ -76,10 +73,12 @@ void BlockSmoothing::spread(LayerEstimate& caustics, const Smoothing::BiasedEsti
     return;
   }
   const LayerEstimate& plain = caustics;
-  const std::vector<double> light = light_of(plain.rgb), portion = portions(light, plain.draw, first_.width, first_.height);
+  const std::vector<double> light = light_of(plain.rgb),
+                            portion = portions(light, plain.draw, first_.width, first_.height);
   LayerEstimate mixed = spread_in(levels_[chosen], plain, known);
   const auto mix_in = [&](const LayerEstimate& estimate) {
-    mix(plain.rgb, plain.draw, {estimate.rgb, estimate.draw}, light, first_.width, first_.height, mixed.rgb, mixed.draw);
+    mix(plain.rgb, plain.draw, {estimate.rgb, estimate.draw}, light, first_.width, first_.height, mixed.rgb,
+        mixed.draw);
   };
   for (std::size_t finer = chosen + 1; finer < levels_.size(); ++finer) {
     LayerEstimate fine = spread_in(levels_[finer], plain, known);
@@ -96,8 +95,7 @@ void BlockSmoothing::spread(LayerEstimate& caustics, const Smoothing::BiasedEsti
   caustics = std::move(mixed);
 }
 
-LayerEstimate BlockSmoothing::spread_in(Level& level, LayerEstimate plain, const Smoothing::BiasedEstimate& known)
-{
+LayerEstimate BlockSmoothing::spread_in(Level& level, LayerEstimate plain, const Smoothing::BiasedEstimate& known) {
   if (level.blocks.edge == 1) {
     level.smoothing.spread(plain.rgb, plain.draw, known);
     return plain;

@@ -9,7 +9,8 @@
 
 namespace nephroid::photons {
 
-/// A layer with a draw of its error (job::Picture::error_draw), which is empty where it is not known; both of [pixel][3].
+/// A layer with a draw of its error (job::Picture::error_draw), which is empty where it is not known; both of
+/// [pixel][3].
 struct LayerEstimate {
   std::vector<float> rgb, draw;
 };
@@ -20,15 +21,16 @@ LayerEstimate between(const Blocks& blocks, const LayerEstimate& layer);
 
 class BlockSmoothing {
 public:
-  /// first_preview_edge: of the blocks of a run's preview; 1 where it has none, and light is spread from pixel to pixel only.
+  /// first_preview_edge: of the blocks of a run's preview; 1 where it has none, and light is spread from pixel to pixel
+  /// only.
   BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread, int first_preview_edge);
 
   /// From pixel to pixel.
   Smoothing& pixels() { return levels_.back().smoothing; }
   /// blocks: those of a preview, whose `layer` has a value for each. The layer of pixels, smoothed.
   LayerEstimate pixels_of(const Blocks& blocks, LayerEstimate layer);
-  /// Spreads caustics in blocks so large that their noise needs no wide kernels. Then mixes in what smaller and larger blocks make of them,
-  /// where the halves say that it is better (mixture.h). known: for single pixels.
+  /// Spreads caustics in blocks so large that their noise needs no wide kernels. Then mixes in what smaller and larger
+  /// blocks make of them, where the halves say that it is better (mixture.h). known: for single pixels.
   void spread(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known);
 
 private:
@@ -38,7 +40,8 @@ private:
   };
   static LayerEstimate spread_in(Level& level, LayerEstimate plain, const Smoothing::BiasedEstimate& known);
 
-  std::vector<Level> levels_; ///< from twice first_preview_edge to single pixels, each with half the edge of that before
+  std::vector<Level>
+      levels_; ///< from twice first_preview_edge to single pixels, each with half the edge of that before
   Blocks first_;
 };
 

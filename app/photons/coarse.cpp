@@ -17,21 +17,20 @@ struct Between {
   float nearness;
 };
 
-std::vector<Between> places_between(int pixels, int blocks, int edge)
-{
+std::vector<Between> places_between(int pixels, int blocks, int edge) {
   std::vector<Between> places;
   for (int i = 0; i < pixels; ++i) {
     const double at = std::clamp((i + 0.5) / edge - 0.5, 0.0, blocks - 1.0), below = std::floor(at);
     const auto first = static_cast<std::size_t>(below);
-    places.push_back({first, std::min(first + 1, static_cast<std::size_t>(blocks - 1)), static_cast<float>(at - below)});
+    places.push_back(
+        {first, std::min(first + 1, static_cast<std::size_t>(blocks - 1)), static_cast<float>(at - below)});
   }
   return places;
 }
 
 } // namespace
 
-std::vector<int> preview_edges(int width, int height)
-{
+std::vector<int> preview_edges(int width, int height) {
   constexpr double most_blocks = 64 * 64 * 1.25; // of the second picture
   int edge = 1;
   while (static_cast<double>(width) * height / edge / edge > most_blocks) edge *= 2;
@@ -41,8 +40,7 @@ std::vector<int> preview_edges(int width, int height)
   return edges;
 }
 
-std::vector<float> mean_of_blocks(const Blocks& blocks, std::span<const float> rgb)
-{
+std::vector<float> mean_of_blocks(const Blocks& blocks, std::span<const float> rgb) {
   const auto across = static_cast<std::size_t>(blocks.across()), down = static_cast<std::size_t>(blocks.down()),
              width = static_cast<std::size_t>(blocks.width), height = static_cast<std::size_t>(blocks.height),
              edge = static_cast<std::size_t>(blocks.edge);
@@ -55,15 +53,15 @@ std::vector<float> mean_of_blocks(const Blocks& blocks, std::span<const float> r
           for (std::size_t c = 0; c < 3; ++c) means[3 * (row * across + x / edge) + c] += rgb[3 * (y * width + x) + c];
       for (std::size_t column = 0; column < across; ++column) {
         const std::size_t columns = std::min((column + 1) * edge, width) - column * edge;
-        for (std::size_t c = 0; c < 3; ++c) means[3 * (row * across + column) + c] /= static_cast<float>(columns * (bottom - top));
+        for (std::size_t c = 0; c < 3; ++c)
+          means[3 * (row * across + column) + c] /= static_cast<float>(columns * (bottom - top));
       }
     }
   });
   return means;
 }
 
-std::vector<float> between_blocks(const Blocks& blocks, std::span<const float> rgb)
-{
+std::vector<float> between_blocks(const Blocks& blocks, std::span<const float> rgb) {
   const auto across = static_cast<std::size_t>(blocks.across()), width = static_cast<std::size_t>(blocks.width);
   const std::vector<Between> columns = places_between(blocks.width, blocks.across(), blocks.edge),
                              rows = places_between(blocks.height, blocks.down(), blocks.edge);
@@ -73,7 +71,8 @@ std::vector<float> between_blocks(const Blocks& blocks, std::span<const float> r
       for (std::size_t x = 0; x < width; ++x)
         for (std::size_t c = 0; c < 3; ++c) {
           const auto along = [&](std::size_t row) {
-            const float a = rgb[3 * (row * across + columns[x].first) + c], b = rgb[3 * (row * across + columns[x].second) + c];
+            const float a = rgb[3 * (row * across + columns[x].first) + c],
+                        b = rgb[3 * (row * across + columns[x].second) + c];
             return a + columns[x].nearness * (b - a);
           };
           const float upper = along(rows[y].first), lower = along(rows[y].second);

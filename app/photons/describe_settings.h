@@ -14,9 +14,12 @@ inline constexpr Choice<photons::Settings::Method> choices<photons::Settings::Me
 
 template <>
 inline constexpr Choice<photons::Settings::Estimator> choices<photons::Settings::Estimator>[] = {
-    {photons::Settings::Estimator::automatic, "automatic", "Splats where the camera sees the receiver directly, photon maps elsewhere."},
-    {photons::Settings::Estimator::splat, "splat", "Splats only: what is seen through glass or in a mirror has no caustics."},
-    {photons::Settings::Estimator::sppm, "sppm", "Progressive photon mapping, a run of its own for each cluster, as the thesis has it."}};
+    {photons::Settings::Estimator::automatic, "automatic",
+     "Splats where the camera sees the receiver directly, photon maps elsewhere."},
+    {photons::Settings::Estimator::splat, "splat",
+     "Splats only: what is seen through glass or in a mirror has no caustics."},
+    {photons::Settings::Estimator::sppm, "sppm",
+     "Progressive photon mapping, a run of its own for each cluster, as the thesis has it."}};
 
 template <>
 inline constexpr Choice<photons::Settings::Effort> choices<photons::Settings::Effort>[] = {
@@ -24,15 +27,18 @@ inline constexpr Choice<photons::Settings::Effort> choices<photons::Settings::Ef
      "As variance, and as power where that has not gained enough; as power with sppm and relight."},
     {photons::Settings::Effort::power, "power", "By what the eye makes of a cluster's light."},
     {photons::Settings::Effort::equal, "equal", "The same for each cluster."},
-    {photons::Settings::Effort::importance, "importance", "By the importance of (4.15): light, luminosity, surroundings."},
-    {photons::Settings::Effort::radziszewski, "radziszewski", "By 1 / cosh^2(0.0072 (lambda - 538)), whatever the scene."},
+    {photons::Settings::Effort::importance, "importance",
+     "By the importance of (4.15): light, luminosity, surroundings."},
+    {photons::Settings::Effort::radziszewski, "radziszewski",
+     "By 1 / cosh^2(0.0072 (lambda - 538)), whatever the scene."},
     {photons::Settings::Effort::variance, "variance",
      "By the variance that is measured while the run goes on, as are the directions of photons; not with sppm."},
     {photons::Settings::Effort::random, "random", "One cluster a pass, drawn at random; with sppm only."}};
 
 template <>
 inline constexpr Choice<photons::Settings::Smoothing> choices<photons::Settings::Smoothing>[] = {
-    {photons::Settings::Smoothing::automatic, "automatic", "Where the two halves of the film say that it helps, region by region."},
+    {photons::Settings::Smoothing::automatic, "automatic",
+     "Where the two halves of the film say that it helps, region by region."},
     {photons::Settings::Smoothing::on, "on", "Everywhere."},
     {photons::Settings::Smoothing::off, "off", "Nowhere."}};
 
@@ -45,24 +51,21 @@ inline constexpr Choice<photons::Importance::Cluster> choices<photons::Importanc
 
 namespace nephroid::photons {
 
-inline void describe(preset::Fields& v, Importance& i)
-{
+inline void describe(preset::Fields& v, Importance& i) {
   v.about("Importance", "How much a wavelength matters.");
   v.field("cluster", "Which of its wavelengths speaks for a cluster.", i.cluster);
   v.field("geometry", "Weigh materials by how much of them the caustic objects see.", i.geometry);
 }
 
-inline void describe(preset::Fields& v, Sppm& s)
-{
+inline void describe(preset::Fields& v, Sppm& s) {
   v.about("Sppm", "Progressive photon mapping.");
   v.field("radius", "Radius of the first pass; without, what the camera's pixels suggest.", s.radius,
           {.unit = preset::length_unit, .bounds = preset::length_bounds});
-  v.field("alpha", "Part of each pass's photons that is kept: the radius shrinks the faster the smaller it is.", s.alpha,
-          {.bounds = preset::between(0, 1)});
+  v.field("alpha", "Part of each pass's photons that is kept: the radius shrinks the faster the smaller it is.",
+          s.alpha, {.bounds = preset::between(0, 1)});
 }
 
-inline void describe(preset::Fields& v, Settings& s)
-{
+inline void describe(preset::Fields& v, Settings& s) {
   v.about("Spectral", "Settings of the engine \"spectral\".");
   v.field("method", "How wavelengths are put into clusters that share a path.", s.method);
   v.field("threshold_deg", "Largest change of the refraction angle inside a cluster.", s.threshold_deg,
@@ -72,33 +75,41 @@ inline void describe(preset::Fields& v, Settings& s)
   v.field("estimator", "How caustics are estimated.", s.estimator);
   v.field("effort", "How the work is dealt to the clusters.", s.effort);
   v.field("importance", "How much a wavelength matters, where `effort` asks for it.", s.importance);
-  v.field("jitter",
-          "Each path takes one wavelength of its cluster, so that clusters leave no bias; with photon maps those of a pass "
-          "share few.",
-          s.jitter);
+  v.field(
+      "jitter",
+      "Each path takes one wavelength of its cluster, so that clusters leave no bias; with photon maps those of a pass "
+      "share few.",
+      s.jitter);
   v.field("low_discrepancy", "Photons leave the lights by a scrambled Sobol sequence.", s.low_discrepancy);
   v.field("differentials", "A splat is stretched along the way that it moves with wavelength.", s.differentials);
-  v.field("smoothing",
-          "Spread caustics over up to 6 pixels around, or blocks of pixels, until their noise is a quarter of them. Needs "
-          "measure.estimate; not "
-          "with sppm.",
-          s.smoothing);
-  v.field("relight", "Keep a layer for each cluster, so that the spectrum of a light can change without a new run.", s.relight);
-  v.field("photons_per_pass", "Photons sent towards the caustic objects in one pass; of the estimator sppm, for each cluster.",
+  v.field(
+      "smoothing",
+      "Spread caustics over up to 6 pixels around, or blocks of pixels, until their noise is a quarter of them. Needs "
+      "measure.estimate; not "
+      "with sppm.",
+      s.smoothing);
+  v.field("relight", "Keep a layer for each cluster, so that the spectrum of a light can change without a new run.",
+          s.relight);
+  v.field("photons_per_pass",
+          "Photons sent towards the caustic objects in one pass; of the estimator sppm, for each cluster.",
           s.photons_per_pass, {.bounds = preset::within(1, 1 << 24)});
   v.field("indirect_photons_per_pass", "Photons of the layer \"indirect\" in one pass.", s.indirect_photons_per_pass,
           {.bounds = preset::within(1, 1 << 24)});
-  v.field(
-      "pixel_samples",
-      "Most samples of a pixel that shows neither glass nor a mirror, of the layers \"direct\" and \"background\". Without: 64, and 4096 "
-      "where lamps have a size or the environment lights.",
-      s.pixel_samples, {.bounds = preset::within(1, 1 << 20)});
-  v.field("max_surfaces", "Interfaces a path may meet before it counts as lost.", s.max_surfaces, {.bounds = preset::within(1, 1024)});
+  v.field("pixel_samples",
+          "Most samples of a pixel that shows neither glass nor a mirror, of the layers \"direct\" and \"background\". "
+          "Without: 64, and 4096 "
+          "where lamps have a size or the environment lights.",
+          s.pixel_samples, {.bounds = preset::within(1, 1 << 20)});
+  v.field("max_surfaces", "Interfaces a path may meet before it counts as lost.", s.max_surfaces,
+          {.bounds = preset::within(1, 1024)});
   v.field("sppm", "Progressive photon mapping.", s.sppm);
   v.field("direct", "Compute the layer \"direct\": light that reaches a diffuse surface unbent.", s.direct);
-  v.field("caustic", "Compute the layer \"caustic\": light that met glass or a mirror, then one diffuse surface.", s.caustic);
-  v.field("indirect", "Compute the layer \"indirect\": light that met a diffuse surface before the last one.", s.indirect);
-  v.field("background", "Compute the layer \"background\": the environment, seen directly and through glass.", s.background);
+  v.field("caustic", "Compute the layer \"caustic\": light that met glass or a mirror, then one diffuse surface.",
+          s.caustic);
+  v.field("indirect", "Compute the layer \"indirect\": light that met a diffuse surface before the last one.",
+          s.indirect);
+  v.field("background", "Compute the layer \"background\": the environment, seen directly and through glass.",
+          s.background);
 }
 
 } // namespace nephroid::photons

@@ -13,18 +13,17 @@ namespace {
 /// Smoothing::BiasedEstimate::noise. Direct light has shadows that are broader than what is fine in a caustic.
 constexpr double caustic_noise = 0.05, direct_noise = 0.01;
 
-void add(const char* name, LayerEstimate layer, job::Picture& picture)
-{
+void add(const char* name, LayerEstimate layer, job::Picture& picture) {
   std::ranges::transform(picture.rgb, layer.rgb, picture.rgb.begin(), std::plus());
   if (layer.draw.empty()) picture.error_draw.clear();
-  if (!picture.error_draw.empty()) std::ranges::transform(picture.error_draw, layer.draw, picture.error_draw.begin(), std::plus());
+  if (!picture.error_draw.empty())
+    std::ranges::transform(picture.error_draw, layer.draw, picture.error_draw.begin(), std::plus());
   picture.layers.push_back({name, std::move(layer.rgb)});
 }
 
 } // namespace
 
-job::Picture Development::picture()
-{
+job::Picture Development::picture() {
   job::Picture picture = black();
   bool has_caustics = false;
   for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
@@ -37,8 +36,7 @@ job::Picture Development::picture()
   return picture;
 }
 
-job::Picture Development::black(const Blocks& blocks) const
-{
+job::Picture Development::black(const Blocks& blocks) const {
   job::Picture picture;
   picture.width = blocks.across();
   picture.height = blocks.down();
@@ -47,18 +45,15 @@ job::Picture Development::black(const Blocks& blocks) const
   return picture;
 }
 
-void Development::prepare()
-{
+void Development::prepare() {
   if (smoothing_ && smooths_paths_) timed([&] { smoothing_->pixels().find_surfaces(); });
 }
 
-void Development::smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate)
-{
+void Development::smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) {
   if (smoothing_) smoothing_->pixels().spread(rgb, error_draw, {estimate, direct_noise});
 }
 
-void Development::share_work()
-{
+void Development::share_work() {
   job::Picture picture = black(), caustics = picture;
   std::vector<std::vector<float>> draws; // of each stage
   std::uint64_t photons = 0;
@@ -86,12 +81,13 @@ void Development::share_work()
   caustic_noise_now.photon_gain = noise / (static_cast<double>(passes_.complete()) * static_cast<double>(photons));
   for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
     const TimedStage& timed = passes_.stages()[s];
-    timed.stage->share_work(timed.caustics() ? caustic_noise_now : Noise{draws[s], picture.rgb, passes_.complete(), caustic_noise_now.photon_gain});
+    timed.stage->share_work(timed.caustics()
+                                ? caustic_noise_now
+                                : Noise{draws[s], picture.rgb, passes_.complete(), caustic_noise_now.photon_gain});
   }
 }
 
-LayerEstimate Development::preview_of(Stage& stage)
-{
+LayerEstimate Development::preview_of(Stage& stage) {
   const Blocks& blocks = world_.preview.blocks;
   job::Picture picture = black(blocks);
   stage.develop_preview(picture);
@@ -102,8 +98,7 @@ LayerEstimate Development::preview_of(Stage& stage)
   return pixels;
 }
 
-LayerEstimate Development::layer_of(std::size_t s)
-{
+LayerEstimate Development::layer_of(std::size_t s) {
   Stage& stage = *passes_.stages()[s].stage;
   const bool whole = passes_.complete() > 0 || passes_.had_turn(s);
   const bool is_previewed = preview_.has_picture() && !passes_.has_halves(s) && (!whole || smoothing_);
@@ -124,9 +119,9 @@ LayerEstimate Development::layer_of(std::size_t s)
   return layer;
 }
 
-LayerEstimate Development::caustics()
-{
-  LayerEstimate preview; // of photon maps, which come after all photons of a pass; until then glass shows what is known otherwise
+LayerEstimate Development::caustics() {
+  LayerEstimate
+      preview; // of photon maps, which come after all photons of a pass; until then glass shows what is known otherwise
   bool lacks_maps = false;
   job::Picture picture = black();
   tracing::layer_of(picture, "caustic");
@@ -145,7 +140,8 @@ LayerEstimate Development::caustics()
     if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = estimate_[i], layer.draw[i] = 0;
   if (smoothing_ && !layer.draw.empty()) timed([&] { smoothing_->spread(layer, {estimate_, caustic_noise}); });
   if (!preview.rgb.empty()) std::ranges::transform(layer.rgb, preview.rgb, layer.rgb.begin(), std::plus());
-  if (!preview.draw.empty() && !layer.draw.empty()) std::ranges::transform(layer.draw, preview.draw, layer.draw.begin(), std::plus());
+  if (!preview.draw.empty() && !layer.draw.empty())
+    std::ranges::transform(layer.draw, preview.draw, layer.draw.begin(), std::plus());
   return layer;
 }
 

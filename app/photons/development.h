@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture as the stages' films have it so far: layer by layer, smoothed, and the sum of them. While a layer has little light, what the
-// preview shows stands in for it.
+// The picture as the stages' films have it so far: layer by layer, smoothed, and the sum of them. While a layer has
+// little light, what the preview shows stands in for it.
 #pragma once
 #include "photons/block_smoothing.h"
 #include "photons/passes.h"
@@ -15,17 +15,18 @@ namespace nephroid::photons {
 
 class Development {
 public:
-  /// smoothing: of caustics, if any; smooths_paths: also of what paths from the eye see of lights. World, passes and preview outlive it.
-  Development(const DeviceWorld& world, const Passes& passes, const Preview& preview, std::optional<BlockSmoothing> smoothing,
-              bool smooths_paths)
-      : world_(world), passes_(passes), preview_(preview), smoothing_(std::move(smoothing)), smooths_paths_(smooths_paths)
-  {
-  }
+  /// smoothing: of caustics, if any; smooths_paths: also of what paths from the eye see of lights. World, passes and
+  /// preview outlive it.
+  Development(const DeviceWorld& world, const Passes& passes, const Preview& preview,
+              std::optional<BlockSmoothing> smoothing, bool smooths_paths)
+      : world_(world), passes_(passes), preview_(preview), smoothing_(std::move(smoothing)),
+        smooths_paths_(smooths_paths) {}
 
   job::Picture picture();
-  /// Allocates the work of the next passes out by how much each stage lowers the picture's noise: the sum of the variances V_s of what takes
-  /// the work w_s a pass, V_s w_s being as it is, is smallest where all V_s / w_s are alike. Work is counted, not timed, so that a seed has
-  /// its bits. The square of a pixel's noise is over that of its light, as in the metric rel_mse.
+  /// Allocates the work of the next passes out by how much each stage lowers the picture's noise: the sum of the
+  /// variances V_s of what takes the work w_s a pass, V_s w_s being as it is, is smallest where all V_s / w_s are
+  /// alike. Work is counted, not timed, so that a seed has its bits. The square of a pixel's noise is over that of its
+  /// light, as in the metric rel_mse.
   void share_work();
 
   bool smooths() const { return smoothing_.has_value(); }
@@ -49,8 +50,7 @@ private:
   /// The layer of all stages of caustics.
   LayerEstimate caustics();
   template <class Work>
-  void timed(const Work& work)
-  {
+  void timed(const Work& work) {
     smoothing_seconds_ += seconds_of(work);
   }
 

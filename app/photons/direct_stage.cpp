@@ -11,13 +11,11 @@ namespace {
 class DirectStage final : public EyeStage {
 public:
   DirectStage(DeviceWorld& world, const scene::Scene&, const Settings& settings)
-      : EyeStage(world, "direct", settings), kernel_(compute::Program(world.context, "photons/direct.cl", world.defines).kernel("direct"))
-  {
-  }
+      : EyeStage(world, "direct", settings),
+        kernel_(compute::Program(world.context, "photons/direct.cl", world.defines).kernel("direct")) {}
 
 private:
-  void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override
-  {
+  void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override {
     world_.run(kernel_, count, 64,
                {{"reflected_xyz_all", world_.buffers.reflected_xyz_all},
                 {"cluster_cdf", world_.buffers.cluster_cdf},
@@ -30,18 +28,20 @@ private:
   compute::Kernel kernel_;
 };
 
-plan::Pass direct_pass(const PlanInput& input)
-{
+plan::Pass direct_pass(const PlanInput& input) {
   const char* const name = "direct";
   if (!input.settings.direct) return not_asked_for(name, name);
   const std::string missing = input.objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light(input);
   if (!missing.empty()) return tracing::not_needed(name, input.leave_out.direct, missing);
-  return tracing::needed(name, fmt::format("{} lit by {}, {} a pixel{}", counted(input.objects.diffuse, "diffuse object"),
-                                           counted(shining_lights(input), "light"), counted(*input.settings.pixel_samples, "sample"),
-                                           input.settings.relight ? "" : more_through_glass(input)));
+  return tracing::needed(
+      name, fmt::format("{} lit by {}, {} a pixel{}", counted(input.objects.diffuse, "diffuse object"),
+                        counted(shining_lights(input), "light"), counted(*input.settings.pixel_samples, "sample"),
+                        input.settings.relight ? "" : more_through_glass(input)));
 }
 
-PlanPart plan_direct(const PlanInput& input) { return part_of(direct_pass(input), {{"film direct", input.film_bytes()}}); }
+PlanPart plan_direct(const PlanInput& input) {
+  return part_of(direct_pass(input), {{"film direct", input.film_bytes()}});
+}
 
 } // namespace
 

@@ -14,13 +14,14 @@ struct Part {
   std::size_t outcome;
   double EnergyBalance::*watts;
 };
-constexpr Part parts[] = {
-    {"emitted_w", OUTCOME_EMITTED, &EnergyBalance::emitted_w}, {"deposited_w", OUTCOME_DEPOSITED, &EnergyBalance::deposited_w},
-    {"missed_w", OUTCOME_MISSED, &EnergyBalance::missed_w},    {"absorbed_w", OUTCOME_ABSORBED, &EnergyBalance::absorbed_w},
-    {"escaped_w", OUTCOME_ESCAPED, &EnergyBalance::escaped_w}, {"lost_w", OUTCOME_LOST, &EnergyBalance::lost_w}};
+constexpr Part parts[] = {{"emitted_w", OUTCOME_EMITTED, &EnergyBalance::emitted_w},
+                          {"deposited_w", OUTCOME_DEPOSITED, &EnergyBalance::deposited_w},
+                          {"missed_w", OUTCOME_MISSED, &EnergyBalance::missed_w},
+                          {"absorbed_w", OUTCOME_ABSORBED, &EnergyBalance::absorbed_w},
+                          {"escaped_w", OUTCOME_ESCAPED, &EnergyBalance::escaped_w},
+                          {"lost_w", OUTCOME_LOST, &EnergyBalance::lost_w}};
 
-void add_parts(const std::string& group, const EnergyBalance& energy, job::Snapshot& snapshot)
-{
+void add_parts(const std::string& group, const EnergyBalance& energy, job::Snapshot& snapshot) {
   double accounted = 0;
   for (const Part& part : parts) {
     if (group == "indirect_energy" && (part.outcome == OUTCOME_DEPOSITED || part.outcome == OUTCOME_MISSED)) continue;
@@ -32,37 +33,34 @@ void add_parts(const std::string& group, const EnergyBalance& energy, job::Snaps
 
 } // namespace
 
-OutcomeWatts outcome_watts(std::span<const std::int64_t> quanta, double quanta_per_watt, double passes)
-{
+OutcomeWatts outcome_watts(std::span<const std::int64_t> quanta, double quanta_per_watt, double passes) {
   OutcomeWatts watts{};
   for (std::size_t i = 0; i < watts.size(); ++i)
-    watts[i] = i == OUTCOME_REFUSED ? static_cast<double>(quanta[i]) : tracing::mean_watts(quanta[i], quanta_per_watt, passes);
+    watts[i] =
+        i == OUTCOME_REFUSED ? static_cast<double>(quanta[i]) : tracing::mean_watts(quanta[i], quanta_per_watt, passes);
   return watts;
 }
 
-EnergyBalance balance_of(const OutcomeWatts& watts)
-{
+EnergyBalance balance_of(const OutcomeWatts& watts) {
   EnergyBalance energy;
   for (const Part& part : parts) energy.*part.watts = watts[part.outcome];
   energy.refused_contributions = static_cast<std::uint64_t>(watts[OUTCOME_REFUSED]);
   return energy;
 }
 
-void add_energy(const Energy& energy, job::Snapshot& snapshot)
-{
+void add_energy(const Energy& energy, job::Snapshot& snapshot) {
   const std::uint64_t refused = energy.caustics.refused_contributions;
   add_parts("energy", energy.caustics, snapshot);
   snapshot.scalars.push_back({"energy", "refused_contributions", static_cast<double>(refused)});
   if (energy.indirect) add_parts("indirect_energy", *energy.indirect, snapshot);
   if (refused > 0)
-    snapshot.warnings.push_back(
-        fmt::format("{} too bright for the film and missing from the picture; move the camera or the light away from the "
-                    "surface, or take fewer pixel_samples",
-                    counted(refused, "sample was", "samples were")));
+    snapshot.warnings.push_back(fmt::format(
+        "{} too bright for the film and missing from the picture; move the camera or the light away from the "
+        "surface, or take fewer pixel_samples",
+        counted(refused, "sample was", "samples were")));
 }
 
-EnergyBalance energy_of(const job::Snapshot& snapshot, const char* group)
-{
+EnergyBalance energy_of(const job::Snapshot& snapshot, const char* group) {
   EnergyBalance energy;
   for (const Part& part : parts) energy.*part.watts = job::scalar(snapshot, group, part.name);
   const double refused = job::scalar(snapshot, group, "refused_contributions");

@@ -11,7 +11,8 @@
 
 namespace nephroid::photons {
 
-/// emitted = deposited + missed + absorbed + escaped + lost but for rounding. kernels/tracing/shared_types.h says what each is (OUTCOME_*).
+/// emitted = deposited + missed + absorbed + escaped + lost but for rounding. kernels/tracing/shared_types.h says what
+/// each is (OUTCOME_*).
 struct EnergyBalance {
   double emitted_w = 0, deposited_w = 0, missed_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
   std::uint64_t refused_contributions = 0; ///< film contributions too large for its fixed point: 0 in a sound run
@@ -19,8 +20,8 @@ struct EnergyBalance {
 
 struct Energy {
   EnergyBalance caustics;
-  /// Of the photons of the layer of interreflection, where there is one: emitted = absorbed (by any surface, or inside glass) + escaped +
-  /// lost; nothing is deposited or missed.
+  /// Of the photons of the layer of interreflection, where there is one: emitted = absorbed (by any surface, or inside
+  /// glass) + escaped + lost; nothing is deposited or missed.
   std::optional<EnergyBalance> indirect;
 };
 

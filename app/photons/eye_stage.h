@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stage with samples from the eye, as many as each pixel needs, into a film of its own: the layers "direct" and "background".
+// A stage with samples from the eye, as many as each pixel needs, into a film of its own: the layers "direct" and
+// "background".
 #pragma once
 #include "photons/sampled_pixels.h"
 #include "photons/stage.h"
@@ -14,8 +15,7 @@
 namespace nephroid::photons {
 
 /// For the plan: what a stage adds to "64 samples a pixel".
-inline const char* more_through_glass(const PlanInput& input)
-{
+inline const char* more_through_glass(const PlanInput& input) {
   return tracing::may_see_glass_or_mirror(input.scene) ? ", more where glass or a mirror is seen" : "";
 }
 
@@ -24,49 +24,43 @@ public:
   EyeStage(DeviceWorld& world, const char* layer, const Settings& settings)
       : world_(world), layer_(layer), enough_(static_cast<std::uint32_t>(*settings.pixel_samples)),
         film_(world.zeroed(std::string("film ") + layer, world.film_size())), preview_film_(world.preview_film()),
-        pixels_(world, *settings.pixel_samples)
-  {
-  }
+        pixels_(world, *settings.pixel_samples) {}
 
   const char* name() const override { return layer_; }
   std::int64_t passes() const override { return pixels_.passes(); }
   double fraction_done() const override { return pixels_.fraction_done(); }
   void share_work(const Noise& noise) override { pixels_.share_work(noise); }
 
-  bool advance(std::int64_t pass) override
-  {
+  bool advance(std::int64_t pass) override {
     return pixels_.advance(pass, [&](const compute::Buffer<shared::uint2>& samples, std::uint32_t count) {
       run(film_, world_.tables.camera, samples, count);
     });
   }
 
-  void develop(std::int64_t, bool, job::Picture& picture) override
-  {
+  void develop(std::int64_t, bool, job::Picture& picture) override {
     const auto samples = [&](std::size_t pixel) { return pixels_.samples(pixel); };
     tracing::add_layer(layer_, {world_.context.all_reduced_sum(film_), quanta_per_unit(), samples}, picture);
   }
 
   /// One sample of each block in each half.
-  bool advance_preview() override
-  {
+  bool advance_preview() override {
     const shared::DeviceCamera camera = world_.preview_camera();
     preview_film_ = world_.preview_film();
     std::vector<shared::uint2> samples;
     for (std::uint32_t block = 0; block < static_cast<std::uint32_t>(camera.width * camera.height); ++block)
       for (std::uint32_t half = 0; half < 2; ++half) samples.push_back({block, half});
     world_.context.communicator().keep_own_share(samples);
-    run(preview_film_, camera, compute::Buffer(world_.context, "samples", samples), static_cast<std::uint32_t>(samples.size()));
+    run(preview_film_, camera, compute::Buffer(world_.context, "samples", samples),
+        static_cast<std::uint32_t>(samples.size()));
     return true;
   }
 
-  void develop_preview(job::Picture& picture) override
-  {
+  void develop_preview(job::Picture& picture) override {
     const auto samples = [](std::size_t) { return std::array{1.0, 1.0}; };
     tracing::add_layer(layer_, {world_.context.all_reduced_sum(preview_film_), quanta_per_unit(), samples}, picture);
   }
 
-  void state(tracing::State& state) override
-  {
+  void state(tracing::State& state) override {
     pixels_.state(state);
     state.buffer(film_);
     if (state.is_read()) preview_film_ = world_.preview_film();
@@ -76,8 +70,8 @@ public:
 protected:
   /// Runs the kernel with its own arguments and `more`.
   virtual void run(std::uint32_t count, std::initializer_list<compute::Argument> more) = 0;
-  /// Quanta that each of the first pixel_samples contributions to a pixel may have; later ones may have no more than any number of them
-  /// can.
+  /// Quanta that each of the first pixel_samples contributions to a pixel may have; later ones may have no more than
+  /// any number of them can.
   virtual double limit() const = 0;
   /// Quanta of the film, of what becomes 1 in the picture.
   virtual double quanta_per_unit() const = 0;
@@ -85,9 +79,8 @@ protected:
   DeviceWorld& world_;
 
 private:
-  void run(const compute::Buffer<std::int64_t>& film, const shared::DeviceCamera& camera, const compute::Buffer<shared::uint2>& samples,
-           std::uint32_t count)
-  {
+  void run(const compute::Buffer<std::int64_t>& film, const shared::DeviceCamera& camera,
+           const compute::Buffer<shared::uint2>& samples, std::uint32_t count) {
     run(count, {{"film", film},
                 {"energy", world_.energy},
                 {"camera", camera},

@@ -18,8 +18,8 @@ namespace nephroid::photons {
 namespace {
 
 /// Of each wavelength of the light at `index` of the tables.
-std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, const scene::Light& light, std::size_t index)
-{
+std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, const scene::Light& light,
+                                     std::size_t index) {
   const optics::ColourMatching& eye = optics::cie_1931();
   std::vector<double> weights;
   for (const int wavelength : tables.cluster_wavelengths) {
@@ -34,18 +34,18 @@ std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, co
 }
 
 struct IndirectTables {
-  shared::DeviceTarget everything{};           ///< photons are sent into it from wherever a light is
-  float outside_distance = 0;                  ///< directional photons start this far before it
-  std::vector<shared::DeviceEmitter> emitters; ///< photons of one pass: one emitter for each light; cluster and share are not used
-  std::vector<float> spectrum_cdf;             ///< [light][member of cluster_wavelengths]: whole numbers of 2^-24, the last 1
-  unsigned photons_per_pass = 0;               ///< as allocated: at least one for each light
-  double emitted_w = 0;                        ///< in a pass, by all lights, all wavelengths
-  double film_scale = 1, energy_scale = 1;     ///< quanta per unit of XYZ radiance and per watt, powers of two
+  shared::DeviceTarget everything{}; ///< photons are sent into it from wherever a light is
+  float outside_distance = 0;        ///< directional photons start this far before it
+  std::vector<shared::DeviceEmitter>
+      emitters;                    ///< photons of one pass: one emitter for each light; cluster and share are not used
+  std::vector<float> spectrum_cdf; ///< [light][member of cluster_wavelengths]: whole numbers of 2^-24, the last 1
+  unsigned photons_per_pass = 0;   ///< as allocated: at least one for each light
+  double emitted_w = 0;            ///< in a pass, by all lights, all wavelengths
+  double film_scale = 1, energy_scale = 1; ///< quanta per unit of XYZ radiance and per watt, powers of two
 };
 
 /// tables: of the same scene. photons: wanted in a pass.
-IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& tables, unsigned photons)
-{
+IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& tables, unsigned photons) {
   IndirectTables result;
   const scene::Sphere target = tracing::everything(scene);
   result.everything.centre_radius = {target.centre.x, target.centre.y, target.centre.z, target.radius};
@@ -70,12 +70,14 @@ IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& 
 class IndirectStage final : public Stage {
 public:
   IndirectStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
-      : world_(world), tables_(make_indirect_tables(scene, world.tables, static_cast<unsigned>(settings.indirect_photons_per_pass))),
-        everything_(world.context, "target of indirect light", std::span<const shared::DeviceTarget>(&tables_.everything, 1)),
+      : world_(world),
+        tables_(make_indirect_tables(scene, world.tables, static_cast<unsigned>(settings.indirect_photons_per_pass))),
+        everything_(world.context, "target of indirect light",
+                    std::span<const shared::DeviceTarget>(&tables_.everything, 1)),
         emitters_(world.context, "emitters of indirect light", tables_.emitters),
         spectrum_cdf_(world.context, "wavelengths of indirect light", tables_.spectrum_cdf),
-        film_(world.zeroed("film indirect", world.film_size())), energy_(world.zeroed("energy of indirect light", OUTCOME_COUNT))
-  {
+        film_(world.zeroed("film indirect", world.film_size())),
+        energy_(world.zeroed("energy of indirect light", OUTCOME_COUNT)) {
     compute::Defines defines = world.photon_defines();
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every photon has a wavelength of its own
     kernel_ = compute::Program(world.context, "photons/indirect.cl", defines).kernel("indirect");
@@ -85,47 +87,45 @@ public:
   double fraction_done() const override { return slices_.fraction_done(); }
   std::uint64_t photons_per_pass() const override { return tables_.photons_per_pass; }
 
-  bool advance(std::int64_t pass) override
-  {
-    return slices_.advance(world_.context.communicator(), tables_.photons_per_pass, [&](const tracing::PhotonSlice& slice) {
-      world_.send(kernel_, slice, pass,
-                  {{"everything", everything_},
-                   {"emitters", emitters_},
-                   {"emitter_count", static_cast<int>(tables_.emitters.size())},
-                   {"spectrum_cdf", spectrum_cdf_},
-                   {"film", film_},
-                   {"energy", energy_},
-                   {"seed", world_.seed},
-                   {"outside_distance", tables_.outside_distance},
-                   {"film_scale", world_.on_device(tables_.film_scale)},
-                   {"energy_scale", world_.on_device(tables_.energy_scale)}});
-    });
+  bool advance(std::int64_t pass) override {
+    return slices_.advance(world_.context.communicator(), tables_.photons_per_pass,
+                           [&](const tracing::PhotonSlice& slice) {
+                             world_.send(kernel_, slice, pass,
+                                         {{"everything", everything_},
+                                          {"emitters", emitters_},
+                                          {"emitter_count", static_cast<int>(tables_.emitters.size())},
+                                          {"spectrum_cdf", spectrum_cdf_},
+                                          {"film", film_},
+                                          {"energy", energy_},
+                                          {"seed", world_.seed},
+                                          {"outside_distance", tables_.outside_distance},
+                                          {"film_scale", world_.on_device(tables_.film_scale)},
+                                          {"energy_scale", world_.on_device(tables_.energy_scale)}});
+                           });
   }
 
   /// As large a part of the first pass as photons of caustics have, where a pass has more than a few steps.
-  bool advance_preview() override
-  {
+  bool advance_preview() override {
     const double fraction_of_pass = static_cast<double>(world_.preview.batches) / world_.tables.batches;
     if (tables_.photons_per_pass < 1 << 16 || fraction_done() >= fraction_of_pass) return true;
     advance(0);
     return false;
   }
 
-  void develop(std::int64_t passes, bool done, job::Picture& picture) override
-  {
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override {
     const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : fraction_done()); };
-    tracing::add_layer("indirect", {world_.context.all_reduced_sum(film_), tables_.film_scale * world_.white, samples}, picture);
+    tracing::add_layer("indirect", {world_.context.all_reduced_sum(film_), tables_.film_scale * world_.white, samples},
+                       picture);
   }
 
-  void report(std::int64_t passes, bool done, Energy& energy) override
-  {
+  void report(std::int64_t passes, bool done, Energy& energy) override {
     const double passes_done = static_cast<double>(passes) + (done ? 1 : fraction_done());
-    energy.indirect = balance_of(outcome_watts(world_.context.all_reduced_sum(energy_), tables_.energy_scale, passes_done));
+    energy.indirect =
+        balance_of(outcome_watts(world_.context.all_reduced_sum(energy_), tables_.energy_scale, passes_done));
     energy.caustics.refused_contributions += energy.indirect->refused_contributions;
   }
 
-  void state(tracing::State& state) override
-  {
+  void state(tracing::State& state) override {
     slices_.state(state);
     state.buffer(film_);
     state.buffer(energy_);
@@ -142,8 +142,7 @@ private:
   tracing::PhotonSlices slices_;
 };
 
-plan::Pass indirect_pass(const PlanInput& input)
-{
+plan::Pass indirect_pass(const PlanInput& input) {
   const char* const name = "indirect";
   if (input.settings.relight) return not_in_layers(name, "its light met several reflectors");
   if (!input.settings.indirect) return not_asked_for(name, name);
@@ -155,7 +154,9 @@ plan::Pass indirect_pass(const PlanInput& input)
   return {name, true, reason, "/spectral/indirect", true};
 }
 
-PlanPart plan_indirect(const PlanInput& input) { return part_of(indirect_pass(input), {{"film indirect", input.film_bytes()}}); }
+PlanPart plan_indirect(const PlanInput& input) {
+  return part_of(indirect_pass(input), {{"film indirect", input.film_bytes()}});
+}
 
 } // namespace
 

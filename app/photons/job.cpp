@@ -5,9 +5,9 @@
 #include "engine/engine.h"
 #include "photons/development.h"
 #include "photons/passes.h"
+#include "photons/pixel_surfaces.h"
 #include "photons/preview.h"
 #include "photons/relight/layer_film.h"
-#include "photons/pixel_surfaces.h"
 
 #include <fmt/format.h>
 
@@ -20,8 +20,7 @@
 namespace nephroid::photons {
 namespace {
 
-PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene& scene)
-{
+PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene& scene) {
   PixelLists lists;
   lists.count = static_cast<std::uint32_t>(scene.camera.pixels());
   lists.glass = glass_pixels(scene);
@@ -34,14 +33,12 @@ PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene&
   return lists;
 }
 
-std::vector<int> edges_of_previews(const RunPlan& plan, const scene::Scene& scene)
-{
+std::vector<int> edges_of_previews(const RunPlan& plan, const scene::Scene& scene) {
   if (!plan.has_previews || plan.settings.relight || plan.settings.estimator == Settings::Estimator::sppm) return {};
   return preview_edges(scene.camera.width, scene.camera.height);
 }
 
-std::optional<BlockSmoothing> make_smoothing(const RunPlan& plan, const scene::Scene& scene, const scene::Bvh& bvh)
-{
+std::optional<BlockSmoothing> make_smoothing(const RunPlan& plan, const scene::Scene& scene, const scene::Bvh& bvh) {
   if (!plan.runs(smoothing_part)) return std::nullopt;
   const std::vector<int> edges = edges_of_previews(plan, scene);
   const bool everywhere = plan.settings.smoothing == Settings::Smoothing::on;
@@ -53,13 +50,13 @@ class PassesJob final : public PhotonJob, public job::SpectrumSource {
 public:
   PassesJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
             const mpi::RankContext& context)
-      : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables, preset.white.value(),
-               plan.estimates_error ? 2u : 1u},
+      : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables,
+               preset.white.value(), plan.estimates_error ? 2u : 1u},
         preset_(preset), passes_(plan.tables.batches), preview_(world_, edges_of_previews(plan, scene)),
         development_(world_, passes_, preview_, make_smoothing(plan, scene, bvh),
                      plan.has_previews && plan.settings.smoothing == Settings::Smoothing::automatic),
-        shares_work_(plan.settings.effort == Settings::Effort::automatic && !plan.settings.relight && plan.estimates_error)
-  {
+        shares_work_(plan.settings.effort == Settings::Effort::automatic && !plan.settings.relight &&
+                     plan.estimates_error) {
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
     world_.pixels = make_pixel_lists(context, scene);
     world_.emitters = compute::Buffer(context, "emitters", plan.tables.emitters);
@@ -78,14 +75,12 @@ public:
       most_passes_ = most_passes_ < 0 ? most : std::min(most_passes_, most);
   }
 
-  bool finished() const override
-  {
+  bool finished() const override {
     if (preset_.stop.seconds && passes_.work_seconds() >= *preset_.stop.seconds) return true;
     return passes_.complete() >= (most_passes_ >= 0 ? most_passes_ : preset::max_passes); // sums are exact so long
   }
 
-  void advance() override
-  {
+  void advance() override {
     if (preview_.has_more()) return preview_.next(passes_);
     if (passes_.is_between_passes()) begin_pass();
     passes_.advance();
@@ -93,8 +88,7 @@ public:
 
   bool estimates_error() const override { return world_.halves == 2; }
 
-  job::Progress progress() const override
-  {
+  job::Progress progress() const override {
     job::Progress p;
     p.step = passes_.complete();
     p.steps = most_passes_;
@@ -107,29 +101,30 @@ public:
     return p;
   }
 
-  job::Snapshot snapshot() override
-  {
+  job::Snapshot snapshot() override {
     job::Snapshot snapshot;
     snapshot.picture = std::make_shared<const job::Picture>(development_.picture());
     for (const TimedStage& s : passes_.stages()) snapshot.phases.emplace_back(s.stage->name(), s.seconds);
     if (development_.smooths()) snapshot.phases.emplace_back("smoothing", development_.smoothing_seconds());
     snapshot.progress = progress();
     const double batches = passes_.energy_batches();
-    Energy energy{balance_of(outcome_watts(world_.context.all_reduced_sum(world_.energy), world_.tables.energy_scale, batches)), {}};
+    Energy energy{
+        balance_of(outcome_watts(world_.context.all_reduced_sum(world_.energy), world_.tables.energy_scale, batches)),
+        {}};
     for (std::size_t s = 0; s < passes_.stages().size(); ++s)
       passes_.stages()[s].stage->report(passes_.complete(), passes_.had_turn(s), energy);
     add_energy(energy, snapshot);
     return snapshot;
   }
 
-  std::shared_ptr<const job::PixelSpectrum> spectrum(const std::array<int, 2>& pixel) override
-  {
+  std::shared_ptr<const job::PixelSpectrum> spectrum(const std::array<int, 2>& pixel) override {
     const auto [x, y] = pixel;
     if (x < 0 || y < 0 || x >= world_.tables.camera.width || y >= world_.tables.camera.height) return nullptr;
     auto spectrum = std::make_shared<job::PixelSpectrum>();
     spectrum->pixel = pixel;
     if (!world_.relighting) {
-      spectrum->why_not = "the film adds up colours, and a spectrum is not kept; spectral.relight true keeps a layer for each cluster";
+      spectrum->why_not =
+          "the film adds up colours, and a spectrum is not kept; spectral.relight true keeps a layer for each cluster";
       spectrum->remedy = "spectral.relight=true";
       return spectrum;
     }
@@ -142,21 +137,18 @@ public:
     return spectrum;
   }
 
-  void save(ByteSink& sink) override
-  {
+  void save(ByteSink& sink) override {
     tracing::State state(sink, world_.context.communicator());
     this->state(state);
   }
 
-  void load(ByteSource& source) override
-  {
+  void load(ByteSource& source) override {
     tracing::State state(source, world_.context.communicator());
     this->state(state);
     world_.context.finish();
   }
 
-  bool adopt(const preset::Preset& preset) override
-  {
+  bool adopt(const preset::Preset& preset) override {
     if (!world_.relighting || !engine::adoptable(preset_, preset)) return false;
     change_light(*world_.relighting, world_, layer_light(preset));
     preset_ = preset;
@@ -166,16 +158,14 @@ public:
   }
 
   void set_estimate(std::vector<float> caustics) override { development_.set_estimate(std::move(caustics)); }
-  void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) override
-  {
+  void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) override {
     development_.smooth(rgb, error_draw, estimate);
   }
   void set_white(double white) override { world_.white = white; }
   std::int64_t batches() const override { return static_cast<std::int64_t>(passes_.photon_batches()); }
   std::int64_t batches_per_pass() const override { return world_.tables.batches; }
 
-  void state(tracing::State& state) override
-  {
+  void state(tracing::State& state) override {
     passes_.state_of_position(state);
     preview_.state(state);
     state.buffer(world_.energy);
@@ -184,8 +174,7 @@ public:
 
 private:
   /// What there is to do between two passes.
-  void begin_pass()
-  {
+  void begin_pass() {
     const std::int64_t passes = passes_.complete();
     if (passes == 1) development_.prepare();
     if (shares_work_ && passes >= 2 && std::has_single_bit(static_cast<std::uint64_t>(passes)))
@@ -203,9 +192,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<PhotonJob> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
-                              const mpi::RankContext& context)
-{
+std::unique_ptr<PhotonJob> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
+                                    const RunPlan& plan, const mpi::RankContext& context) {
   return std::make_unique<PassesJob>(preset, scene, bvh, plan, context);
 }
 

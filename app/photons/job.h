@@ -3,11 +3,11 @@
 #pragma once
 #include "compute/compute.h"
 #include "job/job.h"
+#include "mpi/rank_context.h"
 #include "photons/plan.h"
 #include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
-#include "mpi/rank_context.h"
 #include "tracing/state.h"
 
 #include <memory>
@@ -19,8 +19,8 @@ namespace nephroid::photons {
 /// A job with what an engine needs that knows more than photons do.
 class PhotonJob : public job::Job {
 public:
-  /// What the layer "caustic" is as somebody else knows it, without noise but not quite right: [pixel][3], over the preset's white. From
-  /// now on it is mixed with what photons say (mixture.h). Empty: there is none.
+  /// What the layer "caustic" is as somebody else knows it, without noise but not quite right: [pixel][3], over the
+  /// preset's white. From now on it is mixed with what photons say (mixture.h). Empty: there is none.
   virtual void set_estimate(std::vector<float> caustics) = 0;
   /// Smoothing::spread of light on the same surfaces. Where the run smooths nothing, nothing changes.
   virtual void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) = 0;
@@ -35,7 +35,7 @@ public:
 
 /// The scene and tree are copied to the device; they need not outlive the call. plan: of the same preset and scene.
 /// Throws failed where the device has not enough memory, BuildError for a kernel that does not compile.
-std::unique_ptr<PhotonJob> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
-                              const mpi::RankContext& context);
+std::unique_ptr<PhotonJob> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
+                                    const RunPlan& plan, const mpi::RankContext& context);
 
 } // namespace nephroid::photons

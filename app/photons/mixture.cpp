@@ -15,17 +15,16 @@ constexpr int error_radius = 8, light_radius = 7;
 
 } // namespace
 
-double least_light(std::span<const double> light)
-{
+double least_light(std::span<const double> light) {
   double sum = 0, count = 0;
   for (const double pixel_light : light)
     if (pixel_light > 0) sum += pixel_light, ++count;
   return count > 0 ? 0.01 * sum / count : 1;
 }
 
-void mix(std::span<const float> picture, std::span<const float> picture_draw, const Estimate& estimate, std::span<const double> light,
-         int width, int height, std::vector<float>& rgb, std::vector<float>& error_draw)
-{
+void mix(std::span<const float> picture, std::span<const float> picture_draw, const Estimate& estimate,
+         std::span<const double> light, int width, int height, std::vector<float>& rgb,
+         std::vector<float>& error_draw) {
   const auto draw_of = [&](std::size_t c) { return estimate.error_draw.empty() ? 0.0 : estimate.error_draw[c]; };
   const double dark = least_light(light);
   const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
@@ -43,13 +42,15 @@ void mix(std::span<const float> picture, std::span<const float> picture_draw, co
   // A draw of the noise that is in r (b - p).
   const SummedArea scatters(width, height, [&](std::size_t i) {
     return std::pow(relative_to_light(i,
-                               [&](std::size_t c, double r) {
-                                 return r * (static_cast<double>(error_draw[c]) - picture_draw[c]) +
-                                        (draw_of(c) - error_draw[c]) * (static_cast<double>(rgb[c]) - picture[c]);
-                               }),
+                                      [&](std::size_t c, double r) {
+                                        return r * (static_cast<double>(error_draw[c]) - picture_draw[c]) +
+                                               (draw_of(c) - error_draw[c]) *
+                                                   (static_cast<double>(rgb[c]) - picture[c]);
+                                      }),
                     2);
   });
-  const SummedArea squares(width, height, [&](std::size_t i) { return relative_to_light(i, [](std::size_t, double r) { return r * r; }); });
+  const SummedArea squares(
+      width, height, [&](std::size_t i) { return relative_to_light(i, [](std::size_t, double r) { return r * r; }); });
   for_ranges(light.size(), std::size_t{1} << 12, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;

@@ -5,8 +5,7 @@
 
 namespace nephroid::photons {
 
-void Passes::advance()
-{
+void Passes::advance() {
   const std::size_t now = at_.stage;
   bool complete = false;
   work(now, [&] { complete = at_.pass >= stages_[now].stage->passes() || stages_[now].stage->advance(at_.pass); });
@@ -16,25 +15,24 @@ void Passes::advance()
   ++at_.pass;
 }
 
-std::int64_t Passes::most() const
-{
+std::int64_t Passes::most() const {
   std::int64_t most = 0;
   for (const TimedStage& s : stages_) most = std::max(most, s.stage->passes());
   return most;
 }
 
-double Passes::fraction_of(std::size_t stage) const { return had_turn(stage) ? 1 : stage > at_.stage ? 0 : stages_[stage].stage->fraction_done(); }
+double Passes::fraction_of(std::size_t stage) const {
+  return had_turn(stage) ? 1 : stage > at_.stage ? 0 : stages_[stage].stage->fraction_done();
+}
 
-double Passes::with_fraction() const
-{
+double Passes::with_fraction() const {
   double part = 0, count = 0;
   for (std::size_t s = 0; s < stages_.size(); ++s)
     if (at_.pass < stages_[s].stage->passes()) part += fraction_of(s), ++count;
   return static_cast<double>(at_.pass) + (count > 0 ? part / count : 0);
 }
 
-std::uint64_t Passes::photons() const
-{
+std::uint64_t Passes::photons() const {
   std::uint64_t photons = 0;
   for (std::size_t s = 0; s < stages_.size(); ++s)
     photons += static_cast<std::uint64_t>((static_cast<double>(at_.pass) + fraction_of(s)) *
@@ -42,15 +40,13 @@ std::uint64_t Passes::photons() const
   return photons;
 }
 
-double Passes::photon_batches() const
-{
+double Passes::photon_batches() const {
   for (std::size_t s = 0; s < stages_.size(); ++s)
     if (stages_[s].stage->counts_energy()) return (static_cast<double>(at_.pass) + fraction_of(s)) * batches_;
   return 0;
 }
 
-void Passes::state_of_stages(tracing::State& state)
-{
+void Passes::state_of_stages(tracing::State& state) {
   for (TimedStage& s : stages_) {
     state.value(s.seconds);
     s.stage->state(state);

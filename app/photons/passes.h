@@ -21,8 +21,7 @@ struct TimedStage {
 };
 
 template <class Work>
-double seconds_of(const Work& work)
-{
+double seconds_of(const Work& work) {
   const auto begin = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -39,8 +38,7 @@ public:
   void advance();
   /// Does other work of the run's that belongs to a stage.
   template <class Work>
-  void work(std::size_t stage, const Work& work)
-  {
+  void work(std::size_t stage, const Work& work) {
     const double seconds = seconds_of(work);
     stages_[stage].seconds += seconds;
     at_.work_seconds += seconds;
@@ -69,8 +67,8 @@ public:
 
 private:
   struct Position {
-    std::int64_t pass = 0;     ///< passes completed
-    std::size_t stage = 0;     ///< whose turn it is
+    std::int64_t pass = 0;  ///< passes completed
+    std::size_t stage = 0;  ///< whose turn it is
     bool has_begun = false; ///< whether it has begun
     double work_seconds = 0;
     double energy_from = 0; ///< batches of photons when the energy counters began

@@ -15,11 +15,12 @@
 namespace nephroid::photons {
 namespace {
 
-/// By how much photons that are allocated by variance have to lower it: so much longer they may take, for they meet more glass and are
-/// measured.
+/// By how much photons that are allocated by variance have to lower it: so much longer they may take, for they meet
+/// more glass and are measured.
 constexpr double least_gain = 1.5;
 
-/// Before which batch photons are first allocated by what was measured: a pass's half, as fewer photons tell too little.
+/// Before which batch photons are first allocated by what was measured: a pass's half, as fewer photons tell too
+/// little.
 std::int64_t first_reallocation(unsigned batches) { return std::max<std::int64_t>(batches / 2, 2); }
 
 class PhotonStage final : public Stage {
@@ -29,46 +30,50 @@ public:
         by_variance_(insists_ || settings.effort == Settings::Effort::automatic), allocation_(world.tables.emitters),
         guide_(by_variance_ ? world.tables.lights.size() : 0),
         moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
-        guide_moments_(world.zeroed("variance of each direction", by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
-        guide_table_(world.context, "guide of directions", guide_.table()), film_(world.zeroed("film caustic", world.film_size())),
-        stored_(world.context, "no photons", 0)
-  {
+        guide_moments_(world.zeroed("variance of each direction",
+                                    by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
+        guide_table_(world.context, "guide of directions", guide_.table()),
+        film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0) {
     if (world.map) stored_ = world.map->stored();
     make_kernel();
   }
 
   const char* name() const override { return "photons"; }
-  double fraction_done() const override { return (static_cast<double>(batch_) + slices_.fraction_done()) / world_.tables.batches; }
+  double fraction_done() const override {
+    return (static_cast<double>(batch_) + slices_.fraction_done()) / world_.tables.batches;
+  }
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass(); }
   bool counts_energy() const override { return true; }
 
-  bool advance(std::int64_t pass) override
-  {
+  bool advance(std::int64_t pass) override {
     const RunTables& t = world_.tables;
     const std::int64_t batch = pass * t.batches + batch_;
     if (batch_ == 0 && slices_.at_start()) stored_.fill_zero(); // each photon is one rank's to store
-    if (by_variance_ && slices_.at_start() && batch >= first_reallocation(t.batches) && allocation_.is_due(batch)) reallocate(batch);
-    const bool complete = slices_.advance(world_.context.communicator(), t.photons_per_batch, [&](const tracing::PhotonSlice& slice) {
-      world_.send(kernel_, slice, batch,
-                  {{"targets", world_.buffers.targets},
-                   {"emitters", world_.emitters},
-                   {"film", film_},
-                   {"energy", world_.energy},
-                   {"moments", moments_},
-                   {"guide_moments", guide_moments_},
-                   {"guide", guide_table_},
-                   {"unseen_weight", unseen_weight()},
-                   {"stored", stored_},
-                   {"stored_first", static_cast<std::uint32_t>(batch_) * t.photons_per_batch},
-                   {"map_pass", static_cast<std::uint32_t>(pass)},
-                   {"emitter_count", t.scene.emitter_count},
-                   {"object_count", static_cast<int>(t.objects.size())},
-                   {"seed", world_.seed},
-                   {"first_iteration", static_cast<std::uint32_t>(allocation_.first_iteration())},
-                   {"film_scale", world_.on_device(t.caustic_scale)},
-                   {"energy_scale", world_.on_device(t.energy_scale)},
-                   {"stored_scale", world_.on_device(photon_scale(t.photons_per_batch, t.light_towards_targets_w))}});
-    });
+    if (by_variance_ && slices_.at_start() && batch >= first_reallocation(t.batches) && allocation_.is_due(batch))
+      reallocate(batch);
+    const bool complete =
+        slices_.advance(world_.context.communicator(), t.photons_per_batch, [&](const tracing::PhotonSlice& slice) {
+          world_.send(
+              kernel_, slice, batch,
+              {{"targets", world_.buffers.targets},
+               {"emitters", world_.emitters},
+               {"film", film_},
+               {"energy", world_.energy},
+               {"moments", moments_},
+               {"guide_moments", guide_moments_},
+               {"guide", guide_table_},
+               {"unseen_weight", unseen_weight()},
+               {"stored", stored_},
+               {"stored_first", static_cast<std::uint32_t>(batch_) * t.photons_per_batch},
+               {"map_pass", static_cast<std::uint32_t>(pass)},
+               {"emitter_count", t.scene.emitter_count},
+               {"object_count", static_cast<int>(t.objects.size())},
+               {"seed", world_.seed},
+               {"first_iteration", static_cast<std::uint32_t>(allocation_.first_iteration())},
+               {"film_scale", world_.on_device(t.caustic_scale)},
+               {"energy_scale", world_.on_device(t.energy_scale)},
+               {"stored_scale", world_.on_device(photon_scale(t.photons_per_batch, t.light_towards_targets_w))}});
+        });
     if (complete) ++batch_;
     if (batch_ < t.batches) return false;
     batch_ = 0;
@@ -77,23 +82,20 @@ public:
 
   bool has_halves(std::int64_t passes, bool done) const override { return batches(passes, done) >= 2; }
 
-  bool advance_preview() override
-  {
+  bool advance_preview() override {
     if (batch_ < world_.preview.batches) advance(0);
     return batch_ >= world_.preview.batches;
   }
 
-  void develop(std::int64_t passes, bool done, job::Picture& picture) override
-  {
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override {
     const std::array<double, 2> samples = tracing::halves_of(batches(passes, done), slices_.fraction_done());
-    tracing::add_layer(
-        "caustic",
-        {world_.context.all_reduced_sum(film_), world_.tables.caustic_scale * world_.white, [samples](std::size_t) { return samples; }},
-        picture);
+    tracing::add_layer("caustic",
+                       {world_.context.all_reduced_sum(film_), world_.tables.caustic_scale * world_.white,
+                        [samples](std::size_t) { return samples; }},
+                       picture);
   }
 
-  void state(tracing::State& state) override
-  {
+  void state(tracing::State& state) override {
     const bool was_by_variance = by_variance_;
     slices_.state(state);
     state.value(batch_);
@@ -109,13 +111,11 @@ public:
 
 private:
   /// That are complete.
-  std::int64_t batches(std::int64_t passes, bool done) const
-  {
+  std::int64_t batches(std::int64_t passes, bool done) const {
     return passes * world_.tables.batches + (done ? world_.tables.batches : batch_);
   }
 
-  void make_kernel()
-  {
+  void make_kernel() {
     compute::Defines defines = world_.photon_defines();
     defines["NEPHROID_MOMENTS"] = std::to_string(int(by_variance_));
     defines["NEPHROID_STORE"] = std::to_string(int(stored_.size() > 0));
@@ -123,11 +123,12 @@ private:
   }
 
   /// Allocates the photons of the batches from this one on by what the earlier ones have shown.
-  void reallocate(std::int64_t batch)
-  {
+  void reallocate(std::int64_t batch) {
     std::vector<double> photons(world_.tables.lights.size(), 0); // of a pass, of each light
-    for (const shared::DeviceEmitter& e : allocation_.emitters()) photons[static_cast<std::size_t>(e.light)] = e.light_photon_count;
-    guide_.learn(world_.context.all_reduced_sum(guide_moments_), photons, static_cast<double>(batch - allocation_.first_iteration()));
+    for (const shared::DeviceEmitter& e : allocation_.emitters())
+      photons[static_cast<std::size_t>(e.light)] = e.light_photon_count;
+    guide_.learn(world_.context.all_reduced_sum(guide_moments_), photons,
+                 static_cast<double>(batch - allocation_.first_iteration()));
     allocation_.reallocate(batch, world_.context.all_reduced_sum(moments_), world_.halves);
     if (!insists_ && batch > first_reallocation(world_.tables.batches) && allocation_.gain() < least_gain) {
       by_variance_ = false;
@@ -139,16 +140,14 @@ private:
     write_allocation();
   }
 
-  void write_allocation()
-  {
+  void write_allocation() {
     world_.emitters.write(allocation_.emitters());
     guide_table_.write(guide_.table());
   }
 
-  /// What a photon that only a map will show is worth: a quarter of a splat on a surface as far away as the scene's middle, of which
-  /// RunTables::caustic_scale makes 2^16 quanta.
-  float unseen_weight() const
-  {
+  /// What a photon that only a map will show is worth: a quarter of a splat on a surface as far away as the scene's
+  /// middle, of which RunTables::caustic_scale makes 2^16 quanta.
+  float unseen_weight() const {
     const RunTables& t = world_.tables;
     return static_cast<float>(0.25 * std::exp2(16) * t.photons_per_batch * std::numbers::pi /
                               (t.caustic_scale * t.light_towards_targets_w));
@@ -169,18 +168,20 @@ private:
   std::int64_t batch_ = 0; ///< of the pass in hand
 };
 
-PlanPart plan_photons(const PlanInput& input)
-{
+PlanPart plan_photons(const PlanInput& input) {
   if (!input.caustics.runs) return {.passes = {input.caustics}};
   if (input.is_sppm()) return {.passes = {{"photons", false, "spectral.estimator is sppm: nothing is splatted"}}};
   PlanPart part{.passes = {input.caustics}, .buffers = {{"film caustic", input.film_bytes()}}};
   using Effort = Settings::Effort;
   if (const Effort effort = input.settings.effort; effort == Effort::variance || effort == Effort::automatic)
-    part.buffers.push_back({"guide of directions", input.tables.lights.size() * (EmissionGuide::floats * sizeof(float) +
-                                                                                 EmissionGuide::cells * sizeof(std::int64_t))});
-  if (const int wanted = input.settings.photons_per_pass; input.tables.photons_per_pass() > static_cast<unsigned>(wanted))
-    part.notes.push_back(fmt::format("spectral.photons_per_pass: raised from {} to {}, one for each cluster of each light", wanted,
-                                     input.tables.photons_per_pass()));
+    part.buffers.push_back({"guide of directions",
+                            input.tables.lights.size() *
+                                (EmissionGuide::floats * sizeof(float) + EmissionGuide::cells * sizeof(std::int64_t))});
+  if (const int wanted = input.settings.photons_per_pass;
+      input.tables.photons_per_pass() > static_cast<unsigned>(wanted))
+    part.notes.push_back(
+        fmt::format("spectral.photons_per_pass: raised from {} to {}, one for each cluster of each light", wanted,
+                    input.tables.photons_per_pass()));
   return part;
 }
 

@@ -26,13 +26,10 @@ struct Place {
 class CameraRay {
 public:
   CameraRay(const scene::Scene& scene, const scene::Bvh& bvh, const glm::dvec3& way)
-      : scene_(scene), bvh_(bvh), from_(scene.camera.position), way_(way), inside_(scene.camera.inside)
-  {
-  }
+      : scene_(scene), bvh_(bvh), from_(scene.camera.position), way_(way), inside_(scene.camera.inside) {}
 
   /// Goes on to the next surface; empty where there is none.
-  std::optional<Place> next()
-  {
+  std::optional<Place> next() {
     const auto hit = scene::closest_hit(bvh_, from_, way_, {}, std::numeric_limits<double>::infinity(), left_);
     if (!hit) return std::nullopt;
     length_ += hit->t;
@@ -44,10 +41,9 @@ public:
   /// Is sent back by a mirror.
   void reflect(const Place& place) { bend(place, std::nullopt); }
 
-  /// Passes the surface of glass, or is totally reflected there (cross_interface in kernels/tracing/interface.h). False where there is
-  /// nothing to see: both sides have one index of refraction.
-  bool cross(const Place& place)
-  {
+  /// Passes the surface of glass, or is totally reflected there (cross_interface in kernels/tracing/interface.h). False
+  /// where there is nothing to see: both sides have one index of refraction.
+  bool cross(const Place& place) {
     std::vector<int> beyond = inside_;
     int near = medium_of(inside_);
     const auto entry = std::find(beyond.rbegin(), beyond.rend(), place.object);
@@ -66,8 +62,7 @@ public:
   double length() const { return length_; }
 
 private:
-  Place place_on(std::uint32_t primitive) const
-  {
+  Place place_on(std::uint32_t primitive) const {
     const std::size_t triangles = scene_.geometry.triangles.size();
     const auto object = static_cast<int>(scene_.object_of_primitive[primitive]);
     if (primitive >= triangles) {
@@ -82,32 +77,30 @@ private:
     if (!scene_.objects[static_cast<std::size_t>(place.object)].smooth) return place;
     const double u = glm::dot(glm::cross(a - c, from_ - c), across) / glm::dot(across, across),
                  v = glm::dot(glm::cross(b - a, from_ - a), across) / glm::dot(across, across);
-    const glm::dvec3 mixed =
-        (1 - u - v) * glm::dvec3(normals[corner.x]) + u * glm::dvec3(normals[corner.y]) + v * glm::dvec3(normals[corner.z]);
+    const glm::dvec3 mixed = (1 - u - v) * glm::dvec3(normals[corner.x]) + u * glm::dvec3(normals[corner.y]) +
+                             v * glm::dvec3(normals[corner.z]);
     if (glm::dot(mixed, place.geometric) > 0) place.shading = glm::normalize(mixed);
     return place;
   }
 
   /// The object whose material fills the place: the highest priority, of equals the one entered last; -1: air.
-  int medium_of(const std::vector<int>& inside) const
-  {
+  int medium_of(const std::vector<int>& inside) const {
     int best = -1;
     for (const int object : inside)
-      if (best < 0 || scene_.objects[static_cast<std::size_t>(object)].priority >= scene_.objects[static_cast<std::size_t>(best)].priority)
+      if (best < 0 || scene_.objects[static_cast<std::size_t>(object)].priority >=
+                          scene_.objects[static_cast<std::size_t>(best)].priority)
         best = object;
     return best;
   }
 
-  double index_of(int object) const
-  {
+  double index_of(int object) const {
     if (object < 0) return 1;
     return material_of(scene_, scene_.objects[static_cast<std::size_t>(object)]).n[middle];
   }
 
-  /// ratio: of the indices before and beyond glass; empty: a mirror. About the shading normal, unless that sends the look to the wrong side
-  /// of the triangle: then about the triangle's own. True where it went through.
-  bool bend(const Place& place, std::optional<double> ratio)
-  {
+  /// ratio: of the indices before and beyond glass; empty: a mirror. About the shading normal, unless that sends the
+  /// look to the wrong side of the triangle: then about the triangle's own. True where it went through.
+  bool bend(const Place& place, std::optional<double> ratio) {
     const double side = glm::dot(way_, place.geometric) < 0 ? 1 : -1;
     for (const glm::dvec3& normal : {side * place.shading, side * place.geometric}) {
       if (glm::dot(way_, normal) >= 0) continue;
@@ -136,17 +129,16 @@ class Marks {
 public:
   explicit Marks(const scene::Camera& camera) : camera_(camera), marked_(camera.pixels()) {}
 
-  Seen see(const glm::dvec3& place) const
-  {
+  Seen see(const glm::dvec3& place) const {
     const glm::dvec3 way = place - glm::dvec3(camera_.position);
-    const double z = glm::dot(way, glm::dvec3(camera_.forward)), x = glm::dot(way, glm::dvec3(camera_.right)) / camera_.tan_x,
+    const double z = glm::dot(way, glm::dvec3(camera_.forward)),
+                 x = glm::dot(way, glm::dvec3(camera_.right)) / camera_.tan_x,
                  y = glm::dot(way, glm::dvec3(camera_.up)) / camera_.tan_y;
     return {(x + z) / 2 * camera_.width, (z - y) / 2 * camera_.height, z};
   }
 
   /// Marks, row by row, what lies between the sides of a triangle, and what its outline touches.
-  void mark(const std::array<Seen, 3>& corners)
-  {
+  void mark(const std::array<Seen, 3>& corners) {
     // The part before the eye; what is nearer than a ten thousandth of the farthest corner is as good as beside it.
     const double farthest = std::max({corners[0].z, corners[1].z, corners[2].z}), near = 1e-4 * farthest;
     if (!(farthest > 0)) return;
@@ -157,14 +149,15 @@ public:
       if ((a.z >= near) != (b.z >= near)) points_.push_back(a + (near - a.z) / (b.z - a.z) * (b - a));
     }
     for (Seen& p : points_) p = {p.x / p.z, p.y / p.z, 1};
-    const auto [top, bottom] = std::ranges::minmax_element(points_, [](const Seen& a, const Seen& b) { return a.y < b.y; });
-    for (int row = index(top->y - margin, camera_.height); row <= index(bottom->y + margin, camera_.height); ++row) mark_row(row);
+    const auto [top, bottom] =
+        std::ranges::minmax_element(points_, [](const Seen& a, const Seen& b) { return a.y < b.y; });
+    for (int row = index(top->y - margin, camera_.height); row <= index(bottom->y + margin, camera_.height); ++row)
+      mark_row(row);
   }
 
-  /// The same of an ellipsoid: of a ball of triangles just outside of it. Facets of 1/32 of a turn each way come within cos^2(pi / 32) =
-  /// 0.9904 of their corners' distance to the middle.
-  void mark(const scene::Ellipsoid& ellipsoid)
-  {
+  /// The same of an ellipsoid: of a ball of triangles just outside of it. Facets of 1/32 of a turn each way come within
+  /// cos^2(pi / 32) = 0.9904 of their corners' distance to the middle.
+  void mark(const scene::Ellipsoid& ellipsoid) {
     constexpr int around = 32;
     constexpr double angle = 2 * std::numbers::pi / around, scale = 1.01;
     const auto corner = [&](int ring, int i) {
@@ -190,8 +183,7 @@ private:
   static int index(double at, int size) { return static_cast<int>(std::clamp(std::floor(at), 0.0, size - 1.0)); }
 
   /// What of the outline lies within the row's height, from the leftmost to the rightmost.
-  void mark_row(int row)
-  {
+  void mark_row(int row) {
     const double top = row - margin, bottom = row + 1 + margin;
     double left = std::numeric_limits<double>::max(), right = std::numeric_limits<double>::lowest();
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -216,17 +208,17 @@ private:
 
 } // namespace
 
-PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera, int column, int row,
-                         int most_surfaces)
-{
+PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera,
+                                int column, int row, int most_surfaces) {
   const double x = 2 * (column + 0.5) / camera.width - 1, y = 1 - 2 * (row + 0.5) / camera.height;
-  const glm::dvec3 way =
-      glm::dvec3(camera.forward) + x * camera.tan_x * glm::dvec3(camera.right) + y * camera.tan_y * glm::dvec3(camera.up);
+  const glm::dvec3 way = glm::dvec3(camera.forward) + x * camera.tan_x * glm::dvec3(camera.right) +
+                         y * camera.tan_y * glm::dvec3(camera.up);
   const double spacing = 2 * std::max(camera.tan_x / camera.width, camera.tan_y / camera.height) / glm::length(way);
   PixelSurfaces surfaces;
   if (camera.receiver >= 0) {
     const scene::Object& receiver = scene.objects[static_cast<std::size_t>(camera.receiver)];
-    const glm::dvec3 eye = camera.position, corner = scene.geometry.positions[scene::triangles_of(scene, receiver).front().x];
+    const glm::dvec3 eye = camera.position,
+                     corner = scene.geometry.positions[scene::triangles_of(scene, receiver).front().x];
     const double distance = glm::dot(corner - eye, glm::dvec3(camera.forward));
     surfaces.first = surfaces.last = {glm::vec3(eye + distance * way), -camera.forward, camera.receiver};
     surfaces.way = glm::vec3(glm::normalize(way));
@@ -254,15 +246,15 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
   return surfaces;
 }
 
-std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene)
-{
+std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene) {
   if (scene.camera.receiver >= 0) return {};
   Marks marks(scene.camera);
   for (const scene::Object& object : scene.objects) {
     if (material_of(scene, object).type == scene::Material::Type::diffuse) continue;
     for (const glm::uvec3& triangle : scene::triangles_of(scene, object)) {
       std::array<Seen, 3> corners;
-      for (int c = 0; c < 3; ++c) corners[static_cast<std::size_t>(c)] = marks.see(scene.geometry.positions[triangle[c]]);
+      for (int c = 0; c < 3; ++c)
+        corners[static_cast<std::size_t>(c)] = marks.see(scene.geometry.positions[triangle[c]]);
       marks.mark(corners);
     }
     for (const scene::Ellipsoid& ellipsoid : scene::ellipsoids_of(scene, object)) marks.mark(ellipsoid);

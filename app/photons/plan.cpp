@@ -22,119 +22,120 @@ namespace nephroid::photons {
 namespace {
 
 /// What every run has.
-PlanPart plan_scene(const PlanInput& input)
-{
+PlanPart plan_scene(const PlanInput& input) {
   const std::uint64_t environment = input.scene.environment ? tracing::bytes_of(input.scene.environment->rgb) : 0;
   PlanPart part;
   part.buffers = tracing::planned_buffers(input.scene, input.bvh, input.tables);
-  part.buffers.push_back(
-      {"scene (host)", tracing::tree_bytes(input.bvh) + tracing::mesh_bytes(input.scene) + environment + tracing::sky_bytes(input.tables),
-       true});
+  part.buffers.push_back({"scene (host)",
+                          tracing::tree_bytes(input.bvh) + tracing::mesh_bytes(input.scene) + environment +
+                              tracing::sky_bytes(input.tables),
+                          true});
   part.buffers.push_back({"pixels", 2 * sizeof(std::uint32_t) * input.pixels()}); // all, and those of glass
   part.defines = scene::tree_defines(input.bvh);
   part.defines["NEPHROID_FILM_HALVES"] = std::to_string(input.halves());
   if (const Settings& s = input.settings; s.step_nm > 1 && s.method != Settings::Method::brute_force)
-    part.notes = {fmt::format("spectral.step_nm: {} does nothing here: spectral.method is {}, and only brute_force has steps", s.step_nm,
-                              preset::word(s.method))};
+    part.notes = {
+        fmt::format("spectral.step_nm: {} does nothing here: spectral.method is {}, and only brute_force has steps",
+                    s.step_nm, preset::word(s.method))};
   return part;
 }
 
-PlanPart plan_omissions(const PlanInput& input)
-{
+PlanPart plan_omissions(const PlanInput& input) {
   PlanPart part{.passes = tracing::data_omissions(input.leave_out, input.scene, input.tables.spheres)};
   // Layers of dark lights are there for lights to come.
   if (input.settings.relight)
-    std::erase_if(part.passes, [](const plan::Pass& pass) { return pass.name == "dark lights" || pass.name == "unlit wavelengths"; });
-  tracing::CodeOmissions code = tracing::code_omissions(input.leave_out, input.scene, input.tables.wavelengths.attenuator_count);
+    std::erase_if(part.passes, [](const plan::Pass& pass) {
+      return pass.name == "dark lights" || pass.name == "unlit wavelengths";
+    });
+  tracing::CodeOmissions code =
+      tracing::code_omissions(input.leave_out, input.scene, input.tables.wavelengths.attenuator_count);
   std::ranges::move(code.passes, std::back_inserter(part.passes));
   part.defines = std::move(code.defines);
   return part;
 }
 
-plan::Pass environment_light_pass(const PlanInput& input)
-{
+plan::Pass environment_light_pass(const PlanInput& input) {
   const std::string name = "environment light", field = "/scene/environment/lights";
   const scene::Environment& environment = *input.scene.environment;
   if (environment.is_black()) return {name, false, "the environment is black"};
   if (input.settings.relight) return not_in_layers(name, "every texel has a spectrum of its own");
   if (!environment.lights) return {name, false, "scene.environment.lights is false: it is only seen", field, true};
-  return {name, true, size_of(environment) + ": sends photons and lights diffuse surfaces, each texel by its flux", field, true};
+  return {name, true, size_of(environment) + ": sends photons and lights diffuse surfaces, each texel by its flux",
+          field, true};
 }
 
-PlanPart plan_environment_light(const PlanInput& input)
-{
+PlanPart plan_environment_light(const PlanInput& input) {
   PlanPart part;
   if (input.scene.environment) part.passes = {environment_light_pass(input)};
   return part;
 }
 
 /// PlanInput::estimate; caustics: PlanInput::caustics.
-plan::Pass estimate_pass(const preset::Preset& preset, const Settings& settings, const plan::Pass& caustics)
-{
+plan::Pass estimate_pass(const preset::Preset& preset, const Settings& settings, const plan::Pass& caustics) {
   const char* const name = "error estimate";
   if (preset.measure.estimate && caustics.runs && settings.estimator == Settings::Estimator::sppm)
-    return {name, false, "spectral.estimator is sppm, whose radii hang on all photons: there are no two independent halves"};
+    return {name, false,
+            "spectral.estimator is sppm, whose radii hang on all photons: there are no two independent halves"};
   // Nothing else can stop the run, so nobody may switch it off.
   if (preset.measure.estimate && preset.stop.error && !preset.reference)
     return {name, true, "every film is kept in two independent halves: stop.error needs them, there is no reference"};
   return {name, preset.measure.estimate,
-          preset.measure.estimate ? "every film is kept in two independent halves" : "measure.estimate is false", "/measure/estimate",
-          true};
+          preset.measure.estimate ? "every film is kept in two independent halves" : "measure.estimate is false",
+          "/measure/estimate", true};
 }
 
 PlanPart plan_estimate(const PlanInput& input) { return {.passes = {input.estimate}}; }
 
-plan::Pass stray_photons_pass(const PlanInput& input)
-{
+plan::Pass stray_photons_pass(const PlanInput& input) {
   const bool aims = input.leave_out.stray_photons;
-  return tracing::not_needed(
-      "stray photons", aims,
-      aims ? fmt::format("photons start towards {} about glass and mirrors only", counted(std::ssize(input.tables.spheres), "sphere"))
-           : "photons need not start where there is no glass and no mirror");
+  return tracing::not_needed("stray photons", aims,
+                             aims ? fmt::format("photons start towards {} about glass and mirrors only",
+                                                counted(std::ssize(input.tables.spheres), "sphere"))
+                                  : "photons need not start where there is no glass and no mirror");
 }
 
-plan::Pass low_discrepancy_pass(const Settings& settings)
-{
+plan::Pass low_discrepancy_pass(const Settings& settings) {
   return {"low discrepancy", settings.low_discrepancy,
           settings.low_discrepancy ? "photons leave the lights by a scrambled Sobol sequence"
                                    : "spectral.low_discrepancy is false: plain random numbers",
           "/spectral/low_discrepancy", true};
 }
 
-plan::Pass differentials_pass(const PlanInput& input)
-{
+plan::Pass differentials_pass(const PlanInput& input) {
   const char* const name = "differentials";
   if (input.settings.relight) return not_in_layers(name, "a layer is a whole cluster's");
   if (!input.settings.differentials) return not_asked_for(name, name);
   if (!input.caustics.runs || input.is_sppm()) return {name, false, "nothing is splatted"};
   const tracing::StretchParameter along = tracing::stretch_parameter(input.scene);
-  if (along == tracing::StretchParameter::none) return {name, false, "no glass bends one wavelength otherwise than another"};
+  if (along == tracing::StretchParameter::none)
+    return {name, false, "no glass bends one wavelength otherwise than another"};
   return {name, true,
           fmt::format("splats are stretched along the way that they move with the {}",
-                      along == tracing::StretchParameter::index ? "index of refraction" : "wavelength, for there are several curves"),
+                      along == tracing::StretchParameter::index ? "index of refraction"
+                                                                : "wavelength, for there are several curves"),
           "/spectral/differentials", true};
 }
 
-/// Whether a run has caustics, and how their photons are sent: photon_stage.cpp splats them, map_stage.cpp and sppm_stage.cpp gather them.
-PlanPart plan_caustics(const PlanInput& input)
-{
+/// Whether a run has caustics, and how their photons are sent: photon_stage.cpp splats them, map_stage.cpp and
+/// sppm_stage.cpp gather them.
+PlanPart plan_caustics(const PlanInput& input) {
   const plan::Pass jitter = jitter_pass(input), low_discrepancy = low_discrepancy_pass(input.settings),
                    differentials = differentials_pass(input);
   PlanPart part;
   if (input.caustics.runs)
-    part.passes = {effort_pass(input.settings, input.tables.importance), stray_photons_pass(input), jitter, low_discrepancy, differentials};
+    part.passes = {effort_pass(input.settings, input.tables.importance), stray_photons_pass(input), jitter,
+                   low_discrepancy, differentials};
   part.defines = {{"NEPHROID_JITTER", std::to_string(int(jitter.runs))},
                   {"NEPHROID_LOW_DISCREPANCY", std::to_string(int(low_discrepancy.runs))},
                   {"NEPHROID_DIFFERENTIALS", std::to_string(int(differentials.runs))}};
   return part;
 }
 
-constexpr RunPart scene_part{plan_scene}, caustics_part{plan_caustics}, omissions_part{plan_omissions}, estimate_part{plan_estimate},
-    environment_light_part{plan_environment_light};
+constexpr RunPart scene_part{plan_scene}, caustics_part{plan_caustics}, omissions_part{plan_omissions},
+    estimate_part{plan_estimate}, environment_light_part{plan_environment_light};
 
 /// In the order of the plan's rows, and of the stages' turns in a pass.
-std::vector<const RunPart*> parts_of(const Settings& settings)
-{
+std::vector<const RunPart*> parts_of(const Settings& settings) {
   const bool sppm = settings.estimator == Settings::Estimator::sppm;
   return {&scene_part,
           settings.relight ? &layered_direct_stage : &direct_stage,
@@ -150,11 +151,11 @@ std::vector<const RunPart*> parts_of(const Settings& settings)
           &relighting_part};
 }
 
-void add(PlanPart part, plan::Plan& plan)
-{
+void add(PlanPart part, plan::Plan& plan) {
   std::ranges::move(part.passes, std::back_inserter(plan.passes));
   for (plan::PlannedBuffer& buffer : part.buffers)
-    if (const auto same = std::ranges::find(plan.buffers, buffer.name, &plan::PlannedBuffer::name); same != plan.buffers.end())
+    if (const auto same = std::ranges::find(plan.buffers, buffer.name, &plan::PlannedBuffer::name);
+        same != plan.buffers.end())
       same->bytes += buffer.bytes;
     else
       plan.buffers.push_back(std::move(buffer));
@@ -162,49 +163,44 @@ void add(PlanPart part, plan::Plan& plan)
   std::ranges::move(part.notes, std::back_inserter(plan.notes));
 }
 
-/// Settings::pixel_samples, where nobody says. Where light comes from one point of each lamp, only edges within pixels take samples.
-int enough_samples(const scene::Scene& scene)
-{
-  const bool all_points = std::ranges::all_of(
-      scene.lights, [](const scene::Light& light) { return !scene::is_environment(light) && light.type != preset::Light::Type::area; });
+/// Settings::pixel_samples, where nobody says. Where light comes from one point of each lamp, only edges within pixels
+/// take samples.
+int enough_samples(const scene::Scene& scene) {
+  const bool all_points = std::ranges::all_of(scene.lights, [](const scene::Light& light) {
+    return !scene::is_environment(light) && light.type != preset::Light::Type::area;
+  });
   return all_points ? 64 : 4096;
 }
 
 } // namespace
 
-plan::Pass not_asked_for(const std::string& name, const std::string& field)
-{
+plan::Pass not_asked_for(const std::string& name, const std::string& field) {
   return {name, false, fmt::format("spectral.{} is false", field), "/spectral/" + field, true};
 }
 
-plan::Pass not_in_layers(const std::string& name, const std::string& why)
-{
+plan::Pass not_in_layers(const std::string& name, const std::string& why) {
   return {name, false, "spectral.relight is true, and layers cannot hold it: " + why};
 }
 
-std::ptrdiff_t shining_lights(const PlanInput& input)
-{
+std::ptrdiff_t shining_lights(const PlanInput& input) {
   const std::vector<scene::Light>& lights = input.scene.lights;
   return input.settings.relight ? std::ssize(lights) : std::ranges::count_if(lights, tracing::has_power);
 }
 
-std::string no_light(const PlanInput& input)
-{
+std::string no_light(const PlanInput& input) {
   if (input.scene.lights.empty()) return "the scene has no light";
   return shining_lights(input) > 0 ? "" : "no light has power";
 }
 
-std::string size_of(const scene::Environment& environment)
-{
+std::string size_of(const scene::Environment& environment) {
   if (environment.width * environment.height == 1) return "one colour all around";
   return fmt::format("a picture of {} x {} texels", environment.width, environment.height);
 }
 
 bool RunPlan::runs(const RunPart& part) const { return std::ranges::count(parts, &part) > 0; }
 
-RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const scene::Scene& scene, const scene::Bvh& bvh,
-                  const tracing::LeaveOut& leave_out)
-{
+RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const scene::Scene& scene,
+                  const scene::Bvh& bvh, const tracing::LeaveOut& leave_out) {
   RunPlan plan;
   plan.settings = wanted;
   if (!plan.settings.pixel_samples) plan.settings.pixel_samples = enough_samples(scene);
@@ -225,34 +221,36 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const sc
   plan.layers = static_cast<int>(layers.size());
   plan.estimates_error = input.estimate.runs;
   plan.picture_bytes_a_pixel = plan.runs(smoothing_part) ? 120 : 48; // what is smoothed; a film of two halves read back
-  if (layers.empty()) plan.notes.insert(plan.notes.begin(), fmt::format("there is nothing to render: {}", plan.passes[0].reason));
+  if (layers.empty())
+    plan.notes.insert(plan.notes.begin(), fmt::format("there is nothing to render: {}", plan.passes[0].reason));
   plan.notes.insert(plan.notes.begin(), scene.warnings.begin(), scene.warnings.end());
   return plan;
 }
 
-plan::Pass caustics_pass(const PlanInput& input)
-{
+plan::Pass caustics_pass(const PlanInput& input) {
   const char* const name = "photons";
   if (!input.settings.caustic) return not_asked_for(name, "caustic");
   // No field brings these back: there is nothing to send.
   if (const std::string dark = no_light(input); !dark.empty()) return {name, false, dark};
-  const std::string missing = input.objects.dielectrics + input.objects.mirrors == 0 ? "no object is of glass or a mirror"
-                              : input.objects.diffuse == 0                           ? "no diffuse surface can receive a caustic"
-                                                                                     : "";
+  const std::string missing = input.objects.dielectrics + input.objects.mirrors == 0
+                                  ? "no object is of glass or a mirror"
+                              : input.objects.diffuse == 0 ? "no diffuse surface can receive a caustic"
+                                                           : "";
   if (!missing.empty()) return tracing::not_needed(name, input.leave_out.photons, missing);
   if (input.tables.emitters.empty()) return {name, false, "no light shines on glass or a mirror"};
-  return tracing::needed(name, fmt::format("{} photons a pass in {}", input.tables.photons_per_pass(),
-                                           counted(std::ssize(input.tables.wavelengths.clusters), "wavelength cluster")));
+  return tracing::needed(name,
+                         fmt::format("{} photons a pass in {}", input.tables.photons_per_pass(),
+                                     counted(std::ssize(input.tables.wavelengths.clusters), "wavelength cluster")));
 }
 
-plan::Pass jitter_pass(const PlanInput& input)
-{
+plan::Pass jitter_pass(const PlanInput& input) {
   const char *const name = "jitter", *const field = "/spectral/jitter";
   if (!input.settings.jitter)
     return {name, false, "spectral.jitter is false: every path of a cluster has the cluster's mean n", field, true};
   if (input.settings.relight)
     return {name, false, "spectral.relight is true: a layer holds clusters as a whole", "/spectral/relight", false};
-  if (!input.tables.wavelengths.clusters_spread) return {name, false, "n is the same at all wavelengths of every cluster"};
+  if (!input.tables.wavelengths.clusters_spread)
+    return {name, false, "n is the same at all wavelengths of every cluster"};
   return {name, true, "each path takes one wavelength of its cluster, so clusters leave no bias", field, true};
 }
 

@@ -19,12 +19,12 @@ struct RunPlan : plan::Plan {
   Settings settings;
   RunTables tables;
   std::vector<const RunPart*> parts; ///< that run; stages in the order of their turns in a pass
-  bool has_previews = true;         ///< whether a large picture is worked out coarsely first
+  bool has_previews = true;          ///< whether a large picture is worked out coarsely first
   bool runs(const RunPart& part) const;
 };
 
 /// Throws bad_input as make_run_tables does.
-RunPlan make_plan(const preset::Preset& preset, const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
-                  const tracing::LeaveOut& leave_out);
+RunPlan make_plan(const preset::Preset& preset, const Settings& settings, const scene::Scene& scene,
+                  const scene::Bvh& bvh, const tracing::LeaveOut& leave_out);
 
 } // namespace nephroid::photons

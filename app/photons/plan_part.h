@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run of engine 1 is made of: stages, and decisions that several stages share. Each says its own part of the plan, beside its work;
-// make_plan (plan.h) puts the parts together.
+// What a run of engine 1 is made of: stages, and decisions that several stages share. Each says its own part of the
+// plan, beside its work; make_plan (plan.h) puts the parts together.
 #pragma once
 #include "photons/settings.h"
 #include "photons/tables/run_tables.h"
@@ -51,8 +51,7 @@ struct PlanPart {
 };
 
 /// Of a stage: its pass, and its buffers where that runs.
-inline PlanPart part_of(plan::Pass pass, std::vector<plan::PlannedBuffer> buffers)
-{
+inline PlanPart part_of(plan::Pass pass, std::vector<plan::PlannedBuffer> buffers) {
   PlanPart part{.passes = {std::move(pass)}};
   if (part.passes[0].runs) part.buffers = std::move(buffers);
   return part;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The previews of a run, before its first pass: coarse ones, in blocks of pixels, each finer than the one before (coarse.h).
+// The previews of a run, before its first pass: coarse ones, in blocks of pixels, each finer than the one before
+// (coarse.h).
 #pragma once
 #include "photons/passes.h"
 
@@ -18,8 +19,7 @@ public:
   bool has_more() const { return pictures_ < edges_.size(); }
   bool has_picture() const { return pictures_ > 0; }
   /// Renders the next picture, whole: nobody wants to see a part of it.
-  void next(Passes& passes)
-  {
+  void next(Passes& passes) {
     ++pictures_;
     begin_picture();
     for (std::size_t s = 0; s < passes.stages().size(); ++s)
@@ -29,25 +29,24 @@ public:
       });
   }
 
-  void state(tracing::State& state)
-  {
+  void state(tracing::State& state) {
     state.value(pictures_);
     if (state.is_read() && has_picture()) begin_picture();
   }
 
 private:
   /// Sets DeviceWorld::preview.
-  void begin_picture()
-  {
+  void begin_picture() {
     constexpr unsigned batches_a_picture = 2;
     const Blocks blocks{world_.tables.camera.width, world_.tables.camera.height, edges_[pictures_ - 1]};
-    std::vector<bool> may_show_glass(static_cast<std::size_t>(blocks.across()) * static_cast<std::size_t>(blocks.down()));
+    std::vector<bool> may_show_glass(static_cast<std::size_t>(blocks.across()) *
+                                     static_cast<std::size_t>(blocks.down()));
     for (const std::uint32_t pixel : world_.pixels.glass) may_show_glass[blocks.block_of(pixel)] = true;
     std::vector<std::uint32_t> glass;
     for (std::size_t block = 0; block < may_show_glass.size(); ++block)
       if (may_show_glass[block]) glass.push_back(static_cast<std::uint32_t>(block));
     world_.preview = {blocks, std::min(batches_a_picture * static_cast<unsigned>(pictures_), world_.tables.batches - 1),
-                    compute::Buffer(world_.context, "blocks of glass", glass)};
+                      compute::Buffer(world_.context, "blocks of glass", glass)};
   }
 
   DeviceWorld& world_;

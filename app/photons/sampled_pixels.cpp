@@ -17,16 +17,15 @@ constexpr std::size_t most_samples_a_slice = 1 << 18;
 constexpr double least_rate = 1.0 / 31, most_rate = 64;
 
 /// Of a pixel, in which of several passes it has its turn.
-std::uint32_t turn_of(std::size_t pixel)
-{
+std::uint32_t turn_of(std::size_t pixel) {
   const std::uint32_t mixed = static_cast<std::uint32_t>(pixel) * 0x9e3779b9u;
   return (mixed ^ mixed >> 15) >> 4;
 }
 
 /// As SampledPixels keeps it. One of every odd number of passes, so that both halves get as many.
-std::int16_t whole_rate(double rate)
-{
-  if (rate >= std::sqrt(1.0 / 3)) return static_cast<std::int16_t>(std::clamp(std::llround(rate), 1LL, static_cast<long long>(most_rate)));
+std::int16_t whole_rate(double rate) {
+  if (rate >= std::sqrt(1.0 / 3))
+    return static_cast<std::int16_t>(std::clamp(std::llround(rate), 1LL, static_cast<long long>(most_rate)));
   return static_cast<std::int16_t>(-(2 * std::llround((1 / rate - 1) / 2) + 1));
 }
 
@@ -35,22 +34,21 @@ struct SampleMoments {
   double variance = 0, light_squared = 0; ///< sums of R, G and B
 };
 
-/// Sums over the pixels around one, without itself, of those that show glass as it does or none as it does: the others' paths are of
-/// another kind.
+/// Sums over the pixels around one, without itself, of those that show glass as it does or none as it does: the others'
+/// paths are of another kind.
 class Neighbourhood {
 public:
   Neighbourhood(const DeviceWorld& world, std::span<const SampleMoments> pixels)
-      : width_(world.tables.camera.width), height_(world.tables.camera.height), glass_(world.pixels.may_show_glass), pixels_(pixels)
-  {
-  }
-  SampleMoments mean(std::size_t pixel, int reach) const
-  {
+      : width_(world.tables.camera.width), height_(world.tables.camera.height), glass_(world.pixels.may_show_glass),
+        pixels_(pixels) {}
+  SampleMoments mean(std::size_t pixel, int reach) const {
     const int x = static_cast<int>(pixel) % width_, y = static_cast<int>(pixel) / width_;
     SampleMoments sum;
     int count = 0;
     for (int row = std::max(y - reach, 0); row <= std::min(y + reach, height_ - 1); ++row)
       for (int column = std::max(x - reach, 0); column <= std::min(x + reach, width_ - 1); ++column) {
-        const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(column);
+        const std::size_t i =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(column);
         if (i == pixel || glass_[i] != glass_[pixel]) continue;
         sum.variance += pixels_[i].variance;
         sum.light_squared += pixels_[i].light_squared;
@@ -68,13 +66,11 @@ private:
 } // namespace
 
 SampledPixels::SampledPixels(const DeviceWorld& world, std::int64_t enough)
-    : world_(world), enough_(enough), passes_(world.pixels.glass.empty() ? enough : preset::max_passes), counts_(world.pixels.count),
-      rates_(world.pixels.count, 1), on_device_(world.context, "samples", most_samples_a_slice)
-{
-}
+    : world_(world), enough_(enough), passes_(world.pixels.glass.empty() ? enough : preset::max_passes),
+      counts_(world.pixels.count), rates_(world.pixels.count, 1),
+      on_device_(world.context, "samples", most_samples_a_slice) {}
 
-std::int64_t SampledPixels::samples_in(std::size_t pixel, std::int64_t pass) const
-{
+std::int64_t SampledPixels::samples_in(std::size_t pixel, std::int64_t pass) const {
   const std::int64_t rate = rates_[pixel];
   const std::int64_t wanted = rate > 0 ? rate : (pass + turn_of(pixel)) % -rate == 0 ? 1 : 0;
   if (world_.pixels.may_show_glass[pixel]) return wanted;
@@ -82,8 +78,7 @@ std::int64_t SampledPixels::samples_in(std::size_t pixel, std::int64_t pass) con
   return std::clamp<std::int64_t>(most - counts_[pixel][static_cast<std::size_t>(half)], 0, wanted);
 }
 
-void SampledPixels::take_next(std::int64_t pass, double amount)
-{
+void SampledPixels::take_next(std::int64_t pass, double amount) {
   next_.clear();
   const auto most = static_cast<std::size_t>(std::clamp(amount, 1.0, most_samples_a_slice - most_rate));
   const auto half = static_cast<std::uint32_t>(pass % 2);
@@ -97,8 +92,7 @@ void SampledPixels::take_next(std::int64_t pass, double amount)
   if (!next_.empty()) on_device_.write(next_);
 }
 
-void SampledPixels::share_work(const Noise& noise)
-{
+void SampledPixels::share_work(const Noise& noise) {
   passes_ = preset::max_passes; // for what may now have less than a sample a pass
   std::vector<SampleMoments> pixels(counts_.size());
   for (std::size_t i = 0; i < 3 * pixels.size(); ++i) {
@@ -109,8 +103,8 @@ void SampledPixels::share_work(const Noise& noise)
   const Neighbourhood around(world_, pixels);
   for_ranges(pixels.size(), 1 << 12, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      // Through glass few samples of many bring most of the light, so it takes many pixels to know the variance. Elsewhere edges are
-      // narrow.
+      // Through glass few samples of many bring most of the light, so it takes many pixels to know the variance.
+      // Elsewhere edges are narrow.
       const bool glass = world_.pixels.may_show_glass[i];
       SampleMoments sampled = around.mean(i, 3);
       if (!glass) {
@@ -122,8 +116,8 @@ void SampledPixels::share_work(const Noise& noise)
           std::max(sampled.light_squared - sampled.variance / std::max(had, 1.0), 0.0); // the noise's square is in it
       // Noise beyond the light itself counts as that much: what is bright and rare stays noise whatever is done.
       const double variance = std::min(Noise::noise_beside(light_squared / 3, sampled.variance), 3 * had);
-      // With n samples, of the work c each, the noise is v / n, and one more lowers it by v / n^2. For the same work that is to be what
-      // photons do, at the end of the passes to come, which are as many as there were.
+      // With n samples, of the work c each, the noise is v / n, and one more lowers it by v / n^2. For the same work
+      // that is to be what photons do, at the end of the passes to come, which are as many as there were.
       const double work = glass ? paths_through_glass * work_through_glass : work_of_a_path;
       const double wanted = std::sqrt(variance / (work * noise.photon_gain));
       rates_[i] = whole_rate(std::clamp((2 * wanted - had) / static_cast<double>(noise.passes), least_rate, most_rate));
@@ -131,8 +125,7 @@ void SampledPixels::share_work(const Noise& noise)
   });
 }
 
-void SampledPixels::state(tracing::State& state)
-{
+void SampledPixels::state(tracing::State& state) {
   state.value(passes_);
   state.value(done_);
   state.items(counts_);

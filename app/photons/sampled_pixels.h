@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many samples from the eye a pixel gets in each pass: one, until the noise says where more are worth their work and where fewer will
-// do.
+// How many samples from the eye a pixel gets in each pass: one, until the noise says where more are worth their work
+// and where fewer will do.
 //
-// The mean of a pixel's samples is unbiased, whatever their number is, as long as that hangs on other samples only. So it is decided by
-// what the pixels around it show, whose random numbers are their own, and not by the pixel itself.
+// The mean of a pixel's samples is unbiased, whatever their number is, as long as that hangs on other samples only. So
+// it is decided by what the pixels around it show, whose random numbers are their own, and not by the pixel itself.
 #pragma once
 #include "kernels/tracing/shared_types.h"
 #include "photons/stage.h"
 #include "photons/tables/device_world.h"
-#include "tracing/state.h"
 #include "tracing/slices.h"
+#include "tracing/state.h"
 
 #include <array>
 #include <cstdint>
@@ -27,11 +27,11 @@ public:
   /// Of the pass in hand.
   double fraction_done() const { return static_cast<double>(done_) / static_cast<double>(counts_.size()); }
 
-  /// Calls work(samples, count) for the next samples of the pass, on the device: x is the pixel, y which of its samples this is. Those with
-  /// an even number are of the film's first half, those with an odd one of the second. True when the pass is complete.
+  /// Calls work(samples, count) for the next samples of the pass, on the device: x is the pixel, y which of its samples
+  /// this is. Those with an even number are of the film's first half, those with an odd one of the second. True when
+  /// the pass is complete.
   template <class Work>
-  bool advance(std::int64_t pass, const Work& work)
-  {
+  bool advance(std::int64_t pass, const Work& work) {
     take_next(pass, amount_.amount(world_.context.communicator()));
     amount_.timed(static_cast<double>(next_count_), [&] {
       if (!next_.empty()) work(on_device_, static_cast<std::uint32_t>(next_.size()));
@@ -40,7 +40,9 @@ public:
   }
 
   /// Film::samples of a pixel.
-  std::array<double, 2> samples(std::size_t pixel) const { return {double(counts_[pixel][0]), double(counts_[pixel][1])}; }
+  std::array<double, 2> samples(std::size_t pixel) const {
+    return {double(counts_[pixel][0]), double(counts_[pixel][1])};
+  }
 
   /// Stage::share_work.
   void share_work(const Noise& noise);
@@ -54,10 +56,10 @@ private:
   const DeviceWorld& world_;
   std::int64_t enough_, passes_;
   std::vector<std::array<std::uint32_t, 2>> counts_; ///< [pixel]: in even and in odd passes
-  std::vector<std::int16_t> rates_;                  ///< [pixel]: n > 0: n samples a pass; n < 0: one in one of -n passes
-  std::int64_t done_ = 0;                            ///< pixels of the pass in hand
-  std::vector<shared::uint2> next_;                  ///< of them this rank's
-  std::size_t next_count_ = 0;                       ///< of all ranks
+  std::vector<std::int16_t> rates_; ///< [pixel]: n > 0: n samples a pass; n < 0: one in one of -n passes
+  std::int64_t done_ = 0;           ///< pixels of the pass in hand
+  std::vector<shared::uint2> next_; ///< of them this rank's
+  std::size_t next_count_ = 0;      ///< of all ranks
   compute::Buffer<shared::uint2> on_device_;
   tracing::SliceSize amount_{1024};
 };

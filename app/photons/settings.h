@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What photons and paths from the eye are to do: of engine 1 it is the section "spectral" of a preset. describe_settings.h says what each
-// choice is.
+// What photons and paths from the eye are to do: of engine 1 it is the section "spectral" of a preset.
+// describe_settings.h says what each choice is.
 #pragma once
 #include <optional>
 
@@ -17,7 +17,7 @@ struct Importance {
 /// Progressive photon mapping (Hachisuka and Jensen 2009).
 struct Sppm {
   std::optional<double> radius; ///< of the first pass, in length units; without: what the camera's pixels suggest
-  double alpha = 2.0 / 3;       ///< part of each pass's photons that is kept; the radius shrinks the faster the smaller it is
+  double alpha = 2.0 / 3; ///< part of each pass's photons that is kept; the radius shrinks the faster the smaller it is
   bool operator==(const Sppm&) const = default;
 };
 
@@ -32,14 +32,16 @@ struct Settings {
   Estimator estimator = Estimator::automatic;
   Effort effort = Effort::automatic;
   Importance importance;
-  bool jitter = true; ///< each path takes one wavelength of its cluster (with maps: one that its pass shares), so clusters leave no bias
+  bool jitter = true; ///< each path takes one wavelength of its cluster (with maps: one that its pass shares), so
+                      ///< clusters leave no bias
   bool low_discrepancy = true; ///< photons leave the lights by a scrambled Sobol sequence
   bool differentials = false;  ///< a splat is stretched along the way that it moves with wavelength
   Smoothing smoothing = Smoothing::automatic;
-  bool relight = false;                    ///< keep a layer for each cluster, so that a light's spectrum can change without a new run
-  int photons_per_pass = 1 << 18;          ///< photons sent towards the caustic objects in one pass; sppm: for each cluster
+  bool relight = false; ///< keep a layer for each cluster, so that a light's spectrum can change without a new run
+  int photons_per_pass = 1 << 18; ///< photons sent towards the caustic objects in one pass; sppm: for each cluster
   int indirect_photons_per_pass = 1 << 18; ///< photons of the layer "indirect" in one pass
-  std::optional<int> pixel_samples; ///< of a pixel without glass and mirrors, of the layers direct and background: the most; RunPlan has it
+  std::optional<int> pixel_samples; ///< of a pixel without glass and mirrors, of the layers direct and background: the
+                                    ///< most; RunPlan has it
   int max_surfaces = 32;            ///< interfaces a path may meet before it is counted as lost
   Sppm sppm;
   bool direct = true;     ///< layer: light that reaches a diffuse surface unbent

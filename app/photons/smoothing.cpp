@@ -4,8 +4,8 @@
 #include "base/parallel.h"
 #include "base/summed_area.h"
 #include "photons/mixture.h"
-#include "photons/plan_part.h"
 #include "photons/pixel_surfaces.h"
+#include "photons/plan_part.h"
 #include "tracing/world.h"
 
 #include <fmt/format.h>
@@ -24,11 +24,12 @@ namespace {
 constexpr int reach = 6, noise_radius = 7;
 constexpr std::size_t block_rows = 64, block_pixels = 1 << 12;
 
-/// Two pixels are on one nearly flat part where their normals and the way between them are within about 25 and 30 degrees of it.
+/// Two pixels are on one nearly flat part where their normals and the way between them are within about 25 and 30
+/// degrees of it.
 constexpr float least_cosine = 0.9f, most_rise = 0.5f;
 
-/// Glass or a mirror is curved where neighbours show places more than so many times farther apart than a flat one would, and so far around,
-/// in pixels.
+/// Glass or a mirror is curved where neighbours show places more than so many times farther apart than a flat one
+/// would, and so far around, in pixels.
 constexpr float most_pull = 2;
 constexpr int pull_reach = 2;
 
@@ -46,8 +47,7 @@ struct Reach {
   std::vector<std::uint32_t> ring_ends; ///< of those equally far away: one past the last
 };
 
-const Reach& within_reach()
-{
+const Reach& within_reach() {
   static const Reach sorted = [] {
     Reach within;
     for (int y = -reach; y <= reach; ++y)
@@ -62,10 +62,10 @@ const Reach& within_reach()
   return sorted;
 }
 
-/// Calls work(i, j) for each pair of pixels side by side or one above the other, and `diagonal` those that touch at a corner.
+/// Calls work(i, j) for each pair of pixels side by side or one above the other, and `diagonal` those that touch at a
+/// corner.
 template <class Work>
-void for_neighbours(int width, int height, bool diagonal, const Work& work)
-{
+void for_neighbours(int width, int height, bool diagonal, const Work& work) {
   const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
   for (std::size_t y = 0; y < rows; ++y)
     for (std::size_t x = 0; x < columns; ++x) {
@@ -77,16 +77,15 @@ void for_neighbours(int width, int height, bool diagonal, const Work& work)
 }
 
 /// Whether neighbours show places of one object, in a mirror or through glass, that these have pulled apart.
-bool are_pulled_apart(const PixelSurfaces& a, const PixelSurfaces& b)
-{
-  if (a.first.object != b.first.object || a.last.object != b.last.object || a.first.object == a.last.object) return false;
+bool are_pulled_apart(const PixelSurfaces& a, const PixelSurfaces& b) {
+  if (a.first.object != b.first.object || a.last.object != b.last.object || a.first.object == a.last.object)
+    return false;
   const glm::vec3 way = b.last.position - a.last.position;
   return glm::length(way - glm::dot(way, a.way) * a.way) > most_pull * std::max(a.spacing, b.spacing);
 }
 
 /// Of each pixel, whether places are pulled apart within pull_reach of it.
-std::vector<bool> are_near_pulled(const std::vector<PixelSurfaces>& pixels, int width, int height)
-{
+std::vector<bool> are_near_pulled(const std::vector<PixelSurfaces>& pixels, int width, int height) {
   std::vector<double> pulled(pixels.size());
   for_neighbours(width, height, false, [&](std::size_t i, std::size_t j) {
     if (are_pulled_apart(pixels[i], pixels[j])) pulled[i] = pulled[j] = 1;
@@ -98,21 +97,23 @@ std::vector<bool> are_near_pulled(const std::vector<PixelSurfaces>& pixels, int 
   return near;
 }
 
-/// Adds to the draw of what is spread how far light was moved. With r what spreading has changed of the picture and q what it has of the
-/// draw, r + q and r - q are what it has changed of two halves with noise of their own, so that around a pixel
+/// Adds to the draw of what is spread how far light was moved. With r what spreading has changed of the picture and q
+/// what it has of the draw, r + q and r - q are what it has changed of two halves with noise of their own, so that
+/// around a pixel
 ///
-///   M = sum of (r + q)(r - q)    is that of the squares of the bias, give or take the root of S = sum of ((r + q)(r - q))^2, and
-///   g^2 = M / (sum of r^2) / (1 + S / M^2)    the share of r^2 that it is, as far as it stands out,
+///   M = sum of (r + q)(r - q)    is that of the squares of the bias, give or take the root of S = sum of ((r + q)(r -
+///   q))^2, and g^2 = M / (sum of r^2) / (1 + S / M^2)    the share of r^2 that it is, as far as it stands out,
 ///
-/// and g r a draw of the bias: r is the bias and the noise that was taken away, and the latter is no error of what is spread.
+/// and g r a draw of the bias: r is the bias and the noise that was taken away, and the latter is no error of what is
+/// spread.
 void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
-              std::vector<float>& draw_spread, int width, int height)
-{
+              std::vector<float>& draw_spread, int width, int height) {
   // r^2 + factor q^2, summed over R, G and B.
   const auto changed = [&](std::size_t i, double factor) {
     double sum = 0;
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-      const double r = static_cast<double>(rgb_spread[c]) - rgb[c], q = static_cast<double>(draw_spread[c]) - error_draw[c];
+      const double r = static_cast<double>(rgb_spread[c]) - rgb[c],
+                   q = static_cast<double>(draw_spread[c]) - error_draw[c];
       sum += r * r + factor * q * q;
     }
     return sum;
@@ -130,19 +131,19 @@ void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std
   }
 }
 
-/// How much of each pixel's light is for the better spread, 0..1. Of the picture m = truth + noise, spreading makes m + r, and of a share s
-/// of its light m + s r. The square of its error is larger than that of m by
+/// How much of each pixel's light is for the better spread, 0..1. Of the picture m = truth + noise, spreading makes m +
+/// r, and of a share s of its light m + s r. The square of its error is larger than that of m by
 ///
 ///   s^2 E[r^2] + 2 s E[r noise],    smallest at    s = -E[r noise] / E[r^2].
 ///
-/// The halves m + d and m - d of the film, each spread by kernels of its own, change by r_a and r_b. The one's noise is not in the other,
-/// so E[r_a d] and -E[r_b d] are what each has of E[r noise], with twice the noise that m has: q = (r_a - r_b) / 2 gives E[r noise] = E[q
-/// d]. That kernels follow the noise is in it, too. Means are taken around the pixel, over R, G and B; the square of an error counts over
-/// the light there, so that every photon counts alike.
-std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
-                                     std::span<const float> a_spread, std::span<const float> b_spread, std::span<const double> light,
-                                     int width, int height)
-{
+/// The halves m + d and m - d of the film, each spread by kernels of its own, change by r_a and r_b. The one's noise is
+/// not in the other, so E[r_a d] and -E[r_b d] are what each has of E[r noise], with twice the noise that m has: q =
+/// (r_a - r_b) / 2 gives E[r noise] = E[q d]. That kernels follow the noise is in it, too. Means are taken around the
+/// pixel, over R, G and B; the square of an error counts over the light there, so that every photon counts alike.
+std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const float> error_draw,
+                                     std::span<const float> rgb_spread, std::span<const float> a_spread,
+                                     std::span<const float> b_spread, std::span<const double> light, int width,
+                                     int height) {
   const double dark = least_light(light);
   const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
   const auto over_light = [&](std::size_t i, const auto& term) {
@@ -171,31 +172,31 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
 /// What a pixel shows, as far as light may be spread over it.
 struct PixelSight {
   PixelSurfaces::Surface surface; ///< the diffuse one at the end of a ray, or the first of glass or a mirror
-  int first = -1;         ///< the object that is met first; -1: none
-  bool at_edge = false;   ///< whether a neighbour shows something else: then the pixel may hold light of that
+  int first = -1;                 ///< the object that is met first; -1: none
+  bool at_edge = false;           ///< whether a neighbour shows something else: then the pixel may hold light of that
 };
 
 /// Which pixels light may be spread over.
 struct SpreadDomain {
   int width, height;
   std::span<const Smoothing::Level> level; ///< [pixel]
-  std::vector<std::size_t> steps = {};     ///< [of the pixels within reach]: to be added to a pixel's number, modulo 2^64
-  SpreadDomain(int columns, int rows, std::span<const Smoothing::Level> levels) : width(columns), height(rows), level(levels)
-  {
-    for (const Offset& o : within_reach().offsets) steps.push_back(static_cast<std::size_t>(std::ptrdiff_t{o.y} * width + o.x));
+  std::vector<std::size_t> steps = {}; ///< [of the pixels within reach]: to be added to a pixel's number, modulo 2^64
+  SpreadDomain(int columns, int rows, std::span<const Smoothing::Level> levels)
+      : width(columns), height(rows), level(levels) {
+    for (const Offset& o : within_reach().offsets)
+      steps.push_back(static_cast<std::size_t>(std::ptrdiff_t{o.y} * width + o.x));
   }
 };
 
-/// Where a pixel's light goes: evenly, but for the outermost ring of pixels, which gets so much less that kernels change without a step,
-/// and as each pixel is favoured.
+/// Where a pixel's light goes: evenly, but for the outermost ring of pixels, which gets so much less that kernels
+/// change without a step, and as each pixel is favoured.
 struct Kernel {
   std::uint32_t inside = 0, end = 0; ///< of the pixels within reach, those before the outermost ring, and with it
   double ring_weight = 1;            ///< of a pixel of that ring, 0..1
   double scale = 1;                  ///< makes all weights 1 together
 };
 
-bool are_level(const PixelSight& a, const PixelSight& b)
-{
+bool are_level(const PixelSight& a, const PixelSight& b) {
   if (a.first != b.first || a.surface.object != b.surface.object || a.at_edge != b.at_edge || a.first < 0) return false;
   const glm::vec3 &n = a.surface.normal, &m = b.surface.normal, way = b.surface.position - a.surface.position;
   return glm::dot(n, m) > least_cosine && std::abs(glm::dot(way, n + m)) <= 2 * most_rise * glm::length(way);
@@ -203,21 +204,20 @@ bool are_level(const PixelSight& a, const PixelSight& b)
 
 /// Calls work(j) for each pixel j that pixel i may give light to, of those with the numbers begin..end-1 within reach.
 template <class Work>
-void for_level(const SpreadDomain& at, std::size_t i, std::uint32_t begin, std::uint32_t end, const Work& work)
-{
+void for_level(const SpreadDomain& at, std::size_t i, std::uint32_t begin, std::uint32_t end, const Work& work) {
   constexpr std::uint32_t bits = 64;
   for (std::uint32_t word = begin / bits; word * bits < end; ++word) {
     std::uint64_t level = at.level[i][word];
     if (begin > word * bits) level &= ~std::uint64_t{0} << (begin - word * bits);
     if (end - word * bits < bits) level &= (std::uint64_t{1} << (end - word * bits)) - 1;
-    for (; level != 0; level &= level - 1) work(i + at.steps[word * bits + static_cast<std::uint32_t>(std::countr_zero(level))]);
+    for (; level != 0; level &= level - 1)
+      work(i + at.steps[word * bits + static_cast<std::uint32_t>(std::countr_zero(level))]);
   }
 }
 
 /// Those that hold `wanted` of `light`, or reach as far as any may; [pixel].
 std::vector<Kernel> find_kernels(const SpreadDomain& at, std::span<const double> light, std::span<const double> wanted,
-                                 std::span<const double> favour)
-{
+                                 std::span<const double> favour) {
   std::vector<Kernel> kernels(light.size());
   for_ranges(kernels.size(), block_pixels, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
@@ -228,7 +228,8 @@ std::vector<Kernel> find_kernels(const SpreadDomain& at, std::span<const double>
         inside += std::exchange(ring, 0);
         favours += std::exchange(ring_favours, 0);
         kernel.inside = kernel.end;
-        for_level(at, i, std::exchange(kernel.end, end), end, [&](std::size_t j) { ring += light[j], ring_favours += favour[j]; });
+        for_level(at, i, std::exchange(kernel.end, end), end,
+                  [&](std::size_t j) { ring += light[j], ring_favours += favour[j]; });
       }
       if (kernel.inside > 0 && ring > 0) kernel.ring_weight = std::clamp((wanted[i] - inside) / ring, 0.0, 1.0);
       kernel.scale = 1 / (favours + kernel.ring_weight * ring_favours);
@@ -238,11 +239,13 @@ std::vector<Kernel> find_kernels(const SpreadDomain& at, std::span<const double>
   return kernels;
 }
 
-/// Calls give(i, j, part) for the part of its light that each pixel i which is `needed(i)` gives to j. On every core, each with its own j.
+/// Calls give(i, j, part) for the part of its light that each pixel i which is `needed(i)` gives to j. On every core,
+/// each with its own j.
 template <class Needed, class Give>
-void give_parts(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> favour, const Needed& needed, const Give& give)
-{
-  // A block of rows takes what all pixels within reach of it give, in their order: the same bits on any number of cores.
+void give_parts(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> favour,
+                const Needed& needed, const Give& give) {
+  // A block of rows takes what all pixels within reach of it give, in their order: the same bits on any number of
+  // cores.
   for_ranges(static_cast<std::size_t>(at.height), block_rows, [&](std::size_t, Range rows) {
     const std::size_t width = static_cast<std::size_t>(at.width), first = rows.begin * width, end = rows.end * width;
     const std::size_t from = (rows.begin - std::min<std::size_t>(rows.begin, reach)) * width;
@@ -262,9 +265,8 @@ void give_parts(const SpreadDomain& at, std::span<const Kernel> kernels, std::sp
 }
 
 /// Of what each pixel of a picture has, `share` is spread by the kernels; the rest stays.
-void spread_shares(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> favour, std::span<const float> share,
-                   std::vector<float>& rgb)
-{
+void spread_shares(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> favour,
+                   std::span<const float> share, std::vector<float>& rgb) {
   using Colour = std::array<float, 4>; // four numbers are added as fast as one
   std::vector<Colour> given(at.level.size()), kept(at.level.size());
   for (std::size_t i = 0; i < rgb.size(); ++i) {
@@ -280,13 +282,13 @@ void spread_shares(const SpreadDomain& at, std::span<const Kernel> kernels, std:
 }
 
 /// Makes of each of two pictures means by the kernels: what a pixel gets, over how much of the others gives to it.
-void to_means(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> even, std::vector<float>& first,
-              std::vector<float>& second)
-{
+void to_means(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> even,
+              std::vector<float>& first, std::vector<float>& second) {
   using Two = std::array<float, 8>; // three of each picture, and how much gives
   std::vector<Two> given(at.level.size()), got(at.level.size());
   for (std::size_t i = 0; i < given.size(); ++i)
-    given[i] = {first[3 * i], first[3 * i + 1], first[3 * i + 2], second[3 * i], second[3 * i + 1], second[3 * i + 2], 1};
+    given[i] = {
+        first[3 * i], first[3 * i + 1], first[3 * i + 2], second[3 * i], second[3 * i + 1], second[3 * i + 2], 1};
   give_parts(
       at, kernels, even, [](std::size_t) { return true; },
       [&](std::size_t i, std::size_t j, double part) {
@@ -300,15 +302,13 @@ void to_means(const SpreadDomain& at, std::span<const Kernel> kernels, std::span
 
 } // namespace
 
-std::vector<double> light_of(std::span<const float> rgb)
-{
+std::vector<double> light_of(std::span<const float> rgb) {
   std::vector<double> light(rgb.size() / 3);
   for (std::size_t i = 0; i < rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(rgb[i]), 0.0) / 3;
   return light;
 }
 
-std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw, int width, int height)
-{
+std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw, int width, int height) {
   const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
   const SummedArea variances(width, height, [&](std::size_t i) {
     const double r = error_draw[3 * i], g = error_draw[3 * i + 1], b = error_draw[3 * i + 2];
@@ -323,20 +323,16 @@ std::vector<double> portions(std::span<const double> light, std::span<const floa
   return portion;
 }
 
-std::shared_ptr<const Smoothing::View> Smoothing::view_of(const scene::Scene& scene, const scene::Bvh& bvh)
-{
+std::shared_ptr<const Smoothing::View> Smoothing::view_of(const scene::Scene& scene, const scene::Bvh& bvh) {
   scene::Scene seen = scene;
   seen.environment.reset(); // the largest part of a scene, and no ray needs it
   return std::make_shared<const View>(View{std::move(seen), bvh});
 }
 
 Smoothing::Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread)
-    : width_(width), height_(height), spread_(spread), view_(std::move(view))
-{
-}
+    : width_(width), height_(height), spread_(spread), view_(std::move(view)) {}
 
-void Smoothing::find_surfaces()
-{
+void Smoothing::find_surfaces() {
   if (!view_) return;
   const std::shared_ptr<const View> view = std::move(view_);
   scene::Camera camera = view->scene.camera;
@@ -346,10 +342,12 @@ void Smoothing::find_surfaces()
   std::vector<PixelSurfaces> pixels(seen.size());
   for_ranges(pixels.size(), 1 << 10, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
-      pixels[i] = surfaces_of_pixel(view->scene, view->bvh, camera, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
+      pixels[i] =
+          surfaces_of_pixel(view->scene, view->bvh, camera, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
   });
   const std::vector<bool> pulled = are_near_pulled(pixels, width_, height_);
-  for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = {pulled[i] ? pixels[i].first : pixels[i].last, pixels[i].first.object};
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    seen[i] = {pulled[i] ? pixels[i].first : pixels[i].last, pixels[i].first.object};
   for_neighbours(width_, height_, true, [&](std::size_t i, std::size_t j) {
     if (seen[i].first == seen[j].first && seen[i].surface.object == seen[j].surface.object) return;
     seen[i].at_edge = seen[j].at_edge = true;
@@ -361,21 +359,20 @@ void Smoothing::find_surfaces()
         const Offset& o = within_reach().offsets[number];
         const int x = static_cast<int>(i) % width_ + o.x, y = static_cast<int>(i) / width_ + o.y;
         if (x < 0 || x >= width_ || y < 0 || y >= height_) continue;
-        const std::size_t j = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+        const std::size_t j =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
         if (j == i || are_level(seen[i], seen[j])) level_[i][number / 64] |= std::uint64_t{1} << (number % 64);
       }
   });
 }
 
-std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
-{
+std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh) {
   constexpr std::uint64_t pulled_apart = 2 * sizeof(double); // marks, and their summed area
   return tracing::tree_bytes(bvh) + tracing::mesh_bytes(scene) +
          (sizeof(PixelSurfaces) + sizeof(PixelSight) + sizeof(Level) + pulled_apart) * scene.camera.pixels();
 }
 
-void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, const BiasedEstimate& known)
-{
+void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, const BiasedEstimate& known) {
   if (error_draw.empty()) return;
   find_surfaces();
   const std::vector<double> light = light_of(rgb);
@@ -383,8 +380,8 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
   for (double& portion : wanted) portion /= noise * noise; // of n portions the noise is 1 / sqrt(n)
 
   const SpreadDomain at{width_, height_, level_};
-  // Of even light a pixel at the border of a part takes less than it gives, and one a kernel away from there more; one step of Sinkhorn and
-  // Knopp (1967) evens that out, and still every pixel gives away what it has.
+  // Of even light a pixel at the border of a part takes less than it gives, and one a kernel away from there more; one
+  // step of Sinkhorn and Knopp (1967) evens that out, and still every pixel gives away what it has.
   const std::vector<double> even(level_.size(), 1);
   std::vector<double> favour = even, taken(level_.size());
   give_parts(
@@ -405,8 +402,10 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
     std::vector<float> a = rgb, b = rgb;
     std::ranges::transform(rgb, error_draw, a.begin(), std::plus());
     std::ranges::transform(rgb, error_draw, b.begin(), std::minus());
-    const std::vector<Kernel> of_a = find_kernels(at, light_of(a), wanted, favour), of_b = find_kernels(at, light_of(b), wanted, favour);
-    share = worthwhile_shares(rgb, error_draw, rgb_spread, spread_by(of_a, a), spread_by(of_b, b), light, width_, height_);
+    const std::vector<Kernel> of_a = find_kernels(at, light_of(a), wanted, favour),
+                              of_b = find_kernels(at, light_of(b), wanted, favour);
+    share =
+        worthwhile_shares(rgb, error_draw, rgb_spread, spread_by(of_a, a), spread_by(of_b, b), light, width_, height_);
     rgb_spread = spread_by(kernels, rgb);
     if (known.rgb.empty()) {
       draw_spread = spread_by(kernels, error_draw);
@@ -414,8 +413,8 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
       draw_spread.resize(error_draw.size());
       std::ranges::transform(spread_by(of_a, a), spread_by(of_b, b), draw_spread.begin(),
                              [](float of_one, float of_other) { return (of_one - of_other) / 2; });
-      // What is known, with what it lacks. That is spread far, by kernels that hardly follow the noise: its draw is what they make of the
-      // picture's.
+      // What is known, with what it lacks. That is spread far, by kernels that hardly follow the noise: its draw is
+      // what they make of the picture's.
       for (double& portion : wanted) portion *= noise * noise / (known.noise * known.noise);
       std::vector<float> evened = rgb, evened_draw = error_draw;
       std::ranges::transform(rgb, known.rgb, evened.begin(), std::minus());
@@ -432,8 +431,7 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
 
 namespace {
 
-plan::Pass smoothing_pass(const PlanInput& input)
-{
+plan::Pass smoothing_pass(const PlanInput& input) {
   const char* const name = "smoothing";
   using Choice = Settings::Smoothing;
   const Choice choice = input.settings.smoothing;
@@ -442,14 +440,16 @@ plan::Pass smoothing_pass(const PlanInput& input)
   if (input.is_sppm()) return {name, false, "spectral.estimator is sppm, which has radii of its own"};
   if (!input.estimate.runs)
     return {name, false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
-  if (input.preset.stop.passes == 1) return {name, false, "the run has one pass, and it takes two to tell how noisy a pixel is"};
+  if (input.preset.stop.passes == 1)
+    return {name, false, "the run has one pass, and it takes two to tell how noisy a pixel is"};
   return {name, true,
-          fmt::format("a pixel's caustics are spread until their noise is {} of them, {}; the estimated error takes in how far it goes",
-                      Smoothing::noise, choice == Choice::on ? "everywhere" : "where the two halves of the film say that it helps")};
+          fmt::format("a pixel's caustics are spread until their noise is {} of them, {}; the estimated error takes in "
+                      "how far it goes",
+                      Smoothing::noise,
+                      choice == Choice::on ? "everywhere" : "where the two halves of the film say that it helps")};
 }
 
-PlanPart plan_smoothing(const PlanInput& input)
-{
+PlanPart plan_smoothing(const PlanInput& input) {
   const plan::Pass pass = smoothing_pass(input);
   PlanPart part;
   if (input.caustics.runs) part.passes = {pass};
@@ -458,7 +458,8 @@ PlanPart plan_smoothing(const PlanInput& input)
   if (!pass.runs)
     part.notes = {"spectral.smoothing: on does nothing here: " + pass.reason};
   else if (input.preset.stop.error && !input.preset.reference)
-    part.notes = {"stop.error: the run's own estimate may not know how far spectral.smoothing moves light; a 'reference' does"};
+    part.notes = {
+        "stop.error: the run's own estimate may not know how far spectral.smoothing moves light; a 'reference' does"};
   return part;
 }
 

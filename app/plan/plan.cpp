@@ -15,24 +15,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 template <class Items, class Name>
-std::size_t widest(const Items& items, Name name)
-{
+std::size_t widest(const Items& items, Name name) {
   std::size_t width = 0;
   for (const auto& item : items) width = std::max(width, name(item).size());
   return width;
 }
 
 /// "; to compute it: --set leave_out=false", for what a field can turn back on.
-std::string way_back(const Pass& pass)
-{
+std::string way_back(const Pass& pass) {
   if (pass.runs || pass.field.empty()) return "";
   std::string key = pass.field.substr(1); // names of fields hold no '/' and no '~'
   std::replace(key.begin(), key.end(), '/', '.');
   return fmt::format("; to compute it: --set {}={}", key, pass.run_value);
 }
 
-Json json_of(const Plan& plan)
-{
+Json json_of(const Plan& plan) {
   Json passes = Json::array(), buffers = Json::array(), defines = Json::object(), inputs = Json::array();
   for (const Pass& pass : plan.passes) {
     Json entry{{"name", pass.name}, {"runs", pass.runs}, {"reason", pass.reason}};
@@ -51,19 +48,22 @@ Json json_of(const Plan& plan)
 
 } // namespace
 
-std::string readable_bytes(std::uint64_t bytes)
-{
+std::string readable_bytes(std::uint64_t bytes) {
   const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
   double amount = static_cast<double>(bytes);
   int unit = 0;
   for (; amount >= 1024 && unit < 4; ++unit) amount /= 1024;
-  return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.{}f} {}", amount, amount < 10 ? 2 : amount < 100 ? 1 : 0, units[unit]);
+  return unit == 0 ? fmt::format("{} B", bytes)
+                   : fmt::format("{:.{}f} {}", amount,
+                                 amount < 10    ? 2
+                                 : amount < 100 ? 1
+                                                : 0,
+                                 units[unit]);
 }
 
 std::string to_json(const Plan& plan) { return json_text(json_of(plan), 2); }
 
-std::vector<Input> inputs_of(const std::string& plan_json)
-{
+std::vector<Input> inputs_of(const std::string& plan_json) {
   std::vector<Input> inputs;
   try {
     const Json plan = Json::parse(plan_json);
@@ -75,21 +75,21 @@ std::vector<Input> inputs_of(const std::string& plan_json)
   return inputs;
 }
 
-std::string to_json_line(const Plan& plan, const std::string& name)
-{
+std::string to_json_line(const Plan& plan, const std::string& name) {
   Json line{{"name", name}};
   line.update(json_of(plan));
   return json_text(line);
 }
 
-std::string to_text(const Plan& plan)
-{
+std::string to_text(const Plan& plan) {
   std::string text = fmt::format("Engine: {}\n\nPasses\n", plan.engine);
   const std::size_t pass_width = widest(plan.passes, [](const Pass& pass) { return pass.name; });
   for (const Pass& pass : plan.passes)
-    text += fmt::format("  {:<{}}  {}  {}{}\n", pass.name, pass_width, pass.runs ? "runs    " : "left out", pass.reason, way_back(pass));
+    text += fmt::format("  {:<{}}  {}  {}{}\n", pass.name, pass_width, pass.runs ? "runs    " : "left out", pass.reason,
+                        way_back(pass));
   text += "\nMemory\n";
-  const std::size_t buffer_width = std::max<std::size_t>(5, widest(plan.buffers, [](const PlannedBuffer& buffer) { return buffer.name; }));
+  const std::size_t buffer_width =
+      std::max<std::size_t>(5, widest(plan.buffers, [](const PlannedBuffer& buffer) { return buffer.name; }));
   std::uint64_t total = 0;
   for (const PlannedBuffer& buffer : plan.buffers) {
     text += fmt::format("  {:<{}}  {:>9}\n", buffer.name, buffer_width, readable_bytes(buffer.bytes));
@@ -98,7 +98,8 @@ std::string to_text(const Plan& plan)
   text += fmt::format("  {:<{}}  {:>9}\n", "total", buffer_width, readable_bytes(total));
   if (!plan.defines.empty()) {
     text += "\nKernel settings\n";
-    for (const auto& [name, value] : plan.defines) text += fmt::format("  -D {}{}{}\n", name, value.empty() ? "" : "=", value);
+    for (const auto& [name, value] : plan.defines)
+      text += fmt::format("  -D {}{}{}\n", name, value.empty() ? "" : "=", value);
   }
   if (!plan.notes.empty()) {
     text += "\nNotes\n";

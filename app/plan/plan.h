@@ -15,7 +15,8 @@ struct Pass {
   bool runs = true;
   std::string reason;     ///< a sentence a person can read
   std::string field = {}; ///< JSON pointer of the preset's boolean that decides; empty where none does
-  bool run_value = false; ///< what that boolean must be for the pass to run; a pass that is needed may run whatever it is
+  bool run_value =
+      false; ///< what that boolean must be for the pass to run; a pass that is needed may run whatever it is
 };
 
 struct PlannedBuffer {
@@ -47,12 +48,13 @@ struct Plan {
   std::vector<std::string> notes;          ///< what the run should say once: extrapolated data, open meshes
   int layers = 0;                          ///< pictures that the run makes and adds up
   std::uint64_t picture_bytes_a_pixel = 0; ///< on this machine, while a picture is made, beside it
-  std::string smaller = {};                ///< what to choose where the memory is too small for it; empty: a smaller picture
-  bool estimates_error = false;            ///< films are kept in two halves, whose difference tells the error
+  std::string smaller = {};     ///< what to choose where the memory is too small for it; empty: a smaller picture
+  bool estimates_error = false; ///< films are kept in two halves, whose difference tells the error
 };
 
-/// {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{},"inputs":[{"file","content"}]},
-/// plus "notes"; "field" and "run_value" only where a field decides. Over several lines, as plan.json has it.
+/// {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{},
+/// "inputs":[{"file","content"}]}, plus "notes"; "field" and "run_value" only where a field decides. Over several
+/// lines, as plan.json has it.
 std::string to_json(const Plan& plan);
 /// Of a plan.json; none where it is damaged.
 std::vector<Input> inputs_of(const std::string& plan_json);

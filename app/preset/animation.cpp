@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values go into the preset as JSON, as those of --set and of a sweep do: what a field takes is said once, by its description.
+// Values go into the preset as JSON, as those of --set and of a sweep do: what a field takes is said once, by its
+// description.
 #include "preset/animation.h"
 
 #include "base/counted.h"
@@ -22,23 +23,20 @@ namespace {
 using Path = std::vector<std::string>;
 
 /// For messages: whoever gave the value at pointer.
-Place where(const Preset& preset, const std::string& pointer)
-{
+Place where(const Preset& preset, const std::string& pointer) {
   return preset.provenance.origins ? preset.provenance.origins->where(pointer) : Place(preset.source, pointer);
 }
 
 std::string pointer_of(std::size_t track) { return child("/animation/tracks", track); }
 
-std::string pointer_of(const Path& path)
-{
+std::string pointer_of(const Path& path) {
   std::string pointer;
   for (const std::string& key : path) pointer = child(pointer, key);
   return pointer;
 }
 
 /// The value at the path; null where there is none.
-const Json* find(const Json& json, const Path& path)
-{
+const Json* find(const Json& json, const Path& path) {
   const Json* at = &json;
   for (const std::string& key : path) {
     if (at->is_object() && at->contains(key))
@@ -51,14 +49,13 @@ const Json* find(const Json& json, const Path& path)
   return at;
 }
 
-bool is_numbers(const Json& json)
-{
-  return json.is_number() || (json.is_array() && std::all_of(json.begin(), json.end(), [](const Json& item) { return item.is_number(); }));
+bool is_numbers(const Json& json) {
+  return json.is_number() ||
+         (json.is_array() && std::all_of(json.begin(), json.end(), [](const Json& item) { return item.is_number(); }));
 }
 
 /// Numbers as the field's `before` has them: one or a list. Where it has whole ones they are rounded if asked for.
-Json as_field(const Json& before, const std::vector<double>& numbers, bool rounds)
-{
+Json as_field(const Json& before, const std::vector<double>& numbers, bool rounds) {
   const bool list = before.is_array();
   const auto one = [&](std::size_t i) -> Json {
     const Json& item = list && i < before.size() ? before[i] : before;
@@ -77,35 +74,31 @@ class Stage {
 public:
   explicit Stage(const Preset& preset)
       : preset_(preset), json_(as_json(value_of(preset))),
-        document_(json_, Origin{preset.source, true, std::filesystem::path(preset.source).parent_path()})
-  {
-  }
+        document_(json_, Origin{preset.source, true, std::filesystem::path(preset.source).parent_path()}) {}
 
   /// Null where the preset has no such field, and where it has no value.
-  Json field(const Path& path) const
-  {
+  Json field(const Path& path) const {
     const Json* found = find(json_, path);
     return found ? *found : Json();
   }
   bool has(const Path& path) const { return find(json_, path) != nullptr; }
 
   /// origin: of the value, for messages.
-  void put(const Path& path, Json value, const Place& origin)
-  {
+  void put(const Path& path, Json value, const Place& origin) {
     document_.set(path, std::move(value), Origin{origin, false, document_.origins().main().folder});
     pointers_.emplace_back(pointer_of(path), origin);
   }
 
   /// The preset as it now is. Throws bad_input at the origin of a value that its field does not take.
-  Preset read() const
-  {
+  Preset read() const {
     Preset changed;
     preset::read(document_, changed);
     changed.source = preset_.source;
     changed.provenance = preset_.provenance;
     auto origins = preset_.provenance.origins ? std::make_shared<Origins>(*preset_.provenance.origins) : nullptr;
     for (const auto& [pointer, origin] : pointers_)
-      if (origins) origins->set_whole(pointer, std::make_shared<const Origin>(Origin{origin, false, origins->at(pointer).folder}));
+      if (origins)
+        origins->set_whole(pointer, std::make_shared<const Origin>(Origin{origin, false, origins->at(pointer).folder}));
     changed.provenance.origins = std::move(origins);
     return changed;
   }
@@ -117,8 +110,7 @@ private:
   std::vector<std::pair<std::string, Place>> pointers_;
 };
 
-Preset made_at(const Preset& preset, int frame)
-{
+Preset made_at(const Preset& preset, int frame) {
   Stage stage(preset);
   for (std::size_t i = 0; i < preset.animation->tracks.size(); ++i) {
     const Track& track = preset.animation->tracks[i];
@@ -129,15 +121,13 @@ Preset made_at(const Preset& preset, int frame)
 }
 
 /// A word for what a path leads to that cannot be animated.
-std::string kind_of(const Json& json)
-{
+std::string kind_of(const Json& json) {
   if (json.is_object()) return "a section";
   if (json.is_boolean()) return "true or false";
   return json.is_array() ? "a list of something else than numbers" : "a word";
 }
 
-Path check_path(const Preset& preset, const Stage& stage, std::size_t index)
-{
+Path check_path(const Preset& preset, const Stage& stage, std::size_t index) {
   const Track& track = preset.animation->tracks[index];
   const Place place = where(preset, child(pointer_of(index), "path"));
   const Path path = split_path(track.path);
@@ -159,8 +149,7 @@ Path check_path(const Preset& preset, const Stage& stage, std::size_t index)
   return path;
 }
 
-void check_keys(const Preset& preset, std::size_t index)
-{
+void check_keys(const Preset& preset, std::size_t index) {
   const std::vector<Key>& keys = preset.animation->tracks[index].keys;
   for (std::size_t k = 1; k < keys.size(); ++k) {
     const std::string pointer = child(child(pointer_of(index), "keys"), k);
@@ -170,13 +159,13 @@ void check_keys(const Preset& preset, std::size_t index)
                       "expected keys by rising frame");
     if (keys[k].value.size() != keys[0].value.size())
       throw bad_input(where(preset, child(pointer, "value")),
-                      fmt::format("has {}, and the first key has {}", counted(keys[k].value.size(), "number"), keys[0].value.size()),
+                      fmt::format("has {}, and the first key has {}", counted(keys[k].value.size(), "number"),
+                                  keys[0].value.size()),
                       "expected as many in each key");
   }
 }
 
-void check_overlaps(const Preset& preset, const std::vector<Path>& paths)
-{
+void check_overlaps(const Preset& preset, const std::vector<Path>& paths) {
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const std::size_t common = std::min(paths[i].size(), paths[j].size());
@@ -188,9 +177,9 @@ void check_overlaps(const Preset& preset, const std::vector<Path>& paths)
     }
 }
 
-/// The first key's values of all tracks, then the second one's, and so on: what lies between two keys is in range where they are.
-void check_values(const Preset& preset, const Stage& unchanged, const std::vector<Path>& paths)
-{
+/// The first key's values of all tracks, then the second one's, and so on: what lies between two keys is in range where
+/// they are.
+void check_values(const Preset& preset, const Stage& unchanged, const std::vector<Path>& paths) {
   const std::vector<Track>& tracks = preset.animation->tracks;
   std::size_t most = 0;
   for (const Track& track : tracks) most = std::max(most, track.keys.size());
@@ -199,7 +188,8 @@ void check_values(const Preset& preset, const Stage& unchanged, const std::vecto
     for (std::size_t i = 0; i < tracks.size(); ++i) {
       const std::size_t key = std::min(k, tracks[i].keys.size() - 1);
       const std::string pointer = child(child(child(pointer_of(i), "keys"), key), "value");
-      stage.put(paths[i], as_field(unchanged.field(paths[i]), tracks[i].keys[key].value, false), where(preset, pointer));
+      stage.put(paths[i], as_field(unchanged.field(paths[i]), tracks[i].keys[key].value, false),
+                where(preset, pointer));
     }
     stage.read();
   }
@@ -207,8 +197,7 @@ void check_values(const Preset& preset, const Stage& unchanged, const std::vecto
 
 } // namespace
 
-std::vector<double> value_at(const Track& track, int frame)
-{
+std::vector<double> value_at(const Track& track, int frame) {
   const std::vector<Key>& keys = track.keys;
   std::vector<double> value;
   if (track.interpolation == Track::Interpolation::smooth) {
@@ -224,22 +213,22 @@ std::vector<double> value_at(const Track& track, int frame)
   const Key& before = *(after - 1);
   if (after == keys.end()) return before.value;
   const double part = static_cast<double>(frame - before.frame) / (after->frame - before.frame);
-  for (std::size_t i = 0; i < before.value.size(); ++i) value.push_back(std::lerp(before.value[i], after->value[i], part));
+  for (std::size_t i = 0; i < before.value.size(); ++i)
+    value.push_back(std::lerp(before.value[i], after->value[i], part));
   return value;
 }
 
-Preset at_frame(const Preset& preset, int frame)
-{
+Preset at_frame(const Preset& preset, int frame) {
   Preset frame_preset = made_at(preset, frame);
   frame_preset.name += fmt::format(",frame={}", frame);
   frame_preset.animation.reset();
   frame_preset.provenance.frame = frame;
-  at_origins(frame_preset, [&] { check(frame_preset, [&](const std::string& pointer) { return where(frame_preset, pointer); }); });
+  at_origins(frame_preset,
+             [&] { check(frame_preset, [&](const std::string& pointer) { return where(frame_preset, pointer); }); });
   return frame_preset;
 }
 
-Preset at_start(const Preset& preset)
-{
+Preset at_start(const Preset& preset) {
   const Stage stage(preset);
   std::vector<Path> paths;
   for (std::size_t i = 0; i < preset.animation->tracks.size(); ++i) {

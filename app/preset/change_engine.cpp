@@ -12,22 +12,20 @@
 namespace nephroid::preset {
 namespace {
 
-bool leads_into(const Json& path, const std::vector<std::string>& keys)
-{
-  return path.is_string() &&
-         std::ranges::any_of(keys, [text = path.get<std::string>() + "."](const std::string& key) { return text.starts_with(key + "."); });
+bool leads_into(const Json& path, const std::vector<std::string>& keys) {
+  return path.is_string() && std::ranges::any_of(keys, [text = path.get<std::string>() + "."](const std::string& key) {
+           return text.starts_with(key + ".");
+         });
 }
 
 /// The part of the preset, where it is there and of that kind.
-Json* part_of(Json& preset, const char* name, Json::value_t kind)
-{
+Json* part_of(Json& preset, const char* name, Json::value_t kind) {
   const auto part = preset.find(name);
   return part != preset.end() && part->type() == kind ? &*part : nullptr;
 }
 
 /// A key such as "scene.lights"; false where there is nothing, or null.
-bool take(Json& preset, std::string_view key)
-{
+bool take(Json& preset, std::string_view key) {
   const std::size_t dot = key.find('.');
   const std::string name(key.substr(0, dot));
   if (!preset.is_object() || !preset.contains(name)) return false;
@@ -39,8 +37,7 @@ bool take(Json& preset, std::string_view key)
 
 } // namespace
 
-std::vector<std::string> take_foreign(Json& preset, std::string_view engine)
-{
+std::vector<std::string> take_foreign(Json& preset, std::string_view engine) {
   const auto& types = settings_types();
   const auto own = std::ranges::find(types, engine, &SettingsType::name);
   if (own == types.end() || !preset.is_object()) return {};
@@ -74,8 +71,7 @@ std::vector<std::string> take_foreign(Json& preset, std::string_view engine)
   return taken;
 }
 
-std::string left_out_note(std::string_view engine, const std::vector<std::string>& keys)
-{
+std::string left_out_note(std::string_view engine, const std::vector<std::string>& keys) {
   return fmt::format("left out what the engine '{}' does not know: {}", engine, fmt::join(keys, ", "));
 }
 

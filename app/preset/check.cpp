@@ -22,8 +22,7 @@ double length(const Vec3& v) { return std::hypot(v[0], v[1], v[2]); }
 Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 /// Single precision cannot make an orthonormal frame from two directions less than about 0.01 degrees apart.
-bool parallel(const Vec3& a, const Vec3& b)
-{
+bool parallel(const Vec3& a, const Vec3& b) {
   const Vec3 cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   return length(cross) <= 2e-4 * length(a) * length(b);
 }
@@ -31,21 +30,18 @@ bool parallel(const Vec3& a, const Vec3& b)
 /// Shorter ones have a square that single precision rounds to 0.
 bool no_direction(const Vec3& v) { return length(v) < 1e-12; }
 
-void check_direction(const Vec3& v, const std::string& pointer, const Where& where)
-{
+void check_direction(const Vec3& v, const std::string& pointer, const Where& where) {
   if (no_direction(v)) throw bad_input(where(pointer), "has no length", "expected a direction");
 }
 
-void check_up(const Vec3& up, const Vec3& forward, const std::string& pointer, const Where& where)
-{
+void check_up(const Vec3& up, const Vec3& forward, const std::string& pointer, const Where& where) {
   check_direction(up, pointer, where);
   if (parallel(up, forward))
     throw bad_input(where(pointer), "points along the line of sight or of light", "expected a direction across it");
 }
 
 /// Two values at one wavelength contradict each other.
-void check_rows(const Rows& rows, const std::string& pointer, const Where& where)
-{
+void check_rows(const Rows& rows, const std::string& pointer, const Where& where) {
   std::vector<std::size_t> order(rows.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rows[a][0] < rows[b][0]; });
@@ -55,42 +51,42 @@ void check_rows(const Rows& rows, const std::string& pointer, const Where& where
                       "expected each wavelength once");
 }
 
-void check_dispersion(const Dispersion& d, const std::string& pointer, const Where& where)
-{
+void check_dispersion(const Dispersion& d, const std::string& pointer, const Where& where) {
   if (d.type == Dispersion::Type::sellmeier && d.b.size() != d.c_um2.size())
-    throw bad_input(where(pointer), fmt::format("has {} in 'b' and {} in 'c_um2'", counted(d.b.size(), "value"), d.c_um2.size()),
+    throw bad_input(where(pointer),
+                    fmt::format("has {} in 'b' and {} in 'c_um2'", counted(d.b.size(), "value"), d.c_um2.size()),
                     "expected as many of both");
-  if (d.type == Dispersion::Type::table || d.type == Dispersion::Type::points) check_rows(d.table, child(pointer, "table"), where);
+  if (d.type == Dispersion::Type::table || d.type == Dispersion::Type::points)
+    check_rows(d.table, child(pointer, "table"), where);
 }
 
-void check_material(const Material& m, const std::string& pointer, const Where& where)
-{
+void check_material(const Material& m, const std::string& pointer, const Where& where) {
   if (m.type == Material::Type::dielectric)
     check_dispersion(m.dispersion, child(pointer, "dispersion"), where);
   else if (m.reflectance.type == Reflectance::Type::table)
     check_rows(m.reflectance.table, child(child(pointer, "reflectance"), "table"), where);
 }
 
-void check_spectrum(const LightSpectrum& s, const std::string& pointer, const Where& where)
-{
+void check_spectrum(const LightSpectrum& s, const std::string& pointer, const Where& where) {
   const bool lines = s.type == LightSpectrum::Type::lines;
   if (!lines && s.type != LightSpectrum::Type::table) return;
   const std::string table = child(pointer, "table");
   if (!lines) check_rows(s.table, table, where);
   if (std::none_of(s.table.begin(), s.table.end(), [](const auto& row) { return row[1] > 0; }))
     throw bad_input(where(table), "has no power at any wavelength", "expected at least one power above 0");
-  if (lines && std::none_of(s.table.begin(), s.table.end(), [](const auto& row) { return row[0] >= 380 && row[0] <= 780 && row[1] > 0; }))
+  if (lines && std::none_of(s.table.begin(), s.table.end(),
+                            [](const auto& row) { return row[0] >= 380 && row[0] <= 780 && row[1] > 0; }))
     throw bad_input(where(table), "has no line that is rendered", "expected at least one from 380 to 780 nm");
 }
 
-void check_object(const Object& o, const Scene& scene, const std::string& pointer, const Where& where)
-{
+void check_object(const Object& o, const Scene& scene, const std::string& pointer, const Where& where) {
   if (o.mesh.has_value() == o.shape.has_value())
     throw bad_input(where(pointer), o.mesh ? "has both 'mesh' and 'shape'" : "has neither 'mesh' nor 'shape'",
                     "expected exactly one of them");
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (std::abs(o.transform.scale[axis]) < 1e-6)
-      throw bad_input(where(child(child(child(pointer, "transform"), "scale"), axis)), fmt::format("is {}", o.transform.scale[axis]),
+      throw bad_input(where(child(child(child(pointer, "transform"), "scale"), axis)),
+                      fmt::format("is {}", o.transform.scale[axis]),
                       "expected a factor of at least 1e-06 or at most -1e-06", "for a thin object use a plate");
   if (scene.materials.contains(o.material)) return;
   std::vector<std::string> known;
@@ -98,61 +94,61 @@ void check_object(const Object& o, const Scene& scene, const std::string& pointe
   const std::string found = nearest(o.material.substr(0, 64), known);
   if (known.size() > 12) known.resize(12);
   throw bad_input(where(child(pointer, "material")), "there is no material " + in_quotes(o.material),
-                  known.empty() ? "scene.materials is empty" : fmt::format("scene.materials has {}", fmt::join(known, ", ")),
+                  known.empty() ? "scene.materials is empty"
+                                : fmt::format("scene.materials has {}", fmt::join(known, ", ")),
                   found.empty() ? "" : fmt::format("did you mean '{}'?", found));
 }
 
-void check_light(const Light& l, const std::string& pointer, const Where& where)
-{
+void check_light(const Light& l, const std::string& pointer, const Where& where) {
   check_spectrum(l.spectrum, child(pointer, "spectrum"), where);
   if (l.type != Light::Type::point) check_direction(l.direction, child(pointer, "direction"), where);
   if (l.type == Light::Type::area) check_up(l.up, l.direction, child(pointer, "up"), where);
 }
 
-void check_camera(const Camera& c, const Where& where)
-{
+void check_camera(const Camera& c, const Where& where) {
   const Vec3 forward = minus(c.target, c.position);
-  if (no_direction(forward)) throw bad_input(where("/scene/camera/target"), "is where the camera stands", "expected another point");
+  if (no_direction(forward))
+    throw bad_input(where("/scene/camera/target"), "is where the camera stands", "expected another point");
   check_up(c.up, forward, "/scene/camera/up", where);
 }
 
 /// What nothing can measure is refused before anything runs.
-void check_stop(const Preset& preset, const Where& where)
-{
+void check_stop(const Preset& preset, const Where& where) {
   if (preset.stop.error && !preset.reference && !preset.measure.estimate)
     throw bad_input(where("/stop/error"), "nothing measures the error of this run: 'measure.estimate' is false",
                     "expected a 'reference', or 'measure.estimate' true");
 }
 
 /// Each frame has another picture.
-void check_animation(const Preset& preset, const Where& where)
-{
+void check_animation(const Preset& preset, const Where& where) {
   if (preset.animation && preset.reference && preset.reference->type == Reference::Type::file)
-    throw bad_input(where("/reference"), "is one picture for all frames of the animation", "expected a recipe, or no reference");
+    throw bad_input(where("/reference"), "is one picture for all frames of the animation",
+                    "expected a recipe, or no reference");
 }
 
-/// A reference that shares a seed with the run would share its noise, and call it right; one of another white is another picture.
-void check_reference(const Preset& preset, const Where& where)
-{
+/// A reference that shares a seed with the run would share its noise, and call it right; one of another white is
+/// another picture.
+void check_reference(const Preset& preset, const Where& where) {
   if (!preset.white && preset.reference && preset.reference->type == Reference::Type::file)
     throw bad_input(where("/white"), "is \"auto\", and the reference is a picture with a white of its own",
                     "expected the number that the reference was made with");
   if (!preset.reference || preset.reference->type != Reference::Type::recipe) return;
   const std::uint64_t seed = preset.reference->seed;
   if (preset.seed == seed || preset.seed == seed + 1)
-    throw bad_input(where("/reference/seed"),
-                    fmt::format("{} and {} are the reference's seeds, and {} is the run's", seed, seed + 1, preset.seed),
-                    "expected other seeds than the run's");
+    throw bad_input(
+        where("/reference/seed"),
+        fmt::format("{} and {} are the reference's seeds, and {} is the run's", seed, seed + 1, preset.seed),
+        "expected other seeds than the run's");
 }
 
 } // namespace
 
-void check(const Preset& preset, const Where& where)
-{
+void check(const Preset& preset, const Where& where) {
   const Scene& scene = preset.scene;
   check_camera(scene.camera, where);
   for (const auto& [name, material] : scene.materials) check_material(material, child("/scene/materials", name), where);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) check_object(scene.objects[i], scene, child("/scene/objects", i), where);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    check_object(scene.objects[i], scene, child("/scene/objects", i), where);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], child("/scene/lights", i), where);
   check_stop(preset, where);
   check_reference(preset, where);

@@ -7,10 +7,11 @@
 namespace nephroid::preset {
 
 template <>
-inline constexpr Choice<Extrapolation> choices<Extrapolation>[] = {{Extrapolation::automatic, "automatic", "Extrapolate a formula, hold a table."},
-                                                       {Extrapolation::hold, "hold", "The value at the nearer end of the range."},
-                                                       {Extrapolation::extrapolate, "extrapolate", "What the formula gives."},
-                                                       {Extrapolation::refuse, "refuse", "An error."}};
+inline constexpr Choice<Extrapolation> choices<Extrapolation>[] = {
+    {Extrapolation::automatic, "automatic", "Extrapolate a formula, hold a table."},
+    {Extrapolation::hold, "hold", "The value at the nearer end of the range."},
+    {Extrapolation::extrapolate, "extrapolate", "What the formula gives."},
+    {Extrapolation::refuse, "refuse", "An error."}};
 
 template <>
 inline constexpr Choice<Dispersion::Type> choices<Dispersion::Type>[] = {
@@ -64,7 +65,8 @@ inline constexpr Choice<Light::Type> choices<Light::Type>[] = {
 
 template <>
 inline constexpr Choice<Environment::Type> choices<Environment::Type>[] = {
-    {Environment::Type::file, "file", "A latitude-longitude picture."}, {Environment::Type::constant, "constant", "One colour."}};
+    {Environment::Type::file, "file", "A latitude-longitude picture."},
+    {Environment::Type::constant, "constant", "One colour."}};
 
 template <>
 inline constexpr Choice<Scene::DamagedMeshes> choices<Scene::DamagedMeshes>[] = {
@@ -85,12 +87,14 @@ inline constexpr Choice<Reference::Type> choices<Reference::Type>[] = {
     {Reference::Type::recipe, "recipe", "Rendered once from this scene with two other seeds, then kept in the cache."}};
 
 template <>
-inline constexpr Choice<Preset::Unit> choices<Preset::Unit>[] = {
-    {Preset::Unit::mm, "mm", "Millimetres."}, {Preset::Unit::cm, "cm", "Centimetres."}, {Preset::Unit::m, "m", "Metres."}};
+inline constexpr Choice<Preset::Unit> choices<Preset::Unit>[] = {{Preset::Unit::mm, "mm", "Millimetres."},
+                                                                 {Preset::Unit::cm, "cm", "Centimetres."},
+                                                                 {Preset::Unit::m, "m", "Metres."}};
 
 template <>
 inline constexpr Choice<Track::Interpolation> choices<Track::Interpolation>[] = {
     {Track::Interpolation::linear, "linear", "Straight lines between keys."},
-    {Track::Interpolation::smooth, "smooth", "A smooth curve through the keys that never goes beyond them (monotone cubic)."}};
+    {Track::Interpolation::smooth, "smooth",
+     "A smooth curve through the keys that never goes beyond them (monotone cubic)."}};
 
 } // namespace nephroid::preset

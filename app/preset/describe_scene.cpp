@@ -6,52 +6,58 @@
 
 namespace nephroid::preset {
 
-void describe(Fields& v, Dispersion& d)
-{
+void describe(Fields& v, Dispersion& d) {
   v.about("Dispersion", "Index of refraction over wavelength.");
   v.shorthand(BareValue::number, Dispersion::Type::constant, "n");
   v.shorthand(BareValue::text, Dispersion::Type::file, "file");
   using Type = Dispersion::Type;
   v.type("type", "Where n comes from.", d.type);
   const Column nm{"wavelength", "nm", wavelength_bounds}, n{"n", "", index_bounds};
-  const auto coefficients = [&](std::string_view name, std::string_view sentence, auto& values, std::string_view unit = {}) {
-    v.field(name, sentence, values, {.unit = unit, .bounds = coefficient_bounds, .count = term_count, .required = true});
+  const auto coefficients = [&](std::string_view name, std::string_view sentence, auto& values,
+                                std::string_view unit = {}) {
+    v.field(name, sentence, values,
+            {.unit = unit, .bounds = coefficient_bounds, .count = term_count, .required = true});
   };
   if (d.type == Type::constant) // which has no range to leave
     return v.field("n", "Index of refraction.", d.n, {.bounds = index_bounds, .required = true});
-  if (d.type == Type::file) v.field("file", "A YAML file of refractiveindex.info.", d.file, {.text = Text::file, .required = true});
+  if (d.type == Type::file)
+    v.field("file", "A YAML file of refractiveindex.info.", d.file, {.text = Text::file, .required = true});
   if (d.type == Type::sellmeier) {
     coefficients("b", "Strength of each term.", d.b);
     coefficients("c_um2", "Resonance of each term: its wavelength squared.", d.c_um2, "square micrometres");
   }
-  if (d.type == Type::cauchy) coefficients("coefficients", "c0, c1, c2, ...: c_i in micrometres to the power 2 i.", d.coefficients);
+  if (d.type == Type::cauchy)
+    coefficients("coefficients", "c0, c1, c2, ...: c_i in micrometres to the power 2 i.", d.coefficients);
   if (d.type == Type::table)
-    v.field("table", "Rows of wavelength and n.", d.table, {.count = {1, max_rows}, .columns = {nm, n}, .required = true});
+    v.field("table", "Rows of wavelength and n.", d.table,
+            {.count = {1, max_rows}, .columns = {nm, n}, .required = true});
   if (d.type == Type::points)
-    v.field("table", "Control points: wavelength and n.", d.table, {.count = {2, max_rows}, .columns = {nm, n}, .required = true});
+    v.field("table", "Control points: wavelength and n.", d.table,
+            {.count = {2, max_rows}, .columns = {nm, n}, .required = true});
   v.field("outside", "What n is at wavelengths outside the data's own range.", d.outside);
 }
 
-void describe(Fields& v, LightSpectrum& s)
-{
+void describe(Fields& v, LightSpectrum& s) {
   v.about("LightSpectrum", "How a light's power is spread over wavelength.");
   v.shorthand(BareValue::text, LightSpectrum::Type::illuminant, "illuminant");
   using Type = LightSpectrum::Type;
   v.type("type", "Where the spectrum comes from.", s.type);
   const Column nm{"wavelength", "nm", wavelength_bounds}, power{"relative power", "", power_bounds};
   if (s.type == Type::illuminant)
-    v.field("illuminant", "A, D50, D65, E or F1 to F12.", s.illuminant, {.text = Text::line, .names = Names::illuminant, .required = true});
+    v.field("illuminant", "A, D50, D65, E or F1 to F12.", s.illuminant,
+            {.text = Text::line, .names = Names::illuminant, .required = true});
   if (s.type == Type::blackbody)
-    v.field("temperature_k", "Temperature.", s.temperature_k, {.unit = "K", .bounds = within(300, 1e6), .required = true});
+    v.field("temperature_k", "Temperature.", s.temperature_k,
+            {.unit = "K", .bounds = within(300, 1e6), .required = true});
   if (s.type == Type::lines)
     v.field("table", "Wavelength and relative power of each line.", s.table,
             {.count = {1, max_rows}, .columns = {nm, power}, .required = true});
   if (s.type == Type::table)
-    v.field("table", "Rows of wavelength and relative power.", s.table, {.count = {2, max_rows}, .columns = {nm, power}, .required = true});
+    v.field("table", "Rows of wavelength and relative power.", s.table,
+            {.count = {2, max_rows}, .columns = {nm, power}, .required = true});
 }
 
-void describe(Fields& v, Reflectance& r)
-{
+void describe(Fields& v, Reflectance& r) {
   v.about("Reflectance", "The part of the light that is reflected, over wavelength.");
   v.shorthand(BareValue::number, Reflectance::Type::constant, "value");
   v.shorthand(BareValue::text, Reflectance::Type::patch, "patch");
@@ -68,27 +74,25 @@ void describe(Fields& v, Reflectance& r)
              .required = true});
 }
 
-void describe(Fields& v, Material& m)
-{
+void describe(Fields& v, Material& m) {
   v.about("Material", "What a surface does with light.");
   v.type("type", "What kind of surface.", m.type);
   if (m.type == Material::Type::dielectric) {
     v.field("dispersion", "Index of refraction: a number, a file or an object.", m.dispersion, {.required = true});
     v.field("absorption", "Absorb light inside where the dispersion file has k.", m.absorption);
   } else
-    v.field("reflectance", "Part of the light that is reflected: a number, a ColorChecker patch or an object.", m.reflectance);
+    v.field("reflectance", "Part of the light that is reflected: a number, a ColorChecker patch or an object.",
+            m.reflectance);
 }
 
-void describe(Fields& v, Transform& t)
-{
+void describe(Fields& v, Transform& t) {
   v.about("Transform", "Scale, then rotate (about x, then y, then z), then translate.");
   v.field("scale", "Factors along x, y and z; not 0, negative ones mirror.", t.scale, {.bounds = within(-1e6, 1e6)});
   v.field("rotate_deg", "Angles about x, y and z.", t.rotate_deg, {.unit = "degrees", .bounds = within(-3600, 3600)});
   v.field("translate", "Where the origin goes.", t.translate, {.unit = length_unit, .bounds = position_bounds});
 }
 
-void describe(Fields& v, Shape& s)
-{
+void describe(Fields& v, Shape& s) {
   v.about("Shape", "A simple shape, centred on the origin with y up.");
   using Type = Shape::Type;
   const auto length = [&](std::string_view name, std::string_view sentence, auto& value) {
@@ -109,21 +113,20 @@ void describe(Fields& v, Shape& s)
   v.field("inwards", "Turn the shape inside out, for a room.", s.inwards);
 }
 
-void describe(Fields& v, Object& o)
-{
+void describe(Fields& v, Object& o) {
   v.about("Object", "A mesh or a shape, put in its place.");
   v.field("name", "What messages call it.", o.name, {.text = Text::line});
   v.field("mesh", "A mesh file (OBJ, PLY, STL, glTF, ...); give either this or a shape.", o.mesh, {.text = Text::file});
   v.field("shape", "A simple shape; give either this or a mesh.", o.shape);
-  v.field("material", "One of the names in scene.materials.", o.material, {.text = Text::line, .names = Names::material, .required = true});
+  v.field("material", "One of the names in scene.materials.", o.material,
+          {.text = Text::line, .names = Names::material, .required = true});
   v.field("transform", "Its size, turn and place.", o.transform);
   v.field("normals", "Flat or smooth.", o.normals);
-  v.field("priority", "Where two dielectrics overlap the higher one is there; of equals the one entered last.", o.priority,
-          {.bounds = within(-1000000, 1000000)});
+  v.field("priority", "Where two dielectrics overlap the higher one is there; of equals the one entered last.",
+          o.priority, {.bounds = within(-1000000, 1000000)});
 }
 
-void describe(Fields& v, Light& l)
-{
+void describe(Fields& v, Light& l) {
   v.about("Light", "A source of light.");
   using Type = Light::Type;
   v.type("type", "What kind of source.", l.type);
@@ -133,30 +136,31 @@ void describe(Fields& v, Light& l)
             {.unit = "W/m^2", .bounds = power_bounds});
   else {
     v.field("power_w", "Radiant power of 380 to 780 nm.", l.power_w, {.unit = "W", .bounds = power_bounds});
-    v.field("position", "Where it is; of an area light its centre.", l.position, {.unit = length_unit, .bounds = position_bounds});
+    v.field("position", "Where it is; of an area light its centre.", l.position,
+            {.unit = length_unit, .bounds = position_bounds});
   }
-  if (l.type != Type::point) v.field("direction", "The way the light goes; any length but 0.", l.direction, {.bounds = position_bounds});
+  if (l.type != Type::point)
+    v.field("direction", "The way the light goes; any length but 0.", l.direction, {.bounds = position_bounds});
   if (l.type == Type::spot)
-    v.field("half_angle_deg", "Between the cone's axis and its edge: constant intensity inside, none outside.", l.half_angle_deg,
-            {.unit = "degrees", .bounds = within(0.01, 180)});
+    v.field("half_angle_deg", "Between the cone's axis and its edge: constant intensity inside, none outside.",
+            l.half_angle_deg, {.unit = "degrees", .bounds = within(0.01, 180)});
   if (l.type == Type::area) {
     v.field("size", "Edge lengths.", l.size, {.unit = length_unit, .bounds = length_bounds});
     v.field("up", "Along the second edge, as far as the direction allows.", l.up, {.bounds = position_bounds});
   }
 }
 
-void describe(Fields& v, Camera& c)
-{
+void describe(Fields& v, Camera& c) {
   v.about("Camera", "A pinhole camera.");
   v.field("position", "Where it stands.", c.position, {.unit = length_unit, .bounds = position_bounds});
   v.field("target", "What it looks at.", c.target, {.unit = length_unit, .bounds = position_bounds});
   v.field("up", "What is up in the picture.", c.up, {.bounds = position_bounds});
   v.field("fov_deg", "Vertical field of view.", c.fov_deg, {.unit = "degrees", .bounds = within(0.001, 179.9)});
-  v.field("resolution", "Width and height of the picture.", c.resolution, {.unit = "pixels", .bounds = within(1, 16384)});
+  v.field("resolution", "Width and height of the picture.", c.resolution,
+          {.unit = "pixels", .bounds = within(1, 16384)});
 }
 
-void describe(Fields& v, Environment& e)
-{
+void describe(Fields& v, Environment& e) {
   v.about("Environment", "What is behind everything, infinitely far.");
   v.shorthand(BareValue::text, Environment::Type::file, "file");
   v.type("type", "Where the surroundings come from.", e.type);
@@ -164,15 +168,16 @@ void describe(Fields& v, Environment& e)
     v.field("file", "A latitude-longitude picture.", e.file, {.text = Text::file, .required = true});
   else
     v.field("colour", "Linear sRGB.", e.colour, {.bounds = within(0, 1e6), .required = true});
-  v.field("radiance", "Luminance Y of the colour (1, 1, 1).", e.radiance, {.unit = "W/(m^2 sr)", .bounds = within(0, 1e9)});
+  v.field("radiance", "Luminance Y of the colour (1, 1, 1).", e.radiance,
+          {.unit = "W/(m^2 sr)", .bounds = within(0, 1e9)});
   if (e.type == Environment::Type::file)
     v.field("rotate_deg", "Turns the surroundings about +y, counterclockwise as seen from above.", e.rotate_deg,
             {.unit = "degrees", .bounds = within(-3600, 3600)});
-  v.field("lights", "Whether it lights the scene, where the engine leaves that open; if not, it is only seen.", e.lights);
+  v.field("lights", "Whether it lights the scene, where the engine leaves that open; if not, it is only seen.",
+          e.lights);
 }
 
-void describe(Fields& v, Scene& s)
-{
+void describe(Fields& v, Scene& s) {
   v.about("Scene", "What there is to see.");
   v.field("camera", "The camera.", s.camera);
   v.field("materials", "Materials by name.", s.materials, {.count = {0, 1000}});

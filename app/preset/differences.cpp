@@ -27,21 +27,20 @@ struct Edit {
 /// The edits that make one preset, as JSON, of another.
 class Comparison {
 public:
-  /// by_set: edits as --set takes them, where a path may lead into a list and no key may hold what parts paths. Else as a child file has
-  /// them, where a list is replaced as a whole.
+  /// by_set: edits as --set takes them, where a path may lead into a list and no key may hold what parts paths. Else as
+  /// a child file has them, where a list is replaced as a whole.
   explicit Comparison(bool by_set) : by_set_(by_set) {}
 
-  /// before, after: complete. raw: before as its file has it, where a word may stand for an object and much is left out; may be null.
-  std::vector<Edit> edits(const Json& before, const Json& after, const Json& raw)
-  {
+  /// before, after: complete. raw: before as its file has it, where a word may stand for an object and much is left
+  /// out; may be null.
+  std::vector<Edit> edits(const Json& before, const Json& after, const Json& raw) {
     edits_.clear();
     compare(before, after, &raw);
     return std::move(edits_);
   }
 
 private:
-  void compare(const Json& before, const Json& after, const Json* raw)
-  {
+  void compare(const Json& before, const Json& after, const Json* raw) {
     if (before == after) return;
     if (before.is_object() && after.is_object() && can_enter(before, after, raw))
       compare_objects(before, after, raw);
@@ -51,8 +50,7 @@ private:
       edits_.push_back({path_, after});
   }
 
-  void compare_objects(const Json& before, const Json& after, const Json* raw)
-  {
+  void compare_objects(const Json& before, const Json& after, const Json* raw) {
     for (const auto& [key, value] : after.items()) {
       const Json* inside = raw && raw->contains(key) ? &(*raw)[key] : nullptr;
       enter(key, before.contains(key) ? before[key] : Json(), value, inside);
@@ -61,16 +59,14 @@ private:
       if (!after.contains(key)) enter(key, value, nullptr, nullptr);
   }
 
-  void enter(const std::string& key, const Json& before, const Json& after, const Json* raw)
-  {
+  void enter(const std::string& key, const Json& before, const Json& after, const Json* raw) {
     path_.push_back(key);
     compare(before, after, raw);
     path_.pop_back();
   }
 
   /// Fields of an object can be given one by one where the file has the object, or may have it with those fields alone.
-  bool can_enter(const Json& before, const Json& after, const Json* raw) const
-  {
+  bool can_enter(const Json& before, const Json& after, const Json* raw) const {
     if (before.value("type", Json()) != after.value("type", Json())) return false;
     if (raw ? !raw->is_object() : after.contains("type")) return false;
     if (!by_set_) return true;
@@ -83,17 +79,17 @@ private:
     return !unsayable(after, before) && !unsayable(before, after);
   }
 
-  static bool is_sayable(const std::string& key)
-  {
+  static bool is_sayable(const std::string& key) {
     const bool bracketed = key.find('[') != std::string::npos && key.back() == ']';
-    return !key.empty() && !bracketed &&
-           std::none_of(key.begin(), key.end(), [](unsigned char c) { return c == '.' || c == '=' || c < 0x20 || c == 0x7f; });
+    return !key.empty() && !bracketed && std::none_of(key.begin(), key.end(), [](unsigned char c) {
+      return c == '.' || c == '=' || c < 0x20 || c == 0x7f;
+    });
   }
 
-  static bool can_enter_list(const Json& before, const Json& after, const Json* raw)
-  {
+  static bool can_enter_list(const Json& before, const Json& after, const Json* raw) {
     const bool lists = before.is_array() && after.is_array() && raw && raw->is_array();
-    return lists && before.size() == after.size() && raw->size() == after.size() && !after.empty() && after.front().is_object();
+    return lists && before.size() == after.size() && raw->size() == after.size() && !after.empty() &&
+           after.front().is_object();
   }
 
   bool by_set_;
@@ -109,35 +105,32 @@ struct Read {
 };
 
 /// From the text of a file.
-Read read_without_sweep(const std::string& text, const fs::path& file)
-{
+Read read_without_sweep(const std::string& text, const fs::path& file) {
   Read read{parse_document(text, file.string())};
   read.sweep = read.document.take("sweep");
   read.preset = parse_preset(text, file.string(), !read.sweep.is_null() ? Overrides{"sweep=null"} : Overrides{});
   return read;
 }
 
-std::string override_of(const Edit& edit)
-{
+std::string override_of(const Edit& edit) {
   std::string key;
   for (const std::string& part : edit.path) key += (key.empty() ? "" : ".") + part;
   // A word stands for itself unless it could be read as something else.
   if (edit.value.is_string()) {
     const std::string word = edit.value.get<std::string>();
-    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) { return c >= 0x20 && c != 0x7f; });
+    const bool plain =
+        !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) { return c >= 0x20 && c != 0x7f; });
     if (plain && word.find_first_of("{[\"") != 0 && !Json::accept(with_json_numbers(word))) return key + "=" + word;
   }
   return key + "=" + edit.value.dump();
 }
 
-bool is_same(Preset a, const Preset& b)
-{
+bool is_same(Preset a, const Preset& b) {
   a.source = b.source;
   return a == b;
 }
 
-fs::path absolute_path(const fs::path& file)
-{
+fs::path absolute_path(const fs::path& file) {
   std::error_code ignored;
   const fs::path absolute = fs::absolute(file, ignored);
   return absolute.empty() ? file : absolute.lexically_normal();
@@ -146,8 +139,7 @@ fs::path absolute_path(const fs::path& file)
 constexpr const char* save_first = "save the preset first, then copy the command line";
 
 /// The name that means from folder `to` the preset file that `parent` means from `from`.
-std::string parent_from(const std::string& parent, const fs::path& from, const fs::path& to)
-{
+std::string parent_from(const std::string& parent, const fs::path& from, const fs::path& to) {
   const fs::path meant = find_preset(parent, from, "parent");
   std::error_code error;
   try {
@@ -161,8 +153,7 @@ std::string parent_from(const std::string& parent, const fs::path& from, const f
 }
 
 /// What a child file of this parent has to say.
-Json child_of(const Preset& preset, const std::string& parent, const fs::path& file, const Json& sweep)
-{
+Json child_of(const Preset& preset, const std::string& parent, const fs::path& file, const Json& sweep) {
   const Read base = read_without_sweep(Json{{"parent", parent}}.dump(), file);
   Json child{{"parent", parent}};
   // The parent's own name and description are not inherited; without a name it is the file's.
@@ -182,8 +173,7 @@ Json child_of(const Preset& preset, const std::string& parent, const fs::path& f
 
 } // namespace
 
-std::string own_parent(const fs::path& file)
-{
+std::string own_parent(const fs::path& file) {
   try {
     const Json value = parse_json(read_file(file), file.string());
     const auto parent = value.is_object() ? value.find("parent") : value.end();
@@ -193,16 +183,15 @@ std::string own_parent(const fs::path& file)
   }
 }
 
-std::string shipped_name(const fs::path& file)
-{
+std::string shipped_name(const fs::path& file) {
   std::error_code unknown;
-  const fs::path presets = presets_folder_if_any(), inside = presets.empty() ? presets : fs::relative(file, presets, unknown);
+  const fs::path presets = presets_folder_if_any(),
+                 inside = presets.empty() ? presets : fs::relative(file, presets, unknown);
   if (unknown || inside.empty() || *inside.begin() == ".." || inside.extension() != ".json") return {};
   return fs::path(inside).replace_extension().generic_string();
 }
 
-Recipe recipe_of(const Preset& preset)
-{
+Recipe recipe_of(const Preset& preset) {
   std::error_code ignored;
   if (preset.source.empty() || !fs::is_regular_file(preset.source, ignored))
     throw bad_input(preset.source.empty() ? preset.name : preset.source, "the preset is in no file", {}, save_first);
@@ -210,7 +199,8 @@ Recipe recipe_of(const Preset& preset)
   Recipe recipe{shipped.empty() ? absolute_path(preset.source).string() : shipped, {}};
   const Read on_disk = read_without_sweep(read_file(preset.source), preset.source);
   if (!on_disk.sweep.is_null()) recipe.overrides.emplace_back("sweep=null");
-  for (const Edit& edit : Comparison(true).edits(as_json(value_of(on_disk.preset)), as_json(value_of(preset)), on_disk.document.value()))
+  for (const Edit& edit :
+       Comparison(true).edits(as_json(value_of(on_disk.preset)), as_json(value_of(preset)), on_disk.document.value()))
     recipe.overrides.push_back(override_of(edit));
   std::string why;
   try {
@@ -222,8 +212,7 @@ Recipe recipe_of(const Preset& preset)
   throw bad_input(preset.source, fmt::format("what was changed cannot be said by --set ({})", why), {}, save_first);
 }
 
-std::string shell_word(const std::string& word)
-{
+std::string shell_word(const std::string& word) {
   const auto plain = [](unsigned char c) {
     return std::isalnum(c) || std::string_view("_-./=,:+@%").find(static_cast<char>(c)) != std::string_view::npos;
   };
@@ -233,8 +222,7 @@ std::string shell_word(const std::string& word)
   return quoted + "'";
 }
 
-std::string command_line(const Preset& preset)
-{
+std::string command_line(const Preset& preset) {
   constexpr std::size_t limit = 4000; // a terminal takes 4095 bytes a line
   const Recipe recipe = recipe_of(preset);
   std::string line = "nephroid run " + shell_word(recipe.name);
@@ -245,16 +233,14 @@ std::string command_line(const Preset& preset)
   return line;
 }
 
-Preset moved_to_file(Preset preset, const fs::path& file)
-{
+Preset moved_to_file(Preset preset, const fs::path& file) {
   const fs::path from = fs::path(preset.source).parent_path(), to = file.parent_path();
   if (from != to) preset = moved_to(std::move(preset), to);
   preset.source = file.string();
   return preset;
 }
 
-std::vector<Difference> differences(const Preset& before, const Preset& after)
-{
+std::vector<Difference> differences(const Preset& before, const Preset& after) {
   Json a = as_json(value_of(before)), b = as_json(value_of(moved_to_file(after, before.source)));
   for (Json* json : {&a, &b})
     for (const char* own : {"name", "description"}) json->erase(own);
@@ -272,8 +258,7 @@ std::vector<Difference> differences(const Preset& before, const Preset& after)
   return all;
 }
 
-FileText file_text(const Preset& preset, const std::string& parent, const fs::path& file, const Sweep& sweep)
-{
+FileText file_text(const Preset& preset, const std::string& parent, const fs::path& file, const Sweep& sweep) {
   const Preset moved = moved_to_file(preset, file);
   const Json sweep_json = to_json(sweep);
   Json all = as_json(value_of(moved));

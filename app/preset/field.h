@@ -17,7 +17,9 @@ struct Bounds {
   double high = std::numeric_limits<double>::infinity();
   bool without_low = false, without_high = false;
 
-  constexpr bool contain(double x) const { return (without_low ? x > low : x >= low) && (without_high ? x < high : x <= high); }
+  constexpr bool contain(double x) const {
+    return (without_low ? x > low : x >= low) && (without_high ? x < high : x <= high);
+  }
 };
 /// low <= x <= high.
 constexpr Bounds within(double low, double high) { return {low, high, false, false}; }
@@ -40,7 +42,8 @@ struct Columns {
   const Column& operator[](std::size_t i) const { return i == 0 ? first : second; }
 };
 
-/// text: anything. line: without line breaks and other control characters. file: the name of a file, looked up as docs/presets.md says.
+/// text: anything. line: without line breaks and other control characters. file: the name of a file, looked up as
+/// docs/presets.md says.
 enum class Text { text, line, file };
 
 /// Of what a text is a name. Whether there is such a thing is checked where the preset is used.
@@ -76,14 +79,14 @@ template <class E>
 concept Enumeration = std::is_enum_v<E>;
 
 template <Enumeration E>
-constexpr std::string_view word(E value)
-{
+constexpr std::string_view word(E value) {
   for (const Choice<E>& choice : choices<E>)
     if (choice.value == value) return choice.name;
   return {};
 }
 
-inline constexpr Bounds index_bounds = within(0.01, 100); ///< this and the next: shared by many fields; describe.h says why
+inline constexpr Bounds index_bounds =
+    within(0.01, 100); ///< this and the next: shared by many fields; describe.h says why
 inline constexpr Bounds wavelength_bounds = within(1, 1e6);
 inline constexpr Bounds coefficient_bounds = within(-1e6, 1e6);
 inline constexpr Bounds position_bounds = within(-1e7, 1e7);

@@ -33,19 +33,18 @@ public:
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
 
-  bool key(string_t& name) override
-  {
+  bool key(string_t& name) override {
     Level& level = levels_.back();
     const Place where(source_, child(level.pointer, name));
     if (!level.keys.insert(name).second)
       throw bad_input(where, fmt::format("key {} is given twice", in_quotes(name)), "expected each key once");
-    if (level.keys.size() > max_keys) throw bad_input(where, "too many keys", fmt::format("expected at most {} in one object", max_keys));
+    if (level.keys.size() > max_keys)
+      throw bad_input(where, "too many keys", fmt::format("expected at most {} in one object", max_keys));
     level.key = name;
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override
-  {
+  bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override {
     const std::string_view before = text_.substr(0, std::min(position == 0 ? 0 : position - 1, text_.size()));
     const std::size_t line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
     const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1; // npos + 1 is 0: the first line
@@ -60,9 +59,9 @@ private:
     std::string key = {};
   };
 
-  /// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while ...": the part that is not ours to say.
-  static std::string reason(std::string what)
-  {
+  /// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while ...": the part that is not
+  /// ours to say.
+  static std::string reason(std::string what) {
     for (const char* start : {"] parse error at ", "] "})
       if (const std::size_t at = what.find(start); at != std::string::npos) {
         const std::size_t from = start[2] == 'p' ? what.find(": ", at) + 2 : at + 2;
@@ -73,15 +72,13 @@ private:
     return what;
   }
 
-  std::string next_pointer() const
-  {
+  std::string next_pointer() const {
     if (levels_.empty()) return "";
     const Level& level = levels_.back();
     return level.value->is_object() ? child(level.pointer, level.key) : child(level.pointer, level.value->size());
   }
 
-  Json* insert(Json&& value)
-  {
+  Json* insert(Json&& value) {
     if (levels_.empty()) {
       root_ = std::move(value);
       return &root_;
@@ -97,22 +94,20 @@ private:
   }
 
   template <class T>
-  bool place(T&& value)
-  {
+  bool place(T&& value) {
     insert(Json(std::forward<T>(value)));
     return true;
   }
 
-  bool open(Json&& empty)
-  {
+  bool open(Json&& empty) {
     std::string pointer = next_pointer();
-    if (levels_.size() >= max_depth) throw bad_input({source_, pointer}, fmt::format("is nested deeper than {} levels", max_depth));
+    if (levels_.size() >= max_depth)
+      throw bad_input({source_, pointer}, fmt::format("is nested deeper than {} levels", max_depth));
     levels_.push_back({insert(std::move(empty)), std::move(pointer)});
     return true;
   }
 
-  bool close()
-  {
+  bool close() {
     levels_.pop_back();
     return true;
   }
@@ -128,8 +123,7 @@ bool is_plain(const Json& value) { return !value.is_structured(); }
 /// Lists that read best on one line: of plain values.
 bool on_one_line(const Json& value) { return value.is_array() && std::all_of(value.begin(), value.end(), is_plain); }
 
-void print(const Json& value, int indent, std::string& out)
-{
+void print(const Json& value, int indent, std::string& out) {
   if (is_plain(value) || value.empty()) {
     out += json_text(value);
     return;
@@ -153,46 +147,48 @@ void print(const Json& value, int indent, std::string& out)
   out += fmt::format("\n{}{}", margin.substr(2), object ? "}" : "]");
 }
 
-std::string shortened(std::string text, std::size_t most)
-{
+std::string shortened(std::string text, std::size_t most) {
   if (text.size() <= most) return text;
   while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xc0) == 0x80) --most; // not inside a UTF-8 character
   return text.substr(0, most) + "...";
 }
 
 /// Escaped as in JSON, without its quotation marks: nothing unprintable is left, not even where the bytes are no UTF-8.
-std::string printable(std::string_view text)
-{
+std::string printable(std::string_view text) {
   const std::string escaped = json_text(Json(std::string(text)));
   return escaped.substr(1, escaped.size() - 2);
 }
 
 /// [+-] digits [. digits] [e [+-] digits], with a digit before or after the point.
-std::string json_number(const std::string& word)
-{
+std::string json_number(const std::string& word) {
   constexpr std::size_t longest = 64; // of a number that somebody types
-  const auto has = [&](std::size_t at, std::string_view any) { return at < word.size() && any.find(word[at]) != std::string_view::npos; };
-  const auto after_digits = [&](std::size_t from) { return std::min(word.find_first_not_of("0123456789", from), word.size()); };
+  const auto has = [&](std::size_t at, std::string_view any) {
+    return at < word.size() && any.find(word[at]) != std::string_view::npos;
+  };
+  const auto after_digits = [&](std::size_t from) {
+    return std::min(word.find_first_not_of("0123456789", from), word.size());
+  };
   const std::size_t whole = has(0, "+-") ? 1 : 0, point = after_digits(whole);
-  const std::size_t fraction = point + (has(point, ".") ? 1 : 0), power = fraction > point ? after_digits(fraction) : point;
-  const std::size_t power_digits = power + (has(power, "eE") ? has(power + 1, "+-") ? 2 : 1 : 0), end = after_digits(power_digits);
+  const std::size_t fraction = point + (has(point, ".") ? 1 : 0),
+                    power = fraction > point ? after_digits(fraction) : point;
+  const std::size_t power_digits = power + (has(power, "eE") ? has(power + 1, "+-") ? 2 : 1 : 0),
+                    end = after_digits(power_digits);
   const bool no_power = power_digits > power && end == power_digits, no_digits = point == whole && power == fraction;
   if (word.size() > longest || end != word.size() || no_power || no_digits) return word;
-  return fmt::format("{}{}{}{}{}", word.front() == '-' ? "-" : "", point > whole ? word.substr(whole, point - whole) : "0",
-                     power > fraction ? "." : "", word.substr(fraction, power - fraction), word.substr(power));
+  return fmt::format("{}{}{}{}{}", word.front() == '-' ? "-" : "",
+                     point > whole ? word.substr(whole, point - whole) : "0", power > fraction ? "." : "",
+                     word.substr(fraction, power - fraction), word.substr(power));
 }
 
 } // namespace
 
-Json parse_json(std::string_view text, const std::string& source)
-{
+Json parse_json(std::string_view text, const std::string& source) {
   Builder builder(text, source);
   Json::sax_parse(text, &builder);
   return builder.take();
 }
 
-std::string with_json_numbers(std::string_view text)
-{
+std::string with_json_numbers(std::string_view text) {
   constexpr std::string_view between = " \t\r\n,:[]{}";
   std::string all;
   while (!text.empty()) {
@@ -212,8 +208,7 @@ std::string with_json_numbers(std::string_view text)
   return all;
 }
 
-bool is_utf8(std::string_view text)
-{
+bool is_utf8(std::string_view text) {
   try {
     static_cast<void>(Json(std::string(text)).dump()); // strict
     return true;
@@ -222,15 +217,13 @@ bool is_utf8(std::string_view text)
   }
 }
 
-std::string pretty(const Json& value)
-{
+std::string pretty(const Json& value) {
   std::string out;
   print(value, 0, out);
   return out;
 }
 
-std::string shown(const Json& value)
-{
+std::string shown(const Json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return value.empty() ? "an empty list" : "a list of " + counted(value.size(), "item");
   if (value.is_string()) return "the string " + in_quotes(value.get_ref<const std::string&>());
@@ -239,7 +232,9 @@ std::string shown(const Json& value)
 
 std::string in_quotes(std::string_view text) { return fmt::format("'{}'", shortened(printable(text), 60)); }
 
-std::string child(const std::string& pointer, std::string_view key) { return pointer + "/" + pointer_key(shortened(printable(key), 100)); }
+std::string child(const std::string& pointer, std::string_view key) {
+  return pointer + "/" + pointer_key(shortened(printable(key), 100));
+}
 
 std::string child(const std::string& pointer, std::size_t index) { return fmt::format("{}/{}", pointer, index); }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON as text: strict parsing with the place of every error, and printing that people can read. Private to preset/, but for Json.
+// JSON as text: strict parsing with the place of every error, and printing that people can read. Private to preset/,
+// but for Json.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
@@ -8,7 +9,8 @@
 
 namespace nephroid::preset {
 
-using Json = nlohmann::ordered_json; ///< keeps the order of keys: it is the order of a sweep's runs and of a written preset
+using Json =
+    nlohmann::ordered_json; ///< keeps the order of keys: it is the order of a sweep's runs and of a written preset
 
 /// Limits that keep hostile files harmless: reading stays fast and nothing recurses deeply.
 inline constexpr std::size_t max_file_bytes = 8 << 20;
@@ -19,7 +21,8 @@ inline constexpr std::size_t max_keys = 1000;
 /// SOURCE:LINE:COLUMN; a key given twice, too many keys or too deep nesting at SOURCE#/pointer.
 Json parse_json(std::string_view text, const std::string& source);
 
-/// The text with numbers as people type them (".02", "+3", "5.") as JSON writes them ("0.02", "3", "5"); all else, strings too, as it is.
+/// The text with numbers as people type them (".02", "+3", "5.") as JSON writes them ("0.02", "3", "5"); all else,
+/// strings too, as it is.
 std::string with_json_numbers(std::string_view text);
 
 bool is_utf8(std::string_view text);

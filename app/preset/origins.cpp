@@ -9,16 +9,14 @@ namespace nephroid::preset {
 
 Origins::Origins(Origin main) : main_(std::make_shared<const Origin>(std::move(main))) { of_[""] = main_; }
 
-Origins::Shared Origins::shared_at(const std::string& pointer) const
-{
+Origins::Shared Origins::shared_at(const std::string& pointer) const {
   for (std::string at = pointer;; at.resize(at.rfind('/'))) {
     if (const auto found = of_.find(at); found != of_.end()) return found->second;
     if (at.empty()) return main_;
   }
 }
 
-Place Origins::where(const std::string& pointer) const
-{
+Place Origins::where(const std::string& pointer) const {
   const Origin& from = at(pointer);
   Place place = from.place;
   if (from.is_file) place.pointer = pointer;
@@ -26,8 +24,7 @@ Place Origins::where(const std::string& pointer) const
   return place;
 }
 
-void Origins::set_whole(const std::string& pointer, Shared origin)
-{
+void Origins::set_whole(const std::string& pointer, Shared origin) {
   const std::string inside = pointer + "/";
   const auto first = of_.lower_bound(inside);
   auto last = first;
@@ -36,24 +33,27 @@ void Origins::set_whole(const std::string& pointer, Shared origin)
   of_[pointer] = std::move(origin);
 }
 
-void set_origin(Preset& preset, const std::string& pointer, const std::string& name)
-{
+void set_origin(Preset& preset, const std::string& pointer, const std::string& name) {
   const Origins* before = preset.provenance.origins.get();
-  auto origins = before ? std::make_shared<Origins>(*before) : std::make_shared<Origins>(Origin{.place = preset.source, .folder = {}});
-  origins->set_whole(pointer, std::make_shared<const Origin>(Origin{.place = name, .is_file = false, .folder = {}, .is_typed = true}));
+  auto origins = before ? std::make_shared<Origins>(*before)
+                        : std::make_shared<Origins>(Origin{.place = preset.source, .folder = {}});
+  origins->set_whole(
+      pointer, std::make_shared<const Origin>(Origin{.place = name, .is_file = false, .folder = {}, .is_typed = true}));
   preset.provenance.origins = std::move(origins);
 }
 
 namespace {
 
 /// Whether the preset is still the one that its origins tell of.
-bool is_as_read(const Preset& preset) { return preset.provenance.origins && preset.provenance.origins->main().place.name == preset.source; }
+bool is_as_read(const Preset& preset) {
+  return preset.provenance.origins && preset.provenance.origins->main().place.name == preset.source;
+}
 
-Error at_origin(const Origins& origins, const std::string& pointer, const Error& error)
-{
+Error at_origin(const Origins& origins, const std::string& pointer, const Error& error) {
   const Place where = origins.where(pointer);
   const auto* missing = dynamic_cast<const FileNotFound*>(&error);
-  if (missing && origins.at(pointer).is_typed) return FileNotFound(where, missing->name(), "the current folder, " + missing->looked_in());
+  if (missing && origins.at(pointer).is_typed)
+    return FileNotFound(where, missing->name(), "the current folder, " + missing->looked_in());
   return error.at(where);
 }
 
@@ -61,8 +61,7 @@ Error at_origin(const Origins& origins, const std::string& pointer, const Error&
 bool is_at_swept_value(const Error& error) { return error.place().pointer.value_or("").starts_with("/sweep/"); }
 
 /// "in frame 3 of the run 'lens,seed=2' of the sweep"; empty of a preset that stands alone.
-std::string part_of(const Provenance& provenance)
-{
+std::string part_of(const Provenance& provenance) {
   const std::string frame = provenance.frame ? fmt::format("in frame {}", *provenance.frame) : std::string();
   if (provenance.run.empty()) return frame;
   return fmt::format("{} the run '{}' of the sweep", frame.empty() ? "in" : frame + " of", provenance.run);
@@ -70,14 +69,13 @@ std::string part_of(const Provenance& provenance)
 
 } // namespace
 
-std::string field_of(const Preset& preset, const Place& place)
-{
+std::string field_of(const Preset& preset, const Place& place) {
   return place.field.empty() && place.name == preset.source ? place.pointer.value_or("") : place.field;
 }
 
-void rethrow_at_origin(const Preset& preset, const Error& error)
-{
-  const std::string pointer = is_as_read(preset) ? field_of(preset, error.place()) : std::string(), part = part_of(preset.provenance);
+void rethrow_at_origin(const Preset& preset, const Error& error) {
+  const std::string pointer = is_as_read(preset) ? field_of(preset, error.place()) : std::string(),
+                    part = part_of(preset.provenance);
   if (pointer.empty() && part.empty()) throw;
   const Error told = pointer.empty() ? error : at_origin(*preset.provenance.origins, pointer, error);
   // A missing device is missing for every run, and what is interrupted names the run's folder.

@@ -43,21 +43,23 @@ private:
   std::map<std::string, Shared> of_;
 };
 
-/// For a value that was changed after the preset was read: says who gave it, by a `name` such as an option of the command line.
+/// For a value that was changed after the preset was read: says who gave it, by a `name` such as an option of the
+/// command line.
 void set_origin(Preset& preset, const std::string& pointer, const std::string& name);
 
-/// JSON pointer of the preset's field that an error at this place is about, whoever gave its value; empty where it is about none.
+/// JSON pointer of the preset's field that an error at this place is about, whoever gave its value; empty where it is
+/// about none.
 std::string field_of(const Preset& preset, const Place& place);
 
-/// Throws the error that is being caught, in a form that a person can use. An error at a value of preset.source names who gave that value,
-/// unless the preset has been saved as another file since it was read. An error about a run of a sweep says which run, unless it stands at
-/// one of the swept values.
+/// Throws the error that is being caught, in a form that a person can use. An error at a value of preset.source names
+/// who gave that value, unless the preset has been saved as another file since it was read. An error about a run of a
+/// sweep says which run, unless it stands at one of the swept values.
 [[noreturn]] void rethrow_at_origin(const Preset& preset, const Error& error);
 
-/// Returns what work() returns. What it throws goes through rethrow_at_origin. To be put once around all that works on one preset.
+/// Returns what work() returns. What it throws goes through rethrow_at_origin. To be put once around all that works on
+/// one preset.
 template <class Work>
-auto at_origins(const Preset& preset, const Work& work)
-{
+auto at_origins(const Preset& preset, const Work& work) {
   try {
     return work();
   } catch (const Error& error) {

@@ -9,8 +9,7 @@
 namespace nephroid::preset {
 namespace {
 
-Outline outline_of(const Member& member)
-{
+Outline outline_of(const Member& member) {
   Outline o;
   o.field = member.field;
   o.chooses = member.chooses();
@@ -28,16 +27,15 @@ Outline outline_of(const Member& member)
   return o;
 }
 
-std::vector<Outline> outline_of(const ValueType& type, const Json& object)
-{
+std::vector<Outline> outline_of(const ValueType& type, const Json& object) {
   const auto by_default = type.make();
   const Value value(by_default.get(), type);
   std::vector<Member> members = value.members();
   const auto chooser = std::ranges::find(members, Role::type, &Member::role);
   if (chooser != members.end()) {
     const std::vector<Word>& words = chooser->value.type().words;
-    const auto chosen =
-        std::ranges::find_if(words, [&](const Word& word) { return object.value(chooser->field.name, Json()) == word.name; });
+    const auto chosen = std::ranges::find_if(
+        words, [&](const Word& word) { return object.value(chooser->field.name, Json()) == word.name; });
     chooser->value.choose(chosen == words.end() ? 0 : static_cast<std::size_t>(chosen - words.begin()));
     members = value.members();
   }
@@ -52,15 +50,13 @@ Json Outline::fresh() const { return as_json(Value(object->make().get(), *object
 
 std::vector<Outline> Outline::fields(const Json& value) const { return outline_of(*object, value); }
 
-std::vector<Outline> outline(const Json& preset)
-{
+std::vector<Outline> outline(const Json& preset) {
   std::vector<Outline> fields = outline_of(type_of<Preset>(), preset);
   std::erase_if(fields, [&](const Outline& o) { return o.is_engine_settings && preset.at("engine") != o.field.name; });
   return fields;
 }
 
-Json as_type(const Json& object, const OutlineOf& fields, const Outline& chooser, std::string_view type)
-{
+Json as_type(const Json& object, const OutlineOf& fields, const Outline& chooser, std::string_view type) {
   const std::string key(chooser.field.name);
   const std::vector<Outline> before = fields(object);
   Json changed = Json::object();

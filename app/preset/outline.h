@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The description of the preset (describe.h) as data: which fields a JSON value of it has, of what kind, with which default. The panel
-// Parameters draws a preset from it, field by field, and names no field itself.
+// The description of the preset (describe.h) as data: which fields a JSON value of it has, of what kind, with which
+// default. The panel Parameters draws a preset from it, field by field, and names no field itself.
 #pragma once
 #include "preset/json_text.h"
 #include "preset/value.h"
@@ -18,13 +18,14 @@ struct Outline {
 
   Field field;
   Kind kind = Kind::object;
-  bool chooses = false;              ///< a word that says which other fields its object has
-  bool is_engine_settings = false;            ///< settings of the engine of that name: they mean something where it is the preset's
-  bool optional = false;             ///< may be null, and is by default
-  bool whole = false;                ///< of numbers
-  std::size_t size = 0;              ///< how many numbers a vector has; 0: a list of any length within field.count
-  std::vector<Word> words;           ///< of a word, all of them
-  Json standard;                     ///< the default; null of an object, whose fields have theirs
+  bool chooses = false; ///< a word that says which other fields its object has
+  bool is_engine_settings =
+      false;               ///< settings of the engine of that name: they mean something where it is the preset's
+  bool optional = false;   ///< may be null, and is by default
+  bool whole = false;      ///< of numbers
+  std::size_t size = 0;    ///< how many numbers a vector has; 0: a list of any length within field.count
+  std::vector<Word> words; ///< of a word, all of them
+  Json standard;           ///< the default; null of an object, whose fields have theirs
   const ValueType* object = nullptr; ///< of an object, an item of a list or a map; null where there is no struct
   std::string expected;              ///< what the field may be: "a number from 0 to 1 W", "one of point, spot"
 
@@ -39,8 +40,8 @@ std::vector<Outline> outline(const Json& preset);
 
 using OutlineOf = std::function<std::vector<Outline>(const Json& object)>;
 
-/// `object` as another type of its struct. What both types have stays, the rest is by default. fields: of the struct. chooser: its field
-/// that chooses the type, as the old type has it.
+/// `object` as another type of its struct. What both types have stays, the rest is by default. fields: of the struct.
+/// chooser: its field that chooses the type, as the old type has it.
 Json as_type(const Json& object, const OutlineOf& fields, const Outline& chooser, std::string_view type);
 
 } // namespace nephroid::preset

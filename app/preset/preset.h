@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The preset: the whole state of a run as plain structs. Fields, units, ranges, defaults and sentences are described once,
-// in describe.h; reading, writing, --set, the schema, the editor and the docs are visitors over that description.
+// The preset: the whole state of a run as plain structs. Fields, units, ranges, defaults and sentences are described
+// once, in describe.h; reading, writing, --set, the schema, the editor and the docs are visitors over that description.
 #pragma once
 #include "preset/settings.h"
 
@@ -22,9 +22,10 @@ enum class Extrapolation { automatic, hold, extrapolate, refuse };
 struct Dispersion {
   enum class Type { constant, file, sellmeier, cauchy, table, points };
   Type type = Type::constant;
-  double n = 1.5;                           ///< constant
-  std::string file;                         ///< file: refractiveindex.info YAML
-  std::vector<double> b, c_um2;             ///< sellmeier: n^2 = 1 + sum b l^2 / (l^2 - c), l in micrometres, c in square micrometres
+  double n = 1.5;   ///< constant
+  std::string file; ///< file: refractiveindex.info YAML
+  std::vector<double> b,
+      c_um2; ///< sellmeier: n^2 = 1 + sum b l^2 / (l^2 - c), l in micrometres, c in square micrometres
   std::vector<double> coefficients;         ///< cauchy: n = c0 + c1 / l^2 + c2 / l^4 ..., l in micrometres
   std::vector<std::array<double, 2>> table; ///< table: (nm, n) linear; points: control points (nm, n), monotone cubic
   Extrapolation outside = Extrapolation::automatic;
@@ -36,12 +37,14 @@ struct LightSpectrum {
   enum class Type { illuminant, blackbody, lines, table };
   Type type = Type::illuminant;
   std::string illuminant = "D65";
-  double temperature_k = 6500;              ///< blackbody
-  std::vector<std::array<double, 2>> table; ///< table: (nm, relative power) linear; lines: (nm, relative power) of single wavelengths
+  double temperature_k = 6500; ///< blackbody
+  std::vector<std::array<double, 2>>
+      table; ///< table: (nm, relative power) linear; lines: (nm, relative power) of single wavelengths
   bool operator==(const LightSpectrum&) const = default;
 };
 
-/// A diffuse or mirror reflectance 0..1. JSON: a number, a string (ColorChecker patch, "blue sky"), or an object {"type":"table"}.
+/// A diffuse or mirror reflectance 0..1. JSON: a number, a string (ColorChecker patch, "blue sky"), or an object
+/// {"type":"table"}.
 struct Reflectance {
   enum class Type { constant, patch, table };
   Type type = Type::constant;
@@ -122,11 +125,13 @@ struct Camera {
 struct Environment {
   enum class Type { file, constant };
   Type type = Type::file;
-  std::string file;      ///< file: a latitude-longitude picture, linear sRGB; its centre column looks along -z, its top row along +y
+  std::string
+      file; ///< file: a latitude-longitude picture, linear sRGB; its centre column looks along -z, its top row along +y
   Vec3 colour{1, 1, 1};  ///< constant: linear sRGB
   double radiance = 1;   ///< the luminance Y (W m^-2 sr^-1, no factor 683) of the colour (1, 1, 1)
   double rotate_deg = 0; ///< file: turns the surroundings about +y, counterclockwise as seen from above
-  bool lights = false;   ///< engine 1: whether it is a light too; false: it is a backdrop, as where lamps light a scene before a picture
+  bool lights = false;   ///< engine 1: whether it is a light too; false: it is a backdrop, as where lamps light a scene
+                         ///< before a picture
   bool operator==(const Environment&) const = default;
 };
 
@@ -154,7 +159,7 @@ struct Stop {
   enum class Metric { lab_mean, lab_rms, mse, rel_mse, rel_l2 };
   std::optional<double> seconds; ///< of work
   std::optional<int> passes;
-  std::optional<double> error;      ///< on the reference's error where there is a reference, else on the run's own estimate
+  std::optional<double> error; ///< on the reference's error where there is a reference, else on the run's own estimate
   Metric metric = Metric::lab_mean; ///< of `error`
   bool operator==(const Stop&) const = default;
 };
@@ -163,19 +168,21 @@ struct Stop {
 struct Reference {
   enum class Type { file, recipe };
   Type type = Type::file;
-  std::string file;                 ///< file: a picture of the run's size, linear sRGB with 1 = white (8-bit files are decoded)
+  std::string file; ///< file: a picture of the run's size, linear sRGB with 1 = white (8-bit files are decoded)
   std::optional<Settings> settings; ///< recipe: of the engine; without: the run's own, made exact
   int passes = 256;                 ///< recipe: of each of its two seeds
-  std::uint64_t seed = 1000000007;  ///< recipe: the first of its two seeds, the other is the next; neither may be the run's
-  std::optional<double> seconds;    ///< recipe: refuse to begin where it would take longer
+  std::uint64_t seed =
+      1000000007; ///< recipe: the first of its two seeds, the other is the next; neither may be the run's
+  std::optional<double> seconds; ///< recipe: refuse to begin where it would take longer
   bool operator==(const Reference&) const = default;
 };
 
 /// What a run notes about its error while it works.
 struct Measure {
-  bool estimate = true;            ///< keep two independent halves of every film, whose difference is an estimate of the error
-  bool perceptual = false;         ///< also log iw_ssim, flip and hdr_flip, which cost more, against the reference
-  std::optional<std::string> mask; ///< a picture of the run's size: pixels that are not 0 are measured a second time on their own
+  bool estimate = true;    ///< keep two independent halves of every film, whose difference is an estimate of the error
+  bool perceptual = false; ///< also log iw_ssim, flip and hdr_flip, which cost more, against the reference
+  std::optional<std::string>
+      mask; ///< a picture of the run's size: pixels that are not 0 are measured a second time on their own
   bool operator==(const Measure&) const = default;
 };
 
@@ -212,9 +219,9 @@ class Origins;
 struct Provenance {
   std::shared_ptr<const Origins> origins; ///< who gave each value; null where nothing was read
   std::string run;                        ///< its name as one of a sweep's runs; empty where there is no sweep
-  std::string varies;                     ///< the part of it that is its own, fit for a folder's name: "threshold_deg=0.1,seed=2"
-  std::optional<int> frame;               ///< which one of an animation it is (animation.h)
-  std::vector<std::string> notes;         ///< what a change of the engine left out, a line each (change_engine.h)
+  std::string varies;       ///< the part of it that is its own, fit for a folder's name: "threshold_deg=0.1,seed=2"
+  std::optional<int> frame; ///< which one of an animation it is (animation.h)
+  std::vector<std::string> notes; ///< what a change of the engine left out, a line each (change_engine.h)
   bool operator==(const Provenance&) const { return true; }
 };
 
@@ -224,8 +231,8 @@ struct Preset {
   std::string description; ///< one line for `nephroid presets`
   Unit unit = Unit::m;
   std::uint64_t seed = 1;
-  /// The luminance Y (W m^-2 sr^-1, no factor 683) that becomes 1 in the picture; nothing: "auto", which is a number once a run is ready
-  /// (run::fitted_white).
+  /// The luminance Y (W m^-2 sr^-1, no factor 683) that becomes 1 in the picture; nothing: "auto", which is a number
+  /// once a run is ready (run::fitted_white).
   std::optional<double> white = 1;
   Scene scene;
   Settings settings; ///< of its engine
@@ -233,7 +240,8 @@ struct Preset {
   std::optional<Reference> reference;
   Measure measure;
   std::optional<Animation> animation;
-  bool leave_out = true; ///< what the scene does not need; false: everything is computed, which takes longer and changes no picture
+  bool leave_out =
+      true; ///< what the scene does not need; false: everything is computed, which takes longer and changes no picture
 
   std::string source;    ///< the file it came from, for messages and look-ups; not a field of the JSON
   Provenance provenance; ///< not a field of the JSON either
@@ -241,6 +249,8 @@ struct Preset {
 };
 
 /// Of one unit of length.
-constexpr double metres(Preset::Unit unit) { return unit == Preset::Unit::mm ? 1e-3 : unit == Preset::Unit::cm ? 1e-2 : 1; }
+constexpr double metres(Preset::Unit unit) {
+  return unit == Preset::Unit::mm ? 1e-3 : unit == Preset::Unit::cm ? 1e-2 : 1;
+}
 
 } // namespace nephroid::preset

@@ -16,10 +16,11 @@ using Overrides = std::vector<std::string>;
 /// A preset file's name without its folder and ending, which is ".json" or ".nephroid.json".
 std::string stem_of(const std::filesystem::path& file);
 /// Reads a preset file: "parent" chain, overrides, strict check of every key, type and range, sweep.
-/// name: a path, or the name of a shipped preset ("first-light", "spectral/prism"), each also without ".json". One preset without
-/// "sweep", else one a run, each with its own name ("NAME,seed=2"), the first swept key outermost.
-/// Throws bad_input at FILE#/json/pointer (or FILE:LINE:COLUMN for broken JSON, --set TEXT for an override) with the nearest
-/// known key; an inherited value names the file it stands in, and what is wrong in one run of a sweep that run (origins.h).
+/// name: a path, or the name of a shipped preset ("first-light", "spectral/prism"), each also without ".json". One
+/// preset without "sweep", else one a run, each with its own name ("NAME,seed=2"), the first swept key outermost.
+/// Throws bad_input at FILE#/json/pointer (or FILE:LINE:COLUMN for broken JSON, --set TEXT for an override) with the
+/// nearest known key; an inherited value names the file it stands in, and what is wrong in one run of a sweep that run
+/// (origins.h).
 std::vector<Preset> read_presets(const std::string& name, const Overrides& overrides = {});
 /// The same for a preset that must not have a sweep.
 Preset read_preset(const std::string& name, const Overrides& overrides = {});
@@ -34,8 +35,8 @@ Preset read_json(Json value, const std::string& source);
 Preset with_overrides(const Preset& preset, const Overrides& overrides);
 /// as_json() as indented text, without a newline at the end.
 std::string to_json(const Preset& preset);
-/// The same for a file in another folder than the preset's source: a file name that would mean another file there (or none)
-/// becomes absolute, so that preset.json beside a run's pictures can be run again.
+/// The same for a file in another folder than the preset's source: a file name that would mean another file there (or
+/// none) becomes absolute, so that preset.json beside a run's pictures can be run again.
 std::string to_json(const Preset& preset, const std::filesystem::path& folder);
 /// The preset with each name of a file as `renamed` gives it, in the order of the file.
 Preset with_file_names(Preset preset, const std::function<std::string(const std::string& name)>& renamed);
@@ -65,7 +66,8 @@ using Sweep = std::vector<SweptField>;
 
 /// A preset, and the sweep of its file.
 struct WithSweep {
-  /// What the file says of a swept field. Where the file would be refused without the sweep, its first run, named as the file.
+  /// What the file says of a swept field. Where the file would be refused without the sweep, its first run, named as
+  /// the file.
   Preset preset;
   Sweep sweep;
 };
@@ -77,7 +79,8 @@ WithSweep parse_with_sweep(const std::string& json, const std::string& source);
 /// The first run of a file's sweep, named as the file; the preset itself where it has none.
 Preset parse_first_run(const std::string& json, const std::string& source);
 
-/// How many runs it gives, also where they are too many to be made; 1 without a sweep. A double, because it may be any number.
+/// How many runs it gives, also where they are too many to be made; 1 without a sweep. A double, because it may be any
+/// number.
 double count_runs(const Sweep& sweep);
 
 /// One of a sweep's runs.
@@ -86,8 +89,8 @@ struct SweptRun {
   std::optional<Preset> preset; ///< nothing where it is refused
   std::string why_not;          ///< the line that says why
 };
-/// As read_presets gives them, but that each run is refused alone. Throws bad_input as read_presets for a sweep that gives no runs: a
-/// field's name that is none, one field inside of another, no value, more than 10000 runs.
+/// As read_presets gives them, but that each run is refused alone. Throws bad_input as read_presets for a sweep that
+/// gives no runs: a field's name that is none, one field inside of another, no value, more than 10000 runs.
 std::vector<SweptRun> swept_runs(const Preset& preset, const Sweep& sweep);
 
 } // namespace nephroid::preset

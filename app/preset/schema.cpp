@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The descriptions as a JSON Schema (2020-12), for editors that check and complete while one types. It knows fields one by one; what takes
-// several of them (check.cpp) and file names are left to the program.
+// The descriptions as a JSON Schema (2020-12), for editors that check and complete while one types. It knows fields one
+// by one; what takes several of them (check.cpp) and file names are left to the program.
 #include "preset/schema.h"
 
 #include "preset/describe.h"
@@ -14,14 +14,13 @@
 namespace nephroid::preset {
 namespace {
 
-/// Presets with a parent may leave out whatever they inherit, but lists replace the parent's lists, so that inside a list
-/// everything that is required must be there.
+/// Presets with a parent may leave out whatever they inherit, but lists replace the parent's lists, so that inside a
+/// list everything that is required must be there.
 enum class Requirement { whole, part };
 
 Json or_null(const Json& schema) { return {{"anyOf", {schema, {{"type", "null"}}}}}; }
 
-Json number_schema(const char* type, const Bounds& bounds)
-{
+Json number_schema(const char* type, const Bounds& bounds) {
   Json schema{{"type", type}};
   const auto limit = [&](const char* closed, const char* open, double value, bool without) {
     if (!std::isfinite(value)) return;
@@ -39,31 +38,27 @@ Json number_schema(const char* type, const Bounds& bounds)
   return schema;
 }
 
-Json list_schema(const Json& items, const Count& count)
-{
+Json list_schema(const Json& items, const Count& count) {
   Json schema{{"type", "array"}, {"items", items}};
   if (count.low > 0) schema["minItems"] = count.low;
   if (count.high < std::numeric_limits<std::size_t>::max()) schema["maxItems"] = count.high;
   return schema;
 }
 
-Json text_schema(Text text)
-{
+Json text_schema(Text text) {
   Json schema{{"type", "string"}, {"maxLength", 4096}};
   if (text == Text::file) schema["minLength"] = 1;
   if (text != Text::text) schema["pattern"] = "^[^\\u0000-\\u001f\\u007f]*$";
   return schema;
 }
 
-Json words_schema(const std::vector<Word>& words)
-{
+Json words_schema(const std::vector<Word>& words) {
   Json schemas = Json::array();
   for (const Word& word : words) schemas.push_back({{"const", word.name}, {"description", word.sentence}});
   return {{"oneOf", schemas}};
 }
 
-Json row_schema(const Columns& columns)
-{
+Json row_schema(const Columns& columns) {
   Json items = Json::array();
   for (const Column& c : {columns.first, columns.second}) {
     items.push_back({{"title", c.name}});
@@ -77,17 +72,19 @@ Json row_schema(const Columns& columns)
 struct Properties {
   Json properties = Json::object(), required = Json::array();
 
-  Json schema(const std::string& title, std::string_view sentence) const
-  {
-    return {{"title", title}, {"description", sentence}, {"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  Json schema(const std::string& title, std::string_view sentence) const {
+    return {{"title", title},
+            {"description", sentence},
+            {"type", "object"},
+            {"properties", properties},
+            {"additionalProperties", false}};
   }
 };
 
 /// Collects the schemas of all structs, each made at its first use.
 class Definitions {
 public:
-  Properties properties(const Value& object, Requirement presence)
-  {
+  Properties properties(const Value& object, Requirement presence) {
     Properties properties;
     for (const Member& member : object.members()) {
       const Field& f = member.field;
@@ -103,23 +100,24 @@ public:
   Json all = Json::object();
 
 private:
-  Json schema_of(const Member& member, Requirement presence)
-  {
+  Json schema_of(const Member& member, Requirement presence) {
     if (member.role == Role::type) return {{"const", member.value.word().name}};
     Json schema = schema_of(member.field, member.value.type(), presence);
     // A struct's defaults stand at its own fields, and an optional one has none.
-    const bool has_default = !member.field.required && member.role == Role::plain && member.value.kind() != Kind::object;
-    if (const Json standard = has_default ? as_json(member.value) : Json(); !standard.is_object() && !standard.is_null())
+    const bool has_default =
+        !member.field.required && member.role == Role::plain && member.value.kind() != Kind::object;
+    if (const Json standard = has_default ? as_json(member.value) : Json();
+        !standard.is_object() && !standard.is_null())
       schema["default"] = standard;
     return schema;
   }
 
-  Json schema_of(const Field& f, const ValueType& type, Requirement presence)
-  {
+  Json schema_of(const Field& f, const ValueType& type, Requirement presence) {
     const Kind kind = type.kind;
     if (kind == Kind::boolean) return {{"type", "boolean"}};
     if (!f.none_word.empty()) return {{"anyOf", {number_schema("number", f.bounds), {{"const", f.none_word}}}}};
-    if (kind == Kind::integer || kind == Kind::number) return number_schema(kind == Kind::integer ? "integer" : "number", f.bounds);
+    if (kind == Kind::integer || kind == Kind::number)
+      return number_schema(kind == Kind::integer ? "integer" : "number", f.bounds);
     if (kind == Kind::text) return text_schema(f.text);
     if (kind == Kind::word) return words_schema(type.words);
     if (kind == Kind::numbers || kind == Kind::texts) {
@@ -130,12 +128,13 @@ private:
     if (kind == Kind::table) return list_schema(row_schema(f.columns), f.count);
     if (kind == Kind::list) return list_schema(reference(*type.item, Requirement::whole), f.count);
     if (kind == Kind::map)
-      return {{"type", "object"}, {"additionalProperties", or_null(reference(*type.item, presence))}, {"maxProperties", f.count.high}};
+      return {{"type", "object"},
+              {"additionalProperties", or_null(reference(*type.item, presence))},
+              {"maxProperties", f.count.high}};
     return kind == Kind::optional ? or_null(schema_of(f, *type.item, presence)) : reference(type, presence);
   }
 
-  Json reference(const ValueType& type, Requirement presence)
-  {
+  Json reference(const ValueType& type, Requirement presence) {
     const std::string name = std::string(type.name) + (presence == Requirement::part ? "" : "Item");
     if (!all.contains(name)) {
       Json schema = definition(type, presence);
@@ -144,8 +143,7 @@ private:
     return {{"$ref", "#/$defs/" + name}};
   }
 
-  Json definition(const ValueType& type, Requirement presence)
-  {
+  Json definition(const ValueType& type, Requirement presence) {
     const auto by_default = type.make();
     const Value object(by_default.get(), type);
     if (object.members().front().role == Role::type) return alternatives(object, presence);
@@ -156,8 +154,7 @@ private:
   }
 
   /// The struct's types one by one, then its shorthands; as a part also any of their fields without a type.
-  Json alternatives(const Value& object, Requirement presence)
-  {
+  Json alternatives(const Value& object, Requirement presence) {
     Json schemas = Json::array(), bare = Json::array(), any_field = Json::object();
     const std::vector<Word> words = object.members().front().value.type().words;
     const std::string key(object.members().front().field.name);
@@ -186,11 +183,11 @@ private:
 };
 
 /// Keys of a preset file that are not the preset's: they are gone before its fields are read.
-Json file_keys()
-{
+Json file_keys() {
   return {{"$schema", {{"description", "Where this schema is, for editors."}, {"type", "string"}}},
           {"parent",
-           {{"description", "A preset whose values this one takes over: a path beside this file, or a shipped preset's name."},
+           {{"description",
+             "A preset whose values this one takes over: a path beside this file, or a shipped preset's name."},
             {"type", "string"},
             {"minLength", 1}}},
           {"sweep",
@@ -201,8 +198,7 @@ Json file_keys()
 
 } // namespace
 
-std::string schema()
-{
+std::string schema() {
   Definitions definitions;
   Preset defaults;
   const Value preset(defaults);

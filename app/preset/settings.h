@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of one engine in a preset: a value of whatever struct that engine describes. The preset knows no engine: what can be done
-// with settings of a type is in the type, which settings_type.h makes from the struct's description.
+// The settings of one engine in a preset: a value of whatever struct that engine describes. The preset knows no engine:
+// what can be done with settings of a type is in the type, which settings_type.h makes from the struct's description.
 #pragma once
 #include <any>
 #include <functional>
@@ -23,13 +23,11 @@ public:
   std::string_view engine() const;
   /// S: the struct of the type. Throws std::bad_any_cast for another one.
   template <class S>
-  S& as()
-  {
+  S& as() {
     return std::any_cast<S&>(value_);
   }
   template <class S>
-  const S& as() const
-  {
+  const S& as() const {
     return std::any_cast<const S&>(value_);
   }
   std::any& value() { return value_; }

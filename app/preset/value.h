@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A value of a preset as what it is at run time: its kind, its items, its fields. Reading, writing, the schema and the editor walk over
-// values, so that they are compiled once and not for every struct.
+// A value of a preset as what it is at run time: its kind, its items, its fields. Reading, writing, the schema and the
+// editor walk over values, so that they are compiled once and not for every struct.
 #pragma once
 #include "preset/field.h"
 #include "preset/settings.h"
@@ -17,7 +17,8 @@ namespace nephroid::preset {
 
 class Fields;
 
-/// numbers: a list of numbers; texts: of texts; table: rows of two numbers; list and map: of objects. optional holds one item or none.
+/// numbers: a list of numbers; texts: of texts; table: rows of two numbers; list and map: of objects. optional holds
+/// one item or none.
 enum class Kind { boolean, integer, number, text, word, numbers, texts, table, object, list, map, optional };
 
 /// One word of an enumeration.
@@ -28,7 +29,8 @@ struct Word {
 /// What a bare JSON value in place of a struct may be.
 enum class BareValue { number, text };
 
-/// `"dispersion": 1.5` stands for `{"type": "constant", "n": 1.5}`: a bare value is the field `field` of the type `type`.
+/// `"dispersion": 1.5` stands for `{"type": "constant", "n": 1.5}`: a bare value is the field `field` of the type
+/// `type`.
 struct Shorthand {
   BareValue bare;
   std::string_view type, field;
@@ -69,8 +71,7 @@ public:
   bool exists() const { return at_ != nullptr; }
   /// T: just what the value is.
   template <class T>
-  T& as() const
-  {
+  T& as() const {
     return *static_cast<T*>(at_);
   }
   template <class T>
@@ -92,8 +93,9 @@ private:
   const ValueType* type_;
 };
 
-/// type: the word that says which further fields its object has. engine: the word that names the preset's engine. section: the settings of
-/// an engine; those of the preset's engine exist. recipe: optional settings of an engine, of which the preset's may be there.
+/// type: the word that says which further fields its object has. engine: the word that names the preset's engine.
+/// section: the settings of an engine; those of the preset's engine exist. recipe: optional settings of an engine, of
+/// which the preset's may be there.
 enum class Role { plain, type, engine, section, recipe };
 
 /// A field of an object.
@@ -114,23 +116,19 @@ public:
   /// What the struct is called, in one word and in a sentence.
   void about(std::string_view name, std::string_view sentence) { name_ = name, sentence_ = sentence; }
   template <Enumeration E>
-  void shorthand(BareValue bare, E type, std::string_view field)
-  {
+  void shorthand(BareValue bare, E type, std::string_view field) {
     shorthands_.push_back({bare, preset::word(type), field});
   }
   /// more: all else there is to say about the field.
   template <class T>
-  void field(std::string_view name, std::string_view sentence, T& value, const Field& more = {})
-  {
+  void field(std::string_view name, std::string_view sentence, T& value, const Field& more = {}) {
     add(name, sentence, Value(value), Role::plain, more);
   }
   template <Enumeration E>
-  void type(std::string_view name, std::string_view sentence, E& value)
-  {
+  void type(std::string_view name, std::string_view sentence, E& value) {
     add(name, sentence, Value(value), Role::type, {});
   }
-  void engine(std::string_view name, std::string_view sentence, Settings& settings)
-  {
+  void engine(std::string_view name, std::string_view sentence, Settings& settings) {
     add(name, sentence, Value(settings), Role::engine, {});
   }
   void settings(Settings& settings);
@@ -157,8 +155,7 @@ inline ValueType make_type(int*) { return {.kind = Kind::integer}; }
 inline ValueType make_type(std::uint64_t*) { return {.kind = Kind::integer}; }
 
 template <Enumeration E>
-ValueType make_type(E*)
-{
+ValueType make_type(E*) {
   ValueType type{.kind = Kind::word};
   for (const Choice<E>& choice : choices<E>) type.words.push_back({choice.name, choice.sentence});
   type.word = [](const void* value) {
@@ -171,8 +168,7 @@ ValueType make_type(E*)
 }
 
 template <class T, std::size_t N>
-ValueType make_type(std::array<T, N>*)
-{
+ValueType make_type(std::array<T, N>*) {
   using Array = std::array<T, N>;
   ValueType type{.kind = Kind::numbers, .item = &type_of<T>(), .size = N};
   type.count = [](const void*) { return N; };
@@ -181,14 +177,15 @@ ValueType make_type(std::array<T, N>*)
   return type;
 }
 
-constexpr Kind kind_of_list(Kind item)
-{
-  return item == Kind::number ? Kind::numbers : item == Kind::text ? Kind::texts : item == Kind::numbers ? Kind::table : Kind::list;
+constexpr Kind kind_of_list(Kind item) {
+  return item == Kind::number    ? Kind::numbers
+         : item == Kind::text    ? Kind::texts
+         : item == Kind::numbers ? Kind::table
+                                 : Kind::list;
 }
 
 template <class T>
-ValueType make_type(std::vector<T>*)
-{
+ValueType make_type(std::vector<T>*) {
   using List = std::vector<T>;
   ValueType type{.kind = kind_of_list(type_of<T>().kind), .item = &type_of<T>()};
   type.count = [](const void* list) { return static_cast<const List*>(list)->size(); };
@@ -198,13 +195,14 @@ ValueType make_type(std::vector<T>*)
 }
 
 template <class T>
-ValueType make_type(std::map<std::string, T>*)
-{
+ValueType make_type(std::map<std::string, T>*) {
   using Map = std::map<std::string, T>;
   ValueType type{.kind = Kind::map, .item = &type_of<T>()};
   type.count = [](const void* map) { return static_cast<const Map*>(map)->size(); };
   type.resize = [](void* map, std::size_t) { static_cast<Map*>(map)->clear(); };
-  type.at = [](void* map, std::size_t i) -> void* { return &std::next(static_cast<Map*>(map)->begin(), static_cast<int>(i))->second; };
+  type.at = [](void* map, std::size_t i) -> void* {
+    return &std::next(static_cast<Map*>(map)->begin(), static_cast<int>(i))->second;
+  };
   type.key = [](const void* map, std::size_t i) -> const std::string& {
     return std::next(static_cast<const Map*>(map)->begin(), static_cast<int>(i))->first;
   };
@@ -213,11 +211,12 @@ ValueType make_type(std::map<std::string, T>*)
 }
 
 template <class T>
-ValueType make_type(std::optional<T>*)
-{
+ValueType make_type(std::optional<T>*) {
   using Optional = std::optional<T>;
   ValueType type{.kind = Kind::optional, .item = &type_of<T>()};
-  type.count = [](const void* value) { return static_cast<const Optional*>(value)->has_value() ? std::size_t{1} : std::size_t{0}; };
+  type.count = [](const void* value) {
+    return static_cast<const Optional*>(value)->has_value() ? std::size_t{1} : std::size_t{0};
+  };
   type.resize = [](void* value, std::size_t count) {
     static_cast<Optional*>(value)->reset();
     if (count > 0) static_cast<Optional*>(value)->emplace();
@@ -227,15 +226,13 @@ ValueType make_type(std::optional<T>*)
 }
 
 template <class S>
-requires std::is_class_v<S> ValueType make_type(S*)
-{
+requires std::is_class_v<S> ValueType make_type(S*) {
   return described({.make = []() -> std::shared_ptr<void> { return std::make_shared<S>(); },
                     .describe = [](Fields& fields, void* object) { describe(fields, *static_cast<S*>(object)); }});
 }
 
 template <class T>
-const ValueType& type_of()
-{
+const ValueType& type_of() {
   static const ValueType type = make_type(static_cast<T*>(nullptr));
   return type;
 }
@@ -244,15 +241,13 @@ template <class T>
 requires(!std::is_same_v<T, Value>) Value::Value(T& value) : at_(&value), type_(&type_of<T>()) {}
 
 template <class T>
-bool Value::is() const
-{
+bool Value::is() const {
   return type_ == &type_of<T>();
 }
 
 /// For what only reads: a value of what must not change.
 template <class T>
-Value value_of(const T& value)
-{
+Value value_of(const T& value) {
   return Value(const_cast<T&>(value));
 }
 

@@ -9,48 +9,46 @@
 namespace nephroid::preset {
 namespace {
 
-std::string in_range(const Bounds& b)
-{
+std::string in_range(const Bounds& b) {
   const bool low = std::isfinite(b.low), high = std::isfinite(b.high);
   if (b.without_low && b.without_high)
-    return low && high ? fmt::format(" above {} and below {}", b.low, b.high) : low ? fmt::format(" above {}", b.low) : "";
+    return low && high ? fmt::format(" above {} and below {}", b.low, b.high)
+           : low       ? fmt::format(" above {}", b.low)
+                       : "";
   return low && high ? fmt::format(" from {} to {}", b.low, b.high) : low ? fmt::format(" of at least {}", b.low) : "";
 }
 
 std::string in_unit(std::string_view unit) { return unit.empty() ? "" : fmt::format(" {}", unit); }
 
-std::string expected_integer(const Bounds& bounds, std::string_view unit)
-{
+std::string expected_integer(const Bounds& bounds, std::string_view unit) {
   // Whole numbers read better without an exponent: 16777216, not 1.6777216e+07.
   // 2^64 as a bound stands for the largest 64-bit number, which no double is.
-  const std::string high = bounds.high < 18446744073709551615.0 ? fmt::format("{:.0f}", bounds.high) : "18446744073709551615";
+  const std::string high =
+      bounds.high < 18446744073709551615.0 ? fmt::format("{:.0f}", bounds.high) : "18446744073709551615";
   return fmt::format("a whole number from {:.0f} to {}", bounds.low, high) + in_unit(unit);
 }
 
 /// A struct: an object, and whatever else stands for it.
-std::string expected_object(const ValueType& type)
-{
+std::string expected_object(const ValueType& type) {
   std::string text;
-  for (const Shorthand& shorthand : type.shorthands) text += shorthand.bare == BareValue::number ? "a number, " : "a string, ";
+  for (const Shorthand& shorthand : type.shorthands)
+    text += shorthand.bare == BareValue::number ? "a number, " : "a string, ";
   return text.empty() ? "an object" : text.replace(text.size() - 2, 2, " or an object");
 }
 
-Json list_of(const Value& list)
-{
+Json list_of(const Value& list) {
   Json items = Json::array();
   for (std::size_t i = 0; i < list.count(); ++i) items.push_back(as_json(list[i]));
   return items;
 }
 
-Json map_of(const Value& map)
-{
+Json map_of(const Value& map) {
   Json items = Json::object();
   for (std::size_t i = 0; i < map.count(); ++i) items[map.key(i)] = as_json(map[i]);
   return items;
 }
 
-Json object_of(const Value& value)
-{
+Json object_of(const Value& value) {
   Json object = Json::object();
   for (const Member& member : value.members()) {
     const bool absent = !member.value.exists() || (member.role == Role::recipe && member.value.count() == 0);
@@ -63,8 +61,7 @@ Json object_of(const Value& value)
 
 } // namespace
 
-Json as_json(const Value& value)
-{
+Json as_json(const Value& value) {
   const Kind kind = value.kind();
   if (kind == Kind::boolean) return value.as<bool>();
   if (kind == Kind::integer) return value.is<int>() ? Json(value.as<int>()) : Json(value.as<std::uint64_t>());
@@ -77,21 +74,20 @@ Json as_json(const Value& value)
   return list_of(value);
 }
 
-std::string expected_number(const Field& f)
-{
-  return "a number" + in_range(f.bounds) + in_unit(f.unit) + (f.none_word.empty() ? "" : fmt::format(" or \"{}\"", f.none_word));
+std::string expected_number(const Field& f) {
+  return "a number" + in_range(f.bounds) + in_unit(f.unit) +
+         (f.none_word.empty() ? "" : fmt::format(" or \"{}\"", f.none_word));
 }
 
-std::string expected_count(const Count& count)
-{
+std::string expected_count(const Count& count) {
   if (count.low == 0) return fmt::format("at most {} items", count.high);
   return fmt::format("{} to {} items", count.low, count.high);
 }
 
-std::string expected(const Field& f, const ValueType& type)
-{
+std::string expected(const Field& f, const ValueType& type) {
   const auto list = [&](const std::string& item) {
-    return fmt::format("a list of {}, each {}", type.size > 0 ? fmt::format("{} items", type.size) : expected_count(f.count), item);
+    return fmt::format("a list of {}, each {}",
+                       type.size > 0 ? fmt::format("{} items", type.size) : expected_count(f.count), item);
   };
   if (type.kind == Kind::boolean) return "true or false";
   if (type.kind == Kind::integer) return expected_integer(f.bounds, f.unit);
@@ -103,7 +99,8 @@ std::string expected(const Field& f, const ValueType& type)
     return words;
   }
   if (type.kind == Kind::table) return list(fmt::format("[{}, {}]", f.columns.first.name, f.columns.second.name));
-  if (type.kind == Kind::map) return fmt::format("an object of names with {}, each {}", expected_count(f.count), expected(f, *type.item));
+  if (type.kind == Kind::map)
+    return fmt::format("an object of names with {}, each {}", expected_count(f.count), expected(f, *type.item));
   if (type.kind == Kind::optional) return expected(f, *type.item);
   return type.kind == Kind::object ? expected_object(type) : list(expected(f, *type.item));
 }

@@ -23,26 +23,31 @@ struct MetricCurves {
   bool falls = false;
 };
 
-std::string main_metric(const RunFolder& run) { return run.history ? measure::error_column_of(run.history->error_column).metric : ""; }
+std::string main_metric(const RunFolder& run) {
+  return run.history ? measure::error_column_of(run.history->error_column).metric : "";
+}
 
-std::vector<MetricCurves> curves_of(std::span<const RunFolder> runs)
-{
+std::vector<MetricCurves> curves_of(std::span<const RunFolder> runs) {
   std::vector<MetricCurves> all;
   std::map<std::string, int> votes; // of the runs for the metric that they are judged by
   for (const RunFolder& run : runs) {
     if (!run.history) continue;
     ++votes[main_metric(run)];
     for (const std::string& metric : measure::metric_names(*run.history))
-      if (std::none_of(all.begin(), all.end(), [&](const auto& other) { return other.metric == metric; })) all.push_back({metric, {}});
+      if (std::none_of(all.begin(), all.end(), [&](const auto& other) { return other.metric == metric; }))
+        all.push_back({metric, {}});
   }
   for (MetricCurves& curves : all) {
-    const auto is_error = [&](const RunFolder& run) { return run.history && measure::is_error(*run.history, curves.metric); };
+    const auto is_error = [&](const RunFolder& run) {
+      return run.history && measure::is_error(*run.history, curves.metric);
+    };
     curves.falls = std::any_of(runs.begin(), runs.end(), is_error);
     for (const RunFolder& run : runs)
       curves.runs.push_back(run.history ? measure::run_curves(*run.history, curves.metric, curves.falls) : RunCurves{});
   }
   std::erase_if(all, [](const MetricCurves& curves) {
-    return std::all_of(curves.runs.begin(), curves.runs.end(), [](const RunCurves& run) { return run.judged().errors.empty(); });
+    return std::all_of(curves.runs.begin(), curves.runs.end(),
+                       [](const RunCurves& run) { return run.judged().errors.empty(); });
   });
   std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) {
     return std::pair(-votes[a.metric], !a.falls) < std::pair(-votes[b.metric], !b.falls);
@@ -50,8 +55,7 @@ std::vector<MetricCurves> curves_of(std::span<const RunFolder> runs)
   return all;
 }
 
-Json line_json(std::size_t run, const RunCurves& curves, bool is_estimate)
-{
+Json line_json(std::size_t run, const RunCurves& curves, bool is_estimate) {
   const Curve& curve = is_estimate ? curves.estimate : curves.error;
   const auto slope = is_estimate == curves.is_judged_by_estimate() ? curves.slope() : std::nullopt;
   Json points = Json::array();
@@ -64,27 +68,26 @@ Json line_json(std::size_t run, const RunCurves& curves, bool is_estimate)
 }
 
 /// Whether the run ended much further from its reference than its own noise and the reference's explain.
-bool looks_biased(const RunCurves& run)
-{
+bool looks_biased(const RunCurves& run) {
   if (run.error.errors.empty() || run.estimate.errors.empty()) return false;
   const double error = run.error.errors.back(), noise = run.estimate.errors.back(), floor = run.noise_floor;
-  return measure::metric_text(run.metric).is_mean_square() ? error > 4 * (noise + floor) : error > 2 * std::hypot(noise, floor);
+  return measure::metric_text(run.metric).is_mean_square() ? error > 4 * (noise + floor)
+                                                           : error > 2 * std::hypot(noise, floor);
 }
 
 /// The round errors that some run came down to, the largest first; powers of ten only where there would be too many.
-std::vector<double> levels_of(const MetricCurves& curves)
-{
+std::vector<double> levels_of(const MetricCurves& curves) {
   std::set<double> levels;
   for (const RunCurves& run : curves.runs)
     if (const auto reached = measure::errors_reached(run.judged()))
       for (const double level : measure::round_levels(reached->lowest, reached->highest)) levels.insert(level);
   constexpr std::size_t comfortable = 9; // columns of a table
-  if (levels.size() > comfortable) std::erase_if(levels, [](double level) { return fmt::format("{:e}", level).front() != '1'; });
+  if (levels.size() > comfortable)
+    std::erase_if(levels, [](double level) { return fmt::format("{:e}", level).front() != '1'; });
   return {levels.rbegin(), levels.rend()};
 }
 
-Json times_json(const MetricCurves& curves, const std::vector<double>& levels)
-{
+Json times_json(const MetricCurves& curves, const std::vector<double>& levels) {
   Json times = Json::array();
   for (std::size_t i = 0; i < curves.runs.size(); ++i) {
     const RunCurves& run = curves.runs[i];
@@ -102,25 +105,25 @@ Json times_json(const MetricCurves& curves, const std::vector<double>& levels)
 }
 
 /// Whether a part of the two presets ("scene.") is the same, but for one key.
-bool have_same_settings(const RunFolder& a, const RunFolder& b, const std::string& part, const std::string& but_for = {})
-{
+bool have_same_settings(const RunFolder& a, const RunFolder& b, const std::string& part,
+                        const std::string& but_for = {}) {
   const auto settings_of = [&](const RunFolder& run) {
     auto settings = run.settings;
-    std::erase_if(settings, [&](const auto& setting) { return !setting.first.starts_with(part) || setting.first == but_for; });
+    std::erase_if(settings,
+                  [&](const auto& setting) { return !setting.first.starts_with(part) || setting.first == but_for; });
     return settings;
   };
   return settings_of(a) == settings_of(b);
 }
 
 /// Whether both pictures become the same one in the end, but for what an engine's settings leave out.
-bool have_one_truth(const RunFolder& a, const RunFolder& b)
-{
-  return std::ranges::all_of(std::array{"scene.", "unit", "white"}, [&](const char* part) { return have_same_settings(a, b, part); });
+bool have_one_truth(const RunFolder& a, const RunFolder& b) {
+  return std::ranges::all_of(std::array{"scene.", "unit", "white"},
+                             [&](const char* part) { return have_same_settings(a, b, part); });
 }
 
 /// Why times of two runs are to be read with care; empty where there is no reason.
-std::string remarks(const RunFolder& a, const RunFolder& b, bool have_one_reference, bool by_estimate)
-{
+std::string remarks(const RunFolder& a, const RunFolder& b, bool have_one_reference, bool by_estimate) {
   std::string words;
   const auto add = [&](bool applies, const char* text) {
     if (applies) words += (words.empty() ? "" : ", ") + std::string(text);
@@ -136,13 +139,13 @@ std::string remarks(const RunFolder& a, const RunFolder& b, bool have_one_refere
   return words;
 }
 
-/// The lowest round errors that both runs came down to, at most `count`. Where none is round, the middle of what they have in common, to
-/// three figures: at its end a flat curve's time says little.
-std::vector<double> levels_for_pair(const measure::ErrorRange& both, std::size_t count)
-{
+/// The lowest round errors that both runs came down to, at most `count`. Where none is round, the middle of what they
+/// have in common, to three figures: at its end a flat curve's time says little.
+std::vector<double> levels_for_pair(const measure::ErrorRange& both, std::size_t count) {
   std::vector<double> levels = measure::round_levels(both.lowest, both.highest);
   if (levels.empty())
-    return {std::clamp(std::stod(fmt::format("{:.2e}", std::sqrt(both.lowest * both.highest))), both.lowest, both.highest)};
+    return {
+        std::clamp(std::stod(fmt::format("{:.2e}", std::sqrt(both.lowest * both.highest))), both.lowest, both.highest)};
   if (levels.size() > count) levels.erase(levels.begin(), levels.end() - static_cast<std::ptrdiff_t>(count));
   return levels;
 }
@@ -150,9 +153,9 @@ std::vector<double> levels_for_pair(const measure::ErrorRange& both, std::size_t
 /// All pairs of runs that can be compared, and why the others cannot.
 class Pairs {
 public:
-  Pairs(std::span<const RunFolder> runs, const std::vector<std::optional<std::size_t>>& reference_of_run, const MetricCurves& curves)
-      : runs_(runs), reference_of_run_(reference_of_run), curves_(curves)
-  {
+  Pairs(std::span<const RunFolder> runs, const std::vector<std::optional<std::size_t>>& reference_of_run,
+        const MetricCurves& curves)
+      : runs_(runs), reference_of_run_(reference_of_run), curves_(curves) {
     for (std::size_t a = 0; a < runs.size(); ++a)
       for (std::size_t b = a + 1; b < runs.size(); ++b)
         if (const std::string reason = add(a, b); !reason.empty())
@@ -163,38 +166,44 @@ public:
 
 private:
   /// Why there is nothing to compare; empty where something was added, or one of the two has no curve.
-  std::string add(std::size_t a, std::size_t b)
-  {
+  std::string add(std::size_t a, std::size_t b) {
     const RunCurves &of_a = curves_.runs[a], &of_b = curves_.runs[b];
     if (of_a.judged().errors.empty() || of_b.judged().errors.empty()) return {};
     const bool by_estimate = of_a.error.errors.empty() || of_b.error.errors.empty();
-    const Curve &curve_a = by_estimate ? of_a.estimate : of_a.error, &curve_b = by_estimate ? of_b.estimate : of_b.error;
-    if (!have_one_truth(runs_[a], runs_[b])) return "different scenes: to be as near to another truth says nothing of the speed";
-    if (curve_a.errors.empty() || curve_b.errors.empty()) return "one is measured against a reference, the other only estimated";
+    const Curve &curve_a = by_estimate ? of_a.estimate : of_a.error,
+                &curve_b = by_estimate ? of_b.estimate : of_b.error;
+    if (!have_one_truth(runs_[a], runs_[b]))
+      return "different scenes: to be as near to another truth says nothing of the speed";
+    if (curve_a.errors.empty() || curve_b.errors.empty())
+      return "one is measured against a reference, the other only estimated";
     const double lowest = by_estimate ? 0 : std::max(of_a.lowest_meaningful(), of_b.lowest_meaningful());
     if (const auto both = measure::errors_both_reached(curve_a, curve_b, lowest)) {
-      for (const double level : levels_for_pair(*both, runs_.size() <= 6 ? 3 : 1)) add_level(a, b, curve_a, curve_b, level, by_estimate);
+      for (const double level : levels_for_pair(*both, runs_.size() <= 6 ? 3 : 1))
+        add_level(a, b, curve_a, curve_b, level, by_estimate);
       return {};
     }
     if (measure::errors_both_reached(curve_a, curve_b)) return "nearer to the noise floor than a comparison needs";
     const bool a_is_better = curve_a.errors.front() < measure::errors_reached(curve_b)->lowest;
-    return fmt::format("{} was better at its first measurement than {} ever was", (a_is_better ? a : b) + 1, (a_is_better ? b : a) + 1);
+    return fmt::format("{} was better at its first measurement than {} ever was", (a_is_better ? a : b) + 1,
+                       (a_is_better ? b : a) + 1);
   }
 
-  void add_level(std::size_t a, std::size_t b, const Curve& curve_a, const Curve& curve_b, double level, bool by_estimate)
-  {
+  void add_level(std::size_t a, std::size_t b, const Curve& curve_a, const Curve& curve_b, double level,
+                 bool by_estimate) {
     const auto equal = measure::at_equal_error(curve_a, curve_b, level);
     if (!equal) return;
     const bool b_is_faster = equal->seconds_b <= equal->seconds_a;
-    const double faster = std::min(equal->seconds_a, equal->seconds_b), slower = std::max(equal->seconds_a, equal->seconds_b);
-    pairs_.push_back({{"faster", b_is_faster ? b : a},
-                      {"slower", b_is_faster ? a : b},
-                      {"error", level},
-                      {"estimate", by_estimate},
-                      {"faster_seconds", faster},
-                      {"slower_seconds", slower},
-                      {"speed_up", slower / faster},
-                      {"remark", remarks(runs_[a], runs_[b], reference_of_run_[a] == reference_of_run_[b], by_estimate)}});
+    const double faster = std::min(equal->seconds_a, equal->seconds_b),
+                 slower = std::max(equal->seconds_a, equal->seconds_b);
+    pairs_.push_back(
+        {{"faster", b_is_faster ? b : a},
+         {"slower", b_is_faster ? a : b},
+         {"error", level},
+         {"estimate", by_estimate},
+         {"faster_seconds", faster},
+         {"slower_seconds", slower},
+         {"speed_up", slower / faster},
+         {"remark", remarks(runs_[a], runs_[b], reference_of_run_[a] == reference_of_run_[b], by_estimate)}});
   }
 
   std::span<const RunFolder> runs_;
@@ -205,8 +214,7 @@ private:
 
 } // namespace
 
-Json metrics_json(std::span<const RunFolder> runs, const std::vector<std::optional<std::size_t>>& reference_of_run)
-{
+Json metrics_json(std::span<const RunFolder> runs, const std::vector<std::optional<std::size_t>>& reference_of_run) {
   Json all = Json::array();
   for (const MetricCurves& curves : curves_of(runs)) {
     const measure::MetricText text = measure::metric_text(curves.metric);

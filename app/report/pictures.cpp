@@ -24,8 +24,7 @@ constexpr const char* main_name = "image";
 bool have_one_size(const Picture& a, const Picture& b) { return a.width == b.width && a.height == b.height; }
 
 /// image.exr first, there or not, then the others in the order of their names.
-std::vector<fs::path> picture_files(const fs::path& folder)
-{
+std::vector<fs::path> picture_files(const fs::path& folder) {
   std::set<fs::path> others = files_ending(folder, ".exr");
   const fs::path first = folder / fmt::format("{}.exr", main_name);
   others.erase(first);
@@ -51,15 +50,13 @@ struct Group {
   std::vector<Difference> differences;
 };
 
-Json picture_json(const char* kind, Json runs, Json from, const std::string& png)
-{
+Json picture_json(const char* kind, Json runs, Json from, const std::string& png) {
   return {{"kind", kind}, {"runs", std::move(runs)}, {"from", std::move(from)}, {"png", base64(png)}};
 }
 
 class Collector {
 public:
-  explicit Collector(std::span<const RunFolder> runs) : runs_(runs)
-  {
+  explicit Collector(std::span<const RunFolder> runs) : runs_(runs) {
     for (const RunFolder& run : runs_) result_.reference_of_run.push_back(reference_of(run));
     for (std::size_t run = 0; run < runs_.size(); ++run)
       for (const fs::path& file : picture_files(runs_[run].folder)) add(run, file);
@@ -69,8 +66,7 @@ public:
 
 private:
   /// Reads every file once; files with equal pictures are one reference.
-  std::optional<std::size_t> reference_of(const RunFolder& run)
-  {
+  std::optional<std::size_t> reference_of(const RunFolder& run) {
     const fs::path file = run.reference();
     if (file.empty()) return std::nullopt;
     const auto [known, is_new] = reference_files_.try_emplace(file, references_.size());
@@ -88,8 +84,7 @@ private:
     return known->second;
   }
 
-  void add(std::size_t run, const fs::path& file)
-  {
+  void add(std::size_t run, const fs::path& file) {
     if (!is_there(file)) {
       result_.notes.push_back(fmt::format("{} is missing.", file.string()));
       return;
@@ -106,38 +101,42 @@ private:
     }
   }
 
-  Group& group_of(std::size_t run, const std::string& name, const SharedPicture& picture)
-  {
+  Group& group_of(std::size_t run, const std::string& name, const SharedPicture& picture) {
     for (Group& group : groups_)
       if (group.name == name && have_one_size(*group.first, *picture)) return group;
     return groups_.emplace_back(Group{name, run, picture, Json::array(), {}, {}});
   }
 
-  static void add_difference(Group& group, std::size_t run, Json from, const Picture& picture, const Picture& other)
-  {
+  static void add_difference(Group& group, std::size_t run, Json from, const Picture& picture, const Picture& other) {
     group.differences.push_back(
-        {run, std::move(from), measure::difference_map(picture.pixels(), other.pixels(), measure::DifferenceMetric::lab)});
+        {run, std::move(from),
+         measure::difference_map(picture.pixels(), other.pixels(), measure::DifferenceMetric::lab)});
   }
 
-  void finish(Group& group)
-  {
+  void finish(Group& group) {
     const int width = group.first->width, height = group.first->height;
     for (const std::size_t reference : group.references) {
       Json runs = Json::array();
       for (std::size_t run = 0; run < runs_.size(); ++run)
         if (result_.reference_of_run[run] == reference) runs.push_back(run);
-      group.pictures.push_back(picture_json("reference", std::move(runs), {}, image::png(width, height, references_[reference]->rgb)));
+      group.pictures.push_back(
+          picture_json("reference", std::move(runs), {}, image::png(width, height, references_[reference]->rgb)));
     }
     double scale = 0;
-    for (const Difference& difference : group.differences) scale = std::max(scale, measure::colour_scale(difference.map));
+    for (const Difference& difference : group.differences)
+      scale = std::max(scale, measure::colour_scale(difference.map));
     for (const Difference& difference : group.differences) {
       std::vector<unsigned char> bytes;
       for (const float value : difference.map)
         for (const unsigned char channel : measure::map_colour(value / scale)) bytes.push_back(channel);
-      group.pictures.push_back(picture_json("difference", {difference.run}, difference.from, image::png_of_bytes(width, height, bytes)));
+      group.pictures.push_back(
+          picture_json("difference", {difference.run}, difference.from, image::png_of_bytes(width, height, bytes)));
     }
-    result_.groups.push_back(
-        {{"name", group.name}, {"width", width}, {"height", height}, {"scale", scale}, {"pictures", std::move(group.pictures)}});
+    result_.groups.push_back({{"name", group.name},
+                              {"width", width},
+                              {"height", height},
+                              {"scale", scale},
+                              {"pictures", std::move(group.pictures)}});
   }
 
   std::span<const RunFolder> runs_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From folders to data, and the data into the page, which holds its style, its script and the chart library itself. What every run writes
-// is required: a report with holes would be believed.
+// From folders to data, and the data into the page, which holds its style, its script and the chart library itself.
+// What every run writes is required: a report with holes would be believed.
 
 #include "report/report.h"
 
@@ -28,13 +28,13 @@ using measure::RunDocument;
 using Type = RunDocument::Type;
 
 /// An engine has a name of its own for what it counts.
-std::string where_stopped(const RunDocument& run)
-{
-  return run.has("/passes") ? fmt::format(": it stopped in pass {}", run.at("/passes", Type::whole).get<std::int64_t>() + 1) : "";
+std::string where_stopped(const RunDocument& run) {
+  return run.has("/passes")
+             ? fmt::format(": it stopped in pass {}", run.at("/passes", Type::whole).get<std::int64_t>() + 1)
+             : "";
 }
 
-Json read_run_json(const fs::path& folder)
-{
+Json read_run_json(const fs::path& folder) {
   const RunDocument run(folder / "run.json");
   if (!run.at("/finished", Type::flag))
     throw bad_input(folder.string(), "this run is not finished" + where_stopped(run), "expected a finished run",
@@ -56,8 +56,7 @@ Json read_run_json(const fs::path& folder)
   return run.json();
 }
 
-std::map<std::string, std::string> read_settings(const fs::path& folder)
-{
+std::map<std::string, std::string> read_settings(const fs::path& folder) {
   std::map<std::string, std::string> settings;
   const Json flat = RunDocument(folder / "preset.json").json().flatten();
   for (const auto& [pointer, value] : flat.items()) { // "/scene/lights/0/power_w"
@@ -68,8 +67,7 @@ std::map<std::string, std::string> read_settings(const fs::path& folder)
   return settings;
 }
 
-Json read_plan(const fs::path& folder)
-{
+Json read_plan(const fs::path& folder) {
   const RunDocument plan(folder / "plan.json");
   plan.at("/engine", Type::text);
   const auto each = [&](const std::string& list, std::initializer_list<std::pair<const char*, Type>> members) {
@@ -82,8 +80,7 @@ Json read_plan(const fs::path& folder)
 }
 
 /// A curve that the engine added (job::Curve): names of columns, then rows of numbers; what is not finite is null.
-Json read_curve(const fs::path& file)
-{
+Json read_curve(const fs::path& file) {
   Json curve{{"name", file.stem().string()}, {"columns", Json::array()}, {"rows", Json::array()}};
   std::istringstream lines(read_file(file));
   std::size_t number = 0;
@@ -97,7 +94,8 @@ Json read_curve(const fs::path& file)
       row.push_back(number == 1 ? Json(cell) : std::isfinite(*value) ? Json(*value) : Json());
     }
     if (number > 1 && row.size() != curve["columns"].size())
-      throw bad_input(place, fmt::format("the row has {} cells", row.size()), fmt::format("expected {}", curve["columns"].size()));
+      throw bad_input(place, fmt::format("the row has {} cells", row.size()),
+                      fmt::format("expected {}", curve["columns"].size()));
     if (number == 1)
       curve["columns"] = row;
     else
@@ -106,8 +104,7 @@ Json read_curve(const fs::path& file)
   return curve;
 }
 
-Json read_curves(const fs::path& folder)
-{
+Json read_curves(const fs::path& folder) {
   Json curves = Json::array();
   for (const fs::path& file : files_ending(folder, ".csv"))
     if (file.filename() != "history.csv") curves.push_back(read_curve(file));
@@ -117,21 +114,21 @@ Json read_curves(const fs::path& folder)
 /// A run's folder before or while it runs: begin_run has written these two, nothing has written run.json.
 bool is_begun_run(const fs::path& folder) { return is_there(folder / "plan.json") && is_there(folder / "preset.json"); }
 
-/// The run in a folder, or the runs in its folders; those that have begun but not ended are among them, for read_run to refuse.
-/// Of a sweep's runs those that its file names, as far as they are there. An earlier sweep may have left others.
-std::vector<fs::path> in_order(const fs::path& sweep, std::vector<fs::path> runs)
-{
+/// The run in a folder, or the runs in its folders; those that have begun but not ended are among them, for read_run to
+/// refuse. Of a sweep's runs those that its file names, as far as they are there. An earlier sweep may have left
+/// others.
+std::vector<fs::path> in_order(const fs::path& sweep, std::vector<fs::path> runs) {
   if (!is_there(sweep / sweep_file)) return runs;
   const RunDocument order(sweep / sweep_file);
   std::vector<fs::path> ordered;
   for (std::size_t i = 0; i < order.at("/runs", Type::list).size(); ++i)
-    if (const fs::path run = sweep / order.at(fmt::format("/runs/{}", i), Type::text).get<std::string>(); std::ranges::count(runs, run) > 0)
+    if (const fs::path run = sweep / order.at(fmt::format("/runs/{}", i), Type::text).get<std::string>();
+        std::ranges::count(runs, run) > 0)
       ordered.push_back(run);
   return ordered.empty() ? runs : ordered;
 }
 
-std::vector<fs::path> runs_in(const fs::path& folder)
-{
+std::vector<fs::path> runs_in(const fs::path& folder) {
   const auto is_run = [](const fs::path& path) { return is_there(path / "run.json") || is_begun_run(path); };
   std::error_code error;
   if (!fs::exists(folder, error)) throw bad_input(folder.string(), "there is no such folder");
@@ -142,14 +139,14 @@ std::vector<fs::path> runs_in(const fs::path& folder)
     if (std::error_code ignored; entry->is_directory(ignored) && is_run(entry->path())) runs.push_back(entry->path());
   if (error) throw bad_input(folder.string(), "cannot be read: " + error.message());
   if (runs.empty())
-    throw bad_input(folder.string(), "holds no run", "expected a folder with run.json, or one of a sweep with such folders inside",
+    throw bad_input(folder.string(), "holds no run",
+                    "expected a folder with run.json, or one of a sweep with such folders inside",
                     "make one with `nephroid run`");
   std::sort(runs.begin(), runs.end());
   return in_order(folder, std::move(runs));
 }
 
-RunFolder read_run(const fs::path& folder)
-{
+RunFolder read_run(const fs::path& folder) {
   if (!is_there(folder / "run.json") && is_begun_run(folder))
     throw bad_input(folder.string(), "this run is not finished: it has no run.json", "expected a finished run",
                     "wait for it, or go on with `nephroid run --resume`");
@@ -161,14 +158,14 @@ RunFolder read_run(const fs::path& folder)
 /// A sweep's runs are called "NAME,key=value".
 std::string sweep_of(const RunFolder& run) { return run.name().substr(0, run.name().find(',')); }
 
-bool have_one_sweep(std::span<const RunFolder> runs)
-{
-  return std::all_of(runs.begin(), runs.end(), [&](const RunFolder& run) { return sweep_of(run) == sweep_of(runs.front()); });
+bool have_one_sweep(std::span<const RunFolder> runs) {
+  return std::all_of(runs.begin(), runs.end(),
+                     [&](const RunFolder& run) { return sweep_of(run) == sweep_of(runs.front()); });
 }
 
-/// Names that tell the runs apart: the preset's, with the folder where two have one name; of a sweep's runs the part that differs.
-std::vector<std::string> labels_of(std::span<const RunFolder> runs)
-{
+/// Names that tell the runs apart: the preset's, with the folder where two have one name; of a sweep's runs the part
+/// that differs.
+std::vector<std::string> labels_of(std::span<const RunFolder> runs) {
   std::vector<std::string> names, swept, with_folder, with_path;
   for (const RunFolder& run : runs) {
     const std::string name = run.name();
@@ -177,19 +174,21 @@ std::vector<std::string> labels_of(std::span<const RunFolder> runs)
     with_folder.push_back(fmt::format("{} ({})", name, fs::weakly_canonical(run.folder).filename().string()));
     with_path.push_back(fmt::format("{} ({})", name, run.folder.string()));
   }
-  const auto all_differ = [](const auto& labels) { return std::set(labels.begin(), labels.end()).size() == labels.size(); };
-  if (have_one_sweep(runs) && std::find(swept.begin(), swept.end(), "") == swept.end() && all_differ(swept)) return swept;
+  const auto all_differ = [](const auto& labels) {
+    return std::set(labels.begin(), labels.end()).size() == labels.size();
+  };
+  if (have_one_sweep(runs) && std::find(swept.begin(), swept.end(), "") == swept.end() && all_differ(swept))
+    return swept;
   return all_differ(names) ? names : all_differ(with_folder) ? with_folder : with_path;
 }
 
-std::string title_of(std::span<const RunFolder> runs)
-{
+std::string title_of(std::span<const RunFolder> runs) {
   if (runs.size() == 1) return runs.front().name();
-  return fmt::format(fmt::runtime(have_one_sweep(runs) ? "{1}: {0} runs" : "{0} runs compared"), runs.size(), sweep_of(runs.front()));
+  return fmt::format(fmt::runtime(have_one_sweep(runs) ? "{1}: {0} runs" : "{0} runs compared"), runs.size(),
+                     sweep_of(runs.front()));
 }
 
-Json colours()
-{
+Json colours() {
   constexpr int stops = 32;
   Json all = Json::array();
   for (int i = 0; i <= stops; ++i) all.push_back(measure::map_colour(i / double{stops}));
@@ -197,24 +196,21 @@ Json colours()
 }
 
 /// JSON for inside a script element, which any "</script" or "<!--" in a string would end: '<' is only ever in strings.
-std::string script_safe(const std::string& json)
-{
+std::string script_safe(const std::string& json) {
   std::string text;
   text.reserve(json.size());
   for (const char c : json) text += c == '<' ? "\\u003c" : std::string(1, c);
   return text;
 }
 
-const std::string& page_file(std::string_view name)
-{
+const std::string& page_file(std::string_view name) {
   const auto& files = page_files();
   return std::find_if(files.begin(), files.end(), [&](const PageFile& file) { return file.name == name; })->text;
 }
 
 } // namespace
 
-std::set<fs::path> files_ending(const fs::path& folder, const std::string& extension)
-{
+std::set<fs::path> files_ending(const fs::path& folder, const std::string& extension) {
   std::set<fs::path> files;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
@@ -222,8 +218,7 @@ std::set<fs::path> files_ending(const fs::path& folder, const std::string& exten
   return files;
 }
 
-std::vector<RunFolder> read_runs(std::span<const fs::path> folders)
-{
+std::vector<RunFolder> read_runs(std::span<const fs::path> folders) {
   std::vector<fs::path> found;
   std::set<fs::path> seen;
   for (const fs::path& folder : folders)
@@ -240,8 +235,7 @@ std::vector<RunFolder> read_runs(std::span<const fs::path> folders)
   return runs;
 }
 
-Json report_data(std::span<const fs::path> run_folders)
-{
+Json report_data(std::span<const fs::path> run_folders) {
   std::vector<RunFolder> runs = read_runs(run_folders);
   Pictures pictures = read_pictures(runs);
   Json data{{"title", title_of(runs)},
@@ -262,8 +256,7 @@ Json report_data(std::span<const fs::path> run_folders)
   return data;
 }
 
-std::string report_html(std::span<const fs::path> run_folders)
-{
+std::string report_html(std::span<const fs::path> run_folders) {
   const std::string data = script_safe(json_text(report_data(run_folders)));
   std::string_view rest = page_file("report.html");
   std::string html;

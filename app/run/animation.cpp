@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/animation.h"
 
-#include "preset/animation.h"
 #include "base/files.h"
 #include "base/numbers.h"
 #include "image/image.h"
 #include "measure/run_files.h"
+#include "preset/animation.h"
 #include "preset/read.h"
 #include "run/content.h"
 #include "run/folder.h"
@@ -36,23 +36,20 @@ constexpr const char* of_all_frames[] = {"frames.csv", "animation.mp4"};
 int frame_number(std::string_view text) { return text.size() == 4 ? number_in<int>(text).value_or(-1) : -1; }
 
 /// Of "frame_0003.png"; -1 of another file.
-int frame_of(const fs::path& file)
-{
+int frame_of(const fs::path& file) {
   const std::string stem = file.stem().string(), extension = file.extension().string();
   const bool is_picture = std::find(kinds.begin(), kinds.end(), extension) != kinds.end();
   return is_picture && stem.starts_with("frame_") ? frame_number(std::string_view(stem).substr(6)) : -1;
 }
 
-std::vector<fs::path> entries(const fs::path& folder)
-{
+std::vector<fs::path> entries(const fs::path& folder) {
   std::vector<fs::path> all;
   if (is_there(folder))
     for (const auto& entry : fs::directory_iterator(folder)) all.push_back(entry.path());
   return all;
 }
 
-bool can_be_read(const fs::path& picture)
-{
+bool can_be_read(const fs::path& picture) {
   try {
     image::read_image(picture);
     return true;
@@ -69,12 +66,11 @@ constexpr const char* filters = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_m
                                 "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709";
 
 /// Words without blanks in them.
-std::vector<std::string> command(int frames, double fps)
-{
-  std::istringstream words(
-      fmt::format("ffmpeg -nostdin -loglevel error -y -framerate {} -start_number 0 -i frame_%04d.png -frames:v {} -vf {} "
-                  "-c:v libx264 -crf 16 -movflags +faststart {}",
-                  fps, frames, filters, unfinished));
+std::vector<std::string> command(int frames, double fps) {
+  std::istringstream words(fmt::format(
+      "ffmpeg -nostdin -loglevel error -y -framerate {} -start_number 0 -i frame_%04d.png -frames:v {} -vf {} "
+      "-c:v libx264 -crf 16 -movflags +faststart {}",
+      fps, frames, filters, unfinished));
   return {std::istream_iterator<std::string>(words), {}};
 }
 
@@ -84,9 +80,9 @@ struct ProgramResult {
   std::string said;
 };
 
-/// Runs a program of the PATH in a folder, with no signal blocked. Returns the system's reason where it cannot be started.
-int run_in(const fs::path& folder, std::vector<std::string> words, ProgramResult& ended)
-{
+/// Runs a program of the PATH in a folder, with no signal blocked. Returns the system's reason where it cannot be
+/// started.
+int run_in(const fs::path& folder, std::vector<std::string> words, ProgramResult& ended) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -95,7 +91,8 @@ int run_in(const fs::path& folder, std::vector<std::string> words, ProgramResult
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0); // results of this program go there
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY,
+                                   0); // results of this program go there
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   posix_spawnattr_t attributes;
@@ -121,12 +118,12 @@ int run_in(const fs::path& folder, std::vector<std::string> words, ProgramResult
 }
 
 /// The last line that says anything: ffmpeg gives its reasons first, and what it could not do in the end.
-std::string last_line(const std::string& text)
-{
+std::string last_line(const std::string& text) {
   const std::size_t end = text.find_last_not_of(" \r\n\t");
   if (end == std::string::npos) return {};
   const std::size_t begin = text.find_last_of("\r\n", end);
-  return text.substr(begin == std::string::npos ? 0 : begin + 1, end - (begin == std::string::npos ? 0 : begin + 1) + 1);
+  return text.substr(begin == std::string::npos ? 0 : begin + 1,
+                     end - (begin == std::string::npos ? 0 : begin + 1) + 1);
 }
 
 } // namespace
@@ -135,8 +132,7 @@ fs::path frame_folder(const fs::path& folder, int frame) { return folder / "fram
 
 fs::path frame_picture(const fs::path& folder, int frame) { return folder / fmt::format("frame_{:04}.png", frame); }
 
-void show_frame(const fs::path& folder, int frame)
-{
+void show_frame(const fs::path& folder, int frame) {
   for (const char* kind : kinds) {
     const fs::path picture = frame_folder(folder, frame) / (std::string("image") + kind);
     const fs::path shown = frame_picture(folder, frame).replace_extension(kind);
@@ -148,23 +144,20 @@ void show_frame(const fs::path& folder, int frame)
   }
 }
 
-void hide_frame(const fs::path& folder, int frame)
-{
+void hide_frame(const fs::path& folder, int frame) {
   std::error_code ignored;
   for (const char* kind : kinds) fs::remove(frame_picture(folder, frame).replace_extension(kind), ignored);
   for (const char* name : of_all_frames) fs::remove(folder / name, ignored);
 }
 
-std::optional<FinishedRun> finished_frame(const fs::path& folder, int frame, const preset::Preset& preset)
-{
+std::optional<FinishedRun> finished_frame(const fs::path& folder, int frame, const preset::Preset& preset) {
   const fs::path own = frame_folder(folder, frame);
   auto done = finished_run(own, preset);
   if (!done || !can_be_read(own / "image.exr") || !can_be_read(own / "image.png")) return std::nullopt;
   return done;
 }
 
-std::vector<int> finished_frames(const fs::path& folder, const preset::Preset& preset)
-{
+std::vector<int> finished_frames(const fs::path& folder, const preset::Preset& preset) {
   std::vector<int> finished;
   const std::vector<plan::Input> inputs = read_inputs(preset); // all frames have the same
   for (int frame = 0; frame < preset.animation.value().frames; ++frame) {
@@ -174,8 +167,7 @@ std::vector<int> finished_frames(const fs::path& folder, const preset::Preset& p
   return finished;
 }
 
-void remove_frames(const fs::path& folder, int first)
-{
+void remove_frames(const fs::path& folder, int first) {
   std::error_code ignored;
   for (const fs::path& file : entries(folder))
     if (frame_of(file) >= first) fs::remove(file, ignored);
@@ -185,8 +177,7 @@ void remove_frames(const fs::path& folder, int first)
   for (const char* name : of_all_frames) fs::remove(folder / name, ignored);
 }
 
-void write_frame_figures(const fs::path& folder, const std::vector<int>& frames)
-{
+void write_frame_figures(const fs::path& folder, const std::vector<int>& frames) {
   std::string text = "frame,step,work,work_seconds,error\n";
   for (const int frame : frames) {
     const measure::RunDocument run(frame_folder(folder, frame) / "run.json");
@@ -195,7 +186,8 @@ void write_frame_figures(const fs::path& folder, const std::vector<int>& frames)
     std::string error;
     if (run.has("/errors")) {
       const std::string column = "/errors/" + run.at("/error_column", Type::text).get<std::string>();
-      if (run.has(column) && run.json()[nlohmann::ordered_json::json_pointer(column)].is_number()) error = number(column.substr(1));
+      if (run.has(column) && run.json()[nlohmann::ordered_json::json_pointer(column)].is_number())
+        error = number(column.substr(1));
     }
     text += fmt::format("{},{},{},{},{}\n", frame, number(run.at("/units/steps", Type::text).get<std::string>()),
                         number(run.at("/units/work", Type::text).get<std::string>()), number("work_seconds"), error);
@@ -203,8 +195,7 @@ void write_frame_figures(const fs::path& folder, const std::vector<int>& frames)
   write_file_whole(folder / "frames.csv", text);
 }
 
-std::optional<std::string> make_video(const fs::path& folder, int frames, double fps)
-{
+std::optional<std::string> make_video(const fs::path& folder, int frames, double fps) {
   ProgramResult ended;
   const int reason = run_in(folder, command(frames, fps), ended);
   if (reason == ENOENT) return "ffmpeg is not installed, or not on the PATH";

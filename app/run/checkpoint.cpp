@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// checkpoint.bin: a header, the job's own bytes, and a hash of everything before it, written and read piece by piece. A file that was cut,
-// changed or made for another preset, mesh or spectrum, or on another device, is refused; because it is written whole, kill -9 leaves the
-// checkpoint before or the new one, never half of one.
+// checkpoint.bin: a header, the job's own bytes, and a hash of everything before it, written and read piece by piece. A
+// file that was cut, changed or made for another preset, mesh or spectrum, or on another device, is refused; because it
+// is written whole, kill -9 leaves the checkpoint before or the new one, never half of one.
 #include "run/checkpoint.h"
 
 #include "base/build_info.h"
@@ -21,8 +21,7 @@ namespace {
 
 using Word = std::array<char, 16>; ///< filled up with zeros
 
-Word word_of(std::string_view text)
-{
+Word word_of(std::string_view text) {
   Word word{};
   text.copy(word.data(), word.size() - 1);
   return word;
@@ -32,21 +31,20 @@ std::string text_of(const Word& word) { return {word.begin(), std::ranges::find(
 
 struct Header {
   std::array<char, 8> magic{'N', 'E', 'P', 'H', 'C', 'K', 'P', 'T'};
-  std::uint32_t format = 4; ///< of this header and of the history before the engine's own bytes (measure/measured_job.cpp)
-  std::uint32_t state = 0;  ///< engine::Engine::state_version
-  Word engine{}, program{}; ///< the engine's name, the program's version
+  std::uint32_t format =
+      4; ///< of this header and of the history before the engine's own bytes (measure/measured_job.cpp)
+  std::uint32_t state = 0;                            ///< engine::Engine::state_version
+  Word engine{}, program{};                           ///< the engine's name, the program's version
   std::uint64_t device = 0, kernels = 0, content = 0; ///< hashes: another one of these gives other bits
 };
 static_assert(sizeof(Header) == 72, "the header has no padding: it is written as it is");
 
-std::string device_of(const compute::Context& context)
-{
+std::string device_of(const compute::Context& context) {
   const compute::DeviceInfo& device = context.device();
   return fmt::format("{}\n{}\n{}\n{}", device.name, device.platform, device.version, device.driver);
 }
 
-Header header_of(const Prepared& prepared, const compute::Context& context)
-{
+Header header_of(const Prepared& prepared, const compute::Context& context) {
   const std::string_view engine = prepared.preset.settings.engine();
   Header header;
   header.state = engine::engine_of(prepared.preset).state_version;
@@ -59,15 +57,15 @@ Header header_of(const Prepared& prepared, const compute::Context& context)
 }
 
 /// Why a file with the header `its` is none of a run with the header `ours`; empty where it is.
-std::string fault_of(const Header& its, const Header& ours, const std::string& changed)
-{
+std::string fault_of(const Header& its, const Header& ours, const std::string& changed) {
   if (its.engine != ours.engine)
     return fmt::format("is of the engine '{}', and the preset's is '{}'", text_of(its.engine), text_of(ours.engine));
   if (its.state != ours.state)
-    return fmt::format("has a state of version {} of the engine '{}', and this program has version {}", its.state, text_of(ours.engine),
-                       ours.state);
+    return fmt::format("has a state of version {} of the engine '{}', and this program has version {}", its.state,
+                       text_of(ours.engine), ours.state);
   if (its.program != ours.program)
-    return fmt::format("was written by version {} of the program, and this is {}", text_of(its.program), text_of(ours.program));
+    return fmt::format("was written by version {} of the program, and this is {}", text_of(its.program),
+                       text_of(ours.program));
   if (!changed.empty()) return "cannot go on: " + changed;
   if (its.content != ours.content) return "belongs to another preset or seed, or to other files";
   if (its.device != ours.device) return "was written on another device, which rounds in its own way";
@@ -75,8 +73,7 @@ std::string fault_of(const Header& its, const Header& ours, const std::string& c
   return {};
 }
 
-bool hash_is_right(ByteSource& file, const fs::path& path)
-{
+bool hash_is_right(ByteSource& file, const fs::path& path) {
   std::uint64_t wanted = 0;
   HashedSource part(file, path, sizeof wanted);
   read_to_end(part);
@@ -88,8 +85,8 @@ fs::path file_in(const fs::path& folder) { return folder / "checkpoint.bin"; }
 
 } // namespace
 
-void write_checkpoint(const fs::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job)
-{
+void write_checkpoint(const fs::path& folder, const Prepared& prepared, const compute::Context& context,
+                      job::Job& job) {
   const Header header = header_of(prepared, context);
   write_file_whole(file_in(folder), [&](ByteSink& file) {
     HashedSink hashed(file);
@@ -99,8 +96,8 @@ void write_checkpoint(const fs::path& folder, const Prepared& prepared, const co
   });
 }
 
-std::vector<std::pair<std::string, std::string>> bit_dependencies(const Prepared& prepared, const compute::Context& context)
-{
+std::vector<std::pair<std::string, std::string>> bit_dependencies(const Prepared& prepared,
+                                                                  const compute::Context& context) {
   const Header header = header_of(prepared, context);
   std::string device = device_of(context);
   std::ranges::replace(device, '\n', ' ');
@@ -110,8 +107,7 @@ std::vector<std::pair<std::string, std::string>> bit_dependencies(const Prepared
           {"preset and files", fmt::format("{:016x}", header.content)}};
 }
 
-bool load_checkpoint(const fs::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job)
-{
+bool load_checkpoint(const fs::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job) {
   const fs::path path = file_in(folder);
   if (!is_there(path)) return false;
   const auto refuse = [&](const std::string& what) { return bad_input(path, what); };
@@ -122,9 +118,11 @@ bool load_checkpoint(const fs::path& folder, const Prepared& prepared, const com
   if (part.left() < sizeof header) throw refuse("is no checkpoint");
   part.value(header);
   if (header.magic != ours.magic) throw refuse("is no checkpoint");
-  if (header.format != ours.format) throw refuse(fmt::format("has format {}, and this program has {}", header.format, ours.format));
+  if (header.format != ours.format)
+    throw refuse(fmt::format("has format {}, and this program has {}", header.format, ours.format));
   if (!hash_is_right(*open_file(path), path)) throw refuse("is cut or damaged");
-  if (const std::string fault = fault_of(header, ours, changed_input(folder, prepared.plan->inputs)); !fault.empty()) throw refuse(fault);
+  if (const std::string fault = fault_of(header, ours, changed_input(folder, prepared.plan->inputs)); !fault.empty())
+    throw refuse(fault);
   job.load(part);
   if (part.left() != 0) throw refuse(fmt::format("has {} bytes more than the run's state", part.left()));
   return true;

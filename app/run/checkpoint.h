@@ -12,13 +12,17 @@
 
 namespace nephroid::run {
 
-/// checkpoint.bin in folder: written whole; bound to the engine and its state's version, to the settings and file contents that its sums
-/// depend on, and to the device, the kernels and the program's version, each of which may round in its own way.
-void write_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job);
+/// checkpoint.bin in folder: written whole; bound to the engine and its state's version, to the settings and file
+/// contents that its sums depend on, and to the device, the kernels and the program's version, each of which may round
+/// in its own way.
+void write_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, const compute::Context& context,
+                      job::Job& job);
 /// What another process has to have alike so that it computes the same bits, each with a name for a message.
-std::vector<std::pair<std::string, std::string>> bit_dependencies(const Prepared& prepared, const compute::Context& context);
-/// Loads it into a job that was just made. False where there is none. Throws bad_input where it is bound to something else, which it
-/// names, or is cut.
-bool load_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job);
+std::vector<std::pair<std::string, std::string>> bit_dependencies(const Prepared& prepared,
+                                                                  const compute::Context& context);
+/// Loads it into a job that was just made. False where there is none. Throws bad_input where it is bound to something
+/// else, which it names, or is cut.
+bool load_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, const compute::Context& context,
+                     job::Job& job);
 
 } // namespace nephroid::run

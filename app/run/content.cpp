@@ -16,8 +16,7 @@ namespace nephroid::run {
 namespace fs = std::filesystem;
 namespace {
 
-std::uint64_t hash_of_file(const fs::path& file)
-{
+std::uint64_t hash_of_file(const fs::path& file) {
   PieceHash hash;
   if (!scene::has_further_files(file)) {
     const std::unique_ptr<ByteSource> source = open_file(file);
@@ -32,8 +31,7 @@ std::uint64_t hash_of_file(const fs::path& file)
   return hash.value();
 }
 
-std::string content_of(const std::string& name, const FileFinder& finder)
-{
+std::string content_of(const std::string& name, const FileFinder& finder) {
   try {
     return fmt::format("{:016x}", hash_of_file(scene::find_dispersion(name, finder, {})));
   } catch (const Error&) {
@@ -41,18 +39,18 @@ std::string content_of(const std::string& name, const FileFinder& finder)
   }
 }
 
-const plan::Input* find_input(const std::vector<plan::Input>& inputs, const std::string& file)
-{
+const plan::Input* find_input(const std::vector<plan::Input>& inputs, const std::string& file) {
   const auto found = std::ranges::find(inputs, file, &plan::Input::file);
   return found == inputs.end() ? nullptr : &*found;
 }
 
 /// Of a preset that lies elsewhere the same file has its whole path.
-bool may_be_same(const plan::Input& a, const plan::Input& b) { return a.file.ends_with("/" + b.file) || b.file.ends_with("/" + a.file); }
+bool may_be_same(const plan::Input& a, const plan::Input& b) {
+  return a.file.ends_with("/" + b.file) || b.file.ends_with("/" + a.file);
+}
 
 /// The preset without what changes no sum.
-preset::Preset settings_only(preset::Preset preset)
-{
+preset::Preset settings_only(preset::Preset preset) {
   preset.name = preset.description = preset.source = "";
   preset.stop = {};
   preset.reference = {};
@@ -64,8 +62,7 @@ preset::Preset settings_only(preset::Preset preset)
 
 } // namespace
 
-std::vector<plan::Input> read_inputs(const preset::Preset& preset, const std::vector<plan::Input>& known)
-{
+std::vector<plan::Input> read_inputs(const preset::Preset& preset, const std::vector<plan::Input>& known) {
   const FileFinder finder(fs::path(preset.source).parent_path());
   std::vector<plan::Input> inputs;
   preset::with_file_names(preset, [&](const std::string& name) {
@@ -77,20 +74,19 @@ std::vector<plan::Input> read_inputs(const preset::Preset& preset, const std::ve
   return inputs;
 }
 
-std::string changed_input(const std::vector<plan::Input>& before, const std::vector<plan::Input>& now)
-{
+std::string changed_input(const std::vector<plan::Input>& before, const std::vector<plan::Input>& now) {
   for (const plan::Input& input : now) {
     const plan::Input* then = find_input(before, input.file);
     for (auto other = before.begin(); !then && other != before.end(); ++other)
       if (may_be_same(*other, input)) then = &*other;
     if (then && then->content != input.content)
-      return fmt::format("the file '{}' {} since the run began", input.file, input.content.empty() ? "is gone" : "has changed");
+      return fmt::format("the file '{}' {} since the run began", input.file,
+                         input.content.empty() ? "is gone" : "has changed");
   }
   return {};
 }
 
-std::string changed_input(const fs::path& folder, const std::vector<plan::Input>& now)
-{
+std::string changed_input(const fs::path& folder, const std::vector<plan::Input>& now) {
   try {
     return changed_input(plan::inputs_of(read_file(folder / "plan.json")), now);
   } catch (const Error&) {
@@ -98,8 +94,7 @@ std::string changed_input(const fs::path& folder, const std::vector<plan::Input>
   }
 }
 
-std::uint64_t content_hash(const preset::Preset& preset, const std::vector<plan::Input>& inputs)
-{
+std::uint64_t content_hash(const preset::Preset& preset, const std::vector<plan::Input>& inputs) {
   const preset::Preset settings = preset::with_file_names(settings_only(preset), [&](const std::string& name) {
     const plan::Input* const input = find_input(inputs, name);
     return input ? input->content : name;

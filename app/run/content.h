@@ -8,17 +8,18 @@
 
 namespace nephroid::run {
 
-/// The files that a preset names, each once, in its order, and what they hold now. known: of presets in the same folder; its files are not
-/// read again.
+/// The files that a preset names, each once, in its order, and what they hold now. known: of presets in the same
+/// folder; its files are not read again.
 std::vector<plan::Input> read_inputs(const preset::Preset& preset, const std::vector<plan::Input>& known = {});
 
-/// "the file 'a.obj' has changed since the run began", of the first that holds something else `now`, by its name; empty where none does.
+/// "the file 'a.obj' has changed since the run began", of the first that holds something else `now`, by its name; empty
+/// where none does.
 std::string changed_input(const std::vector<plan::Input>& before, const std::vector<plan::Input>& now);
 /// The same since the run in the folder began, by its plan.json; empty also where that is damaged.
 std::string changed_input(const std::filesystem::path& folder, const std::vector<plan::Input>& now);
 
-/// Of the engine, its state's version, the settings that a picture's sums depend on (not: names, descriptions, stop, reference, mask) and
-/// the contents of the files that they name, whatever these are called. inputs: has them all.
+/// Of the engine, its state's version, the settings that a picture's sums depend on (not: names, descriptions, stop,
+/// reference, mask) and the contents of the files that they name, whatever these are called. inputs: has them all.
 std::uint64_t content_hash(const preset::Preset& preset, const std::vector<plan::Input>& inputs);
 
 } // namespace nephroid::run

@@ -15,10 +15,9 @@ namespace {
 /// Light is alike in small pictures, and their pixels have less noise.
 constexpr int longest_edge = 256;
 
-/// Of what half of the pixels lie below, each counted by the root of its luminance: so neither a black background nor a small caustic
-/// decides. 0 of a black picture.
-double middle_luminance(const std::vector<float>& rgb)
-{
+/// Of what half of the pixels lie below, each counted by the root of its luminance: so neither a black background nor a
+/// small caustic decides. 0 of a black picture.
+double middle_luminance(const std::vector<float>& rgb) {
   std::vector<double> luminances;
   for (std::size_t i = 0; i + 2 < rgb.size(); i += 3)
     if (const double y = measure::luminance(&rgb[i]); y > 0 && std::isfinite(y)) luminances.push_back(y);
@@ -32,8 +31,7 @@ double middle_luminance(const std::vector<float>& rgb)
 
 } // namespace
 
-double white_for(const job::Picture& picture)
-{
+double white_for(const job::Picture& picture) {
   const double whole = middle_luminance(picture.rgb);
   std::vector<float> rest = picture.rgb;
   for (const job::Layer& layer : picture.layers)
@@ -43,8 +41,8 @@ double white_for(const job::Picture& picture)
   return middle > 0 ? std::clamp(std::stod(fmt::format("{:.1e}", 2 * middle)), 1e-12, 1e12) : 1;
 }
 
-double fitted_white(preset::Preset preset, std::optional<Prepared>& lender, DeviceOnDemand& device, const Watch& watch)
-{
+double fitted_white(preset::Preset preset, std::optional<Prepared>& lender, DeviceOnDemand& device,
+                    const Watch& watch) {
   // The engine's pictures may be bright as they are.
   if (std::ranges::count(preset.settings.type().without, "white") > 0) return 1;
   preset.white = 1;

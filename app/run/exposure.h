@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// "white": "auto" becomes a number before anything else is done, so that checkpoints, references, frames and files know numbers only, and a
-// run of that number has the same bits.
+// "white": "auto" becomes a number before anything else is done, so that checkpoints, references, frames and files know
+// numbers only, and a run of that number has the same bits.
 #pragma once
 #include "job/job.h"
 #include "run/prepare.h"
@@ -9,13 +9,16 @@
 
 namespace nephroid::run {
 
-/// The white that shows a picture, which was made with a white of 1, well: half of it, but for its caustics, is darker than .5. A pixel
-/// counts by the root of its luminance. Caustics count where all else is less than an eighth as bright. Two digits; 1 of a black picture.
+/// The white that shows a picture, which was made with a white of 1, well: half of it, but for its caustics, is darker
+/// than .5. A pixel counts by the root of its luminance. Caustics count where all else is less than an eighth as
+/// bright. Two digits; 1 of a black picture.
 double white_for(const job::Picture& picture);
 
-/// The same of the preset's first whole picture, at most 256 pixels wide and high, whatever the preset's white is: what stands for "auto".
-/// 1 where white changes nothing of the engine's pictures. lender: lends its scene, as prepare takes it; then it is the small picture's
-/// run, and lends that. Throws as prepare and render_picture do, and interrupted where `watch` asks for it.
-double fitted_white(preset::Preset preset, std::optional<Prepared>& lender, DeviceOnDemand& device, const Watch& watch = {});
+/// The same of the preset's first whole picture, at most 256 pixels wide and high, whatever the preset's white is: what
+/// stands for "auto". 1 where white changes nothing of the engine's pictures. lender: lends its scene, as prepare takes
+/// it; then it is the small picture's run, and lends that. Throws as prepare and render_picture do, and interrupted
+/// where `watch` asks for it.
+double fitted_white(preset::Preset preset, std::optional<Prepared>& lender, DeviceOnDemand& device,
+                    const Watch& watch = {});
 
 } // namespace nephroid::run

@@ -23,8 +23,7 @@ namespace {
 constexpr std::array results{"image.exr", "image.png", "run.json", "history.csv", "report.html", "checkpoint.bin"};
 
 /// Ours are the folders with all of these files, and those with nothing but what a killed writer left.
-bool is_ours(const fs::path& folder, const std::vector<std::string>& files)
-{
+bool is_ours(const fs::path& folder, const std::vector<std::string>& files) {
   if (std::ranges::all_of(files, [&](const std::string& name) { return is_there(folder / name); })) return true;
   for (const auto& entry : fs::directory_iterator(folder))
     if (!is_temporary_name(entry.path())) return false;
@@ -33,34 +32,33 @@ bool is_ours(const fs::path& folder, const std::vector<std::string>& files)
 
 } // namespace
 
-ClaimedFolder::ClaimedFolder(const fs::path& folder, bool alone, const FolderContent& content) : folder_{folder}
-{
+ClaimedFolder::ClaimedFolder(const fs::path& folder, bool alone, const FolderContent& content) : folder_{folder} {
   try {
     claim(alone, content);
   } catch (const fs::filesystem_error& error) {
-    throw failed(folder.string(), "cannot be used: " + error.code().message(), "expected a folder that can be written to",
-                 "choose another one with -o");
+    throw failed(folder.string(), "cannot be used: " + error.code().message(),
+                 "expected a folder that can be written to", "choose another one with -o");
   }
 }
 
-ClaimedFolder::Made::~Made()
-{
+ClaimedFolder::Made::~Made() {
   std::error_code ignored;
   if (is_new) fs::remove(path, ignored); // refused where anything is in it
 }
 
-void ClaimedFolder::claim(bool alone, const FolderContent& content)
-{
+void ClaimedFolder::claim(bool alone, const FolderContent& content) {
   const fs::path& folder = folder_.path;
   if (is_there(folder) && !fs::is_directory(folder))
-    throw bad_input(folder.string(), "is a file", "expected a folder for the files of " + content.whose, "choose another one with -o");
+    throw bad_input(folder.string(), "is a file", "expected a folder for the files of " + content.whose,
+                    "choose another one with -o");
   folder_.is_new = fs::create_directories(folder);
   lock_ = lock_open_file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), alone);
   if (!lock_ && errno == EWOULDBLOCK)
-    throw bad_input(folder.string(), "is written into by another command", {}, "wait for its end, or choose another folder with -o");
+    throw bad_input(folder.string(), "is written into by another command", {},
+                    "wait for its end, or choose another folder with -o");
   if (!is_ours(folder, content.files))
-    throw bad_input(folder.string(), "holds files that are not of " + content.whose, "expected an empty or a new folder",
-                    "choose another one with -o");
+    throw bad_input(folder.string(), "holds files that are not of " + content.whose,
+                    "expected an empty or a new folder", "choose another one with -o");
   if (alone) // else they may be others'
     for (const auto& entry : fs::directory_iterator(folder))
       if (is_temporary_name(entry.path())) fs::remove(entry.path());
@@ -69,8 +67,7 @@ void ClaimedFolder::claim(bool alone, const FolderContent& content)
   fs::remove(probe);
 }
 
-std::vector<std::string> engine_files(const fs::path& folder)
-{
+std::vector<std::string> engine_files(const fs::path& folder) {
   std::vector<std::string> names;
   if (!is_there(folder / "run.json")) return names;
   try {
@@ -83,8 +80,7 @@ std::vector<std::string> engine_files(const fs::path& folder)
   return names;
 }
 
-std::optional<double> white_of_run(const fs::path& folder)
-{
+std::optional<double> white_of_run(const fs::path& folder) {
   if (!is_there(folder / "preset.json")) return std::nullopt;
   try {
     return nlohmann::json::parse(read_file(folder / "preset.json")).at("white").get<double>();
@@ -93,24 +89,23 @@ std::optional<double> white_of_run(const fs::path& folder)
   }
 }
 
-void begin_run(const fs::path& folder, const Prepared& prepared)
-{
+void begin_run(const fs::path& folder, const Prepared& prepared) {
   std::error_code ignored;
-  for (const std::string& name : engine_files(folder)) fs::remove(folder / name, ignored); // of an older run, by its run.json
+  for (const std::string& name : engine_files(folder))
+    fs::remove(folder / name, ignored); // of an older run, by its run.json
   for (const char* name : results) fs::remove(folder / name, ignored);
   remove_pictures_after(folder, -1);
   remove_frames(folder, 0);
   write_settings(folder, prepared);
 }
 
-void write_settings(const fs::path& folder, const Prepared& prepared)
-{
+void write_settings(const fs::path& folder, const Prepared& prepared) {
   write_file_whole(folder / "preset.json", preset::to_json(prepared.preset, folder) + "\n");
   write_file_whole(folder / "plan.json", plan::to_json(*prepared.plan) + "\n");
 }
 
-std::optional<FinishedRun> finished_run(const fs::path& folder, const preset::Preset& preset, const std::vector<plan::Input>& known)
-{
+std::optional<FinishedRun> finished_run(const fs::path& folder, const preset::Preset& preset,
+                                        const std::vector<plan::Input>& known) {
   for (const char* name : {"image.exr", "run.json", "preset.json"})
     if (!is_there(folder / name)) return std::nullopt;
   if (read_file(folder / "preset.json") != preset::to_json(preset, folder) + "\n") return std::nullopt;
@@ -119,7 +114,8 @@ std::optional<FinishedRun> finished_run(const fs::path& folder, const preset::Pr
     if (!run.at("finished").get<bool>()) return std::nullopt;
     const auto& units = run.at("units"); // what the engine calls them
     const std::string steps = units.at("steps"), work = units.at("work");
-    const auto words = std::make_shared<const std::vector<std::string>>(std::vector{units.value("step", steps), steps, work});
+    const auto words =
+        std::make_shared<const std::vector<std::string>>(std::vector{units.value("step", steps), steps, work});
     job::Progress progress;
     progress.fraction = 1;
     progress.step = progress.steps = run.at(steps).get<std::int64_t>();

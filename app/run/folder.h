@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folder of a run, before and while it runs: whose it is, that it can be written to, that it holds one run's files only.
+// The folder of a run, before and while it runs: whose it is, that it can be written to, that it holds one run's files
+// only.
 #pragma once
 #include "base/file_lock.h"
 #include "job/job.h"
@@ -19,12 +20,13 @@ struct FolderContent {
   std::vector<std::string> files{"plan.json", "preset.json"}; ///< that each of those has
 };
 
-/// A folder that this process writes into, as long as this lives. One that was made for it and is still empty then is removed.
+/// A folder that this process writes into, as long as this lives. One that was made for it and is still empty then is
+/// removed.
 class ClaimedFolder {
 public:
-  /// Makes the folder if it is missing and shows that it can be written to, before anything is rendered. alone: else other processes may
-  /// claim it so, too. Throws bad_input where it is a file, holds anything else, or is another process'; failed where it cannot be written
-  /// to. On NFS only processes of the same node are seen.
+  /// Makes the folder if it is missing and shows that it can be written to, before anything is rendered. alone: else
+  /// other processes may claim it so, too. Throws bad_input where it is a file, holds anything else, or is another
+  /// process'; failed where it cannot be written to. On NFS only processes of the same node are seen.
   explicit ClaimedFolder(const std::filesystem::path& folder, bool alone = true, const FolderContent& content = {});
   ClaimedFolder(const ClaimedFolder&) = delete;
   ClaimedFolder& operator=(const ClaimedFolder&) = delete;
@@ -40,10 +42,11 @@ private:
   } folder_;
 };
 
-/// A new run in a claimed folder: removes an older run's results and writes preset.json and plan.json. This and all writing below
-/// throws failed with the system's reason.
+/// A new run in a claimed folder: removes an older run's results and writes preset.json and plan.json. This and all
+/// writing below throws failed with the system's reason.
 void begin_run(const std::filesystem::path& folder, const Prepared& prepared);
-/// Names of the pictures, curves and further files in the folder that are the engine's, by run.json; none where that is missing or damaged.
+/// Names of the pictures, curves and further files in the folder that are the engine's, by run.json; none where that is
+/// missing or damaged.
 std::vector<std::string> engine_files(const std::filesystem::path& folder);
 /// preset.json and plan.json alone: what begin_run and write_run write, and a resumed run whose stop differs.
 void write_settings(const std::filesystem::path& folder, const Prepared& prepared);
@@ -52,8 +55,8 @@ struct FinishedRun {
   std::shared_ptr<const std::vector<std::string>> words;
   std::string changed; ///< changed_input() of its files since: then it is no longer the preset's
 };
-/// The run in the folder, if it is the finished run of exactly this preset; else nothing, also where run.json is damaged. known: as
-/// read_inputs takes it.
+/// The run in the folder, if it is the finished run of exactly this preset; else nothing, also where run.json is
+/// damaged. known: as read_inputs takes it.
 std::optional<FinishedRun> finished_run(const std::filesystem::path& folder, const preset::Preset& preset,
                                         const std::vector<plan::Input>& known = {});
 

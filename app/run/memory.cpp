@@ -13,35 +13,34 @@ namespace nephroid::run {
 namespace {
 
 /// Of the buffers on the device, or of those on the host.
-std::uint64_t total_bytes(const plan::Plan& plan, bool on_host)
-{
-  return std::accumulate(
-      plan.buffers.begin(), plan.buffers.end(), std::uint64_t{0},
-      [&](std::uint64_t sum, const plan::PlannedBuffer& buffer) { return sum + (buffer.on_host == on_host ? buffer.bytes : 0); });
+std::uint64_t total_bytes(const plan::Plan& plan, bool on_host) {
+  return std::accumulate(plan.buffers.begin(), plan.buffers.end(), std::uint64_t{0},
+                         [&](std::uint64_t sum, const plan::PlannedBuffer& buffer) {
+                           return sum + (buffer.on_host == on_host ? buffer.bytes : 0);
+                         });
 }
 
-Error does_not_fit(const plan::Plan& plan, const std::string& what, const std::string& there_is)
-{
-  return failed("memory", what, there_is, plan.smaller.empty() ? "choose a smaller scene.camera.resolution" : plan.smaller);
+Error does_not_fit(const plan::Plan& plan, const std::string& what, const std::string& there_is) {
+  return failed("memory", what, there_is,
+                plan.smaller.empty() ? "choose a smaller scene.camera.resolution" : plan.smaller);
 }
 
 } // namespace
 
-plan::PlannedBuffer picture_and_files(const plan::Plan& plan, int width, int height)
-{
+plan::PlannedBuffer picture_and_files(const plan::Plan& plan, int width, int height) {
   const auto layers = static_cast<std::uint64_t>(plan.layers);
   // Bytes a pixel. A snapshot has three floats for each layer, for their sum and for the draw of its error.
   const std::uint64_t snapshot = 12 * (layers + 2);
-  // Beside it, one after the other: what the engine takes to make it; the EXR writer's interleaved copy and its encoded file, each about as
-  // large as the layers and their sum; the error's draw, two pictures in XYZ and three summed areas, in double. The report takes less, and
-  // a checkpoint is written piece by piece.
+  // Beside it, one after the other: what the engine takes to make it; the EXR writer's interleaved copy and its encoded
+  // file, each about as large as the layers and their sum; the error's draw, two pictures in XYZ and three summed
+  // areas, in double. The report takes less, and a checkpoint is written piece by piece.
   const std::uint64_t exr = 24 * (layers + 1), estimate = plan.estimates_error ? 84 : 0;
   const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  return {"picture and its files (host)", pixels * (snapshot + std::max({plan.picture_bytes_a_pixel, exr, estimate})), true};
+  return {"picture and its files (host)", pixels * (snapshot + std::max({plan.picture_bytes_a_pixel, exr, estimate})),
+          true};
 }
 
-std::optional<std::uint64_t> available_memory_bytes()
-{
+std::optional<std::uint64_t> available_memory_bytes() {
   std::string text;
   try {
     text = read_file("/proc/meminfo");
@@ -57,8 +56,7 @@ std::optional<std::uint64_t> available_memory_bytes()
 }
 
 void require_memory(const plan::Plan& plan, int width, int height, const compute::DeviceInfo& device,
-                    std::optional<std::uint64_t> available)
-{
+                    std::optional<std::uint64_t> available) {
   using plan::readable_bytes;
   const std::uint64_t on_device = total_bytes(plan, false);
   if (on_device > device.memory_bytes)
@@ -66,18 +64,19 @@ void require_memory(const plan::Plan& plan, int width, int height, const compute
                        fmt::format("{} has {}", device.name, readable_bytes(device.memory_bytes)));
   for (const plan::PlannedBuffer& buffer : plan.buffers)
     if (!buffer.on_host && buffer.bytes > device.max_buffer_bytes)
-      throw does_not_fit(plan, fmt::format("the buffer '{}' needs {}", buffer.name, readable_bytes(buffer.bytes)),
-                         fmt::format("{} has at most {} for one buffer", device.name, readable_bytes(device.max_buffer_bytes)));
+      throw does_not_fit(
+          plan, fmt::format("the buffer '{}' needs {}", buffer.name, readable_bytes(buffer.bytes)),
+          fmt::format("{} has at most {} for one buffer", device.name, readable_bytes(device.max_buffer_bytes)));
   const std::uint64_t here = total_bytes(plan, true) + (device.type == "cpu" ? on_device : 0);
   if (available && here > *available)
     throw does_not_fit(plan,
-                       plan.smaller.empty() ? fmt::format("a picture of {} x {} pixels needs about {}", width, height, readable_bytes(here))
+                       plan.smaller.empty() ? fmt::format("a picture of {} x {} pixels needs about {}", width, height,
+                                                          readable_bytes(here))
                                             : fmt::format("the run needs about {}", readable_bytes(here)),
                        fmt::format("{} of this machine's memory are free", readable_bytes(*available)));
 }
 
-void require_memory(const Prepared& prepared, const compute::Context& context)
-{
+void require_memory(const Prepared& prepared, const compute::Context& context) {
   const scene::Camera& camera = prepared.loaded->scene.camera;
   require_memory(*prepared.plan, camera.width, camera.height, context.device(), available_memory_bytes());
 }

@@ -13,35 +13,30 @@ namespace nephroid::run {
 namespace {
 
 /// Whether two presets load the same scene but for the camera.
-bool same_but_camera(const preset::Preset& a, const preset::Preset& b)
-{
+bool same_but_camera(const preset::Preset& a, const preset::Preset& b) {
   preset::Scene scene = a.scene;
   scene.camera = b.scene.camera;
   return a.source == b.source && a.unit == b.unit && scene == b.scene;
 }
 
 template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b)
-{
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-bool same_triangles(const scene::Mesh& a, const scene::Mesh& b)
-{
+bool same_triangles(const scene::Mesh& a, const scene::Mesh& b) {
   return same_bytes(a.positions, b.positions) && same_bytes(a.triangles, b.triangles);
 }
 
 /// What the scene that `lender` lends was read from, at its time.
-std::vector<plan::Input> inputs_of_scene(const Prepared& lender)
-{
+std::vector<plan::Input> inputs_of_scene(const Prepared& lender) {
   preset::Preset scene_only;
   scene_only.source = lender.preset.source;
   scene_only.scene = lender.preset.scene;
   return read_inputs(scene_only, lender.plan->inputs);
 }
 
-LoadedScene load(const preset::Preset& preset, const Prepared* previous, bool lends_scene, const Watch& watch)
-{
+LoadedScene load(const preset::Preset& preset, const Prepared* previous, bool lends_scene, const Watch& watch) {
   if (lends_scene) {
     LoadedScene loaded = *previous->loaded;
     loaded.scene.camera = scene::make_camera(preset.scene.camera, loaded.scene);
@@ -57,8 +52,7 @@ LoadedScene load(const preset::Preset& preset, const Prepared* previous, bool le
   return loaded;
 }
 
-std::unique_ptr<plan::Plan> make_plan(const preset::Preset& preset, const LoadedScene& loaded)
-{
+std::unique_ptr<plan::Plan> make_plan(const preset::Preset& preset, const LoadedScene& loaded) {
   std::unique_ptr<plan::Plan> plan = engine::engine_of(preset).plan(preset, loaded.scene, *loaded.bvh);
   plan->buffers.push_back(picture_and_files(*plan, loaded.scene.camera.width, loaded.scene.camera.height));
   return plan;
@@ -66,11 +60,12 @@ std::unique_ptr<plan::Plan> make_plan(const preset::Preset& preset, const Loaded
 
 } // namespace
 
-Prepared prepare(const preset::Preset& preset, const Prepared* previous, const Watch& watch)
-{
+Prepared prepare(const preset::Preset& preset, const Prepared* previous, const Watch& watch) {
   const bool lends_scene = previous && same_but_camera(preset, previous->preset);
-  // Before the files are loaded: of one that is written meanwhile the run is bound to what it held before, and goes on nowhere.
-  std::vector<plan::Input> inputs = read_inputs(preset, lends_scene ? inputs_of_scene(*previous) : std::vector<plan::Input>());
+  // Before the files are loaded: of one that is written meanwhile the run is bound to what it held before, and goes on
+  // nowhere.
+  std::vector<plan::Input> inputs =
+      read_inputs(preset, lends_scene ? inputs_of_scene(*previous) : std::vector<plan::Input>());
   auto loaded = std::make_shared<const LoadedScene>(load(preset, previous, lends_scene, watch));
   watch.begin("making the plan");
   std::unique_ptr<plan::Plan> plan = make_plan(preset, *loaded);
@@ -79,8 +74,7 @@ Prepared prepare(const preset::Preset& preset, const Prepared* previous, const W
   return {preset, std::move(loaded), std::move(plan)};
 }
 
-Prepared with_scene(const Prepared& prepared, scene::Scene scene, const std::string& smaller)
-{
+Prepared with_scene(const Prepared& prepared, scene::Scene scene, const std::string& smaller) {
   Prepared other = prepared;
   other.preset.scene.camera.resolution = {scene.camera.width, scene.camera.height};
   other.loaded = std::make_shared<const LoadedScene>(LoadedScene{std::move(scene), prepared.loaded->bvh});
@@ -90,14 +84,13 @@ Prepared with_scene(const Prepared& prepared, scene::Scene scene, const std::str
   return other;
 }
 
-std::unique_ptr<job::Job> make_job(const Prepared& prepared, const mpi::RankContext& context)
-{
-  return engine::engine_of(prepared.preset).job(prepared.preset, prepared.loaded->scene, *prepared.loaded->bvh, *prepared.plan, context);
+std::unique_ptr<job::Job> make_job(const Prepared& prepared, const mpi::RankContext& context) {
+  return engine::engine_of(prepared.preset)
+      .job(prepared.preset, prepared.loaded->scene, *prepared.loaded->bvh, *prepared.plan, context);
 }
 
 job::Snapshot render_picture(const Prepared& prepared, const compute::Context& context,
-                             const std::function<bool(const job::Progress&)>& stepped)
-{
+                             const std::function<bool(const job::Progress&)>& stepped) {
   require_memory(prepared, context);
   const std::unique_ptr<job::Job> job = make_job(prepared, context);
   for (bool goes_on = true; goes_on && !job->finished(); goes_on = stepped(job->progress())) job->advance();

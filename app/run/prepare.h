@@ -30,21 +30,21 @@ struct Prepared {
   std::shared_ptr<const plan::Plan> plan; ///< never null
 };
 
-/// Reads what the preset names and makes the plan. `previous`, if given, lends its scene where only the camera or the engine's
-/// settings differ (files are not read again then), and its tree where the triangles are the same. Throws bad_input as the loaders do, and
-/// interrupted where `watch` asks for it.
+/// Reads what the preset names and makes the plan. `previous`, if given, lends its scene where only the camera or the
+/// engine's settings differ (files are not read again then), and its tree where the triangles are the same. Throws
+/// bad_input as the loaders do, and interrupted where `watch` asks for it.
 Prepared prepare(const preset::Preset& preset, const Prepared* previous = nullptr, const Watch& watch = {});
 
-/// The same preset of another scene with the same triangles, seen by that one's camera. smaller: what the plan says to do where it
-/// does not fit (plan::Plan::smaller).
+/// The same preset of another scene with the same triangles, seen by that one's camera. smaller: what the plan says to
+/// do where it does not fit (plan::Plan::smaller).
 Prepared with_scene(const Prepared& prepared, scene::Scene scene, const std::string& smaller);
 
-/// Builds the engine's job on a device, whose memory was asked for (require_memory). Its preset's white is a number. Throws BuildError for
-/// a kernel that does not compile, and bad_input for what the engine cannot render.
+/// Builds the engine's job on a device, whose memory was asked for (require_memory). Its preset's white is a number.
+/// Throws BuildError for a kernel that does not compile, and bad_input for what the engine cannot render.
 std::unique_ptr<job::Job> make_job(const Prepared& prepared, const mpi::RankContext& context);
 
-/// A picture that something else is made of: not measured, nothing written. stepped: hears of each step, and says whether another one
-/// follows; may throw. Throws as require_memory and make_job do.
+/// A picture that something else is made of: not measured, nothing written. stepped: hears of each step, and says
+/// whether another one follows; may throw. Throws as require_memory and make_job do.
 job::Snapshot render_picture(const Prepared& prepared, const compute::Context& context,
                              const std::function<bool(const job::Progress&)>& stepped);
 
@@ -52,8 +52,7 @@ job::Snapshot render_picture(const Prepared& prepared, const compute::Context& c
 class DeviceOnDemand {
 public:
   explicit DeviceOnDemand(std::function<compute::Context()> open) : open_(std::move(open)) {}
-  const compute::Context& context(const Watch& watch = {})
-  {
+  const compute::Context& context(const Watch& watch = {}) {
     if (!context_) {
       watch.begin("opening the device");
       context_ = open_();

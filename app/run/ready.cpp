@@ -14,8 +14,7 @@ namespace nephroid::run {
 namespace {
 
 /// The job of the run before, where it can be the next one's; else it is gone, with its memory.
-std::unique_ptr<job::Job> taken_over(ReadyRun& run, const Prepared& next)
-{
+std::unique_ptr<job::Job> taken_over(ReadyRun& run, const Prepared& next) {
   std::unique_ptr<job::Job> job = std::move(run.job);
   if (!job || next.preset.reference) return nullptr; // a reference is of one preset
   if (!changed_input(run.prepared->plan->inputs, next.plan->inputs).empty()) return nullptr;
@@ -28,23 +27,20 @@ std::unique_ptr<job::Job> taken_over(ReadyRun& run, const Prepared& next)
 }
 
 std::shared_ptr<const measure::Reference> reference_of(const Prepared& prepared, const compute::Context& context,
-                                                       const ReadyOptions& options)
-{
+                                                       const ReadyOptions& options) {
   if (options.reference) return options.reference(prepared, context);
   if (auto reference = find_reference(prepared, context); reference || !prepared.preset.reference) return reference;
   options.watch.begin("rendering the reference");
   return make_reference(prepared, context, options.watch.stop, [](double, double) {});
 }
 
-void stop_if_asked(const ReadyOptions& options)
-{
+void stop_if_asked(const ReadyOptions& options) {
   if (options.watch.stop.stop_requested())
     throw Error(ErrorKind::interrupted, options.folder.string(), "interrupted before rendering began");
 }
 
 /// False where there is no checkpoint to go on from.
-bool load(ReadyRun& run, const compute::Context& context, const ReadyOptions& options)
-{
+bool load(ReadyRun& run, const compute::Context& context, const ReadyOptions& options) {
   try {
     return options.resume && load_checkpoint(options.folder, *run.prepared, context, *run.job);
   } catch (const Error& error) {
@@ -54,8 +50,7 @@ bool load(ReadyRun& run, const compute::Context& context, const ReadyOptions& op
   }
 }
 
-void begin_or_resume(ReadyRun& run, const compute::Context& context, const ReadyOptions& options)
-{
+void begin_or_resume(ReadyRun& run, const compute::Context& context, const ReadyOptions& options) {
   stop_if_asked(options);
   run.resumed = load(run, context, options);
   if (!run.resumed) return begin_run(options.folder, *run.prepared);
@@ -65,8 +60,7 @@ void begin_or_resume(ReadyRun& run, const compute::Context& context, const Ready
 
 } // namespace
 
-void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& options)
-{
+void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& options) {
   run.claimed.reset();
   run.ranks = options.ranks;
   if (!preset.white && options.resume) preset.white = white_of_run(options.folder);
@@ -99,8 +93,7 @@ void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& option
   if (!options.folder.empty()) begin_or_resume(run, context, options);
 }
 
-void drive(const ReadyRun& run, job::Observer& observer, const std::stop_token& stop)
-{
+void drive(const ReadyRun& run, job::Observer& observer, const std::stop_token& stop) {
   job::Job& job = *run.job;
   if (const Communicator communicator(run.ranks); !communicator.is_root()) return job::follow_root(job, communicator);
   observer.begun(job);
@@ -111,13 +104,12 @@ void drive(const ReadyRun& run, job::Observer& observer, const std::stop_token& 
   observer.ended(job);
 }
 
-const Prepared& prepare_next(ReadyRun& run, const preset::Preset& preset, const Watch& watch)
-{
+const Prepared& prepare_next(ReadyRun& run, const preset::Preset& preset, const Watch& watch) {
   return run.prepared.emplace(prepare(preset, run.prepared ? &*run.prepared : nullptr, watch));
 }
 
-void require_memory(const Prepared& prepared, const compute::Context& context, const std::shared_ptr<mpi::Ranks>& ranks)
-{
+void require_memory(const Prepared& prepared, const compute::Context& context,
+                    const std::shared_ptr<mpi::Ranks>& ranks) {
   if (!ranks) return require_memory(prepared, context);
   std::optional<Error> lack;
   try {
@@ -128,8 +120,7 @@ void require_memory(const Prepared& prepared, const compute::Context& context, c
   mpi::require_all(*ranks, lack);
 }
 
-void require_same(mpi::Ranks& ranks, const Prepared& prepared, const compute::Context& context)
-{
+void require_same(mpi::Ranks& ranks, const Prepared& prepared, const compute::Context& context) {
   for (const auto& [what, own] : bit_dependencies(prepared, context)) mpi::require_same(ranks, what, own);
 }
 

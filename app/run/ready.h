@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one way from a preset to a job that works and measures itself, and to its last step: for the command line, the window, Python and
-// each rank.
+// The one way from a preset to a job that works and measures itself, and to its last step: for the command line, the
+// window, Python and each rank.
 #pragma once
 #include "job/observer.h"
 #include "measure/measured_job.h"
-#include "run/folder.h"
 #include "mpi/ranks.h"
+#include "run/folder.h"
 
 #include <chrono>
 #include <stop_token>
@@ -18,21 +18,21 @@ struct ReadyRun {
 
   DeviceOnDemand device;
   std::optional<Prepared> prepared;                    ///< its white is a number
-  std::shared_ptr<mpi::Ranks> ranks;                  ///< that compute it together; null: this process alone
+  std::shared_ptr<mpi::Ranks> ranks;                   ///< that compute it together; null: this process alone
   std::shared_ptr<const measure::Reference> reference; ///< null where it is measured against none
   std::unique_ptr<ClaimedFolder> claimed;              ///< null where it writes no files
   bool resumed = false;                                ///< it goes on from a checkpoint
-  std::unique_ptr<job::Job> job;                       ///< measures itself; of another rank than 0: follows that of rank 0
-  std::string name_in_job;                             ///< the name of the preset that the job was made of
+  std::unique_ptr<job::Job> job; ///< measures itself; of another rank than 0: follows that of rank 0
+  std::string name_in_job;       ///< the name of the preset that the job was made of
 };
 
 /// What a front end adds to making a run ready. What is left out is not done.
 struct ReadyOptions {
   Watch watch;
   std::shared_ptr<mpi::Ranks> ranks = {}; ///< as ReadyRun::ranks
-  std::filesystem::path folder = {};       ///< that the run writes into; empty: into none
-  bool resume = false;                     ///< from the folder's checkpoint, with the white of the run in there
-  std::vector<double> measure_at = {};     ///< as measure::measured takes it
+  std::filesystem::path folder = {};      ///< that the run writes into; empty: into none
+  bool resume = false;                    ///< from the folder's checkpoint, with the white of the run in there
+  std::vector<double> measure_at = {};    ///< as measure::measured takes it
   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
   /// Hears the plan before anything is on the device.
   std::function<void(const Prepared&)> planned = {};
@@ -42,23 +42,24 @@ struct ReadyOptions {
   std::function<void(const Error&)> bad_checkpoint = {};
 };
 
-/// Makes `run` ready for the preset, in place of what it was. An earlier run lends its scene, as prepare takes it, and its job where that
-/// takes the preset on (job::Job::adopt) with its progress at 0: then it is as a new job, bit for bit, and keeps what does not change, such
-/// as a bake. A job that goes on with what it has would give other bits after a resume. Fits white where that is "auto". To be called
-/// within preset::at_origins. Throws as prepare, require_memory, make_job, ClaimedFolder,
-/// load_checkpoint and begin_run do, as `options` do, bad_input on a rank that would compute other bits than rank 0, and interrupted where
-/// the watch asks for it.
+/// Makes `run` ready for the preset, in place of what it was. An earlier run lends its scene, as prepare takes it, and
+/// its job where that takes the preset on (job::Job::adopt) with its progress at 0: then it is as a new job, bit for
+/// bit, and keeps what does not change, such as a bake. A job that goes on with what it has would give other bits after
+/// a resume. Fits white where that is "auto". To be called within preset::at_origins. Throws as prepare,
+/// require_memory, make_job, ClaimedFolder, load_checkpoint and begin_run do, as `options` do, bad_input on a rank that
+/// would compute other bits than rank 0, and interrupted where the watch asks for it.
 void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& options);
 
-/// Steps the run's job until it is finished or `stop` asks for its end. On another rank than 0 the job does what that of rank 0 does, and
-/// there is nothing to observe.
+/// Steps the run's job until it is finished or `stop` asks for its end. On another rank than 0 the job does what that
+/// of rank 0 does, and there is nothing to observe.
 void drive(const ReadyRun& run, job::Observer& observer, const std::stop_token& stop);
 
 /// The part of make_ready that needs no device.
 const Prepared& prepare_next(ReadyRun& run, const preset::Preset& preset, const Watch& watch);
 
 /// Throws as require_memory. No rank goes on where one lacks it. ranks: may be null.
-void require_memory(const Prepared& prepared, const compute::Context& context, const std::shared_ptr<mpi::Ranks>& ranks);
+void require_memory(const Prepared& prepared, const compute::Context& context,
+                    const std::shared_ptr<mpi::Ranks>& ranks);
 
 /// Throws bad_input on the ranks that would compute other bits than rank 0.
 void require_same(mpi::Ranks& ranks, const Prepared& prepared, const compute::Context& context);

@@ -12,9 +12,9 @@
 
 namespace nephroid::run {
 
-/// Of the pictures whose time is past, a resumed run has those that it had made before; the others it cannot have any more.
-void Recorder::begun(job::Job& job)
-{
+/// Of the pictures whose time is past, a resumed run has those that it had made before; the others it cannot have any
+/// more.
+void Recorder::begun(job::Job& job) {
   saved_at_ = job.progress().work_seconds;
   const std::vector<double>& times = options_.pictures_at;
   std::set<double> written;
@@ -24,8 +24,7 @@ void Recorder::begun(job::Job& job)
       note(fmt::format("{} s of work are past: no picture of then", times[next_picture_]));
 }
 
-void Recorder::stepped(job::Job& job)
-{
+void Recorder::stepped(job::Job& job) {
   write_new_history(job);
   const double work_seconds = job.progress().work_seconds;
   if (!write_due_pictures(job) || work_seconds - saved_at_ < options_.checkpoint_seconds) return;
@@ -33,8 +32,7 @@ void Recorder::stepped(job::Job& job)
   try_to([&] { write_checkpoint(options_.folder, *run_.prepared, run_.device.opened(), job); });
 }
 
-void Recorder::ended(job::Job& job)
-{
+void Recorder::ended(job::Job& job) {
   last_ = job.snapshot();
   is_finished_ = job.finished() && !last_.stands_in;
   write_run(options_.folder, *run_.prepared, run_.device.opened().device(), last_, run_.reference.get(), is_finished_);
@@ -48,8 +46,7 @@ void Recorder::ended(job::Job& job)
 }
 
 template <class Write>
-void Recorder::try_to(Write write)
-{
+void Recorder::try_to(Write write) {
   try {
     write();
   } catch (const Error& error) {
@@ -57,18 +54,16 @@ void Recorder::try_to(Write write)
   }
 }
 
-void Recorder::write_new_history(const job::Job& job)
-{
+void Recorder::write_new_history(const job::Job& job) {
   const auto history = job.history();
   if (!history || history->rows.size() == rows_written_) return;
   rows_written_ = history->rows.size();
   try_to([&] { write_history(options_.folder, *history); });
 }
 
-/// The pictures whose time has come, once their error is measured. False where that is the next step: a checkpoint in between would be of
-/// a run that never takes them.
-bool Recorder::write_due_pictures(job::Job& job)
-{
+/// The pictures whose time has come, once their error is measured. False where that is the next step: a checkpoint in
+/// between would be of a run that never takes them.
+bool Recorder::write_due_pictures(job::Job& job) {
   const std::vector<double>& times = options_.pictures_at;
   const double work_seconds = job.progress().work_seconds;
   for (; next_picture_ < times.size() && times[next_picture_] <= work_seconds; ++next_picture_) {
@@ -78,16 +73,16 @@ bool Recorder::write_due_pictures(job::Job& job)
     try_to([&] {
       const job::Snapshot snapshot = job.snapshot();
       if (snapshot.stands_in) return note(fmt::format("no picture at {} s: the first one is not there yet", seconds));
-      picture_written(write_picture_at(options_.folder, seconds, *run_.prepared, run_.device.opened().device(), snapshot),
-                      history ? history->error_column : "");
+      picture_written(
+          write_picture_at(options_.folder, seconds, *run_.prepared, run_.device.opened().device(), snapshot),
+          history ? history->error_column : "");
     });
   }
   return true;
 }
 
 /// Where a report cannot be made there is one file less.
-void Recorder::write_last_report()
-{
+void Recorder::write_last_report() {
   try {
     write_report(options_.folder);
   } catch (const Error& error) {

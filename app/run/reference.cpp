@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cached reference is an EXR file named by the hash of all that it depends on. Beside the mean of its two seeds it holds the first of
-// the two as further channels: their distance is the noise floor, also of a mask that is given later.
+// A cached reference is an EXR file named by the hash of all that it depends on. Beside the mean of its two seeds it
+// holds the first of the two as further channels: their distance is the noise floor, also of a mask that is given
+// later.
 #include "run/reference.h"
 
 #include "base/build_info.h"
@@ -28,8 +29,7 @@ constexpr const char* first_seed = "first_seed"; ///< the further channels' laye
 Place place(const Prepared& prepared, const char* field) { return Place(prepared.preset.source) / "reference" / field; }
 
 /// The preset of one seed of the recipe.
-preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed)
-{
+preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed) {
   const preset::Reference& recipe = *preset.reference;
   preset::Preset rendered = preset;
   rendered.seed = seed;
@@ -42,15 +42,13 @@ preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed)
   return rendered;
 }
 
-fs::path references_folder()
-{
+fs::path references_folder() {
   if (const fs::path folder = cache_folder("references"); !folder.empty()) return folder;
   throw failed("reference", "there is no folder to keep it in: HOME is not set", "",
                "set XDG_CACHE_HOME to a folder that can be written to");
 }
 
-fs::path cache_file(const Prepared& prepared, const compute::Context& context)
-{
+fs::path cache_file(const Prepared& prepared, const compute::Context& context) {
   const preset::Preset recipe = recipe_preset(prepared.preset, prepared.preset.reference->seed);
   std::uint64_t hash = content_hash(recipe, prepared.plan->inputs);
   hash = hash_of(fmt::format("{} passes {}", version(), recipe.stop.passes.value()), hash);
@@ -59,10 +57,10 @@ fs::path cache_file(const Prepared& prepared, const compute::Context& context)
   return references_folder() / fmt::format("{:016x}.exr", hash);
 }
 
-/// What a mean of two seeds is off by: half of their difference is a draw of its error, as halves of a film are. The perceptual metrics
-/// have no estimate: there it is the distance of one seed from the mean.
-measure::Metrics noise_floor(const measure::Reference& mean, const std::vector<float>& first, measure::Mask mask, bool perceptual)
-{
+/// What a mean of two seeds is off by: half of their difference is a draw of its error, as halves of a film are. The
+/// perceptual metrics have no estimate: there it is the distance of one seed from the mean.
+measure::Metrics noise_floor(const measure::Reference& mean, const std::vector<float>& first, measure::Mask mask,
+                             bool perceptual) {
   job::Picture picture;
   picture.width = mean.width;
   picture.height = mean.height;
@@ -70,22 +68,23 @@ measure::Metrics noise_floor(const measure::Reference& mean, const std::vector<f
   for (std::size_t i = 0; i < first.size(); ++i) picture.error_draw.push_back(first[i] - mean.rgb[i]);
   measure::Metrics floor = measure::estimate_error(picture, mask);
   if (!perceptual) return floor;
-  const measure::Metrics distance = compare({mean.width, mean.height, first, mean.origin + " (its first seed)"}, mean.pixels(), mask);
+  const measure::Metrics distance =
+      compare({mean.width, mean.height, first, mean.origin + " (its first seed)"}, mean.pixels(), mask);
   floor.iw_ssim = distance.iw_ssim;
   floor.flip = distance.flip;
   floor.hdr_flip = distance.hdr_flip;
   return floor;
 }
 
-std::shared_ptr<const measure::Reference> read_reference(const fs::path& file, const Prepared& prepared)
-{
+std::shared_ptr<const measure::Reference> read_reference(const fs::path& file, const Prepared& prepared) {
   std::vector<job::Layer> layers;
   const measure::LinearPicture picture = measure::read_linear_rgb(file, layers);
   measure::Reference reference{picture.width, picture.height, picture.rgb, file.string(), {}, {}, {}};
   const auto [width, height] = prepared.preset.scene.camera.resolution;
   if (reference.width != width || reference.height != height)
-    throw bad_input(file.string(), fmt::format("the reference has {} x {} pixels", reference.width, reference.height),
-                    fmt::format("expected {} x {}, as scene.camera.resolution of {} says", width, height, prepared.preset.source));
+    throw bad_input(
+        file.string(), fmt::format("the reference has {} x {} pixels", reference.width, reference.height),
+        fmt::format("expected {} x {}, as scene.camera.resolution of {} says", width, height, prepared.preset.source));
   // A run's picture has its seed: the same random numbers make the same noise, and comparing would call it right.
   const auto seed = picture.attributes.find("nephroid:seed");
   if (seed != picture.attributes.end() && seed->second == std::to_string(prepared.preset.seed))
@@ -93,7 +92,8 @@ std::shared_ptr<const measure::Reference> read_reference(const fs::path& file, c
                     "expected another seed", "run with another --seed");
   if (const auto& mask = prepared.preset.measure.mask) {
     const FileFinder finder(fs::path(prepared.preset.source).parent_path());
-    reference.mask = measure::read_mask(finder.find(*mask, Place(prepared.preset.source) / "measure" / "mask"), width, height);
+    reference.mask =
+        measure::read_mask(finder.find(*mask, Place(prepared.preset.source) / "measure" / "mask"), width, height);
   }
   const auto is_first_seed = [](const job::Layer& layer) { return layer.name == first_seed; };
   if (const auto found = std::ranges::find_if(layers, is_first_seed); found != layers.end()) {
@@ -109,8 +109,7 @@ std::shared_ptr<const measure::Reference> read_reference(const fs::path& file, c
 }
 
 /// After half a second the rate is known well enough to refuse.
-void require_time(const Prepared& prepared, const job::Progress& now)
-{
+void require_time(const Prepared& prepared, const job::Progress& now) {
   const auto& limit = prepared.preset.reference->seconds;
   const double expected = now.fraction > 0 ? 2 * now.work_seconds / now.fraction : 0;
   if (!limit || now.work_seconds < 0.5 || expected <= *limit) return;
@@ -119,15 +118,15 @@ void require_time(const Prepared& prepared, const job::Progress& now)
 }
 
 /// Renders one of the recipe's two seeds. seconds: of the seeds before this one; this one's are added.
-std::vector<float> rendered_seed(const Prepared& prepared, const compute::Context& context, std::uint64_t seed, double& seconds,
-                                 const std::stop_token& stop, const ReferenceProgress& report)
-{
+std::vector<float> rendered_seed(const Prepared& prepared, const compute::Context& context, std::uint64_t seed,
+                                 double& seconds, const std::stop_token& stop, const ReferenceProgress& report) {
   const Prepared recipe = prepare(recipe_preset(prepared.preset, seed), &prepared);
   if (const std::string changed = changed_input(prepared.plan->inputs, recipe.plan->inputs); !changed.empty())
     throw failed(Place(prepared.preset.source) / "reference", "cannot be rendered: " + changed, "", "start again");
   const job::Snapshot last = render_picture(recipe, context, [&](const job::Progress& now) {
     if (stop.stop_requested())
-      throw Error(ErrorKind::interrupted, prepared.preset.source, "interrupted while the reference was rendered; nothing of it is kept");
+      throw Error(ErrorKind::interrupted, prepared.preset.source,
+                  "interrupted while the reference was rendered; nothing of it is kept");
     if (seconds == 0) require_time(prepared, now);
     report((seconds > 0 ? 0.5 : 0) + 0.5 * now.fraction, seconds + now.work_seconds);
     return true;
@@ -136,8 +135,8 @@ std::vector<float> rendered_seed(const Prepared& prepared, const compute::Contex
   return last.picture->rgb;
 }
 
-void write_reference(const fs::path& file, const Prepared& prepared, const std::vector<float>& first, const std::vector<float>& second)
-{
+void write_reference(const fs::path& file, const Prepared& prepared, const std::vector<float>& first,
+                     const std::vector<float>& second) {
   const auto [width, height] = prepared.preset.scene.camera.resolution;
   image::Image image;
   image.width = width;
@@ -149,18 +148,18 @@ void write_reference(const fs::path& file, const Prepared& prepared, const std::
     for (std::size_t c = i; c < i + 3; ++c) image.data.push_back(first[c]);
   }
   const preset::Preset recipe = recipe_preset(prepared.preset, prepared.preset.reference->seed);
-  image.attributes = {{"nephroid:preset", preset::to_json(recipe, file.parent_path())}, {"nephroid:version", version()}};
+  image.attributes = {{"nephroid:preset", preset::to_json(recipe, file.parent_path())},
+                      {"nephroid:version", version()}};
   image::write_exr(file, image);
 }
 
 } // namespace
 
-std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepared, const compute::Context& context)
-{
+std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepared, const compute::Context& context) {
   if (!prepared.preset.reference) {
     if (prepared.preset.measure.mask)
-      throw bad_input(Place(prepared.preset.source) / "measure" / "mask", "there is no reference to compare the mask's pixels with",
-                      "expected a 'reference'");
+      throw bad_input(Place(prepared.preset.source) / "measure" / "mask",
+                      "there is no reference to compare the mask's pixels with", "expected a 'reference'");
     return nullptr;
   }
   const preset::Reference& reference = *prepared.preset.reference;
@@ -181,13 +180,14 @@ std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepare
 }
 
 std::shared_ptr<const measure::Reference> make_reference(const Prepared& prepared, const compute::Context& context,
-                                                         const std::stop_token& stop, const ReferenceProgress& progress)
-{
+                                                         const std::stop_token& stop,
+                                                         const ReferenceProgress& progress) {
   const fs::path file = cache_file(prepared, context);
   std::error_code error;
   fs::create_directories(file.parent_path(), error); // before hours of work
   if (error)
-    throw failed(file.parent_path(), "the reference cannot be kept here: " + error.message(), "", "set XDG_CACHE_HOME to another folder");
+    throw failed(file.parent_path(), "the reference cannot be kept here: " + error.message(), "",
+                 "set XDG_CACHE_HOME to another folder");
   std::vector<float> pictures[2];
   double seconds = 0;
   for (std::size_t i = 0; i < 2; ++i)

@@ -11,17 +11,18 @@
 
 namespace nephroid::run {
 
-/// Null where the preset has none, and where it is a recipe that is not in the cache or damaged there. Reads the mask of preset.measure
-/// too. Throws bad_input where a file cannot be read or has another size than the run's picture.
+/// Null where the preset has none, and where it is a recipe that is not in the cache or damaged there. Reads the mask
+/// of preset.measure too. Throws bad_input where a file cannot be read or has another size than the run's picture.
 std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepared, const compute::Context& context);
 
 /// How making one goes on: 0..1, and the seconds of work so far.
 using ReferenceProgress = std::function<void(double fraction, double seconds)>;
 
-/// Renders the recipe with both of its seeds and puts their mean into the cache. Throws failed where it cannot be made: memory, a time
-/// above reference.seconds (known after the first passes), a cache that cannot be written to; interrupted where `stop` asks for it.
-/// Only for presets whose reference is a recipe.
+/// Renders the recipe with both of its seeds and puts their mean into the cache. Throws failed where it cannot be made:
+/// memory, a time above reference.seconds (known after the first passes), a cache that cannot be written to;
+/// interrupted where `stop` asks for it. Only for presets whose reference is a recipe.
 std::shared_ptr<const measure::Reference> make_reference(const Prepared& prepared, const compute::Context& context,
-                                                         const std::stop_token& stop, const ReferenceProgress& progress);
+                                                         const std::stop_token& stop,
+                                                         const ReferenceProgress& progress);
 
 } // namespace nephroid::run

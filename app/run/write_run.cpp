@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of a run. What the same preset and seed always give (image.exr, preset.json, plan.json) holds no time, no date and no
-// thread count, so that equal runs are equal files; what differs from run to run is in run.json.
+// The files of a run. What the same preset and seed always give (image.exr, preset.json, plan.json) holds no time, no
+// date and no thread count, so that equal runs are equal files; what differs from run to run is in run.json.
 #include "run/write_run.h"
 
 #include "base/build_info.h"
@@ -8,8 +8,8 @@
 #include "base/json_output.h"
 #include "measure/run_files.h"
 #include "preset/read.h"
-#include "run/folder.h"
 #include "report/report.h"
+#include "run/folder.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,9 +24,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// {"GROUP": {"NAME": value}}, a number in the group's path being a place in a list; whole numbers as such, what is no number as null.
-void add_scalars(Json& run, const std::vector<job::Scalar>& scalars)
-{
+/// {"GROUP": {"NAME": value}}, a number in the group's path being a place in a list; whole numbers as such, what is no
+/// number as null.
+void add_scalars(Json& run, const std::vector<job::Scalar>& scalars) {
   for (const job::Scalar& s : scalars) {
     const bool whole = std::abs(s.value) < 0x1p53 && s.value == std::trunc(s.value);
     run[Json::json_pointer("/" + s.group)][s.name] = std::isnan(s.value) ? Json()
@@ -35,22 +35,19 @@ void add_scalars(Json& run, const std::vector<job::Scalar>& scalars)
   }
 }
 
-std::string to_csv(const job::Curve& curve)
-{
+std::string to_csv(const job::Curve& curve) {
   std::string text = fmt::format("{}\n", fmt::join(curve.columns, ","));
   for (const std::vector<double>& row : curve.rows) text += fmt::format("{}\n", fmt::join(row, ","));
   return text;
 }
 
-Json device_json(const compute::DeviceInfo& device)
-{
+Json device_json(const compute::DeviceInfo& device) {
   return {{"name", device.name},     {"type", device.type},       {"platform", device.platform},
           {"driver", device.driver}, {"version", device.version}, {"compute_units", device.compute_units}};
 }
 
 /// The run's error, "errors", with what they were measured against and what the measuring cost.
-void add_errors(Json& run, const job::History& history, const measure::Reference* reference)
-{
+void add_errors(Json& run, const job::History& history, const measure::Reference* reference) {
   run["measuring_seconds"] = history.measuring_seconds;
   run["error_column"] = history.error_column;
   if (!history.rows.empty()) {
@@ -59,13 +56,14 @@ void add_errors(Json& run, const job::History& history, const measure::Reference
   }
   if (!reference) return;
   Json floors = by_column(history.columns, history.noise_floor);
-  for (auto floor = floors.begin(); floor != floors.end();) floor = floor->is_null() ? floors.erase(floor) : std::next(floor);
+  for (auto floor = floors.begin(); floor != floors.end();)
+    floor = floor->is_null() ? floors.erase(floor) : std::next(floor);
   run["reference"] = {{"origin", reference->origin}, {"noise_floor", floors}};
 }
 
 std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device, const job::Snapshot& snapshot,
-                     const measure::Reference* reference, const Json& pictures, const std::vector<std::string>& files, bool finished)
-{
+                     const measure::Reference* reference, const Json& pictures, const std::vector<std::string>& files,
+                     bool finished) {
   const job::Progress& progress = snapshot.progress;
   Json phases = Json::object();
   for (const auto& [name, seconds] : snapshot.phases) phases[name] = seconds;
@@ -92,11 +90,12 @@ std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device
   return json_text(all, 2) + "\n";
 }
 
-void write_list(const fs::path& folder, const Json& list) { write_file_whole(folder / pictures_file, json_text(list, 2) + "\n"); }
+void write_list(const fs::path& folder, const Json& list) {
+  write_file_whole(folder / pictures_file, json_text(list, 2) + "\n");
+}
 
 /// "at-0010s", "at-0002.5s": in the order of time as a folder lists them.
-std::string stem_at(double seconds)
-{
+std::string stem_at(double seconds) {
   std::string number = fmt::format("{:08.3f}", seconds);
   number.erase(number.find_last_not_of('0') + 1);
   if (number.ends_with('.')) number.pop_back();
@@ -105,8 +104,7 @@ std::string stem_at(double seconds)
 
 } // namespace
 
-image::Image with_layers(const job::Picture& picture)
-{
+image::Image with_layers(const job::Picture& picture) {
   image::Image image;
   image.width = picture.width;
   image.height = picture.height;
@@ -124,8 +122,8 @@ image::Image with_layers(const job::Picture& picture)
   return image;
 }
 
-void write_picture(const fs::path& stem, const preset::Preset& preset, const compute::DeviceInfo& device, const job::Picture& picture)
-{
+void write_picture(const fs::path& stem, const preset::Preset& preset, const compute::DeviceInfo& device,
+                   const job::Picture& picture) {
   image::Image exr = with_layers(picture);
   exr.attributes = {{"nephroid:preset", preset::to_json(preset, stem.parent_path())},
                     {"nephroid:seed", std::to_string(preset.seed)},
@@ -135,8 +133,7 @@ void write_picture(const fs::path& stem, const preset::Preset& preset, const com
   image::write_png(stem.string() + ".png", picture.width, picture.height, picture.rgb);
 }
 
-Json pictures_at(const fs::path& folder)
-{
+Json pictures_at(const fs::path& folder) {
   Json list = Json::array();
   if (!is_there(folder / pictures_file)) return list;
   try {
@@ -151,31 +148,32 @@ Json pictures_at(const fs::path& folder)
   return list;
 }
 
-Json by_column(const std::vector<std::string>& columns, const std::vector<double>& values)
-{
+Json by_column(const std::vector<std::string>& columns, const std::vector<double>& values) {
   Json all = Json::object();
-  for (std::size_t i = 0; i < columns.size() && i < values.size(); ++i) all[columns[i]] = std::isnan(values[i]) ? Json() : Json(values[i]);
+  for (std::size_t i = 0; i < columns.size() && i < values.size(); ++i)
+    all[columns[i]] = std::isnan(values[i]) ? Json() : Json(values[i]);
   return all;
 }
 
-Json write_picture_at(const fs::path& folder, double seconds, const Prepared& prepared, const compute::DeviceInfo& device,
-                      const job::Snapshot& snapshot)
-{
+Json write_picture_at(const fs::path& folder, double seconds, const Prepared& prepared,
+                      const compute::DeviceInfo& device, const job::Snapshot& snapshot) {
   const std::string stem = stem_at(seconds);
   write_picture(folder / stem, prepared.preset, device, *snapshot.picture);
   Json errors = Json::object();
-  if (const auto& history = snapshot.history; history && !history->rows.empty() && history->rows.back().seconds >= seconds)
+  if (const auto& history = snapshot.history;
+      history && !history->rows.empty() && history->rows.back().seconds >= seconds)
     errors = by_column(history->columns, history->rows.back().errors);
-  const Json written{
-      {"seconds", seconds}, {"work_seconds", snapshot.progress.work_seconds}, {"picture", stem + ".png"}, {"errors", errors}};
+  const Json written{{"seconds", seconds},
+                     {"work_seconds", snapshot.progress.work_seconds},
+                     {"picture", stem + ".png"},
+                     {"errors", errors}};
   Json list = pictures_at(folder);
   list.push_back(written);
   write_list(folder, list);
   return written;
 }
 
-void remove_pictures_after(const fs::path& folder, double work_seconds)
-{
+void remove_pictures_after(const fs::path& folder, double work_seconds) {
   Json kept = Json::array();
   std::error_code ignored;
   for (const Json& picture : pictures_at(folder)) {
@@ -193,16 +191,16 @@ void remove_pictures_after(const fs::path& folder, double work_seconds)
     write_list(folder, kept);
 }
 
-void write_report(const fs::path& folder) { write_file_whole(folder / "report.html", report::report_html(std::span(&folder, 1))); }
+void write_report(const fs::path& folder) {
+  write_file_whole(folder / "report.html", report::report_html(std::span(&folder, 1)));
+}
 
-void write_history(const fs::path& folder, const job::History& history)
-{
+void write_history(const fs::path& folder, const job::History& history) {
   write_file_whole(folder / "history.csv", measure::to_csv(history));
 }
 
-void write_run(const fs::path& folder, const Prepared& prepared, const compute::DeviceInfo& device, const job::Snapshot& snapshot,
-               const measure::Reference* reference, bool finished)
-{
+void write_run(const fs::path& folder, const Prepared& prepared, const compute::DeviceInfo& device,
+               const job::Snapshot& snapshot, const measure::Reference* reference, bool finished) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw failed(folder.string(), "cannot be made: " + error.message());
@@ -213,8 +211,10 @@ void write_run(const fs::path& folder, const Prepared& prepared, const compute::
   };
   if (!snapshot.stands_in) picture("image", *snapshot.picture);
   for (const job::NamedPicture& further : snapshot.pictures) picture(further.name, *further.picture);
-  for (const job::Curve& curve : snapshot.curves) write_file_whole(folder / files.emplace_back(curve.name + ".csv"), to_csv(curve));
-  for (const job::ExtraFile& file : snapshot.files) write_file_whole(folder / files.emplace_back(file.name), file.write);
+  for (const job::Curve& curve : snapshot.curves)
+    write_file_whole(folder / files.emplace_back(curve.name + ".csv"), to_csv(curve));
+  for (const job::ExtraFile& file : snapshot.files)
+    write_file_whole(folder / files.emplace_back(file.name), file.write);
   if (snapshot.history) write_history(folder, *snapshot.history);
   write_settings(folder, prepared);
   write_file_whole(folder / "run.json", run_json(prepared, device, snapshot, reference, pictures_at(folder), files,

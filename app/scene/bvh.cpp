@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds the tree of kernels/tracing/bvh.h: Embree decides how triangles are grouped, this file lays the groups out for the kernel.
+// Builds the tree of kernels/tracing/bvh.h: Embree decides how triangles are grouped, this file lays the groups out for
+// the kernel.
 #include "scene/bvh.h"
 
 #include "base/error.h"
@@ -26,8 +27,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 struct Box {
   glm::vec3 low{infinity}, high{-infinity};
 
-  void add(const Box& other)
-  {
+  void add(const Box& other) {
     low = glm::min(low, other.low);
     high = glm::max(high, other.high);
   }
@@ -48,21 +48,18 @@ struct Leaf : BuildNode {
   std::array<std::uint32_t, primitives_per_leaf> primitives;
 };
 
-void* create_node(RTCThreadLocalAllocator allocator, unsigned int count, void*)
-{
+void* create_node(RTCThreadLocalAllocator allocator, unsigned int count, void*) {
   auto* node = new (rtcThreadLocalAlloc(allocator, sizeof(Inner), alignof(Inner))) Inner;
   node->count = count;
   return static_cast<BuildNode*>(node);
 }
 
-void set_children(void* node, void** children, unsigned int count, void*)
-{
+void set_children(void* node, void** children, unsigned int count, void*) {
   auto& inner = static_cast<Inner&>(*static_cast<BuildNode*>(node));
   for (unsigned int i = 0; i < count; ++i) inner.children[i] = static_cast<const BuildNode*>(children[i]);
 }
 
-void set_bounds(void* node, const RTCBounds** bounds, unsigned int count, void*)
-{
+void set_bounds(void* node, const RTCBounds** bounds, unsigned int count, void*) {
   auto& inner = static_cast<Inner&>(*static_cast<BuildNode*>(node));
   for (unsigned int i = 0; i < count; ++i) {
     const RTCBounds& b = *bounds[i];
@@ -70,8 +67,7 @@ void set_bounds(void* node, const RTCBounds** bounds, unsigned int count, void*)
   }
 }
 
-void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count, void*)
-{
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count, void*) {
   auto* leaf = new (rtcThreadLocalAlloc(allocator, sizeof(Leaf), alignof(Leaf))) Leaf;
   leaf->leaf = true;
   leaf->count = static_cast<std::uint32_t>(count);
@@ -80,28 +76,27 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
 }
 
 /// Whether the triangle has an area: its doubled area vector is computed without rounding that could hide one.
-bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
-{
+bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   const glm::dvec3 n = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
   return n.x != 0 || n.y != 0 || n.z != 0;
 }
 
-void check_triangle(const Mesh& mesh, std::size_t index)
-{
+void check_triangle(const Mesh& mesh, std::size_t index) {
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t vertex = mesh.triangles[index][i];
     const Place where = fmt::format("triangle {}", index);
-    if (vertex >= mesh.positions.size()) throw bad_input(where, fmt::format("has vertex {}, of {}", vertex, mesh.positions.size()));
+    if (vertex >= mesh.positions.size())
+      throw bad_input(where, fmt::format("has vertex {}, of {}", vertex, mesh.positions.size()));
     const glm::vec3& p = mesh.positions[vertex];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) throw bad_input(where, "has a vertex that is not finite");
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      throw bad_input(where, "has a vertex that is not finite");
   }
 }
 
-/// Of a triangle or, counted on, of an ellipsoid, grown by more than the rounding errors of the traversal that come from its own
-/// coordinates (those that come from the ray's origin are the ray's share: bvh_ray in kernels/tracing/bvh.h). A small object beside large
-/// ones keeps tight boxes.
-Box primitive_box(const Mesh& mesh, std::size_t primitive)
-{
+/// Of a triangle or, counted on, of an ellipsoid, grown by more than the rounding errors of the traversal that come
+/// from its own coordinates (those that come from the ray's origin are the ray's share: bvh_ray in
+/// kernels/tracing/bvh.h). A small object beside large ones keeps tight boxes.
+Box primitive_box(const Mesh& mesh, std::size_t primitive) {
   Box box;
   if (primitive < mesh.triangles.size()) {
     const glm::uvec3& t = mesh.triangles[primitive];
@@ -118,8 +113,7 @@ Box primitive_box(const Mesh& mesh, std::size_t primitive)
 }
 
 /// Boxes of the ellipsoids and of the triangles with an area.
-std::vector<RTCBuildPrimitive> primitive_boxes(const Mesh& mesh)
-{
+std::vector<RTCBuildPrimitive> primitive_boxes(const Mesh& mesh) {
   std::vector<RTCBuildPrimitive> boxes;
   boxes.reserve(mesh.triangles.size() + mesh.ellipsoids.size());
   for (std::size_t i = 0; i < mesh.triangles.size() + mesh.ellipsoids.size(); ++i) {
@@ -135,24 +129,22 @@ std::vector<RTCBuildPrimitive> primitive_boxes(const Mesh& mesh)
 }
 
 /// lane: of the block, its first float. missing: one point stands in its place, the triangle's first vertex.
-void set_triangle(float* lane, const Mesh& mesh, std::uint32_t triangle, bool missing)
-{
+void set_triangle(float* lane, const Mesh& mesh, std::uint32_t triangle, bool missing) {
   for (int corner = 0; corner < 3; ++corner) {
     const glm::vec3& p = mesh.positions[mesh.triangles[triangle][missing ? 0 : corner]];
-    for (int axis = 0; axis < 3; ++axis) lane[static_cast<std::size_t>(3 * corner + axis) * triangles_per_block] = p[axis];
+    for (int axis = 0; axis < 3; ++axis)
+      lane[static_cast<std::size_t>(3 * corner + axis) * triangles_per_block] = p[axis];
   }
   std::memcpy(lane + 9 * triangles_per_block, &triangle, sizeof triangle);
 }
 
-void set_ellipsoid(float* place, const Ellipsoid& ellipsoid)
-{
+void set_ellipsoid(float* place, const Ellipsoid& ellipsoid) {
   const auto rows = to_unit_sphere(ellipsoid);
   const glm::vec3 data[] = {ellipsoid.centre, glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[2])};
   std::memcpy(place, data, sizeof data);
 }
 
-void set_box(float* child, const Box& box)
-{
+void set_box(float* child, const Box& box) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     child[16 * axis] = box.low[static_cast<int>(axis)];
     child[16 * axis + 8] = box.high[static_cast<int>(axis)];
@@ -165,16 +157,15 @@ public:
   Layout(const Mesh& mesh, Bvh& bvh) : mesh_(mesh), bvh_(bvh) { bvh.has_ellipsoids = !mesh.ellipsoids.empty(); }
 
   /// What a parent's child entry holds; adds the subtree's depth and stack entries to those of its ancestors.
-  int add(const BuildNode& node, int depth, int stack)
-  {
+  int add(const BuildNode& node, int depth, int stack) {
     bvh_.depth = std::max(bvh_.depth, depth);
     bvh_.stack = std::max(bvh_.stack, stack);
-    return node.leaf ? add_leaf(static_cast<const Leaf&>(node)) : add_node(static_cast<const Inner&>(node), depth, stack);
+    return node.leaf ? add_leaf(static_cast<const Leaf&>(node))
+                     : add_node(static_cast<const Inner&>(node), depth, stack);
   }
 
 private:
-  int add_leaf(const Leaf& leaf)
-  {
+  int add_leaf(const Leaf& leaf) {
     std::vector<std::uint32_t> triangles, ellipsoids;
     for (std::uint32_t i = 0; i < leaf.count; ++i)
       (leaf.primitives[i] < mesh_.triangles.size() ? triangles : ellipsoids).push_back(leaf.primitives[i]);
@@ -186,24 +177,24 @@ private:
     return ~static_cast<int>(first << 4 | round_count << 2 | count);
   }
 
-  void add_triangles(const std::vector<std::uint32_t>& triangles, std::size_t count)
-  {
+  void add_triangles(const std::vector<std::uint32_t>& triangles, std::size_t count) {
     const std::size_t first = bvh_.blocks.size() / floats_per_block;
     bvh_.blocks.resize(bvh_.blocks.size() + count * floats_per_block);
     for (std::size_t i = 0; i < count * triangles_per_block; ++i) {
-      float* block = bvh_.blocks.data() + (first + i / triangles_per_block) * floats_per_block + i % triangles_per_block;
+      float* block =
+          bvh_.blocks.data() + (first + i / triangles_per_block) * floats_per_block + i % triangles_per_block;
       // A missing triangle is one point: three times the last triangle's first vertex.
       const bool missing = i >= triangles.size();
       set_triangle(block, mesh_, missing ? triangles.back() : triangles[i], missing);
     }
   }
 
-  void add_ellipsoids(const std::vector<std::uint32_t>& ellipsoids, std::size_t count)
-  {
+  void add_ellipsoids(const std::vector<std::uint32_t>& ellipsoids, std::size_t count) {
     const std::size_t first = bvh_.blocks.size();
     bvh_.blocks.resize(first + count * floats_per_block);
     for (std::size_t i = 0; i < count * ellipsoids_per_block; ++i) {
-      const std::size_t place = first + i / ellipsoids_per_block * floats_per_block + i % ellipsoids_per_block * floats_per_ellipsoid;
+      const std::size_t place =
+          first + i / ellipsoids_per_block * floats_per_block + i % ellipsoids_per_block * floats_per_ellipsoid;
       const bool missing = i >= ellipsoids.size();
       const std::uint32_t primitive = missing ? ~0u : ellipsoids[i];
       std::memcpy(bvh_.blocks.data() + place + 12, &primitive, sizeof primitive);
@@ -212,8 +203,7 @@ private:
     }
   }
 
-  int add_node(const Inner& node, int depth, int stack)
-  {
+  int add_node(const Inner& node, int depth, int stack) {
     const std::size_t index = bvh_.nodes.size() / floats_per_node;
     bvh_.nodes.resize(bvh_.nodes.size() + floats_per_node);
     for (std::uint32_t i = 0; i < children_per_node; ++i) {
@@ -233,8 +223,7 @@ private:
 };
 
 /// Writes a leaf's primitives where the mesh has them now. Returns their box.
-Box refit_leaf(Bvh& bvh, int leaf, const Mesh& mesh)
-{
+Box refit_leaf(Bvh& bvh, int leaf, const Mesh& mesh) {
   const auto entry = static_cast<std::uint32_t>(~leaf);
   float* block = bvh.blocks.data() + (entry >> 4) * floats_per_block;
   Box box;
@@ -270,8 +259,7 @@ struct BvhRelease {
 
 } // namespace
 
-std::map<std::string, std::string> tree_defines(const Bvh& bvh)
-{
+std::map<std::string, std::string> tree_defines(const Bvh& bvh) {
   // Ellipsoids in one leaf have kernels of their own; other trees come in few sizes.
   const bool one_leaf = bvh.stack <= 1 && bvh.has_ellipsoids;
   const auto size = [](int least, int step) { return std::to_string(std::max(1, (least + step - 1) / step) * step); };
@@ -280,8 +268,7 @@ std::map<std::string, std::string> tree_defines(const Bvh& bvh)
           {"NEPHROID_BVH_DEPTH", size(bvh.depth, 16)}};
 }
 
-Bvh build_bvh(const Mesh& mesh)
-{
+Bvh build_bvh(const Mesh& mesh) {
   Bvh bvh;
   bvh.stack = 1;
   std::vector<RTCBuildPrimitive> boxes = primitive_boxes(mesh);
@@ -317,16 +304,15 @@ Bvh build_bvh(const Mesh& mesh)
   arguments.createLeaf = create_leaf;
   const auto* root = build ? static_cast<const BuildNode*>(rtcBuildBVH(&arguments)) : nullptr;
   if (!root)
-    throw failed("mesh",
-                 fmt::format("Embree built no tree over {} primitives (error {})", boxes.size(), int{rtcGetDeviceError(device.get())}));
+    throw failed("mesh", fmt::format("Embree built no tree over {} primitives (error {})", boxes.size(),
+                                     int{rtcGetDeviceError(device.get())}));
   boxes = {}; // of a large mesh as much as the tree
   bvh.root = Layout(mesh, bvh).add(*root, 0, 1);
   if (bvh.nodes.empty()) bvh.nodes.resize(floats_per_node); // the root is a leaf
   return bvh;
 }
 
-void refit(Bvh& bvh, const Mesh& mesh)
-{
+void refit(Bvh& bvh, const Mesh& mesh) {
   if (bvh.root < 0) refit_leaf(bvh, bvh.root, mesh);
   std::vector<Box> boxes(bvh.nodes.size() / floats_per_node);
   for (std::size_t node = boxes.size(); node-- > 0;) // children come after their parents

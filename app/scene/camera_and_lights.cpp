@@ -16,8 +16,7 @@ namespace nephroid::scene {
 namespace {
 
 /// The unit vector along v. Throws bad_input at where: no length, not finite.
-glm::dvec3 unit_direction(const glm::dvec3& v, const Place& where)
-{
+glm::dvec3 unit_direction(const glm::dvec3& v, const Place& where) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   const bool finite = std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   if (!finite || largest == 0)
@@ -25,32 +24,32 @@ glm::dvec3 unit_direction(const glm::dvec3& v, const Place& where)
   return glm::normalize(v / largest); // so that no square overflows or vanishes
 }
 
-/// The part of up that is perpendicular to the unit vector forward, made unit. Throws bad_input at where: parallel, no length.
-glm::dvec3 perpendicular_up(const preset::Vec3& up, const glm::dvec3& forward, const Place& where)
-{
+/// The part of up that is perpendicular to the unit vector forward, made unit. Throws bad_input at where: parallel, no
+/// length.
+glm::dvec3 perpendicular_up(const preset::Vec3& up, const glm::dvec3& forward, const Place& where) {
   const glm::dvec3 unit_up = unit_direction(to_dvec3(up), where);
   const glm::dvec3 rest = unit_up - glm::dot(unit_up, forward) * forward;
   if (!(glm::length(rest) > 1e-6))
-    throw bad_input(where, fmt::format("({:g}, {:g}, {:g}) is parallel to the view or light direction", up[0], up[1], up[2]),
+    throw bad_input(where,
+                    fmt::format("({:g}, {:g}, {:g}) is parallel to the view or light direction", up[0], up[1], up[2]),
                     "another direction", "turn it away");
   return glm::normalize(rest);
 }
 
 /// A preset's position in the scene's coordinates. Throws bad_input at where: not finite, too far from the objects.
-glm::dvec3 local_position(const preset::Vec3& position, const Scene& scene, const Place& where)
-{
+glm::dvec3 local_position(const preset::Vec3& position, const Scene& scene, const Place& where) {
   const glm::dvec3 local = to_dvec3(position) - scene.origin;
   for (int axis = 0; axis < 3; ++axis)
     if (!(std::abs(local[axis]) <= max_coordinate))
       throw bad_input(where, fmt::format("({:g}, {:g}, {:g}) is too far away", position[0], position[1], position[2]),
-                      fmt::format("at most {:g} units from the refracting and mirroring objects", max_coordinate), "choose a larger unit");
+                      fmt::format("at most {:g} units from the refracting and mirroring objects", max_coordinate),
+                      "choose a larger unit");
   return local;
 }
 
 } // namespace
 
-Camera make_camera(const preset::Camera& camera, const Scene& scene)
-{
+Camera make_camera(const preset::Camera& camera, const Scene& scene) {
   const Place where = Place(scene.source) / "scene" / "camera";
   const auto [width, height] = camera.resolution;
   Camera result;
@@ -70,8 +69,7 @@ Camera make_camera(const preset::Camera& camera, const Scene& scene)
   return result;
 }
 
-Light make_light(const preset::Light& light, const Scene& scene, const Place& where)
-{
+Light make_light(const preset::Light& light, const Scene& scene, const Place& where) {
   using Type = preset::Light::Type;
   Light result;
   result.type = light.type;

@@ -20,24 +20,26 @@ namespace {
 /// Textures are held in memory three times while they are read, and once on the device: 2 GiB of floats there.
 constexpr std::size_t most_texels = std::size_t{1} << 27;
 
-const char* fault_of(float value) { return std::isnan(value) ? "is not a number" : std::isinf(value) ? "is infinite" : "is negative"; }
+const char* fault_of(float value) {
+  return std::isnan(value) ? "is not a number" : std::isinf(value) ? "is infinite" : "is negative";
+}
 
-void check_texels(const std::vector<float>& rgb, int width, const Place& file)
-{
-  const auto bad = std::find_if(rgb.begin(), rgb.end(), [](float value) { return !(value >= 0 && std::isfinite(value)); });
+void check_texels(const std::vector<float>& rgb, int width, const Place& file) {
+  const auto bad =
+      std::find_if(rgb.begin(), rgb.end(), [](float value) { return !(value >= 0 && std::isfinite(value)); });
   if (bad == rgb.end()) return;
   const auto index = static_cast<std::size_t>(bad - rgb.begin()), texel = index / 3;
   const char* const channels[] = {"red", "green", "blue"};
   throw bad_input(file,
                   fmt::format("{} of the texel in row {}, column {} (from 0) {}", channels[index % 3],
-                              texel / static_cast<std::size_t>(width), texel % static_cast<std::size_t>(width), fault_of(*bad)),
+                              texel / static_cast<std::size_t>(width), texel % static_cast<std::size_t>(width),
+                              fault_of(*bad)),
                   "expected radiances of 0 or more", "mend the picture");
 }
 
-/// A file that is compressed with loss, or was sharpened, has values a little below 0 in dark places. Where they are next to nothing in sum
-/// they become 0, and that is said; others are left for check_texels to refuse.
-void mend_negative_texels(std::vector<float>& rgb, const std::string& name, std::vector<std::string>& warnings)
-{
+/// A file that is compressed with loss, or was sharpened, has values a little below 0 in dark places. Where they are
+/// next to nothing in sum they become 0, and that is said; others are left for check_texels to refuse.
+void mend_negative_texels(std::vector<float>& rgb, const std::string& name, std::vector<std::string>& warnings) {
   constexpr double next_to_nothing = 1e-3;
   double above = 0, below = 0;
   for (const float value : rgb) (value < 0 ? below : above) += std::abs(double(value));
@@ -45,32 +47,32 @@ void mend_negative_texels(std::vector<float>& rgb, const std::string& name, std:
   if (count == 0 || !(below <= next_to_nothing * above)) return;
   std::replace_if(
       rgb.begin(), rgb.end(), [](float value) { return value < 0; }, 0.0f);
-  warnings.push_back(fmt::format("environment {}: {} below 0, in sum {:.1g} of all its light; they are taken as 0", name,
-                                 counted(count, "value is", "values are"), below / above));
+  warnings.push_back(fmt::format("environment {}: {} below 0, in sum {:.1g} of all its light; they are taken as 0",
+                                 name, counted(count, "value is", "values are"), below / above));
 }
 
-/// The film has 2^24 quanta for a mean texel (photons/background_stage.cpp). Says where one or few texels are so much brighter
-/// than half of the others that those get fewer than 16. Values of 0 do not count: they are black in any film.
-void check_range(const std::vector<float>& rgb, const std::string& name, std::vector<std::string>& warnings)
-{
-  const double mean = std::accumulate(rgb.begin(), rgb.end(), 0.0) / static_cast<double>(rgb.size()), least = 0x1p-20 * mean;
+/// The film has 2^24 quanta for a mean texel (photons/background_stage.cpp). Says where one or few texels are so much
+/// brighter than half of the others that those get fewer than 16. Values of 0 do not count: they are black in any film.
+void check_range(const std::vector<float>& rgb, const std::string& name, std::vector<std::string>& warnings) {
+  const double mean = std::accumulate(rgb.begin(), rgb.end(), 0.0) / static_cast<double>(rgb.size()),
+               least = 0x1p-20 * mean;
   const auto lit = std::count_if(rgb.begin(), rgb.end(), [](float value) { return value > 0; });
-  const auto faint = std::count_if(rgb.begin(), rgb.end(), [&](float value) { return value > 0 && double(value) < least; });
+  const auto faint =
+      std::count_if(rgb.begin(), rgb.end(), [&](float value) { return value > 0 && double(value) < least; });
   if (faint <= lit / 2) return;
   std::vector<float> values; // of a large map only where there is something to say
   values.reserve(static_cast<std::size_t>(lit));
   std::copy_if(rgb.begin(), rgb.end(), std::back_inserter(values), [](float value) { return value > 0; });
   const auto middle = values.begin() + lit / 2;
   std::nth_element(values.begin(), middle, values.end());
-  warnings.push_back(
-      fmt::format("environment {}: half of its values above 0 are below {:.1g} of its mean, less than the film's numbers resolve, and "
-                  "look black or are noise; clip its brightest texels",
-                  name, double(*middle) / mean));
+  warnings.push_back(fmt::format("environment {}: half of its values above 0 are below {:.1g} of its mean, less than "
+                                 "the film's numbers resolve, and "
+                                 "look black or are noise; clip its brightest texels",
+                                 name, double(*middle) / mean));
 }
 
 /// The picture alone, without how bright it is and how it is turned.
-Environment read_environment(const std::filesystem::path& file, std::vector<std::string>& warnings)
-{
+Environment read_environment(const std::filesystem::path& file, std::vector<std::string>& warnings) {
   const image::Image picture = image::read_image(file);
   if (picture.data.size() / picture.channels.size() > most_texels)
     throw bad_input(file.string(), fmt::format("has {} x {} texels", picture.width, picture.height),
@@ -85,17 +87,18 @@ Environment read_environment(const std::filesystem::path& file, std::vector<std:
     for (float& value : result.rgb) value = static_cast<float>(image::decoded_srgb(value));
   check_range(result.rgb, file.filename().string(), warnings);
   if (result.width != 2 * result.height)
-    warnings.push_back(fmt::format("environment {}: has {} x {} texels; a latitude-longitude picture is twice as wide as high, "
-                                   "so it is stretched to that",
-                                   file.filename().string(), result.width, result.height));
+    warnings.push_back(
+        fmt::format("environment {}: has {} x {} texels; a latitude-longitude picture is twice as wide as high, "
+                    "so it is stretched to that",
+                    file.filename().string(), result.width, result.height));
   return result;
 }
 
 using Moments = std::array<std::array<double, 3>, 3>;
 
 /// Adds a texel's flux, and by that weight its colour over grey and the colour's products.
-void add_texel(const Environment& environment, std::size_t texel, double steradians, EnvironmentFlux& flux, Moments& products)
-{
+void add_texel(const Environment& environment, std::size_t texel, double steradians, EnvironmentFlux& flux,
+               Moments& products) {
   const double value = grey(environment, texel);
   if (!(value > 0)) return;
   const double weight = value * steradians;
@@ -110,14 +113,12 @@ void add_texel(const Environment& environment, std::size_t texel, double steradi
 
 } // namespace
 
-bool Environment::is_black() const
-{
+bool Environment::is_black() const {
   return !(radiance > 0) || std::all_of(rgb.begin(), rgb.end(), [](float value) { return value == 0; });
 }
 
 Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Place& where,
-                             std::vector<std::string>& warnings)
-{
+                             std::vector<std::string>& warnings) {
   Environment result;
   if (environment.type == preset::Environment::Type::file) {
     result = read_environment(finder.find(environment.file, where / "file"), warnings);
@@ -132,22 +133,19 @@ Environment make_environment(const preset::Environment& environment, const FileF
   return result;
 }
 
-double grey(const Environment& environment, std::size_t texel)
-{
+double grey(const Environment& environment, std::size_t texel) {
   const float* rgb = environment.rgb.data() + 3 * texel;
   return (double(rgb[0]) + rgb[1] + rgb[2]) / 3;
 }
 
 // cos a - cos b as a product, which stays exact for thin rows and at the poles.
-double texel_steradians(const Environment& environment, int row)
-{
+double texel_steradians(const Environment& environment, int row) {
   using std::numbers::pi;
   const double step = pi / environment.height;
   return 2 * pi / environment.width * 2 * std::sin((row + 0.5) * step) * std::sin(0.5 * step);
 }
 
-EnvironmentFlux flux_of(const Environment& environment)
-{
+EnvironmentFlux flux_of(const Environment& environment) {
   EnvironmentFlux flux;
   Moments products{};
   const auto width = static_cast<std::size_t>(environment.width);
@@ -169,8 +167,7 @@ EnvironmentFlux flux_of(const Environment& environment)
   return flux;
 }
 
-Light make_environment_light(const Environment& environment)
-{
+Light make_environment_light(const Environment& environment) {
   const EnvironmentFlux flux = flux_of(environment);
   Light light;
   light.type = preset::Light::Type::directional;

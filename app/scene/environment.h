@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is behind everything, infinitely far away, as a latitude-longitude picture; and that as a light: parallel light from every texel, in
-// proportion to the texel's flux.
+// What is behind everything, infinitely far away, as a latitude-longitude picture; and that as a light: parallel light
+// from every texel, in proportion to the texel's flux.
 //
-// A texel has one colour all over it, and the colour stands for the same spectrum as where it is seen: r, g and b times the fixed spectra
-// of the three sRGB primaries (optics/colour.h), times Environment::radiance. So a white diffuse surface has the colour that the map gives
-// it by its irradiance, and what is seen through glass and what falls through glass are one light.
+// A texel has one colour all over it, and the colour stands for the same spectrum as where it is seen: r, g and b times
+// the fixed spectra of the three sRGB primaries (optics/colour.h), times Environment::radiance. So a white diffuse
+// surface has the colour that the map gives it by its irradiance, and what is seen through glass and what falls through
+// glass are one light.
 #pragma once
 #include "base/files.h"
 #include "optics/colour.h"
@@ -14,9 +15,9 @@
 
 namespace nephroid::scene {
 
-/// The texel of row r (0: at +y) and column c is seen in the directions of elevation 90 - 180 (r + .5) / height degrees and
-/// azimuth 360 (c + .5) / width - 180 degrees, counted from -z to the right (+x), after `rotate_deg` turned all of it about +y to the left.
-/// One texel: the same everywhere.
+/// The texel of row r (0: at +y) and column c is seen in the directions of elevation 90 - 180 (r + .5) / height degrees
+/// and azimuth 360 (c + .5) / width - 180 degrees, counted from -z to the right (+x), after `rotate_deg` turned all of
+/// it about +y to the left. One texel: the same everywhere.
 struct Environment {
   int width = 0, height = 0;
   std::vector<float> rgb; ///< linear sRGB, finite, not negative, 3 a texel
@@ -29,9 +30,10 @@ struct Environment {
 };
 
 /// Floats of a file are taken as linear, integers as sRGB-encoded; a grey picture is as good as one with colours.
-/// Throws bad_input at the file for what is no such picture, naming the texel of a value that is NaN, infinite or negative, and
-/// at `where` (FILE#/scene/environment) for a file that is not there. Values below 0 that are at most a thousandth of all light in sum
-/// become 0. Appends to warnings where there are such, and where the picture's shape is not 2 : 1.
+/// Throws bad_input at the file for what is no such picture, naming the texel of a value that is NaN, infinite or
+/// negative, and at `where` (FILE#/scene/environment) for a file that is not there. Values below 0 that are at most a
+/// thousandth of all light in sum become 0. Appends to warnings where there are such, and where the picture's shape is
+/// not 2 : 1.
 Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Place& where,
                              std::vector<std::string>& warnings);
 
@@ -45,9 +47,9 @@ double texel_steradians(const Environment& environment, int row);
 struct EnvironmentFlux {
   double grey = 0;       ///< integral of grey() over all directions
   optics::Colour mean{}; ///< linear sRGB over grey(), a mean over the flux: the three sum to 3
-  /// The root of the mean square over the flux of what a photon carries at each wavelength, summing to 1. A photon of a texel carries its
-  /// colour's spectrum over grey(). That may be negative, where a spectrum of a primary is; this never is. Of one colour it is its
-  /// spectrum.
+  /// The root of the mean square over the flux of what a photon carries at each wavelength, summing to 1. A photon of a
+  /// texel carries its colour's spectrum over grey(). That may be negative, where a spectrum of a primary is; this
+  /// never is. Of one colour it is its spectrum.
   optics::Spectrum spectrum{};
   double power = 0; ///< by what that was divided, in W m^-2 for grey light of 1 sr and Environment::radiance 1
 };

@@ -18,8 +18,7 @@ namespace {
 
 /// What optics throws names a curve or a file; the person needs the preset's field as well.
 template <class Make>
-auto at(const Place& where, const Make& make)
-{
+auto at(const Place& where, const Make& make) {
   try {
     return make();
   } catch (const Error& error) {
@@ -29,101 +28,85 @@ auto at(const Place& where, const Make& make)
 }
 
 /// presets/materials/NAME or NAME.yml, where there is one.
-std::optional<std::filesystem::path> shipped_material(const std::string& name)
-{
+std::optional<std::filesystem::path> shipped_material(const std::string& name) {
   const std::filesystem::path presets = presets_folder_if_any();
   if (presets.empty() || name.empty() || std::filesystem::path(name).is_absolute()) return std::nullopt;
   std::error_code ignored;
   for (const std::string& file : {name, name + ".yml"})
-    if (const auto material = presets / "materials" / file; std::filesystem::is_regular_file(material, ignored)) return material;
+    if (const auto material = presets / "materials" / file; std::filesystem::is_regular_file(material, ignored))
+      return material;
   return std::nullopt;
 }
 
 /// "N-BK7", of every file in presets/materials.
-std::set<std::string> shipped_names()
-{
+std::set<std::string> shipped_names() {
   std::set<std::string> names;
   std::error_code ignored;
-  for (std::filesystem::directory_iterator entry(presets_folder_if_any() / "materials", ignored), end; !ignored && entry != end;
-       entry.increment(ignored))
+  for (std::filesystem::directory_iterator entry(presets_folder_if_any() / "materials", ignored), end;
+       !ignored && entry != end; entry.increment(ignored))
     if (entry->path().extension() == ".yml") names.insert(entry->path().stem().string());
   return names;
 }
 
 } // namespace
 
-std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Place& where)
-{
+std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Place& where) {
   try {
     return finder.find(name, where);
   } catch (const Error& error) {
     if (const auto shipped = shipped_material(name)) return *shipped;
     const auto* missing = dynamic_cast<const FileNotFound*>(&error);
-    const bool may_be_a_short_name = std::filesystem::path(name).extension().string().size() != 4 || name.ends_with(".yml");
+    const bool may_be_a_short_name =
+        std::filesystem::path(name).extension().string().size() != 4 || name.ends_with(".yml");
     if (!missing || !may_be_a_short_name) throw;
-    throw FileNotFound(where, name, fmt::format("{}; the program comes with {}", missing->looked_in(), fmt::join(shipped_names(), ", ")));
+    throw FileNotFound(
+        where, name,
+        fmt::format("{}; the program comes with {}", missing->looked_in(), fmt::join(shipped_names(), ", ")));
   }
 }
 
-optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Place& where)
-{
+optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Place& where) {
   using Type = preset::Dispersion::Type;
   return at(where, [&] {
     switch (dispersion.type) {
-    case Type::file:
-      return optics::load_dispersion(find_dispersion(dispersion.file, finder, where));
-    case Type::sellmeier:
-      return optics::sellmeier(dispersion.b, dispersion.c_um2);
-    case Type::cauchy:
-      return optics::cauchy(dispersion.coefficients);
-    case Type::table:
-      return optics::tabulated(dispersion.table);
-    case Type::points:
-      return optics::control_points(dispersion.table);
-    case Type::constant:
-      break;
+    case Type::file: return optics::load_dispersion(find_dispersion(dispersion.file, finder, where));
+    case Type::sellmeier: return optics::sellmeier(dispersion.b, dispersion.c_um2);
+    case Type::cauchy: return optics::cauchy(dispersion.coefficients);
+    case Type::table: return optics::tabulated(dispersion.table);
+    case Type::points: return optics::control_points(dispersion.table);
+    case Type::constant: break;
     }
     return optics::constant_index(dispersion.n);
   });
 }
 
-optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Place& where)
-{
+optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Place& where) {
   using Type = preset::LightSpectrum::Type;
   return at(where, [&] {
     switch (spectrum.type) {
-    case Type::blackbody:
-      return optics::blackbody(spectrum.temperature_k);
-    case Type::lines:
-      return optics::light_lines(spectrum.table);
-    case Type::table:
-      return optics::light_table(spectrum.table);
-    case Type::illuminant:
-      break;
+    case Type::blackbody: return optics::blackbody(spectrum.temperature_k);
+    case Type::lines: return optics::light_lines(spectrum.table);
+    case Type::table: return optics::light_table(spectrum.table);
+    case Type::illuminant: break;
     }
     return optics::illuminant(spectrum.illuminant);
   });
 }
 
-optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Place& where)
-{
+optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Place& where) {
   using Type = preset::Reflectance::Type;
   return at(where, [&] {
     switch (reflectance.type) {
-    case Type::patch:
-      return optics::colorchecker_patch(reflectance.patch);
-    case Type::table:
-      return optics::reflectance_table(reflectance.table);
-    case Type::constant:
-      break;
+    case Type::patch: return optics::colorchecker_patch(reflectance.patch);
+    case Type::table: return optics::reflectance_table(reflectance.table);
+    case Type::constant: break;
     }
     return optics::constant_spectrum(reflectance.value);
   });
 }
 
-Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder, const Place& where,
-                       std::vector<std::string>& warnings)
-{
+Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder,
+                       const Place& where, std::vector<std::string>& warnings) {
   Material result;
   result.name = name;
   result.type = material.type;

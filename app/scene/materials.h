@@ -10,14 +10,14 @@
 namespace nephroid::scene {
 
 /// The preset's words for it, which knows nothing of optics, are the same in the same order.
-inline optics::Extrapolation outside_policy(preset::Extrapolation outside)
-{
-  static_assert(int(optics::Extrapolation::hold) == int(preset::Extrapolation::hold) && int(optics::Extrapolation::refuse) == int(preset::Extrapolation::refuse));
+inline optics::Extrapolation outside_policy(preset::Extrapolation outside) {
+  static_assert(int(optics::Extrapolation::hold) == int(preset::Extrapolation::hold) &&
+                int(optics::Extrapolation::refuse) == int(preset::Extrapolation::refuse));
   return static_cast<optics::Extrapolation>(outside);
 }
 
-/// The file of a preset's dispersion data: found as other files are, or a shipped material by its short name ("N-SF66"), which means
-/// the same from every folder.
+/// The file of a preset's dispersion data: found as other files are, or a shipped material by its short name
+/// ("N-SF66"), which means the same from every folder.
 std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Place& where);
 
 /// where (all four): the field's FILE#/json/pointer. They throw bad_input there with the reason that optics gives.
@@ -27,7 +27,7 @@ optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, cons
 /// Each value in 0..1.
 optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Place& where);
 /// where: the material's. Adds a warning where n is wanted outside the data's range.
-Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder, const Place& where,
-                       std::vector<std::string>& warnings);
+Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder,
+                       const Place& where, std::vector<std::string>& warnings);
 
 } // namespace nephroid::scene

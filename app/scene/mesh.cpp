@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks and repairs of triangle meshes; ellipsoids. All sums are in double: positions are floats, so products of two of their differences
-// are exact or nearly so.
+// Checks and repairs of triangle meshes; ellipsoids. All sums are in double: positions are floats, so products of two
+// of their differences are exact or nearly so.
 #include "scene/mesh.h"
 
 #include "scene/mesh_parts.h"
@@ -21,31 +21,28 @@ struct VertexKey {
 };
 
 struct VertexHash {
-  std::size_t operator()(const VertexKey& key) const
-  {
-    std::uint64_t hash = 0xcbf29ce484222325u; // FNV-1a over words, then the finaliser of MurmurHash3 to spread the high bits
+  std::size_t operator()(const VertexKey& key) const {
+    std::uint64_t hash =
+        0xcbf29ce484222325u; // FNV-1a over words, then the finaliser of MurmurHash3 to spread the high bits
     for (std::uint32_t word : key.bits) hash = (hash ^ word) * 0x100000001b3u;
     hash = (hash ^ (hash >> 33)) * 0xff51afd7ed558ccdu;
     return hash ^ (hash >> 33);
   }
 };
 
-std::array<glm::dvec3, 3> corners(const Mesh& mesh, const glm::uvec3& triangle)
-{
+std::array<glm::dvec3, 3> corners(const Mesh& mesh, const glm::uvec3& triangle) {
   return {mesh.positions[triangle.x], mesh.positions[triangle.y], mesh.positions[triangle.z]};
 }
 
 /// The triangle's joined corners, turned so that the lowest comes first: equal for triangles that face the same way.
-std::array<std::uint32_t, 3> canonical(const glm::uvec3& triangle, const std::vector<std::uint32_t>& joined)
-{
+std::array<std::uint32_t, 3> canonical(const glm::uvec3& triangle, const std::vector<std::uint32_t>& joined) {
   std::array<std::uint32_t, 3> key{joined[triangle.x], joined[triangle.y], joined[triangle.z]};
   std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
   return key;
 }
 
 /// True for each triangle that equals an earlier one.
-std::vector<char> find_duplicates(const Mesh& mesh, const std::vector<std::uint32_t>& joined)
-{
+std::vector<char> find_duplicates(const Mesh& mesh, const std::vector<std::uint32_t>& joined) {
   struct Entry {
     std::array<std::uint32_t, 3> key;
     std::uint32_t triangle;
@@ -60,11 +57,11 @@ std::vector<char> find_duplicates(const Mesh& mesh, const std::vector<std::uint3
   return duplicate;
 }
 
-/// Every directed edge as low << 33 | high << 1 | (runs from high to low): sorted, the uses of an edge lie side by side.
-/// Joined indices stay below 2^31 because max_triangles does. A triangle with two equal corners closes nothing and is left out; a
-/// sliver with three different ones does close the surface between its neighbours.
-std::vector<std::uint64_t> directed_edges(const Mesh& mesh, const std::vector<std::uint32_t>& joined, const std::vector<char>& duplicate)
-{
+/// Every directed edge as low << 33 | high << 1 | (runs from high to low): sorted, the uses of an edge lie side by
+/// side. Joined indices stay below 2^31 because max_triangles does. A triangle with two equal corners closes nothing
+/// and is left out; a sliver with three different ones does close the surface between its neighbours.
+std::vector<std::uint64_t> directed_edges(const Mesh& mesh, const std::vector<std::uint32_t>& joined,
+                                          const std::vector<char>& duplicate) {
   std::vector<std::uint64_t> edges;
   edges.reserve(3 * mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -79,8 +76,7 @@ std::vector<std::uint64_t> directed_edges(const Mesh& mesh, const std::vector<st
   return edges;
 }
 
-void count_edges(const std::vector<std::uint64_t>& edges, MeshReport& report)
-{
+void count_edges(const std::vector<std::uint64_t>& edges, MeshReport& report) {
   for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
     while (end < edges.size() && edges[end] >> 1 == edges[begin] >> 1) ++end;
     if (end - begin == 1)
@@ -90,22 +86,20 @@ void count_edges(const std::vector<std::uint64_t>& edges, MeshReport& report)
   }
 }
 
-/// Six times the tetrahedron's volume; summed over a closed surface it does not depend on `apex`, but its rounding does.
-double six_volumes(const Mesh& mesh, const glm::uvec3& triangle, const glm::dvec3& apex)
-{
+/// Six times the tetrahedron's volume; summed over a closed surface it does not depend on `apex`, but its rounding
+/// does.
+double six_volumes(const Mesh& mesh, const glm::uvec3& triangle, const glm::dvec3& apex) {
   const auto [a, b, c] = corners(mesh, triangle);
   return glm::dot(a - apex, glm::cross(b - apex, c - apex));
 }
 
-std::array<double, 3> lengths(const Ellipsoid& ellipsoid)
-{
+std::array<double, 3> lengths(const Ellipsoid& ellipsoid) {
   std::array<double, 3> result{};
   for (std::size_t i = 0; i < 3; ++i) result[i] = glm::length(glm::dvec3(ellipsoid.half_axes[i]));
   return result;
 }
 
-glm::dvec3 on_unit_sphere(const Ellipsoid& ellipsoid, const glm::dvec3& point)
-{
+glm::dvec3 on_unit_sphere(const Ellipsoid& ellipsoid, const glm::dvec3& point) {
   const auto rows = to_unit_sphere(ellipsoid);
   const glm::dvec3 way = point - glm::dvec3(ellipsoid.centre);
   return {glm::dot(rows[0], way), glm::dot(rows[1], way), glm::dot(rows[2], way)};
@@ -113,15 +107,13 @@ glm::dvec3 on_unit_sphere(const Ellipsoid& ellipsoid, const glm::dvec3& point)
 
 } // namespace
 
-bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle)
-{
+bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle) {
   const auto [a, b, c] = corners(mesh, triangle);
   const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
   return !(glm::length(glm::cross(b - a, c - a)) > 0x1p-24 * longest * longest);
 }
 
-std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, bool compare_normals)
-{
+std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, bool compare_normals) {
   std::unordered_map<VertexKey, std::uint32_t, VertexHash> first;
   first.reserve(mesh.positions.size());
   std::vector<std::uint32_t> result(mesh.positions.size());
@@ -129,15 +121,15 @@ std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, bool compare_nor
     VertexKey key;
     for (int axis = 0; axis < 3; ++axis) {
       key.bits[axis] = std::bit_cast<std::uint32_t>(mesh.positions[i][axis] + 0.0f); // -0 becomes 0
-      if (compare_normals && !mesh.normals.empty()) key.bits[3 + axis] = std::bit_cast<std::uint32_t>(mesh.normals[i][axis] + 0.0f);
+      if (compare_normals && !mesh.normals.empty())
+        key.bits[3 + axis] = std::bit_cast<std::uint32_t>(mesh.normals[i][axis] + 0.0f);
     }
     result[i] = first.try_emplace(key, i).first->second;
   }
   return result;
 }
 
-std::vector<glm::vec3> mean_normals(const Mesh& mesh, const std::vector<std::uint32_t>& same)
-{
+std::vector<glm::vec3> mean_normals(const Mesh& mesh, const std::vector<std::uint32_t>& same) {
   std::vector<glm::dvec3> sums(mesh.positions.size());
   for (const glm::uvec3& triangle : mesh.triangles) {
     if (is_degenerate(mesh, triangle)) continue;
@@ -151,13 +143,13 @@ std::vector<glm::vec3> mean_normals(const Mesh& mesh, const std::vector<std::uin
   std::vector<glm::vec3> means(sums.size());
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const double length = glm::length(sums[same[i]]);
-    if (length > 1e-9) means[i] = glm::vec3(sums[same[i]] / length); // shorter: triangles back to back, with no mean direction
+    if (length > 1e-9)
+      means[i] = glm::vec3(sums[same[i]] / length); // shorter: triangles back to back, with no mean direction
   }
   return means;
 }
 
-MeshReport inspect(const Mesh& mesh)
-{
+MeshReport inspect(const Mesh& mesh) {
   const std::vector<std::uint32_t> joined = first_equal_vertex(mesh, false);
   const std::vector<char> duplicate = find_duplicates(mesh, joined);
   MeshReport report;
@@ -175,8 +167,7 @@ MeshReport inspect(const Mesh& mesh)
   return report;
 }
 
-void drop_useless(Mesh& mesh)
-{
+void drop_useless(Mesh& mesh) {
   const std::vector<char> duplicate = find_duplicates(mesh, first_equal_vertex(mesh, false));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -184,19 +175,17 @@ void drop_useless(Mesh& mesh)
   mesh.triangles.resize(kept);
 }
 
-void turn_round(Mesh& mesh)
-{
+void turn_round(Mesh& mesh) {
   for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
   for (glm::vec3& normal : mesh.normals) normal = -normal;
   for (Ellipsoid& ellipsoid : mesh.ellipsoids) ellipsoid.inwards = !ellipsoid.inwards;
 }
 
-void compute_smooth_normals(Mesh& mesh)
-{
+void compute_smooth_normals(Mesh& mesh) {
   const std::vector<std::uint32_t> joined = first_equal_vertex(mesh, false);
   mesh.normals = mean_normals(mesh, joined);
-  // Where the mean has no direction (a sheet with two sides) each vertex takes a normal of its own triangles; a vertex without
-  // any triangle gets +y, so that every normal is a unit vector.
+  // Where the mean has no direction (a sheet with two sides) each vertex takes a normal of its own triangles; a vertex
+  // without any triangle gets +y, so that every normal is a unit vector.
   for (const glm::uvec3& triangle : mesh.triangles) {
     for (int i = 0; i < 3; ++i) {
       glm::vec3& normal = mesh.normals[triangle[i]];
@@ -209,8 +198,7 @@ void compute_smooth_normals(Mesh& mesh)
     if (normal == glm::vec3(0)) normal = {0, 1, 0};
 }
 
-double winding_number(const Mesh& mesh, std::uint32_t first_triangle, std::uint32_t count, const glm::dvec3& p)
-{
+double winding_number(const Mesh& mesh, std::uint32_t first_triangle, std::uint32_t count, const glm::dvec3& p) {
   double half_solid_angles = 0;
   for (std::uint32_t i = first_triangle; i < first_triangle + count; ++i) {
     auto [a, b, c] = corners(mesh, mesh.triangles[i]);
@@ -223,16 +211,14 @@ double winding_number(const Mesh& mesh, std::uint32_t first_triangle, std::uint3
   return half_solid_angles / (2 * std::numbers::pi);
 }
 
-double signed_volume(const Mesh& mesh, std::uint32_t first_triangle, std::uint32_t count)
-{
+double signed_volume(const Mesh& mesh, std::uint32_t first_triangle, std::uint32_t count) {
   double sum = 0;
   for (std::uint32_t i = first_triangle; i < first_triangle + count; ++i)
     sum += six_volumes(mesh, mesh.triangles[i], mesh.positions[mesh.triangles[first_triangle].x]);
   return sum / 6;
 }
 
-std::array<glm::dvec3, 3> to_unit_sphere(const Ellipsoid& ellipsoid)
-{
+std::array<glm::dvec3, 3> to_unit_sphere(const Ellipsoid& ellipsoid) {
   std::array<glm::dvec3, 3> rows{};
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec3 axis = ellipsoid.half_axes[i];
@@ -241,11 +227,13 @@ std::array<glm::dvec3, 3> to_unit_sphere(const Ellipsoid& ellipsoid)
   return rows;
 }
 
-bool contains(const Ellipsoid& ellipsoid, const glm::dvec3& point) { return glm::length(on_unit_sphere(ellipsoid, point)) < 1; }
+bool contains(const Ellipsoid& ellipsoid, const glm::dvec3& point) {
+  return glm::length(on_unit_sphere(ellipsoid, point)) < 1;
+}
 
-glm::dvec3 half_extent(const Ellipsoid& ellipsoid)
-{
-  // The support function: the largest coordinate of sum of u_i a_i over unit vectors u is the length of the a_i's coordinates.
+glm::dvec3 half_extent(const Ellipsoid& ellipsoid) {
+  // The support function: the largest coordinate of sum of u_i a_i over unit vectors u is the length of the a_i's
+  // coordinates.
   glm::dvec3 squares(0);
   for (const glm::dvec3 axis : ellipsoid.half_axes) squares += axis * axis;
   return glm::sqrt(squares);
@@ -254,31 +242,29 @@ glm::dvec3 half_extent(const Ellipsoid& ellipsoid)
 double longest_half_axis(const Ellipsoid& ellipsoid) { return std::ranges::max(lengths(ellipsoid)); }
 double shortest_half_axis(const Ellipsoid& ellipsoid) { return std::ranges::min(lengths(ellipsoid)); }
 
-double volume_of(const Ellipsoid& ellipsoid)
-{
+double volume_of(const Ellipsoid& ellipsoid) {
   const auto [a, b, c] = lengths(ellipsoid);
   return 4 * std::numbers::pi / 3 * a * b * c;
 }
 
 // The gradient of |M (p - c)|^2 is 2 M^T M (p - c).
-glm::dvec3 normal_at(const Ellipsoid& ellipsoid, const glm::dvec3& point)
-{
+glm::dvec3 normal_at(const Ellipsoid& ellipsoid, const glm::dvec3& point) {
   const auto rows = to_unit_sphere(ellipsoid);
   const glm::dvec3 unit = on_unit_sphere(ellipsoid, point);
   const glm::dvec3 outwards = glm::normalize(unit.x * rows[0] + unit.y * rows[1] + unit.z * rows[2]);
   return ellipsoid.inwards ? -outwards : outwards;
 }
 
-std::vector<glm::vec3> extreme_points(const Mesh& mesh)
-{
+std::vector<glm::vec3> extreme_points(const Mesh& mesh) {
   std::vector<glm::vec3> points = mesh.positions;
   for (const Ellipsoid& ellipsoid : mesh.ellipsoids)
-    for (const float side : {-1.0f, 1.0f}) points.push_back(ellipsoid.centre + side * glm::vec3(half_extent(ellipsoid)));
+    for (const float side : {-1.0f, 1.0f})
+      points.push_back(ellipsoid.centre + side * glm::vec3(half_extent(ellipsoid)));
   return points;
 }
 
-Sphere enclosing_sphere(const Mesh& mesh, std::span<const glm::uvec3> triangles, std::span<const Ellipsoid> ellipsoids)
-{
+Sphere enclosing_sphere(const Mesh& mesh, std::span<const glm::uvec3> triangles,
+                        std::span<const Ellipsoid> ellipsoids) {
   glm::vec3 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
   for (const glm::uvec3& triangle : triangles)
     for (int i = 0; i < 3; ++i) {
@@ -296,7 +282,8 @@ Sphere enclosing_sphere(const Mesh& mesh, std::span<const glm::uvec3> triangles,
     for (int i = 0; i < 3; ++i)
       radius = std::max(radius, glm::distance(glm::dvec3(mesh.positions[triangle[i]]), glm::dvec3(sphere.centre)));
   for (const Ellipsoid& ellipsoid : ellipsoids)
-    radius = std::max(radius, glm::distance(glm::dvec3(ellipsoid.centre), glm::dvec3(sphere.centre)) + longest_half_axis(ellipsoid));
+    radius = std::max(radius, glm::distance(glm::dvec3(ellipsoid.centre), glm::dvec3(sphere.centre)) +
+                                  longest_half_axis(ellipsoid));
   sphere.radius = std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::max());
   return sphere;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mesh files, read by a small program of its own (reader/main.cpp), which may crash, hang or run out of memory over them. Nothing that it
-// answers is believed before it was looked at: a file that corrupts its memory makes it say anything.
+// Mesh files, read by a small program of its own (reader/main.cpp), which may crash, hang or run out of memory over
+// them. Nothing that it answers is believed before it was looked at: a file that corrupts its memory makes it say
+// anything.
 #include "base/files.h"
 #include "base/hashed_bytes.h"
 #include "scene/mesh_parts.h"
@@ -29,13 +30,13 @@ constexpr const char* formats = "a triangle mesh as OBJ, PLY, STL, glTF or 3DS";
 class Reader {
 public:
   /// Throws failed where it is not installed, or the system has no process or pipe left.
-  Reader(const std::filesystem::path& file, unsigned cpu_seconds, std::size_t memory_bytes)
-  {
+  Reader(const std::filesystem::path& file, unsigned cpu_seconds, std::size_t memory_bytes) {
     const std::string program = library_file("nephroid_mesh_reader").string();
     std::array<std::string, 4> words{program, file.string(), std::to_string(cpu_seconds), std::to_string(memory_bytes)};
     std::array<char*, 5> arguments{words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
     std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw failed("pipe", std::strerror(errno), {}, "close some programs or files");
+    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+      throw failed("pipe", std::strerror(errno), {}, "close some programs or files");
     answer_.reset(fdopen(ends[0], "rb"));
     posix_spawn_file_actions_t streams;
     posix_spawn_file_actions_init(&streams);
@@ -45,11 +46,11 @@ public:
     posix_spawn_file_actions_destroy(&streams);
     close(ends[1]);
     if (reason != 0)
-      throw failed(program, fmt::format("cannot be started: {}", std::strerror(reason)), {}, "build or install Nephroid again");
+      throw failed(program, fmt::format("cannot be started: {}", std::strerror(reason)), {},
+                   "build or install Nephroid again");
   }
 
-  ~Reader()
-  {
+  ~Reader() {
     if (id_ < 0) return;
     end();
     wait();
@@ -62,8 +63,7 @@ public:
   void end() const { kill(id_, SIGKILL); }
 
   /// Waits for its end; the status as waitpid gives it.
-  int wait()
-  {
+  int wait() {
     answer_.reset();
     int status = 0;
     while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
@@ -81,8 +81,7 @@ private:
 };
 
 /// Why the reader did not end well, as the rest of a sentence.
-std::string reason_of_death(int status, unsigned cpu_seconds)
-{
+std::string reason_of_death(int status, unsigned cpu_seconds) {
   if (!WIFSIGNALED(status)) return "ended early";
   const int signal = WTERMSIG(status);
   if (signal == SIGXCPU) return fmt::format("did not end within {} s of processor time", cpu_seconds);
@@ -91,8 +90,7 @@ std::string reason_of_death(int status, unsigned cpu_seconds)
 }
 
 /// The mesh as the reader program has it. Throws std::runtime_error with the reason why there is none.
-Mesh ask_reader(Reader& reader, unsigned cpu_seconds, const std::stop_token& stop)
-{
+Mesh ask_reader(Reader& reader, unsigned cpu_seconds, const std::stop_token& stop) {
   std::optional<MeshAnswer> answer = [&] {
     const std::stop_callback end(stop, [&reader] { reader.end(); });
     return take_answer(reader.answer());
@@ -102,13 +100,14 @@ Mesh ask_reader(Reader& reader, unsigned cpu_seconds, const std::stop_token& sto
   return mesh_of(std::move(*answer));
 }
 
-[[noreturn]] void refuse(const std::string& what) { throw std::runtime_error("the program that reads it answers nonsense: " + what); }
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::runtime_error("the program that reads it answers nonsense: " + what);
+}
 
-/// Fills `items` with the answer's next ones; false where it ends before them. Memory grows with what comes, not with what is promised.
-/// Refuses more than `most`.
+/// Fills `items` with the answer's next ones; false where it ends before them. Memory grows with what comes, not with
+/// what is promised. Refuses more than `most`.
 template <class Items>
-bool take_items(std::FILE* from, Items& items, std::uint64_t most)
-{
+bool take_items(std::FILE* from, Items& items, std::uint64_t most) {
   std::uint64_t count = 0;
   if (std::fread(&count, sizeof count, 1, from) != 1) return false;
   if (count > most) refuse(fmt::format("{} items where {} are the most", count, most));
@@ -129,26 +128,25 @@ struct CachedMesh {
   std::shared_ptr<const Mesh> mesh;
 };
 
-std::uint64_t bytes_of(const Mesh& mesh)
-{
-  return mesh.positions.size() * sizeof(glm::vec3) + mesh.normals.size() * sizeof(glm::vec3) + mesh.triangles.size() * sizeof(glm::uvec3);
+std::uint64_t bytes_of(const Mesh& mesh) {
+  return mesh.positions.size() * sizeof(glm::vec3) + mesh.normals.size() * sizeof(glm::vec3) +
+         mesh.triangles.size() * sizeof(glm::uvec3);
 }
 
 } // namespace
 
-std::optional<MeshAnswer> take_answer(std::FILE* from)
-{
+std::optional<MeshAnswer> take_answer(std::FILE* from) {
   constexpr std::uint64_t longest_refusal = 1 << 20;
   MeshAnswer answer;
   Mesh& mesh = answer.mesh;
-  const bool whole = take_items(from, answer.refusal, longest_refusal) && take_items(from, mesh.positions, 3 * max_triangles) &&
-                     take_items(from, mesh.normals, 3 * max_triangles) && take_items(from, mesh.triangles, max_triangles) &&
-                     take_items(from, answer.mended, 1);
+  const bool whole = take_items(from, answer.refusal, longest_refusal) &&
+                     take_items(from, mesh.positions, 3 * max_triangles) &&
+                     take_items(from, mesh.normals, 3 * max_triangles) &&
+                     take_items(from, mesh.triangles, max_triangles) && take_items(from, answer.mended, 1);
   return whole ? std::optional(std::move(answer)) : std::nullopt;
 }
 
-Mesh mesh_of(MeshAnswer answer)
-{
+Mesh mesh_of(MeshAnswer answer) {
   if (!answer.refusal.empty()) throw std::runtime_error(answer.refusal);
   if (answer.mended.empty()) refuse("no count of mended normals");
   Mesh mesh = std::move(answer.mesh);
@@ -156,19 +154,20 @@ Mesh mesh_of(MeshAnswer answer)
   const std::size_t vertices = mesh.positions.size();
   if (!mesh.normals.empty() && mesh.normals.size() != vertices)
     refuse(fmt::format("{} normals of {} vertices", mesh.normals.size(), vertices));
-  if (mesh.mended_normals > mesh.normals.size()) refuse(fmt::format("{} mended normals of {}", mesh.mended_normals, mesh.normals.size()));
+  if (mesh.mended_normals > mesh.normals.size())
+    refuse(fmt::format("{} mended normals of {}", mesh.mended_normals, mesh.normals.size()));
   for (const glm::vec3& p : mesh.positions)
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) refuse("a coordinate that is not finite");
   for (const glm::vec3& normal : mesh.normals)
     if (!(std::abs(glm::dot(normal, normal) - 1) < 1e-3f)) refuse("a normal that is no unit vector");
   for (const glm::uvec3& triangle : mesh.triangles)
     for (int corner = 0; corner < 3; ++corner)
-      if (triangle[corner] >= vertices) refuse(fmt::format("a triangle with vertex {} of {}", triangle[corner], vertices));
+      if (triangle[corner] >= vertices)
+        refuse(fmt::format("a triangle with vertex {} of {}", triangle[corner], vertices));
   return mesh;
 }
 
-Mesh load_mesh(const std::filesystem::path& file, const std::stop_token& stop)
-{
+Mesh load_mesh(const std::filesystem::path& file, const std::stop_token& stop) {
   const Place where = file.string();
   std::size_t size = 0;
   {
@@ -185,19 +184,22 @@ Mesh load_mesh(const std::filesystem::path& file, const std::stop_token& stop)
       return ask_reader(reader, cpu_seconds, stop);
     } catch (const std::runtime_error& refusal) {
       if (stop.stop_requested()) throw Error(ErrorKind::interrupted, where, "interrupted while the mesh was read");
-      throw bad_input(where, "the mesh cannot be read: " + printable(refusal.what()), formats, "check the file in another program");
+      throw bad_input(where, "the mesh cannot be read: " + printable(refusal.what()), formats,
+                      "check the file in another program");
     }
   }();
   if (std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
                   [&mesh](const glm::uvec3& triangle) { return is_degenerate(mesh, triangle); }))
-    throw bad_input(where, mesh.triangles.empty() ? "the mesh has no triangles" : "no triangle of the mesh has an area", formats);
+    throw bad_input(where, mesh.triangles.empty() ? "the mesh has no triangles" : "no triangle of the mesh has an area",
+                    formats);
   return mesh;
 }
 
-bool has_further_files(const std::filesystem::path& file) { return file.extension() == ".gltf" || file.extension() == ".GLTF"; }
+bool has_further_files(const std::filesystem::path& file) {
+  return file.extension() == ".gltf" || file.extension() == ".GLTF";
+}
 
-std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file, const Watch& watch)
-{
+std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file, const Watch& watch) {
   watch.begin("reading " + file.filename().string());
   static std::mutex mutex;
   static std::list<CachedMesh> all; // the last used first
@@ -220,14 +222,13 @@ std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file, co
   return wanted.mesh;
 }
 
-void write_ply(const Mesh& mesh, ByteSink& to, std::string_view comment)
-{
+void write_ply(const Mesh& mesh, ByteSink& to, std::string_view comment) {
   const bool with_normals = !mesh.normals.empty();
-  const std::string head =
-      fmt::format("ply\nformat binary_little_endian 1.0\n{}element vertex {}\nproperty float x\nproperty float y\n"
-                  "property float z\n{}element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-                  comment.empty() ? std::string() : fmt::format("comment {}\n", comment), mesh.positions.size(),
-                  with_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "", mesh.triangles.size());
+  const std::string head = fmt::format(
+      "ply\nformat binary_little_endian 1.0\n{}element vertex {}\nproperty float x\nproperty float y\n"
+      "property float z\n{}element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+      comment.empty() ? std::string() : fmt::format("comment {}\n", comment), mesh.positions.size(),
+      with_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "", mesh.triangles.size());
   to.write(std::as_bytes(std::span(head)));
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     to.write(std::as_bytes(std::span(&mesh.positions[i], 1)));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What checks of meshes (mesh.cpp), mesh files (mesh_file.cpp) and their reader (reader/main.cpp) share. Private to scene/.
+// What checks of meshes (mesh.cpp), mesh files (mesh_file.cpp) and their reader (reader/main.cpp) share. Private to
+// scene/.
 #pragma once
 #include "base/place.h"
 #include "scene/mesh.h"
@@ -11,19 +12,20 @@ namespace nephroid::scene {
 /// The reader may take so many times its limit of processor time, where what a file names never answers: a pipe, say.
 inline constexpr unsigned mesh_reader_patience = 5;
 
-/// For each vertex the first vertex with exactly the same position (0 and -0 are the same), or with the same position and normal.
+/// For each vertex the first vertex with exactly the same position (0 and -0 are the same), or with the same position
+/// and normal.
 std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, bool compare_normals);
 
 /// Without an area that single precision can tell from 0: see drop_useless().
 bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle);
 
-/// The angle-weighted mean normal of the triangles at each vertex, unit; vertices with the same entry in `same` share one mean.
-/// (0, 0, 0) where no triangle with an area meets.
+/// The angle-weighted mean normal of the triangles at each vertex, unit; vertices with the same entry in `same` share
+/// one mean. (0, 0, 0) where no triangle with an area meets.
 std::vector<glm::vec3> mean_normals(const Mesh& mesh, const std::vector<std::uint32_t>& same);
 
-/// Assimp takes what is missing from a PLY file for zeros, and reserves memory for whatever a PLY or GLB header promises, so both are
-/// counted before it sees them (mesh_check.cpp). Throws bad_input at `where` if bytes open like a PLY or GLB file and end before what their
-/// header declares, or if the header makes no sense. Other files pass.
+/// Assimp takes what is missing from a PLY file for zeros, and reserves memory for whatever a PLY or GLB header
+/// promises, so both are counted before it sees them (mesh_check.cpp). Throws bad_input at `where` if bytes open like a
+/// PLY or GLB file and end before what their header declares, or if the header makes no sense. Other files pass.
 void check_declared_size(std::string_view bytes, const Place& where);
 
 /// What the reader's program answers (reader/main.cpp), not yet looked at.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects of a loaded scene that move: glass away from what it stands exactly on, and all to where another preset has them.
+// Objects of a loaded scene that move: glass away from what it stands exactly on, and all to where another preset has
+// them.
 #include "scene/move.h"
 
 #include "scene/camera_and_lights.h"
@@ -13,21 +14,20 @@
 namespace nephroid::scene {
 namespace {
 
-/// Of the largest coordinate of the two objects. Rays start 2^-21 of a triangle's coordinates off it (kernels/tracing/surface.h), so this
-/// is several times what either side's rays step over.
+/// Of the largest coordinate of the two objects. Rays start 2^-21 of a triangle's coordinates off it
+/// (kernels/tracing/surface.h), so this is several times what either side's rays step over.
 constexpr double gap_share = 0x1p-18, touching_share = 0x1p-21;
 
-double largest_coordinate(const Bounds& a, const Bounds& b)
-{
+double largest_coordinate(const Bounds& a, const Bounds& b) {
   double largest = 0;
   for (int k = 0; k < 3; ++k)
     largest = std::max({largest, std::abs(a.low[k]), std::abs(a.high[k]), std::abs(b.low[k]), std::abs(b.high[k])});
   return largest;
 }
 
-/// The axis along which a face of `glass` lies in a face of the other's bounds, while they overlap along the other two; -1: none.
-int touching_axis(const Bounds& glass, const Bounds& other, double tolerance)
-{
+/// The axis along which a face of `glass` lies in a face of the other's bounds, while they overlap along the other two;
+/// -1: none.
+int touching_axis(const Bounds& glass, const Bounds& other, double tolerance) {
   for (int k = 0; k < 3; ++k) {
     bool meets = true;
     for (int j = 0; j < 3; ++j)
@@ -40,10 +40,10 @@ int touching_axis(const Bounds& glass, const Bounds& other, double tolerance)
   return -1;
 }
 
-/// Calls change(index) for every vertex of the object. Those that its triangles use follow each other and are its own (scene.cpp).
+/// Calls change(index) for every vertex of the object. Those that its triangles use follow each other and are its own
+/// (scene.cpp).
 template <class Change>
-void change_vertices(const Scene& scene, const Object& object, const Change& change)
-{
+void change_vertices(const Scene& scene, const Object& object, const Change& change) {
   std::uint32_t first = ~0u, end = 0;
   for_each_corner_index(scene, object, [&](std::uint32_t vertex) {
     first = std::min(first, vertex);
@@ -53,45 +53,49 @@ void change_vertices(const Scene& scene, const Object& object, const Change& cha
 }
 
 /// An ellipsoid meets what it touches in one point, where nothing is lost; only two of them can lie in one place.
-bool can_coincide(const Object& a, const Bounds& at_a, const Object& b, const Bounds& at_b, double tolerance)
-{
+bool can_coincide(const Object& a, const Bounds& at_a, const Object& b, const Bounds& at_b, double tolerance) {
   if (a.ellipsoid_count + b.ellipsoid_count == 0) return true;
   bool same = a.ellipsoid_count == b.ellipsoid_count;
   for (int k = 0; k < 3; ++k)
-    same = same && std::abs(at_a.low[k] - at_b.low[k]) <= tolerance && std::abs(at_a.high[k] - at_b.high[k]) <= tolerance;
+    same =
+        same && std::abs(at_a.low[k] - at_b.low[k]) <= tolerance && std::abs(at_a.high[k] - at_b.high[k]) <= tolerance;
   return same;
 }
 
-/// Leaves a gap between the glass and what it touches across the axis: moves every face of it that lies across inwards, or, where it is too
-/// thin for that, all of it away from the other's face.
-void part(Scene& scene, const Object& glass, const Bounds& bounds, const Bounds& other, int axis, double gap)
-{
-  const double middle = 0.5 * (bounds.low[axis] + bounds.high[axis]), half = 0.5 * (bounds.high[axis] - bounds.low[axis]);
-  const auto distance_of = [&](double face) { return std::min(std::abs(face - other.low[axis]), std::abs(face - other.high[axis])); };
-  for (Ellipsoid& ellipsoid : std::span(scene.geometry.ellipsoids).subspan(glass.first_ellipsoid, glass.ellipsoid_count))
+/// Leaves a gap between the glass and what it touches across the axis: moves every face of it that lies across inwards,
+/// or, where it is too thin for that, all of it away from the other's face.
+void part(Scene& scene, const Object& glass, const Bounds& bounds, const Bounds& other, int axis, double gap) {
+  const double middle = 0.5 * (bounds.low[axis] + bounds.high[axis]),
+               half = 0.5 * (bounds.high[axis] - bounds.low[axis]);
+  const auto distance_of = [&](double face) {
+    return std::min(std::abs(face - other.low[axis]), std::abs(face - other.high[axis]));
+  };
+  for (Ellipsoid& ellipsoid :
+       std::span(scene.geometry.ellipsoids).subspan(glass.first_ellipsoid, glass.ellipsoid_count))
     for (glm::vec3& half_axis : ellipsoid.half_axes) half_axis *= static_cast<float>(1 - std::min(gap / half, 0.125));
   if (glass.triangle_count == 0) return;
   const double away = distance_of(bounds.low[axis]) < distance_of(bounds.high[axis]) ? gap : -gap;
   change_vertices(scene, glass, [&](std::uint32_t vertex) {
     const double at = scene.geometry.positions[vertex][axis];
-    scene.geometry.positions[vertex][axis] = static_cast<float>(half >= 8 * gap ? middle + (at - middle) * (1 - gap / half) : at + away);
+    scene.geometry.positions[vertex][axis] =
+        static_cast<float>(half >= 8 * gap ? middle + (at - middle) * (1 - gap / half) : at + away);
   });
 }
 
-std::string label(const Scene& scene, std::size_t object)
-{
-  return scene.objects[object].name.empty() ? fmt::format("object {}", object) : fmt::format("object '{}'", scene.objects[object].name);
+std::string label(const Scene& scene, std::size_t object) {
+  return scene.objects[object].name.empty() ? fmt::format("object {}", object)
+                                            : fmt::format("object '{}'", scene.objects[object].name);
 }
 
 /// Moved away from one thing onto another: there is no room for it.
-void warn_if_between(Scene& scene, const std::vector<Bounds>& bounds, std::size_t i)
-{
+void warn_if_between(Scene& scene, const std::vector<Bounds>& bounds, std::size_t i) {
   for (std::size_t j = 0; j < scene.objects.size(); ++j)
     if (i != j && scene.objects[i].ellipsoid_count + scene.objects[j].ellipsoid_count == 0 &&
         touching_axis(bounds[i], bounds[j], touching_share * largest_coordinate(bounds[i], bounds[j])) >= 0)
-      scene.warnings.push_back(fmt::format("{} lies exactly on {} and is too thin to be parted from it: light may be lost between them; "
-                                           "move it, make it thicker, or let them overlap",
-                                           label(scene, i), label(scene, j)));
+      scene.warnings.push_back(
+          fmt::format("{} lies exactly on {} and is too thin to be parted from it: light may be lost between them; "
+                      "move it, make it thicker, or let them overlap",
+                      label(scene, i), label(scene, j)));
 }
 
 /// In the scene's coordinates.
@@ -102,16 +106,15 @@ struct Motion {
   glm::vec3 operator()(const glm::vec3& p) const { return turn * glm::dvec3(p) + shift; }
 };
 
-Motion motion(const preset::Transform& before, const preset::Transform& now, const glm::dvec3& origin)
-{
+Motion motion(const preset::Transform& before, const preset::Transform& now, const glm::dvec3& origin) {
   const glm::dmat3 turn = rotation(now.rotate_deg) * glm::transpose(rotation(before.rotate_deg));
   return {turn, turn * (origin - to_dvec3(before.translate)) + to_dvec3(now.translate) - origin};
 }
 
 /// A turn moves nothing of a sphere.
-void move_ellipsoids(Scene& scene, const Object& object, const Motion& move)
-{
-  for (Ellipsoid& ellipsoid : std::span(scene.geometry.ellipsoids).subspan(object.first_ellipsoid, object.ellipsoid_count)) {
+void move_ellipsoids(Scene& scene, const Object& object, const Motion& move) {
+  for (Ellipsoid& ellipsoid :
+       std::span(scene.geometry.ellipsoids).subspan(object.first_ellipsoid, object.ellipsoid_count)) {
     ellipsoid.centre = move(ellipsoid.centre);
     const double longest = longest_half_axis(ellipsoid);
     if (longest - shortest_half_axis(ellipsoid) > 0x1p-20 * longest)
@@ -121,8 +124,7 @@ void move_ellipsoids(Scene& scene, const Object& object, const Motion& move)
 
 } // namespace
 
-void part_touching(Scene& scene)
-{
+void part_touching(Scene& scene) {
   std::vector<Bounds> bounds;
   for (const Object& object : scene.objects) bounds.push_back(bounds_of(scene, object));
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -135,15 +137,14 @@ void part_touching(Scene& scene)
       part(scene, scene.objects[i], bounds[i], bounds[j], axis, gap_share * largest);
       bounds[i] = bounds_of(scene, scene.objects[i]);
       scene.warnings.push_back(
-          fmt::format("{} touches {}: a gap of {:.2g} length units is left between them; let them overlap to have none", label(scene, i),
-                      label(scene, j), gap_share * largest));
+          fmt::format("{} touches {}: a gap of {:.2g} length units is left between them; let them overlap to have none",
+                      label(scene, i), label(scene, j), gap_share * largest));
     }
     warn_if_between(scene, bounds, i);
   }
 }
 
-std::optional<Scene> move_objects(const Scene& loaded, const preset::Preset& before, const preset::Preset& now)
-{
+std::optional<Scene> move_objects(const Scene& loaded, const preset::Preset& before, const preset::Preset& now) {
   Scene scene = loaded;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const preset::Transform &from = before.scene.objects[i].transform, &to = now.scene.objects[i].transform;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One object's mesh into the scene: transformed in double, moved to the scene's origin, rounded once, then checked. Private to scene/.
+// One object's mesh into the scene: transformed in double, moved to the scene's origin, rounded once, then checked.
+// Private to scene/.
 #pragma once
 #include "base/place.h"
 #include "preset/preset.h"
@@ -36,7 +37,8 @@ Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Place& 
 
 /// origin: the scene's, in the preset's coordinates. dielectric: closedness and orientation matter then.
 /// Throws bad_input at where: too large, too small or too far away for single precision.
-PlacedMesh place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric, const Place& where);
+PlacedMesh place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric,
+                 const Place& where);
 
 /// How far objects reach, in units, from the middle of the scene's coordinates.
 double scene_radius(const Scene& scene);

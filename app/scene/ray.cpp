@@ -18,8 +18,7 @@ struct StackEntry {
 
 class Ray {
 public:
-  Ray(const glm::dvec3& origin, const glm::dvec3& direction) : origin_(origin), direction_(direction)
-  {
+  Ray(const glm::dvec3& origin, const glm::dvec3& direction) : origin_(origin), direction_(direction) {
     const glm::dvec3 a = glm::abs(direction);
     kz_ = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
     kx_ = (kz_ + 1) % 3;
@@ -32,12 +31,12 @@ public:
   }
 
   /// Where the ray enters child i of a node, if it does before t_max; boxes are grown by more than rounding (bvh.cpp).
-  bool enters(const float* node, std::size_t i, double t_max, double& entry) const
-  {
+  bool enters(const float* node, std::size_t i, double t_max, double& entry) const {
     double first = 0, last = t_max;
     for (int axis = 0; axis < 3; ++axis) {
       const float* bounds = node + 16 * static_cast<std::size_t>(axis) + i;
-      const double low = (bounds[0] - origin_[axis]) * inverse_[axis], high = (bounds[8] - origin_[axis]) * inverse_[axis];
+      const double low = (bounds[0] - origin_[axis]) * inverse_[axis],
+                   high = (bounds[8] - origin_[axis]) * inverse_[axis];
       first = std::max(first, inverse_[axis] < 0 ? high : low);
       last = std::min(last, inverse_[axis] < 0 ? low : high);
     }
@@ -45,11 +44,10 @@ public:
     return first <= last;
   }
 
-  /// Distance of triangle i of a block, not above 0 where the ray does not hit it. The triangle is sheared so that the ray becomes the z
-  /// axis; it is hit where the three edge functions have one sign (Woop, Benthin and Wald 2013). Two triangles compute their common edge
-  /// from the same numbers.
-  double distance(const float* block, std::size_t i) const
-  {
+  /// Distance of triangle i of a block, not above 0 where the ray does not hit it. The triangle is sheared so that the
+  /// ray becomes the z axis; it is hit where the three edge functions have one sign (Woop, Benthin and Wald 2013). Two
+  /// triangles compute their common edge from the same numbers.
+  double distance(const float* block, std::size_t i) const {
     const glm::dvec3 a = sheared(block, 0, i), b = sheared(block, 1, i), c = sheared(block, 2, i);
     const double ea = c.x * b.y - c.y * b.x, eb = a.x * c.y - a.y * c.x, ec = b.x * a.y - b.y * a.x;
     const double det = ea + eb + ec;
@@ -59,8 +57,7 @@ public:
   }
 
   /// Distance of an ellipsoid, not above 0 where the ray does not hit it; see bvh_ellipsoid in kernels/tracing/bvh.h.
-  double distance_of_ellipsoid(const float* data, bool leaves) const
-  {
+  double distance_of_ellipsoid(const float* data, bool leaves) const {
     const glm::dvec3 to = origin_ - vector(data);
     const double way = -glm::dot(to, direction_) / glm::dot(direction_, direction_);
     const glm::dvec3 nearest = on_unit_sphere(data, to + way * direction_), along = on_unit_sphere(data, direction_);
@@ -75,13 +72,11 @@ public:
 
 private:
   static glm::dvec3 vector(const float* data) { return {data[0], data[1], data[2]}; }
-  static glm::dvec3 on_unit_sphere(const float* data, const glm::dvec3& p)
-  {
+  static glm::dvec3 on_unit_sphere(const float* data, const glm::dvec3& p) {
     return {glm::dot(vector(data + 3), p), glm::dot(vector(data + 6), p), glm::dot(vector(data + 9), p)};
   }
 
-  glm::dvec3 sheared(const float* block, std::size_t corner, std::size_t i) const
-  {
+  glm::dvec3 sheared(const float* block, std::size_t corner, std::size_t i) const {
     const auto along = [&](int axis) {
       return block[(3 * corner + static_cast<std::size_t>(axis)) * triangles_per_block + i] - origin_[axis];
     };
@@ -102,16 +97,14 @@ struct Search {
   std::optional<RayHit> hit;
 
   double farthest() const { return hit ? hit->t : t_max; }
-  void offer(double t, std::uint32_t primitive)
-  {
+  void offer(double t, std::uint32_t primitive) {
     if (!(t > 0 && t <= farthest())) return;
     if (hit && t == hit->t && primitive >= hit->primitive) return;
     if (!counts || counts(primitive)) hit = {t, primitive};
   }
 };
 
-void test_leaf(const Bvh& bvh, int leaf, const Ray& ray, Search& search)
-{
+void test_leaf(const Bvh& bvh, int leaf, const Ray& ray, Search& search) {
   const float* block = bvh.blocks.data() + static_cast<std::size_t>(~leaf >> 4) * floats_per_block;
   const auto number_of = [](const float* at) {
     std::uint32_t primitive = 0;
@@ -132,8 +125,7 @@ void test_leaf(const Bvh& bvh, int leaf, const Ray& ray, Search& search)
 }
 
 /// The children that the ray enters, the nearest on top.
-void push_children(const float* node, const Ray& ray, double t_max, std::vector<StackEntry>& waiting)
-{
+void push_children(const float* node, const Ray& ray, double t_max, std::vector<StackEntry>& waiting) {
   const std::size_t bottom = waiting.size();
   for (std::size_t i = 0; i < children_per_node; ++i) {
     StackEntry next;
@@ -147,9 +139,8 @@ void push_children(const float* node, const Ray& ray, double t_max, std::vector<
 
 } // namespace
 
-std::optional<RayHit> closest_hit(const Bvh& bvh, const glm::dvec3& origin, const glm::dvec3& direction, const CountsPrimitive& counts,
-                                  double t_max, std::uint32_t leaves)
-{
+std::optional<RayHit> closest_hit(const Bvh& bvh, const glm::dvec3& origin, const glm::dvec3& direction,
+                                  const CountsPrimitive& counts, double t_max, std::uint32_t leaves) {
   const Ray ray(origin, direction);
   Search search{counts, t_max, leaves, std::nullopt};
   std::vector<StackEntry> waiting{{0, bvh.root}};
@@ -160,13 +151,13 @@ std::optional<RayHit> closest_hit(const Bvh& bvh, const glm::dvec3& origin, cons
     if (next.child < 0)
       test_leaf(bvh, next.child, ray, search);
     else
-      push_children(bvh.nodes.data() + static_cast<std::size_t>(next.child) * floats_per_node, ray, search.farthest(), waiting);
+      push_children(bvh.nodes.data() + static_cast<std::size_t>(next.child) * floats_per_node, ray, search.farthest(),
+                    waiting);
   }
   return search.hit;
 }
 
-glm::dvec3 even_direction(int i, int count, double turns)
-{
+glm::dvec3 even_direction(int i, int count, double turns) {
   constexpr double pi = std::numbers::pi, golden_angle = pi * 0.7639320225002103; // pi (3 - sqrt 5)
   const double z = 1 - (2 * i + 1.0) / count, phi = i * golden_angle + 2 * pi * turns, r = std::sqrt(1 - z * z);
   return {r * std::cos(phi), r * std::sin(phi), z};

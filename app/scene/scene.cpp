@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts the scene together: materials, then objects in place, then the lights and the camera, which need to know the objects.
+// Puts the scene together: materials, then objects in place, then the lights and the camera, which need to know the
+// objects.
 #include "scene/scene.h"
 
 #include "scene/camera_and_lights.h"
@@ -17,14 +18,14 @@
 namespace nephroid::scene {
 namespace {
 
-void check_names(const std::vector<preset::Object>& objects, const Place& where)
-{
+void check_names(const std::vector<preset::Object>& objects, const Place& where) {
   std::map<std::string, std::size_t> first;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (objects[i].name.empty()) continue;
     const auto [entry, added] = first.try_emplace(objects[i].name, i);
     if (!added)
-      throw bad_input(where / i / "name", fmt::format("'{}' is also object {}", objects[i].name, entry->second), "a name of its own");
+      throw bad_input(where / i / "name", fmt::format("'{}' is also object {}", objects[i].name, entry->second),
+                      "a name of its own");
   }
 }
 
@@ -32,8 +33,7 @@ void check_names(const std::vector<preset::Object>& objects, const Place& where)
 class Meshes {
 public:
   Meshes(const FileFinder& finder, const Watch& watch) : finder_(finder), watch_(watch) {}
-  std::shared_ptr<const Mesh> get(const std::string& name, const Place& where)
-  {
+  std::shared_ptr<const Mesh> get(const std::string& name, const Place& where) {
     const std::filesystem::path file = finder_.find(name, where);
     auto found = meshes_.find(file);
     if (found == meshes_.end()) found = meshes_.emplace(file, load_mesh_once(file, watch_)).first;
@@ -46,8 +46,7 @@ private:
   std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
 };
 
-std::shared_ptr<const Mesh> object_mesh(const preset::Object& object, Meshes& meshes, const Place& where)
-{
+std::shared_ptr<const Mesh> object_mesh(const preset::Object& object, Meshes& meshes, const Place& where) {
   if (object.mesh) return meshes.get(*object.mesh, where / "mesh");
   return std::make_shared<const Mesh>(make_shape(*object.shape));
 }
@@ -61,8 +60,7 @@ struct Pending {
 };
 
 /// The middle of what bends light, or of everything where nothing does.
-glm::dvec3 choose_origin(const std::vector<Pending>& pending, const Scene& scene, const preset::Camera& camera)
-{
+glm::dvec3 choose_origin(const std::vector<Pending>& pending, const Scene& scene, const preset::Camera& camera) {
   std::optional<Bounds> bending, all;
   for (const Pending& object : pending) {
     const Bounds bounds = placed_bounds(*object.mesh, object.placement, object.where);
@@ -74,8 +72,7 @@ glm::dvec3 choose_origin(const std::vector<Pending>& pending, const Scene& scene
   return all ? 0.5 * all->low + 0.5 * all->high : to_dvec3(camera.target);
 }
 
-void append(Scene& scene, const Mesh& mesh)
-{
+void append(Scene& scene, const Mesh& mesh) {
   Mesh& all = scene.geometry;
   const auto first = static_cast<std::uint32_t>(all.positions.size());
   all.positions.insert(all.positions.end(), mesh.positions.begin(), mesh.positions.end());
@@ -84,29 +81,30 @@ void append(Scene& scene, const Mesh& mesh)
   all.ellipsoids.insert(all.ellipsoids.end(), mesh.ellipsoids.begin(), mesh.ellipsoids.end());
 }
 
-void number_primitives(Scene& scene)
-{
+void number_primitives(Scene& scene) {
   for (const auto count : {&Object::triangle_count, &Object::ellipsoid_count})
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
       scene.object_of_primitive.insert(scene.object_of_primitive.end(), scene.objects[i].*count, i);
 }
 
 /// damaged: what the preset wants done about it. Throws bad_input at the object where that is `refuse`.
-void tell_damages(Scene& scene, const std::vector<Damage>& damages, preset::Scene::DamagedMeshes damaged, const std::string& label,
-                  const Place& where)
-{
+void tell_damages(Scene& scene, const std::vector<Damage>& damages, preset::Scene::DamagedMeshes damaged,
+                  const std::string& label, const Place& where) {
   for (const Damage& damage : damages) {
     const std::string what = fmt::format("{}: {}", label, damage.what);
     if (damaged == preset::Scene::DamagedMeshes::refuse)
-      throw bad_input(where, what, "expected a closed mesh that faces outwards", "mend it, or set scene.damaged_meshes to \"report\"");
+      throw bad_input(where, what, "expected a closed mesh that faces outwards",
+                      "mend it, or set scene.damaged_meshes to \"report\"");
     scene.warnings.push_back(damage.done.empty() ? what : what + "; " + damage.done);
   }
 }
 
-void add_object(Scene& scene, const preset::Object& object, const Pending& pending, preset::Scene::DamagedMeshes damaged)
-{
-  const std::string label = object.name.empty() ? fmt::format("object {}", scene.objects.size()) : fmt::format("object '{}'", object.name);
-  const bool dielectric = scene.materials[static_cast<std::size_t>(pending.material)].type == Material::Type::dielectric;
+void add_object(Scene& scene, const preset::Object& object, const Pending& pending,
+                preset::Scene::DamagedMeshes damaged) {
+  const std::string label =
+      object.name.empty() ? fmt::format("object {}", scene.objects.size()) : fmt::format("object '{}'", object.name);
+  const bool dielectric =
+      scene.materials[static_cast<std::size_t>(pending.material)].type == Material::Type::dielectric;
   PlacedMesh placed = place(*pending.mesh, pending.placement, scene.origin, dielectric, pending.where);
   for (const std::string& warning : placed.warnings) scene.warnings.push_back(fmt::format("{}: {}", label, warning));
   tell_damages(scene, placed.damages, damaged, label, pending.where);
@@ -128,33 +126,31 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
   scene.objects.push_back(result);
 }
 
-/// A rectangle that reaches through a surface has points inside and outside; its photons all start in what is around its centre.
-void warn_if_straddling(Scene& scene, const Light& light, std::size_t index)
-{
+/// A rectangle that reaches through a surface has points inside and outside; its photons all start in what is around
+/// its centre.
+void warn_if_straddling(Scene& scene, const Light& light, std::size_t index) {
   if (light.type != preset::Light::Type::area) return;
   for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)}) {
     const glm::vec3 p = light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v);
     if (dielectrics_around(scene, p) == light.inside) continue;
-    scene.warnings.push_back(
-        fmt::format("light {}: reaches through the surface of a dielectric; its rays start in what is around its centre", index));
+    scene.warnings.push_back(fmt::format(
+        "light {}: reaches through the surface of a dielectric; its rays start in what is around its centre", index));
     return;
   }
 }
 
 /// Places on a rectangle are drawn uniformly. Of one much larger than the scene hardly any is near enough to matter.
-void warn_if_wide(Scene& scene, const Light& light, std::size_t index)
-{
+void warn_if_wide(Scene& scene, const Light& light, std::size_t index) {
   const double size = std::max(glm::length(light.edge_u), glm::length(light.edge_v)), radius = scene_radius(scene);
   if (light.type == preset::Light::Type::area && radius > 0 && size > 50 * radius)
-    scene.warnings.push_back(
-        fmt::format("light {}: is {:.3g} times as wide as the scene: nearly all of its samples are too far away to matter, "
-                    "and the picture is dark but for rare bright dots; make it smaller, or take directional light",
-                    index, size / (2 * radius)));
+    scene.warnings.push_back(fmt::format(
+        "light {}: is {:.3g} times as wide as the scene: nearly all of its samples are too far away to matter, "
+        "and the picture is dark but for rare bright dots; make it smaller, or take directional light",
+        index, size / (2 * radius)));
 }
 
 /// W/m^2 at the scene's radius, or in a spot's cone there.
-double typical_irradiance(const Scene& scene, const Light& light)
-{
+double typical_irradiance(const Scene& scene, const Light& light) {
   if (light.type == preset::Light::Type::directional) return light.irradiance_w_m2;
   const double metres = scene_radius(scene) * scene.metres_per_unit;
   const double half_angle_share = light.type == preset::Light::Type::spot ? (1 - light.cos_half_angle) / 2 : 1;
@@ -162,31 +158,29 @@ double typical_irradiance(const Scene& scene, const Light& light)
 }
 
 /// Films hold some 2^40 between the strongest and the weakest light that is to be seen without noise of their own.
-void warn_of_faint_lights(Scene& scene)
-{
+void warn_of_faint_lights(Scene& scene) {
   double strongest = 0;
   for (const Light& light : scene.lights) strongest = std::max(strongest, typical_irradiance(scene, light));
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const double share = typical_irradiance(scene, scene.lights[i]) / strongest;
     if (share > 0 && share < 0x1p-30)
-      scene.warnings.push_back(
-          fmt::format("{}: is {:.2g} of the strongest light, less than the film's numbers resolve: what it lights alone is "
-                      "noise; render it in a run of its own",
-                      is_environment(scene.lights[i]) ? "environment" : fmt::format("light {}", i), share));
+      scene.warnings.push_back(fmt::format(
+          "{}: is {:.2g} of the strongest light, less than the film's numbers resolve: what it lights alone is "
+          "noise; render it in a run of its own",
+          is_environment(scene.lights[i]) ? "environment" : fmt::format("light {}", i), share));
   }
 }
 
 } // namespace
 
-double scene_radius(const Scene& scene)
-{
+double scene_radius(const Scene& scene) {
   double radius = 0;
-  for (const Object& object : scene.objects) radius = std::max<double>(radius, glm::length(object.bounds.centre) + object.bounds.radius);
+  for (const Object& object : scene.objects)
+    radius = std::max<double>(radius, glm::length(object.bounds.centre) + object.bounds.radius);
   return radius;
 }
 
-std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p)
-{
+std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p) {
   std::vector<std::pair<double, int>> found;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
@@ -206,8 +200,7 @@ std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p)
   return result;
 }
 
-Scene load_scene(const preset::Preset& preset, const Watch& watch)
-{
+Scene load_scene(const preset::Preset& preset, const Watch& watch) {
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   const Place where = Place(preset.source) / "scene";
   Scene scene;
@@ -222,7 +215,8 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch)
   for (std::size_t i = 0; i < preset.scene.objects.size(); ++i) {
     const preset::Object& object = preset.scene.objects[i];
     const Place object_where = where / "objects" / i;
-    const auto material = std::ranges::find(scene.materials, object.material, &Material::name) - scene.materials.begin();
+    const auto material =
+        std::ranges::find(scene.materials, object.material, &Material::name) - scene.materials.begin();
     const Placement placement = make_placement(object.transform);
     pending.push_back({object_mesh(object, meshes, object_where), placement, static_cast<int>(material), object_where});
   }
@@ -248,8 +242,7 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch)
   return scene;
 }
 
-std::span<const glm::uvec3> triangles_of(const Scene& scene, const Object& object)
-{
+std::span<const glm::uvec3> triangles_of(const Scene& scene, const Object& object) {
   const std::span<const glm::uvec3> all = scene.geometry.triangles;
   if (object.first_triangle > all.size() || object.triangle_count > all.size() - object.first_triangle)
     throw failed(scene.source, fmt::format("object '{}' has triangles that the scene does not hold", object.name),
@@ -258,8 +251,7 @@ std::span<const glm::uvec3> triangles_of(const Scene& scene, const Object& objec
   return all.subspan(object.first_triangle, object.triangle_count);
 }
 
-std::span<const Ellipsoid> ellipsoids_of(const Scene& scene, const Object& object)
-{
+std::span<const Ellipsoid> ellipsoids_of(const Scene& scene, const Object& object) {
   const std::span<const Ellipsoid> all = scene.geometry.ellipsoids;
   if (object.first_ellipsoid + object.ellipsoid_count > all.size())
     throw failed(scene.source, fmt::format("object '{}' has ellipsoids that the scene does not hold", object.name));
@@ -268,14 +260,12 @@ std::span<const Ellipsoid> ellipsoids_of(const Scene& scene, const Object& objec
 
 Bounds enclosing(const Bounds& a, const Bounds& b) { return {glm::min(a.low, b.low), glm::max(a.high, b.high)}; }
 
-Bounds bounds_of(const Ellipsoid& ellipsoid)
-{
+Bounds bounds_of(const Ellipsoid& ellipsoid) {
   const glm::dvec3 centre = ellipsoid.centre, half = half_extent(ellipsoid);
   return {centre - half, centre + half};
 }
 
-Bounds bounds_of(const Scene& scene, const Object& object)
-{
+Bounds bounds_of(const Scene& scene, const Object& object) {
   Bounds bounds;
   for_each_corner_index(scene, object, [&](std::uint32_t vertex) {
     const glm::dvec3 corner = scene.geometry.positions[vertex];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loaded scene: what a preset's scene section becomes once every file is read and checked. Host side only, no OpenCL.
-// Positions are in the preset's unit, moved so that the caustic objects are at the origin (see Scene::origin), which keeps
-// single precision good far from the preset's own origin.
+// The loaded scene: what a preset's scene section becomes once every file is read and checked. Host side only, no
+// OpenCL. Positions are in the preset's unit, moved so that the caustic objects are at the origin (see Scene::origin),
+// which keeps single precision good far from the preset's own origin.
 #pragma once
 #include "base/place.h"
 #include "optics/wavelength.h"
@@ -42,7 +42,7 @@ struct Object {
   std::uint32_t first_triangle = 0, triangle_count = 0;
   std::uint32_t first_ellipsoid = 0, ellipsoid_count = 0; ///< of Scene::geometry
   Sphere bounds;                                          ///< encloses all of it
-  bool closed = true;                                     ///< every edge is shared by exactly two triangles of opposite direction
+  bool closed = true; ///< every edge is shared by exactly two triangles of opposite direction
 };
 
 struct Light {
@@ -55,8 +55,9 @@ struct Light {
   double irradiance_w_m2 = 0;     ///< directional
   optics::Spectrum spectrum{};    ///< sums to 1
   std::vector<int> inside;        ///< dielectric objects that contain it, outermost first
-  /// Of the environment, which is directional light of many directions and colours (environment.h): what a photon's red, green and
-  /// blue part each carry at every wavelength; `spectrum` is what photons are allocated by. Empty of a lamp.
+  /// Of the environment, which is directional light of many directions and colours (environment.h): what a photon's
+  /// red, green and blue part each carry at every wavelength; `spectrum` is what photons are allocated by. Empty of a
+  /// lamp.
   std::vector<optics::Spectrum> primaries;
 
   bool operator==(const Light&) const = default;
@@ -74,7 +75,8 @@ struct Camera {
   double tan_x = 1, tan_y = 1;
   int width = 0, height = 0;
   std::vector<int> inside; ///< dielectric objects that contain it, outermost first
-  int receiver = -1;       ///< a flat object: only the light on it is seen, through whatever stands before it (formats/export/receiver.h)
+  int receiver = -1;       ///< a flat object: only the light on it is seen, through whatever stands before it
+                           ///< (formats/export/receiver.h)
 
   std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
@@ -88,29 +90,30 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<Light> lights; ///< of the preset; after them the environment, where it is one
   std::optional<Environment> environment;
-  Mesh geometry;                                  ///< every object's triangles, one after the other; normals for every vertex
+  Mesh geometry; ///< every object's triangles, one after the other; normals for every vertex
   std::vector<std::uint32_t> object_of_primitive; ///< of the triangles, then of the ellipsoids
-  std::vector<std::string> warnings;              ///< one line each: open meshes, dropped triangles, extrapolated dispersion
+  std::vector<std::string> warnings; ///< one line each: open meshes, dropped triangles, extrapolated dispersion
 };
 
 inline bool is_empty(const Object& object) { return object.triangle_count + object.ellipsoid_count == 0; }
 
-inline const Material& material_of(const Scene& scene, const Object& object)
-{
+inline const Material& material_of(const Scene& scene, const Object& object) {
   return scene.materials[static_cast<std::size_t>(object.material)];
 }
 
-/// Reads every file and checks every reference. A scene without lights or objects is legal: the plan says what is left out then.
-/// Triangles are turned so that a mirroring transform (a negative scale) keeps them outwards; triangles without
-/// area and duplicates are dropped with a warning. A dielectric that is inside out, or has holes, is told of in a warning (the former
-/// is turned round) or refused, as Scene::damaged_meshes of the preset says.
-/// Throws bad_input at FILE#/pointer or at the mesh file, interrupted where `watch` asks for it.
+/// Reads every file and checks every reference. A scene without lights or objects is legal: the plan says what is left
+/// out then. Triangles are turned so that a mirroring transform (a negative scale) keeps them outwards; triangles
+/// without area and duplicates are dropped with a warning. A dielectric that is inside out, or has holes, is told of in
+/// a warning (the former is turned round) or refused, as Scene::damaged_meshes of the preset says. Throws bad_input at
+/// FILE#/pointer or at the mesh file, interrupted where `watch` asks for it.
 Scene load_scene(const preset::Preset& preset, const Watch& watch = {});
 
-/// Directional light of all directions together: its irradiance is that on a sphere, over the area of the sphere's shadow.
+/// Directional light of all directions together: its irradiance is that on a sphere, over the area of the sphere's
+/// shadow.
 Light make_environment_light(const Environment& environment);
 
-/// The dielectric objects that contain p (scene coordinates), largest volume first: where they are nested, outermost first.
+/// The dielectric objects that contain p (scene coordinates), largest volume first: where they are nested, outermost
+/// first.
 std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p);
 
 /// Throws failed where the scene does not hold them: a scene of materials and objects alone has no geometry.
@@ -121,22 +124,22 @@ std::span<const Ellipsoid> ellipsoids_of(const Scene& scene, const Object& objec
 
 /// Calls visit(index of a vertex) for every corner of every triangle. Throws as triangles_of.
 template <class Visit>
-void for_each_corner_index(const Scene& scene, const Object& object, const Visit& visit)
-{
+void for_each_corner_index(const Scene& scene, const Object& object, const Visit& visit) {
   for (const glm::uvec3& triangle : triangles_of(scene, object))
     for (int corner = 0; corner < 3; ++corner) visit(triangle[corner]);
 }
 
-/// Calls visit(glm::dvec3) for every corner of every triangle, and of a box about every ellipsoid along its axes: points whose convex hull
-/// holds all of the object. In the scene's coordinates. Throws as triangles_of.
+/// Calls visit(glm::dvec3) for every corner of every triangle, and of a box about every ellipsoid along its axes:
+/// points whose convex hull holds all of the object. In the scene's coordinates. Throws as triangles_of.
 template <class Visit>
-void for_each_corner(const Scene& scene, const Object& object, const Visit& visit)
-{
-  for_each_corner_index(scene, object, [&](std::uint32_t vertex) { visit(glm::dvec3(scene.geometry.positions[vertex])); });
+void for_each_corner(const Scene& scene, const Object& object, const Visit& visit) {
+  for_each_corner_index(scene, object,
+                        [&](std::uint32_t vertex) { visit(glm::dvec3(scene.geometry.positions[vertex])); });
   for (const Ellipsoid& ellipsoid : ellipsoids_of(scene, object))
     for (unsigned i = 0; i < 8; ++i) {
       glm::dvec3 corner = ellipsoid.centre;
-      for (unsigned axis = 0; axis < 3; ++axis) corner += (i >> axis & 1 ? 1.0 : -1.0) * glm::dvec3(ellipsoid.half_axes[axis]);
+      for (unsigned axis = 0; axis < 3; ++axis)
+        corner += (i >> axis & 1 ? 1.0 : -1.0) * glm::dvec3(ellipsoid.half_axes[axis]);
       visit(corner);
     }
 }

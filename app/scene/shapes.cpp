@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes from their closed forms, in double until the last step. around(angle) runs from +x towards -z: counter-clockwise seen
-// from above, so sides and caps face outwards when their corners are taken in rising order.
+// Shapes from their closed forms, in double until the last step. around(angle) runs from +x towards -z:
+// counter-clockwise seen from above, so sides and caps face outwards when their corners are taken in rising order.
 #include "scene/shapes.h"
 
 #include <array>
@@ -11,8 +11,7 @@ namespace nephroid::scene {
 namespace {
 
 /// Adds a flat convex polygon, counter-clockwise seen from outside, as a fan with vertices and one normal of its own.
-void add_facet(Mesh& mesh, std::span<const glm::dvec3> corners)
-{
+void add_facet(Mesh& mesh, std::span<const glm::dvec3> corners) {
   // Newell's sum: the polygon's area vector, whichever corners lie close together.
   glm::dvec3 area(0);
   for (std::size_t i = 0; i < corners.size(); ++i) area += glm::cross(corners[i], corners[(i + 1) % corners.size()]);
@@ -26,16 +25,14 @@ void add_facet(Mesh& mesh, std::span<const glm::dvec3> corners)
 
 using Quad = std::array<glm::dvec3, 4>;
 
-Mesh make_quad(double x, double z)
-{
+Mesh make_quad(double x, double z) {
   Mesh mesh;
   add_facet(mesh, Quad{{{-x / 2, 0, -z / 2}, {-x / 2, 0, z / 2}, {x / 2, 0, z / 2}, {x / 2, 0, -z / 2}}});
   return mesh;
 }
 
 /// A prism along y over a convex polygon in the plane y = 0 that runs counter-clockwise seen from above.
-Mesh extrude(std::span<const glm::dvec3> outline, double height)
-{
+Mesh extrude(std::span<const glm::dvec3> outline, double height) {
   const glm::dvec3 up(0, height / 2, 0);
   std::vector<glm::dvec3> top, bottom;
   for (const glm::dvec3& corner : outline) {
@@ -52,27 +49,25 @@ Mesh extrude(std::span<const glm::dvec3> outline, double height)
   return mesh;
 }
 
-Mesh make_box(const preset::Vec3& size)
-{
+Mesh make_box(const preset::Vec3& size) {
   const double x = size[0] / 2, z = size[2] / 2;
   return extrude(Quad{{{x, 0, -z}, {-x, 0, -z}, {-x, 0, z}, {x, 0, z}}}, size[1]);
 }
 
-Mesh make_prism(double apex_deg, double side, double height)
-{
+Mesh make_prism(double apex_deg, double side, double height) {
   const double half_apex = apex_deg / 2 * std::numbers::pi / 180;
   const double half_base = side * std::sin(half_apex), half_depth = side * std::cos(half_apex) / 2;
-  return extrude(std::array<glm::dvec3, 3>{{{0, 0, half_depth}, {half_base, 0, -half_depth}, {-half_base, 0, -half_depth}}}, height);
+  return extrude(
+      std::array<glm::dvec3, 3>{{{0, 0, half_depth}, {half_base, 0, -half_depth}, {-half_base, 0, -half_depth}}},
+      height);
 }
 
-glm::dvec3 around(int step, int steps)
-{
+glm::dvec3 around(int step, int steps) {
   const double angle = 2 * std::numbers::pi * step / steps;
   return {std::cos(angle), 0, -std::sin(angle)};
 }
 
-Mesh make_cylinder(double radius, double height, int segments)
-{
+Mesh make_cylinder(double radius, double height, int segments) {
   const glm::dvec3 up(0, height / 2, 0);
   std::vector<glm::dvec3> top, bottom;
   for (int i = 0; i < segments; ++i) top.push_back(radius * around(i, segments) + up);
@@ -95,17 +90,16 @@ Mesh make_cylinder(double radius, double height, int segments)
   return mesh;
 }
 
-Mesh make_sphere(float radius)
-{
+Mesh make_sphere(float radius) {
   Mesh mesh;
   mesh.ellipsoids.push_back({glm::vec3(0), {{{radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}, false});
   return mesh;
 }
 
-// The round brilliant cut with 57 facets: table, 8 stars, 8 bezels, 16 upper girdle, 16 lower girdle, 8 pavilion mains; pointed
-// culet. The two angles and the table are Tolkowsky's (Diamond Design, 1919); star and lower-girdle lengths are common today
-// (Gemological Institute of America, "Estimating a round brilliant's cut grade"). The girdle is a prism of 16 flat sides, so
-// that the upper and lower girdle facets end in straight edges.
+// The round brilliant cut with 57 facets: table, 8 stars, 8 bezels, 16 upper girdle, 16 lower girdle, 8 pavilion mains;
+// pointed culet. The two angles and the table are Tolkowsky's (Diamond Design, 1919); star and lower-girdle lengths are
+// common today (Gemological Institute of America, "Estimating a round brilliant's cut grade"). The girdle is a prism of
+// 16 flat sides, so that the upper and lower girdle facets end in straight edges.
 constexpr double radians = std::numbers::pi / 180;
 constexpr double crown_angle = 34.5 * radians;
 constexpr double pavilion_angle = 40.75 * radians;
@@ -115,20 +109,19 @@ constexpr double lower_girdle = 0.8;   ///< horizontal length over the way from 
 constexpr double girdle_height = 0.06; ///< over the radius: 3 % of the diameter
 
 /// A point at `step` times 22.5 degrees around the axis; the same bits again after a whole turn.
-glm::dvec3 around_stone(int step, double radius, double y)
-{
+glm::dvec3 around_stone(int step, double radius, double y) {
   const double angle = (step + 16) % 16 * 22.5 * radians;
   return {radius * std::cos(angle), y, -radius * std::sin(angle)};
 }
 
-/// Height over the girdle at `radius` and 22.5 degrees beside the middle of a facet that starts at radius 1 with `slope`:
-/// where the facet meets its neighbour, which lies 45 degrees on.
+/// Height over the girdle at `radius` and 22.5 degrees beside the middle of a facet that starts at radius 1 with
+/// `slope`: where the facet meets its neighbour, which lies 45 degrees on.
 double height_between(double radius, double slope) { return (1 - radius * std::cos(22.5 * radians)) * std::tan(slope); }
 
-Mesh make_brilliant()
-{
-  // Heights over the girdle's middle. The bezel (kite) facet rises from a girdle corner to a table corner; two neighbours meet in
-  // a line on which the star's tip lies. The pavilion mains fall from the girdle's corners to the culet in the same way.
+Mesh make_brilliant() {
+  // Heights over the girdle's middle. The bezel (kite) facet rises from a girdle corner to a table corner; two
+  // neighbours meet in a line on which the star's tip lies. The pavilion mains fall from the girdle's corners to the
+  // culet in the same way.
   const double top = girdle_height / 2, bottom = -girdle_height / 2;
   const double table_y = top + (1 - table) * std::tan(crown_angle);
   const double culet_y = bottom - std::tan(pavilion_angle);
@@ -161,24 +154,19 @@ Mesh make_brilliant()
     add_facet(mesh, Triangle{half_tip(step + 1), lower(step + 1), lower(step)});
     add_facet(mesh, Triangle{half_tip(step + 1), lower(step + 2), lower(step + 1)});
   }
-  for (int step = 0; step < 16; ++step) add_facet(mesh, Kite{upper(step), lower(step), lower(step + 1), upper(step + 1)});
+  for (int step = 0; step < 16; ++step)
+    add_facet(mesh, Kite{upper(step), lower(step), lower(step + 1), upper(step + 1)});
   return mesh;
 }
 
-Mesh make_outward(const preset::Shape& shape)
-{
+Mesh make_outward(const preset::Shape& shape) {
   switch (shape.type) {
-  case preset::Shape::Type::quad:
-    return make_quad(shape.size[0], shape.size[2]);
+  case preset::Shape::Type::quad: return make_quad(shape.size[0], shape.size[2]);
   case preset::Shape::Type::box:
-  case preset::Shape::Type::plate:
-    return make_box(shape.size);
-  case preset::Shape::Type::sphere:
-    return make_sphere(static_cast<float>(shape.radius));
-  case preset::Shape::Type::cylinder:
-    return make_cylinder(shape.radius, shape.height, shape.segments);
-  case preset::Shape::Type::prism:
-    return make_prism(shape.apex_deg, shape.side, shape.height);
+  case preset::Shape::Type::plate: return make_box(shape.size);
+  case preset::Shape::Type::sphere: return make_sphere(static_cast<float>(shape.radius));
+  case preset::Shape::Type::cylinder: return make_cylinder(shape.radius, shape.height, shape.segments);
+  case preset::Shape::Type::prism: return make_prism(shape.apex_deg, shape.side, shape.height);
   case preset::Shape::Type::brilliant: {
     Mesh mesh = make_brilliant();
     for (glm::vec3& position : mesh.positions) position *= static_cast<float>(shape.radius);
@@ -190,8 +178,7 @@ Mesh make_outward(const preset::Shape& shape)
 
 } // namespace
 
-Mesh make_shape(const preset::Shape& shape)
-{
+Mesh make_shape(const preset::Shape& shape) {
   Mesh mesh = make_outward(shape);
   if (shape.inwards) turn_round(mesh);
   return mesh;

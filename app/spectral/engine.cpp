@@ -8,11 +8,10 @@
 namespace nephroid::spectral {
 namespace {
 
-/// Every wavelength on its own, in steps of 1 nm whatever the run's are, and paths at least as long as by default. What changes no
-/// expected value (the threshold, photons a pass, what is left out) is the default's, so that runs that differ in it alone share a
-/// reference.
-photons::Settings brute_force(const photons::Settings& settings)
-{
+/// Every wavelength on its own, in steps of 1 nm whatever the run's are, and paths at least as long as by default. What
+/// changes no expected value (the threshold, photons a pass, what is left out) is the default's, so that runs that
+/// differ in it alone share a reference.
+photons::Settings brute_force(const photons::Settings& settings) {
   photons::Settings exact;
   exact.method = photons::Settings::Method::brute_force;
   exact.step_nm = 1;
@@ -26,8 +25,7 @@ photons::Settings brute_force(const photons::Settings& settings)
   return exact;
 }
 
-preset::Settings reference(const preset::Preset& preset, int passes)
-{
+preset::Settings reference(const preset::Preset& preset, int passes) {
   const auto& recipe = preset.reference->settings;
   preset::Settings settings = recipe ? *recipe : preset.settings;
   photons::Settings& s = settings.as<photons::Settings>();
@@ -38,8 +36,7 @@ preset::Settings reference(const preset::Preset& preset, int passes)
   return settings;
 }
 
-std::vector<check::Check> closed_forms()
-{
+std::vector<check::Check> closed_forms() {
   std::vector<check::Check> checks;
   for (const auto subject : {check::table_checks, check::radiometry_checks, check::refraction_checks})
     for (check::Check& check : subject()) checks.push_back(std::move(check));
@@ -48,7 +45,8 @@ std::vector<check::Check> closed_forms()
 
 // Cauchy's formula with the two terms that fit N-BK7: the scene needs no file.
 constexpr const char* new_scene = R"({
-  "name": "untitled", "description": "A glass sphere on a floor under a lamp", "engine": "spectral", "unit": "cm", "white": 6,
+  "name": "untitled", "description": "A glass sphere on a floor under a lamp", "engine": "spectral",
+  "unit": "cm", "white": 6,
   "scene": {
     "camera": {"position": [2, 5, 8], "target": [0.6, 0.4, 0], "fov_deg": 36, "resolution": [512, 512]},
     "materials": {
@@ -57,7 +55,8 @@ constexpr const char* new_scene = R"({
     },
     "objects": [
       {"name": "floor", "shape": {"type": "quad", "size": [24, 1, 24]}, "material": "floor"},
-      {"name": "sphere", "shape": {"type": "sphere", "radius": 1}, "material": "glass", "transform": {"translate": [0, 1.5, 0]}}
+      {"name": "sphere", "shape": {"type": "sphere", "radius": 1}, "material": "glass",
+       "transform": {"translate": [0, 1.5, 0]}}
     ],
     "lights": [{"type": "point", "spectrum": "D65", "power_w": 10, "position": [-4, 6, -2]}]
   },
@@ -69,9 +68,8 @@ constexpr const char* new_scene = R"({
 constinit const engine::Engine engine{
     .settings = settings_type,
     .state_version = 11,
-    .plan = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) -> std::unique_ptr<plan::Plan> {
-      return std::make_unique<photons::RunPlan>(make_plan(preset, scene, bvh));
-    },
+    .plan = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
+        -> std::unique_ptr<plan::Plan> { return std::make_unique<photons::RunPlan>(make_plan(preset, scene, bvh)); },
     .job = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
               const mpi::RankContext& context) -> std::unique_ptr<job::Job> {
       return photons::make_job(preset, scene, bvh, dynamic_cast<const photons::RunPlan&>(plan), context);
@@ -79,35 +77,31 @@ constinit const engine::Engine engine{
     .reference = reference,
     .checks = closed_forms,
     .adoptable = adoptable,
-    .introduction =
-        {.example =
-             {.preset = "first-light",
-              .title = "Spectral caustics",
-              .sentence =
-                  "Glass parts light into its colours. All 401 wavelengths are rendered; those that refract alike share their paths.",
-              .run = "the same as files, in out/first-light"},
-         .new_scene = {.preset = new_scene, .what = "A glass sphere on a floor under a lamp"},
-         .badge = {70, 84, 120}}};
+    .introduction = {.example = {.preset = "first-light",
+                                 .title = "Spectral caustics",
+                                 .sentence = "Glass parts light into its colours. All 401 wavelengths are rendered; "
+                                             "those that refract alike share their paths.",
+                                 .run = "the same as files, in out/first-light"},
+                     .new_scene = {.preset = new_scene, .what = "A glass sphere on a floor under a lamp"},
+                     .badge = {70, 84, 120}}};
 
-photons::RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
-{
+photons::RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) {
   return make_plan(preset, scene, bvh, {.all = preset.leave_out});
 }
 
 photons::RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
-                           const tracing::LeaveOut& leave_out)
-{
+                           const tracing::LeaveOut& leave_out) {
   photons::RunPlan plan = photons::make_plan(preset, settings(preset), scene, bvh, leave_out);
   plan.engine = "spectral";
   const auto& environment = preset.scene.environment;
   if (environment && !environment->lights && scene.lights.empty() && !preset.scene.objects.empty())
-    plan.notes.push_back("nothing lights the scene: it has no lamp, and its environment is only seen; to be lit by that: "
-                         "--set scene.environment.lights=true");
+    plan.notes.push_back(
+        "nothing lights the scene: it has no lamp, and its environment is only seen; to be lit by that: "
+        "--set scene.environment.lights=true");
   return plan;
 }
 
-bool adoptable(const preset::Preset& before, const preset::Preset& now)
-{
+bool adoptable(const preset::Preset& before, const preset::Preset& now) {
   if (!settings(before).relight || before.scene.lights.size() != now.scene.lights.size()) return false;
   preset::Preset same = now;
   same.name = before.name;

@@ -14,53 +14,54 @@ namespace {
 
 using preset::Where;
 
-/// A cluster drawn at random needs a pass of its own, which sppm gives it; a variance is measured where all clusters share a film.
-void check_effort(const photons::Settings& s, const std::string& pointer, const Where& where)
-{
+/// A cluster drawn at random needs a pass of its own, which sppm gives it; a variance is measured where all clusters
+/// share a film.
+void check_effort(const photons::Settings& s, const std::string& pointer, const Where& where) {
   const bool sppm = s.estimator == photons::Settings::Estimator::sppm;
   if (s.effort == photons::Settings::Effort::random && !sppm)
-    throw bad_input(where(preset::child(pointer, "effort")), "random needs the estimator sppm", "expected spectral.estimator to be sppm",
-                    "choose that, or another effort");
+    throw bad_input(where(preset::child(pointer, "effort")), "random needs the estimator sppm",
+                    "expected spectral.estimator to be sppm", "choose that, or another effort");
   if (s.effort == photons::Settings::Effort::variance && sppm)
     throw bad_input(where(preset::child(pointer, "effort")), "variance is not measured by the estimator sppm",
                     "expected another effort or estimator", "choose effort importance, or estimator automatic");
 }
 
 /// Layers hold what splats of whole clusters add up to.
-void check_relight(const preset::Preset& preset, const photons::Settings& spectral, const Where& where)
-{
+void check_relight(const preset::Preset& preset, const photons::Settings& spectral, const Where& where) {
   if (!spectral.relight) return;
   const auto refuse = [&](bool contradicts, const char* key, const char* reason) {
     if (contradicts)
       throw bad_input(where(preset::child("/spectral", key)), fmt::format("cannot be kept in layers: {}", reason),
                       "expected 'spectral.relight' false, or this as it is by default");
   };
-  refuse(spectral.estimator == photons::Settings::Estimator::sppm, "estimator", "photon maps add up colours, not layers");
-  refuse(spectral.effort != photons::Settings::Effort::automatic && spectral.effort != photons::Settings::Effort::power, "effort",
+  refuse(spectral.estimator == photons::Settings::Estimator::sppm, "estimator",
+         "photon maps add up colours, not layers");
+  refuse(spectral.effort != photons::Settings::Effort::automatic && spectral.effort != photons::Settings::Effort::power,
+         "effort",
          "half of the photons go by the present light's power, and half to every cluster alike for lights to come");
   refuse(spectral.differentials, "differentials", "a layer is a whole cluster's");
   refuse(spectral.indirect, "indirect", "its light met several reflectors");
   if (preset.scene.environment && preset.scene.environment->lights)
-    throw bad_input(where("/scene/environment/lights"), "cannot be kept in layers: every texel has a spectrum of its own",
+    throw bad_input(where("/scene/environment/lights"),
+                    "cannot be kept in layers: every texel has a spectrum of its own",
                     "expected 'spectral.relight' false, or an environment that is only seen");
 }
 
-void check(const preset::Preset& preset, const Where& where)
-{
+void check(const preset::Preset& preset, const Where& where) {
   const photons::Settings& own = settings(preset);
   check_effort(own, "/spectral", where);
   if (preset.reference && preset.reference->settings)
     check_effort(preset.reference->settings->as<photons::Settings>(), "/reference/spectral", where);
   if (preset.stop.error && !preset.reference && own.estimator == photons::Settings::Estimator::sppm)
-    throw bad_input(where("/stop/error"), "nothing measures the error of this run: the estimator sppm makes no estimate of its own error",
+    throw bad_input(where("/stop/error"),
+                    "nothing measures the error of this run: the estimator sppm makes no estimate of its own error",
                     "expected a 'reference', or another 'spectral.estimator'");
   check_relight(preset, own, where);
 }
 
 } // namespace
 
-const preset::SettingsType& settings_type()
-{
+const preset::SettingsType& settings_type() {
   static const preset::SettingsType type =
       preset::settings_type<photons::Settings>("spectral", "Dispersion caustics by wavelength clusters.", check);
   return type;

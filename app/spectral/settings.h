@@ -11,6 +11,8 @@ const preset::SettingsType& settings_type();
 
 /// Of a preset of this engine.
 inline photons::Settings& settings(preset::Preset& preset) { return preset.settings.as<photons::Settings>(); }
-inline const photons::Settings& settings(const preset::Preset& preset) { return preset.settings.as<photons::Settings>(); }
+inline const photons::Settings& settings(const preset::Preset& preset) {
+  return preset.settings.as<photons::Settings>();
+}
 
 } // namespace nephroid::spectral

@@ -9,25 +9,23 @@ namespace nephroid::tracing {
 namespace {
 
 /// Linear sRGB of weight_a * a + weight_b * b, where a and b are XYZ sums.
-optics::Colour blend(const std::int64_t* a, double weight_a, const std::int64_t* b, double weight_b)
-{
+optics::Colour blend(const std::int64_t* a, double weight_a, const std::int64_t* b, double weight_b) {
   optics::Colour xyz{};
-  for (std::size_t c = 0; c < 3; ++c) xyz[c] = static_cast<double>(a[c]) * weight_a + static_cast<double>(b[c]) * weight_b;
+  for (std::size_t c = 0; c < 3; ++c)
+    xyz[c] = static_cast<double>(a[c]) * weight_a + static_cast<double>(b[c]) * weight_b;
   return optics::xyz_to_linear_srgb(xyz);
 }
 
 } // namespace
 
-job::Layer& layer_of(job::Picture& picture, const std::string& name)
-{
+job::Layer& layer_of(job::Picture& picture, const std::string& name) {
   for (job::Layer& layer : picture.layers)
     if (layer.name == name) return layer;
   const std::size_t size = 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   return picture.layers.emplace_back(job::Layer{name, std::vector<float>(size, 0.0f)});
 }
 
-void add_layer(const std::string& name, const Film& film, job::Picture& picture)
-{
+void add_layer(const std::string& name, const Film& film, job::Picture& picture) {
   const std::size_t pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   job::Layer& layer = layer_of(picture, name);
   std::vector<float>& error_draw = picture.error_draw;
@@ -54,8 +52,7 @@ void add_layer(const std::string& name, const Film& film, job::Picture& picture)
   }
 }
 
-std::array<double, 2> halves_of(std::int64_t passes, double part)
-{
+std::array<double, 2> halves_of(std::int64_t passes, double part) {
   const std::int64_t odd = passes / 2, even = passes - odd; // the first pass is number 0
   std::array<double, 2> counts{static_cast<double>(even), static_cast<double>(odd)};
   counts[static_cast<std::size_t>(passes % 2)] += part;

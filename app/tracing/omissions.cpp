@@ -22,14 +22,12 @@ using optics::wavelength_count;
 
 constexpr unsigned all_light_types = 31;
 
-bool is_dielectric(const scene::Scene& scene, const scene::Object& object)
-{
+bool is_dielectric(const scene::Scene& scene, const scene::Object& object) {
   return material_of(scene, object).type == scene::Material::Type::dielectric;
 }
 
 /// Whether any glass that an object is of has an index other than 1.
-bool anything_bends(const scene::Scene& scene)
-{
+bool anything_bends(const scene::Scene& scene) {
   return std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
     const optics::Spectrum& n = material_of(scene, object).n;
     return is_dielectric(scene, object) && std::ranges::any_of(n, [](double value) { return value != 1; });
@@ -37,8 +35,7 @@ bool anything_bends(const scene::Scene& scene)
 }
 
 /// False only where all of the object is beyond one side of the camera's pyramid, or behind the camera.
-bool may_be_in_view(const scene::Scene& scene, const scene::Object& object)
-{
+bool may_be_in_view(const scene::Scene& scene, const scene::Object& object) {
   const scene::Camera& c = scene.camera;
   const glm::dvec3 eye = c.position, right = c.right, up = c.up, forward = c.forward;
   std::array<bool, 5> beyond;
@@ -54,9 +51,9 @@ bool may_be_in_view(const scene::Scene& scene, const scene::Object& object)
   return std::ranges::none_of(beyond, [](bool b) { return b; });
 }
 
-/// Whether the camera sees all that is in its view: flat objects only, with the camera and all the others on one side of each.
-bool nothing_blocks_the_view(const scene::Scene& scene)
-{
+/// Whether the camera sees all that is in its view: flat objects only, with the camera and all the others on one side
+/// of each.
+bool nothing_blocks_the_view(const scene::Scene& scene) {
   const glm::dvec3 eye = scene.camera.position;
   std::vector<std::size_t> seen;
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
@@ -68,8 +65,9 @@ bool nothing_blocks_the_view(const scene::Scene& scene)
     if (side * plane->height(eye) <= plane->tolerance) return false;
     for (const std::size_t j : seen) {
       bool behind = false;
-      scene::for_each_corner(scene, scene.objects[j],
-                             [&](const glm::dvec3& p) { behind = behind || side * plane->height(p) < -plane->tolerance; });
+      scene::for_each_corner(scene, scene.objects[j], [&](const glm::dvec3& p) {
+        behind = behind || side * plane->height(p) < -plane->tolerance;
+      });
       if (behind) return false;
     }
   }
@@ -77,15 +75,13 @@ bool nothing_blocks_the_view(const scene::Scene& scene)
 }
 
 /// NEPHROID_LIGHT_TYPES of kernels/tracing/light.h.
-unsigned light_type_bits(const scene::Scene& scene)
-{
+unsigned light_type_bits(const scene::Scene& scene) {
   unsigned bits = 0;
   for (const scene::Light& light : scene.lights) bits |= 1u << device_light_type(light);
   return bits;
 }
 
-std::string light_types_reason(unsigned bits)
-{
+std::string light_types_reason(unsigned bits) {
   std::vector<std::string_view> names;
   for (const auto& choice : preset::choices<preset::Light::Type>)
     if (bits >> static_cast<int>(choice.value) & 1) names.push_back(choice.name);
@@ -97,8 +93,7 @@ std::string light_types_reason(unsigned bits)
 
 bool has_power(const scene::Light& light) { return scene::radiometric(light) > 0; }
 
-std::vector<bool> lit_wavelengths(const scene::Scene& scene)
-{
+std::vector<bool> lit_wavelengths(const scene::Scene& scene) {
   std::vector<bool> lit(wavelength_count, false);
   for (const scene::Light& light : scene.lights)
     for (std::size_t w = 0; w < lit.size(); ++w)
@@ -107,8 +102,7 @@ std::vector<bool> lit_wavelengths(const scene::Scene& scene)
   return lit;
 }
 
-ObjectCounts count_objects(const scene::Scene& scene)
-{
+ObjectCounts count_objects(const scene::Scene& scene) {
   ObjectCounts counts;
   for (const scene::Object& object : scene.objects) {
     const scene::Material::Type type = material_of(scene, object).type;
@@ -120,23 +114,23 @@ ObjectCounts count_objects(const scene::Scene& scene)
   return counts;
 }
 
-bool may_see_glass_or_mirror(const scene::Scene& scene)
-{
+bool may_see_glass_or_mirror(const scene::Scene& scene) {
   return !scene.camera.inside.empty() || std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
     return material_of(scene, object).type != scene::Material::Type::diffuse && may_be_in_view(scene, object);
   });
 }
 
-plan::Pass needed(const std::string& name, std::string reason) { return {name, true, std::move(reason), "/leave_out", false}; }
+plan::Pass needed(const std::string& name, std::string reason) {
+  return {name, true, std::move(reason), "/leave_out", false};
+}
 
-plan::Pass not_needed(const std::string& name, bool leave_out, std::string reason)
-{
+plan::Pass not_needed(const std::string& name, bool leave_out, std::string reason) {
   if (!leave_out) reason += ", but leave_out is false";
   return {name, !leave_out, std::move(reason), "/leave_out", false};
 }
 
-std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene, const std::vector<scene::Sphere>& targets)
-{
+std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene,
+                                       const std::vector<scene::Sphere>& targets) {
   std::vector<plan::Pass> passes;
   const auto add = [&](const char* name, bool may, std::size_t without, const std::string& reason) {
     if (without > 0) passes.push_back(not_needed(name, may, reason));
@@ -146,19 +140,20 @@ std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::S
     dark += !has_power(light);
     for (const scene::Sphere& target : targets) ++ways, unreached += !reaches(light, target);
   }
-  add("dark lights", leave_out.dark_lights, dark, fmt::format("{} of {} without power", dark, counted(scene.lights.size(), "light")));
+  add("dark lights", leave_out.dark_lights, dark,
+      fmt::format("{} of {} without power", dark, counted(scene.lights.size(), "light")));
   add("unreached targets", leave_out.unreached_targets, unreached,
-      fmt::format("{} of {} from a light to a target {} outside of a spot's cone or behind an area light", unreached, counted(ways, "way"),
-                  unreached == 1 ? "is" : "are"));
+      fmt::format("{} of {} from a light to a target {} outside of a spot's cone or behind an area light", unreached,
+                  counted(ways, "way"), unreached == 1 ? "is" : "are"));
 
   const std::vector<bool> lit = lit_wavelengths(scene);
   const auto unlit = static_cast<std::size_t>(std::ranges::count(lit, false));
-  add("unlit wavelengths", leave_out.unlit_wavelengths, unlit, fmt::format("no light has {} of the {} wavelengths", unlit, lit.size()));
+  add("unlit wavelengths", leave_out.unlit_wavelengths, unlit,
+      fmt::format("no light has {} of the {} wavelengths", unlit, lit.size()));
   return passes;
 }
 
-CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scene, int attenuators)
-{
+CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scene, int attenuators) {
   const ObjectCounts counts = count_objects(scene);
   const unsigned types = light_type_bits(scene);
   const bool bends = anything_bends(scene), blocked = !nothing_blocks_the_view(scene);
@@ -168,29 +163,32 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
     omissions.passes.push_back(std::move(pass));
     return omissions.passes.back().runs;
   };
-  const bool occlusion =
-      has(blocked ? needed("occlusion", "objects in view may stand before each other")
-                  : not_needed("occlusion", leave_out.occlusion, "the camera sees flat objects only, none before another"));
+  const bool occlusion = has(
+      blocked ? needed("occlusion", "objects in view may stand before each other")
+              : not_needed("occlusion", leave_out.occlusion, "the camera sees flat objects only, none before another"));
   const std::string seen_types = light_types_reason(types);
-  const bool every_type =
-      has(types == all_light_types ? needed("light types", seen_types) : not_needed("light types", leave_out.light_types, seen_types));
+  const bool every_type = has(types == all_light_types ? needed("light types", seen_types)
+                                                       : not_needed("light types", leave_out.light_types, seen_types));
   const bool mirrors = has(counts.mirrors > 0 ? needed("mirrors", counted(counts.mirrors, "mirror object"))
                                               : not_needed("mirrors", leave_out.mirrors, "no object is a mirror"));
   const bool bending = has(bends ? needed("bending", "glass has another n than its surroundings")
                                  : not_needed("bending", leave_out.bending, "no glass has another n than 1"));
-  const bool attenuation =
-      has(attenuators > 0 ? needed("attenuation", counted(attenuators, "material takes", "materials take") + " light away by wavelength")
-                          : not_needed("attenuation", leave_out.attenuation, "no glass absorbs and no mirror is coloured"));
-  const bool smooth = has(counts.smooth > 0 ? needed("smooth normals", counted(counts.smooth, "smooth object"))
-                                            : not_needed("smooth normals", leave_out.smooth_normals, "no mesh has smooth normals"));
+  const bool attenuation = has(
+      attenuators > 0 ? needed("attenuation",
+                               counted(attenuators, "material takes", "materials take") + " light away by wavelength")
+                      : not_needed("attenuation", leave_out.attenuation, "no glass absorbs and no mirror is coloured"));
+  const bool smooth =
+      has(counts.smooth > 0 ? needed("smooth normals", counted(counts.smooth, "smooth object"))
+                            : not_needed("smooth normals", leave_out.smooth_normals, "no mesh has smooth normals"));
   const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
-  omissions.defines = {{"NEPHROID_OCCLUSION", flag(occlusion)},
-                       {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types)},
-                       {"NEPHROID_MIRRORS", flag(mirrors)},
-                       {"NEPHROID_BENDING", flag(bending)},
-                       // Without materials that attenuate, one place for none of them: the code is there and does nothing.
-                       {"NEPHROID_ATTENUATORS", std::to_string(attenuation ? std::max(attenuators, 1) : 0)},
-                       {"NEPHROID_SMOOTH", flag(smooth)}};
+  omissions.defines = {
+      {"NEPHROID_OCCLUSION", flag(occlusion)},
+      {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types)},
+      {"NEPHROID_MIRRORS", flag(mirrors)},
+      {"NEPHROID_BENDING", flag(bending)},
+      // Without materials that attenuate, one place for none of them: the code is there and does nothing.
+      {"NEPHROID_ATTENUATORS", std::to_string(attenuation ? std::max(attenuators, 1) : 0)},
+      {"NEPHROID_SMOOTH", flag(smooth)}};
   return omissions;
 }
 

@@ -8,16 +8,16 @@
 
 namespace nephroid::tracing {
 
-double power_of_two_below(double value) { return std::isfinite(value) && value > 0 ? std::exp2(std::floor(std::log2(value))) : 1.0; }
+double power_of_two_below(double value) {
+  return std::isfinite(value) && value > 0 ? std::exp2(std::floor(std::log2(value))) : 1.0;
+}
 
-scene::Sphere scene_bounds(const scene::Scene& scene)
-{
+scene::Sphere scene_bounds(const scene::Scene& scene) {
   const auto [low, high] = box_about(extreme_points(scene.geometry));
   return {0.5f * (low + high), 0.5f * glm::length(high - low)};
 }
 
-std::array<glm::vec3, 2> box_about(const std::vector<glm::vec3>& points)
-{
+std::array<glm::vec3, 2> box_about(const std::vector<glm::vec3>& points) {
   glm::vec3 low{0}, high{0};
   for (std::size_t i = 0; i < points.size(); ++i) {
     low = i == 0 ? points[i] : glm::min(low, points[i]);
@@ -26,24 +26,22 @@ std::array<glm::vec3, 2> box_about(const std::vector<glm::vec3>& points)
   return {low, high};
 }
 
-double splat_scale(const scene::Scene& scene, unsigned photons, double watts)
-{
+double splat_scale(const scene::Scene& scene, unsigned photons, double watts) {
   const scene::Camera& camera = scene.camera;
   const scene::Sphere bounds = scene_bounds(scene);
-  const double distance = std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius) * scene.metres_per_unit;
+  const double distance =
+      std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius) * scene.metres_per_unit;
   const double pixel_area = 4 * camera.tan_x * camera.tan_y / (double(camera.width) * camera.height);
   return power_of_two_below(std::exp2(16) * photons * std::numbers::pi * distance * distance * pixel_area / watts);
 }
 
 double energy_scale(double watts) { return power_of_two_below(std::exp2(40) / watts); }
 
-double mean_watts(std::int64_t quanta, double quanta_per_watt, double passes)
-{
+double mean_watts(std::int64_t quanta, double quanta_per_watt, double passes) {
   return passes > 0 ? static_cast<double>(quanta) / (quanta_per_watt * passes) : 0;
 }
 
-std::vector<float> exact_cdf(const std::vector<double>& weights)
-{
+std::vector<float> exact_cdf(const std::vector<double>& weights) {
   constexpr double quanta = 0x1p24;
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   if (!weights.empty() && !(total > 0)) return exact_cdf(std::vector<double>(weights.size(), 1.0));
@@ -59,8 +57,7 @@ std::vector<float> exact_cdf(const std::vector<double>& weights)
   return cdf;
 }
 
-std::vector<float> exact_cdf_from_zero(const std::vector<double>& weights)
-{
+std::vector<float> exact_cdf_from_zero(const std::vector<double>& weights) {
   std::vector<float> cdf = exact_cdf(weights);
   cdf.insert(cdf.begin(), 0.0f);
   return cdf;

@@ -24,11 +24,11 @@ static_assert(int(LightType::point) == LIGHT_POINT && int(LightType::spot) == LI
               int(LightType::directional) == LIGHT_DIRECTIONAL && int(LightType::area) == LIGHT_AREA);
 
 /// where: of the camera or light that the dielectrics enclose. Throws bad_input there for more than a path can carry.
-shared::Media to_media(const std::vector<int>& inside, const Place& where)
-{
+shared::Media to_media(const std::vector<int>& inside, const Place& where) {
   if (inside.size() > MEDIA_DEPTH)
     throw bad_input(where, fmt::format("is inside {} dielectric objects", inside.size()),
-                    fmt::format("expected at most {} around one point", MEDIA_DEPTH), "move it, or take some of them away");
+                    fmt::format("expected at most {} around one point", MEDIA_DEPTH),
+                    "move it, or take some of them away");
   shared::Media media{};
   for (const int object : inside) {
     media.earlier = media.earlier << MEDIUM_BITS | media.latest >> (64 - MEDIUM_BITS);
@@ -37,8 +37,7 @@ shared::Media to_media(const std::vector<int>& inside, const Place& where)
   return media;
 }
 
-shared::DeviceLight device_light(const scene::Light& light, double power_unit, const Place& where)
-{
+shared::DeviceLight device_light(const scene::Light& light, double power_unit, const Place& where) {
   shared::DeviceLight out{};
   out.position = to_float4(light.position);
   out.direction = to_float4(light.direction);
@@ -53,8 +52,7 @@ shared::DeviceLight device_light(const scene::Light& light, double power_unit, c
 }
 
 /// Appends the spheres to the table of targets, unless an earlier light has the very same ones.
-void set_targets(shared::DeviceLight& light, const std::vector<scene::Sphere>& spheres, SceneTables& tables)
-{
+void set_targets(shared::DeviceLight& light, const std::vector<scene::Sphere>& spheres, SceneTables& tables) {
   std::vector<shared::DeviceTarget> list;
   for (const scene::Sphere& sphere : spheres) list.push_back({to_float4(sphere.centre, sphere.radius)});
   const auto same = [](const shared::DeviceTarget& a, const shared::DeviceTarget& b) {
@@ -68,8 +66,7 @@ void set_targets(shared::DeviceLight& light, const std::vector<scene::Sphere>& s
 }
 
 /// All targets of the scene: where photons go whatever the light.
-std::vector<scene::Sphere> scene_targets(const LeaveOut& leave_out, const scene::Scene& scene)
-{
+std::vector<scene::Sphere> scene_targets(const LeaveOut& leave_out, const scene::Scene& scene) {
   std::vector<scene::Sphere> targets;
   if (leave_out.stray_photons) targets = caustic_targets(scene);
   // Photons that are asked for where nothing needs them have nothing to aim at.
@@ -78,21 +75,20 @@ std::vector<scene::Sphere> scene_targets(const LeaveOut& leave_out, const scene:
 }
 
 /// Adds the light, its targets, and what it sends towards them.
-void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, const scene::Scene& scene, const LeaveOut& leave_out,
-               SceneTables& tables)
-{
+void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, const scene::Scene& scene,
+               const LeaveOut& leave_out, SceneTables& tables) {
   const auto number = static_cast<int>(&light - scene.lights.data());
   shared::DeviceLight out = device_light(light, tables.power_unit, Place(scene.source) / "scene" / "lights" / number);
   out.number = number;
-  if (leave_out.unreached_targets) std::erase_if(targets, [&](const scene::Sphere& target) { return !reaches(light, target); });
+  if (leave_out.unreached_targets)
+    std::erase_if(targets, [&](const scene::Sphere& target) { return !reaches(light, target); });
   set_targets(out, targets, tables);
   tables.lights.push_back(out);
   tables.towards_targets_w.push_back(towards_targets_w(light, targets, scene.metres_per_unit));
 }
 
 /// A power of two near the power of the strongest light.
-double choose_power_unit(const scene::Scene& scene)
-{
+double choose_power_unit(const scene::Scene& scene) {
   double strongest = 0;
   for (const scene::Light& light : scene.lights) strongest = std::max(strongest, scene::radiometric(light));
   return power_of_two_below(strongest);
@@ -101,7 +97,9 @@ double choose_power_unit(const scene::Scene& scene)
 /// What peaks have to hold of the environment's flux: more than rounding.
 constexpr double least_peaks = 1e-6;
 
-double chance(const std::vector<float>& cdf, std::size_t i) { return double(cdf[i]) - (i > 0 ? double(cdf[i - 1]) : 0.0); }
+double chance(const std::vector<float>& cdf, std::size_t i) {
+  return double(cdf[i]) - (i > 0 ? double(cdf[i - 1]) : 0.0);
+}
 
 /// The chance of each row in `rows`, of its texels after them.
 struct Flux {
@@ -109,8 +107,7 @@ struct Flux {
   std::vector<std::vector<float>> texels; ///< [row] exact_cdf
 };
 
-Flux flux_by_rows(const scene::Environment& environment, double floor)
-{
+Flux flux_by_rows(const scene::Environment& environment, double floor) {
   const auto width = static_cast<std::size_t>(environment.width), height = static_cast<std::size_t>(environment.height);
   Flux flux;
   for (std::size_t row = 0; row < height; ++row) {
@@ -130,8 +127,7 @@ float tag(int object, int kind) { return std::bit_cast<float>(object << 2 | kind
 shared::float4 with(const glm::vec3& v, float w) { return {v.x, v.y, v.z, w}; }
 
 /// Two words of 21 bits a coordinate, in units of 2^-20: the lowest bits are x, then come y and z.
-std::array<float, 2> packed_normal(const glm::vec3& normal)
-{
+std::array<float, 2> packed_normal(const glm::vec3& normal) {
   constexpr float unit = 0x1p20f;
   const glm::uvec3 q(glm::ivec3(glm::clamp(glm::round(normal * unit), -unit, unit - 1)) & 0x1fffff);
   return {std::bit_cast<float>(q.x | q.y << 21), std::bit_cast<float>(q.y >> 11 | q.z << 10)};
@@ -139,13 +135,16 @@ std::array<float, 2> packed_normal(const glm::vec3& normal)
 
 float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
 
-shared::DevicePrimitive device_triangle(const scene::Mesh& mesh, const glm::uvec3& triangle, int object, bool smooth)
-{
-  const glm::vec3 a = mesh.positions[triangle.x], ab = mesh.positions[triangle.y] - a, ac = mesh.positions[triangle.z] - a;
+shared::DevicePrimitive device_triangle(const scene::Mesh& mesh, const glm::uvec3& triangle, int object, bool smooth) {
+  const glm::vec3 a = mesh.positions[triangle.x], ab = mesh.positions[triangle.y] - a,
+                  ac = mesh.positions[triangle.z] - a;
   if (smooth) {
     const auto first = packed_normal(mesh.normals[triangle.x]), second = packed_normal(mesh.normals[triangle.y]),
                third = packed_normal(mesh.normals[triangle.z]);
-    return {with(a, tag(object, PRIMITIVE_SMOOTH)), with(ab, third[0]), with(ac, third[1]), {first[0], first[1], second[0], second[1]}};
+    return {with(a, tag(object, PRIMITIVE_SMOOTH)),
+            with(ab, third[0]),
+            with(ac, third[1]),
+            {first[0], first[1], second[0], second[1]}};
   }
   const glm::vec3 normal(glm::normalize(glm::cross(glm::dvec3(ab), glm::dvec3(ac))));
   // As triangle_offset of kernels/tracing/surface.h.
@@ -153,8 +152,7 @@ shared::DevicePrimitive device_triangle(const scene::Mesh& mesh, const glm::uvec
   return {with(a, tag(object, PRIMITIVE_FLAT)), with(ab, 0), with(ac, 0), with(normal, offset)};
 }
 
-shared::DevicePrimitive device_ellipsoid(const scene::Ellipsoid& ellipsoid, int object)
-{
+shared::DevicePrimitive device_ellipsoid(const scene::Ellipsoid& ellipsoid, int object) {
   const auto rows = scene::to_unit_sphere(ellipsoid);
   const int kind = ellipsoid.inwards ? PRIMITIVE_ELLIPSOID_INWARDS : PRIMITIVE_ELLIPSOID;
   return {with(ellipsoid.centre, tag(object, kind)), to_float4(rows[0]), to_float4(rows[1]), to_float4(rows[2])};
@@ -162,44 +160,43 @@ shared::DevicePrimitive device_ellipsoid(const scene::Ellipsoid& ellipsoid, int 
 
 } // namespace
 
-std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene)
-{
+std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene) {
   const scene::Mesh& mesh = scene.geometry;
   std::vector<shared::DevicePrimitive> primitives(scene.object_of_primitive.size());
   for_ranges(primitives.size(), 1 << 14, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const auto object = static_cast<int>(scene.object_of_primitive[i]);
-      primitives[i] = i < mesh.triangles.size()
-                          ? device_triangle(mesh, mesh.triangles[i], object, scene.objects[scene.object_of_primitive[i]].smooth)
-                          : device_ellipsoid(mesh.ellipsoids[i - mesh.triangles.size()], object);
+      primitives[i] = i < mesh.triangles.size() ? device_triangle(mesh, mesh.triangles[i], object,
+                                                                  scene.objects[scene.object_of_primitive[i]].smooth)
+                                                : device_ellipsoid(mesh.ellipsoids[i - mesh.triangles.size()], object);
     }
   });
   return primitives;
 }
 
-std::uint64_t mesh_bytes(const scene::Scene& scene)
-{
+std::uint64_t mesh_bytes(const scene::Scene& scene) {
   const scene::Mesh& mesh = scene.geometry;
-  return bytes_of(mesh.triangles) + bytes_of(mesh.positions) + bytes_of(mesh.normals) + bytes_of(scene.object_of_primitive);
+  return bytes_of(mesh.triangles) + bytes_of(mesh.positions) + bytes_of(mesh.normals) +
+         bytes_of(scene.object_of_primitive);
 }
 
-shared::DeviceBackground picture_size(const scene::Environment& environment)
-{
+shared::DeviceBackground picture_size(const scene::Environment& environment) {
   return {environment.width, environment.height, static_cast<float>(std::fmod(environment.rotate_deg, 360.0) / 360), 0};
 }
 
-SkyTables make_sky_tables(const scene::Environment& environment)
-{
+SkyTables make_sky_tables(const scene::Environment& environment) {
   const scene::EnvironmentFlux whole = scene::flux_of(environment);
   const Flux flux = flux_by_rows(environment, 0), peaks = flux_by_rows(environment, whole.grey / (4 * pi));
   const auto width = static_cast<std::size_t>(environment.width);
   SkyTables tables;
   tables.size = picture_size(environment);
   tables.texel_cdf = exact_cdf(flux.rows);
-  tables.mean_colour = {static_cast<float>(whole.mean[0]), static_cast<float>(whole.mean[1]), static_cast<float>(whole.mean[2]), 0};
+  tables.mean_colour = {static_cast<float>(whole.mean[0]), static_cast<float>(whole.mean[1]),
+                        static_cast<float>(whole.mean[2]), 0};
   tables.texel_colour.reserve(environment.rgb.size());
   for (std::size_t row = 0; row < flux.rows.size(); ++row) {
-    const double steradians = scene::texel_steradians(environment, static_cast<int>(row)), row_chance = chance(tables.texel_cdf, row);
+    const double steradians = scene::texel_steradians(environment, static_cast<int>(row)),
+                 row_chance = chance(tables.texel_cdf, row);
     for (std::size_t column = 0; column < width; ++column) {
       const double drawn = row_chance * chance(flux.texels[row], column);
       for (std::size_t c = 0; c < 3; ++c) {
@@ -208,7 +205,9 @@ SkyTables make_sky_tables(const scene::Environment& environment)
       }
     }
   }
-  const auto append = [&](const std::vector<float>& cdf) { tables.texel_cdf.insert(tables.texel_cdf.end(), cdf.begin(), cdf.end()); };
+  const auto append = [&](const std::vector<float>& cdf) {
+    tables.texel_cdf.insert(tables.texel_cdf.end(), cdf.begin(), cdf.end());
+  };
   std::ranges::for_each(flux.texels, append);
   tables.size.has_peaks = std::accumulate(peaks.rows.begin(), peaks.rows.end(), 0.0) > least_peaks * whole.grey;
   if (!tables.size.has_peaks) return tables;
@@ -217,8 +216,7 @@ SkyTables make_sky_tables(const scene::Environment& environment)
   return tables;
 }
 
-shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& where)
-{
+shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& where) {
   shared::DeviceCamera out{};
   out.position = to_float4(camera.position);
   out.right = to_float4(camera.right);
@@ -233,20 +231,23 @@ shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& whe
   return out;
 }
 
-int device_light_type(const scene::Light& light) { return is_environment(light) ? LIGHT_ENVIRONMENT : static_cast<int>(light.type); }
+int device_light_type(const scene::Light& light) {
+  return is_environment(light) ? LIGHT_ENVIRONMENT : static_cast<int>(light.type);
+}
 
-SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters, const LeaveOut& leave_out)
-{
+SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters,
+                              const LeaveOut& leave_out) {
   constexpr std::size_t most_objects = (1 << MEDIUM_BITS) - 1; // a path's list of media numbers them from 1
   if (scene.objects.size() > most_objects)
-    throw bad_input("scene.objects", fmt::format("has {} objects", scene.objects.size()), fmt::format("at most {}", most_objects),
-                    "join some of them to one mesh");
+    throw bad_input("scene.objects", fmt::format("has {} objects", scene.objects.size()),
+                    fmt::format("at most {}", most_objects), "join some of them to one mesh");
   SceneTables tables;
   tables.power_unit = choose_power_unit(scene);
   std::vector<const scene::Light*> lights;
   for (const scene::Light& light : scene.lights)
     if (has_power(light) || !leave_out.dark_lights) lights.push_back(&light);
-  const std::vector<bool> lit = leave_out.unlit_wavelengths ? lit_wavelengths(scene) : std::vector<bool>(optics::wavelength_count, true);
+  const std::vector<bool> lit =
+      leave_out.unlit_wavelengths ? lit_wavelengths(scene) : std::vector<bool>(optics::wavelength_count, true);
   tables.wavelengths = make_wavelength_tables(scene, lights, clusters, lit, tables.materials);
   tables.stretch = make_stretch_tables(scene, clusters, lit);
   for (const scene::Object& object : scene.objects) tables.objects.push_back({object.material, object.priority});
@@ -257,7 +258,8 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
     tables.sky = std::make_shared<const SkyTables>(make_sky_tables(*scene.environment));
     tables.lights.back().edge_u = tables.sky->mean_colour;
   }
-  tables.light_towards_targets_w = std::accumulate(tables.towards_targets_w.begin(), tables.towards_targets_w.end(), 0.0);
+  tables.light_towards_targets_w =
+      std::accumulate(tables.towards_targets_w.begin(), tables.towards_targets_w.end(), 0.0);
   tables.camera = device_camera(scene.camera, Place(scene.source) / "scene" / "camera");
 
   tables.scene.material_count = static_cast<int>(scene.materials.size());
@@ -265,7 +267,8 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
   tables.scene.cluster_count = static_cast<int>(tables.wavelengths.clusters.size());
   tables.scene.metres_per_unit = static_cast<float>(scene.metres_per_unit);
   // Enough from any place on the disc of any target, also of the one about everything.
-  tables.scene.outside_distance = 2.5f * std::max(scene_bounds(scene).radius, leave_out.stray_photons ? 0.0f : everything(scene).radius);
+  tables.scene.outside_distance =
+      2.5f * std::max(scene_bounds(scene).radius, leave_out.stray_photons ? 0.0f : everything(scene).radius);
   tables.scene.max_surfaces = 32;
   tables.scene.reflector_count = tables.wavelengths.reflector_count;
   if (tables.sky) tables.scene.sky_size = tables.sky->size;

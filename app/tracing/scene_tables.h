@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene as kernels read it (kernels/tracing/world.h): plain tables, still on the host. Made once a job; tested without a device.
+// The scene as kernels read it (kernels/tracing/world.h): plain tables, still on the host. Made once a job; tested
+// without a device.
 #pragma once
 #include "preset/preset.h"
 #include "scene/scene.h"
@@ -11,8 +12,8 @@
 
 namespace nephroid::tracing {
 
-/// What a run may do without where its scene does not need it; omissions.h says where. A preset leaves out all of that or nothing.
-/// Tests turn one thing back on and show that the picture stays the same.
+/// What a run may do without where its scene does not need it; omissions.h says where. A preset leaves out all of that
+/// or nothing. Tests turn one thing back on and show that the picture stays the same.
 struct LeaveOut {
   bool all = true;              ///< what the others are where nothing else is said
   bool direct = all;            ///< the layer "direct" where no surface is diffuse
@@ -22,12 +23,12 @@ struct LeaveOut {
   bool unreached_targets = all; ///< for each light: glass and mirrors outside a spot's cone or behind an area light
   bool dark_lights = all;       ///< lights without power
   bool unlit_wavelengths = all; ///< wavelengths that no light has
-  bool occlusion = all;         ///< the shadow ray from a caustic back to the camera where nothing can stand between them
-  bool light_types = all;       ///< kernels without the code of types of light that the scene does not have
-  bool mirrors = all;           ///< kernels without mirrors
-  bool bending = all;           ///< kernels without Snell and Fresnel where all glass has n = 1
-  bool attenuation = all;       ///< kernels without absorption where no glass absorbs and no mirror is coloured
-  bool smooth_normals = all;    ///< kernels without interpolated normals
+  bool occlusion = all;      ///< the shadow ray from a caustic back to the camera where nothing can stand between them
+  bool light_types = all;    ///< kernels without the code of types of light that the scene does not have
+  bool mirrors = all;        ///< kernels without mirrors
+  bool bending = all;        ///< kernels without Snell and Fresnel where all glass has n = 1
+  bool attenuation = all;    ///< kernels without absorption where no glass absorbs and no mirror is coloured
+  bool smooth_normals = all; ///< kernels without interpolated normals
 };
 
 /// The environment as a light, as kernels/tracing/sky.h reads it.
@@ -48,12 +49,12 @@ struct SceneTables {
   StretchTables stretch;                 ///< for the same clusters
   std::vector<double> towards_targets_w; ///< [light]: power that it sends towards its targets, all wavelengths
   double light_towards_targets_w = 0;    ///< of all lights together
-  double power_unit = 1;                 ///< W or W m^-2: DeviceLight::radiometric is in these, so that no power leaves single precision
+  double power_unit =
+      1; ///< W or W m^-2: DeviceLight::radiometric is in these, so that no power leaves single precision
 };
 
 /// As devices have vectors.
-inline shared::float4 to_float4(const glm::dvec3& v, double w = 0)
-{
+inline shared::float4 to_float4(const glm::dvec3& v, double w = 0) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
 
@@ -63,9 +64,10 @@ shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& whe
 /// LIGHT_* of kernels/tracing/shared_types.h.
 int device_light_type(const scene::Light& light);
 
-/// clusters: of the 401 wavelengths, each in exactly one. Throws bad_input at FILE#/pointer where the camera or a light is inside more than
-/// MEDIA_DEPTH dielectrics.
-SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters, const LeaveOut& leave_out);
+/// clusters: of the 401 wavelengths, each in exactly one. Throws bad_input at FILE#/pointer where the camera or a light
+/// is inside more than MEDIA_DEPTH dielectrics.
+SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters,
+                              const LeaveOut& leave_out);
 
 /// The triangles, then the ellipsoids.
 std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene);
@@ -79,8 +81,8 @@ std::uint64_t mesh_bytes(const scene::Scene& scene);
 /// Where texels are looked up: of what is seen, too.
 shared::DeviceBackground picture_size(const scene::Environment& environment);
 
-/// Of an environment that is not black. A texel of less than 2^-24 of its row is drawn more often than its flux asks for; its photons
-/// carry less then, so that nothing is too bright.
+/// Of an environment that is not black. A texel of less than 2^-24 of its row is drawn more often than its flux asks
+/// for; its photons carry less then, so that nothing is too bright.
 SkyTables make_sky_tables(const scene::Environment& environment);
 
 } // namespace nephroid::tracing

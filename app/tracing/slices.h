@@ -17,11 +17,10 @@ public:
   explicit SliceSize(double start) : amount_(start) {}
   /// As rank 0 has learned it.
   double amount(const Communicator& communicator) { return amount_ = communicator.broadcast(amount_); }
-  /// Calls work(), which does `amount` of it, and learns from the time it took: a little at a time, because the first step of a kernel also
-  /// compiles it, and the rows of a picture differ.
+  /// Calls work(), which does `amount` of it, and learns from the time it took: a little at a time, because the first
+  /// step of a kernel also compiles it, and the rows of a picture differ.
   template <class Work>
-  void timed(double amount, const Work& work)
-  {
+  void timed(double amount, const Work& work) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
     work();
@@ -44,13 +43,13 @@ public:
   /// Of the pass in hand.
   std::int64_t done() const { return done_; }
 
-  /// Calls work(first, count) for the next pixels (or rows) of the pass in hand, which has `size`; at most `most` at a time, and of these
-  /// for what is this rank's (Partition). True when the pass is complete.
+  /// Calls work(first, count) for the next pixels (or rows) of the pass in hand, which has `size`; at most `most` at a
+  /// time, and of these for what is this rank's (Partition). True when the pass is complete.
   template <class Work>
-  bool advance(const Communicator& communicator, std::int64_t size, std::int64_t most, const Work& work)
-  {
+  bool advance(const Communicator& communicator, std::int64_t size, std::int64_t most, const Work& work) {
     size_ = size;
-    const auto count = std::clamp<std::int64_t>(std::llround(amount_.amount(communicator)), 1, std::min(most, size - done_));
+    const auto count =
+        std::clamp<std::int64_t>(std::llround(amount_.amount(communicator)), 1, std::min(most, size - done_));
     amount_.timed(static_cast<double>(count), [&] {
       Partition(communicator, size).for_own(done_, count, [&](std::int64_t first, std::int64_t own) {
         work(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(own));
@@ -62,8 +61,7 @@ public:
     return true;
   }
 
-  void state(State& state)
-  {
+  void state(State& state) {
     state.value(done_);
     state.value(size_);
   }
@@ -83,8 +81,7 @@ class PhotonSlices {
 public:
   double fraction_done() const { return static_cast<double>(at_.slice) / at_.slices; }
   /// How many of the photons 0 .. photons - 1 of the pass in hand are done.
-  std::uint32_t done_of(std::uint32_t photons) const
-  {
+  std::uint32_t done_of(std::uint32_t photons) const {
     return photons / at_.slices * at_.slice + std::min(photons % at_.slices, at_.slice);
   }
   /// Whether the next step is the first of a pass.
@@ -92,14 +89,16 @@ public:
 
   /// Calls work(slice) for the next of `photons` photons, of which each rank has some. True when the pass is complete.
   template <class Work>
-  bool advance(const Communicator& communicator, std::uint32_t photons, const Work& work)
-  {
+  bool advance(const Communicator& communicator, std::uint32_t photons, const Work& work) {
     const double amount = photons_a_slice_.amount(communicator);
-    if (at_start()) at_.slices = static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::llround(photons / amount), 1, photons));
+    if (at_start())
+      at_.slices = static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::llround(photons / amount), 1, photons));
     const std::uint32_t count = (photons - at_.slice + at_.slices - 1) / at_.slices;
-    const auto rank = static_cast<std::uint32_t>(communicator.rank()), ranks = static_cast<std::uint32_t>(communicator.size());
+    const auto rank = static_cast<std::uint32_t>(communicator.rank()),
+               ranks = static_cast<std::uint32_t>(communicator.size());
     photons_a_slice_.timed(count, [&] {
-      if (rank < count) work(PhotonSlice{at_.slice + rank * at_.slices, ranks * at_.slices, (count - rank + ranks - 1) / ranks});
+      if (rank < count)
+        work(PhotonSlice{at_.slice + rank * at_.slices, ranks * at_.slices, (count - rank + ranks - 1) / ranks});
     });
     if (++at_.slice < at_.slices) return false;
     at_ = {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a checkpoint holds of a device: its buffers piece by piece, without the pieces that are all 0. So no second film is held on the
-// host, and an empty film takes no room.
+// What a checkpoint holds of a device: its buffers piece by piece, without the pieces that are all 0. So no second film
+// is held on the host, and an empty film takes no room.
 #pragma once
 #include "base/bytes.h"
 #include "base/communicator.h"
@@ -22,26 +22,25 @@ public:
   State(ByteSource& from, const Communicator& communicator) : nephroid::State(from), communicator_(communicator) {}
 
   /// Sums that every rank adds to (mpi::RankContext::all_reduced_sum): what was loaded is rank 0's.
-  void buffer(compute::Buffer<std::int64_t>& buffer)
-  {
+  void buffer(compute::Buffer<std::int64_t>& buffer) {
     in_pieces(buffer, [&](std::size_t) {
       if (is_read() && !communicator_.is_root()) std::ranges::fill(piece_, std::byte{0});
-      if (to_) communicator_.all_reduce_sum({reinterpret_cast<std::int64_t*>(piece_.data()), piece_.size() / sizeof(std::int64_t)});
+      if (to_)
+        communicator_.all_reduce_sum(
+            {reinterpret_cast<std::int64_t*>(piece_.data()), piece_.size() / sizeof(std::int64_t)});
     });
   }
-  /// What one of the ranks has written each item of, and the others have 0 (mpi::RankContext::all_reduced_or): what was loaded all of them
-  /// have.
+  /// What one of the ranks has written each item of, and the others have 0 (mpi::RankContext::all_reduced_or): what was
+  /// loaded all of them have.
   template <class T>
-  void joined(compute::Buffer<T>& buffer)
-  {
+  void joined(compute::Buffer<T>& buffer) {
     in_pieces(buffer, [&](std::size_t) {
       if (to_) communicator_.all_reduce_or(piece_);
     });
   }
   /// Several values of each item of `partition` (Partition::clear_others); others' than a rank's own are of no account.
   template <class T>
-  void owned(compute::Buffer<T>& buffer, const Partition& partition, std::size_t values_an_item)
-  {
+  void owned(compute::Buffer<T>& buffer, const Partition& partition, std::size_t values_an_item) {
     if (to_ && !communicator_.is_alone()) {
       std::vector<T> items = buffer.read();
       partition.clear_others(std::span(items), values_an_item);
@@ -53,8 +52,7 @@ public:
 private:
   /// work(at) comes between reading a piece from the device and writing it there.
   template <class T, class Work>
-  void in_pieces(compute::Buffer<T>& buffer, const Work& work)
-  {
+  void in_pieces(compute::Buffer<T>& buffer, const Work& work) {
     constexpr std::size_t piece_bytes = 1 << 18;
     for (std::size_t at = 0; at < buffer.bytes(); at += piece_bytes) {
       piece_.assign(std::min(piece_bytes, buffer.bytes() - at), std::byte{0});
@@ -72,7 +70,9 @@ private:
   }
 
   /// The first byte is 0 and each is as the one before.
-  bool all_zero() const { return piece_[0] == std::byte{0} && std::memcmp(piece_.data(), piece_.data() + 1, piece_.size() - 1) == 0; }
+  bool all_zero() const {
+    return piece_[0] == std::byte{0} && std::memcmp(piece_.data(), piece_.data() + 1, piece_.size() - 1) == 0;
+  }
 
   Communicator communicator_;
   std::vector<std::byte> piece_;

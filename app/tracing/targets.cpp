@@ -22,16 +22,15 @@ struct Piece {
   scene::Sphere sphere;
 };
 
-glm::vec3 centroid(const scene::Mesh& mesh, const glm::uvec3& corner)
-{
+glm::vec3 centroid(const scene::Mesh& mesh, const glm::uvec3& corner) {
   return (mesh.positions[corner.x] + mesh.positions[corner.y] + mesh.positions[corner.z]) / 3.0f;
 }
 
 /// Two halves of equal count along the axis on which the centroids spread most.
-std::pair<Piece, Piece> halves(const scene::Mesh& mesh, Triangles triangles)
-{
+std::pair<Piece, Piece> halves(const scene::Mesh& mesh, Triangles triangles) {
   glm::vec3 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
-  for (const glm::uvec3& t : triangles) low = glm::min(low, centroid(mesh, t)), high = glm::max(high, centroid(mesh, t));
+  for (const glm::uvec3& t : triangles)
+    low = glm::min(low, centroid(mesh, t)), high = glm::max(high, centroid(mesh, t));
   const glm::vec3 extent = high - low;
   const int axis = extent.x > extent.y ? (extent.x > extent.z ? 0 : 2) : (extent.y > extent.z ? 1 : 2);
   const auto middle = triangles.begin() + static_cast<std::ptrdiff_t>(triangles.size() / 2);
@@ -46,26 +45,26 @@ std::pair<Piece, Piece> halves(const scene::Mesh& mesh, Triangles triangles)
   return {std::move(first), std::move(second)};
 }
 
-/// Spheres about slices of an ellipsoid across its longest half axis a, as many as it is longer than thick. In lengths of a, a slice from x
-/// to x + w lies within w a / 2 of its middle along the axis, and within sqrt(1 - x'^2) of the next longest half axis off it, where x' is
-/// the slice's least distance from the centre.
-std::vector<scene::Sphere> slices(const scene::Ellipsoid& ellipsoid)
-{
+/// Spheres about slices of an ellipsoid across its longest half axis a, as many as it is longer than thick. In lengths
+/// of a, a slice from x to x + w lies within w a / 2 of its middle along the axis, and within sqrt(1 - x'^2) of the
+/// next longest half axis off it, where x' is the slice's least distance from the centre.
+std::vector<scene::Sphere> slices(const scene::Ellipsoid& ellipsoid) {
   std::array<glm::dvec3, 3> axes{ellipsoid.half_axes[0], ellipsoid.half_axes[1], ellipsoid.half_axes[2]};
   std::ranges::sort(axes, [](const glm::dvec3& a, const glm::dvec3& b) { return glm::length(a) > glm::length(b); });
   const double longest = glm::length(axes[0]), thick = glm::length(axes[1]);
   const int count = std::clamp(static_cast<int>(longest / thick), 1, static_cast<int>(max_targets));
   std::vector<scene::Sphere> spheres;
   for (int i = 0; i < count; ++i) {
-    const double width = 2.0 / count, middle = -1 + (i + 0.5) * width, nearest = std::max(0.0, std::abs(middle) - width / 2);
-    const double radius = count == 1 ? longest : std::hypot(longest * width / 2, thick * std::sqrt(1 - nearest * nearest));
+    const double width = 2.0 / count, middle = -1 + (i + 0.5) * width,
+                 nearest = std::max(0.0, std::abs(middle) - width / 2);
+    const double radius =
+        count == 1 ? longest : std::hypot(longest * width / 2, thick * std::sqrt(1 - nearest * nearest));
     spheres.push_back({ellipsoid.centre + glm::vec3(middle * axes[0]), static_cast<float>(radius * (1 + 1e-6))});
   }
   return spheres;
 }
 
-std::vector<Piece> piece_by_object(const scene::Scene& scene)
-{
+std::vector<Piece> piece_by_object(const scene::Scene& scene) {
   std::vector<Piece> pieces;
   for (const scene::Object& object : scene.objects) {
     const scene::Material::Type type = material_of(scene, object).type;
@@ -78,8 +77,7 @@ std::vector<Piece> piece_by_object(const scene::Scene& scene)
   return pieces;
 }
 
-std::vector<scene::Sphere> spheres_of(const std::vector<Piece>& pieces)
-{
+std::vector<scene::Sphere> spheres_of(const std::vector<Piece>& pieces) {
   std::vector<scene::Sphere> spheres;
   for (const Piece& piece : pieces) spheres.push_back(piece.sphere);
   return spheres;
@@ -87,20 +85,19 @@ std::vector<scene::Sphere> spheres_of(const std::vector<Piece>& pieces)
 
 } // namespace
 
-scene::Sphere everything(const scene::Scene& scene)
-{
+scene::Sphere everything(const scene::Scene& scene) {
   std::vector<glm::vec3> points = extreme_points(scene.geometry);
   for (const scene::Light& light : scene.lights)
     if (light.type != preset::Light::Type::directional)
       for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)})
         points.push_back(light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v));
   const auto [low, high] = box_about(points);
-  // Larger than need be, so that rounding leaves no light on its surface or outside; not a point where there is only one.
+  // Larger than need be, so that rounding leaves no light on its surface or outside; not a point where there is only
+  // one.
   return {0.5f * (low + high), std::max(0.51f * glm::length(high - low), 1e-3f)};
 }
 
-bool reaches(const scene::Light& light, const scene::Sphere& sphere)
-{
+bool reaches(const scene::Light& light, const scene::Sphere& sphere) {
   const glm::dvec3 way = glm::dvec3(sphere.centre) - glm::dvec3(light.position);
   const double distance = glm::length(way), along = glm::dot(way, glm::dvec3(light.direction));
   // Kernels tell directions in single precision: what is outside by less than these is kept.
@@ -108,11 +105,11 @@ bool reaches(const scene::Light& light, const scene::Sphere& sphere)
   if (light.type == preset::Light::Type::area) return along + sphere.radius + length_margin * distance > 0;
   if (light.type != preset::Light::Type::spot || distance <= sphere.radius) return true;
   const double off_axis = std::acos(std::clamp(along / distance, -1.0, 1.0));
-  return off_axis - std::asin(sphere.radius / distance) <= std::acos(std::clamp(light.cos_half_angle, -1.0, 1.0)) + angle_margin;
+  return off_axis - std::asin(sphere.radius / distance) <=
+         std::acos(std::clamp(light.cos_half_angle, -1.0, 1.0)) + angle_margin;
 }
 
-double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit)
-{
+double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit) {
   using std::numbers::pi;
   double steradians = 0, square_metres = 0;
   for (const scene::Sphere& target : targets) {
@@ -123,22 +120,19 @@ double towards_targets_w(const scene::Light& light, const std::vector<scene::Sph
     square_metres += pi * radius2 * metres_per_unit * metres_per_unit;
   }
   switch (light.type) {
-  case preset::Light::Type::directional:
-    return light.irradiance_w_m2 * square_metres;
+  case preset::Light::Type::directional: return light.irradiance_w_m2 * square_metres;
   case preset::Light::Type::spot:
     return light.power_w * std::min(1.0, steradians / (2 * pi * (1 - light.cos_half_angle)));
-  case preset::Light::Type::area:
-    return light.power_w * std::min(1.0, steradians / pi);
-  case preset::Light::Type::point:
-    break;
+  case preset::Light::Type::area: return light.power_w * std::min(1.0, steradians / pi);
+  case preset::Light::Type::point: break;
   }
   return light.power_w * std::min(1.0, steradians / (4 * pi));
 }
 
-// The mean over directions of the area that the spheres' shadows cover together. Each shadow is a disc; points spread evenly over it
-// count by 1 / (number of discs over the point), so the union is measured once. Points are Vogel's sunflower.
-double mean_shadow(const std::vector<scene::Sphere>& spheres)
-{
+// The mean over directions of the area that the spheres' shadows cover together. Each shadow is a disc; points spread
+// evenly over it count by 1 / (number of discs over the point), so the union is measured once. Points are Vogel's
+// sunflower.
+double mean_shadow(const std::vector<scene::Sphere>& spheres) {
   constexpr int directions = 32, points = 64;
   constexpr double pi = std::numbers::pi, golden_angle = pi * 0.7639320225002103; // pi (3 - sqrt 5)
   static const std::array<glm::dvec2, points> disc = [] {
@@ -152,7 +146,8 @@ double mean_shadow(const std::vector<scene::Sphere>& spheres)
   double sum = 0;
   for (int d = 0; d < directions; ++d) {
     const glm::dvec3 direction = scene::even_direction(d, directions);
-    const glm::dvec3 x = glm::normalize(glm::cross(direction, std::abs(direction.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+    const glm::dvec3 x =
+        glm::normalize(glm::cross(direction, std::abs(direction.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
     const glm::dvec3 y = glm::cross(direction, x);
     for (std::size_t i = 0; i < spheres.size(); ++i)
       centres[i] = {glm::dot(glm::dvec3(spheres[i].centre), x), glm::dot(glm::dvec3(spheres[i].centre), y)};
@@ -172,8 +167,7 @@ double mean_shadow(const std::vector<scene::Sphere>& spheres)
   return sum / directions;
 }
 
-std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene)
-{
+std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene) {
   std::vector<Piece> pieces = piece_by_object(scene);
   if (pieces.empty()) return {};
   if (pieces.size() > max_targets) {
@@ -196,7 +190,8 @@ std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene)
     *widest = std::move(first);
     pieces.push_back(std::move(second));
     const double shadow = mean_shadow(spheres_of(pieces));
-    // A sphere more costs every photon a little, so it has to make the shadow smaller by more than the estimate's error.
+    // A sphere more costs every photon a little, so it has to make the shadow smaller by more than the estimate's
+    // error.
     if (shadow < 0.97 * best_shadow) {
       best = spheres_of(pieces);
       best_shadow = shadow;

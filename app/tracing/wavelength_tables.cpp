@@ -23,8 +23,7 @@ static_assert(int(MaterialType::diffuse) == MATERIAL_DIFFUSE && int(MaterialType
 
 float4 to_float4(const glm::dvec4& v) { return tracing::to_float4(glm::dvec3(v), v.w); }
 
-std::vector<bool> used_materials(const scene::Scene& scene)
-{
+std::vector<bool> used_materials(const scene::Scene& scene) {
   std::vector<bool> used(scene.materials.size(), false);
   for (const scene::Object& object : scene.objects) used[static_cast<std::size_t>(object.material)] = true;
   return used;
@@ -34,8 +33,8 @@ std::vector<bool> used_materials(const scene::Scene& scene)
 constexpr double blackest = 200;
 
 /// Rows of the reflectance and attenuation tables, one for each material that needs one.
-void add_material_rows(const scene::Scene& scene, WavelengthTables& tables, std::vector<shared::DeviceMaterial>& materials)
-{
+void add_material_rows(const scene::Scene& scene, WavelengthTables& tables,
+                       std::vector<shared::DeviceMaterial>& materials) {
   const std::vector<bool> used = used_materials(scene);
   materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, 0});
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -56,9 +55,8 @@ void add_material_rows(const scene::Scene& scene, WavelengthTables& tables, std:
 bool bends(const scene::Material& material) { return material.type == MaterialType::dielectric; }
 
 /// The clusters with the wavelengths that are lit, and their indices of refraction.
-void add_cluster_rows(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
-                      WavelengthTables& tables)
-{
+void add_cluster_rows(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters,
+                      const std::vector<bool>& lit, WavelengthTables& tables) {
   tables.cluster_first.push_back(0);
   for (const std::vector<int>& cluster : clusters) {
     std::vector<int> left;
@@ -70,14 +68,14 @@ void add_cluster_rows(const scene::Scene& scene, const std::vector<std::vector<i
     for (const scene::Material& material : scene.materials) {
       double sum = 0;
       for (const int w : cluster) sum += material.n[static_cast<std::size_t>(w)];
-      tables.index_of_cluster.push_back(bends(material) ? static_cast<float>(sum / static_cast<double>(cluster.size())) : 1.0f);
+      tables.index_of_cluster.push_back(bends(material) ? static_cast<float>(sum / static_cast<double>(cluster.size()))
+                                                        : 1.0f);
     }
   }
 }
 
 /// The index of refraction of each wavelength, and whether any cluster has more than one.
-void add_wavelength_rows(const scene::Scene& scene, WavelengthTables& tables)
-{
+void add_wavelength_rows(const scene::Scene& scene, WavelengthTables& tables) {
   for (std::size_t w = 0; w < wavelength_count; ++w)
     for (const scene::Material& material : scene.materials)
       tables.index_of_wavelength.push_back(bends(material) ? static_cast<float>(material.n[w]) : 1.0f);
@@ -87,13 +85,13 @@ void add_wavelength_rows(const scene::Scene& scene, WavelengthTables& tables)
     const Spectrum& n = scene.materials[m].n;
     for (const std::vector<int>& cluster : tables.clusters)
       for (const int w : cluster)
-        tables.clusters_spread = tables.clusters_spread || n[static_cast<std::size_t>(w)] != n[static_cast<std::size_t>(cluster.front())];
+        tables.clusters_spread =
+            tables.clusters_spread || n[static_cast<std::size_t>(w)] != n[static_cast<std::size_t>(cluster.front())];
   }
 }
 
 /// Sum over wavelengths of light share times reflectance times (xbar, ybar, zbar), and of the light share.
-glm::dvec4 reflected(const Spectrum& light, const float* reflectance, const std::vector<int>& wavelengths)
-{
+glm::dvec4 reflected(const Spectrum& light, const float* reflectance, const std::vector<int>& wavelengths) {
   const optics::ColourMatching& eye = optics::cie_1931();
   glm::dvec4 sum(0);
   for (const int index : wavelengths) {
@@ -105,14 +103,12 @@ glm::dvec4 reflected(const Spectrum& light, const float* reflectance, const std:
 }
 
 /// One row of WavelengthTables::reflectance.
-const float* reflectance_row(const WavelengthTables& tables, int reflector)
-{
+const float* reflectance_row(const WavelengthTables& tables, int reflector) {
   return tables.reflectance.data() + static_cast<std::size_t>(reflector) * wavelength_count;
 }
 
 /// What a photon may carry, one row of light_xyz, reflected_xyz and reflected_xyz_all.
-void add_spectrum_rows(const Spectrum& spectrum, const std::vector<int>& all, WavelengthTables& tables)
-{
+void add_spectrum_rows(const Spectrum& spectrum, const std::vector<int>& all, WavelengthTables& tables) {
   for (const int w : all) tables.light_xyz.push_back(to_float4(reflected(spectrum, nullptr, {w})));
   for (const std::vector<int>& cluster : tables.clusters)
     for (int r = 0; r < tables.reflector_count; ++r)
@@ -121,9 +117,9 @@ void add_spectrum_rows(const Spectrum& spectrum, const std::vector<int>& all, Wa
     tables.reflected_xyz_all.push_back(to_float4(reflected(spectrum, reflectance_row(tables, r), all)));
 }
 
-/// Photons are allocated by a light's spectrum and carry it too, but for those of the environment, which carry three parts.
-void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
-{
+/// Photons are allocated by a light's spectrum and carry it too, but for those of the environment, which carry three
+/// parts.
+void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTables& tables) {
   const std::vector<int> all = optics::all_wavelengths();
   for (const scene::Light* light : lights) {
     if (is_environment(*light))
@@ -140,17 +136,16 @@ void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTa
   }
 }
 
-void add_cluster_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
-{
+void add_cluster_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables) {
   std::vector<double> weights(tables.clusters.size(), 0);
   for (std::size_t l = 0; l < lights.size(); ++l)
-    for (std::size_t c = 0; c < weights.size(); ++c) weights[c] += radiometric(*lights[l]) * worth(tables.seen[l][c], tables.share[l][c]);
+    for (std::size_t c = 0; c < weights.size(); ++c)
+      weights[c] += radiometric(*lights[l]) * worth(tables.seen[l][c], tables.share[l][c]);
   tables.cluster_cdf = exact_cdf_from_zero(weights);
 }
 
 /// A cdf of each cluster, one after the other, by the worth of the members' light.
-void add_wavelength_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
-{
+void add_wavelength_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables) {
   for (const std::vector<int>& cluster : tables.clusters) {
     std::vector<double> weights;
     for (const int w : cluster) {
@@ -170,21 +165,20 @@ constexpr std::size_t middle_wavelength = 200; // 580 nm
 constexpr double jump_ratio = 8;
 
 /// The curves of all glass that an object is of and that disperses, each once.
-std::vector<const Spectrum*> dispersive_curves(const scene::Scene& scene)
-{
+std::vector<const Spectrum*> dispersive_curves(const scene::Scene& scene) {
   std::vector<const Spectrum*> curves;
   for (const scene::Object& object : scene.objects) {
     const scene::Material& material = material_of(scene, object);
     const Spectrum& n = material.n;
-    if (material.type != MaterialType::dielectric || std::ranges::all_of(n, [&](double v) { return v == n[0]; })) continue;
+    if (material.type != MaterialType::dielectric || std::ranges::all_of(n, [&](double v) { return v == n[0]; }))
+      continue;
     if (std::ranges::none_of(curves, [&](const Spectrum* other) { return *other == n; })) curves.push_back(&n);
   }
   return curves;
 }
 
 /// s at every wavelength, from 580 nm.
-Spectrum parameter(const scene::Scene& scene)
-{
+Spectrum parameter(const scene::Scene& scene) {
   const std::vector<const Spectrum*> curves = dispersive_curves(scene);
   Spectrum s{};
   for (std::size_t w = 0; w < s.size(); ++w)
@@ -194,9 +188,10 @@ Spectrum parameter(const scene::Scene& scene)
 }
 
 /// s[to] - s[from] of neighbours, 0 across a jump; beyond the ends as long as the step before.
-double arm(const Spectrum& s, int from, int to)
-{
-  const auto step = [&](int lower) { return s[static_cast<std::size_t>(lower) + 1] - s[static_cast<std::size_t>(lower)]; };
+double arm(const Spectrum& s, int from, int to) {
+  const auto step = [&](int lower) {
+    return s[static_cast<std::size_t>(lower) + 1] - s[static_cast<std::size_t>(lower)];
+  };
   const int last = wavelength_count - 2; // the lower wavelength of the last step
   const int lower = std::clamp(std::min(from, to), 0, last);
   double beside = 0;
@@ -207,8 +202,7 @@ double arm(const Spectrum& s, int from, int to)
 }
 
 /// Least squares of n over s, of the wavelengths of a cluster and their neighbours.
-double slope(const Spectrum& n, const Spectrum& s, const std::vector<int>& cluster)
-{
+double slope(const Spectrum& n, const Spectrum& s, const std::vector<int>& cluster) {
   const int low = std::max(*std::ranges::min_element(cluster) - 1, 0),
             high = std::min(*std::ranges::max_element(cluster) + 1, wavelength_count - 1);
   double mean_n = 0, mean_s = 0, above = 0, below = 0;
@@ -226,21 +220,20 @@ double slope(const Spectrum& n, const Spectrum& s, const std::vector<int>& clust
 
 } // namespace
 
-std::vector<double> loss_coefficients(const scene::Material& material)
-{
+std::vector<double> loss_coefficients(const scene::Material& material) {
   std::vector<double> a;
   if (material.type == MaterialType::dielectric && material.absorbs)
     for (int w = 0; w < optics::wavelength_count; ++w)
       a.push_back(4 * std::numbers::pi * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9));
-  if (material.type == MaterialType::mirror && std::ranges::any_of(material.reflectance, [](double r) { return r != 1; }))
+  if (material.type == MaterialType::mirror &&
+      std::ranges::any_of(material.reflectance, [](double r) { return r != 1; }))
     for (const double r : material.reflectance) a.push_back(r > 0 ? std::min(-std::log(r), blackest) : blackest);
   return a;
 }
 
 WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::vector<const scene::Light*>& lights,
                                         const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
-                                        std::vector<shared::DeviceMaterial>& materials)
-{
+                                        std::vector<shared::DeviceMaterial>& materials) {
   WavelengthTables tables;
   add_material_rows(scene, tables, materials);
   add_cluster_rows(scene, clusters, lit, tables);
@@ -252,14 +245,12 @@ WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::ve
   return tables;
 }
 
-StretchParameter stretch_parameter(const scene::Scene& scene)
-{
+StretchParameter stretch_parameter(const scene::Scene& scene) {
   const std::size_t curves = dispersive_curves(scene).size();
   return curves == 0 ? StretchParameter::none : curves == 1 ? StretchParameter::index : StretchParameter::wavelength;
 }
 
-std::vector<std::vector<int>> split_into_runs(const std::vector<std::vector<int>>& clusters)
-{
+std::vector<std::vector<int>> split_into_runs(const std::vector<std::vector<int>>& clusters) {
   std::vector<std::vector<int>> runs;
   for (std::vector<int> cluster : clusters) {
     std::ranges::sort(cluster);
@@ -272,8 +263,8 @@ std::vector<std::vector<int>> split_into_runs(const std::vector<std::vector<int>
   return runs;
 }
 
-StretchTables make_stretch_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit)
-{
+StretchTables make_stretch_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters,
+                                  const std::vector<bool>& lit) {
   StretchTables tables;
   const Spectrum s = parameter(scene);
   const std::vector<const Spectrum*> curves = dispersive_curves(scene);
@@ -295,7 +286,9 @@ StretchTables make_stretch_tables(const scene::Scene& scene, const std::vector<s
     tables.stretch_span.push_back(to_float4(glm::dvec3(mean, *low, *high)));
     for (const scene::Material& material : scene.materials) {
       const bool disperses = std::ranges::any_of(curves, [&](const Spectrum* n) { return *n == material.n; });
-      tables.index_slope.push_back(!disperses ? 0.0f : curves.size() == 1 ? 1.0f : static_cast<float>(slope(material.n, s, cluster)));
+      tables.index_slope.push_back(!disperses           ? 0.0f
+                                   : curves.size() == 1 ? 1.0f
+                                                        : static_cast<float>(slope(material.n, s, cluster)));
     }
   }
   return tables;

@@ -7,32 +7,33 @@ namespace {
 #define PLUS_BYTES(type, name, words) +bytes_of(from.name)
 #define UPLOAD(type, name, words) buffers.name = compute::Buffer(context, words, from.name);
 
-std::uint64_t wavelength_bytes(const WavelengthTables& from) { return 0 WAVELENGTH_TABLES(PLUS_BYTES) COLOUR_TABLES(PLUS_BYTES); }
+std::uint64_t wavelength_bytes(const WavelengthTables& from) {
+  return 0 WAVELENGTH_TABLES(PLUS_BYTES) COLOUR_TABLES(PLUS_BYTES);
+}
 
 std::uint64_t stretch_bytes(const StretchTables& from) { return 0 STRETCH_TABLES(PLUS_BYTES); }
 
 std::uint64_t object_bytes(const SceneTables& from) { return 0 OBJECT_TABLES(PLUS_BYTES) TARGET_TABLES(PLUS_BYTES); }
 
-void upload_objects(const compute::Context& context, const SceneTables& from, SceneBuffers& buffers)
-{
+void upload_objects(const compute::Context& context, const SceneTables& from, SceneBuffers& buffers) {
   OBJECT_TABLES(UPLOAD)
   TARGET_TABLES(UPLOAD)
 }
 
-void upload_wavelengths(const compute::Context& context, const WavelengthTables& from, SceneBuffers& buffers)
-{
+void upload_wavelengths(const compute::Context& context, const WavelengthTables& from, SceneBuffers& buffers) {
   WAVELENGTH_TABLES(UPLOAD)
   COLOUR_TABLES(UPLOAD)
 }
 
-void upload_stretch(const compute::Context& context, const StretchTables& from, SceneBuffers& buffers) { STRETCH_TABLES(UPLOAD) }
+void upload_stretch(const compute::Context& context, const StretchTables& from, SceneBuffers& buffers) {
+  STRETCH_TABLES(UPLOAD)
+}
 
 void upload_sky(const compute::Context& context, const SkyTables& from, SceneBuffers& buffers) { SKY_TABLES(UPLOAD) }
 
 } // namespace
 
-std::uint64_t sky_bytes(const SceneTables& tables)
-{
+std::uint64_t sky_bytes(const SceneTables& tables) {
   if (!tables.sky) return 0;
   const SkyTables& from = *tables.sky;
   return 0 SKY_TABLES(PLUS_BYTES);
@@ -40,18 +41,19 @@ std::uint64_t sky_bytes(const SceneTables& tables)
 
 std::uint64_t tree_bytes(const scene::Bvh& bvh) { return bytes_of(bvh.nodes) + bytes_of(bvh.blocks); }
 
-std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables)
-{
-  std::vector<plan::PlannedBuffer> rows{{"tree", tree_bytes(bvh)},
-                                        {"triangles", scene.object_of_primitive.size() * sizeof(DevicePrimitive)},
-                                        {"objects and lights", object_bytes(tables)},
-                                        {"wavelength tables", wavelength_bytes(tables.wavelengths) + stretch_bytes(tables.stretch)}};
+std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh,
+                                                 const SceneTables& tables) {
+  std::vector<plan::PlannedBuffer> rows{
+      {"tree", tree_bytes(bvh)},
+      {"triangles", scene.object_of_primitive.size() * sizeof(DevicePrimitive)},
+      {"objects and lights", object_bytes(tables)},
+      {"wavelength tables", wavelength_bytes(tables.wavelengths) + stretch_bytes(tables.stretch)}};
   if (tables.sky) rows.push_back({"environment as a light", sky_bytes(tables)});
   return rows;
 }
 
-void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, SceneBuffers& buffers)
-{
+void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh,
+                     SceneBuffers& buffers) {
   const struct {
     const std::vector<float>&nodes, &blocks;
     std::vector<DevicePrimitive> primitives;
@@ -59,8 +61,8 @@ void upload_surfaces(const compute::Context& context, const scene::Scene& scene,
   GEOMETRY_TABLES(UPLOAD)
 }
 
-SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables)
-{
+SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh,
+                    const SceneTables& tables) {
   SceneBuffers buffers;
   upload_surfaces(context, scene, bvh, buffers);
   upload_objects(context, tables, buffers);
@@ -71,9 +73,8 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   return buffers;
 }
 
-World make_world(const mpi::RankContext& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables,
-                 const compute::Defines& defines, std::uint64_t seed)
-{
+World make_world(const mpi::RankContext& context, const scene::Scene& scene, const scene::Bvh& bvh,
+                 const SceneTables& tables, const compute::Defines& defines, std::uint64_t seed) {
   World world{context, upload(context, scene, bvh, tables), tables.scene, defines, {}};
   world.scene.root = bvh.root;
   world.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};

@@ -2,9 +2,9 @@
 // A scene on a device: the tables of scene_tables.h there, and how kernels are run in it.
 #pragma once
 #include "compute/compute.h"
+#include "mpi/rank_context.h"
 #include "plan/plan.h"
 #include "scene/bvh.h"
-#include "mpi/rank_context.h"
 #include "tracing/scene_tables.h"
 
 #include <algorithm>
@@ -28,13 +28,17 @@ std::uint64_t tree_bytes(const scene::Bvh& bvh);
 std::uint64_t sky_bytes(const SceneTables& tables);
 
 /// The plan's rows of what `upload` allocates.
-std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables);
+std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh,
+                                                 const SceneTables& tables);
 
-/// Of the tables those that say where surfaces are; the others stay. Throws failed where the device has not enough memory.
-void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, SceneBuffers& buffers);
+/// Of the tables those that say where surfaces are; the others stay. Throws failed where the device has not enough
+/// memory.
+void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh,
+                     SceneBuffers& buffers);
 
 /// Throws failed where the device has not enough memory.
-SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables);
+SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh,
+                    const SceneTables& tables);
 
 struct World {
   mpi::RankContext context;
@@ -43,15 +47,13 @@ struct World {
   compute::Defines defines; ///< for every kernel
   shared::uint2 seed{};
 
-  compute::Buffer<std::int64_t> zeroed(const std::string& name, std::size_t count) const
-  {
+  compute::Buffer<std::int64_t> zeroed(const std::string& name, std::size_t count) const {
     return compute::zeroed<std::int64_t>(context, name, count);
   }
 
   /// Queues a kernel that has WORLD_ARGUMENTS (kernels/tracing/world.h) beside its `own`.
-  void queue(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own,
-             std::initializer_list<compute::Argument> more = {})
-  {
+  void queue(compute::Kernel& kernel, std::size_t global, std::size_t local,
+             std::initializer_list<compute::Argument> own, std::initializer_list<compute::Argument> more = {}) {
 #define TABLE_ARGUMENT(type, name, words) {#name, buffers.name},
     std::vector<compute::Argument> arguments{WORLD_TABLES(TABLE_ARGUMENT){"scene", scene}};
 #undef TABLE_ARGUMENT
@@ -59,33 +61,32 @@ struct World {
     kernel.run(global, local, arguments, own);
   }
 
-  /// The same, and waits for it, so that a slice's time is that of its work (slices.h). Slices of several launches queue() and wait once.
+  /// The same, and waits for it, so that a slice's time is that of its work (slices.h). Slices of several launches
+  /// queue() and wait once.
   void run(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own,
-           std::initializer_list<compute::Argument> more = {})
-  {
+           std::initializer_list<compute::Argument> more = {}) {
     queue(kernel, global, local, own, more);
     context.finish();
   }
 
-  /// Photons that one work item follows, one after the other. Several on a CPU, where it pays that an item adds up its own sums first.
+  /// Photons that one work item follows, one after the other. Several on a CPU, where it pays that an item adds up its
+  /// own sums first.
   unsigned photons_per_item() const { return context.device().type == "cpu" ? 16 : 1; }
   /// For a kernel that run_photons runs.
-  compute::Defines photon_defines() const
-  {
+  compute::Defines photon_defines() const {
     compute::Defines result = defines;
     result["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item());
     return result;
   }
   /// As run, with items for `count` photons, and one at least.
   void run_photons(compute::Kernel& kernel, std::uint32_t count, std::initializer_list<compute::Argument> own,
-                   std::initializer_list<compute::Argument> more = {})
-  {
+                   std::initializer_list<compute::Argument> more = {}) {
     run(kernel, std::max(1u, (count + photons_per_item() - 1) / photons_per_item()), 32, own, more);
   }
 };
 
 /// The scene and tree are copied to the device; they need not outlive the call. defines: of the plan. Throws as upload.
-World make_world(const mpi::RankContext& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables,
-                 const compute::Defines& defines, std::uint64_t seed);
+World make_world(const mpi::RankContext& context, const scene::Scene& scene, const scene::Bvh& bvh,
+                 const SceneTables& tables, const compute::Defines& defines, std::uint64_t seed);
 
 } // namespace nephroid::tracing

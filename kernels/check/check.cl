@@ -15,15 +15,13 @@ enum {
 };
 
 // x y - z w as four separate roundings allow: what the signs of bvh.h's edge functions rest on.
-static inline float difference_of_products(float4 a)
-{
+static inline float difference_of_products(float4 a) {
 #pragma OPENCL FP_CONTRACT OFF
   const float first = a.x * a.y, second = a.z * a.w;
   return first - second;
 }
 
-static inline float built_in(int function, float4 a)
-{
+static inline float built_in(int function, float4 a) {
   float cosine;
   switch (function) {
   case FUNCTION_EXP: return exp(a.x);
@@ -38,33 +36,28 @@ static inline float built_in(int function, float4 a)
   return difference_of_products(a);
 }
 
-kernel void built_ins(int function, global const float4* in, global float* out, uint count)
-{
+kernel void built_ins(int function, global const float4* in, global float* out, uint count) {
   const uint i = get_global_id(0);
   if (i < count) out[i] = built_in(function, in[i]);
 }
 
-kernel void to_quanta(global const float* in, global long* out, uint count)
-{
+kernel void to_quanta(global const float* in, global long* out, uint count) {
   const uint i = get_global_id(0);
   if (i < count) out[i] = convert_long_rte(in[i]);
 }
 
-kernel void philox(global const uint4* counters, global const uint2* keys, global uint4* results, uint count)
-{
+kernel void philox(global const uint4* counters, global const uint2* keys, global uint4* results, uint count) {
   const uint i = get_global_id(0);
   if (i < count) results[i] = philox4x32(counters[i], keys[i]);
 }
 
-kernel void uniforms(uint2 seed, uint pass, uint block, uint stream, global float4* results, uint count)
-{
+kernel void uniforms(uint2 seed, uint pass, uint block, uint stream, global float4* results, uint count) {
   const uint i = get_global_id(0);
   if (i < count) results[i] = random4(seed, pass, i, block, stream);
 }
 
 // in: cos_i, n_i, n_t. out: cos_t, negative for total reflection; reflectance.
-kernel void interfaces(global const float4* in, global float4* out, uint count)
-{
+kernel void interfaces(global const float4* in, global float4* out, uint count) {
   const uint i = get_global_id(0);
   if (i >= count) return;
   const float cos_t = refracted_cosine(in[i].x, in[i].y / in[i].z);
@@ -74,8 +67,7 @@ kernel void interfaces(global const float4* in, global float4* out, uint count)
 
 // in: a direction that falls on the plane z = 0, and n_i / n_t. out: the reflected one; the refracted one and its
 // cosine.
-kernel void directions(global const float4* in, global float4* out, uint count)
-{
+kernel void directions(global const float4* in, global float4* out, uint count) {
   const uint i = get_global_id(0);
   if (i >= count) return;
   const float3 d = in[i].xyz, n = (float3)(0.0f, 0.0f, 1.0f);
@@ -87,8 +79,7 @@ kernel void directions(global const float4* in, global float4* out, uint count)
 // One walk an item through nested objects. A step k >= 0 enters object k, ~k leaves it. After each: the medium, -1 air,
 // or -2 where the list of media is full.
 kernel void media_walks(global const DeviceObject* objects, global const int* steps, global int* mediums,
-                        int steps_each, uint count)
-{
+                        int steps_each, uint count) {
   const uint walk = get_global_id(0);
   if (walk >= count) return;
   Media media = {0ul, 0ul};
@@ -106,8 +97,7 @@ kernel void media_walks(global const DeviceObject* objects, global const int* st
 // in: light, cluster, reflector, attenuator. lengths: what was crossed of the attenuator.
 kernel void attenuated(global const int* first, global const int* wavelengths, global const float* coefficient,
                        global const float4* light_xyz, global const float* reflectance, global const int4* in,
-                       global const float* lengths, global float4* out, uint count)
-{
+                       global const float* lengths, global float4* out, uint count) {
   const uint i = get_global_id(0);
   if (i >= count) return;
   const SpectralTables tables = {.cluster_first = first,
@@ -122,8 +112,7 @@ kernel void attenuated(global const int* first, global const int* wavelengths, g
 
 // Photon i of a light: origin and watts, then direction.
 kernel void emissions(global const DeviceLight* lights, int light, global const DeviceTarget* targets,
-                      DeviceScene scene, uint2 seed, global float4* out, uint count)
-{
+                      DeviceScene scene, uint2 seed, global float4* out, uint count) {
   const uint i = get_global_id(0);
   if (i >= count) return;
   const DeviceLight from = lights[light];

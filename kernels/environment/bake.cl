@@ -35,8 +35,7 @@ typedef struct {
 #define STEEPEST 8.0f
 
 // way: unit.
-static inline void mark_texel(const Spheres* spheres, int sphere, float3 place, float3 way, const Carried* carried)
-{
+static inline void mark_texel(const Spheres* spheres, int sphere, float3 place, float3 way, const Carried* carried) {
   const size_t texel =
       (size_t)sphere * (size_t)(spheres->side * spheres->side) + (size_t)sphere_texel(place, spheres->side);
   volatile __global long* const sums = spheres->film + (NEPHROID_CHANNELS + 3) * texel;
@@ -51,8 +50,7 @@ static inline void mark_texel(const Spheres* spheres, int sphere, float3 place, 
 // Marks each crossing of the way from `origin` up to `distance` along the unit vector `direction`. The way is nearest
 // to the middle at `foot`, and a sphere of radius r is crossed sqrt(r^2 - foot^2) before and after that.
 static inline void mark_spheres(const Spheres* spheres, float3 origin, float3 direction, float distance,
-                                const Carried* carried)
-{
+                                const Carried* carried) {
   const float to_foot = -dot(origin, direction);
   const float3 foot = origin + to_foot * direction;
   const float foot2 = dot(foot, foot);
@@ -67,14 +65,12 @@ static inline void mark_spheres(const Spheres* spheres, float3 origin, float3 di
 }
 
 // What is left of the path's power, 0..1.
-static inline float left_of(const World* world, const Path* path, const Band* band)
-{
+static inline float left_of(const World* world, const Path* path, const Band* band) {
   return wavelength_left(&world->tables, &path->losses, band->wavelength < 0 ? 0 : band->wavelength);
 }
 
 // light_rgb: [401] what a wavelength of white light is in linear sRGB; all of them together are (1, 1, 1).
-static inline Carried carried_by(__global const float4* light_rgb, const Band* band, float power)
-{
+static inline Carried carried_by(__global const float4* light_rgb, const Band* band, float power) {
   Carried carried;
   carried.power = power;
 #if NEPHROID_CHANNELS == 3
@@ -94,8 +90,7 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
                    __global const float* radii, volatile __global long* film,
                    volatile __global long* energy, // [OUTCOME_COUNT]
                    int sphere_count, int side, float4 direction, uint number, uint2 seed, uint first, uint count,
-                   float scale)
-{
+                   float scale) {
   const World world = WORLD;
   const Spheres spheres = {film, radii, sphere_count, side};
   DeviceLight light = lights[0];

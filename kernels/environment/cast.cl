@@ -9,8 +9,7 @@
 __kernel void cast(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of,
                    __global const float* radii, __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres,
                    __global const uint* list, uint first, uint count, int size, __global const float* distances,
-                   __global const float4* normals, __global float* caustics)
-{
+                   __global const float4* normals, __global float* caustics) {
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
   const uint texel = list[first + index];
@@ -31,8 +30,7 @@ __kernel void cast(__global const ushort* stored, __global const ushort* ways, _
 __kernel void compile_air(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of,
                           __global const float* radii, __global const DeviceEightSets* sets, int eights,
                           DeviceSpheres spheres, float4 object_x, float4 object_y, float4 object_z, int side,
-                          uint count, __global float* air)
-{
+                          uint count, __global float* air) {
   const uint item = (uint)get_global_id(0);
   if (item >= count) return;
   const uint texels = (uint)((side + 2) * (side + 2));

@@ -9,8 +9,7 @@ typedef struct {
   float s, t; // -1..1
 } CubePoint;
 
-static inline CubePoint cube_point(float3 d)
-{
+static inline CubePoint cube_point(float3 d) {
   const float3 a = fabs(d);
   CubePoint p;
   if (a.y >= a.x && a.y >= a.z) {
@@ -30,8 +29,7 @@ static inline CubePoint cube_point(float3 d)
 }
 
 // Not of unit length.
-static inline float3 cube_direction(int face, float s, float t)
-{
+static inline float3 cube_direction(int face, float s, float t) {
   switch (face) {
   case 0: return (float3)(1.0f, -t, -s);
   case 1: return (float3)(-1.0f, -t, s);
@@ -43,8 +41,7 @@ static inline float3 cube_direction(int face, float s, float t)
 }
 
 // Unit, of a texel's middle.
-static inline float3 cube_texel_direction(uint texel, int size)
-{
+static inline float3 cube_texel_direction(uint texel, int size) {
   const uint face_texels = (uint)(size * size), face = texel / face_texels, rest = texel % face_texels;
   const float s = (2.0f * (float)(rest % (uint)size) + 1.0f) / (float)size - 1.0f;
   const float t = (2.0f * (float)(rest / (uint)size) + 1.0f) / (float)size - 1.0f;
@@ -52,8 +49,7 @@ static inline float3 cube_texel_direction(uint texel, int size)
 }
 
 // The texel that a direction lies in.
-static inline uint cube_texel(float3 direction, int size)
-{
+static inline uint cube_texel(float3 direction, int size) {
   const CubePoint p = cube_point(direction);
   const int x = clamp((int)(0.5f * (p.s + 1.0f) * (float)size), 0, size - 1),
             y = clamp((int)(0.5f * (p.t + 1.0f) * (float)size), 0, size - 1);
@@ -67,8 +63,7 @@ typedef struct {
   float weights[4];
 } CubeTexels;
 
-static inline CubeTexels cube_texels(float3 direction, int size)
-{
+static inline CubeTexels cube_texels(float3 direction, int size) {
   const CubePoint p = cube_point(direction);
   const float last = (float)(size - 1);
   const float x = clamp(0.5f * (p.s + 1.0f) * (float)size - 0.5f, 0.0f, last),

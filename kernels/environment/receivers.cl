@@ -7,8 +7,7 @@
 
 // list: texels. distances: [texel]: INFINITY where there is nothing.
 __kernel void receivers(WORLD_ARGUMENTS, __global const uint* list, uint first, uint count, int size, float4 middle,
-                        __global float* distances, __global float4* facing)
-{
+                        __global float* distances, __global float4* facing) {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;

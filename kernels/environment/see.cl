@@ -6,8 +6,7 @@
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 
-static inline DeviceEnd nowhere(void)
-{
+static inline DeviceEnd nowhere(void) {
   DeviceEnd end;
   end.throughput = end.place = end.geometric = end.shading = (float4)(0.0f);
   return end;
@@ -16,8 +15,7 @@ static inline DeviceEnd nowhere(void)
 // Where a path ends. first: what it meets next, where that is known. weight: linear sRGB. likelier: of reflection and
 // refraction on its way.
 static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, bool known, const Band* band,
-                               float3 weight, uint2 seed, uint sample, uint pixel, bool likelier)
-{
+                               float3 weight, uint2 seed, uint sample, uint pixel, bool likelier) {
   DeviceEnd end = nowhere();
   Surface surface;
   Hit hit = *first;
@@ -39,8 +37,7 @@ static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, 
 }
 
 // The receiver's texels that shade.cl will look at.
-static inline void want(const DeviceEnd* end, float4 middle, int size, __global int* states)
-{
+static inline void want(const DeviceEnd* end, float4 middle, int size, __global int* states) {
   if (end->throughput.w != (float)END_SURFACE) return;
   const CubeTexels four = cube_texels(end->place.xyz - middle.xyz, size);
   for (int i = 0; i < 4; ++i)
@@ -50,8 +47,7 @@ static inline void want(const DeviceEnd* end, float4 middle, int size, __global 
 
 // How much of the light glass reflects where a path has met it: from the directions before and after. n_ratio: of
 // indices, near over far.
-static inline float reflected_share(float3 direction, float3 reflected, float n_ratio)
-{
+static inline float reflected_share(float3 direction, float3 reflected, float n_ratio) {
   const float3 normal = normalize(reflected - direction);
   const float cos_i = -dot(direction, normal), cos_t = refracted_cosine(cos_i, n_ratio);
   return cos_t < 0.0f ? 1.0f : fresnel_reflectance(cos_i, cos_t, n_ratio, 1.0f);
@@ -59,8 +55,7 @@ static inline float reflected_share(float3 direction, float3 reflected, float n_
 
 // The band of a path that is for one channel of the picture: a wavelength that is drawn by how much of white light of
 // that channel it is. channel_cdf: [channel][401].
-static inline Band band_of_channel(__global const float* channel_cdf, int channel, float u)
-{
+static inline Band band_of_channel(__global const float* channel_cdf, int channel, float u) {
 #if NEPHROID_JITTER
   const Band band = {0, choose(channel_cdf + channel * WAVELENGTH_COUNT, WAVELENGTH_COUNT, u), 1.0f};
   return band;
@@ -72,8 +67,7 @@ static inline Band band_of_channel(__global const float* channel_cdf, int channe
 // Takes a path from the eye on from the glass or mirror that it meets first, where it is reflected or goes through.
 // weight: linear sRGB of the channel. False where there is no such way.
 static inline bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, int channel,
-                              bool reflected, float3* weight)
-{
+                              bool reflected, float3* weight) {
   const Surface surface = surface_at(&world->geometry, *hit);
   const DeviceMaterial material = material_of(world, surface.object);
   lose_in_medium(world, path, hit->t);
@@ -101,8 +95,7 @@ static inline bool first_bend(const World* world, Path* path, const Hit* hit, co
 // that: one that did not would stand out as a square.
 __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global DeviceEnd* ends, __global int* states,
                   int size, float4 middle, DeviceCamera camera, uint2 seed, uint pass, int block, uint first,
-                  uint count)
-{
+                  uint count) {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;

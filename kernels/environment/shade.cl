@@ -32,8 +32,7 @@ typedef struct {
 
 // Irradiance on a surface by the caustics: linear sRGB, 0 where something else hides it from the object. *seen: of the
 // environment's light, 1 there. Of the four texels about it those count that see the same surface.
-static inline float3 caustic_irradiance(const Receivers* receivers, const DeviceEnd* end, float3* seen)
-{
+static inline float3 caustic_irradiance(const Receivers* receivers, const DeviceEnd* end, float3* seen) {
   *seen = (float3)(1.0f);
   const float3 way = end->place.xyz - receivers->middle.xyz;
   const float distance = length(way);
@@ -59,8 +58,7 @@ static inline float3 caustic_irradiance(const Receivers* receivers, const Device
 
 // Irradiance of the environment on a surface with the normal n, without shadows: the polynomial of
 // app/environment/segment/irradiance.h. polynomial: factors of 1, x, y, z, xx, yy, zz, xy, yz, zx.
-static inline float3 smooth_irradiance(__global const float4* polynomial, float3 n)
-{
+static inline float3 smooth_irradiance(__global const float4* polynomial, float3 n) {
   __global const float4* p = polynomial;
   const float4 sum = p[0] + n.x * p[1] + n.y * p[2] + n.z * p[3] + n.x * n.x * p[4] + n.y * n.y * p[5] +
                      n.z * n.z * p[6] + n.x * n.y * p[7] + n.y * n.z * p[8] + n.z * n.x * p[9];
@@ -68,8 +66,7 @@ static inline float3 smooth_irradiance(__global const float4* polynomial, float3
 }
 
 // Linear sRGB that a reflector sends back of light of a colour. reflected_rgb: [reflector][primary].
-static inline float3 reflected_colour(__global const float4* reflected_rgb, int reflector, float3 rgb)
-{
+static inline float3 reflected_colour(__global const float4* reflected_rgb, int reflector, float3 rgb) {
   __global const float4* of = reflected_rgb + 3 * reflector;
   return rgb.x * of[0].xyz + rgb.y * of[1].xyz + rgb.z * of[2].xyz;
 }
@@ -80,8 +77,7 @@ static inline float3 reflected_colour(__global const float4* reflected_rgb, int 
 static inline float3 direct_radiance(const World* world, const DeviceEnd* end, __global const float4* lit_rgb,
                                      __global const float4* reflected_rgb, __global const float4* irradiance,
                                      float power_unit, uint2 seed, uint pass, uint sequence, float3 seen,
-                                     float3* smooth)
-{
+                                     float3* smooth) {
   const int reflector = as_int(end->shading.w);
   const uint primitive = as_uint(end->geometric.w);
   Surface surface;
@@ -98,7 +94,8 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
       sum += reflected_colour(reflected_rgb, reflector, seen * smooth_irradiance(irradiance, surface.shading));
 #if !NEPHROID_COARSE
       const float3 rgb = power_unit * sky_irradiance(world, l, &path, &surface, primitive, seed, pass, 1u, sequence);
-      sampled += rgb.x * row[0].xyz + rgb.y * row[world->scene.reflector_count].xyz + rgb.z * row[2 * world->scene.reflector_count].xyz;
+      sampled += rgb.x * row[0].xyz + rgb.y * row[world->scene.reflector_count].xyz +
+                 rgb.z * row[2 * world->scene.reflector_count].xyz;
 #endif
     } else {
       const float3 lamp =
@@ -117,8 +114,7 @@ __kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global co
                     __global const float4* reflected_rgb, __global const float4* irradiance, float power_unit,
                     float4 middle, int size, __global const float* distances, __global const float* caustics,
                     __global const float* parts_seen, __global float* sums, int width, int height, uint2 seed,
-                    uint pass, int block, int anew, uint first, uint count)
-{
+                    uint pass, int block, int anew, uint first, uint count) {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;

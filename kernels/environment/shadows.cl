@@ -12,8 +12,7 @@
 // sRGB. parts_seen: [texel][3].
 __kernel void shadows(WORLD_ARGUMENTS, __global const uint* list, uint first, uint count, int size, float4 middle,
                       __global const float* distances, __global const float4* facing, __global const float4* sky_lights,
-                      int light_count, __global float* parts_seen)
-{
+                      int light_count, __global float* parts_seen) {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;

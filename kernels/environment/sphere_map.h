@@ -7,8 +7,7 @@
 #include "kernels/tracing/light.h"
 
 // The texel, row after row, of a map of side x side texels, of a direction of any length but 0.
-static inline int sphere_texel(float3 direction, int side)
-{
+static inline int sphere_texel(float3 direction, int side) {
   const float3 d = fabs(direction) / length(direction);
   // sqrt(1 - |z|) without its cancellation near the poles.
   const float r = sqrt((d.x * d.x + d.y * d.y) / (1.0f + d.z));
@@ -20,8 +19,7 @@ static inline int sphere_texel(float3 direction, int side)
 }
 
 // The unit direction of a texel's middle.
-static inline float3 sphere_direction(int texel, int side)
-{
+static inline float3 sphere_direction(int texel, int side) {
   const float2 place = ((float2)((float)(texel % side), (float)(texel / side)) + 0.5f) * (2.0f / (float)side) - 1.0f,
                size = fabs(place);
   const float height = 1.0f - size.x - size.y, r = 1.0f - fabs(height); // above 0: the upper half

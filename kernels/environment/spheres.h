@@ -18,8 +18,7 @@ typedef struct {
   float part;
 } Shell;
 
-static inline Shell shell_at(__global const float* radii, int count, float distance)
-{
+static inline Shell shell_at(__global const float* radii, int count, float distance) {
   int upper = 0;
   while (upper < count && radii[upper] < distance) ++upper;
   Shell shell = {max(upper - 1, 0), min(upper, count - 1), 0.0f};
@@ -30,8 +29,7 @@ static inline Shell shell_at(__global const float* radii, int count, float dista
 
 // Nearer to the middle than the smallest sphere E stays as it is there: what light does inside is not known, and r^2
 // goes to 0.
-static inline float held(__global const float* radii, float distance)
-{
+static inline float held(__global const float* radii, float distance) {
   const float part = fmin(distance / radii[0], 1.0f);
   return part * part;
 }
@@ -57,8 +55,7 @@ DEFINE_STORED_PLACE(stored_place, float)
 
 // The texel of a map of side x side that a texel of its stored form shows, whose border has what is over the edge:
 // there the square goes on at the same edge, from its other end.
-static inline int texel_of_stored(int stored, int side)
-{
+static inline int texel_of_stored(int stored, int side) {
   const int stride = side + 2, last = side - 1, column = stored % stride - 1, row = stored / stride - 1;
   const bool across = column < 0 || column > last, down = row < 0 || row > last;
   const int x = clamp(column, 0, last), y = clamp(row, 0, last);
@@ -84,8 +81,7 @@ typedef struct {
 } FourTexels;
 
 // direction: unit, in the map's coordinates.
-static inline FourTexels four_texels(float3 direction, int side)
-{
+static inline FourTexels four_texels(float3 direction, int side) {
   float column, row;
   stored_place(direction.x, direction.y, direction.z, (float)side, &column, &row);
   const int stride = side + 2, left = (int)column, top = (int)row;
@@ -97,8 +93,7 @@ static inline FourTexels four_texels(float3 direction, int side)
   return four;
 }
 
-static inline float3 stored_between(__global const ushort* map, const FourTexels* four)
-{
+static inline float3 stored_between(__global const ushort* map, const FourTexels* four) {
   float3 sum = (float3)(0.0f);
   for (int i = 0; i < 4; ++i) {
 #if NEPHROID_CHANNELS == 1
@@ -112,25 +107,21 @@ static inline float3 stored_between(__global const ushort* map, const FourTexels
 
 // Of one set's spheres, in their stored form.
 static inline float3 stored_between_spheres(__global const ushort* set, const DeviceSpheres* spheres,
-                                            const FourTexels* four, Shell shell)
-{
+                                            const FourTexels* four, Shell shell) {
   const size_t map_items = NEPHROID_CHANNELS * (size_t)((spheres->side + 2) * (spheres->side + 2));
   const float3 lower = stored_between(set + (size_t)shell.lower * map_items, four);
   return lower + shell.part * (stored_between(set + (size_t)shell.upper * map_items, four) - lower);
 }
 
 // Of set k of eight.
-static inline float3 row_of_set(__global const DeviceEightSets* eight, int k, int row)
-{
+static inline float3 row_of_set(__global const DeviceEightSets* eight, int k, int row) {
   return (float3)(eight->to_bake[3 * row][k], eight->to_bake[3 * row + 1][k], eight->to_bake[3 * row + 2][k]);
 }
-static inline float3 in_set(__global const DeviceEightSets* eight, int k, float3 direction)
-{
+static inline float3 in_set(__global const DeviceEightSets* eight, int k, float3 direction) {
   return (float3)(dot(row_of_set(eight, k, 0), direction), dot(row_of_set(eight, k, 1), direction),
                   dot(row_of_set(eight, k, 2), direction));
 }
-static inline float3 flux_of_set(__global const DeviceEightSets* eight, int k)
-{
+static inline float3 flux_of_set(__global const DeviceEightSets* eight, int k) {
   return (float3)(eight->flux[0][k], eight->flux[1][k], eight->flux[2][k]);
 }
 
@@ -143,8 +134,7 @@ typedef struct {
 
 // Of set k of eight.
 static inline SetLight light_of_set(const Maps* maps, const DeviceSpheres* spheres,
-                                    __global const DeviceEightSets* eight, int k, float3 direction, Shell shell)
-{
+                                    __global const DeviceEightSets* eight, int k, float3 direction, Shell shell) {
   SetLight light;
   light.outwards = in_set(eight, k, direction);
   const FourTexels four = four_texels(light.outwards, spheres->side);
@@ -161,8 +151,7 @@ static inline SetLight light_of_set(const Maps* maps, const DeviceSpheres* spher
 // other: eight side by side need more registers than there are.
 static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* spheres,
                                      __global const DeviceEightSets* sets, int eights, float3 direction, Shell shell,
-                                     float beyond, float3 normal)
-{
+                                     float beyond, float3 normal) {
   float3 sum = (float3)(0.0f);
   for (int i = 0; i < 8 * eights; ++i) {
     __global const DeviceEightSets* eight = sets + i / 8;
@@ -189,8 +178,7 @@ static inline float luminance_of(float3 rgb) { return dot(rgb, (float3)(0.2126f,
 
 // What set k of eight adds, in a unit direction of the scene.
 static inline void add_air(AirLight* sum, const Maps* maps, const DeviceSpheres* spheres,
-                           __global const DeviceEightSets* eight, int k, float3 direction, Shell shell)
-{
+                           __global const DeviceEightSets* eight, int k, float3 direction, Shell shell) {
   const SetLight light = light_of_set(maps, spheres, eight, k, direction, shell);
   const float3 way = light.way;
   const float3 rgb =
@@ -202,8 +190,7 @@ static inline void add_air(AirLight* sum, const Maps* maps, const DeviceSpheres*
 
 // What compile_air has made of all sets: [sphere][texel of the stored form][6], in coordinates of the object.
 static inline AirLight compiled_air(__global const float* air, const DeviceSpheres* spheres, float3 in_object,
-                                    Shell shell)
-{
+                                    Shell shell) {
   const FourTexels four = four_texels(in_object, spheres->side);
   const size_t map_texels = (size_t)((spheres->side + 2) * (spheres->side + 2));
   AirLight sum = {(float3)(0.0f), (float3)(0.0f)};

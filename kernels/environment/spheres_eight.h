@@ -20,8 +20,7 @@ typedef struct {
 } EightCaustics;
 
 // Between two texels that are beside each other, `offset` numbers after each of eight places.
-static inline EightCaustics between_columns(__global const ushort* const* at, size_t offset, float8 u)
-{
+static inline EightCaustics between_columns(__global const ushort* const* at, size_t offset, float8 u) {
   EightCaustics caustics;
 #if NEPHROID_CHANNELS == 1
   const uint8 both = EIGHT_PAIRS(at, offset);
@@ -36,21 +35,18 @@ static inline EightCaustics between_columns(__global const ushort* const* at, si
   return caustics;
 }
 
-static inline EightCaustics eight_between(EightCaustics a, EightCaustics b, float8 part)
-{
+static inline EightCaustics eight_between(EightCaustics a, EightCaustics b, float8 part) {
   for (int c = 0; c < NEPHROID_CHANNELS; ++c) a.channels[c] = mix(a.channels[c], b.channels[c], part);
   return a;
 }
 
-static inline float sum_of_eight(float8 v)
-{
+static inline float sum_of_eight(float8 v) {
   const float4 four = v.lo + v.hi;
   const float2 two = four.lo + four.hi;
   return two.x + two.y;
 }
 
-static inline float8 row_of_eight(__global const DeviceEightSets* eight, int row, float3 direction)
-{
+static inline float8 row_of_eight(__global const DeviceEightSets* eight, int row, float3 direction) {
   return vload8(3 * row, eight->to_bake[0]) * direction.x + vload8(3 * row + 1, eight->to_bake[0]) * direction.y +
          vload8(3 * row + 2, eight->to_bake[0]) * direction.z;
 }
@@ -61,8 +57,7 @@ static inline float8 row_of_eight(__global const DeviceEightSets* eight, int row
 // middle; the factor goes from the way's to the middle's with it.
 static inline float8 eight_factors(const Maps* maps, __global const DeviceEightSets* eight, size_t map, int8 texels,
                                    float8 x, float8 y, float8 z, float8 normal_x, float8 normal_y, float8 normal_z,
-                                   float beyond)
-{
+                                   float beyond) {
   int texel[8];
   vstore8(texels, 0, texel);
   float ways[3][8];
@@ -83,8 +78,7 @@ static inline float8 eight_factors(const Maps* maps, __global const DeviceEightS
 // the object's side. beyond: of eight_factors.
 static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* spheres,
                                      __global const DeviceEightSets* sets, int eights, float3 direction, Shell shell,
-                                     float beyond, float3 normal)
-{
+                                     float beyond, float3 normal) {
   const int stride = spheres->side + 2;
   const size_t row_items = (size_t)stride * NEPHROID_CHANNELS, map_texels = (size_t)(stride * stride);
   const size_t lower = (size_t)shell.lower * map_texels, upper = (size_t)shell.upper * map_texels;

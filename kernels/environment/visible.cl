@@ -6,8 +6,7 @@
 // looked at from points that are far from each other: an odd step near the golden ratio of 1024 meets each point once.
 // turned_x, turned_z: where that takes +x and +z; +y stays.
 __kernel void visible(WORLD_ARGUMENTS, __global const float4* directions, __global uchar* seen, uint count,
-                      __global const float4* points, uint last_point, float4 turned_x, float4 turned_z)
-{
+                      __global const float4* points, uint last_point, float4 turned_x, float4 turned_z) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const World world = WORLD;

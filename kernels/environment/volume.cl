@@ -13,8 +13,7 @@
 // Part of the light that is scattered into a steradian, by the cosine between the mean way before and the way after.
 // together: the length of the mean of unit ways, 1 where all are the same. Ways that lie about their mean as Henyey and
 // Greenstein's do make the first moment of the phase function smaller by that, and the second by its square.
-static inline float phase_function(float cosine, float together, int rayleigh, float g)
-{
+static inline float phase_function(float cosine, float together, int rayleigh, float g) {
   if (rayleigh) return 1.0f / (4.0f * PI_F) * (1.0f + together * together * (0.75f * cosine * cosine - 0.25f));
   const float mean = together * g, base = 1.0f + mean * mean - 2.0f * mean * cosine; // Henyey and Greenstein 1941
   return (1.0f - mean * mean) / (4.0f * PI_F * base * sqrt(base));
@@ -25,8 +24,7 @@ static inline float phase_function(float cosine, float together, int rayleigh, f
 __kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const float* radii, DeviceSpheres spheres,
                      float4 object_x, float4 object_y, float4 object_z, __global const float* distances, int size,
                      float4 middle, DeviceCamera camera, float extinction, float albedo, int rayleigh, float anisotropy,
-                     __global float* sums, uint2 seed, uint pass, int block, int anew, uint first, uint count)
-{
+                     __global float* sums, uint2 seed, uint pass, int block, int anew, uint first, uint count) {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;

@@ -13,15 +13,13 @@ static inline float3 direction_of(float2 slope) { return (float3)(slope, -1.0f) 
 static inline float3 light_inside(float2 sines, float n) { return (float3)(sines, -sqrt(n * n - dot(sines, sines))); }
 static inline float2 slope_inside(float2 sines, float n) { return sines * rsqrt(n * n - dot(sines, sines)); }
 
-static inline float2 facet_gradient(float2 slope, float n, float2 sines)
-{
+static inline float2 facet_gradient(float2 slope, float n, float2 sines) {
   const float3 along = light_inside(sines, n) - direction_of(slope);
   return -along.xy / along.z;
 }
 
 // The unit normal out of the object; its length is 0 where no facet gives light this slope.
-static inline float3 facet_normal(float2 slope, float n, float2 sines)
-{
+static inline float3 facet_normal(float2 slope, float n, float2 sines) {
   const float3 in = light_inside(sines, n), out = direction_of(slope);
   const float3 normal = n < 1.0f ? out - in : in - out;
   const float square = dot(normal, normal);
@@ -29,8 +27,7 @@ static inline float3 facet_normal(float2 slope, float n, float2 sines)
 }
 
 // 1 minus Fresnel's reflectance.
-static inline float transmitted(float2 slope, float n, float2 sines)
-{
+static inline float transmitted(float2 slope, float n, float2 sines) {
   const float3 normal = facet_normal(slope, n, sines);
   const float cos_i = fmin(1.0f, dot(normal, light_inside(sines, n)) / n);
   if (!(cos_i > 0.0f)) return 0.0f;
@@ -38,8 +35,7 @@ static inline float transmitted(float2 slope, float n, float2 sines)
   return cos_t < 0.0f ? 0.0f : 1.0f - fresnel_reflectance(cos_i, cos_t, n, 1.0f);
 }
 
-static inline bool is_reachable(float2 slope, float n, float2 sines, float steepest)
-{
+static inline bool is_reachable(float2 slope, float n, float2 sines, float steepest) {
   const float n2 = n > 1.0f ? n * n : 1.0f / (n * n), most2 = USABLE_PART * USABLE_PART * (n2 - 1.0f);
 #if NEPHROID_INCOMING
   const float cosine = dot(light_inside(sines, n), direction_of(slope)) / n;
@@ -57,15 +53,13 @@ typedef struct {
   float2 by_sine_x, by_sine_y, by_index;
 } SlopeChange;
 
-static inline float2 change_of_slope(float3 dk, float dn, float2 slope, float n, float3 k, float3 out, float3 normal)
-{
+static inline float2 change_of_slope(float3 dk, float dn, float2 slope, float n, float3 k, float3 out, float3 normal) {
   const float dk_n = dot(dk, normal), dc = (dot(k, normal) * dk_n - n * dn) / dot(out, normal);
   const float3 change = dk - (dk_n - dc) * normal;
   return -(change.xy + slope * change.z) / out.z;
 }
 
-static inline SlopeChange slope_change(float2 slope, float n, float2 sines)
-{
+static inline SlopeChange slope_change(float2 slope, float n, float2 sines) {
   const float3 k = light_inside(sines, n), out = direction_of(slope), normal = facet_normal(slope, n, sines);
   SlopeChange change = {(float2)(1.0f, 0.0f), (float2)(0.0f, 1.0f), (float2)(0.0f)};
   if (dot(normal, normal) == 0.0f) return change;

@@ -69,8 +69,8 @@ typedef struct {
 // A ray's light is counted in quanta: so many are what falls on a facet.
 #define RAY_QUANTA 0x1p32f
 
-// Where the light goes that falls on the front: inverse::RayOutcomes. Sums are kept in many places, so that rays seldom meet
-// there.
+// Where the light goes that falls on the front: inverse::RayOutcomes. Sums are kept in many places, so that rays seldom
+// meet there.
 #define FATE_REFLECTED 0
 #define FATE_LOST 1
 #define FATE_SENT 2

@@ -27,16 +27,14 @@ typedef struct {
   float one_over_width, tail; // tail: 1 / (2 width blur)
 } Beam;
 
-static inline Beam beam_of(float middle, float width, float blur)
-{
+static inline Beam beam_of(float middle, float width, float blur) {
   const float a = fmax(fmax(width, blur), 1e-6f), b = fmin(width, blur);
   const Beam beam = {middle, 0.5f * (a + b), 0.5f * (a - b), 1.0f / a, 0.5f / (a * fmax(b, 1e-12f))};
   return beam;
 }
 
 // The part of a beam before t.
-static inline float part_before(Beam beam, float t)
-{
+static inline float part_before(Beam beam, float t) {
   const float at = t - beam.middle, rest = fmax(0.0f, beam.reach - fabs(at));
   if (fabs(at) <= beam.even) return 0.5f + at * beam.one_over_width;
   const float tail = fmin(0.5f, rest * rest * beam.tail);
@@ -44,8 +42,7 @@ static inline float part_before(Beam beam, float t)
 }
 
 // Part of the beam on a cell.
-static inline float part_on(Beam beam, int cell)
-{
+static inline float part_on(Beam beam, int cell) {
   return part_before(beam, (float)(cell + 1)) - part_before(beam, (float)cell);
 }
 
@@ -63,15 +60,13 @@ typedef struct {
 #endif
 } Footprint;
 
-static inline float2 middle_of_facet(global const DeviceLayout* layout, uint facet)
-{
+static inline float2 middle_of_facet(global const DeviceLayout* layout, uint facet) {
   const float column = (float)(facet % (uint)layout->columns), row = (float)(facet / (uint)layout->columns);
   return (float2)((column + 0.5f) * layout->facet_x - 0.5f * layout->size_x,
                   0.5f * layout->size_y - (row + 0.5f) * layout->facet_y);
 }
 
-static inline float2 in_cells(global const DeviceLayout* layout, DeviceReceiver receiver, float2 p)
-{
+static inline float2 in_cells(global const DeviceLayout* layout, DeviceReceiver receiver, float2 p) {
   return (float2)((p.x - receiver.x + 0.5f * layout->receiver_x) / layout->cell_x,
                   (0.5f * layout->receiver_y - (p.y - receiver.y)) / layout->cell_y);
 }
@@ -86,8 +81,7 @@ typedef struct {
 } Facet;
 
 static inline Facet facet_at(global const DeviceLayout* layout, global const DeviceIncoming* incoming,
-                             global const float* heights, uint index)
-{
+                             global const float* heights, uint index) {
   Facet facet = {(int)(index % (uint)layout->columns),
                  (int)(index / (uint)layout->columns),
                  middle_of_facet(layout, index),
@@ -112,8 +106,7 @@ typedef struct {
 
 #if NEPHROID_INCOMING
 // The mean over v = -1/2 .. 1/2 of a + b v where that is above 0.
-static inline float mean_above_0(float a, float b)
-{
+static inline float mean_above_0(float a, float b) {
   b = fabs(b);
   return fabs(a) >= 0.5f * b ? fmax(a, 0.0f) : (a + 0.5f * b) * (a + 0.5f * b) / (2.0f * b);
 }
@@ -121,8 +114,7 @@ static inline float mean_above_0(float a, float b)
 // In parts of the facet's width: what the neighbour at a side of x hides of light with this slope, x and y being any
 // two axes.
 static inline float hidden_by(global const DeviceLayout* layout, const Facet* facet, int2 to, float along, float g,
-                              float g_other, int axis, float ratio, float meets)
-{
+                              float g_other, int axis, float ratio, float meets) {
   if (to.x < 0 || to.y < 0 || to.x >= layout->columns || to.y >= layout->rows) return 0.0f;
   global const float* around = facet->all[to.y * layout->columns + to.x].around;
   const float h = around[axis], h_other = around[1 - axis];
@@ -130,8 +122,7 @@ static inline float hidden_by(global const DeviceLayout* layout, const Facet* fa
 }
 
 static inline LitPart lit_part(global const DeviceLayout* layout, const Facet* facet, float2 inside, float2 slope,
-                               float2 g)
-{
+                               float2 g) {
   const float ratio = layout->facet_y / layout->facet_x, in = 1.0f + dot(inside, g), out = 1.0f + dot(slope, g);
   const int2 at = (int2)(facet->column, facet->row); // rows count downwards
   const int2 from = (int2)(inside.x > 0.0f ? -1 : 1, inside.y > 0.0f ? -1 : 1),
@@ -161,8 +152,7 @@ typedef struct {
 #endif
 } Beams;
 
-static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* facet, float2 slope)
-{
+static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* facet, float2 slope) {
   const float n = layout->n;
   const float2 g = facet_gradient(slope, n, facet->sines);
   Beams beams = {slope,
@@ -203,14 +193,12 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
 
 #if NEPHROID_SPREAD
 // Beam i's part of the light.
-static inline float part_of(global const DeviceLayout* layout, const Footprint* print, int i)
-{
+static inline float part_of(global const DeviceLayout* layout, const Footprint* print, int i) {
   return layout->index_part[print->groups - 1 + i / print->points] / (float)print->points;
 }
 
 // How far beam i is from the middle, in cells.
-static inline float2 shift_of(global const DeviceLayout* layout, const Footprint* print, int i)
-{
+static inline float2 shift_of(global const DeviceLayout* layout, const Footprint* print, int i) {
   float2 shift = layout->index_over[print->groups - 1 + i / print->points] * print->by_index;
   if (print->points == 1) return shift;
   const int k = 2 * (i % print->points);
@@ -221,8 +209,7 @@ static inline float2 shift_of(global const DeviceLayout* layout, const Footprint
 #endif
 
 static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Facet* facet, const Beams* beams,
-                                    DeviceReceiver receiver)
-{
+                                    DeviceReceiver receiver) {
   Footprint print;
   const float way = receiver.distance + facet->height;
   const float2 cell = (float2)(layout->cell_x, layout->cell_y);
@@ -265,8 +252,7 @@ static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Fac
 }
 
 // How far a footprint reaches from its middle, in cells.
-static inline float2 reach_of(const Footprint* print)
-{
+static inline float2 reach_of(const Footprint* print) {
   const float2 reach = (float2)(print->x.reach, print->y.reach);
 #if NEPHROID_SPREAD
   return reach + fmax(fabs(print->low), fabs(print->high));
@@ -276,8 +262,7 @@ static inline float2 reach_of(const Footprint* print)
 }
 
 // The cells that a footprint touches: x and y of the first, and behind the last.
-static inline int4 cells_of(global const DeviceLayout* layout, const Footprint* print)
-{
+static inline int4 cells_of(global const DeviceLayout* layout, const Footprint* print) {
 #if NEPHROID_SPREAD
   const float2 low = print->low, high = print->high;
 #else
@@ -296,8 +281,7 @@ static inline int4 cells_of(global const DeviceLayout* layout, const Footprint* 
 #define TILE_ROWS TILE
 typedef float Tile[TILE * TILE];
 
-static SEPARATE int fill_tile(global const DeviceLayout* layout, const Footprint* print, int2 corner, float* tile)
-{
+static SEPARATE int fill_tile(global const DeviceLayout* layout, const Footprint* print, int2 corner, float* tile) {
   for (int i = 0; i < TILE * TILE; ++i) tile[i] = 0.0f;
   const int count = print->groups * print->points;
   for (int i = 0; i < count; ++i) {
@@ -320,8 +304,7 @@ static SEPARATE int fill_tile(global const DeviceLayout* layout, const Footprint
 #define TILE (1 << 20)
 #define TILE_ROWS 1
 typedef float Tile[1];
-static inline int fill_tile(global const DeviceLayout* layout, const Footprint* print, int2 corner, float* tile)
-{
+static inline int fill_tile(global const DeviceLayout* layout, const Footprint* print, int2 corner, float* tile) {
   tile[0] = part_on(print->y, corner.y);
   return 1;
 }

@@ -21,8 +21,7 @@
 
 // normals: of each triangle, unit, out of the object; w: its PART_*.
 static inline DeviceWayOut follow(global const float* nodes, global const float* blocks, int root,
-                                  global const float4* normals, float n, float3 from, float3 direction)
-{
+                                  global const float4* normals, float n, float3 from, float3 direction) {
   DeviceWayOut way = {(float4)(0.0f), (float4)(0.0f), 1.0f, 0.0f, 0, 0};
   uint leaves = NEPHROID_NO_PRIMITIVE;
   int surfaces = 0;
@@ -59,8 +58,7 @@ static inline DeviceWayOut follow(global const float* nodes, global const float*
 // Rays one by one, for closed forms.
 __kernel void follow_rays(__global const float* nodes, __global const float* blocks, int root,
                           __global const float4* normals, float n, __global const float4* from,
-                          __global const float4* directions, uint count, __global DeviceWayOut* ways)
-{
+                          __global const float4* directions, uint count, __global DeviceWayOut* ways) {
   const uint i = (uint)get_global_id(0);
   if (i < count) ways[i] = follow(nodes, blocks, root, normals, n, from[i].xyz, directions[i].xyz);
 }
@@ -69,28 +67,24 @@ __kernel void follow_rays(__global const float* nodes, __global const float* blo
 // Number k of ray i of a facet, 0..1, more evenly spread than random ones: multiples of the powers of 1 / g, g being
 // the root of g^6 = g + 1 (Roberts 2018, the golden ratio in five dimensions), from a random begin. In fractions of
 // 2^32, which wrap around.
-static inline float even_number(float begin, uint ray, uint power)
-{
+static inline float even_number(float begin, uint ray, uint power) {
   return (float)(((uint)(begin * 0x1p32f) + ray * power) >> 8) * 0x1p-24f;
 }
 
-static inline float2 on_circle(float r, float turn)
-{
+static inline float2 on_circle(float r, float turn) {
   float cosine;
   const float sine = sincos(2.0f * M_PI_F * turn, &cosine);
   return r * (float2)(cosine, sine);
 }
 
 // A direction that leads to `offset` in a plane across d at distance 1.
-static inline float3 beside(float3 d, float2 offset)
-{
+static inline float3 beside(float3 d, float2 offset) {
   const float3 a = normalize(cross(d, fabs(d.x) < 0.7f ? (float3)(1.0f, 0.0f, 0.0f) : (float3)(0.0f, 1.0f, 0.0f)));
   return normalize(d + offset.x * a + offset.y * cross(a, d));
 }
 #endif
 
-static inline void add_fate(global long* fates, uint item, int fate, float light)
-{
+static inline void add_fate(global long* fates, uint item, int fate, float light) {
   add_exactly(fates + FATES * (item % FATE_SUMS) + fate, convert_long_rte(light * RAY_QUANTA));
 }
 
@@ -99,8 +93,7 @@ static inline void add_fate(global long* fates, uint item, int fate, float light
 // z][cell].
 __kernel void judge(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals,
                     DeviceFront front, __global const float4* parts, __global const DeviceReceiver* screens, uint2 seed,
-                    uint turn, uint first_row, uint count, __global long* light, __global long* fates)
-{
+                    uint turn, uint first_row, uint count, __global long* light, __global long* fates) {
   const uint item = (uint)get_global_id(0);
   if (item >= count) return;
   const uint along = (uint)front.along, rays = along * along, facet = first_row * (uint)front.columns + item / rays,

@@ -7,8 +7,7 @@
 // light: [receiver][cell], to which every facet adds.
 __kernel void add_light(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
                         __global const DeviceIncoming* incoming, __global const float* heights,
-                        __global const float2* slopes, __global long* light)
-{
+                        __global const float2* slopes, __global long* light) {
   const uint index = (uint)get_global_id(0);
   if (index >= (uint)(layout->columns * layout->rows)) return;
   const Facet facet = facet_at(layout, incoming, heights, index);
@@ -22,23 +21,20 @@ __kernel void add_light(__global const DeviceLayout* layout, __global const Devi
 }
 
 __kernel void find_lack(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
-                        __global const long* light, __global const float* wanted, __global float* lack)
-{
+                        __global const long* light, __global const float* wanted, __global float* lack) {
   const uint item = (uint)get_global_id(0), cells = (uint)(layout->cells_x * layout->cells_y);
   if (item < cells * (uint)layout->receivers)
     lack[item] = lack_of(light[item], wanted[item], receivers[item / cells].weight);
 }
 
 // How the part of a beam before t falls as its middle moves on: its density there.
-static inline float density_at(Beam beam, float t)
-{
+static inline float density_at(Beam beam, float t) {
   const float away = fabs(t - beam.middle);
   return away <= beam.even ? beam.one_over_width : 2.0f * beam.tail * fmax(0.0f, beam.reach - away);
 }
 
 // How a footprint's light times what lacks where it falls changes as it moves, by cells.
-static inline float2 along_lack(global const DeviceLayout* layout, const Footprint* print, global const float* lack)
-{
+static inline float2 along_lack(global const DeviceLayout* layout, const Footprint* print, global const float* lack) {
 #if NEPHROID_SPREAD
   const int beams = print->groups * print->points;
 #else
@@ -79,8 +75,7 @@ static inline float2 along_lack(global const DeviceLayout* layout, const Footpri
 __kernel void find_gradient(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
                             __global const DeviceIncoming* incoming, __global const float* heights,
                             __global const float2* slopes, __global const float* lack, uint first, uint count,
-                            __global float2* gradient)
-{
+                            __global float2* gradient) {
   const uint item = (uint)get_global_id(0), index = first + item;
   if (item >= count) return;
   const Facet facet = facet_at(layout, incoming, heights, index);

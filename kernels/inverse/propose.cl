@@ -5,15 +5,13 @@
 #include "kernels/tracing/registers.h"
 
 // A receiver's cells with a rim of one more all around, where nothing lacks.
-static inline size_t rimmed_at(global const DeviceLayout* layout, int receiver, int x, int y)
-{
+static inline size_t rimmed_at(global const DeviceLayout* layout, int receiver, int x, int y) {
   return ((size_t)receiver * (size_t)(layout->cells_y + 2) + (size_t)(y + 1)) * (size_t)(layout->cells_x + 2) +
          (size_t)(x + 1);
 }
 
 // The beam of a flat facet on the middle of cell 0, along one axis.
-static inline Beam flat_beam(global const DeviceLayout* layout, float distance, int axis)
-{
+static inline Beam flat_beam(global const DeviceLayout* layout, float distance, int axis) {
   const float wide = (axis == 0 ? layout->facet_x : layout->facet_y) * (1.0f + distance * layout->spreads),
               sun = 0.5f * layout->sun_radius,
               blur = distance * sqrt(12.0f * (sun * sun + layout->scatter * layout->scatter));
@@ -24,8 +22,7 @@ static inline Beam flat_beam(global const DeviceLayout* layout, float distance, 
 // The mean of the lack under such beams about every cell's middle: what candidates are looked up in, at the nearest
 // cell. First along y, then along x; a row of cells an item.
 __kernel void smear_y(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
-                      __global const float* lack, __global float* along_y)
-{
+                      __global const float* lack, __global float* along_y) {
   const int row = (int)get_global_id(0), cells_x = layout->cells_x, cells_y = layout->cells_y;
   if (row >= cells_y * layout->receivers) return;
   const int y = row % cells_y;
@@ -40,8 +37,7 @@ __kernel void smear_y(__global const DeviceLayout* layout, __global const Device
   }
 }
 __kernel void smear_x(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
-                      __global const float* along_y, __global float* smeared)
-{
+                      __global const float* along_y, __global float* smeared) {
   const int row = (int)get_global_id(0), cells_x = layout->cells_x, cells_y = layout->cells_y;
   if (row >= cells_y * layout->receivers) return;
   const Beam beam = flat_beam(layout, receivers[row / cells_y].distance, 0);
@@ -69,8 +65,7 @@ typedef struct {
 // Tries slopes on a lattice, `count` across and down from x and y on: by the sum of what lacks where a facet's light
 // falls.
 static SEPARATE void try_lattice(const Search* s, global const float* smeared, float8 x_from, float8 y_from,
-                                 float2 step, int2 count, Eight* best)
-{
+                                 float2 step, int2 count, Eight* best) {
   global const DeviceLayout* layout = s->layout;
   SET_ASIDE float8 lowest = best->lowest, best_x = best->x, best_y = best->y, x_begin = x_from, y_begin = y_from;
   ROLLED
@@ -121,8 +116,7 @@ static SEPARATE void try_lattice(const Search* s, global const float* smeared, f
 // Facet order[first + i] gets eight slopes to try: of the rows part, part + PARTS, ... of its lattice the best of every
 // eighth column, then of the cells about each; of the parts' the better one. x is infinite where none was reachable.
 __kernel void propose(SEARCH_ARGUMENTS, __global const float* smeared, __global const uint* order, uint first,
-                      uint count, uint2 seed, uint sweep, __global float2* candidates)
-{
+                      uint count, uint2 seed, uint sweep, __global float2* candidates) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const uint index = order[first + i];

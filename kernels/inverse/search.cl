@@ -9,8 +9,7 @@
 
 // What the weighted squares would change by, were the facet's light, which counts as taken away, put back with this
 // slope.
-static SEPARATE float score(const Search* s, float2 slope)
-{
+static SEPARATE float score(const Search* s, float2 slope) {
   global const DeviceLayout* layout = s->layout;
   const Beams beams = beams_of(layout, &s->facet, slope);
 #if NEPHROID_SMOOTHS
@@ -46,8 +45,7 @@ static SEPARATE float score(const Search* s, float2 slope)
 
 static SEPARATE Search search_of(global const DeviceLayout* layout, global const DeviceReceiver* receivers,
                                  global const DeviceIncoming* incoming, global const float* heights,
-                                 global const float2* slopes, global const float* lack, float smoothing, uint index)
-{
+                                 global const float2* slopes, global const float* lack, float smoothing, uint index) {
   Search s = {layout, receivers, lack, facet_at(layout, incoming, heights, index)};
   s.now = beams_of(layout, &s.facet, slopes[index]);
 #if NEPHROID_SMOOTHS
@@ -58,8 +56,7 @@ static SEPARATE Search search_of(global const DeviceLayout* layout, global const
 
 // Facet order[first + i] looks for found[i], first among its candidates; done[i]: it has none that is better.
 __kernel void improve(SEARCH_ARGUMENTS, __global const float2* candidates, __global const uint* order, uint first,
-                   uint count, uint2 seed, uint sweep, __global float2* found, __global int* done)
-{
+                   uint count, uint2 seed, uint sweep, __global float2* found, __global int* done) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const uint index = order[first + i];
@@ -101,16 +98,14 @@ __kernel void improve(SEARCH_ARGUMENTS, __global const float2* candidates, __glo
 }
 
 static inline void claim_cells(global const DeviceLayout* layout, const Footprint* print, int receiver,
-                               global uint* claims, uint key)
-{
+                               global uint* claims, uint key) {
   const int4 box = cells_of(layout, print);
   for (int y = box.y; y < box.w; ++y)
     for (int x = box.x; x < box.z; ++x) atomic_min(claims + cell_at(layout, receiver, x, y), key);
 }
 
 static SEPARATE bool holds_cells(global const DeviceLayout* layout, const Footprint* print, int receiver,
-                                 global const uint* claims, uint key)
-{
+                                 global const uint* claims, uint key) {
   const int4 box = cells_of(layout, print);
   for (int y = box.y; y < box.w; ++y)
     for (int x = box.x; x < box.z; ++x)
@@ -123,8 +118,7 @@ static SEPARATE bool holds_cells(global const DeviceLayout* layout, const Footpr
 #define KEY(turn, i) ((0xFFFFFu - (turn)) << 12 | (i))
 
 __kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, uint count, __global const float2* found,
-                    __global const int* done, __global uint* claims, uint turn)
-{
+                    __global const int* done, __global uint* claims, uint turn) {
   const uint i = (uint)get_global_id(0);
   if (i >= count || done[i]) return;
   const uint index = order[first + i], key = KEY(turn, i);
@@ -148,8 +142,7 @@ __kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, ui
 }
 
 static SEPARATE void move_light(global const DeviceLayout* layout, const Footprint* print, float power, int receiver,
-                                global long* light)
-{
+                                global long* light) {
   Tile tile;
   FOR_CELLS(layout, *print, tile) {
     const long quanta = quanta_of(fabs(power) * PART_ON(*print, tile, x, y));
@@ -158,8 +151,7 @@ static SEPARATE void move_light(global const DeviceLayout* layout, const Footpri
 }
 
 static SEPARATE void note_lack(global const DeviceLayout* layout, const Footprint* print, float weight, int receiver,
-                               global const long* light, global const float* wanted, global float* lack)
-{
+                               global const long* light, global const float* wanted, global float* lack) {
   const int4 box = cells_of(layout, print);
   for (int y = box.y; y < box.w; ++y)
     for (int x = box.x; x < box.z; ++x) {
@@ -172,8 +164,7 @@ static SEPARATE void note_lack(global const DeviceLayout* layout, const Footprin
 // still.
 __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long* light, __global const uint* order,
                    uint first, uint count, __global const float2* found, __global int* done,
-                   __global const uint* claims, uint turn)
-{
+                   __global const uint* claims, uint turn) {
   const uint i = (uint)get_global_id(0);
   if (i >= count || done[i]) return;
   const uint index = order[first + i], key = KEY(turn, i);

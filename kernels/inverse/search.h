@@ -31,16 +31,14 @@ typedef struct {
 } Search;
 
 #if NEPHROID_SMOOTHS
-static inline float neighbours_of(global const DeviceLayout* layout, int column, int row)
-{
+static inline float neighbours_of(global const DeviceLayout* layout, int column, int row) {
   return (float)((column > 0) + (column + 1 < layout->columns) + (row > 0) + (row + 1 < layout->rows));
 }
 
 // The sum of Cost_N over all facets (app/inverse/assign/cost.h) falls by n . pull where a facet of normal n is put
 // among its neighbours: their normals, times one part in the facet's neighbours and one in each neighbour's own.
 static inline float3 pull_on(global const DeviceLayout* layout, global const DeviceIncoming* incoming,
-                             global const float* heights, global const float2* slopes, uint index)
-{
+                             global const float* heights, global const float2* slopes, uint index) {
   const int column = (int)(index % (uint)layout->columns), row = (int)(index / (uint)layout->columns);
   const float own = neighbours_of(layout, column, row);
   float3 sum = (float3)(0.0f);
@@ -63,8 +61,7 @@ typedef struct {
 
 // Moved at random; another receiver every time, so that light is tried that misses those behind it.
 static inline Lattice lattice_of(global const DeviceLayout* layout, global const DeviceReceiver* receivers,
-                                 const Facet* facet, uint2 seed, uint sweep, uint index)
-{
+                                 const Facet* facet, uint2 seed, uint sweep, uint index) {
   const float4 random = random4(seed, sweep, index, 0u, STREAM_FACETS);
   const DeviceReceiver to = receivers[min((int)(random.z * (float)layout->receivers), layout->receivers - 1)];
   const float2 size = (float2)(layout->receiver_x, layout->receiver_y);

@@ -12,8 +12,7 @@
 
 // XYZ of what a path that has lost some of its light shows of a colour. In single wavelengths, or in all of them.
 static inline float3 shown_after(const World* world, const Background* background, float3 rgb, const Losses* losses,
-                                 const Band* band)
-{
+                                 const Band* band) {
 #if NEPHROID_ONE_WAY
   if (!losses->any) return background_xyz(background, rgb, WAVELENGTH_COUNT);
   float3 xyz = (float3)(0.0f);
@@ -28,11 +27,10 @@ static inline float3 shown_after(const World* world, const Background* backgroun
 
 // The XYZ radiance of the environment that a path ends at, which has met `hit`; 0 where it ends elsewhere.
 static inline float3 seen_through(const World* world, const Background* background, Path path, Hit hit,
-                                  const Band* band, uint2 seed, uint sample, uint pixel)
-{
+                                  const Band* band, uint2 seed, uint sample, uint pixel) {
   Surface surface;
-  const float radiance_scale = trace_to_diffuse(world, &path, &hit, true, band, seed, sample, PATHS_THROUGH_GLASS, pixel,
-                                         STREAM_BACKGROUND, false, &surface);
+  const float radiance_scale = trace_to_diffuse(world, &path, &hit, true, band, seed, sample, PATHS_THROUGH_GLASS,
+                                                pixel, STREAM_BACKGROUND, false, &surface);
   if (radiance_scale == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
   return radiance_scale * shown_after(world, background, background_rgb(background, path.direction), &path.losses,
                                       band);
@@ -46,8 +44,7 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
                          volatile __global long* film,
                          volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
                          DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,
-                         float film_scale, float film_limit)
-{
+                         float film_scale, float film_limit) {
   const World world = WORLD;
   const Background background = {texels, primary_xyz, size};
   const uint index = (uint)get_global_id(0);
@@ -71,7 +68,7 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
              (float)PATHS_THROUGH_GLASS;
     }
   const float limit = limit_of_sample(frame, enough, film_limit);
-  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, limit,
-                         jitter.z))
+  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale,
+                         limit, jitter.z))
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }

@@ -6,8 +6,7 @@
 
 // XYZ radiance that a diffuse surface sends back along the path.
 IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, int reflector,
-                      const Band* band, __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel)
-{
+                      const Band* band, __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   const uint paths = band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS;
   for (int l = 0; l < world->scene.light_count; ++l) {
@@ -33,8 +32,7 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
 // Takes a path that has hit `first` on through glass and mirrors in one band. Returns XYZ radiance of that band's light
 // alone.
 IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band,
-                       __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel)
-{
+                       __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel) {
   Surface surface;
   const float radiance_scale =
       reach_diffuse(world, &path, &first, band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel,
@@ -52,8 +50,7 @@ __kernel void direct(WORLD_ARGUMENTS,
                      volatile __global long* film,
                      volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
                      DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,
-                     float film_scale, float film_limit)
-{
+                     float film_scale, float film_limit) {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
@@ -86,7 +83,7 @@ __kernel void direct(WORLD_ARGUMENTS,
     xyz += follow(&world, way, first, &band, reflected_xyz_all, seed, sample, pixel) / probability;
   }
   const float limit = limit_of_sample(frame, enough, film_limit);
-  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, limit,
-                         jitter.z))
+  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale,
+                         limit, jitter.z))
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }

@@ -15,8 +15,7 @@
 kernel void gather_to_film(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, volatile global long* film,
                            volatile global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
                            __global const uint* pixels, uint picture, uint pass, uint first, uint count, float radius,
-                           float film_per_quantum)
-{
+                           float film_per_quantum) {
   const uint i = get_global_id(0);
   if (i >= count) return;
   const VisiblePoint point = points[i];
@@ -37,8 +36,7 @@ kernel void gather_to_film(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* poin
 // The places that a pixel sees share them. unit: power of a quantum.
 kernel void gather_to_statistics(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points,
                                  global PixelStatistics* statistics, uint first_pixel, uint count, float alpha,
-                                 float unit)
-{
+                                 float unit) {
   const uint i = get_global_id(0);
   if (i >= count) return;
   const VisiblePoint point = points[i];
@@ -58,8 +56,7 @@ kernel void gather_to_statistics(PHOTON_MAP_ARGUMENTS, global const VisiblePoint
   statistics[first_pixel + i] = pixel;
 }
 
-kernel void start_statistics(global PixelStatistics* statistics, uint pixels, float radius2)
-{
+kernel void start_statistics(global PixelStatistics* statistics, uint pixels, float radius2) {
   const uint i = get_global_id(0);
   if (i >= pixels) return;
   const PixelStatistics start = {radius2, 0.0f, {0.0f, 0.0f, 0.0f}};
@@ -69,8 +66,7 @@ kernel void start_statistics(global PixelStatistics* statistics, uint pixels, fl
 // Adds the radiance of a cluster: flux / (pi^2 R^2) over its iterations, of which pixels before `split` have had others
 // than those after. per_iteration_*: 1 / (pi^2 iterations m^2), m metres a unit of length; 0 for no iterations.
 kernel void add_radiance(global const PixelStatistics* statistics, global float* xyz, uint pixels, uint split,
-                         float per_iteration_before, float per_iteration_after)
-{
+                         float per_iteration_before, float per_iteration_after) {
   const uint i = get_global_id(0);
   if (i >= pixels) return;
   const PixelStatistics pixel = statistics[i];

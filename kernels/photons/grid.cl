@@ -8,14 +8,12 @@
 #define NEPHROID_SCAN_BLOCKS 256
 #endif
 
-static inline uint photon_bucket(const StoredPhoton* photon, int3 cell, uint mask)
-{
+static inline uint photon_bucket(const StoredPhoton* photon, int3 cell, uint mask) {
   return grid_block_bucket(photon->group, cell.x >> GRID_BLOCK_BITS, cell.y, cell.z, mask) +
          (uint)(cell.x & (GRID_BLOCK - 1));
 }
 
-static inline int3 cell_of_photon(const StoredPhoton* photon, float inverse_cell)
-{
+static inline int3 cell_of_photon(const StoredPhoton* photon, float inverse_cell) {
   return grid_cell((float3)(photon->position[0], photon->position[1], photon->position[2]), inverse_cell);
 }
 
@@ -32,8 +30,7 @@ kernel void count_photons(global const StoredPhoton* stored, volatile global uin
   atomic_inc(counts + photon_bucket(&photon, cell_of_photon(&photon, grid.inverse_cell), grid.bucket_mask));
 }
 
-kernel void sum_blocks(global const uint* counts, global uint* sums, PhotonGrid grid)
-{
+kernel void sum_blocks(global const uint* counts, global uint* sums, PhotonGrid grid) {
   const uint block = get_global_id(0), buckets = bucket_count(grid), length = buckets / NEPHROID_SCAN_BLOCKS + 1u;
   if (block >= NEPHROID_SCAN_BLOCKS) return;
   const uint first = min(block * length, buckets), last = min(first + length, buckets);
@@ -43,8 +40,7 @@ kernel void sum_blocks(global const uint* counts, global uint* sums, PhotonGrid 
 }
 
 // Turns counts into the places where buckets end.
-kernel void scan_blocks(global uint* counts, global const uint* sums, PhotonGrid grid)
-{
+kernel void scan_blocks(global uint* counts, global const uint* sums, PhotonGrid grid) {
   const uint block = get_global_id(0), buckets = bucket_count(grid), length = buckets / NEPHROID_SCAN_BLOCKS + 1u;
   if (block >= NEPHROID_SCAN_BLOCKS) return;
   const uint first = min(block * length, buckets), last = min(first + length, buckets);
@@ -59,8 +55,7 @@ kernel void scan_blocks(global uint* counts, global const uint* sums, PhotonGrid
 
 // ends: of the buckets; turns them into where they start. No key fits the eight photons beyond the last.
 kernel void scatter_photons(global const StoredPhoton* stored, volatile global uint* ends, global float* positions,
-                            global int* values, PhotonGrid grid, uint slots)
-{
+                            global int* values, PhotonGrid grid, uint slots) {
   const uint i = get_global_id(0);
   if (i < 8) values[ends[bucket_count(grid)] + i] = NO_PHOTON;
   if (i >= slots) return;

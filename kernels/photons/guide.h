@@ -17,8 +17,7 @@ typedef struct {
 
 // Draws one of `count` bins and a place in it: *number in [0, 1) becomes another number in [0, 1). cdf: exact_cdf of
 // the bins. Returns the bin.
-static inline int draw_bin(__global const float* cdf, int count, float* number, float* density)
-{
+static inline int draw_bin(__global const float* cdf, int count, float* number, float* density) {
   const int bin = choose(cdf, count, *number);
   const float before = chance_before(cdf, bin), chance = cdf[bin] - before;
   const float moved = ((float)bin + (*number - before) / chance) / (float)count;
@@ -29,8 +28,7 @@ static inline int draw_bin(__global const float* cdf, int count, float* number, 
 
 // numbers: xyz of a photon's emission. guide: of its light, GUIDE_FLOATS: cdfs of the first number, of the second given
 // the first, of the third given both.
-static inline Guided guide_numbers(__global const float* guide, float4* numbers)
-{
+static inline Guided guide_numbers(__global const float* guide, float4* numbers) {
   Guided guided = {1.0f, 0u};
   float3 moved = numbers->xyz;
   float number = moved.x;

@@ -10,8 +10,7 @@
 // light sends the same power along every cosine-distributed direction; what emit() does, where directions are uniform,
 // would be noisier.
 static inline Emission emit_everywhere(DeviceLight light, __global const DeviceTarget* everything,
-                                       const DeviceScene* scene, float4 random, float2 place)
-{
+                                       const DeviceScene* scene, float4 random, float2 place) {
   if (is_light(&light, LIGHT_AREA)) {
     const Emission emission = {area_point(&light, place), cosine_direction(light.direction.xyz, random.y, random.z),
                                0.0f, light.radiometric};
@@ -39,22 +38,19 @@ typedef struct {
   SET_ASIDE float3 rgb;
 } Photon;
 
-static inline Band band_of(const Photon* photon)
-{
+static inline Band band_of(const Photon* photon) {
   const Band band = {0, photon->wavelength, photon->weight};
   return band;
 }
 
-static inline Source light_of(const Photon* photon)
-{
+static inline Source light_of(const Photon* photon) {
   const Source source = {photon->light, photon->rgb};
   return source;
 }
 
 // Adds what a diffuse surface reflects of a photon to the pixel that sees it. False where the film refused it.
 static inline bool show(const World* world, const Receiver* receiver, const Photon* photon, const Surface* surface,
-                        uint triangle, int reflector, float dither)
-{
+                        uint triangle, int reflector, float dither) {
   const Splat splat = splat_at(world, &receiver->camera, surface, triangle, photon->path.direction);
   if (splat.pixel < 0) return true;
   const Band band = band_of(photon);
@@ -64,9 +60,8 @@ static inline bool show(const World* world, const Receiver* receiver, const Phot
 }
 
 // Follows a photon to its end: OUTCOME_*. What the film refuses is counted.
-static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed, uint iteration,
-                                uint number, Outcomes outcomes)
-{
+static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed,
+                                uint iteration, uint number, Outcomes outcomes) {
   Path* path = &photon->path;
   bool met_diffuse = false;
   for (int surface_number = 0;; ++surface_number) {
@@ -106,8 +101,7 @@ indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything, __global cons
          __global const float* spectrum_cdf, // [light][member of all clusters]: which wavelength a photon has
          volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
          DeviceCamera camera, uint2 seed, uint iteration, uint offset, uint stride, uint count, float outside_distance,
-         float film_scale, float energy_scale)
-{
+         float film_scale, float energy_scale) {
   scene.outside_distance = outside_distance;
   const World world = WORLD;
   const int members = cluster_first[scene.cluster_count];

@@ -34,8 +34,7 @@ static inline bool has_cells(const LayerFilm* film, int pixel) { return film->fi
 // (mean_reflectance: [reflector]), which is right but for how they differ within those. The pixel has cells. dither and
 // what is returned: as film_add_dithered.
 static inline bool layer_add(const LayerFilm* film, int pixel, int reflector, int layer, float value, float scale,
-                             float limit, __global const float* mean_reflectance, float dither)
-{
+                             float limit, __global const float* mean_reflectance, float dither) {
   const int begin = film->first[pixel], end = film->first[pixel + 1];
   int i = begin;
   while (i < end && film->cells[i].reflector != reflector) ++i;
@@ -54,8 +53,7 @@ static inline bool layer_add(const LayerFilm* film, int pixel, int reflector, in
 }
 
 // What a path's losses leave of a cluster whose wavelengths all have the same power: layers know no other.
-static inline float cluster_left(const SpectralTables* tables, const Losses* losses, int cluster)
-{
+static inline float cluster_left(const SpectralTables* tables, const Losses* losses, int cluster) {
   if (!losses->any) return 1.0f;
   const int first = tables->cluster_first[cluster], end = tables->cluster_first[cluster + 1];
   float sum = 0.0f;

@@ -14,8 +14,7 @@
 #endif
 
 // The part of a cluster that u in [0, 1) falls into.
-static inline int part_of_cluster(float u)
-{
+static inline int part_of_cluster(float u) {
   const int part = (int)(u * (float)NEPHROID_PASS_BANDS);
   return part < NEPHROID_PASS_BANDS ? part : NEPHROID_PASS_BANDS - 1;
 }
@@ -23,8 +22,7 @@ static inline int part_of_cluster(float u)
 // Parts of all clusters by number: what photon maps tell apart.
 static inline int band_number(int cluster, int part) { return cluster * NEPHROID_PASS_BANDS + part; }
 
-static inline Band band_of_pass(const World* world, int cluster, int part, uint2 seed, uint pass)
-{
+static inline Band band_of_pass(const World* world, int cluster, int part, uint2 seed, uint pass) {
   const float within = golden_place(seed, pass, 0u, 1u, (uint)band_number(cluster, part), STREAM_PASS_BAND);
   const float u = ((float)part + within) / (float)NEPHROID_PASS_BANDS;
   return choose_band(world, world->scene.light_count, cluster, u < 0x1.fffffep-1f ? u : 0x1.fffffep-1f);

@@ -21,28 +21,24 @@
 
 // The side of an object's surface that light in `cluster` arrives at: light does not leak to other objects or through a
 // sheet.
-static inline int photon_group(int object, bool front, int cluster, int object_count)
-{
+static inline int photon_group(int object, bool front, int cluster, int object_count) {
   return (cluster * object_count + object) * 2 + (front ? 1 : 0);
 }
 
-static inline int3 grid_cell(float3 position, float inverse_cell)
-{
+static inline int3 grid_cell(float3 position, float inverse_cell) {
   return convert_int3_sat_rtn(position * inverse_cell);
 }
 
 // The first bucket of a block of cells, ix from a multiple of GRID_BLOCK on. The finalizer of MurmurHash3 (Appleby
 // 2011) mixes odd multiples.
-static inline uint grid_block_bucket(int group, int block, int iy, int iz, uint mask)
-{
+static inline uint grid_block_bucket(int group, int block, int iy, int iz, uint mask) {
   uint h = (uint)group * 0x9E3779B1u ^ (uint)block * 0x27D4EB2Fu ^ (uint)iy * 0x85EBCA77u ^ (uint)iz * 0xC2B2AE3Du;
   h = (h ^ h >> 16) * 0x85EBCA6Bu;
   h = (h ^ h >> 13) * 0xC2B2AE35u;
   return (h ^ h >> 16) & mask;
 }
 
-static inline int grid_key(int group, int block, int iy, int iz)
-{
+static inline int grid_key(int group, int block, int iy, int iz) {
   return group << GRID_KEY_BITS | (block & 1) << 6 | (iy & (GRID_ROWS - 1)) << 3 | (iz & (GRID_ROWS - 1));
 }
 
@@ -78,20 +74,17 @@ typedef struct {
 // 127 steps of PHOTON_LIMIT quanta stay below 2^31.
 #define GATHER_STEPS 127u
 
-static inline int sum_of_lanes(int8 v)
-{
+static inline int sum_of_lanes(int8 v) {
   const int4 sum = v.lo + v.hi;
   return sum.x + sum.y + sum.z + sum.w;
 }
 
-static inline long long_sum_of_lanes(int8 v)
-{
+static inline long long_sum_of_lanes(int8 v) {
   const long4 sum = convert_long4(v.lo) + convert_long4(v.hi); // no long8: where it fits no register the compiler warns
   return sum.x + sum.y + sum.z + sum.w;
 }
 
-static inline void settle(Gathering* g)
-{
+static inline void settle(Gathering* g) {
   g->sum.xyz += (long3)(long_sum_of_lanes(g->x), long_sum_of_lanes(g->y), long_sum_of_lanes(g->z));
   g->sum.count -= (uint)sum_of_lanes(g->count); // a lane that is true is -1
   g->x = g->y = g->z = g->count = (int8)(0);
@@ -99,8 +92,7 @@ static inline void settle(Gathering* g)
 }
 
 // Adds the photons from `begin` on, up to `end` or a few more, that have the key and lie near the point.
-static inline void gather_run(const PhotonMap* map, uint begin, uint end, int key, Gathering* g)
-{
+static inline void gather_run(const PhotonMap* map, uint begin, uint end, int key, Gathering* g) {
   const uint stride = map->grid.stride;
   while (begin < end) {
     const uint stop = min(end, begin + 8 * (GATHER_STEPS - g->steps));
@@ -129,8 +121,7 @@ static inline void gather_run(const PhotonMap* map, uint begin, uint end, int ke
 // The photons of a group in a flat spheroid about a point of a surface, d^2 + 16 (d . n)^2 < r^2: as wide as the radius
 // in the tangent plane, a quarter of that along the normal, so that what lies around an object's corner does not count.
 // radius: at most 3 cells. The kernel is constant: photons count in full.
-static inline Gathered gather_photons(const PhotonMap* map, float3 position, float3 normal, int group, float radius)
-{
+static inline Gathered gather_photons(const PhotonMap* map, float3 position, float3 normal, int group, float radius) {
   Gathering g;
   g.position = position;
   g.tilt = 4.0f * normal;

@@ -15,8 +15,7 @@
 #endif
 
 // Counts a photon that had so many quanta of power, of which `left` (0..1) came to its end: OUTCOME_*.
-static inline void count_photon(Outcomes outcomes, int outcome, float power, float left)
-{
+static inline void count_photon(Outcomes outcomes, int outcome, float power, float left) {
   const long quanta = convert_long_rte(power), rest = left >= 1.0f ? quanta : convert_long_rte((float)quanta * left);
   add_outcome(outcomes, OUTCOME_EMITTED, quanta);
   add_outcome(outcomes, outcome, rest);
@@ -24,8 +23,7 @@ static inline void count_photon(Outcomes outcomes, int outcome, float power, flo
 }
 
 // The last emitter that begins at this photon or before it, by bisection.
-static inline int emitter_of(__global const DeviceEmitter* emitters, int count, uint photon)
-{
+static inline int emitter_of(__global const DeviceEmitter* emitters, int count, uint photon) {
   int low = 0, high = count - 1;
   while (low < high) {
     const int middle = (low + high + 1) >> 1;
@@ -40,8 +38,7 @@ static inline int emitter_of(__global const DeviceEmitter* emitters, int count, 
 // The order in which the photons 0 .. count - 1 of a launch are followed: of each 4096 the number with its bits in
 // reverse. Points of a Sobol sequence whose numbers agree in their lowest bits are close together, so photons that
 // follow each other mostly meet the same nodes and triangles. Sums of whole numbers do not ask for the order.
-static inline uint neighbours_follow(uint number, uint count)
-{
+static inline uint neighbours_follow(uint number, uint count) {
   const uint first = number & ~0xfffu;
   return first + 0x1000u <= count ? first | reverse_bits(number) >> 20 : number;
 }
@@ -54,16 +51,15 @@ typedef struct {
   float wavelength; // in [0, 1): which of its cluster
 } PhotonStart;
 
-// Photon `photon` of a batch or a pass, which `iteration` counts. first_iteration: from which on photons are allocated to
-// the emitters as they are (DeviceEmitter::sequence_start is for it).
-// Low discrepancy: the photons of a light that go to one half of the film follow one sequence, pass after pass, so that
-// those of all clusters together are spread evenly; its fourth number says which cluster and which wavelength in it.
-// That number has 32 bits, of which the choice of the cluster takes up to 24: plain random bits below them make the
-// wavelength as fine as any. The halves have sequences of their own, as they must be independent.
+// Photon `photon` of a batch or a pass, which `iteration` counts. first_iteration: from which on photons are allocated
+// to the emitters as they are (DeviceEmitter::sequence_start is for it). Low discrepancy: the photons of a light that
+// go to one half of the film follow one sequence, pass after pass, so that those of all clusters together are spread
+// evenly; its fourth number says which cluster and which wavelength in it. That number has 32 bits, of which the choice
+// of the cluster takes up to 24: plain random bits below them make the wavelength as fine as any. The halves have
+// sequences of their own, as they must be independent.
 static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, int emitter_count,
-                                       __global const DeviceLight* lights, uint2 seed, uint iteration, uint first_iteration,
-                                       uint photon)
-{
+                                       __global const DeviceLight* lights, uint2 seed, uint iteration,
+                                       uint first_iteration, uint photon) {
   PhotonStart start;
   start.emitter = emitter_of(emitters, emitter_count, photon);
   start.emission = random4(seed, iteration, photon, 0u, STREAM_PHOTONS);
@@ -112,8 +108,8 @@ typedef struct {
 
 // Follows a photon in a band to the first diffuse surface, out of the scene, or to its last interface. Leaves `path` on
 // its last way, with what it has lost; what is left of the photon is not worked out.
-static inline PhotonEnd trace_way(const World* world, const Band* band, Path* path, uint2 seed, uint iteration, uint photon)
-{
+static inline PhotonEnd trace_way(const World* world, const Band* band, Path* path, uint2 seed, uint iteration,
+                                  uint photon) {
   PhotonEnd end;
   end.outcome = OUTCOME_LOST;
   end.left = 1.0f;
@@ -148,8 +144,7 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
 // The same for a photon of a light, with what is left of it and its colour. share: of the light's power, that the
 // photon's band began with.
 static inline PhotonEnd trace_photon(const World* world, Source source, const Band* band, float share, Path* path,
-                                     uint2 seed, uint iteration, uint photon)
-{
+                                     uint2 seed, uint iteration, uint photon) {
   PhotonEnd end = trace_way(world, band, path, seed, iteration, photon);
   const bool deposited = end.outcome == OUTCOME_DEPOSITED;
   if (deposited || path->losses.any) {

@@ -22,8 +22,7 @@
 
 // The square of a contribution to the film in linear sRGB, in quanta of 2^12 of the film's squared, at most 2^40. The
 // sum over an emitter's photons says how many of all photons it should have (app/photons/effort/emitters.h).
-static inline long squared(float3 xyz, float scale)
-{
+static inline long squared(float3 xyz, float scale) {
   const float3 q = xyz * (scale * 0x1p-6f);
   const float r = dot(q, (float3)(3.2406f, -1.5372f, -0.4986f)), g = dot(q, (float3)(-0.9689f, 1.8758f, 0.0415f)),
               b = dot(q, (float3)(0.0557f, -0.2040f, 1.0570f));
@@ -35,8 +34,7 @@ static inline long squared(float3 xyz, float scale)
 // quanta of a unit of it. dither: uniform in [0, 1), so that rounding is right in the mean. False, and the slot is
 // empty, where a photon carries too much.
 static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band,
-                                int object_count, float3 xyz, float scale, float dither)
-{
+                                int object_count, float3 xyz, float scale, float dither) {
   const float3 quanta = xyz * scale;
   const bool fits = quanta.x <= PHOTON_LIMIT && quanta.y <= PHOTON_LIMIT && quanta.z <= PHOTON_LIMIT;
   StoredPhoton photon;
@@ -53,9 +51,9 @@ static inline bool store_photon(__global StoredPhoton* slot, const Surface* surf
   return fits;
 }
 
-// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a batch, whose number is `iteration`; a pass of
-// maps, map_pass, has one round or several. energy counts what photons carry, whatever a smooth
-// receiver makes of it by its shading normals.
+// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a batch, whose number is `iteration`; a
+// pass of maps, map_pass, has one round or several. energy counts what photons carry, whatever a smooth receiver makes
+// of it by its shading normals.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
                       volatile __global long* moments,                              // with NEPHROID_MOMENTS: [emitter]
@@ -64,10 +62,9 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
                       float unseen_weight, // ... of a stored photon that no pixel sees directly, as if one did
                       __global StoredPhoton* stored,
                       uint stored_first, // [photon], with NEPHROID_STORE; where the round begins
-                      int emitter_count, int object_count, DeviceCamera camera, uint2 seed, uint iteration, uint map_pass,
-                      uint first_iteration, uint offset, uint stride, uint count, float film_scale, float energy_scale,
-                      float stored_scale)
-{
+                      int emitter_count, int object_count, DeviceCamera camera, uint2 seed, uint iteration,
+                      uint map_pass, uint first_iteration, uint offset, uint stride, uint count, float film_scale,
+                      float energy_scale, float stored_scale) {
   const World world = WORLD;
   OUTCOMES(outcomes);
   film = film_of_iteration(film, iteration, camera.width * camera.height);

@@ -8,8 +8,7 @@
 
 // One pixel: which reflector is seen at each of its fixed places, -1 where there is none.
 __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global int* unbent, // [pixel][SURVEY_PLACES]
-                     __global int* bent) // [pixel][SURVEY_PLACES * SURVEY_PATHS]
-{
+                     __global int* bent) // [pixel][SURVEY_PLACES * SURVEY_PATHS] {
   const World world = WORLD;
   const int pixel = (int)get_global_id(0);
   if (pixel >= camera.width * camera.height) return;
@@ -44,8 +43,7 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
                      __global const float* luminance_share, // [cluster]: of a flat spectrum's
                      LAYER_FILM_ARGUMENTS(unbent), LAYER_FILM_ARGUMENTS(bent), volatile __global long* energy,
                      DeviceCamera camera, uint2 seed, uint frame, int first_row, int row_count, float film_scale,
-                     float film_limit)
-{
+                     float film_limit) {
   const World world = WORLD;
   const int index = (int)get_global_id(0);
   if (index >= row_count * camera.width) return;
@@ -84,13 +82,14 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
       if (radiance == 0.0f) continue;
       bool taken;
       if (straight)
-        taken = layer_add(&unbent, pixel, reflector, l, radiance, film_scale, film_limit, mean_reflectance + all * scene.reflector_count, jitter.z);
+        taken = layer_add(&unbent, pixel, reflector, l, radiance, film_scale, film_limit,
+                          mean_reflectance + all * scene.reflector_count, jitter.z);
       else if (has_cells(&bent, pixel))
         taken = layer_add(&bent, pixel, reflector, l * all + band.cluster, radiance, film_scale, film_limit,
                           mean_reflectance + band.cluster * scene.reflector_count, jitter.z);
       else // the survey saw no glass here: a sliver of it, whose light is taken for unbent
-        taken = layer_add(&unbent, pixel, reflector, l, radiance * luminance_share[band.cluster], film_scale, film_limit,
-                          mean_reflectance + all * scene.reflector_count, jitter.z);
+        taken = layer_add(&unbent, pixel, reflector, l, radiance * luminance_share[band.cluster], film_scale,
+                          film_limit, mean_reflectance + all * scene.reflector_count, jitter.z);
       if (!taken) ++refused;
     }
   }

@@ -11,9 +11,8 @@
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       LAYER_FILM_ARGUMENTS(film), __global const float* mean_reflectance, // [cluster][reflector]
                       volatile __global long* energy,                                     // [OUTCOME_COUNT]
-                      DeviceCamera camera, uint2 seed, uint iteration, uint first_iteration, uint offset, uint stride, uint count,
-                      float film_scale, float energy_scale)
-{
+                      DeviceCamera camera, uint2 seed, uint iteration, uint first_iteration, uint offset, uint stride,
+                      uint count, float film_scale, float energy_scale) {
   const World world = WORLD;
   const LayerFilm film = LAYER_FILM(film, iteration);
   OUTCOMES(outcomes);
@@ -21,7 +20,8 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= count) break;
     const uint photon = offset + stride * number;
-    const PhotonStart start = photon_start(emitters, scene.emitter_count, lights, seed, iteration, first_iteration, photon);
+    const PhotonStart start =
+        photon_start(emitters, scene.emitter_count, lights, seed, iteration, first_iteration, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
     const DeviceLight light = lights[emitter.light];
     const Emission emission = emit(&light, targets, &scene, start.emission, start.place);
@@ -33,9 +33,11 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const float left = cluster_left(&world.tables, &path.losses, emitter.cluster);
     if (end.outcome == OUTCOME_DEPOSITED) {
       const Splat splat = splat_at(&world, &camera, &end.surface, end.triangle, path.direction);
-      const int reflector = material_of(&world, end.surface.object).reflector, layer = emitter.light * scene.cluster_count + emitter.cluster;
-      if (splat.pixel >= 0 && !layer_add(&film, splat.pixel, reflector, layer, emission.watts * left * splat.weight / PI_F, film_scale,
-                                         FILM_LIMIT, mean_reflectance + emitter.cluster * scene.reflector_count, start.emission.w))
+      const int reflector = material_of(&world, end.surface.object).reflector,
+                layer = emitter.light * scene.cluster_count + emitter.cluster;
+      if (splat.pixel >= 0 &&
+          !layer_add(&film, splat.pixel, reflector, layer, emission.watts * left * splat.weight / PI_F, film_scale,
+                     FILM_LIMIT, mean_reflectance + emitter.cluster * scene.reflector_count, start.emission.w))
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
     }
     count_photon(outcomes, end.outcome, emission.watts / (float)emitter.photon_count * emitter.share * energy_scale,

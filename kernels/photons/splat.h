@@ -13,8 +13,7 @@
 
 // Where the camera sees `position`, in pixels from the top left corner; *depth: along the view, positive before the
 // camera.
-static inline float2 place_on_film(const DeviceCamera* camera, float3 position, float* depth)
-{
+static inline float2 place_on_film(const DeviceCamera* camera, float3 position, float* depth) {
   const float3 to_camera = camera->position.xyz - position;
   const float z = -dot(to_camera, camera->forward.xyz);
   *depth = z;
@@ -28,8 +27,7 @@ static inline float2 place_on_film(const DeviceCamera* camera, float3 position, 
 // A pixel's value is the mean of the radiance over its area A on the plane at distance 1, so F enters as F dq / (dA A),
 // with dq / dA = cos(theta) distance / z^3 (theta at the surface, z along the view axis).
 static inline int project_to_pixel(const DeviceCamera* camera, float3 position, float3 geometric, float3 arriving,
-                                   float metres_per_unit, float* weight)
-{
+                                   float metres_per_unit, float* weight) {
   const float3 to_camera = camera->position.xyz - position;
   const float cos_camera = dot(to_camera, geometric), cos_arriving = -dot(arriving, geometric);
   if (!(cos_camera * cos_arriving > 0.0f)) return -1; // seen from its other side
@@ -53,8 +51,7 @@ typedef struct {
 
 // The pixel that sees a place of a surface that light arrives at.
 static inline Splat splat_at(const World* world, const DeviceCamera* camera, const Surface* surface, uint triangle,
-                             float3 arriving)
-{
+                             float3 arriving) {
   Splat splat = {-1, 0.0f};
   splat.pixel = project_to_pixel(camera, surface->position, surface->geometric, arriving, world->scene.metres_per_unit,
                                  &splat.weight);

@@ -30,14 +30,12 @@ typedef struct {
 } Stretch;
 
 // s of the photon itself.
-static inline float stretch_origin(const World* world, const Band* band)
-{
+static inline float stretch_origin(const World* world, const Band* band) {
   return band->wavelength >= 0 ? world->stretch_place[band->wavelength].x : world->stretch_span[band->cluster].x;
 }
 
 // The place of light whose s is larger by x, on the tangent plane of the photon's place. False where there is none.
-static inline bool stretched_place(const Path* path, const Surface* surface, float x, float3* place)
-{
+static inline bool stretched_place(const Path* path, const Surface* surface, float x, float3* place) {
   const float3 origin = path->origin + x * path->differential.position;
   const float3 direction = path->direction + x * path->differential.direction;
   // Everything relative to the photon's place, which is exact: its neighbours are then as exact as their distance.
@@ -49,8 +47,7 @@ static inline bool stretched_place(const Path* path, const Surface* surface, flo
 }
 
 // Whether a point of a triangle's plane lies in the triangle; false of an ellipsoid's tangent plane.
-static inline bool is_in_triangle(const Geometry* geometry, uint triangle, float3 position)
-{
+static inline bool is_in_triangle(const Geometry* geometry, uint triangle, float3 position) {
   const DevicePrimitive met = geometry->primitives[triangle];
   if (is_ellipsoid(&met)) return false;
   const float3 e1 = met.edge_u.xyz, e2 = met.edge_v.xyz, from_a = position - met.corner.xyz;
@@ -62,8 +59,7 @@ static inline bool is_in_triangle(const Geometry* geometry, uint triangle, float
 // The receiver beside the photon's triangle: what a short look back along the normal meets there. False where that is
 // not the same object, facing the same way: the receiver ends, or something stands on it.
 static inline bool surface_beside(const World* world, const PhotonEnd* end, float side, float3 place, Surface* surface,
-                                  uint* triangle)
-{
+                                  uint* triangle) {
   const float reach = 0.1f * distance(place, end->surface.position) + 8.0f * end->surface.offset;
   const float3 down = -side * end->surface.geometric;
   const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, place - reach * down,
@@ -77,8 +73,7 @@ static inline bool surface_beside(const World* world, const PhotonEnd* end, floa
 // Whether light whose s is larger by x reaches the receiver; *film_place becomes where the camera sees it, in pixels.
 // *beside: set where that is in another triangle.
 static inline bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
-                               float x, float2* film_place, bool* beside)
-{
+                               float x, float2* film_place, bool* beside) {
   float3 place;
   if (!stretched_place(path, &end->surface, x, &place)) return false;
   float depth;
@@ -94,8 +89,7 @@ static inline bool stretch_end(const World* world, const DeviceCamera* camera, c
 // Tries to stretch a photon from `low` to `high`, its s being 0. False where that leads off the receiver or too far to
 // know where.
 static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
-                                float low, float high, Stretch* stretch)
-{
+                                float low, float high, Stretch* stretch) {
   if (!(fabs(high - low) * length(path->differential.direction) <= STRETCH_WIDEST)) return false;
   float2 first, last = (float2)(0.0f);
   for (int i = 0; i < 2; ++i) { // a loop, for one copy of the code
@@ -113,8 +107,7 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
 // wavelength, so it is the same for all of them, and no light is counted twice or lost where a streak would leave the
 // receiver.
 static inline Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
-                                 const Band* band)
-{
+                                 const Band* band) {
 #if NEPHROID_DIFFERENTIALS
   const float origin = stretch_origin(world, band);
   for (int i = 0; i < (band->wavelength >= 0 ? 2 : 1); ++i) {
@@ -129,8 +122,7 @@ static inline Stretch stretch_of(const World* world, const DeviceCamera* camera,
 
 // Where in its tent a wavelength's light lies, as s less `origin`; u in [0, 1) turns the tent's distribution round,
 // whose lower half is (1 + t)^2 / 2, t in -1..0.
-static inline float place_in_tent(const World* world, int wavelength, float u, float origin)
-{
+static inline float place_in_tent(const World* world, int wavelength, float u, float origin) {
   const float t = u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u);
   const float4 place = world->stretch_place[wavelength];
   return place.x - origin + (t < 0.0f ? -t * (place.y - place.x) : t * (place.z - place.x));
@@ -138,15 +130,16 @@ static inline float place_in_tent(const World* world, int wavelength, float u, f
 
 // u in [0, 1) picks a wavelength of the photon's cluster, as choose_band does, and a place in its tent: *x becomes its
 // s less the photon's.
-static inline Band stretched_band(const World* world, int light, const Band* photon, float u, float* x)
-{
-  const int cluster = made_late(photon->cluster), first = world->tables.cluster_first[cluster], count = world->tables.cluster_first[cluster + 1] - first;
+static inline Band stretched_band(const World* world, int light, const Band* photon, float u, float* x) {
+  const int cluster = made_late(photon->cluster), first = world->tables.cluster_first[cluster],
+            count = world->tables.cluster_first[cluster + 1] - first;
   const int members = world->tables.cluster_first[world->scene.cluster_count];
   __global const float* cdf = world->tables.wavelength_cdf + light * members + first;
   const int member = choose(cdf, count, u);
   const float before = chance_before(cdf, member);
   const Band band = {photon->cluster, world->tables.cluster_wavelengths[first + member], 1.0f / (cdf[member] - before)};
-  *x = place_in_tent(world, band.wavelength, clamp((u - before) * band.weight, 0.0f, 1.0f), stretch_origin(world, photon));
+  *x = place_in_tent(world, band.wavelength, clamp((u - before) * band.weight, 0.0f, 1.0f),
+                     stretch_origin(world, photon));
   return band;
 }
 
@@ -161,8 +154,7 @@ typedef struct {
 // distribution, and with jitter the first is of the photon's own wavelength. False where it does not reach the
 // receiver.
 static inline bool strand_of(const World* world, const PhotonEnd* end, const Path* path, Source source,
-                             const Band* band, const Stretch* stretch, int i, float u, Strand* strand)
-{
+                             const Band* band, const Stretch* stretch, int i, float u, Strand* strand) {
   strand->surface = end->surface;
   strand->triangle = end->triangle;
   strand->xyz = end->xyz;

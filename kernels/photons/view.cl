@@ -8,8 +8,7 @@
 // own. Photons of a whole cluster carry a sum over its wavelengths that losses cannot be applied to one by one any
 // more: they get the mean over the cluster, weighted by the lights as the surface reflects them, which is exact where
 // no photon has had losses of its own.
-static inline float3 transmittance(const World* world, const Losses* losses, const Band* band, int reflector)
-{
+static inline float3 transmittance(const World* world, const Losses* losses, const Band* band, int reflector) {
   float3 part = (float3)(1.0f);
 #if NEPHROID_ATTENUATORS > 0
   if (!losses->any) return part;
@@ -29,8 +28,7 @@ static inline float3 transmittance(const World* world, const Losses* losses, con
   return part;
 }
 
-static inline VisiblePoint nothing_visible(void)
-{
+static inline VisiblePoint nothing_visible(void) {
   VisiblePoint point;
   point.position = point.normal = point.throughput = (float4)(0.0f);
   point.group = NO_PHOTON;
@@ -39,8 +37,7 @@ static inline VisiblePoint nothing_visible(void)
 
 // Where a path that has hit `hit` ends in a band, which is of a part of its cluster. weight: of the path.
 static inline VisiblePoint see(const World* world, Path path, Hit hit, const Band* band, int part, float weight,
-                               int object_count, uint2 seed, uint sample, uint pixel)
-{
+                               int object_count, uint2 seed, uint sample, uint pixel) {
   VisiblePoint point = nothing_visible();
   Surface surface;
   const float radiance_scale = reach_diffuse(world, &path, &hit, band, seed, sample, 0u, pixel, STREAM_VIEW, &surface);
@@ -60,8 +57,7 @@ static inline VisiblePoint see(const World* world, Path path, Hit hit, const Ban
 // the film. Each is worth 1 / path_count of a pass.
 __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global VisiblePoint* points,
                    DeviceCamera camera, uint2 seed, uint pass, uint sample, uint place, uint path_count, int cluster,
-                   int object_count, __global const uint* pixels, uint first, uint count)
-{
+                   int object_count, __global const uint* pixels, uint first, uint count) {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;

@@ -24,8 +24,7 @@ typedef struct {
   bool any;
 } Losses;
 
-static inline Losses no_losses(void)
-{
+static inline Losses no_losses(void) {
   Losses losses;
   losses.any = false;
 #if NEPHROID_ATTENUATORS > 0
@@ -35,8 +34,7 @@ static inline Losses no_losses(void)
 }
 
 // attenuator: a row of the table, or -1 for what takes nothing away. length: metres of glass, or 1 for a reflection.
-static inline void lose(Losses* losses, int attenuator, float length)
-{
+static inline void lose(Losses* losses, int attenuator, float length) {
 #if NEPHROID_ATTENUATORS > 0
   if (attenuator < 0) return;
 #if NEPHROID_ATTENUATORS <= 4 // without an index they are registers
@@ -49,8 +47,7 @@ static inline void lose(Losses* losses, int attenuator, float length)
 }
 
 // What is left of one wavelength: exp(-a s).
-static inline float wavelength_left(const SpectralTables* tables, const Losses* losses, int wavelength)
-{
+static inline float wavelength_left(const SpectralTables* tables, const Losses* losses, int wavelength) {
 #if NEPHROID_ATTENUATORS > 0
   if (!losses->any) return 1.0f;
   float exponent = 0.0f;
@@ -65,8 +62,7 @@ static inline float wavelength_left(const SpectralTables* tables, const Losses* 
 // Sum over the cluster's wavelengths of light * what is left * reflectance (reflector -1: 1): xyz; w: without (xbar,
 // ybar, zbar) and reflectance, so the share of the light's power that is left.
 static inline float4 attenuated_sum(const SpectralTables* tables, const Losses* losses, int light, int cluster,
-                                    int reflector)
-{
+                                    int reflector) {
   float4 sum = (float4)(0.0f);
   cluster = made_late(cluster);
   for (int i = tables->cluster_first[cluster]; i < tables->cluster_first[cluster + 1]; ++i) {

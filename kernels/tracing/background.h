@@ -14,15 +14,13 @@ typedef struct {
   DeviceBackground size;
 } Background;
 
-static inline float3 texel_at(const Background* b, int row, int column)
-{
+static inline float3 texel_at(const Background* b, int row, int column) {
   return vload3((size_t)row * (size_t)b->size.width + (size_t)column, b->texels);
 }
 
 // Linear sRGB in a direction. Bilinear between the middles of texels; columns go on around, the first and the last row
 // are held.
-static inline float3 background_rgb(const Background* b, float3 direction)
-{
+static inline float3 background_rgb(const Background* b, float3 direction) {
   // From the middle of the picture, -z, to its right, +x. What is turned about +y to the left is looked up farther to
   // the right.
   const float azimuth = atan2(direction.x, -direction.z) / (2.0f * PI_F) + 0.5f + b->size.turns;
@@ -41,8 +39,7 @@ static inline float3 background_rgb(const Background* b, float3 direction)
 }
 
 // XYZ that one wavelength of a colour's spectrum has in it; wavelength WAVELENGTH_COUNT: all of them.
-static inline float3 background_xyz(const Background* b, float3 rgb, int wavelength)
-{
+static inline float3 background_xyz(const Background* b, float3 rgb, int wavelength) {
   __global const float4* primary = b->primary_xyz + 3 * wavelength;
   return rgb.x * primary[0].xyz + rgb.y * primary[1].xyz + rgb.z * primary[2].xyz;
 }

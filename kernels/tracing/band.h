@@ -18,16 +18,14 @@ typedef struct {
   float weight;   // of a single wavelength: 1 / its probability in the cluster
 } Band;
 
-static inline Band whole_cluster(int cluster)
-{
+static inline Band whole_cluster(int cluster) {
   const Band band = {cluster, -1, 1.0f};
   return band;
 }
 
 // One wavelength of a cluster, whose members are `wavelengths` and have this cdf; u in [0, 1).
 static inline Band wavelength_of_cluster(int cluster, __global const int* wavelengths, __global const float* cdf,
-                                         int count, float u)
-{
+                                         int count, float u) {
   const int member = choose(cdf, count, u);
   const float before = chance_before(cdf, member);
   const Band band = {cluster, wavelengths[member], 1.0f / (cdf[member] - before)};

@@ -68,15 +68,13 @@ typedef struct {
 static inline int bvh_mask8(int8 m) { return __builtin_ia32_movmskps256(as_float8(m)); }
 static inline int bvh_mask4(int4 m) { return __builtin_ia32_movmskps(as_float4(m)); }
 #else
-static inline int bvh_mask8(int8 m)
-{
+static inline int bvh_mask8(int8 m) {
   const int8 bits = m & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
   const int4 b = bits.lo | bits.hi;
   const int2 c = b.lo | b.hi;
   return c.x | c.y;
 }
-static inline int bvh_mask4(int4 m)
-{
+static inline int bvh_mask4(int4 m) {
   const int4 bits = m & (int4)(1, 2, 4, 8);
   const int2 c = bits.lo | bits.hi;
   return c.x | c.y;
@@ -111,8 +109,7 @@ static inline float3 bvh_axes(float3 a, int kz) { return kz == 0 ? a.yzx : kz ==
 // with them the slack of bvh_ray, grow with the origin's distance: boxes of an object smaller than 2^-20 of it would
 // all overlap, and the ray would test every triangle. One fused multiply-add is exact to rounding of its small result,
 // so the point lies on the line as exactly as single precision can say.
-static inline float bvh_approach(float3 o, float3 d, float3* nearest)
-{
+static inline float bvh_approach(float3 o, float3 d, float3* nearest) {
   const float way = -dot(o, d) / dot(d, d);
   *nearest = fma((float3)(way), d, o);
   const float3 before = fabs(o), after = 16.0f * fabs(*nearest);
@@ -122,8 +119,7 @@ static inline float bvh_approach(float3 o, float3 d, float3* nearest)
 
 static inline float bvh_inverse(float d) { return 1.0f / copysign(BVH_MAX(fabs(d), 1e-20f), d); }
 
-static inline BvhRay bvh_ray(float3 o, float3 d)
-{
+static inline BvhRay bvh_ray(float3 o, float3 d) {
   BvhRay r;
   r.inverse = (float3)(bvh_inverse(d.x), bvh_inverse(d.y), bvh_inverse(d.z));
   // Growing every box by `slack` covers the rounding of this test and of the triangle test, as far as they come from
@@ -154,8 +150,7 @@ static inline BvhRay bvh_ray(float3 o, float3 d)
 }
 
 // Children of a node whose boxes the ray meets within [t_min, t], as a mask; *entry is where it enters each.
-static inline int bvh_boxes(global const float* node, const BvhRay* r, float t_min, float t, float8* entry)
-{
+static inline int bvh_boxes(global const float* node, const BvhRay* r, float t_min, float t, float8* entry) {
   const float8 ix = r->inverse.x, iy = r->inverse.y, iz = r->inverse.z;
   const float8 x0 = fma(vload8(0, node + r->near_x), ix, (float8)(-r->near.x));
   const float8 y0 = fma(vload8(0, node + 16 + r->near_y), iy, (float8)(-r->near.y));
@@ -171,8 +166,7 @@ static inline int bvh_boxes(global const float* node, const BvhRay* r, float t_m
 
 // One block of 4 triangles. Returns the mask of those hit within (t_min, t_max], with distance and barycentrics.
 static inline int bvh_triangles(global const float* block, const BvhRay* r, float t_min, float t_max, float4* t,
-                                float4* u, float4* v)
-{
+                                float4* u, float4* v) {
 // A fused multiply-add would round one of the two products of an edge function and not the other, and its sign could be
 // wrong.
 #pragma OPENCL FP_CONTRACT OFF
@@ -197,8 +191,7 @@ static inline int bvh_triangles(global const float* block, const BvhRay* r, floa
 
 #if NEPHROID_ELLIPSOIDS
 // What takes a way from the centre to the unit sphere.
-static inline float3 bvh_to_unit_sphere(global const float* ellipsoid, float3 way)
-{
+static inline float3 bvh_to_unit_sphere(global const float* ellipsoid, float3 way) {
   return (float3)(dot(vload3(1, ellipsoid), way), dot(vload3(2, ellipsoid), way), dot(vload3(3, ellipsoid), way));
 }
 
@@ -209,8 +202,7 @@ static inline float3 bvh_to_unit_sphere(global const float* ellipsoid, float3 wa
 // l^2) / e^2). leaves: the ray starts on it, so one of its two hits is that; the other lies ahead where the middle
 // between them does.
 static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r, float t_min, float t_max, bool leaves,
-                                 float* t, float3* unit)
-{
+                                 float* t, float3* unit) {
   const float3 from_centre = r->origin - vload3(0, ellipsoid);
   const float way = -dot(from_centre, r->direction) / dot(r->direction, r->direction);
   const float3 nearest = bvh_to_unit_sphere(ellipsoid, fma((float3)(way), r->direction, from_centre));
@@ -235,8 +227,7 @@ static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r,
 // The closest hit with t_min < t <= t_max, other than with triangle `skip` or where the ray leaves ellipsoid `skip`. No
 // hit: t is t_max.
 static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min,
-                              float t_max, uint skip)
-{
+                              float t_max, uint skip) {
   Hit hit = {t_max, 0.0f, 0.0f, NEPHROID_NO_PRIMITIVE};
   int at = root;
 #if !BVH_LEAF_ONLY
@@ -336,8 +327,7 @@ static inline Hit bvh_closest(global const float* nodes, global const float* blo
 
 // Whether anything other than what bvh_closest skips is hit with t_min < t <= t_max.
 static inline bool bvh_any(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min,
-                           float t_max, uint skip)
-{
+                           float t_max, uint skip) {
 #if BVH_LEAF_ONLY
   {
     const int at = root;
@@ -389,8 +379,7 @@ static inline bool bvh_any(global const float* nodes, global const float* blocks
 // The direction need not be of unit length, but neither zero nor smaller than 1e-15. t_min may be negative: a ray from
 // afar is known more exactly by a point of it near what it is sent to.
 static inline Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin,
-                              float3 direction, float t_min, float t_max, uint skip)
-{
+                              float3 direction, float t_min, float t_max, uint skip) {
   float3 nearest;
   const float way = bvh_approach(origin, direction, &nearest);
   float moved = 0.0f, to = way > 0.0f ? BVH_MIN(BVH_FIRST_PART * way, t_max) : t_max;
@@ -409,8 +398,7 @@ static inline Hit closest_hit(global const float* nodes, global const float* blo
 
 // Whether anything other than `skip`, as above, is hit with 0 < t <= t_max.
 static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin,
-                           float3 direction, float t_max, uint skip)
-{
+                           float3 direction, float t_max, uint skip) {
   float3 nearest;
   const float way = bvh_approach(origin, direction, &nearest);
   float t_min = 0.0f, moved = 0.0f, to = way > 0.0f ? BVH_MIN(BVH_FIRST_PART * way, t_max) : t_max;

@@ -12,8 +12,7 @@
 
 // Of the children `left` of a node, as a mask, the nearest whose box the ray meets within [t_min, t]; -1: none. That
 // child, and those that are missed, are taken from `left`.
-static inline int bvh_nearest(global const float* node, const BvhRay* r, float t_min, float t, int* left)
-{
+static inline int bvh_nearest(global const float* node, const BvhRay* r, float t_min, float t, int* left) {
   int nearest = -1;
   float nearest_entry = INFINITY;
   for (int rest = *left; rest; rest &= rest - 1) {
@@ -38,8 +37,7 @@ static inline int bvh_nearest(global const float* node, const BvhRay* r, float t
 
 // bvh_triangles of the triangle at `corner`, a lane of a block.
 static inline bool bvh_triangle(global const float* corner, const BvhRay* r, float t_min, float t_max, float* t,
-                                float* u, float* v)
-{
+                                float* u, float* v) {
 #pragma OPENCL FP_CONTRACT OFF
   global const float* x = corner + 4 * r->kx;
   global const float* y = corner + 4 * r->ky;
@@ -59,8 +57,7 @@ static inline bool bvh_triangle(global const float* corner, const BvhRay* r, flo
 }
 
 // What of a leaf is hit before `hit` becomes it.
-static inline void bvh_leaf(global const float* blocks, int leaf, const BvhRay* ray, float t_min, uint skip, Hit* hit)
-{
+static inline void bvh_leaf(global const float* blocks, int leaf, const BvhRay* ray, float t_min, uint skip, Hit* hit) {
   const int first = ~leaf >> 4, triangles = 4 * (~leaf & 3);
   for (int i = 0; i < triangles; ++i) {
     global const float* block = blocks + 40 * (size_t)(first + i / 4);
@@ -93,8 +90,7 @@ static inline void bvh_leaf(global const float* blocks, int leaf, const BvhRay* 
 
 // Of a traversal that stops at any hit: the first that it finds.
 static inline Hit bvh_hit(global const float* nodes, global const float* blocks, int root, const BvhRay* ray,
-                          float t_min, float t_max, uint skip, bool any)
-{
+                          float t_min, float t_max, uint skip, bool any) {
   Hit hit = {t_max, 0.0f, 0.0f, NEPHROID_NO_PRIMITIVE};
   int at = root, left = 0xFF;
   int waiting[NEPHROID_BVH_DEPTH];
@@ -124,14 +120,12 @@ static inline Hit bvh_hit(global const float* nodes, global const float* blocks,
 }
 
 static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min,
-                              float t_max, uint skip)
-{
+                              float t_max, uint skip) {
   return bvh_hit(nodes, blocks, root, &ray, t_min, t_max, skip, false);
 }
 
 static inline bool bvh_any(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min,
-                           float t_max, uint skip)
-{
+                           float t_max, uint skip) {
   return bvh_hit(nodes, blocks, root, &ray, t_min, t_max, skip, true).primitive != NEPHROID_NO_PRIMITIVE;
 }
 

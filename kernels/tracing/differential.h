@@ -24,15 +24,13 @@ typedef struct {
 // A ray P + t D meets the plane of unit normal G through its hit at P + t D, and so do its neighbours:
 //   (P + t D)' = P' + t D' + t' D, and this is perpendicular to G, so t' = -(P' + t D').G / (D.G).
 // direction: unit; distance: t.
-static inline float3 transferred(const Differential* d, float3 direction, float distance, float3 geometric)
-{
+static inline float3 transferred(const Differential* d, float3 direction, float distance, float3 geometric) {
   const float3 moved = d->position + distance * d->direction;
   return moved - dot(moved, geometric) / dot(direction, geometric) * direction;
 }
 
 // R = D + 2 c N, c = -D.N, so R' = D' + 2 (c' N + c N') with c' = -(D'.N + D.N').
-static inline float3 reflected_differential(float3 direction, float3 d_direction, float3 normal, float3 d_normal)
-{
+static inline float3 reflected_differential(float3 direction, float3 d_direction, float3 normal, float3 d_normal) {
   const float cos_i = -dot(direction, normal);
   const float d_cos_i = -(dot(d_direction, normal) + dot(direction, d_normal));
   return d_direction + 2.0f * (d_cos_i * normal + cos_i * d_normal);
@@ -43,8 +41,7 @@ static inline float3 reflected_differential(float3 direction, float3 d_direction
 //   T' = e' D + e D' + m' N + m N',  m' = e' c + e c' - q',  q' = (e^2 c c' - e e' (1 - c^2)) / q.
 // Not finite at the critical angle, where q = 0.
 static inline float3 refracted_differential(float3 direction, float3 d_direction, float3 normal, float3 d_normal,
-                                            float eta, float d_eta)
-{
+                                            float eta, float d_eta) {
   const float cos_i = -dot(direction, normal);
   const float d_cos_i = -(dot(d_direction, normal) + dot(direction, d_normal));
   const float cos_t = refracted_cosine(cos_i, eta);
@@ -58,8 +55,7 @@ static inline float3 refracted_differential(float3 direction, float3 d_direction
 //   P' = u' e_1 + v' e_2 gives u' and v', m' = u' (n_1 - n_0) + v' (n_2 - n_0), and N' = (m' - (m'.N) N) / |m|.
 // Of an ellipsoid N = g / |g| with g = M^T M (P - centre), so g' = M^T M P' and N' = (g' - (g'.N) N) / |g|: P' / R in a
 // sphere. position: on the primitive. The normal is the one that points outwards.
-static inline float3 normal_differential(const DevicePrimitive* primitive, float3 position, float3 d_position)
-{
+static inline float3 normal_differential(const DevicePrimitive* primitive, float3 position, float3 d_position) {
 #if NEPHROID_ELLIPSOIDS
   if (is_ellipsoid(primitive)) {
     const float3 g = ellipsoid_gradient(primitive, to_unit_sphere(primitive, position - primitive->corner.xyz));
@@ -82,8 +78,7 @@ static inline float3 normal_differential(const DevicePrimitive* primitive, float
 }
 
 // To a surface that the path's way meets at `distance`.
-static inline void differential_to_surface(Differential* d, float3 direction, float distance, const Surface* surface)
-{
+static inline void differential_to_surface(Differential* d, float3 direction, float distance, const Surface* surface) {
 #if NEPHROID_DIFFERENTIALS
   d->position = transferred(d, direction, distance, surface->geometric);
 #endif
@@ -93,8 +88,7 @@ static inline void differential_to_surface(Differential* d, float3 direction, fl
 // same at a mirror.
 static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint primitive,
                                              const Surface* surface, float3 direction, const Bend* bend, float n_i,
-                                             float n_t, float d_n_i, float d_n_t)
-{
+                                             float n_t, float d_n_i, float d_n_t) {
 #if NEPHROID_DIFFERENTIALS
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   float3 d_normal = (float3)(0.0f);

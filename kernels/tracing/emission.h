@@ -15,8 +15,7 @@ typedef struct {
 } Emission;
 
 // Two vectors that make an orthonormal frame with the unit vector n (Duff et al. 2017).
-static inline void make_frame(float3 n, float3* x, float3* y)
-{
+static inline void make_frame(float3 n, float3* x, float3* y) {
   const float sign = copysign(1.0f, n.z);
   const float a = -1.0f / (sign + n.z), b = n.x * n.y * a;
   *x = (float3)(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
@@ -25,8 +24,7 @@ static inline void make_frame(float3 n, float3* x, float3* y)
 
 // A direction about the unit vector n with the density cos(theta) / pi: uniform on the disc below the half sphere
 // (Malley).
-static inline float3 cosine_direction(float3 n, float u, float v)
-{
+static inline float3 cosine_direction(float3 n, float u, float v) {
   float3 x, y;
   make_frame(n, &x, &y);
   const float radius = sqrt(u);
@@ -37,8 +35,7 @@ static inline float3 cosine_direction(float3 n, float u, float v)
 
 // Uniform in the cone about axis with 1 - cos(half angle) = one_minus_cos, which stays exact for far and small targets:
 // the direction's part along the axis is 1 - *below, and *aside is the rest of it.
-static inline float3 sample_cone(float3 axis, float one_minus_cos, float u, float v, float* below, float3* aside)
-{
+static inline float3 sample_cone(float3 axis, float one_minus_cos, float u, float v, float* below, float3* aside) {
   float3 x, y;
   make_frame(axis, &x, &y);
   *below = u * one_minus_cos;
@@ -50,8 +47,7 @@ static inline float3 sample_cone(float3 axis, float one_minus_cos, float u, floa
 }
 
 // 1 - cos of the half angle under which a sphere is seen from a point; 2 from inside.
-static inline float one_minus_cos_of(float4 sphere, float3 from)
-{
+static inline float one_minus_cos_of(float4 sphere, float3 from) {
   const float3 way = sphere.xyz - from;
   const float distance2 = dot(way, way), radius2 = sphere.w * sphere.w;
   if (distance2 <= radius2) return 2.0f;
@@ -60,8 +56,7 @@ static inline float one_minus_cos_of(float4 sphere, float3 from)
 }
 
 // Whether a photon from `from` meets a sphere.
-static inline bool meets_sphere(float4 sphere, float3 from, const Emission* photon)
-{
+static inline bool meets_sphere(float4 sphere, float3 from, const Emission* photon) {
   const float3 start = sphere.xyz - from, way = sphere.xyz - photon->origin;
   const float along = dot(way, photon->direction), radius2 = sphere.w * sphere.w;
   if (dot(start, start) <= radius2) return true;
@@ -72,8 +67,7 @@ static inline bool meets_sphere(float4 sphere, float3 from, const Emission* phot
 // Points a photon from `from` at the target at `centre`. A direction is rounded by 2^-24, which at a far and small
 // target is a visible part of its size. There the photon begins in the plane through the target's centre and reaches
 // back to the light.
-static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 random, Emission* photon)
-{
+static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 random, Emission* photon) {
   const float3 way = centre - from;
   const float distance2 = dot(way, way); // 0 in the very middle of a target, where any axis will do
   const float3 axis = distance2 > 0.0f ? normalize(way) : (float3)(0.0f, 0.0f, 1.0f);
@@ -89,8 +83,7 @@ static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 r
 
 // A photon from a point towards the targets: its line is written to *photon. Returns 1 / density in steradians.
 static inline float sample_targets(__global const DeviceTarget* targets, int target_count, float3 from, float4 random,
-                                   Emission* photon)
-{
+                                   Emission* photon) {
   float one_minus_cos[MAX_TARGETS];
   float sum = 0.0f;
   for (int i = 0; i < target_count; ++i) {
@@ -107,8 +100,7 @@ static inline float sample_targets(__global const DeviceTarget* targets, int tar
   return 2.0f * PI_F * sum / (float)count;
 }
 
-static inline Emission emit_from_point(const DeviceLight* light, __global const DeviceTarget* targets, float4 random)
-{
+static inline Emission emit_from_point(const DeviceLight* light, __global const DeviceTarget* targets, float4 random) {
   const int target_count = light->target_count;
   Emission emission = {light->position.xyz, light->direction.xyz, 0.0f, 0.0f};
   if (is_light(light, LIGHT_SPOT)) {
@@ -135,8 +127,7 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
 // Radiance is power / (area pi); the place is uniform on the area, so a photon carries power cos(theta) / pi per
 // steradian.
 static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random,
-                                      float2 place)
-{
+                                      float2 place) {
   Emission emission;
   const float steradians = sample_targets(targets, light->target_count, area_point(light, place), random, &emission);
   const float cosine = dot(emission.direction, light->direction.xyz);
@@ -145,8 +136,7 @@ static inline Emission emit_from_area(const DeviceLight* light, __global const D
 }
 
 static inline Emission emit_directional(const DeviceLight* light, __global const DeviceTarget* targets,
-                                        const DeviceScene* scene, float4 random)
-{
+                                        const DeviceScene* scene, float4 random) {
   const float3 direction = light->direction.xyz;
   const int target_count = light->target_count;
   float sum = 0.0f;
@@ -180,8 +170,7 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
 // targets: the whole table, of which a light has its own list. Of the environment: as source_of (world.h) has turned it
 // for one photon.
 static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
-                            float4 random, float2 place)
-{
+                            float4 random, float2 place) {
   targets += light->first_target;
   if (is_light(light, LIGHT_DIRECTIONAL) || is_light(light, LIGHT_ENVIRONMENT))
     return emit_directional(light, targets, scene, random);

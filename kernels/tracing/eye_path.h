@@ -23,8 +23,7 @@ typedef struct {
 } Arrival;
 
 static inline Arrival arrive_from(const DeviceLight* light, float3 position, float3 normal, float metres_per_unit,
-                                  float2 place)
-{
+                                  float2 place) {
   Arrival arrival = {0.0f, -light->direction.xyz, INFINITY};
   if (is_light(light, LIGHT_DIRECTIONAL)) {
     arrival.irradiance = light->radiometric * max(dot(arrival.direction, normal), 0.0f);
@@ -48,8 +47,7 @@ static inline Arrival arrive_from(const DeviceLight* light, float3 position, flo
 // The four numbers of sample `sample` of an area light or the environment at a pixel, which takes `paths` of them a
 // frame. Those of one half of the film follow a sequence; the halves are independent. Sets 0 and 1 of a sequence are of
 // photons.
-static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sample, uint paths, uint pixel)
-{
+static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sample, uint paths, uint pixel) {
 #if NEPHROID_LOW_DISCREPANCY
   const uint frame = sample / paths, index = frame / NEPHROID_FILM_HALVES * paths + sample % paths;
   return sobol4(seed, (uint3)(pixel, (uint)light->number, frame % NEPHROID_FILM_HALVES), 2u, index);
@@ -61,8 +59,7 @@ static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sa
 // Irradiance that a light sends unbent to the side of a surface that a path arrives at; 0 where something is in its
 // way.
 static inline float irradiance_of(const World* world, int light_index, const Path* path, const Surface* surface,
-                                  uint triangle, uint2 seed, uint sample, uint paths, uint pixel)
-{
+                                  uint triangle, uint2 seed, uint sample, uint paths, uint pixel) {
   const DeviceLight light = world->lights[light_index];
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   const float4 place =
@@ -76,8 +73,7 @@ static inline float irradiance_of(const World* world, int light_index, const Pat
 
 // Four numbers for sample `sample` of a pixel, which takes `paths` of them a frame: of a sequence, as light_numbers; or
 // plain ones, where paths is 0. block: which four.
-static inline float4 eye_numbers(uint2 seed, uint sample, uint paths, uint pixel, uint block, uint stream)
-{
+static inline float4 eye_numbers(uint2 seed, uint sample, uint paths, uint pixel, uint block, uint stream) {
 #if NEPHROID_LOW_DISCREPANCY
   if (paths > 0u) {
     const uint frame = sample / paths, index = frame / NEPHROID_FILM_HALVES * paths + sample % paths;
@@ -92,8 +88,7 @@ static inline float4 eye_numbers(uint2 seed, uint sample, uint paths, uint pixel
 // 9.2.2): each radiance * cosine over the sum of both densities. The first finds a sun, the second is exact where the
 // sky is even; without peaks it is the only one.
 static inline float3 sky_irradiance(const World* world, int light_index, const Path* path, const Surface* surface,
-                                    uint triangle, uint2 seed, uint sample, uint paths, uint pixel)
-{
+                                    uint triangle, uint2 seed, uint sample, uint paths, uint pixel) {
   const DeviceLight light = world->lights[light_index];
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   const float3 normal = side * surface->shading, from = start_on_side(surface, side);
@@ -113,8 +108,7 @@ static inline float3 sky_irradiance(const World* world, int light_index, const P
 }
 
 // Whether a path from the eye has met a diffuse surface at once: then all wavelengths went the same way.
-static inline bool is_unbent(const World* world, const DeviceCamera* camera, const Hit* first)
-{
+static inline bool is_unbent(const World* world, const DeviceCamera* camera, const Hit* first) {
   const int object = object_of_primitive(&world->geometry, first->primitive);
   return material_of(world, object).type == MATERIAL_DIFFUSE && is_in_air(&camera->inside);
 }
@@ -125,8 +119,7 @@ static inline bool is_unbent(const World* world, const DeviceCamera* camera, con
 // stream: of the numbers that choose between reflection and refraction. likelier: the path takes the likelier of the
 // two everywhere, for a preview without noise.
 IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool known, const Band* band, uint2 seed,
-                         uint sample, uint paths, uint pixel, uint stream, bool likelier, Surface* surface)
-{
+                         uint sample, uint paths, uint pixel, uint stream, bool likelier, Surface* surface) {
   float radiance_scale = 1.0f;
   SET_ASIDE float4 choices = (float4)(0.0f);
   for (int surface_number = 0; surface_number <= world->scene.max_surfaces; ++surface_number) {
@@ -150,8 +143,7 @@ IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool k
 
 // The same to a diffuse surface only: 0 where the path leaves the scene.
 IN_PLACE float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample,
-                             uint paths, uint pixel, uint stream, Surface* surface)
-{
+                             uint paths, uint pixel, uint stream, Surface* surface) {
   const float radiance_scale =
       trace_to_diffuse(world, path, hit, true, band, seed, sample, paths, pixel, stream, false, surface);
   return hit->primitive == NEPHROID_NO_PRIMITIVE ? 0.0f : radiance_scale;

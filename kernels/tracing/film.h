@@ -15,8 +15,7 @@
 
 // The largest that the sample of that number may have, of which a pixel takes `enough` with a limit of their own and
 // any number more.
-static inline float limit_of_sample(uint number, uint enough, float limit)
-{
+static inline float limit_of_sample(uint number, uint enough, float limit) {
   return number < enough ? limit : fmin(limit, FILM_LIMIT);
 }
 
@@ -26,8 +25,7 @@ static inline void add_exactly(volatile __global long* sum, long value) { atom_a
 #else
 // Two 32-bit halves with carry: adding modulo 2^64 is associative, so once all have added, the bits are those of the
 // sum.
-static inline void add_exactly(volatile __global long* sum, long value)
-{
+static inline void add_exactly(volatile __global long* sum, long value) {
   volatile __global uint* half_sum = (volatile __global uint*)sum;
   const uint low = (uint)value, before = atomic_add(half_sum, low);
   const uint carry = before + low < before ? 1u : 0u;
@@ -37,8 +35,7 @@ static inline void add_exactly(volatile __global long* sum, long value)
 #endif
 
 // The image that a pass adds to.
-static inline volatile __global long* film_of_iteration(volatile __global long* film, uint iteration, int pixels)
-{
+static inline volatile __global long* film_of_iteration(volatile __global long* film, uint iteration, int pixels) {
   return film + 3 * (size_t)pixels * (iteration % NEPHROID_FILM_HALVES);
 }
 
@@ -46,8 +43,7 @@ static inline volatile __global long* film_of_iteration(volatile __global long* 
 // mean, where rounding to the nearest would lose all below a half. Returns false, and adds nothing, where that is not
 // finite or above `limit` quanta.
 static inline bool film_add_dithered(volatile __global long* film, int pixel, float3 xyz, float scale, float limit,
-                                     float dither)
-{
+                                     float dither) {
   const float3 quanta = xyz * scale;
   if (!(fabs(quanta.x) <= limit && fabs(quanta.y) <= limit && fabs(quanta.z) <= limit)) return false;
   volatile __global long* sum = film + 3 * (size_t)pixel;

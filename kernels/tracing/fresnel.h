@@ -7,8 +7,7 @@
 // cos of the refraction angle from sin(theta_t) = eta sin(theta_i), eta = n_i / n_t; negative: total internal
 // reflection. 1 - eta^2 (1 - cos_i^2) is written as a product of sums, which keeps its sign to within float spacing at
 // the critical angle.
-static inline float refracted_cosine(float cos_i, float eta)
-{
+static inline float refracted_cosine(float cos_i, float eta) {
   const float sin_i = sqrt((1.0f - cos_i) * (1.0f + cos_i));
   const float sin_t = eta * sin_i;
   const float cos2 = (1.0f - sin_t) * (1.0f + sin_t);
@@ -18,20 +17,17 @@ static inline float refracted_cosine(float cos_i, float eta)
 // Mean of the reflectances of both polarisations, squares of the amplitudes
 //   r_s = (n_i cos_i - n_t cos_t) / (n_i cos_i + n_t cos_t),  r_p = (n_t cos_i - n_i cos_t) / (n_t cos_i + n_i cos_t).
 // cos_t from refracted_cosine, not negative.
-static inline float fresnel_reflectance(float cos_i, float cos_t, float n_i, float n_t)
-{
+static inline float fresnel_reflectance(float cos_i, float cos_t, float n_i, float n_t) {
   const float s = (n_i * cos_i - n_t * cos_t) / (n_i * cos_i + n_t * cos_t);
   const float p = (n_t * cos_i - n_i * cos_t) / (n_t * cos_i + n_i * cos_t);
   return 0.5f * (s * s + p * p);
 }
 
 // normal: unit, against the incoming direction; cos_i = -dot(direction, normal) >= 0.
-static inline float3 reflect_about(float3 direction, float3 normal, float cos_i)
-{
+static inline float3 reflect_about(float3 direction, float3 normal, float cos_i) {
   return direction + 2.0f * cos_i * normal;
 }
-static inline float3 refract_through(float3 direction, float3 normal, float cos_i, float cos_t, float eta)
-{
+static inline float3 refract_through(float3 direction, float3 normal, float cos_i, float cos_t, float eta) {
   return normalize(eta * direction + (eta * cos_i - cos_t) * normal);
 }
 

@@ -18,8 +18,7 @@
 // Returns false where more than MEDIA_DEPTH media would enclose the path.
 static inline bool cross_interface(Media* media, const Surface* surface, __global const DeviceObject* objects,
                                    __global const float* n_of, float3 direction, float choice, Bend* bend,
-                                   float* n_ratio)
-{
+                                   float* n_ratio) {
   const bool enters = dot(direction, surface->geometric) < 0.0f;
   Media beyond = *media;
   int near_object = medium_object(media, objects);

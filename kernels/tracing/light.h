@@ -13,8 +13,7 @@
 #define NEPHROID_LIGHT_TYPES 31
 #endif
 
-static inline bool is_light(const DeviceLight* light, int type)
-{
+static inline bool is_light(const DeviceLight* light, int type) {
   return (NEPHROID_LIGHT_TYPES >> type & 1) != 0 && (NEPHROID_LIGHT_TYPES == 1 << type || light->type == type);
 }
 
@@ -25,21 +24,18 @@ typedef struct {
 } Source;
 
 // Whether a unit direction away from a spot lies in its cone. |d - axis|^2 / 2 = 1 - cos keeps narrow cones exact.
-static inline bool in_spot(const DeviceLight* light, float3 direction)
-{
+static inline bool in_spot(const DeviceLight* light, float3 direction) {
   const float3 aside = direction - light->direction.xyz;
   return 0.5f * dot(aside, aside) <= light->one_minus_cos;
 }
 
 // Whether a photon begins at a place of its own: on a rectangle, or in the environment.
-static inline bool has_places(const DeviceLight* light)
-{
+static inline bool has_places(const DeviceLight* light) {
   return is_light(light, LIGHT_AREA) || is_light(light, LIGHT_ENVIRONMENT);
 }
 
 // A point of an area light's rectangle.
-static inline float3 area_point(const DeviceLight* light, float2 place)
-{
+static inline float3 area_point(const DeviceLight* light, float2 place) {
   return light->position.xyz + (place.x - 0.5f) * light->edge_u.xyz + (place.y - 0.5f) * light->edge_v.xyz;
 }
 

@@ -33,8 +33,7 @@ __constant uint3 sobol_directions[32] = {
     (uint3)(0xaaaaaaaau, 0x8e00eeeeu, 0x200200a2u), (uint3)(0xffffffffu, 0xc5005555u, 0x50050093u),
 };
 
-static inline uint reverse_bits(uint x)
-{
+static inline uint reverse_bits(uint x) {
   x = (x >> 16) | (x << 16);
   x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
   x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
@@ -44,8 +43,7 @@ static inline uint reverse_bits(uint x)
 
 // A random permutation in which every bit depends on the lower bits only (Laine and Karras 2011; constants of Vegdahl
 // 2021): on a number with its bits in reverse this is Owen's scrambling, by the higher bits.
-static inline uint4 permute_by_lower_bits(uint4 x, uint4 key)
-{
+static inline uint4 permute_by_lower_bits(uint4 x, uint4 key) {
   x ^= x * 0x3d20adeau;
   x += key;
   x *= (key >> 16) | 1u;
@@ -54,15 +52,13 @@ static inline uint4 permute_by_lower_bits(uint4 x, uint4 key)
   return x;
 }
 
-static inline uint4 reverse_bits4(uint4 x)
-{
+static inline uint4 reverse_bits4(uint4 x) {
   return (uint4)(reverse_bits(x.x), reverse_bits(x.y), reverse_bits(x.z), reverse_bits(x.w));
 }
 
 // Point `index` of four dimensions, in units of 2^-32. sequence: what it is for, part of the key; set: sets of one
 // sequence are independent of each other.
-static inline uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index)
-{
+static inline uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index) {
   const uint4 key = philox4x32((uint4)(sequence, set << 16 | STREAM_SOBOL), seed);
   // The order of the points of every set but the first is shuffled by a key of its own, so that sets are not paired
   // alike.
@@ -78,8 +74,7 @@ static inline uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index
   return reverse_bits4(permute_by_lower_bits(reversed, key));
 }
 
-static inline float4 sobol4(uint2 seed, uint3 sequence, uint set, uint index)
-{
+static inline float4 sobol4(uint2 seed, uint3 sequence, uint set, uint index) {
   return convert_float4(sobol4_bits(seed, sequence, set, index) >> 8) * 0x1p-24f;
 }
 

@@ -9,23 +9,20 @@
 
 #define MEDIUM_MASK ((1ul << MEDIUM_BITS) - 1ul)
 
-static inline bool is_in_air(const Media* media)
-{
+static inline bool is_in_air(const Media* media) {
   return media->latest == 0ul;
 } // the earlier ones come after four others
 
 // The object that was entered last, which is not none.
 static inline int latest_medium(const Media* media) { return (int)(media->latest & MEDIUM_MASK) - 1; }
 
-static inline Media without_latest(Media media)
-{
+static inline Media without_latest(Media media) {
   const Media rest = {media.latest >> MEDIUM_BITS | media.earlier << (64 - MEDIUM_BITS), media.earlier >> MEDIUM_BITS};
   return rest;
 }
 
 // The object whose material fills the place: the highest priority, of equals the one entered last; -1: air.
-static inline int medium_object(const Media* media, __global const DeviceObject* objects)
-{
+static inline int medium_object(const Media* media, __global const DeviceObject* objects) {
   int best = -1, best_priority = 0;
   for (Media rest = *media; !is_in_air(&rest); rest = without_latest(rest)) {
     const int candidate = latest_medium(&rest), priority = objects[candidate].priority;
@@ -37,16 +34,14 @@ static inline int medium_object(const Media* media, __global const DeviceObject*
   return best;
 }
 
-static inline bool is_inside(const Media* media, int object)
-{
+static inline bool is_inside(const Media* media, int object) {
   for (Media rest = *media; !is_in_air(&rest); rest = without_latest(rest))
     if (latest_medium(&rest) == object) return true;
   return false;
 }
 
 // Appends an object. False where the list is full.
-static inline bool enter_medium(Media* media, int object)
-{
+static inline bool enter_medium(Media* media, int object) {
   if (media->earlier >> (64 - MEDIUM_BITS)) return false;
   media->earlier = media->earlier << MEDIUM_BITS | media->latest >> (64 - MEDIUM_BITS);
   media->latest = media->latest << MEDIUM_BITS | (ulong)(object + 1);
@@ -54,8 +49,7 @@ static inline bool enter_medium(Media* media, int object)
 }
 
 // Removes the latest entry of an object; nothing happens where it is not there (an open mesh).
-static inline void leave_medium(Media* media, int object)
-{
+static inline void leave_medium(Media* media, int object) {
   uint place = 0;
   Media rest = *media;
   for (; !is_in_air(&rest) && latest_medium(&rest) != object; rest = without_latest(rest)) place += MEDIUM_BITS;

@@ -18,21 +18,18 @@ typedef volatile __local uint* Outcomes; // lower and upper halves: atomics of 6
   __local uint name[2 * OUTCOME_COUNT];                                                                                \
   begin_outcomes(name)
 
-static inline void begin_outcomes(Outcomes outcomes)
-{
+static inline void begin_outcomes(Outcomes outcomes) {
   for (uint i = (uint)get_local_id(0); i < 2 * OUTCOME_COUNT; i += (uint)get_local_size(0)) outcomes[i] = 0u;
   barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-static inline void add_outcome(Outcomes outcomes, int outcome, long quanta)
-{
+static inline void add_outcome(Outcomes outcomes, int outcome, long quanta) {
   const uint low = (uint)quanta, before = atomic_add(outcomes + 2 * outcome, low);
   const uint high = (uint)(quanta >> 32) + (before + low < before ? 1u : 0u);
   if (high != 0u) atomic_add(outcomes + 2 * outcome + 1, high);
 }
 
-static inline void add_outcomes(volatile __global long* energy, Outcomes outcomes)
-{
+static inline void add_outcomes(volatile __global long* energy, Outcomes outcomes) {
   barrier(CLK_LOCAL_MEM_FENCE);
   for (uint i = (uint)get_local_id(0); i < OUTCOME_COUNT; i += (uint)get_local_size(0)) {
     const long sum = (long)((ulong)outcomes[2 * i + 1] << 32 | outcomes[2 * i]);
@@ -45,8 +42,7 @@ typedef long* Outcomes;
 
 static inline void add_outcome(Outcomes outcomes, int outcome, long quanta) { outcomes[outcome] += quanta; }
 
-static inline void add_outcomes(volatile __global long* energy, Outcomes outcomes)
-{
+static inline void add_outcomes(volatile __global long* energy, Outcomes outcomes) {
   for (int i = 0; i < OUTCOME_COUNT; ++i)
     if (outcomes[i] != 0) add_exactly(energy + i, outcomes[i]);
 }

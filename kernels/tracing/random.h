@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counter-based random numbers: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
-// A number is a function of (seed, stream, iteration, index, dimension) alone, so results do not depend on threads, devices
-// or resuming.
+// A number is a function of (seed, stream, iteration, index, dimension) alone, so results do not depend on threads,
+// devices or resuming.
 #ifndef NEPHROID_RANDOM_H
 #define NEPHROID_RANDOM_H
 
 #include "kernels/tracing/registers.h"
 
-// Streams keep apart what is drawn for different ends with the same (iteration, index, dimension). No two kernels of a run
-// share one; the kernels of relighting (relight_*.cl) use those of the kernels that they replace.
+// Streams keep apart what is drawn for different ends with the same (iteration, index, dimension). No two kernels of a
+// run share one; the kernels of relighting (relight_*.cl) use those of the kernels that they replace.
 #define STREAM_PHOTONS 0u                // photons.cl: index is the photon of a pass
 #define STREAM_CAMERA 1u                 // direct.cl, here and below: index is the pixel
 #define STREAM_CAMERA_LIGHT 2u           // places on area lights
@@ -28,8 +28,7 @@
 #define STREAM_FACETS 64u                // inverse/search.h: iteration is the sweep, index the facet
 #define STREAM_JUDGE 65u                 // inverse/judge.cl: iteration is the ray of a facet, index the facet
 
-static inline uint4 philox4x32(uint4 counter, uint2 key)
-{
+static inline uint4 philox4x32(uint4 counter, uint2 key) {
   ROLLED // else all keys are made once, and kept wherever a path goes
   for (int round = 0; round < 10; ++round) {
     const ulong a = (ulong)counter.x * 0xD2511F53u;
@@ -41,16 +40,14 @@ static inline uint4 philox4x32(uint4 counter, uint2 key)
 }
 
 // Four uniforms in [0, 1): dimensions 4 block .. 4 block + 3 of item `index` in `iteration` of `stream`.
-static inline float4 random4(uint2 seed, uint iteration, uint index, uint block, uint stream)
-{
+static inline float4 random4(uint2 seed, uint iteration, uint index, uint block, uint stream) {
   const uint4 bits = philox4x32((uint4)(index, iteration, block, stream), seed);
   return convert_float4(bits >> 8) * 0x1p-24f;
 }
 
 // One of several things by one random number. A cdf is as app/tracing/scales.h makes it: [count], the last 1.
 // The first with cdf > u, u in [0, 1).
-static inline int choose(__global const float* cdf, int count, float u)
-{
+static inline int choose(__global const float* cdf, int count, float u) {
   int low = 0, high = count - 1;
   while (low < high) {
     const int middle = (low + high) >> 1;

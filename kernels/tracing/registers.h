@@ -14,8 +14,7 @@
 #ifdef NEPHROID_GPU
 #define ROLLED _Pragma("unroll 1")
 #define SET_ASIDE volatile
-static inline int made_late(int number)
-{
+static inline int made_late(int number) {
   volatile int kept = number;
   return kept;
 }

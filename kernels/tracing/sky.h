@@ -32,37 +32,37 @@ typedef struct {
   float peak_density; // the chance among the peaks, a steradian
 } SkyPlace;
 
-static inline __global const float* cdf_of_peaks(const Sky* sky) { return sky->texel_cdf + (size_t)sky->size.height * (size_t)(sky->size.width + 1); }
+static inline __global const float* cdf_of_peaks(const Sky* sky) {
+  return sky->texel_cdf + (size_t)sky->size.height * (size_t)(sky->size.width + 1);
+}
 
-static inline float sky_density(const Sky* sky, __global const float* cdf, int row, int column)
-{
+static inline float sky_density(const Sky* sky, __global const float* cdf, int row, int column) {
   const int width = made_late(sky->size.width), height = made_late(sky->size.height);
   __global const float* columns = cdf + height + (size_t)row * (size_t)width;
-  const float row_chance = cdf[row] - chance_before(cdf, row), column_chance = columns[column] - chance_before(columns, column);
+  const float row_chance = cdf[row] - chance_before(cdf, row),
+              column_chance = columns[column] - chance_before(columns, column);
   // cos a - cos b as a product, exact for thin rows.
   const float steradians =
       4.0f * PI_F / (float)width * sin(PI_F * ((float)row + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
   return row_chance * column_chance / steradians;
 }
 
-static inline SkyPlace sky_texel(const Sky* sky, float3 direction, int row, int column)
-{
+static inline SkyPlace sky_texel(const Sky* sky, float3 direction, int row, int column) {
   const SkyPlace place = {direction, vload3((size_t)row * (size_t)sky->size.width + (size_t)column, sky->texel_colour),
-                          sky_density(sky, sky->texel_cdf, row, column), sky->size.has_peaks ? sky_density(sky, cdf_of_peaks(sky), row, column) : 0.0f};
+                          sky_density(sky, sky->texel_cdf, row, column),
+                          sky->size.has_peaks ? sky_density(sky, cdf_of_peaks(sky), row, column) : 0.0f};
   return place;
 }
 
 // Where in its bin a number falls that has drawn it: in the middle of its 2^24th, so that bins of a few such numbers
 // have no side.
-static inline float place_in_bin(__global const float* cdf, int bin, float number)
-{
+static inline float place_in_bin(__global const float* cdf, int bin, float number) {
   const float before = chance_before(cdf, bin);
   return (number + 0x1p-25f - before) / (cdf[bin] - before);
 }
 
 // cdf: sky->texel_cdf, or that of the peaks, if it has any. place: two numbers in [0, 1).
-static inline SkyPlace sample_sky(const Sky* sky, __global const float* cdf, float2 place)
-{
+static inline SkyPlace sample_sky(const Sky* sky, __global const float* cdf, float2 place) {
   const int width = made_late(sky->size.width), height = made_late(sky->size.height);
   const int row = choose(cdf, height, place.x);
   __global const float* columns = cdf + height + (size_t)row * (size_t)width;
@@ -84,8 +84,7 @@ static inline SkyPlace sample_sky(const Sky* sky, __global const float* cdf, flo
 }
 
 // The texel in a unit direction.
-static inline SkyPlace sky_in(const Sky* sky, float3 direction)
-{
+static inline SkyPlace sky_in(const Sky* sky, float3 direction) {
   const float azimuth = atan2(direction.x, -direction.z) / (2.0f * PI_F) + 0.5f + sky->size.turns;
   const float zenith = atan2(sqrt(direction.x * direction.x + direction.z * direction.z), direction.y) / PI_F;
   const int column = min((int)((azimuth - floor(azimuth)) * (float)sky->size.width), sky->size.width - 1);

@@ -27,20 +27,17 @@ typedef struct {
 
 static inline int kind_of(const DevicePrimitive* primitive) { return as_int(primitive->corner.w) & 3; }
 static inline int object_of(const DevicePrimitive* primitive) { return as_int(primitive->corner.w) >> 2; }
-static inline bool is_ellipsoid(const DevicePrimitive* primitive)
-{
+static inline bool is_ellipsoid(const DevicePrimitive* primitive) {
   return NEPHROID_ELLIPSOIDS && kind_of(primitive) >= PRIMITIVE_ELLIPSOID;
 }
 
-static inline int object_of_primitive(const Geometry* geometry, uint primitive)
-{
+static inline int object_of_primitive(const Geometry* geometry, uint primitive) {
   return as_int(geometry->primitives[primitive].corner.w) >> 2;
 }
 
 // A vertex normal of 21 bits a coordinate, in units of 2^-20, each moved to the top of a word. Its error is below that
 // of a mesh's file.
-static inline float3 unpacked_normal(float low, float high)
-{
+static inline float3 unpacked_normal(float low, float high) {
   const uint x = as_uint(low), y = as_uint(high);
   return (float3)((float)(int)(x << 11), (float)(int)(x >> 21 << 11 | y << 22), (float)(int)(y >> 10 << 11)) * 0x1p-31f;
 }
@@ -49,8 +46,7 @@ typedef struct {
   float3 first, second, third;
 } VertexNormals;
 
-static inline VertexNormals vertex_normals(const DevicePrimitive* triangle)
-{
+static inline VertexNormals vertex_normals(const DevicePrimitive* triangle) {
   const VertexNormals normals = {unpacked_normal(triangle->normal.x, triangle->normal.y),
                                  unpacked_normal(triangle->normal.z, triangle->normal.w),
                                  unpacked_normal(triangle->edge_u.w, triangle->edge_v.w)};
@@ -59,35 +55,30 @@ static inline VertexNormals vertex_normals(const DevicePrimitive* triangle)
 
 #if NEPHROID_ELLIPSOIDS
 // M way, with M the matrix to the unit sphere.
-static inline float3 to_unit_sphere(const DevicePrimitive* ellipsoid, float3 way)
-{
+static inline float3 to_unit_sphere(const DevicePrimitive* ellipsoid, float3 way) {
   return (float3)(dot(ellipsoid->edge_u.xyz, way), dot(ellipsoid->edge_v.xyz, way), dot(ellipsoid->normal.xyz, way));
 }
 
 // M^T u with the rows m_i of the matrix M to the unit sphere: along the normal at the point that M takes to u.
-static inline float3 ellipsoid_gradient(const DevicePrimitive* ellipsoid, float3 unit)
-{
+static inline float3 ellipsoid_gradient(const DevicePrimitive* ellipsoid, float3 unit) {
   return unit.x * ellipsoid->edge_u.xyz + unit.y * ellipsoid->edge_v.xyz + unit.z * ellipsoid->normal.xyz;
 }
 
 // The rows are perpendicular to each other, so what M takes to u is the sum of u_i m_i / |m_i|^2.
-static inline float3 ellipsoid_point(const DevicePrimitive* ellipsoid, float3 unit)
-{
+static inline float3 ellipsoid_point(const DevicePrimitive* ellipsoid, float3 unit) {
   const float3 x = ellipsoid->edge_u.xyz, y = ellipsoid->edge_v.xyz, z = ellipsoid->normal.xyz;
   const float3 along = unit / (float3)(dot(x, x), dot(y, y), dot(z, z));
   return ellipsoid->corner.xyz + along.x * x + along.y * y + along.z * z;
 }
 
 // -1 where the ellipsoid's normals look inwards.
-static inline float ellipsoid_side(const DevicePrimitive* ellipsoid)
-{
+static inline float ellipsoid_side(const DevicePrimitive* ellipsoid) {
   return kind_of(ellipsoid) == PRIMITIVE_ELLIPSOID_INWARDS ? -1.0f : 1.0f;
 }
 
 // A ray that leaves an ellipsoid knows that it does (bvh_ellipsoid), so the offset need only be of the size of the
 // position's rounding.
-static inline Surface ellipsoid_at(const DevicePrimitive* ellipsoid, float3 unit)
-{
+static inline Surface ellipsoid_at(const DevicePrimitive* ellipsoid, float3 unit) {
   Surface surface;
   const float3 gradient = ellipsoid_gradient(ellipsoid, unit);
   surface.position = ellipsoid_point(ellipsoid, unit);
@@ -102,16 +93,14 @@ static inline Surface ellipsoid_at(const DevicePrimitive* ellipsoid, float3 unit
 // Both the interpolated point and the distance at which a ray meets a neighbour in the same plane are off by a few
 // 2^-24 of the triangle's largest coordinate. Starting farther away than that keeps a new ray from meeting the surface
 // that it leaves.
-static inline float triangle_offset(float3 corner, float3 edge_u, float3 edge_v)
-{
+static inline float triangle_offset(float3 corner, float3 edge_u, float3 edge_v) {
   const float3 size = max(fabs(corner), max(fabs(edge_u), fabs(edge_v)));
   return 0x1p-21f * max(max(size.x, size.y), size.z);
 }
 
 // Barycentric interpolation rounds relative to the triangle's size; origin + t * direction would round relative to the
 // distance.
-static inline Surface surface_at(const Geometry* geometry, Hit hit)
-{
+static inline Surface surface_at(const Geometry* geometry, Hit hit) {
   const DevicePrimitive triangle = geometry->primitives[hit.primitive];
 #if NEPHROID_ELLIPSOIDS
   if (is_ellipsoid(&triangle)) return ellipsoid_at(&triangle, (float3)(hit.u, hit.v, hit.w));
@@ -134,8 +123,7 @@ static inline Surface surface_at(const Geometry* geometry, Hit hit)
 }
 
 // A start for a ray that leaves on the outer (side 1) or inner (side -1) side.
-static inline float3 start_on_side(const Surface* surface, float side)
-{
+static inline float3 start_on_side(const Surface* surface, float side) {
   return surface->position + side * surface->offset * surface->geometric;
 }
 
@@ -146,8 +134,7 @@ static inline float3 start_on_side(const Surface* surface, float side)
 
 // What makes a photon's flux on a triangle the irradiance about the shading normal, by which direct.cl lights the
 // surface: the ratio of both cosines (Veach 1997, 5.3.2); 0 behind the shading normal's horizon.
-static inline float shading_ratio(const Surface* surface, float3 arriving)
-{
+static inline float shading_ratio(const Surface* surface, float3 arriving) {
 #if NEPHROID_SMOOTH
   const float ratio = dot(arriving, surface->shading) / dot(arriving, surface->geometric);
   return ratio > 0.0f ? (ratio < SHADING_RATIO_LIMIT ? ratio : SHADING_RATIO_LIMIT) : 0.0f;
@@ -168,8 +155,7 @@ typedef struct {
 
 // normal: unit, on the side that the ray comes from. choice: uniform in [0, 1): below the reflectance the ray is
 // reflected.
-static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t, float choice)
-{
+static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t, float choice) {
   Bend bend;
   bend.normal = normal;
   bend.near_material = bend.far_material = -1;
@@ -185,8 +171,7 @@ static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t
 
 // Bends about the shading normal, unless that sends the ray to the wrong side of the triangle: then about the
 // triangle's own normal.
-static inline Bend bend_at_surface(float3 direction, const Surface* surface, float n_i, float n_t, float choice)
-{
+static inline Bend bend_at_surface(float3 direction, const Surface* surface, float n_i, float n_t, float choice) {
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   const float3 geometric = side * surface->geometric, shading = side * surface->shading;
   Bend bend = bend_at(direction, dot(direction, shading) < 0.0f ? shading : geometric, n_i, n_t, choice);

@@ -17,8 +17,7 @@ typedef struct {
 static inline float3 trace_vector(global const float* a) { return (float3)(a[0], a[1], a[2]); }
 
 kernel void closest_hits(global const float* nodes, global const float* blocks, int root, global const DeviceRay* rays,
-                         global DeviceHit* hits, uint count)
-{
+                         global DeviceHit* hits, uint count) {
   const uint i = get_global_id(0);
   if (i >= count) return;
   const Hit hit = closest_hit(nodes, blocks, root, trace_vector(rays[i].origin), trace_vector(rays[i].direction), 0.0f,
@@ -28,8 +27,7 @@ kernel void closest_hits(global const float* nodes, global const float* blocks, 
 }
 
 kernel void any_hits(global const float* nodes, global const float* blocks, int root, global const DeviceRay* rays,
-                     global uint* hit, uint count)
-{
+                     global uint* hit, uint count) {
   const uint i = get_global_id(0);
   if (i >= count) return;
   hit[i] = any_hit(nodes, blocks, root, trace_vector(rays[i].origin), trace_vector(rays[i].direction), rays[i].t_max,

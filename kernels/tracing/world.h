@@ -38,14 +38,12 @@ typedef struct {
   Differential differential;
 } Path;
 
-static inline Path path_from_eye(const DeviceCamera* camera, float3 direction)
-{
+static inline Path path_from_eye(const DeviceCamera* camera, float3 direction) {
   const Path path = {camera->position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera->inside, no_losses(), 0.0f};
   return path;
 }
 
-static inline Hit next_hit(const World* world, Path* path)
-{
+static inline Hit next_hit(const World* world, Path* path) {
   SET_ASIDE ulong latest = path->media.latest, earlier = path->media.earlier;
   const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, path->origin,
                               path->direction, -path->behind, INFINITY, path->skip);
@@ -54,19 +52,16 @@ static inline Hit next_hit(const World* world, Path* path)
   return hit;
 }
 
-static inline bool is_blocked(const World* world, float3 from, float3 direction, float distance, uint skip)
-{
+static inline bool is_blocked(const World* world, float3 from, float3 direction, float distance, uint skip) {
   return any_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, from, direction, distance, skip);
 }
 
-static inline DeviceMaterial material_of(const World* world, int object)
-{
+static inline DeviceMaterial material_of(const World* world, int object) {
   return world->materials[world->objects[object].material];
 }
 
 // The absorption of the medium that the path has crossed up to its next hit, `distance` from its origin.
-static inline void lose_in_medium(const World* world, Path* path, float distance)
-{
+static inline void lose_in_medium(const World* world, Path* path, float distance) {
 #if NEPHROID_ATTENUATORS > 0
   const int medium = medium_object(&path->media, world->objects);
   if (medium >= 0)
@@ -76,8 +71,7 @@ static inline void lose_in_medium(const World* world, Path* path, float distance
 }
 
 // The index of refraction of each material.
-static inline __global const float* index_of_band(const World* world, const Band* band)
-{
+static inline __global const float* index_of_band(const World* world, const Band* band) {
 #if NEPHROID_JITTER
   if (band->wavelength >= 0) return world->tables.index_of_wavelength + band->wavelength * world->scene.material_count;
 #endif
@@ -86,12 +80,12 @@ static inline __global const float* index_of_band(const World* world, const Band
 
 // The band of a path in a cluster. light: the one that its light comes from, or light_count for a path that any light
 // may end at; u in [0, 1) picks a wavelength by what the eye makes of the light's power.
-static inline Band choose_band(const World* world, int light, int cluster, float u)
-{
+static inline Band choose_band(const World* world, int light, int cluster, float u) {
 #if NEPHROID_JITTER
   const int first = world->tables.cluster_first[cluster], count = world->tables.cluster_first[cluster + 1] - first;
   const int members = world->tables.cluster_first[world->scene.cluster_count];
-  return wavelength_of_cluster(cluster, world->tables.cluster_wavelengths + first, world->tables.wavelength_cdf + light * members + first, count, u);
+  return wavelength_of_cluster(cluster, world->tables.cluster_wavelengths + first,
+                               world->tables.wavelength_cdf + light * members + first, count, u);
 #else
   return whole_cluster(cluster);
 #endif
@@ -99,8 +93,7 @@ static inline Band choose_band(const World* world, int light, int cluster, float
 
 // Carries the path's derivatives to a surface and across the bend there, before `path` itself goes on.
 static inline void bend_differential(const World* world, Path* path, uint triangle, const Surface* surface,
-                                     const Band* band, const Bend* bend)
-{
+                                     const Band* band, const Bend* bend) {
 #if NEPHROID_DIFFERENTIALS
   // From the path's origin: where that is not the light itself (Emission), nothing depends on the wavelength yet.
   differential_to_surface(&path->differential, path->direction, distance(path->origin, surface->position), surface);
@@ -117,8 +110,7 @@ static inline void bend_differential(const World* world, Path* path, uint triang
 // Takes the path on from a mirror or dielectric that it hit. choice: uniform in [0, 1).
 // *n_ratio: n before over n after. False where the path is inside too many media.
 static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface,
-                             const DeviceMaterial* material, const Band* band, float choice, float* n_ratio)
-{
+                             const DeviceMaterial* material, const Band* band, float choice, float* n_ratio) {
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
   Bend bend;
   *n_ratio = 1.0f;
@@ -143,8 +135,7 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
 
 // A light as one photon or shadow ray meets it, drawn by `place`, two numbers in [0, 1): of the environment *light
 // becomes directional light from one place.
-static inline Source source_of(const World* world, int index, float2 place, DeviceLight* light)
-{
+static inline Source source_of(const World* world, int index, float2 place, DeviceLight* light) {
   Source source = {index, (float3)(1.0f)};
   if (is_light(light, LIGHT_ENVIRONMENT)) {
     const SkyPlace from = sample_sky(&world->sky, world->sky.texel_cdf, place);
@@ -155,14 +146,12 @@ static inline Source source_of(const World* world, int index, float2 place, Devi
 }
 
 // Light of a mean colour.
-static inline Source mean_source(const World* world, int index)
-{
+static inline Source mean_source(const World* world, int index) {
   const Source source = {index, world->lights[index].edge_u.xyz};
   return source;
 }
 
-static inline bool is_of_environment(const World* world, int light)
-{
+static inline bool is_of_environment(const World* world, int light) {
 #if NEPHROID_LIGHT_TYPES >> LIGHT_ENVIRONMENT & 1
   return world->lights[light].type == LIGHT_ENVIRONMENT;
 #else
@@ -171,8 +160,7 @@ static inline bool is_of_environment(const World* world, int light)
 }
 
 // carried_light of one row of the tables of lights.
-static inline float4 carried_row(const World* world, const Losses* losses, int light, const Band* band, int reflector)
-{
+static inline float4 carried_row(const World* world, const Losses* losses, int light, const Band* band, int reflector) {
 #if NEPHROID_JITTER || NEPHROID_DIFFERENTIALS
   if (band->wavelength >= 0) {
     const int wavelength = made_late(band->wavelength);
@@ -186,7 +174,8 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
 #if NEPHROID_ATTENUATORS > 0
   if (losses->any || reflector < 0) return attenuated_sum(&world->tables, losses, light, band->cluster, reflector);
 #endif
-  return world->tables.reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->scene.reflector_count + reflector];
+  return world->tables
+      .reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->scene.reflector_count + reflector];
 }
 
 // What a path in a band still carries of a light after its losses, if the light's power is 1: w: the power; xyz: what a
@@ -201,8 +190,7 @@ IN_PLACE float4 carried_light(const World* world, const Losses* losses, Source s
 }
 
 // The share of a row's power that a band begins with.
-static inline float row_share(const World* world, int light, const Band* band)
-{
+static inline float row_share(const World* world, int light, const Band* band) {
 #if NEPHROID_JITTER
   if (band->wavelength >= 0)
     return band->weight * world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength].w;
@@ -212,8 +200,7 @@ static inline float row_share(const World* world, int light, const Band* band)
 }
 
 // The share of a light's power that a band begins with; cluster_share: of its whole cluster, of a lamp.
-static inline float band_share(const World* world, Source source, const Band* band, float cluster_share)
-{
+static inline float band_share(const World* world, Source source, const Band* band, float cluster_share) {
   if (is_of_environment(world, source.light))
     return source.rgb.x * row_share(world, source.light, band) +
            source.rgb.y * row_share(world, source.light + 1, band) +

@@ -172,10 +172,12 @@ class Run:
 
     folder: where it keeps the files of `nephroid run`, a checkpoint among them; None: nowhere.
 
-    Arrays show the core's memory, without a copy, and cannot be written to. They stay as they are, however the run goes on.
+    Arrays show the core's memory, without a copy, and cannot be written to. They stay as they are, however the run goes
+    on.
     """
 
-    def __init__(self, preset: Preset, device: str = "", folder: str | _os.PathLike[str] | None = None, resume: bool = False) -> None:
+    def __init__(self, preset: Preset, device: str = "", folder: str | _os.PathLike[str] | None = None,
+                 resume: bool = False) -> None:
         if resume and folder is None:
             raise BadInput("resume: there is nothing to go on from without a folder; expected folder='out/NAME' too")
         self.preset = preset
@@ -346,14 +348,16 @@ def _close_all() -> None:
             pass
 
 
-def start(preset: Preset | str, device: str = "", folder: str | _os.PathLike[str] | None = None, resume: bool = False) -> Run:
-    """Begins a run and returns at once. device: an index or a part of a name, of devices(). folder: keeps the files of `nephroid run`
-    there, a checkpoint among them, also of a run that is stopped or closed. resume: goes on from the folder's checkpoint, with the same
-    bits as a run that was never stopped; without one it begins."""
+def start(preset: Preset | str, device: str = "", folder: str | _os.PathLike[str] | None = None,
+          resume: bool = False) -> Run:
+    """Begins a run and returns at once. device: an index or a part of a name, of devices(). folder: keeps the files of
+    `nephroid run` there, a checkpoint among them, also of a run that is stopped or closed. resume: goes on from the
+    folder's checkpoint, with the same bits as a run that was never stopped; without one it begins."""
     return Run(preset if isinstance(preset, Preset) else Preset(preset), device, folder, resume)
 
 
-def run(preset: Preset | str, device: str = "", folder: str | _os.PathLike[str] | None = None, resume: bool = False) -> Run:
+def run(preset: Preset | str, device: str = "", folder: str | _os.PathLike[str] | None = None,
+        resume: bool = False) -> Run:
     """Runs to the preset's own stop. Ctrl-C ends the run. folder, resume: as for start()."""
     one = start(preset, device, folder, resume)
     try:

@@ -4,10 +4,11 @@
 //     nephroid_after_edit SECONDS TRUTH FOLDER PRESET EDIT [SET...]
 //     nephroid_after_edit EDITS - - PRESET EDIT [SET...]
 //
-// EDIT and SET: as of --set; SET holds before the edit, too. The first lets the run work for a second, edits and prints a line of CSV for
-// each time up to SECONDS: the picture that is shown then against TRUTH, a picture of the edited preset. "previous": it is still the one
-// before the edit. FOLDER gets a PNG of each. The second makes so many edits, EDIT and back, .3 to .9 s of work apart, and prints the
-// seconds from an edit to its first picture: the median and the most. tests/experiments/after_edits.py makes tables of both.
+// EDIT and SET: as of --set; SET holds before the edit, too. The first lets the run work for a second, edits and prints
+// a line of CSV for each time up to SECONDS: the picture that is shown then against TRUTH, a picture of the edited
+// preset. "previous": it is still the one before the edit. FOLDER gets a PNG of each. The second makes so many edits,
+// EDIT and back, .3 to .9 s of work apart, and prints the seconds from an edit to its first picture: the median and the
+// most. tests/experiments/after_edits.py makes tables of both.
 #include "image/image.h"
 #include "measure/read_picture.h"
 #include "ui/state/device_runs.h"
@@ -40,8 +41,7 @@ struct Shown {
 /// A window's run of a preset, which is edited.
 class EditedRun {
 public:
-  EditedRun(const std::string& name, const std::string& edit, preset::Overrides sets)
-  {
+  EditedRun(const std::string& name, const std::string& edit, preset::Overrides sets) {
     sets.emplace_back(R"(stop={"seconds": 100000})");
     original_ = preset::read_preset(name, sets);
     sets.push_back(edit);
@@ -52,14 +52,12 @@ public:
   }
 
   /// Until the run in hand has worked so many seconds.
-  void work(double seconds)
-  {
+  void work(double seconds) {
     while (!run_.snapshot_is_current() || run_.status().progress.work_seconds < seconds) look();
   }
 
   /// The edit, or its undoing.
-  void edit()
-  {
+  void edit() {
     begin_ = Clock::now();
     edits_->push("edit", is_edited_ ? original_ : edited_);
     is_edited_ = !is_edited_;
@@ -70,14 +68,12 @@ public:
   double since_edit() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
   /// Seconds from the edit to its first picture.
-  double first_picture()
-  {
+  double first_picture() {
     while (!run_.snapshot_is_current()) look();
     return since_edit();
   }
 
-  std::vector<Shown> pictures(double seconds)
-  {
+  std::vector<Shown> pictures(double seconds) {
     std::vector<Shown> shown;
     for (const double time : times) {
       if (time > seconds) break;
@@ -88,8 +84,7 @@ public:
   }
 
 private:
-  void look()
-  {
+  void look() {
     std::this_thread::sleep_for(a_look);
     run_.update(&*edits_);
     if (run_.status().state == job::State::failed) throw std::runtime_error(run_.status().error->line());
@@ -104,8 +99,7 @@ private:
   Clock::time_point begin_;
 };
 
-void print_first_pictures(EditedRun& run, int edits)
-{
+void print_first_pictures(EditedRun& run, int edits) {
   std::vector<double> seconds;
   for (int i = 0; i < edits; ++i) {
     run.work(between_edits * (i % 3 + 1));
@@ -116,24 +110,24 @@ void print_first_pictures(EditedRun& run, int edits)
   fmt::print("{:.4f},{:.4f}\n", seconds[seconds.size() / 2], seconds.back());
 }
 
-void print_errors(const std::vector<Shown>& shown, const measure::LinearPicture& truth, const std::string& folder)
-{
+void print_errors(const std::vector<Shown>& shown, const measure::LinearPicture& truth, const std::string& folder) {
   fmt::print("seconds,previous,lab_mean,rel_l2,flip\n");
   std::shared_ptr<const job::Picture> last;
   measure::Metrics m;
   for (const Shown& s : shown) {
     const job::Picture& picture = *s.snapshot->picture;
-    if (s.snapshot->picture != last) m = measure::compare({picture.width, picture.height, picture.rgb, "the run"}, truth.pixels());
+    if (s.snapshot->picture != last)
+      m = measure::compare({picture.width, picture.height, picture.rgb, "the run"}, truth.pixels());
     last = s.snapshot->picture;
-    fmt::print("{},{},{:.3f},{:.4f},{:.4f}\n", s.seconds, s.previous ? "previous" : "", m.lab_mean, m.rel_l2, m.flip.value_or(NAN));
+    fmt::print("{},{},{:.3f},{:.4f},{:.4f}\n", s.seconds, s.previous ? "previous" : "", m.lab_mean, m.rel_l2,
+               m.flip.value_or(NAN));
     image::write_png(fmt::format("{}/{:05.2f}.png", folder, s.seconds), picture.width, picture.height, picture.rgb);
   }
 }
 
 } // namespace
 
-int main(int count, char** arguments)
-{
+int main(int count, char** arguments) {
   if (count < 6) return fmt::print(stderr, "nephroid_after_edit NUMBER TRUTH FOLDER PRESET EDIT [SET...]\n"), 2;
   try {
     const double number = std::atof(arguments[1]);

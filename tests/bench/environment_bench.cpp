@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine 2 while something moves: from an edit of the preset to the picture that shows it, as the window has it (Job::adopt and a
-// snapshot), and how long it takes then until the first full picture. The bunny at 512 x 512 with 24 lights and an occluder;
-// NEPHROID_BENCH_PRESET names another preset. Its bake is read where there is one.
+// Engine 2 while something moves: from an edit of the preset to the picture that shows it, as the window has it
+// (Job::adopt and a snapshot), and how long it takes then until the first full picture. The bunny at 512 x 512 with 24
+// lights and an occluder; NEPHROID_BENCH_PRESET names another preset. Its bake is read where there is one.
 #include "environment/engine.h"
 #include "environment/job.h"
 #include "preset/read.h"
@@ -13,11 +13,10 @@ namespace {
 
 using namespace nephroid;
 
-preset::Preset benched_preset()
-{
+preset::Preset benched_preset() {
   const char* name = std::getenv("NEPHROID_BENCH_PRESET");
-  preset::Preset made =
-      preset::read_preset(name ? name : NEPHROID_SOURCE_DIR "/presets/environment/bunny.json", {"scene.camera.resolution=[512, 512]"});
+  preset::Preset made = preset::read_preset(name ? name : NEPHROID_SOURCE_DIR "/presets/environment/bunny.json",
+                                            {"scene.camera.resolution=[512, 512]"});
   if (name) return made;
   preset::Object occluder = made.scene.objects.back();
   occluder.name = "occluder";
@@ -34,8 +33,7 @@ struct Bench {
   compute::Context context = compute::Context::open();
   std::unique_ptr<job::Job> job;
 
-  Bench()
-  {
+  Bench() {
     const scene::Scene scene = scene::load_scene(preset);
     const environment::EnvironmentPlan plan = environment::make_plan(preset, scene, scene::build_bvh(scene.geometry));
     job = environment::make_job(preset, plan, context);
@@ -43,14 +41,12 @@ struct Bench {
   }
 };
 
-double seconds_since(std::chrono::steady_clock::time_point begin)
-{
+double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 /// change(preset, how far): what moves.
-void move(benchmark::State& state, const std::function<void(preset::Preset&, int)>& change)
-{
+void move(benchmark::State& state, const std::function<void(preset::Preset&, int)>& change) {
   static Bench bench;
   preset::Preset moved = bench.preset;
   double pass_s = 0;
@@ -82,9 +78,14 @@ void move(benchmark::State& state, const std::function<void(preset::Preset&, int
       {"object_turns", [](Preset& p, int) { p.scene.objects.front().transform.rotate_deg[1] += 3; }},
       {"receiver_moves", [](Preset& p, int) { p.scene.objects.back().transform.translate[1] -= 0.01; }},
       // The object before the last: a preset that is named should have one there.
-      {"occluder_moves", [](Preset& p, int) { p.scene.objects[p.scene.objects.size() - 2].transform.translate[2] += 0.1; }}};
+      {"occluder_moves",
+       [](Preset& p, int) { p.scene.objects[p.scene.objects.size() - 2].transform.translate[2] += 0.1; }}};
   for (const auto& [name, change] : changes)
-    benchmark::RegisterBenchmark(name, move, change)->Unit(benchmark::kMillisecond)->Iterations(8)->MeasureProcessCPUTime()->UseRealTime();
+    benchmark::RegisterBenchmark(name, move, change)
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(8)
+        ->MeasureProcessCPUTime()
+        ->UseRealTime();
   return true;
 }();
 

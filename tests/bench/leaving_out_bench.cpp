@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each omission saves: passes of a scene that does not need it, with it left out and turned back on, in turn in one run. Seconds are
-// of the processor, which other programs disturb less than the clock on the wall; the smallest of all turns counts. Where other
-// photons make the picture, `variance_ratio` is how many more of them the same error takes. Building is up to the third step, kernels
-// included: run with POCL_KERNEL_CACHE=0 to have them compiled.
+// What each omission saves: passes of a scene that does not need it, with it left out and turned back on, in turn in
+// one run. Seconds are of the processor, which other programs disturb less than the clock on the wall; the smallest of
+// all turns counts. Where other photons make the picture, `variance_ratio` is how many more of them the same error
+// takes. Building is up to the third step, kernels included: run with POCL_KERNEL_CACHE=0 to have them compiled.
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 
@@ -18,19 +18,19 @@ using test::processor_seconds;
 class Side {
 public:
   Side(const preset::Preset& preset, const tracing::LeaveOut& leave_out, const compute::Context& context)
-      : preset_(preset), leave_out_(leave_out), scene_(scene::load_scene(preset)), bvh_(scene::build_bvh(scene_.geometry))
-  {
+      : preset_(preset), leave_out_(leave_out), scene_(scene::load_scene(preset)),
+        bvh_(scene::build_bvh(scene_.geometry)) {
     const photons::RunPlan plan = spectral::make_plan(preset_, scene_, bvh_, leave_out_);
     const double begin = processor_seconds();
     job_ = photons::make_job(preset_, scene_, bvh_, plan, context);
-    for (int step = 0; step < 3 && !job_->finished(); ++step) job_->advance(); // code is generated at a kernel's first use
+    for (int step = 0; step < 3 && !job_->finished(); ++step)
+      job_->advance(); // code is generated at a kernel's first use
     build_s_ = processor_seconds() - begin;
     if (!job_->finished()) pass();
     pass_s_ = std::numeric_limits<double>::max();
   }
 
-  void turn()
-  {
+  void turn() {
     double begin = processor_seconds();
     benchmark::DoNotOptimize(spectral::make_plan(preset_, scene_, bvh_, leave_out_));
     plan_s_ = std::min(plan_s_, processor_seconds() - begin);
@@ -44,16 +44,15 @@ public:
   double build_ms() const { return 1e3 * build_s_; }
 
   /// Sum over the pixels of the variance of one pass's caustic layer.
-  double variance() const
-  {
+  double variance() const {
     double sum = 0;
-    for (std::size_t i = 0; i < squares_.size(); ++i) sum += squares_[i] / passes_ - sums_[i] * sums_[i] / (double(passes_) * passes_);
+    for (std::size_t i = 0; i < squares_.size(); ++i)
+      sum += squares_[i] / passes_ - sums_[i] * sums_[i] / (double(passes_) * passes_);
     return sum;
   }
 
   /// After a pass: notes its caustic layer.
-  void note()
-  {
+  void note() {
     const job::Snapshot snapshot = job_->snapshot();
     for (const job::Layer& layer : snapshot.picture->layers) {
       if (layer.name != "caustic") continue;
@@ -73,9 +72,9 @@ public:
   }
 
 private:
-  void pass()
-  {
-    for (const std::int64_t before = job_->progress().step; !job_->finished() && job_->progress().step == before;) job_->advance();
+  void pass() {
+    for (const std::int64_t before = job_->progress().step; !job_->finished() && job_->progress().step == before;)
+      job_->advance();
   }
 
   preset::Preset preset_;
@@ -88,8 +87,7 @@ private:
   int passes_ = -1; ///< the first only sets last_
 };
 
-void leaving_out(benchmark::State& state, const test::Omission& omission)
-{
+void leaving_out(benchmark::State& state, const test::Omission& omission) {
   static const compute::Context context = compute::Context::open();
   preset::Preset without = omission.scene;
   without.scene.camera.resolution = {256, 256};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons a second of engine 1 on the first-light scene, by phase: traced only (the camera looks away, so nothing is projected into a
-// pixel), traced and splatted, samples a second of the direct layer, and the time of a picture of 512 x 512, without and with smoothing.
-// Start-up and compiling are not counted.
+// Photons a second of engine 1 on the first-light scene, by phase: traced only (the camera looks away, so nothing is
+// projected into a pixel), traced and splatted, samples a second of the direct layer, and the time of a picture of 512
+// x 512, without and with smoothing. Start-up and compiling are not counted.
 #include "preset/read.h"
 #include "spectral/engine.h"
 
@@ -11,8 +11,7 @@ namespace {
 
 using namespace nephroid;
 
-preset::Preset first_light()
-{
+preset::Preset first_light() {
   preset::Preset p = preset::read_preset("first-light");
   p.stop.seconds.reset();
   p.stop.passes = 1 << 20;
@@ -20,8 +19,7 @@ preset::Preset first_light()
 }
 
 struct Bench {
-  explicit Bench(const preset::Preset& p)
-  {
+  explicit Bench(const preset::Preset& p) {
     const scene::Scene scene = scene::load_scene(p);
     const scene::Bvh bvh = scene::build_bvh(scene.geometry);
     job = photons::make_job(p, scene, bvh, spectral::make_plan(p, scene, bvh), context);
@@ -32,8 +30,7 @@ struct Bench {
 
 /// Steps the preset's job for as long as the benchmark wants; `unit` counts what is done.
 template <class Count>
-void step_through(benchmark::State& state, const preset::Preset& p, const Count& count)
-{
+void step_through(benchmark::State& state, const preset::Preset& p, const Count& count) {
   const Bench bench(p);
   job::Job* const job = bench.job.get();
   for (int warm_up = 0; warm_up < 20; ++warm_up) job->advance();
@@ -42,8 +39,7 @@ void step_through(benchmark::State& state, const preset::Preset& p, const Count&
   state.counters["per_second"] = benchmark::Counter(count(job->progress()) - before, benchmark::Counter::kIsRate);
 }
 
-void photons_traced(benchmark::State& state)
-{
+void photons_traced(benchmark::State& state) {
   preset::Preset p = first_light();
   spectral::settings(p).direct = false;
   const preset::Vec3 position = p.scene.camera.position, target = p.scene.camera.target;
@@ -51,15 +47,13 @@ void photons_traced(benchmark::State& state)
   step_through(state, p, [](const job::Progress& progress) { return static_cast<double>(progress.work); });
 }
 
-void photons_traced_and_splatted(benchmark::State& state)
-{
+void photons_traced_and_splatted(benchmark::State& state) {
   preset::Preset p = first_light();
   spectral::settings(p).direct = false;
   step_through(state, p, [](const job::Progress& progress) { return static_cast<double>(progress.work); });
 }
 
-void direct_samples(benchmark::State& state)
-{
+void direct_samples(benchmark::State& state) {
   preset::Preset p = first_light();
   spectral::settings(p).caustic = false;
   spectral::settings(p).pixel_samples = 1 << 20;
@@ -68,8 +62,7 @@ void direct_samples(benchmark::State& state)
 }
 
 /// One picture from the films of 8 passes of the bunny. state.range(0): whether its caustics are smoothed.
-void picture(benchmark::State& state)
-{
+void picture(benchmark::State& state) {
   preset::Preset p = preset::read_preset("spectral/thesis/bunny");
   p.stop.passes = 8;
   using Smoothing = photons::Settings::Smoothing;

@@ -28,7 +28,8 @@ def anchors(file):
 
 
 VERSIONS = {"pyproject.toml": r'^version = "(.+?)"', "CITATION.cff": r"^version: (.+)",
-            "packaging/changelog": r"^nephroid \((.+?)\)", "packaging/org.nephroid.Nephroid.metainfo.xml": r'<release version="(.+?)"'}
+            "packaging/changelog": r"^nephroid \((.+?)\)",
+             "packaging/org.nephroid.Nephroid.metainfo.xml": r'<release version="(.+?)"'}
 
 
 def other_versions():

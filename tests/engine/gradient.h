@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The smallest engine: a picture that gets brighter from left to right, with noise of a known size. It proves that an engine is one folder
-// and one line; tests/engine/engines.cpp has the line.
+// The smallest engine: a picture that gets brighter from left to right, with noise of a known size. It proves that an
+// engine is one folder and one line; tests/engine/engines.cpp has the line.
 #pragma once
 #include "engine/engine.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Baked spheres against closed forms and against rays in double precision: a ball of glass, of nothing, a mirror; energy; a turned object;
-// colours. Bakes on disk whose header makes no sense: refused before anything is allocated for them.
+// Baked spheres against closed forms and against rays in double precision: a ball of glass, of nothing, a mirror;
+// energy; a turned object; colours. Bakes on disk whose header makes no sense: refused before anything is allocated for
+// them.
 #include "base/hashed_bytes.h"
 #include "environment/bake/bake.h"
 #include "environment/checks.h"
@@ -13,20 +14,22 @@ using environment::Bake;
 using std::numbers::pi;
 using testing::HasSubstr;
 
-/// Of a float's upper half, at most: 8 bits. Texels with one, two, ... photons are rounded alike, so that it does not average out.
+/// Of a float's upper half, at most: 8 bits. Texels with one, two, ... photons are rounded alike, so that it does not
+/// average out.
 constexpr double half_rounding = 0x1p-9;
 
 const glm::dvec3 slanted = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
 
-TEST(Bake, AGlassBallIsAsSnellAndFresnelHaveIt)
-{
-  const preset::Preset p = bake_preset(glass_ball, {"environment.resolution=48", "environment.spheres=5", "environment.photons=2000000"});
+TEST(Bake, AGlassBallIsAsSnellAndFresnelHaveIt) {
+  const preset::Preset p =
+      bake_preset(glass_ball, {"environment.resolution=48", "environment.spheres=5", "environment.photons=2000000"});
   const Bake bake = bake_of(p, {slanted});
   ASSERT_EQ(bake.channels, 1);
   EXPECT_EQ(bake.size, 2);
   EXPECT_NEAR(bake.baked[0].met, pi / 4, 1e-5);
   for (std::size_t i = 0; i < bake.radii.size(); ++i) {
-    const std::vector<double> expected = environment::ball_map(bake.map, slanted, bake.radii[i], environment::ball_rays(1.5));
+    const std::vector<double> expected =
+        environment::ball_map(bake.map, slanted, bake.radii[i], environment::ball_rays(1.5));
     const double distance = relative_distance(bake, 0, i, [&](std::size_t t) { return expected[t]; });
     EXPECT_LT(distance, 0.02) << "radius " << bake.radii[i];
     fmt::print("radius {:.3f}: {:.2f} % off\n", bake.radii[i], 100 * distance);
@@ -34,8 +37,7 @@ TEST(Bake, AGlassBallIsAsSnellAndFresnelHaveIt)
 }
 
 // All spheres beyond the surface get the same, which is what left the ball: E r^2 is a power per solid angle.
-TEST(Bake, EverySphereGetsTheSamePower)
-{
+TEST(Bake, EverySphereGetsTheSamePower) {
   const Bake bake = bake_of(bake_preset(glass_ball, {"environment.spheres=8"}), {slanted});
   for (std::size_t i = 0; i < bake.radii.size(); ++i)
     EXPECT_NEAR(power_through(bake, 0, i).x, bake.baked[0].sent, half_rounding * bake.baked[0].sent) << i;
@@ -43,10 +45,10 @@ TEST(Bake, EverySphereGetsTheSamePower)
 }
 
 // The same for a box, whose corners the inner spheres cut: those beyond the corners get all of it, the inner ones less.
-TEST(Bake, SpheresInsideTheCornersGetWhatIsOutsideOfTheBox)
-{
+TEST(Bake, SpheresInsideTheCornersGetWhatIsOutsideOfTheBox) {
   const std::string box = R"({"name": "box", "shape": {"type": "box", "size": [2, 1, 1.5]}, "material": "glass"})";
-  const preset::Preset p = bake_preset(box, {"environment.radii=uniform", "environment.reach=1", "environment.spheres=9"});
+  const preset::Preset p =
+      bake_preset(box, {"environment.radii=uniform", "environment.reach=1", "environment.spheres=9"});
   const Bake bake = bake_of(p, {slanted});
   EXPECT_NEAR(bake.radii.front(), 0.5, 0.001); // the nearest sides
   const double corner = glm::length(glm::dvec3(1, 0.5, 0.75));
@@ -59,24 +61,25 @@ TEST(Bake, SpheresInsideTheCornersGetWhatIsOutsideOfTheBox)
   }
 }
 
-// Two walls of a mirror that stand on each other: light from one side meets both. What goes from wall to wall is outside of the spheres
-// that enclose both, so these get what leaves the mirror and no more.
-TEST(Bake, LightThatMeetsTheObjectAgainGoesNoFarther)
-{
+// Two walls of a mirror that stand on each other: light from one side meets both. What goes from wall to wall is
+// outside of the spheres that enclose both, so these get what leaves the mirror and no more.
+TEST(Bake, LightThatMeetsTheObjectAgainGoesNoFarther) {
   const TemporaryFolder folder;
-  const std::string file = folder.write("walls.obj", "v 0 0 0\nv 0 2 0\nv 2 2 0\nv 2 0 0\nv 0 2 2\nv 0 0 2\nf 1 4 3 2\nf 1 2 5 6\n");
+  const std::string file =
+      folder.write("walls.obj", "v 0 0 0\nv 0 2 0\nv 2 2 0\nv 2 0 0\nv 0 2 2\nv 0 0 2\nf 1 4 3 2\nf 1 2 5 6\n");
   const std::string object = R"({"name": "walls", "mesh": ")" + file + R"(", "material": "mirror"})";
   const Bake bake = bake_of(bake_preset(object, {"environment.spheres=4"}), {glm::normalize(glm::dvec3(-1, 0.1, -1))});
   EXPECT_GT(bake.baked[0].met, 0.5);
-  for (std::size_t i = 2; i < 4; ++i) EXPECT_NEAR(power_through(bake, 0, i).x, bake.baked[0].sent, half_rounding * bake.baked[0].sent) << i;
+  for (std::size_t i = 2; i < 4; ++i)
+    EXPECT_NEAR(power_through(bake, 0, i).x, bake.baked[0].sent, half_rounding * bake.baked[0].sent) << i;
 }
 
-// Light goes straight on through a ball with n = 1: on a sphere it meets with the cosine of the angle from its axis, so E is that cosine
-// for sin(angle) < 1 / r, and 0 elsewhere. The fluence would be 1.
-TEST(Bake, IsTheIrradianceOnTheSphere)
-{
-  preset::Preset p = bake_preset(glass_ball, {"scene.materials.glass.dispersion=1", "environment.resolution=64", "environment.spheres=3",
-                                              "environment.reach=1", "environment.photons=2000000"});
+// Light goes straight on through a ball with n = 1: on a sphere it meets with the cosine of the angle from its axis, so
+// E is that cosine for sin(angle) < 1 / r, and 0 elsewhere. The fluence would be 1.
+TEST(Bake, IsTheIrradianceOnTheSphere) {
+  preset::Preset p =
+      bake_preset(glass_ball, {"scene.materials.glass.dispersion=1", "environment.resolution=64",
+                               "environment.spheres=3", "environment.reach=1", "environment.photons=2000000"});
   const Bake bake = bake_of(p, {slanted});
   for (std::size_t i = 0; i < 3; ++i) {
     const double r = bake.radii[i];
@@ -92,43 +95,45 @@ TEST(Bake, IsTheIrradianceOnTheSphere)
   }
 }
 
-// Light straight down on a flat mirror below the middle goes straight up. On a sphere of radius r it is E = |cos psi| where it comes in
-// from below, which is farther from the axis than where the sphere cuts the mirror, and where it leaves above. A speck above the mirror's
-// corner makes the middle of the box about both the middle of the spheres.
-TEST(Bake, MarksWhereLightComesInAndWhereItLeaves)
-{
+// Light straight down on a flat mirror below the middle goes straight up. On a sphere of radius r it is E = |cos psi|
+// where it comes in from below, which is farther from the axis than where the sphere cuts the mirror, and where it
+// leaves above. A speck above the mirror's corner makes the middle of the box about both the middle of the spheres.
+TEST(Bake, MarksWhereLightComesInAndWhereItLeaves) {
   const TemporaryFolder folder;
-  const std::string file = folder.write("m.obj", "v -2 -2 -1\nv 2 -2 -1\nv 2 2 -1\nv -2 2 -1\nv 1.9 1.9 1\nv 1.91 1.9 1\nv 1.9 1.91 1\n"
-                                                 "f 1 2 3 4\nf 5 6 7\n");
+  const std::string file =
+      folder.write("m.obj", "v -2 -2 -1\nv 2 -2 -1\nv 2 2 -1\nv -2 2 -1\nv 1.9 1.9 1\nv 1.91 1.9 1\nv 1.9 1.91 1\n"
+                            "f 1 2 3 4\nf 5 6 7\n");
   const std::string object = R"({"name": "mirror", "mesh": ")" + file + R"(", "material": "mirror"})";
-  const Bake bake = bake_of(bake_preset(object, {"environment.resolution=32", "environment.spheres=5", "environment.radii=uniform",
-                                                 "environment.reach=1", "environment.photons=2000000"}),
-                            {{0, 0, -1}});
+  const Bake bake =
+      bake_of(bake_preset(object, {"environment.resolution=32", "environment.spheres=5", "environment.radii=uniform",
+                                   "environment.reach=1", "environment.photons=2000000"}),
+              {{0, 0, -1}});
   const double r = bake.radii[1], cut = std::sqrt(r * r - 1);
   ASSERT_NEAR(r, 1.75, 0.01);
   int below = 0, above = 0;
   for (std::size_t t = 0; t < bake.map.texels(); ++t) {
     const glm::dvec3 d = bake.map.direction(t);
     const double from_axis = r * std::hypot(d.x, d.y);
-    if (std::abs(d.z) < 0.2 || (d.z < 0 && std::abs(from_axis - cut) < 0.25)) continue; // texels nearly along the light, or on the edge
+    if (std::abs(d.z) < 0.2 || (d.z < 0 && std::abs(from_axis - cut) < 0.25))
+      continue; // texels nearly along the light, or on the edge
     const bool lit = d.z > 0 || from_axis > cut;
-    EXPECT_NEAR(bake.at(0, 1, t).x, lit ? std::abs(d.z) * r * r / 16 : 0, 0.02 * r * r / 16) << d.x << " " << d.y << " " << d.z;
+    EXPECT_NEAR(bake.at(0, 1, t).x, lit ? std::abs(d.z) * r * r / 16 : 0, 0.02 * r * r / 16)
+        << d.x << " " << d.y << " " << d.z;
     if (lit) ++(d.z > 0 ? above : below);
   }
   EXPECT_GT(below, 50);
   EXPECT_GT(above, 300);
 }
 
-// Parallel light on a mirror ball of radius 1 that meets it at the angle i from its axis is turned back at 2 i. From there the sphere of
-// radius r is crossed at psi = 2 i - gamma, sin(gamma) = sin(i) / r (law of sines), so of the power sin(i) cos(i) di through a ring of
-// azimuth 1, each solid angle sin(psi) dpsi gets sin(i) cos(i) / (sin(psi) (2 - cos(i) / (r cos(gamma)))): far away 1/4, the same
-// everywhere.
-TEST(Bake, AMirrorBallIsAsTheLawOfSinesHasIt)
-{
+// Parallel light on a mirror ball of radius 1 that meets it at the angle i from its axis is turned back at 2 i. From
+// there the sphere of radius r is crossed at psi = 2 i - gamma, sin(gamma) = sin(i) / r (law of sines), so of the power
+// sin(i) cos(i) di through a ring of azimuth 1, each solid angle sin(psi) dpsi gets sin(i) cos(i) / (sin(psi) (2 -
+// cos(i) / (r cos(gamma)))): far away 1/4, the same everywhere.
+TEST(Bake, AMirrorBallIsAsTheLawOfSinesHasIt) {
   const std::string ball = R"({"name": "ball", "shape": {"type": "sphere", "radius": 1}, "material": "mirror"})";
-  const Bake bake = bake_of(
-      bake_preset(ball, {"environment.resolution=40", "environment.spheres=4", "environment.reach=40", "environment.photons=2000000"}),
-      {slanted});
+  const Bake bake = bake_of(bake_preset(ball, {"environment.resolution=40", "environment.spheres=4",
+                                               "environment.reach=40", "environment.photons=2000000"}),
+                            {slanted});
   EXPECT_NEAR(bake.baked[0].sent, pi / 4, 1e-5);
   for (std::size_t sphere = 1; sphere < 4; ++sphere) {
     const double r = bake.radii[sphere];
@@ -139,18 +144,21 @@ TEST(Bake, AMirrorBallIsAsTheLawOfSinesHasIt)
       double low = 0, high = pi / 2;
       for (int k = 0; k < 60; ++k) (psi_of((low + high) / 2) < psi ? low : high) = (low + high) / 2;
       const double gamma = std::asin(std::sin(low) / r);
-      return std::sin(low) * std::cos(low) / (std::sin(psi) * (2 - std::cos(low) / (r * std::cos(gamma)))) / 4; // over size^2
+      return std::sin(low) * std::cos(low) / (std::sin(psi) * (2 - std::cos(low) / (r * std::cos(gamma)))) /
+             4; // over size^2
     };
     EXPECT_LT(relative_distance(bake, 0, sphere, expected), 0.03) << r;
   }
 }
 
-// A mirror that takes half of the light of every wavelength has one channel, a blue one three, and glass that does not disperse one.
-TEST(Bake, MirrorsTakeTheirPart)
-{
+// A mirror that takes half of the light of every wavelength has one channel, a blue one three, and glass that does not
+// disperse one.
+TEST(Bake, MirrorsTakeTheirPart) {
   const auto mirror = [](const std::string& reflectance) {
     const std::string ball = R"({"name": "ball", "shape": {"type": "sphere", "radius": 1}, "material": "mirror"})";
-    return bake_of(bake_preset(ball, {"scene.materials.mirror.reflectance=" + reflectance, "environment.resolution=32"}), {slanted});
+    return bake_of(
+        bake_preset(ball, {"scene.materials.mirror.reflectance=" + reflectance, "environment.resolution=32"}),
+        {slanted});
   };
   const Bake grey = mirror("0.5");
   EXPECT_EQ(grey.channels, 1);
@@ -164,10 +172,10 @@ TEST(Bake, MirrorsTakeTheirPart)
   EXPECT_GT(rgb.z, 2 * rgb.x);
 }
 
-// How far the light in front of a ball is spread about its axis, channel by channel: the sum of power times 1 - cos(angle) over the
-// directions whose cosine is above 0.2. For each wavelength from the rays of a ball of its index, in double.
-glm::dvec3 ball_spread(const optics::Spectrum& n, double r)
-{
+// How far the light in front of a ball is spread about its axis, channel by channel: the sum of power times 1 -
+// cos(angle) over the directions whose cosine is above 0.2. For each wavelength from the rays of a ball of its index,
+// in double.
+glm::dvec3 ball_spread(const optics::Spectrum& n, double r) {
   constexpr int rings = 500, step_nm = 5;
   glm::dvec3 spread(0), white(0);
   for (int w = 0; w < optics::wavelength_count; w += step_nm) {
@@ -189,16 +197,17 @@ glm::dvec3 ball_spread(const optics::Spectrum& n, double r)
   return spread / white;
 }
 
-// White light stays white in all: each channel has all of the power, within the noise of wavelengths drawn by chance. Its colours lie where
-// the index of each wavelength says.
-TEST(Bake, DispersionMovesColoursAndKeepsTheirSum)
-{
-  const preset::Preset p = bake_preset(glass_ball, {R"(scene.materials.glass.dispersion={"type": "cauchy", "coefficients": [1.4, 0.05]})",
-                                                    "environment.resolution=64", "environment.photons=2000000"});
+// White light stays white in all: each channel has all of the power, within the noise of wavelengths drawn by chance.
+// Its colours lie where the index of each wavelength says.
+TEST(Bake, DispersionMovesColoursAndKeepsTheirSum) {
+  const preset::Preset p =
+      bake_preset(glass_ball, {R"(scene.materials.glass.dispersion={"type": "cauchy", "coefficients": [1.4, 0.05]})",
+                               "environment.resolution=64", "environment.photons=2000000"});
   const environment::Caster caster = environment::make_caster(p);
   const Bake bake = bake_of(p, {slanted});
   ASSERT_EQ(bake.channels, 3);
-  const glm::dvec3 power = power_through(bake, 0, 15), expected = ball_spread(caster.scene.materials[0].n, bake.radii[15]);
+  const glm::dvec3 power = power_through(bake, 0, 15),
+                   expected = ball_spread(caster.scene.materials[0].n, bake.radii[15]);
   glm::dvec3 spread(0);
   for (std::size_t t = 0; t < bake.map.texels(); ++t)
     if (const double cosine = glm::dot(bake.map.direction(t), slanted); cosine > 0.2)
@@ -210,10 +219,9 @@ TEST(Bake, DispersionMovesColoursAndKeepsTheirSum)
   EXPECT_GT(std::abs(expected.z - expected.x), 0.02 * expected.x); // far more than the channels may be off
 }
 
-// A tetrahedron with no symmetry, and the same turned by a quarter about z, which takes the 26 directions to each other and the map's
-// texels to each other.
-TEST(Bake, ATurnedMeshHasTurnedSpheres)
-{
+// A tetrahedron with no symmetry, and the same turned by a quarter about z, which takes the 26 directions to each other
+// and the map's texels to each other.
+TEST(Bake, ATurnedMeshHasTurnedSpheres) {
   const TemporaryFolder folder;
   const std::vector<glm::dvec3> corners{{1, 0.2, -0.3}, {-0.5, 0.9, 0.1}, {-0.4, -0.8, 0.2}, {0.1, 0.1, 1}};
   const auto turned = [](const glm::dvec3& v) { return glm::dvec3(-v.y, v.x, v.z); };
@@ -227,26 +235,31 @@ TEST(Bake, ATurnedMeshHasTurnedSpheres)
   };
   const auto bake = [&](const std::string& file, const glm::dvec3& light) {
     const std::string object = R"({"name": "stone", "mesh": ")" + file + R"(", "material": "glass"})";
-    return bake_of(bake_preset(object, {"environment.resolution=12", "environment.spheres=4", "environment.photons=1000000"}), {light});
+    return bake_of(
+        bake_preset(object, {"environment.resolution=12", "environment.spheres=4", "environment.photons=1000000"}),
+        {light});
   };
   for (const std::size_t i : {std::size_t{0}, std::size_t{4}, std::size_t{17}}) {
     const glm::dvec3 light = environment::light_directions(26)[i];
     const Bake a = bake(mesh_of(false, "a.obj"), light), b = bake(mesh_of(true, "b.obj"), turned(light));
     EXPECT_NEAR(a.baked[0].met, b.baked[0].met, 0.002 * a.baked[0].met);
     for (std::size_t sphere = 1; sphere < 4; ++sphere)
-      EXPECT_LT(relative_distance(a, 0, sphere, [&](std::size_t t) { return b.at(0, sphere, b.map.texel(turned(a.map.direction(t)))).x; }),
-                0.03)
+      EXPECT_LT(
+          relative_distance(a, 0, sphere,
+                            [&](std::size_t t) { return b.at(0, sphere, b.map.texel(turned(a.map.direction(t)))).x; }),
+          0.03)
           << "direction " << i << ", sphere " << sphere;
-    EXPECT_GT(relative_distance(a, 0, 3, [&](std::size_t t) { return b.at(0, 3, t).x; }), 0.2); // it is not all the same
+    EXPECT_GT(relative_distance(a, 0, 3, [&](std::size_t t) { return b.at(0, 3, t).x; }),
+              0.2); // it is not all the same
   }
 }
 
 // What the preset does to the object's place changes no bit; a scale does.
-TEST(Bake, IsOfTheObjectWhereverItStands)
-{
+TEST(Bake, IsOfTheObjectWhereverItStands) {
   const auto key_and_bake = [](const std::string& transform) {
     const std::string box =
-        R"({"name": "box", "shape": {"type": "box", "size": [2, 1, 1.5]}, "material": "glass", "transform": )" + transform + "}";
+        R"({"name": "box", "shape": {"type": "box", "size": [2, 1, 1.5]}, "material": "glass", "transform": )" +
+        transform + "}";
     const preset::Preset p = bake_preset(box, {"environment.resolution=16", "environment.photons=10000"});
     return std::pair(environment::bake_key(p, environment::make_caster(p)), bake_of(p, {slanted}));
   };
@@ -260,8 +273,7 @@ TEST(Bake, IsOfTheObjectWhereverItStands)
 }
 
 // The border of a map shows texels that are beside its edge on the sphere, and a bake has there what these have.
-TEST(Bake, GoesOnBeyondTheEdgesOfItsMap)
-{
+TEST(Bake, GoesOnBeyondTheEdgesOfItsMap) {
   const Bake bake = bake_of(bake_preset(glass_ball, {"environment.resolution=24", "environment.spheres=3"}), {slanted});
   const std::vector<std::size_t> texels = bake.map.texels_of_stored();
   ASSERT_EQ(texels.size(), bake.map.stored_texels());
@@ -280,11 +292,11 @@ TEST(Bake, GoesOnBeyondTheEdgesOfItsMap)
 }
 
 // Light along a flat mirror meets nothing of it.
-TEST(Bake, OfAnObjectThatNoPhotonMeetsIsBlack)
-{
+TEST(Bake, OfAnObjectThatNoPhotonMeetsIsBlack) {
   const std::string quad = R"({"name": "quad", "shape": {"type": "quad", "size": [2, 1, 2]}, "material": "mirror"})";
   const Bake bake =
-      bake_of(bake_preset(quad, {"environment.resolution=16", "environment.spheres=3", "environment.photons=1000"}), {{1, 0, 0}});
+      bake_of(bake_preset(quad, {"environment.resolution=16", "environment.spheres=3", "environment.photons=1000"}),
+              {{1, 0, 0}});
   EXPECT_EQ(bake.baked[0].met, 0);
   EXPECT_EQ(bake.baked[0].sent, 0);
   EXPECT_EQ(std::ranges::count(bake.light, 0), static_cast<std::ptrdiff_t>(bake.light.size()));
@@ -292,8 +304,7 @@ TEST(Bake, OfAnObjectThatNoPhotonMeetsIsBlack)
     EXPECT_EQ(bake.ways[bake.map.stored_texel(t)], Bake::way_map.texel(bake.map.direction(t)));
 }
 
-TEST(Bake, KnowsItsTimeLeftAfterADirection)
-{
+TEST(Bake, KnowsItsTimeLeftAfterADirection) {
   const environment::BakeTask task =
       environment::make_task(bake_preset(glass_ball, {"environment.resolution=16", "environment.photons=1000"}));
   environment::Baker baker(task, bake_context());
@@ -308,8 +319,7 @@ class BakeFile : public testing::Test {
 protected:
   static constexpr environment::BakeIdentity identity{.key = 7, .kernels = 9};
 
-  BakeFile()
-  {
+  BakeFile() {
     Bake bake;
     bake.map.side = 2;
     bake.radii = {1, 2};
@@ -321,9 +331,9 @@ protected:
     bytes = read_file(file);
   }
 
-  /// Number `at` of the header's counts (directions, spheres, side, channels) is another one, and `length` bytes follow the header.
-  std::string refusal(std::size_t at, std::uint64_t count, std::size_t length) const
-  {
+  /// Number `at` of the header's counts (directions, spheres, side, channels) is another one, and `length` bytes follow
+  /// the header.
+  std::string refusal(std::size_t at, std::uint64_t count, std::size_t length) const {
     constexpr std::size_t counts = 40, header = 80;
     std::string changed = bytes.substr(0, header);
     std::memcpy(changed.data() + counts + 8 * at, &count, sizeof count);
@@ -344,17 +354,16 @@ protected:
 TEST_F(BakeFile, IsReadAsItWasWritten) { EXPECT_EQ(environment::read_bake(file, identity).baked.size(), 26u); }
 
 // Nothing of the file is needed once it is read: not if somebody cuts it then.
-TEST_F(BakeFile, MayBeCutWhileItsBakeIsInUse)
-{
+TEST_F(BakeFile, MayBeCutWhileItsBakeIsInUse) {
   const Bake bake = environment::read_bake(file, identity);
   std::filesystem::resize_file(file, 1);
   for (std::size_t t = 0; t < bake.map.texels(); ++t) EXPECT_EQ(bake.at(25, 1, t), glm::dvec3(3));
   EXPECT_THAT(test::refusal_of([&] { environment::read_bake(file, identity); }), HasSubstr("a.bake: is no bake"));
 }
 
-TEST_F(BakeFile, HasCountsThatABakeCanHave)
-{
-  EXPECT_THAT(refusal(0, 0, 16), HasSubstr("a.bake: says that it has 0 directions, 2 spheres, 2 x 2 texels and 1 channels"));
+TEST_F(BakeFile, HasCountsThatABakeCanHave) {
+  EXPECT_THAT(refusal(0, 0, 16),
+              HasSubstr("a.bake: says that it has 0 directions, 2 spheres, 2 x 2 texels and 1 channels"));
   EXPECT_THAT(refusal(0, 27, 16 + 27 * 32 + 27 * 2 * 4 * 4), HasSubstr("27 directions"));
   EXPECT_THAT(refusal(1, 0, 26 * 32), HasSubstr("0 spheres"));
   EXPECT_THAT(refusal(2, 0, 16 + 26 * 32), HasSubstr("0 x 0 texels"));

@@ -8,17 +8,16 @@
 namespace nephroid::test {
 
 /// One for all tests of a program: opening a device takes a second.
-inline const compute::Context& bake_context()
-{
+inline const compute::Context& bake_context() {
   static const compute::Context context = compute::Context::open(device_options());
   return context;
 }
 
-inline const std::string glass_ball = R"({"name": "ball", "shape": {"type": "sphere", "radius": 1}, "material": "glass"})";
+inline const std::string glass_ball =
+    R"({"name": "ball", "shape": {"type": "sphere", "radius": 1}, "material": "glass"})";
 
 /// Materials glass (n = 1.5), mirror and wall, these objects, and overrides as of --set.
-inline preset::Preset bake_preset(const std::string& objects = glass_ball, const preset::Overrides& overrides = {})
-{
+inline preset::Preset bake_preset(const std::string& objects = glass_ball, const preset::Overrides& overrides = {}) {
   return preset::parse_preset(R"({"engine": "environment", "scene": {"camera": {"resolution": [64, 64]}, "materials": {
     "glass": {"type": "dielectric", "dispersion": 1.5}, "mirror": {"type": "mirror", "reflectance": 1}, "wall": {"type": "diffuse"}},
     "objects": [)" + objects + "]}}",
@@ -26,8 +25,7 @@ inline preset::Preset bake_preset(const std::string& objects = glass_ball, const
 }
 
 /// Of the first of the directions alone, or of another one; of all of them where `direction` is empty.
-inline environment::Bake bake_of(const preset::Preset& preset, std::vector<glm::dvec3> directions = {})
-{
+inline environment::Bake bake_of(const preset::Preset& preset, std::vector<glm::dvec3> directions = {}) {
   environment::BakeTask task = environment::make_task(preset);
   if (!directions.empty()) task.directions = std::move(directions);
   environment::Baker baker(task, bake_context());
@@ -36,8 +34,7 @@ inline environment::Bake bake_of(const preset::Preset& preset, std::vector<glm::
 }
 
 /// Fills Bake::ways as if all light came from the middle.
-inline void make_radial(environment::Bake& bake)
-{
+inline void make_radial(environment::Bake& bake) {
   bake.ways.clear();
   for (std::size_t map = 0; map < bake.baked.size() * bake.radii.size(); ++map)
     for (const std::size_t t : bake.map.texels_of_stored())
@@ -45,17 +42,17 @@ inline void make_radial(environment::Bake& bake)
 }
 
 /// Sum over a sphere of E r^2 over size^2 times the solid angle: the power through it, for each channel.
-inline glm::dvec3 power_through(const environment::Bake& bake, std::size_t direction, std::size_t sphere)
-{
+inline glm::dvec3 power_through(const environment::Bake& bake, std::size_t direction, std::size_t sphere) {
   glm::dvec3 sum(0);
   for (std::size_t t = 0; t < bake.map.texels(); ++t) sum += bake.at(direction, sphere, t) * bake.map.solid_angle();
   return sum;
 }
 
-/// Euclidean distance of two maps over the length of the second; first channel. place(t): the texel of `a` that is texel t of `b`.
+/// Euclidean distance of two maps over the length of the second; first channel. place(t): the texel of `a` that is
+/// texel t of `b`.
 template <class Expected>
-double relative_distance(const environment::Bake& bake, std::size_t direction, std::size_t sphere, const Expected& expected)
-{
+double relative_distance(const environment::Bake& bake, std::size_t direction, std::size_t sphere,
+                         const Expected& expected) {
   double difference = 0, length = 0;
   for (std::size_t t = 0; t < bake.map.texels(); ++t) {
     const double wanted = expected(t), off = bake.at(direction, sphere, t).x - wanted;

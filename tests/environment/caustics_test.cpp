@@ -15,8 +15,7 @@ constexpr double nine_bits = 1.0 / 256; ///< half of what the last bit of a floa
 
 /// of(direction of the bake, radius, place on its sphere): E r^2 over size^2, linear sRGB.
 template <class Of>
-Bake made_bake(int side, int channels, const std::vector<double>& radii, const Of& of)
-{
+Bake made_bake(int side, int channels, const std::vector<double>& radii, const Of& of) {
   Bake bake;
   bake.map.side = side;
   bake.channels = channels;
@@ -39,10 +38,10 @@ class Cast {
 public:
   /// bake outlives it.
   Cast(const Bake& bake, int size)
-      : caustics(bake, test::bake_context()), size_(size), count_(6 * static_cast<std::size_t>(size) * static_cast<std::size_t>(size)),
+      : caustics(bake, test::bake_context()), size_(size),
+        count_(6 * static_cast<std::size_t>(size) * static_cast<std::size_t>(size)),
         list_(test::bake_context(), "list", count_), distances_(test::bake_context(), "distances", count_),
-        normals_(test::bake_context(), "normals", count_), sums_(test::bake_context(), "caustics", 3 * count_)
-  {
+        normals_(test::bake_context(), "normals", count_), sums_(test::bake_context(), "caustics", 3 * count_) {
     std::vector<shared::float4> normals;
     for (std::size_t i = 0; i < count_; ++i) {
       const glm::vec3 normal(-direction(i));
@@ -55,8 +54,7 @@ public:
   }
 
   /// E r^2: [texel].
-  std::vector<glm::dvec3> at(double distance)
-  {
+  std::vector<glm::dvec3> at(double distance) {
     distances_.write(std::vector<float>(count_, static_cast<float>(distance)));
     caustics.cast({&list_, 0, static_cast<std::uint32_t>(count_), &distances_, &normals_, &sums_, size_});
     const std::vector<float> read = sums_.read();
@@ -65,8 +63,7 @@ public:
     return values;
   }
   /// Of a texel's middle, unit.
-  glm::dvec3 direction(std::size_t texel) const
-  {
+  glm::dvec3 direction(std::size_t texel) const {
     const auto n = static_cast<std::size_t>(size_);
     const auto at = [&](std::size_t i) { return middle(static_cast<int>(i), size_); };
     return glm::normalize(position({static_cast<int>(texel / n / n), at(texel % n), at(texel / n % n)}));
@@ -88,8 +85,7 @@ struct Off {
   double most = 0, mean = 0;
 };
 template <class Of>
-Off off(const Cast& cast, const std::vector<glm::dvec3>& found, const Of& of)
-{
+Off off(const Cast& cast, const std::vector<glm::dvec3>& found, const Of& of) {
   double squares = 0, sum = 0;
   Off o;
   for (std::size_t t = 0; t < found.size(); ++t) {
@@ -104,18 +100,18 @@ Off off(const Cast& cast, const std::vector<glm::dvec3>& found, const Of& of)
 }
 
 /// Another colour, another place and another direction: another value, from 0.4 to 1.7.
-glm::dvec3 smooth(std::size_t direction, const glm::dvec3& place)
-{
+glm::dvec3 smooth(std::size_t direction, const glm::dvec3& place) {
   const auto number = static_cast<int>(direction);
   const glm::dvec3 along = even_direction(number, 26), across = even_direction((number + 9) % 26, 26);
-  return {1 + 0.3 * glm::dot(place, along) + 0.3 * std::pow(glm::dot(place, across), 2), 1 + 0.5 * glm::dot(place, across),
-          0.8 + 0.4 * glm::dot(place, glm::cross(along, across))};
+  return {1 + 0.3 * glm::dot(place, along) + 0.3 * std::pow(glm::dot(place, across), 2),
+          1 + 0.5 * glm::dot(place, across), 0.8 + 0.4 * glm::dot(place, glm::cross(along, across))};
 }
 
-// The object is turned so that a texel's middle and a light that was baked are where the one texel of a cube's face looks.
-TEST(Caustics, AtATexelsMiddleAreWhatWasBaked)
-{
-  const Bake bake = made_bake(12, 3, {1, 1.5, 3}, [](std::size_t i, double r, const glm::dvec3& d) { return r * smooth(i, d); });
+// The object is turned so that a texel's middle and a light that was baked are where the one texel of a cube's face
+// looks.
+TEST(Caustics, AtATexelsMiddleAreWhatWasBaked) {
+  const Bake bake =
+      made_bake(12, 3, {1, 1.5, 3}, [](std::size_t i, double r, const glm::dvec3& d) { return r * smooth(i, d); });
   Cast cast(bake, 1);
   ASSERT_EQ(cast.direction(0), glm::dvec3(1, 0, 0));
   const glm::dvec3 light(3, 2, 5);
@@ -128,12 +124,12 @@ TEST(Caustics, AtATexelsMiddleAreWhatWasBaked)
   }
 }
 
-// Between texels and over all edges of the square there is no jump: what is found differs from a smooth formula by what straight lines
-// between texels leave out.
-TEST(Caustics, BetweenTexelsFollowTheFormula)
-{
+// Between texels and over all edges of the square there is no jump: what is found differs from a smooth formula by what
+// straight lines between texels leave out.
+TEST(Caustics, BetweenTexelsFollowTheFormula) {
   for (const int side : {16, 64}) {
-    const Bake bake = made_bake(side, 3, {1, 2}, [](std::size_t i, double, const glm::dvec3& d) { return smooth(i, d); });
+    const Bake bake =
+        made_bake(side, 3, {1, 2}, [](std::size_t i, double, const glm::dvec3& d) { return smooth(i, d); });
     Cast cast(bake, 48);
     const glm::dmat3 turn = scene::rotation({33, -12, 71});
     cast.caustics.set_lights({{turn * bake.directions[7], glm::dvec3(1)}}, turn);
@@ -145,11 +141,11 @@ TEST(Caustics, BetweenTexelsFollowTheFormula)
 }
 
 // What an object without directions of its own does, as a ball, goes with the light, whichever directions were baked.
-TEST(Caustics, OfABallGoWithTheLight)
-{
+TEST(Caustics, OfABallGoWithTheLight) {
   const std::vector<glm::dvec3> baked = light_directions(26);
   const auto of_angle = [](double cosine) { return glm::dvec3(1 + 0.8 * cosine + 0.5 * cosine * cosine * cosine); };
-  const Bake bake = made_bake(48, 1, {1, 2}, [&](std::size_t i, double, const glm::dvec3& d) { return of_angle(glm::dot(d, baked[i])); });
+  const Bake bake = made_bake(
+      48, 1, {1, 2}, [&](std::size_t i, double, const glm::dvec3& d) { return of_angle(glm::dot(d, baked[i])); });
   Cast cast(bake, 24);
   const glm::dmat3 turn = scene::rotation({-61, 140, 8});
   Off all;
@@ -165,8 +161,7 @@ TEST(Caustics, OfABallGoWithTheLight)
 }
 
 // Between four baked directions: their values, each turned, by the weights.
-TEST(Caustics, BetweenDirectionsAreWeighted)
-{
+TEST(Caustics, BetweenDirectionsAreWeighted) {
   const std::vector<glm::dvec3> baked = light_directions(26);
   const Bake bake = made_bake(48, 3, {1, 2}, [](std::size_t i, double, const glm::dvec3& d) { return smooth(i, d); });
   Cast cast(bake, 24);
@@ -186,11 +181,11 @@ TEST(Caustics, BetweenDirectionsAreWeighted)
   EXPECT_LT(o.most, 0.03);
 }
 
-TEST(Caustics, BetweenSpheresAreLinear)
-{
+TEST(Caustics, BetweenSpheresAreLinear) {
   const std::vector<double> radii{1, 1.5, 3, 4};
   const auto of_radius = [](double r) { return r < 1.2 ? 1.0 : r < 2 ? 3.0 : r < 3.5 ? 0.5 : 2.0; };
-  const Bake bake = made_bake(8, 1, radii, [&](std::size_t, double r, const glm::dvec3&) { return glm::dvec3(of_radius(r)); });
+  const Bake bake =
+      made_bake(8, 1, radii, [&](std::size_t, double r, const glm::dvec3&) { return glm::dvec3(of_radius(r)); });
   Cast cast(bake, 2);
   cast.caustics.set_lights({{even_direction(3, 10), {1, 10, 0.1}}}, glm::dmat3(1));
   const auto expect = [&](double distance, double value) {
@@ -202,15 +197,17 @@ TEST(Caustics, BetweenSpheresAreLinear)
   };
   for (std::size_t i = 0; i + 1 < radii.size(); ++i)
     for (const double part : {0.0, 0.25, 0.5, 0.999, 1.0})
-      expect(radii[i] + part * (radii[i + 1] - radii[i]), (1 - part) * of_radius(radii[i]) + part * of_radius(radii[i + 1]));
+      expect(radii[i] + part * (radii[i + 1] - radii[i]),
+             (1 - part) * of_radius(radii[i]) + part * of_radius(radii[i + 1]));
   for (const double beyond : {4.0, 4.001, 10.0, 1e6}) expect(beyond, 2);     // E r^2 stays: the inverse square
   for (const double within : {0.01, 0.999}) expect(within, within * within); // E stays
-  for (const glm::dvec3& found : cast.at(std::numeric_limits<double>::infinity())) EXPECT_EQ(found, glm::dvec3(0)); // nothing is there
+  for (const glm::dvec3& found : cast.at(std::numeric_limits<double>::infinity()))
+    EXPECT_EQ(found, glm::dvec3(0)); // nothing is there
 }
 
-TEST(Caustics, LightsAdd)
-{
-  const Bake bake = made_bake(16, 3, {1, 2}, [](std::size_t i, double r, const glm::dvec3& d) { return r * smooth(i, d); });
+TEST(Caustics, LightsAdd) {
+  const Bake bake =
+      made_bake(16, 3, {1, 2}, [](std::size_t i, double r, const glm::dvec3& d) { return r * smooth(i, d); });
   Cast cast(bake, 6);
   const DistantLight a{even_direction(3, 10), {1, 2, 3}}, b{even_direction(7, 10), {0.5, 0, 4}};
   const auto of = [&](const std::vector<DistantLight>& lights) {
@@ -220,12 +217,12 @@ TEST(Caustics, LightsAdd)
   // More lights than before, fewer, and black ones.
   const auto first = of({a}), both = of({a, b}), second = of({b}), again = of({{a.direction, glm::dvec3(0)}, a});
   EXPECT_EQ(again, first);
-  for (std::size_t t = 0; t < both.size(); ++t) EXPECT_LT(glm::distance(both[t], first[t] + second[t]), 1e-5 * glm::length(both[t]));
+  for (std::size_t t = 0; t < both.size(); ++t)
+    EXPECT_LT(glm::distance(both[t], first[t] + second[t]), 1e-5 * glm::length(both[t]));
 }
 
 // Where all light is hidden, or none is lit, nothing is cast: from the beginning, and after there was light.
-TEST(Caustics, WithoutLightAreBlack)
-{
+TEST(Caustics, WithoutLightAreBlack) {
   const Bake bake = made_bake(8, 1, {1, 2}, [](std::size_t, double, const glm::dvec3&) { return glm::dvec3(1); });
   Cast cast(bake, 2);
   const std::vector<glm::dvec3> black(24, glm::dvec3(0));
@@ -239,17 +236,17 @@ TEST(Caustics, WithoutLightAreBlack)
   expect_black({{{0, -1, 0}, glm::dvec3(0)}});
 }
 
-// However an even sky is cut, all its light meets the ball, and on all around lies what left the ball: E r^2 over all directions is the
-// power.
-TEST(Caustics, OfAnEvenSkyHaveItsPower)
-{
-  const Bake bake = test::bake_of(
-      test::bake_preset(test::glass_ball, {"environment.resolution=24", "environment.spheres=2", "environment.photons=10000"}));
+// However an even sky is cut, all its light meets the ball, and on all around lies what left the ball: E r^2 over all
+// directions is the power.
+TEST(Caustics, OfAnEvenSkyHaveItsPower) {
+  const Bake bake = test::bake_of(test::bake_preset(
+      test::glass_ball, {"environment.resolution=24", "environment.spheres=2", "environment.photons=10000"}));
   const CubeMap sky = make_cube_map(test::uniform_map(64, 32));
   constexpr int size = 64;
   Cast cast(bake, size);
   double sent = 0;
-  for (const BakedDirection& direction : bake.baked) sent += 4 * direction.sent / static_cast<double>(bake.baked.size());
+  for (const BakedDirection& direction : bake.baked)
+    sent += 4 * direction.sent / static_cast<double>(bake.baked.size());
   for (const int q : {8, 24, 64, 256}) {
     const Segmentation lights = segment(sky, {.lights = q});
     cast.caustics.set_lights(environment_lights(whole_lights(lights), 0), glm::dmat3(1));
@@ -269,9 +266,9 @@ TEST(Caustics, OfAnEvenSkyHaveItsPower)
 }
 
 // The object turned with its light: the same, turned. A quarter about y takes the cube's texels to each other.
-TEST(Caustics, TurnWithTheObjectAndItsLight)
-{
-  const Bake bake = made_bake(24, 3, {1, 2}, [](std::size_t i, double r, const glm::dvec3& d) { return r * smooth(i, d); });
+TEST(Caustics, TurnWithTheObjectAndItsLight) {
+  const Bake bake =
+      made_bake(24, 3, {1, 2}, [](std::size_t i, double r, const glm::dvec3& d) { return r * smooth(i, d); });
   constexpr int size = 8;
   Cast cast(bake, size);
   const glm::dmat3 quarter = scene::rotation({0, 90, 0}), before = scene::rotation({20, 70, -30});
@@ -284,16 +281,16 @@ TEST(Caustics, TurnWithTheObjectAndItsLight)
   double changes = 0;
   for (std::size_t t = 0; t < a.size(); ++t) {
     const CubePoint met = met_point(quarter * cast.direction(t));
-    const std::size_t turned_texel = (static_cast<std::size_t>(met.face) * size + static_cast<std::size_t>(texel_of(met.t, size))) * size +
-                                     static_cast<std::size_t>(texel_of(met.s, size));
+    const std::size_t turned_texel =
+        (static_cast<std::size_t>(met.face) * size + static_cast<std::size_t>(texel_of(met.t, size))) * size +
+        static_cast<std::size_t>(texel_of(met.s, size));
     EXPECT_LT(glm::distance(a[t], b[turned_texel]), 1e-4 * glm::length(a[t])) << t;
     changes = std::max(changes, glm::distance(a[t], b[t]));
   }
   EXPECT_GT(changes, 1);
 }
 
-TEST(Caustics, OneChannelIsThreeAlike)
-{
+TEST(Caustics, OneChannelIsThreeAlike) {
   const auto of = [](std::size_t i, double r, const glm::dvec3& d) { return glm::dvec3(r * smooth(i, d).x); };
   const Bake one_channel = made_bake(16, 1, {1, 2}, of), three_channels = made_bake(16, 3, {1, 2}, of);
   Cast one(one_channel, 8), three(three_channels, 8);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The directions of a bake and the map of a sphere; which baked directions stand for a light, and how their spheres are turned.
+// The directions of a bake and the map of a sphere; which baked directions stand for a light, and how their spheres are
+// turned.
 #include "scene/ray.h"
 #include "tests/environment/views.h"
 #include "tests/support/saved_jobs.h"
@@ -8,8 +9,7 @@ namespace nephroid::directions_test {
 
 using namespace nephroid::environment;
 
-TEST(Directions, AreCornersEdgesAndFaces)
-{
+TEST(Directions, AreCornersEdgesAndFaces) {
   std::map<int, int> kinds; // by how many coordinates are 0
   for (const glm::dvec3& d : light_directions(26)) {
     EXPECT_NEAR(glm::length(d), 1, 1e-15);
@@ -21,8 +21,7 @@ TEST(Directions, AreCornersEdgesAndFaces)
   EXPECT_EQ(kinds, (std::map<int, int>{{0, 8}, {1, 12}, {2, 6}}));
 }
 
-TEST(Directions, AreAsManyAsTheySayAndEachSetHoldsTheOneBefore)
-{
+TEST(Directions, AreAsManyAsTheySayAndEachSetHoldsTheOneBefore) {
   for (const int count : direction_counts()) {
     const std::vector<glm::dvec3> all = light_directions(count);
     ASSERT_EQ(all.size(), static_cast<std::size_t>(count));
@@ -36,8 +35,7 @@ TEST(Directions, AreAsManyAsTheySayAndEachSetHoldsTheOneBefore)
   }
 }
 
-TEST(SphereMap, TakesTexelsToDirectionsAndBack)
-{
+TEST(SphereMap, TakesTexelsToDirectionsAndBack) {
   for (const int side : {1, 2, 7, 48, 361}) {
     const SphereMap map{side};
     for (std::size_t t = 0; t < map.texels(); ++t) {
@@ -53,9 +51,9 @@ TEST(SphereMap, TakesTexelsToDirectionsAndBack)
     EXPECT_LT(map.texel(pole), 16u);
 }
 
-// Directions that are even on the sphere (Fibonacci's lattice) fill every texel alike, and a texel's middle is near its directions.
-TEST(SphereMap, HasTexelsOfEqualSolidAngle)
-{
+// Directions that are even on the sphere (Fibonacci's lattice) fill every texel alike, and a texel's middle is near its
+// directions.
+TEST(SphereMap, HasTexelsOfEqualSolidAngle) {
   const SphereMap map{20};
   constexpr int count = 400 * 1000;
   std::vector<int> filled(map.texels());
@@ -71,16 +69,16 @@ TEST(SphereMap, HasTexelsOfEqualSolidAngle)
 
 class EnvironmentDirections : public EnvironmentJobs {};
 
-// A flat glass ellipsoid above a floor, under a lamp half way between baked directions. The reference has the lamp's direction among 386
-// that are baked; of 98 four are 11 degrees away, of 26 four are 22.
-TEST_F(EnvironmentDirections, ALampBetweenThemIsNearerWhereTheyAreMore)
-{
+// A flat glass ellipsoid above a floor, under a lamp half way between baked directions. The reference has the lamp's
+// direction among 386 that are baked; of 98 four are 11 degrees away, of 26 four are 22.
+TEST_F(EnvironmentDirections, ALampBetweenThemIsNearerWhereTheyAreMore) {
   const auto picture = [&](int directions) {
     preset::Preset p = bake_preset(
         R"({"name": "lens", "shape": {"type": "sphere", "radius": 1}, "material": "glass", "transform": {"scale": [1, 0.4, 1]}}, )" +
             facing_quad("floor", {0, -1.2, 0}, {0, 1, 0}, 8),
-        {"environment.resolution=32", "environment.spheres=16", "environment.photons=20000", "environment.reach=2", "stop.passes=8",
-         "environment.refine=false", "scene.camera.resolution=[48, 48]", fmt::format("environment.directions={}", directions)});
+        {"environment.resolution=32", "environment.spheres=16", "environment.photons=20000", "environment.reach=2",
+         "stop.passes=8", "environment.refine=false", "scene.camera.resolution=[48, 48]",
+         fmt::format("environment.directions={}", directions)});
     // Of the 386 points of a cube's surface (1, 4, 1) of 4.
     p.scene.lights = {lamp(glm::normalize(glm::dvec3(1, -4, 1)), 3)};
     look(p, {0, 4, 0.1}, {0, -1.2, 0}, 60);
@@ -103,8 +101,7 @@ TEST_F(EnvironmentDirections, ALampBetweenThemIsNearerWhereTheyAreMore)
 constexpr int some = 300; ///< directions, even on the sphere
 
 /// The largest element of m m^T - 1, and how far the determinant is from 1.
-double off_a_rotation(const glm::dmat3& m)
-{
+double off_a_rotation(const glm::dmat3& m) {
   const glm::dmat3 rest = m * glm::transpose(m) - glm::dmat3(1);
   double off = std::abs(glm::determinant(m) - 1);
   for (int i = 0; i < 3; ++i)
@@ -116,8 +113,7 @@ class NearDirections : public testing::TestWithParam<int> {};
 
 INSTANTIATE_TEST_SUITE_P(Counts, NearDirections, testing::Values(26, 98, 386));
 
-TEST_P(NearDirections, ABakedDirectionIsNearToItselfAlone)
-{
+TEST_P(NearDirections, ABakedDirectionIsNearToItselfAlone) {
   const std::vector<glm::dvec3> baked = light_directions(GetParam());
   for (std::size_t i = 0; i < baked.size(); ++i) {
     // A direction is rounded, so a neighbour may have some 1e-16 as well.
@@ -132,8 +128,7 @@ TEST_P(NearDirections, ABakedDirectionIsNearToItselfAlone)
 }
 
 // The point where the light comes through the cube is the mean of the corners of its cell, by their weights.
-TEST_P(NearDirections, TheirWeightedMeanIsTheDirection)
-{
+TEST_P(NearDirections, TheirWeightedMeanIsTheDirection) {
   const std::vector<glm::ivec3> points = cube_points(GetParam());
   for (int i = 0; i < some; ++i) {
     const glm::dvec3 travel = scene::even_direction(i, some);
@@ -154,11 +149,11 @@ TEST_P(NearDirections, TheirWeightedMeanIsTheDirection)
 }
 
 // Across the borders of cells and faces the weights go on without a jump: a step of 1e-6 changes them by a few 1e-6.
-TEST_P(NearDirections, WeightsAreContinuous)
-{
+TEST_P(NearDirections, WeightsAreContinuous) {
   const auto weights = [&](const glm::dvec3& travel) {
     std::vector<double> all(static_cast<std::size_t>(GetParam()));
-    for (const NearDirection& n : near_directions(travel, GetParam())) all[static_cast<std::size_t>(n.direction)] += n.weight;
+    for (const NearDirection& n : near_directions(travel, GetParam()))
+      all[static_cast<std::size_t>(n.direction)] += n.weight;
     return all;
   };
   const auto step = [&](const glm::dvec3& at, const glm::dvec3& by) {
@@ -175,8 +170,7 @@ TEST_P(NearDirections, WeightsAreContinuous)
   }
 }
 
-TEST(ShortestTurn, TakesOneToTheOther)
-{
+TEST(ShortestTurn, TakesOneToTheOther) {
   for (int i = 0; i < some; ++i) {
     const glm::dvec3 from = scene::even_direction(i, some), to = scene::even_direction((7 * i + 3) % some, some);
     const glm::dmat3 turn = shortest_turn(from, to);
@@ -189,8 +183,7 @@ TEST(ShortestTurn, TakesOneToTheOther)
 }
 
 // Opposite vectors, equal ones, and those that are so within any small angle.
-TEST(ShortestTurn, IsARotationOfNearlyOppositeAndNearlyEqualVectors)
-{
+TEST(ShortestTurn, IsARotationOfNearlyOppositeAndNearlyEqualVectors) {
   for (int i = 0; i < 20; ++i)
     for (const double sign : {-1.0, 1.0})
       for (const double angle : {0.0, 1e-16, 1e-12, 1e-9, 7e-9, 1e-8, 2e-8, 3e-8, 5e-8, 1e-7, 3e-7, 1e-6, 1e-4}) {
@@ -203,8 +196,7 @@ TEST(ShortestTurn, IsARotationOfNearlyOppositeAndNearlyEqualVectors)
       }
 }
 
-TEST(TurnedSets, TakeTheLightToItsBakedDirections)
-{
+TEST(TurnedSets, TakeTheLightToItsBakedDirections) {
   const glm::dmat3 rotation = scene::rotation({20, -70, 130});
   for (const int count : {26, 98, 386}) {
     const std::vector<glm::dvec3> baked = light_directions(count);
@@ -222,8 +214,7 @@ TEST(TurnedSets, TakeTheLightToItsBakedDirections)
 }
 
 // A light that was baked, on an object that stands as it was baked, is not turned.
-TEST(TurnedSets, ABakedLightIsNotTurned)
-{
+TEST(TurnedSets, ABakedLightIsNotTurned) {
   const std::vector<glm::dvec3> baked = light_directions(26);
   for (const glm::dvec3& direction : baked)
     for (const TurnedSet& set : turned_sets({{direction, glm::dvec3(1)}}, glm::dmat3(1), 26)) {
@@ -235,8 +226,7 @@ TEST(TurnedSets, ABakedLightIsNotTurned)
 }
 
 // The object turned with its light has the same sets, which only see the scene turned.
-TEST(TurnedSets, TheObjectTurnedWithItsLight)
-{
+TEST(TurnedSets, TheObjectTurnedWithItsLight) {
   const glm::dmat3 turn = scene::rotation({-40, 15, 77}), before = scene::rotation({5, 50, 0});
   for (int i = 0; i < some; ++i) {
     const glm::dvec3 direction = scene::even_direction(i, some);
@@ -254,8 +244,7 @@ TEST(TurnedSets, TheObjectTurnedWithItsLight)
   }
 }
 
-TEST(TurnedSets, BlackLightsHaveNone)
-{
+TEST(TurnedSets, BlackLightsHaveNone) {
   EXPECT_TRUE(turned_sets({{{0, -1, 0}, glm::dvec3(0)}}, glm::dmat3(1), 26).empty());
   EXPECT_FALSE(turned_sets({{{0, -1, 0}, {0, 0, 1}}}, glm::dmat3(1), 26).empty());
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine 2 through the program: the shipped presets, small, a run whose time is over before it has a picture, and `nephroid segment`.
+// Engine 2 through the program: the shipped presets, small, a run whose time is over before it has a picture, and
+// `nephroid segment`.
 #include "tests/support/program_test.h"
 #include "environment/segment/cube.h"
 #include "image/image.h"
@@ -14,18 +15,16 @@ using testing::ContainsRegex;
 
 class EnvironmentRun : public ProgramTest {
 protected:
-  Ended run_to(const std::string& preset, const std::string& name, std::vector<std::string> more = {}) const
-  {
-    more.insert(more.begin(),
-                {"run", "environment/" + preset, "-o", name, "--set", "environment.resolution=32", "--set", "environment.photons=4000",
-                 "--set", "environment.directions=26", "--set", "scene.camera.resolution=[210, 110]"});
+  Ended run_to(const std::string& preset, const std::string& name, std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {"run", "environment/" + preset, "-o", name, "--set", "environment.resolution=32",
+                               "--set", "environment.photons=4000", "--set", "environment.directions=26", "--set",
+                               "scene.camera.resolution=[210, 110]"});
     return run(more, test::own_cache(scratch.path() / "cache"));
   }
   json of(const std::string& file) const { return json::parse(nephroid::read_file(folder / file)); }
 };
 
-TEST_F(EnvironmentRun, BakesAndRendersTheShippedPresets)
-{
+TEST_F(EnvironmentRun, BakesAndRendersTheShippedPresets) {
   for (const std::string name : {"ball", "beam", "bunny", "glass", "ring", "brilliant"}) {
     SCOPED_TRACE(name);
     const Ended ended = run_to(name, name, {"--passes", "2"});
@@ -50,8 +49,7 @@ TEST_F(EnvironmentRun, BakesAndRendersTheShippedPresets)
   }
 }
 
-TEST_F(EnvironmentRun, FitsItsWhiteBeforeAndAfterTheBake)
-{
+TEST_F(EnvironmentRun, FitsItsWhiteBeforeAndAfterTheBake) {
   const std::vector<std::string> fitted{"--passes", "2", "--set", "white=auto"};
   for (const char* name : {"cold", "warm"}) {
     const Ended ended = run_to("bunny", name, fitted);
@@ -71,8 +69,7 @@ TEST_F(EnvironmentRun, FitsItsWhiteBeforeAndAfterTheBake)
   }
 }
 
-TEST_F(EnvironmentRun, GoesOnWhereItStopped)
-{
+TEST_F(EnvironmentRun, GoesOnWhereItStopped) {
   ASSERT_EQ(run_to("ball", "whole", {"--passes", "4"}).exit_code, 0);
   const Ended part = run_to("ball", "part", {"--passes", "1"});
   ASSERT_EQ(part.exit_code, 0) << part.err;
@@ -80,13 +77,13 @@ TEST_F(EnvironmentRun, GoesOnWhereItStopped)
   const Ended rest = run_to("ball", "part", {"--resume", "--passes", "4"});
   ASSERT_EQ(rest.exit_code, 0) << rest.err;
   EXPECT_EQ(of("part/run.json").at("passes"), 4);
-  EXPECT_EQ(nephroid::image::read_image(folder / "part/image.exr").data, nephroid::image::read_image(folder / "whole/image.exr").data);
+  EXPECT_EQ(nephroid::image::read_image(folder / "part/image.exr").data,
+            nephroid::image::read_image(folder / "whole/image.exr").data);
 }
 
 class EndedEarly : public test::ProgramTest {
 protected:
-  EndedEarly()
-  {
+  EndedEarly() {
     write("ball.json", R"({
   "name": "Ball", "engine": "environment", "unit": "cm", "white": 10,
   "scene": {
@@ -99,8 +96,7 @@ protected:
   "environment": {"directions": 26, "photons": 2000, "spheres": 2, "resolution": 16, "refine": false}
 })");
   }
-  Ended run_to(const std::string& name, std::vector<std::string> more) const
-  {
+  Ended run_to(const std::string& name, std::vector<std::string> more) const {
     more.insert(more.begin(), {"run", "ball.json", "-o", name});
     return run(more, test::own_cache(scratch.path() / name)); // a bake of its own
   }
@@ -108,14 +104,15 @@ protected:
   json of(const std::string& file) const { return json::parse(read_file(folder / file)); }
 };
 
-TEST_F(EndedEarly, InTheBakeItSaysSoAndGoesOn)
-{
+TEST_F(EndedEarly, InTheBakeItSaysSoAndGoesOn) {
   const Ended ended = run_to("parts", {"--seconds", "0.001", "--pictures-at", "0.001"});
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_THAT(ended.err, HasSubstr("note: ball: no picture at 0.001 s: the first one is not there yet\n"));
-  EXPECT_THAT(ended.err,
-              ContainsRegex("nephroid: parts: the run ended before its first picture, after [0-9.]+ s of work(: bake [0-9.]+ s)?; "
-                            "a checkpoint is saved; go on with --resume"));
+  EXPECT_THAT(
+      ended.err,
+      ContainsRegex(
+          "nephroid: parts: the run ended before its first picture, after [0-9.]+ s of work(: bake [0-9.]+ s)?; "
+          "a checkpoint is saved; go on with --resume"));
   EXPECT_THAT(ended.out, testing::StartsWith("parts: 0 passes, "));
   for (const char* file : {"image.png", "image.exr", "at-0000.001s.png", "report.html"})
     EXPECT_FALSE(has(std::string("parts/") + file)) << file;
@@ -134,8 +131,7 @@ TEST_F(EndedEarly, InTheBakeItSaysSoAndGoesOn)
   EXPECT_EQ(image::read_image(folder / "parts/image.exr").data, image::read_image(folder / "whole/image.exr").data);
 }
 
-TEST_F(EndedEarly, InTheFirstPassItIsANote)
-{
+TEST_F(EndedEarly, InTheFirstPassItIsANote) {
   const Ended ended = run({"run", "spectral/plate", "-o", "plate", "--seconds", "0.001"});
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_THAT(ended.err, HasSubstr("note: plate: the run ended before its first pass was whole, after "));
@@ -144,16 +140,14 @@ TEST_F(EndedEarly, InTheFirstPassItIsANote)
 
 class SegmentVerb : public test::ProgramTest {
 protected:
-  void write_exr(const std::string& name, int width, int height, std::vector<std::string> channels, const std::vector<float>& data) const
-  {
+  void write_exr(const std::string& name, int width, int height, std::vector<std::string> channels,
+                 const std::vector<float>& data) const {
     image::write_exr(folder / name, {width, height, std::move(channels), data, {}});
   }
-  void write_map(const std::string& name, const scene::Environment& map) const
-  {
+  void write_map(const std::string& name, const scene::Environment& map) const {
     write_exr(name, map.width, map.height, {"R", "G", "B"}, map.rgb);
   }
-  json segments(std::vector<std::string> arguments) const
-  {
+  json segments(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "segment");
     arguments.emplace_back("--json");
     const test::Ended ended = run(arguments);
@@ -164,21 +158,18 @@ protected:
 
 glm::dvec3 vector_of(const json& three) { return {three.at(0), three.at(1), three.at(2)}; }
 
-scene::Environment sunny(double azimuth_deg)
-{
+scene::Environment sunny(double azimuth_deg) {
   return test::made_map(256, 128, [=](const glm::dvec3& d) {
     return test::sky_with_lamps(d, {0.3, 0.5, 1}, {0.2, 0.2, 0.1}, {{30, azimuth_deg, 1, {2e4, 2e4, 1e4}}});
   });
 }
 
-const json& brightest(const json& all)
-{
+const json& brightest(const json& all) {
   return *std::max_element(all.at("regions").begin(), all.at("regions").end(),
                            [](const json& a, const json& b) { return a.at("flux").at(1) < b.at("flux").at(1); });
 }
 
-TEST_F(SegmentVerb, PrintsWhatTheContractSays)
-{
+TEST_F(SegmentVerb, PrintsWhatTheContractSays) {
   const scene::Environment map = sunny(40);
   write_map("sunny.exr", map);
   for (const std::string method : {"variance", "thesis"})
@@ -207,14 +198,15 @@ TEST_F(SegmentVerb, PrintsWhatTheContractSays)
         EXPECT_NEAR(total[c] / right[c], 1, 1e-12);
       }
       EXPECT_NEAR(solid_angle, 4 * test::pi, 1e-11);
-      EXPECT_GT(glm::dot(vector_of(brightest(all).at("direction")), test::direction_of(30, 40)), std::cos(test::pi / 180));
+      EXPECT_GT(glm::dot(vector_of(brightest(all).at("direction")), test::direction_of(30, 40)),
+                std::cos(test::pi / 180));
       EXPECT_THAT(all.at("irradiance_error").get<double>(), AllOf(testing::Gt(1e-4), testing::Lt(0.1)));
     }
-  EXPECT_EQ(segments({"sunny.exr", "-q", "24"}), segments({"sunny.exr", "-q", "24", "--method", "variance", "--weights", "solid-angle"}));
+  EXPECT_EQ(segments({"sunny.exr", "-q", "24"}),
+            segments({"sunny.exr", "-q", "24", "--method", "variance", "--weights", "solid-angle"}));
 }
 
-TEST_F(SegmentVerb, ReadsEveryKindOfPicture)
-{
+TEST_F(SegmentVerb, ReadsEveryKindOfPicture) {
   const auto greys = [](int channels) { return std::vector<float>(static_cast<std::size_t>(8 * 4 * channels), 1.0f); };
   write_exr("colour.exr", 8, 4, {"R", "G", "B"}, greys(3));
   write_exr("grey.exr", 8, 4, {"Y"}, greys(1));
@@ -223,7 +215,8 @@ TEST_F(SegmentVerb, ReadsEveryKindOfPicture)
   write("radiance.hdr", test::radiance_hdr(8, 4));
   image::write_png_bytes(folder / "eight-bits.png", 8, 4, std::vector<unsigned char>(8 * 4 * 4, 255));
   fs::copy(folder / "half.exr", folder / "without-ending");
-  for (const char* file : {"colour.exr", "grey.exr", "alpha.exr", "half.exr", "radiance.hdr", "eight-bits.png", "without-ending"}) {
+  for (const char* file :
+       {"colour.exr", "grey.exr", "alpha.exr", "half.exr", "radiance.hdr", "eight-bits.png", "without-ending"}) {
     const json all = segments({file, "-q", "6"});
     EXPECT_EQ(all.at("regions").size(), 6u) << file;
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(vector_of(all.at("total_flux"))[c], 4 * test::pi, 1e-11) << file;
@@ -232,17 +225,16 @@ TEST_F(SegmentVerb, ReadsEveryKindOfPicture)
   EXPECT_NEAR(segments({"half-as-bright.exr", "-q", "6"}).at("total_flux").at(0), 2 * test::pi, 1e-11);
 }
 
-TEST_F(SegmentVerb, AnotherShapeIsStretchedAndSaid)
-{
+TEST_F(SegmentVerb, AnotherShapeIsStretchedAndSaid) {
   write_exr("square.exr", 5, 5, {"Y"}, std::vector<float>(25, 1.0f));
   const test::Ended ended = run({"segment", "square.exr", "-q", "8", "--json"});
   EXPECT_EQ(ended.exit_code, 0);
-  EXPECT_THAT(ended.err, HasSubstr("square.exr: has 5 x 5 texels; a latitude-longitude picture is twice as wide as high"));
+  EXPECT_THAT(ended.err,
+              HasSubstr("square.exr: has 5 x 5 texels; a latitude-longitude picture is twice as wide as high"));
   EXPECT_NEAR(json::parse(ended.out).at("total_flux").at(2), 4 * test::pi, 1e-11);
 }
 
-TEST_F(SegmentVerb, OneTexelAndNothingAreDefined)
-{
+TEST_F(SegmentVerb, OneTexelAndNothingAreDefined) {
   write_exr("one.exr", 1, 1, {"Y"}, {3});
   EXPECT_EQ(segments({"one.exr", "-q", "50"}).at("regions").size(), 50u);
   write_exr("black.exr", 8, 4, {"Y"}, std::vector<float>(32, 0.0f));
@@ -254,39 +246,45 @@ TEST_F(SegmentVerb, OneTexelAndNothingAreDefined)
 }
 
 // The map is cut as it is in its file, and the directions turn with it: so a turning map keeps its regions.
-TEST_F(SegmentVerb, APresetsMapIsTurnedAndAsBrightAsItSays)
-{
+TEST_F(SegmentVerb, APresetsMapIsTurnedAndAsBrightAsItSays) {
   write_map("sunny.exr", sunny(40));
-  write("p.json",
-        R"({"engine": "spectral", "scene": {"environment": {"type": "file", "file": "sunny.exr", "radiance": 3, "rotate_deg": 25}}})");
-  write("blue.json", R"({"engine": "spectral", "scene": {"environment": {"type": "constant", "colour": [0, 0, 1], "radiance": 2}}})");
+  write(
+      "p.json",
+      R"({"engine": "spectral", "scene": {"environment": {"type": "file", "file": "sunny.exr", "radiance": 3, "rotate_deg": 25}}})");
+  write(
+      "blue.json",
+      R"({"engine": "spectral", "scene": {"environment": {"type": "constant", "colour": [0, 0, 1], "radiance": 2}}})");
   const json plain = segments({"sunny.exr", "-q", "16"}), turned = segments({"p.json", "-q", "16"});
   EXPECT_EQ(turned.at("rotate_deg"), 25);
   ASSERT_EQ(turned.at("regions").size(), 16u);
   for (std::size_t i = 0; i < 16; ++i) {
     EXPECT_EQ(plain.at("regions")[i].at("rect"), turned.at("regions")[i].at("rect"));
-    EXPECT_NEAR(turned.at("regions")[i].at("flux").at(1).get<double>(), 3 * plain.at("regions")[i].at("flux").at(1).get<double>(), 1e-9);
+    EXPECT_NEAR(turned.at("regions")[i].at("flux").at(1).get<double>(),
+                3 * plain.at("regions")[i].at("flux").at(1).get<double>(), 1e-9);
   }
-  // Counterclockwise from above is to the left of somebody who stands upright: the azimuth, which counts to the right, falls.
-  EXPECT_GT(glm::dot(vector_of(brightest(turned).at("direction")), test::direction_of(30, 15)), std::cos(test::pi / 180));
+  // Counterclockwise from above is to the left of somebody who stands upright: the azimuth, which counts to the right,
+  // falls.
+  EXPECT_GT(glm::dot(vector_of(brightest(turned).at("direction")), test::direction_of(30, 15)),
+            std::cos(test::pi / 180));
   const json blue = segments({"blue.json", "-q", "12"});
   EXPECT_EQ(blue.at("regions").size(), 12u);
   EXPECT_NEAR(blue.at("total_flux").at(2), 8 * test::pi, 1e-11);
   EXPECT_EQ(blue.at("total_flux").at(0), 0.0);
 }
 
-TEST_F(SegmentVerb, DrawsTheMapItsRegionsAndDirections)
-{
+TEST_F(SegmentVerb, DrawsTheMapItsRegionsAndDirections) {
   write_map("sunny.exr", sunny(40));
   const test::Ended ended = run({"segment", "sunny.exr", "-q", "24", "-o", "sunny.png"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_THAT(ended.out, AllOf(testing::StartsWith("sunny.exr: 24 lights by the method variance"), HasSubstr("irradiance is wrong by")));
+  EXPECT_THAT(ended.out, AllOf(testing::StartsWith("sunny.exr: 24 lights by the method variance"),
+                               HasSubstr("irradiance is wrong by")));
   const image::Image picture = image::read_image(folder / "sunny.png");
   ASSERT_EQ(picture.width, 1024);
   ASSERT_EQ(picture.height, 512);
   const std::size_t channels = picture.channels.size();
   const auto is_green = [&](int x, int y) {
-    const float* const p = picture.data.data() + channels * (static_cast<std::size_t>(y) * 1024 + static_cast<std::size_t>(x));
+    const float* const p =
+        picture.data.data() + channels * (static_cast<std::size_t>(y) * 1024 + static_cast<std::size_t>(x));
     return p[0] == 0 && p[1] == 1 && p[2] == 0;
   };
   // The sun's direction; the borders between faces at the horizon, azimuths -135, -45, 45 and 135 degrees.
@@ -298,8 +296,7 @@ TEST_F(SegmentVerb, DrawsTheMapItsRegionsAndDirections)
   EXPECT_THAT(green, AllOf(testing::Gt(4000), testing::Lt(30000)));
 }
 
-TEST_F(SegmentVerb, BadInputIsAnsweredInOneLine)
-{
+TEST_F(SegmentVerb, BadInputIsAnsweredInOneLine) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
   const auto with = [](float texel) {
     std::vector<float> grey(32, 1.0f);
@@ -337,7 +334,8 @@ TEST_F(SegmentVerb, BadInputIsAnsweredInOneLine)
       {{"segment", "empty.exr", "-q", "24"}, "empty.exr: "},
       {{"segment", "text.png", "-q", "24"}, "text.png: is no picture that can be read"},
       {{"segment", "folder.exr", "-q", "24"}, "folder.exr: "},
-      {{"segment", "none.exr", "-q", "24"}, "none.exr: no such file; expected a picture (EXR, HDR, PNG, ...) or a preset"},
+      {{"segment", "none.exr", "-q", "24"},
+       "none.exr: no such file; expected a picture (EXR, HDR, PNG, ...) or a preset"},
       {{"segment", "no-such-preset", "-q", "24"}, "there is no preset 'no-such-preset'"},
       {{"segment", "dark.json", "-q", "24"}, "dark.json#/scene/environment: the preset has no environment"},
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs of engine 2 in which photons join the spheres: they go on to the truth and say how far they are, with the same bits however they got
-// there.
+// Runs of engine 2 in which photons join the spheres: they go on to the truth and say how far they are, with the same
+// bits however they got there.
 #include "environment/photons.h"
 #include "tests/environment/lit_ball.h"
 #include "tests/support/saved_jobs.h"
@@ -9,19 +9,18 @@ namespace nephroid::refined_job_test {
 
 class EnvironmentRefined : public LitBallJobs {
 protected:
-  preset::Preset lit(const preset::Overrides& more = {}) const
-  {
+  preset::Preset lit(const preset::Overrides& more = {}) const {
     preset::Overrides overrides{"scene.camera.resolution=[64, 48]", "environment.refine=true"};
     overrides.insert(overrides.end(), more.begin(), more.end());
     return LitBallJobs::lit(overrides);
   }
 
   /// Caustics by many photons alone, with random numbers of their own.
-  std::vector<float> truth(preset::Preset p)
-  {
+  std::vector<float> truth(preset::Preset p) {
     p.seed += 1000;
     const EnvironmentPlan plan = plan_of(p);
-    const auto job = environment::make_photons(p, *plan.render->scene, *plan.render->bvh, *plan.photons, bake_context());
+    const auto job =
+        environment::make_photons(p, *plan.render->scene, *plan.render->bvh, *plan.photons, bake_context());
     while (job->progress().step < 32) job->advance();
     return layer_rgb(job->snapshot(), "caustic");
   }
@@ -29,8 +28,7 @@ protected:
   using EnvironmentPlan = environment::EnvironmentPlan;
 };
 
-double rel_l2(const std::vector<float>& a, const std::vector<float>& truth)
-{
+double rel_l2(const std::vector<float>& a, const std::vector<float>& truth) {
   double off = 0, all = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     off += std::pow(static_cast<double>(a[i]) - truth[i], 2);
@@ -41,8 +39,7 @@ double rel_l2(const std::vector<float>& a, const std::vector<float>& truth)
 
 double sum(const std::vector<float>& rgb) { return std::accumulate(rgb.begin(), rgb.end(), 0.0); }
 
-TEST_F(EnvironmentRefined, GoesOnToTheTruth)
-{
+TEST_F(EnvironmentRefined, GoesOnToTheTruth) {
   preset::Preset p = lit({"stop.passes=8"});
   const std::vector<float> is = truth(p), refined = layer_rgb(run(p), "caustic");
   environment::settings(p).refine = false;
@@ -53,8 +50,7 @@ TEST_F(EnvironmentRefined, GoesOnToTheTruth)
 }
 
 // Not even a little later, while photons wait for the maps of a pass.
-TEST_F(EnvironmentRefined, IsNeverWorseThanSpheres)
-{
+TEST_F(EnvironmentRefined, IsNeverWorseThanSpheres) {
   const preset::Preset p = lit();
   const std::vector<float> is = truth(p);
   const auto job = job_of(p);
@@ -69,8 +65,7 @@ TEST_F(EnvironmentRefined, IsNeverWorseThanSpheres)
   }
 }
 
-TEST_F(EnvironmentRefined, SaysItsOwnError)
-{
+TEST_F(EnvironmentRefined, SaysItsOwnError) {
   const preset::Preset p = lit();
   const auto job = job_of(p);
   EXPECT_TRUE(job->estimates_error());
@@ -91,8 +86,7 @@ TEST_F(EnvironmentRefined, SaysItsOwnError)
 }
 
 // Photons do not wait for the bake, and the finished picture does not know what came first.
-TEST_F(EnvironmentRefined, HasAPictureWhileItBakes)
-{
+TEST_F(EnvironmentRefined, HasAPictureWhileItBakes) {
   const preset::Preset p = lit({"environment.photons=400000"});
   const auto cold = job_of(p);
   double caustics = 0;
@@ -106,8 +100,7 @@ TEST_F(EnvironmentRefined, HasAPictureWhileItBakes)
   EXPECT_EQ(run(*warm).picture->rgb, cold->snapshot().picture->rgb);
 }
 
-TEST_F(EnvironmentRefined, GoesOnWithTheSameBits)
-{
+TEST_F(EnvironmentRefined, GoesOnWithTheSameBits) {
   const preset::Preset p = lit();
   const std::vector<float> whole = run(p).picture->rgb;
   const auto begun = job_of(p);
@@ -122,8 +115,7 @@ TEST_F(EnvironmentRefined, GoesOnWithTheSameBits)
   }
 }
 
-TEST_F(EnvironmentRefined, AdoptsWithTheBitsOfARunOfItsOwn)
-{
+TEST_F(EnvironmentRefined, AdoptsWithTheBitsOfARunOfItsOwn) {
   const std::map<std::string, std::function<void(preset::Preset&)>> changes{
       {"camera",
        [](preset::Preset& p) {
@@ -157,8 +149,7 @@ TEST_F(EnvironmentRefined, AdoptsWithTheBitsOfARunOfItsOwn)
 }
 
 // Nothing to fall on: spheres and photons have nothing to do, and paths from the eye are the picture.
-TEST_F(EnvironmentRefined, WithoutReceiversThereAreNoPhotons)
-{
+TEST_F(EnvironmentRefined, WithoutReceiversThereAreNoPhotons) {
   preset::Preset p = lit();
   p.scene.objects.pop_back();
   EXPECT_EQ(plan_of(p).photons->layers, 0);

@@ -12,8 +12,7 @@ namespace nephroid::segment_cube_test {
 
 using namespace nephroid::environment;
 
-TEST(SegmentCube, FacesLieAsInCubeMapsOfOpenGl)
-{
+TEST(SegmentCube, FacesLieAsInCubeMapsOfOpenGl) {
   // Right and down of each face: the table "Selection of cube map images" of the OpenGL specification.
   const glm::dvec3 axes[face_count][3] = {{{1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
                                           {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},   {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}},
@@ -23,8 +22,7 @@ TEST(SegmentCube, FacesLieAsInCubeMapsOfOpenGl)
         << face_names.at(static_cast<std::size_t>(face));
 }
 
-TEST(SegmentCube, ADirectionMeetsThePointThatItCameFrom)
-{
+TEST(SegmentCube, ADirectionMeetsThePointThatItCameFrom) {
   for (int i = 0; i < 10000; ++i) {
     const glm::dvec3 direction = scene::even_direction(i, 10000);
     const CubePoint point = met_point(7.0 * direction);
@@ -35,8 +33,7 @@ TEST(SegmentCube, ADirectionMeetsThePointThatItCameFrom)
     EXPECT_LT(glm::distance(glm::normalize(position(met_point(axis))), glm::normalize(axis)), 1e-15);
 }
 
-TEST(SegmentCube, TexelsContainTheirMiddles)
-{
+TEST(SegmentCube, TexelsContainTheirMiddles) {
   for (const int size : {1, 2, 7, 128, 512})
     for (int i = 0; i < size; ++i) {
       EXPECT_EQ(texel_of(middle(i, size), size), i);
@@ -46,8 +43,7 @@ TEST(SegmentCube, TexelsContainTheirMiddles)
   EXPECT_EQ(texel_of(-1, 128), 0);
 }
 
-TEST(SegmentCube, SolidAnglesAddUpToTheSphere)
-{
+TEST(SegmentCube, SolidAnglesAddUpToTheSphere) {
   EXPECT_NEAR(solid_angle({0, 0, 128, 128}, 128), 4 * test::pi / 6, 1e-14);
   EXPECT_NEAR(solid_angle({0, 0, 64, 64}, 128), 4 * test::pi / 24, 1e-14);
   constexpr int size = 37;
@@ -62,8 +58,7 @@ TEST(SegmentCube, SolidAnglesAddUpToTheSphere)
 }
 
 /// A map of hashed colours over six decades.
-scene::Environment wild_map(int width, int height)
-{
+scene::Environment wild_map(int width, int height) {
   scene::Environment map{width, height, {}};
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
@@ -72,26 +67,25 @@ scene::Environment wild_map(int width, int height)
   return map;
 }
 
-glm::dvec3 flux_of(const CubeMap& cube)
-{
+glm::dvec3 flux_of(const CubeMap& cube) {
   glm::dvec3 sum{0};
   for (std::size_t i = 0; i < cube.flux.size() / 3; ++i) sum += cube.flux_of(i);
   return sum;
 }
 
-TEST(SegmentCube, FluxIsThatOfTheTexels)
-{
-  for (const auto& [width, height] : std::vector<std::pair<int, int>>{{64, 32}, {37, 19}, {1, 1}, {5, 1}, {1, 9}, {300, 20}}) {
+TEST(SegmentCube, FluxIsThatOfTheTexels) {
+  for (const auto& [width, height] :
+       std::vector<std::pair<int, int>>{{64, 32}, {37, 19}, {1, 1}, {5, 1}, {1, 9}, {300, 20}}) {
     const scene::Environment map = wild_map(width, height);
     const glm::dvec3 flux = flux_of(make_cube_map(map)), right = test::flux_of_texels(map);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(flux[c] / right[c], 1, 1e-12) << width << " x " << height;
   }
 }
 
-TEST(SegmentCube, LightStaysWhereItIs)
-{
+TEST(SegmentCube, LightStaysWhereItIs) {
   constexpr int width = 128, height = 64;
-  for (const auto& [column, row] : std::vector<std::pair<int, int>>{{0, 0}, {64, 32}, {100, 10}, {127, 40}, {33, 63}, {96, 31}}) {
+  for (const auto& [column, row] :
+       std::vector<std::pair<int, int>>{{0, 0}, {64, 32}, {100, 10}, {127, 40}, {33, 63}, {96, 31}}) {
     scene::Environment map = test::uniform_map(width, height, glm::dvec3(0));
     map.rgb[3 * static_cast<std::size_t>(row * width + column)] = 1;
     const CubeMap cube = make_cube_map(map);
@@ -113,26 +107,28 @@ TEST(SegmentCube, LightStaysWhereItIs)
     double all = 0;
     for (int i = 0; i < 200; ++i)
       for (int j = 0; j < 200; ++j) {
-        const glm::dvec3 direction = test::map_direction(column + (i + 0.5) / 200, row + (j + 0.5) / 200, width, height);
+        const glm::dvec3 direction =
+            test::map_direction(column + (i + 0.5) / 200, row + (j + 0.5) / 200, width, height);
         const double weight = std::sqrt(1 - direction.y * direction.y);
         right += weight * direction;
         all += weight;
       }
     // A texel at a pole is narrower than one of the cube, whose middle stands for it.
-    EXPECT_LT(glm::distance(moment / flux, right / all), row == 0 || row == height - 1 ? 1.0 / cube.size : 5e-4) << column << ", " << row;
+    EXPECT_LT(glm::distance(moment / flux, right / all), row == 0 || row == height - 1 ? 1.0 / cube.size : 5e-4)
+        << column << ", " << row;
   }
 }
 
 // Each texel's share is exact but for the parts on its border: a part is a quarter of a texel wide or less.
-TEST(SegmentCube, AUniformMapIsUniform)
-{
+TEST(SegmentCube, AUniformMapIsUniform) {
   const CubeMap cube = make_cube_map(test::uniform_map(64, 32));
   double largest = 0, squares = 0;
   for (int face = 0; face < face_count; ++face) {
     double of_face = 0;
     for (int y = 0; y < cube.size; ++y)
       for (int x = 0; x < cube.size; ++x) {
-        const double flux = cube.flux[3 * cube.texel(face, x, y)], off = flux / solid_angle({x, y, x + 1, y + 1}, cube.size) - 1;
+        const double flux = cube.flux[3 * cube.texel(face, x, y)],
+                     off = flux / solid_angle({x, y, x + 1, y + 1}, cube.size) - 1;
         of_face += flux;
         largest = std::max(largest, std::abs(off));
         squares += off * off;
@@ -146,8 +142,7 @@ TEST(SegmentCube, AUniformMapIsUniform)
   EXPECT_LT(largest, 0.5);
 }
 
-TEST(SegmentCube, SizeFollowsTheMap)
-{
+TEST(SegmentCube, SizeFollowsTheMap) {
   EXPECT_EQ(cube_size({1, 1, {}}), 128);
   EXPECT_EQ(cube_size({1024, 512, {}}), 256);
   EXPECT_EQ(cube_size({100, 500, {}}), 250);
@@ -155,25 +150,24 @@ TEST(SegmentCube, SizeFollowsTheMap)
   EXPECT_EQ(cube_size({16384, 8192, {}}), 512);
 }
 
-// preset.h: rotate_deg turns the surroundings about +y, counterclockwise as seen from above, where +x is right and -z up.
-TEST(SegmentCube, DirectionsTurnAsTheMapDoes)
-{
+// preset.h: rotate_deg turns the surroundings about +y, counterclockwise as seen from above, where +x is right and -z
+// up.
+TEST(SegmentCube, DirectionsTurnAsTheMapDoes) {
   EXPECT_LT(glm::distance(turned({1, 0, 0}, 90), glm::dvec3(0, 0, -1)), 1e-15);
   EXPECT_LT(glm::distance(turned({0, 0, -1}, 90), glm::dvec3(-1, 0, 0)), 1e-15);
   EXPECT_LT(glm::distance(turned({0.6, 0.8, 0}, -3600), glm::dvec3(0.6, 0.8, 0)), 1e-15);
   EXPECT_LT(glm::distance(turned({0, 1, 0}, 33), glm::dvec3(0, 1, 0)), 1e-15);
 }
 
-// How far the lights' irradiance is from the map's, over all normals, on six made maps: the default method against the thesis'.
+// How far the lights' irradiance is from the map's, over all normals, on six made maps: the default method against the
+// thesis'.
 
-double median(std::vector<double> values)
-{
+double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 
-TEST(SegmentQuality, IsTheNormOfTheDifference)
-{
+TEST(SegmentQuality, IsTheNormOfTheDifference) {
   CubeMap cube{1, std::vector<double>(18, 0.0)};
   cube.flux[0] = cube.flux[1] = cube.flux[2] = 1; // all light from +x
   Segmentation wrong;
@@ -189,8 +183,7 @@ TEST(SegmentQuality, IsTheNormOfTheDifference)
   EXPECT_EQ(irradiance_error(irradiances(cube), Segmentation{}), 1) << "no light at all";
 }
 
-TEST(SegmentQuality, VarianceIsBetterThanHalving)
-{
+TEST(SegmentQuality, VarianceIsBetterThanHalving) {
   const std::array<int, 5> counts{8, 16, 24, 64, 256};
   std::vector<test::NamedMap> maps = test::synthetic_maps();
   std::vector<CubeMap> cubes;
@@ -210,13 +203,14 @@ TEST(SegmentQuality, VarianceIsBetterThanHalving)
       for (std::size_t k = 0; k < settings.size(); ++k) {
         errors[k].push_back(100 * irradiance_error(truths[i], segment(cubes[i], settings[k])));
         const char* const names[] = {"variance", "thesis", "thesis_texel"};
-        RecordProperty(fmt::format("{}_{}_{}", maps[i].name, names[k], lights), fmt::format("{:.3f}", errors[k].back()));
+        RecordProperty(fmt::format("{}_{}_{}", maps[i].name, names[k], lights),
+                       fmt::format("{:.3f}", errors[k].back()));
       }
       better += errors[0].back() < errors[1].back();
     }
     const double variance = median(errors[0]), thesis = median(errors[1]);
-    std::printf("q %3d: median of 6 maps, %%: variance %.3f, thesis %.3f, thesis with texel weights %.3f\n", lights, variance, thesis,
-                median(errors[2]));
+    std::printf("q %3d: median of 6 maps, %%: variance %.3f, thesis %.3f, thesis with texel weights %.3f\n", lights,
+                variance, thesis, median(errors[2]));
     EXPECT_LT(variance, thesis) << lights;
     EXPECT_LT(variance, last == 1 ? 20 : last) << lights;
     last = variance;
@@ -225,26 +219,25 @@ TEST(SegmentQuality, VarianceIsBetterThanHalving)
   EXPECT_GE(better, 24);
 }
 
-// The smooth part of an environment's irradiance: closed forms of maps of the first three degrees, all light of made maps, turned maps.
+// The smooth part of an environment's irradiance: closed forms of maps of the first three degrees, all light of made
+// maps, turned maps.
 
 constexpr int some = 64; ///< normals, even on the sphere
 
 /// As kernels/environment/shade.cl, for a unit normal.
-glm::dvec3 irradiance(const IrradiancePolynomial& p, const glm::dvec3& n)
-{
-  return p[0] + n.x * p[1] + n.y * p[2] + n.z * p[3] + n.x * n.x * p[4] + n.y * n.y * p[5] + n.z * n.z * p[6] + n.x * n.y * p[7] +
-         n.y * n.z * p[8] + n.z * n.x * p[9];
+glm::dvec3 irradiance(const IrradiancePolynomial& p, const glm::dvec3& n) {
+  return p[0] + n.x * p[1] + n.y * p[2] + n.z * p[3] + n.x * n.x * p[4] + n.y * n.y * p[5] + n.z * n.z * p[6] +
+         n.x * n.y * p[7] + n.y * n.z * p[8] + n.z * n.x * p[9];
 }
 
-TEST(Irradiance, OfAnEvenMapIsPiTimesItsRadiance)
-{
+TEST(Irradiance, OfAnEvenMapIsPiTimesItsRadiance) {
   scene::Environment map = test::uniform_map(64, 32, {0.2, 1, 3});
   map.radiance = 7;
   const IrradiancePolynomial polynomial = irradiance_polynomial(irradiance_moments(make_cube_map(map)), 0);
   double largest = 0;
   for (int i = 0; i < some; ++i) {
-    const glm::dvec3 part =
-        irradiance(polynomial, scene::even_direction(i, some)) / (7 * pi * glm::dvec3(map.rgb[0], map.rgb[1], map.rgb[2]));
+    const glm::dvec3 part = irradiance(polynomial, scene::even_direction(i, some)) /
+                            (7 * pi * glm::dvec3(map.rgb[0], map.rgb[1], map.rgb[2]));
     for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(part[c] - 1));
   }
   fmt::print("an even map: {:.2g} off at most\n", largest);
@@ -253,8 +246,7 @@ TEST(Irradiance, OfAnEvenMapIsPiTimesItsRadiance)
 
 /// A cube whose texels have radiance of(direction of their middle).
 template <class Of>
-CubeMap made_cube(int size, const Of& of)
-{
+CubeMap made_cube(int size, const Of& of) {
   CubeMap cube{size, {}};
   for (int face = 0; face < face_count; ++face)
     for (int y = 0; y < size; ++y)
@@ -265,13 +257,15 @@ CubeMap made_cube(int size, const Of& of)
   return cube;
 }
 
-// Ramamoorthi and Hanrahan 2001: the irradiance has pi of the mean, 2 pi / 3 of the first degree and pi / 4 of the second.
-TEST(Irradiance, OfTheFirstThreeDegrees)
-{
+// Ramamoorthi and Hanrahan 2001: the irradiance has pi of the mean, 2 pi / 3 of the first degree and pi / 4 of the
+// second.
+TEST(Irradiance, OfTheFirstThreeDegrees) {
   const glm::dvec3 a(0.3, -0.5, 0.2);
-  const glm::dmat3 symmetric(glm::dvec3(0.4, 0.1, -0.2), glm::dvec3(0.1, -0.3, 0.25), glm::dvec3(-0.2, 0.25, -0.1)); // its trace is 0
+  const glm::dmat3 symmetric(glm::dvec3(0.4, 0.1, -0.2), glm::dvec3(0.1, -0.3, 0.25),
+                             glm::dvec3(-0.2, 0.25, -0.1)); // its trace is 0
   const CubeMap cube = made_cube(128, [&](const glm::dvec3& n) {
-    return glm::dvec3(1 + glm::dot(a, n), 1 + glm::dot(n, symmetric * n), 2 + glm::dot(a, n) - glm::dot(n, symmetric * n));
+    return glm::dvec3(1 + glm::dot(a, n), 1 + glm::dot(n, symmetric * n),
+                      2 + glm::dot(a, n) - glm::dot(n, symmetric * n));
   });
   const IrradiancePolynomial polynomial = irradiance_polynomial(irradiance_moments(cube), 0);
   double largest = 0;
@@ -285,9 +279,9 @@ TEST(Irradiance, OfTheFirstThreeDegrees)
   EXPECT_LT(largest, 1e-4); // texels of 1/64 count as their middles
 }
 
-// What higher degrees bring is left out: about 1 % on the whole of a natural map, more where one small lamp has all light.
-TEST(Irradiance, OfMadeMaps)
-{
+// What higher degrees bring is left out: about 1 % on the whole of a natural map, more where one small lamp has all
+// light.
+TEST(Irradiance, OfMadeMaps) {
   for (const test::NamedMap& named : test::synthetic_maps(128)) {
     const CubeMap cube = make_cube_map(named.map);
     const std::vector<glm::dvec3> truth = irradiances(cube, some);
@@ -300,30 +294,30 @@ TEST(Irradiance, OfMadeMaps)
       off.push_back(std::abs(irradiance(polynomial, scene::even_direction(i, some)).y - expected.y));
     }
     std::ranges::sort(off);
-    fmt::print("{}: of the mean irradiance {:.2f} % off in the median, {:.2f} % at most\n", named.name, 100 * off[some / 2] / mean,
-               100 * off.back() / mean);
-    // max(t, 0) less its first three degrees is 3/32 at t = 0, where a lamp is that has all light, and its irradiance is 1/4 in the mean.
+    fmt::print("{}: of the mean irradiance {:.2f} % off in the median, {:.2f} % at most\n", named.name,
+               100 * off[some / 2] / mean, 100 * off.back() / mean);
+    // max(t, 0) less its first three degrees is 3/32 at t = 0, where a lamp is that has all light, and its irradiance
+    // is 1/4 in the mean.
     EXPECT_LT(off.back(), 0.38 * mean);
     EXPECT_LT(off[some / 2], 0.2 * mean);
   }
 }
 
-TEST(Irradiance, OfATurnedMapIsThatOfTurnedNormals)
-{
+TEST(Irradiance, OfATurnedMapIsThatOfTurnedNormals) {
   const CubeMap cube = make_cube_map(test::synthetic_maps(64)[1].map);
   const IrradiancePolynomial as_it_lies = irradiance_polynomial(irradiance_moments(cube), 0);
   for (const double rotate_deg : {-300.0, 35.0, 90.0, 180.0}) {
     const IrradiancePolynomial by_turn = irradiance_polynomial(irradiance_moments(cube), rotate_deg);
     for (int i = 0; i < some; ++i) {
       const glm::dvec3 n = scene::even_direction(i, some), expected = irradiance(as_it_lies, n);
-      EXPECT_LT(glm::distance(irradiance(by_turn, turned(n, rotate_deg)), expected), 1e-10 * glm::length(expected)) << rotate_deg;
+      EXPECT_LT(glm::distance(irradiance(by_turn, turned(n, rotate_deg)), expected), 1e-10 * glm::length(expected))
+          << rotate_deg;
     }
   }
 }
 
 // A lamp at +x, turned by a quarter to the left as seen from above, is at -z: rotate_deg as scene::Environment has it.
-TEST(Irradiance, TurnsToTheLeft)
-{
+TEST(Irradiance, TurnsToTheLeft) {
   const CubeMap cube = made_cube(16, [](const glm::dvec3& n) { return glm::dvec3(n.x > 0.9); });
   const IrradiancePolynomial polynomial = irradiance_polynomial(irradiance_moments(cube), 90);
   EXPECT_GT(irradiance(polynomial, {0, 0, -1}).y, 10 * std::abs(irradiance(polynomial, {0, 0, 1}).y));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs of engine 2 that show a scene: going on after a save, adopting another camera, another turn and other lights, with the bits of a run
-// of its own; what cannot be adopted; scenes without light, and with light of no one direction.
+// Runs of engine 2 that show a scene: going on after a save, adopting another camera, another turn and other lights,
+// with the bits of a run of its own; what cannot be adopted; scenes without light, and with light of no one direction.
 #include "environment/sheet.h"
 #include "tests/environment/lit_ball.h"
 #include "tests/support/saved_jobs.h"
@@ -12,16 +12,14 @@ protected:
   /// Of more pixels than a step has.
   preset::Preset lit() const { return LitBallJobs::lit({"scene.camera.resolution=[128, 96]"}); }
 
-  static void expect_same(const job::Snapshot& a, const job::Snapshot& b, const std::string& what)
-  {
+  static void expect_same(const job::Snapshot& a, const job::Snapshot& b, const std::string& what) {
     ASSERT_EQ(a.picture->layers.size(), b.picture->layers.size());
     for (std::size_t i = 0; i < a.picture->layers.size(); ++i)
       EXPECT_EQ(a.picture->layers[i].rgb, b.picture->layers[i].rgb) << what << ": " << a.picture->layers[i].name;
   }
 };
 
-TEST_F(EnvironmentViewJob, ShowsItsLayers)
-{
+TEST_F(EnvironmentViewJob, ShowsItsLayers) {
   const auto job = job_of(lit());
   EXPECT_NE(job->snapshot().caption, "") << "its picture is of the bake";
   while (job->progress().work == 0) job->advance(); // the bake
@@ -36,17 +34,17 @@ TEST_F(EnvironmentViewJob, ShowsItsLayers)
   for (const char* name : {"background", "direct", "caustic"}) {
     EXPECT_GT(mean(layer_rgb(made, name)).y, 0.01) << name;
     // The first picture has one path for 4 x 4 pixels and no shadows of the map, but it is the same scene.
-    EXPECT_NEAR(mean(layer_rgb(coarse, name)).y, mean(layer_rgb(made, name)).y, 0.25 * mean(layer_rgb(made, name)).y) << name;
+    EXPECT_NEAR(mean(layer_rgb(coarse, name)).y, mean(layer_rgb(made, name)).y, 0.25 * mean(layer_rgb(made, name)).y)
+        << name;
   }
   const auto found = std::ranges::find(made.curves, "lights", &job::Curve::name);
   ASSERT_NE(found, made.curves.end());
   EXPECT_EQ(found->rows.size(), 24u);
 }
 
-// What is seen through the ball, and in it, is drawn by no random number there: paths that took another way would be squares in the
-// picture.
-TEST_F(EnvironmentViewJob, ItsFirstPictureHasNoNoise)
-{
+// What is seen through the ball, and in it, is drawn by no random number there: paths that took another way would be
+// squares in the picture.
+TEST_F(EnvironmentViewJob, ItsFirstPictureHasNoNoise) {
   std::vector<float> first, last;
   for (const std::uint64_t seed : {1, 2}) {
     preset::Preset p = lit();
@@ -62,8 +60,7 @@ TEST_F(EnvironmentViewJob, ItsFirstPictureHasNoNoise)
 }
 
 // Over the bake and the passes; then without the bake, which is read.
-TEST_F(EnvironmentViewJob, ItsFractionRisesWithAllItDoes)
-{
+TEST_F(EnvironmentViewJob, ItsFractionRisesWithAllItDoes) {
   for (const char* what : {"baked", "read"}) {
     const auto job = job_of(lit());
     double before = 0;
@@ -78,9 +75,9 @@ TEST_F(EnvironmentViewJob, ItsFractionRisesWithAllItDoes)
   }
 }
 
-// Wherever it is saved: before anything is seen, among the pixels that are seen, cast, shaded, and have the light of the air.
-TEST_F(EnvironmentViewJob, GoesOnWithTheSameBits)
-{
+// Wherever it is saved: before anything is seen, among the pixels that are seen, cast, shaded, and have the light of
+// the air.
+TEST_F(EnvironmentViewJob, GoesOnWithTheSameBits) {
   preset::Preset p = lit();
   environment::settings(p).extinction = 0.1;
   const job::Snapshot whole = run(p);
@@ -101,9 +98,9 @@ TEST_F(EnvironmentViewJob, GoesOnWithTheSameBits)
   }
 }
 
-// In the middle of a pass and after the last one. The job that adopts has seen other pixels and had other lights before.
-TEST_F(EnvironmentViewJob, AdoptsWithTheBitsOfARunOfItsOwn)
-{
+// In the middle of a pass and after the last one. The job that adopts has seen other pixels and had other lights
+// before.
+TEST_F(EnvironmentViewJob, AdoptsWithTheBitsOfARunOfItsOwn) {
   const std::map<std::string, std::function<void(preset::Preset&)>> changes{
       {"camera",
        [](preset::Preset& p) {
@@ -111,7 +108,8 @@ TEST_F(EnvironmentViewJob, AdoptsWithTheBitsOfARunOfItsOwn)
        }},
       {"turn", [](preset::Preset& p) { p.scene.environment->rotate_deg = 75; }},
       {"more lights", [](preset::Preset& p) { environment::settings(p).lights = 60; }},
-      {"segmentation", [](preset::Preset& p) { environment::settings(p).segmentation = environment::SegmentMethod::thesis; }},
+      {"segmentation",
+       [](preset::Preset& p) { environment::settings(p).segmentation = environment::SegmentMethod::thesis; }},
       {"white", [](preset::Preset& p) { p.white = 3; }},
       {"lamps",
        [](preset::Preset& p) {
@@ -140,13 +138,13 @@ TEST_F(EnvironmentViewJob, AdoptsWithTheBitsOfARunOfItsOwn)
 }
 
 /// The same but for rounding, which sends some paths another way.
-void expect_near(const job::Snapshot& a, const job::Snapshot& b, const std::string& what)
-{
+void expect_near(const job::Snapshot& a, const job::Snapshot& b, const std::string& what) {
   for (std::size_t l = 0; l < a.picture->layers.size(); ++l) {
     const std::vector<float>&found = a.picture->layers[l].rgb, &expected = b.picture->layers[l].rgb;
     const double level = mean(expected).y;
     std::size_t off = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) off += std::abs(found[i] - expected[i]) > 1e-3 * (level + expected[i]) ? 1 : 0;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      off += std::abs(found[i] - expected[i]) > 1e-3 * (level + expected[i]) ? 1 : 0;
     fmt::print("{}, {}: {} of {} numbers are off\n", what, a.picture->layers[l].name, off, found.size());
     EXPECT_LT(off, found.size() / 200) << what << ": " << a.picture->layers[l].name;
     EXPECT_NEAR(mean(found).y, level, 1e-3 * level) << what << ": " << a.picture->layers[l].name;
@@ -154,10 +152,13 @@ void expect_near(const job::Snapshot& a, const job::Snapshot& b, const std::stri
 }
 
 // The scene is not loaded again: what is there moves, in coordinates that another run would choose elsewhere.
-TEST_F(EnvironmentViewJob, AdoptsWhereObjectsStand)
-{
-  const auto caster = [](preset::Preset& p) { p.scene.objects[0].transform = {.rotate_deg = {10, 20, 30}, .translate = {0.2, 0.1, -0.3}}; };
-  const auto floor = [](preset::Preset& p) { p.scene.objects[1].transform = {.rotate_deg = {15, 0, 10}, .translate = {0.1, -1.7, 0}}; };
+TEST_F(EnvironmentViewJob, AdoptsWhereObjectsStand) {
+  const auto caster = [](preset::Preset& p) {
+    p.scene.objects[0].transform = {.rotate_deg = {10, 20, 30}, .translate = {0.2, 0.1, -0.3}};
+  };
+  const auto floor = [](preset::Preset& p) {
+    p.scene.objects[1].transform = {.rotate_deg = {15, 0, 10}, .translate = {0.1, -1.7, 0}};
+  };
   const std::map<std::string, std::function<void(preset::Preset&)>> changes{
       {"object", caster}, {"floor", floor}, {"all", [&](preset::Preset& p) {
                                                caster(p);
@@ -189,8 +190,7 @@ TEST_F(EnvironmentViewJob, AdoptsWhereObjectsStand)
 }
 
 // A change while the object is still baked is shown when it is.
-TEST_F(EnvironmentViewJob, AdoptsWhileItBakes)
-{
+TEST_F(EnvironmentViewJob, AdoptsWhileItBakes) {
   preset::Preset p = lit();
   const auto job = job_of(p);
   job->advance();
@@ -202,8 +202,7 @@ TEST_F(EnvironmentViewJob, AdoptsWhileItBakes)
 }
 
 // The job that loads has shown another preset before.
-TEST_F(EnvironmentViewJob, GoesBackToAHalfMadeBake)
-{
+TEST_F(EnvironmentViewJob, GoesBackToAHalfMadeBake) {
   const preset::Preset p = lit();
   preset::Preset now = p;
   look(now, {-3, 1, 2}, {0, -1, 0}, 40);
@@ -219,8 +218,7 @@ TEST_F(EnvironmentViewJob, GoesBackToAHalfMadeBake)
 }
 
 // The picture is the same, so what it took is, too.
-TEST_F(EnvironmentViewJob, AnotherWhiteGoesOn)
-{
+TEST_F(EnvironmentViewJob, AnotherWhiteGoesOn) {
   const preset::Preset p = lit();
   preset::Preset brighter = p;
   brighter.white = 0.5 * p.white.value();
@@ -234,8 +232,7 @@ TEST_F(EnvironmentViewJob, AnotherWhiteGoesOn)
 }
 
 // Then only the lamp is left.
-TEST_F(EnvironmentViewJob, AdoptsAThresholdThatDropsTheSky)
-{
+TEST_F(EnvironmentViewJob, AdoptsAThresholdThatDropsTheSky) {
   const preset::Preset p = lit();
   preset::Preset dropped = p;
   environment::settings(dropped).threshold = 1;
@@ -244,12 +241,12 @@ TEST_F(EnvironmentViewJob, AdoptsAThresholdThatDropsTheSky)
   ASSERT_TRUE(job->adopt(dropped));
   expect_same(run(*job), run(dropped), "no sky");
   EXPECT_EQ(plan_of(dropped).notes,
-            std::vector<std::string>{"no part of the environment is above environment.threshold 1, so its light makes no caustics"});
+            std::vector<std::string>{
+                "no part of the environment is above environment.threshold 1, so its light makes no caustics"});
 }
 
 // Saved right after a change that came in the middle of a pass: where the surfaces had theirs, but not yet the air.
-TEST_F(EnvironmentViewJob, GoesOnAfterAChange)
-{
+TEST_F(EnvironmentViewJob, GoesOnAfterAChange) {
   preset::Preset before = lit();
   environment::settings(before).extinction = 0.1;
   before.stop.passes = 1;
@@ -269,8 +266,7 @@ TEST_F(EnvironmentViewJob, GoesOnAfterAChange)
   }
 }
 
-TEST_F(EnvironmentViewJob, WhatItDoesNotAdopt)
-{
+TEST_F(EnvironmentViewJob, WhatItDoesNotAdopt) {
   const preset::Preset p = lit();
   const auto job = job_of(p);
   const std::vector<std::function<void(preset::Preset&)>> changes{
@@ -292,20 +288,19 @@ TEST_F(EnvironmentViewJob, WhatItDoesNotAdopt)
 }
 
 // What is refused changes nothing.
-TEST_F(EnvironmentViewJob, RefusesToAdoptLightOfNoOneDirection)
-{
+TEST_F(EnvironmentViewJob, RefusesToAdoptLightOfNoOneDirection) {
   const preset::Preset p = lit();
   const auto job = job_of(p);
   while (job->progress().step == 0) job->advance();
   preset::Preset now = p;
   now.scene.lights = {preset::Light{}};
-  EXPECT_THAT(refusal_of([&] { job->adopt(now); }), testing::StartsWith("own.json#/scene/lights/0/type: is no directional light"));
+  EXPECT_THAT(refusal_of([&] { job->adopt(now); }),
+              testing::StartsWith("own.json#/scene/lights/0/type: is no directional light"));
   expect_same(run(*job), run(p), "after a refusal");
 }
 
 // Without light the bake is all there is: its sheet.
-TEST_F(EnvironmentViewJob, WithoutLightTheBakeIsShown)
-{
+TEST_F(EnvironmentViewJob, WithoutLightTheBakeIsShown) {
   preset::Preset dark = lit();
   dark.scene.lights.clear();
   dark.scene.environment.reset();
@@ -325,8 +320,7 @@ TEST_F(EnvironmentViewJob, WithoutLightTheBakeIsShown)
 }
 
 // Whether light is black only the scene tells: then another run begins, which shows the bake.
-TEST_F(EnvironmentViewJob, DoesNotAdoptBlackLight)
-{
+TEST_F(EnvironmentViewJob, DoesNotAdoptBlackLight) {
   preset::Preset p = lit();
   p.scene.lights.clear();
   preset::Preset dark = p;
@@ -343,15 +337,16 @@ TEST_F(EnvironmentViewJob, DoesNotAdoptBlackLight)
   EXPECT_FALSE(job->adopt(dark));
 }
 
-TEST_F(EnvironmentViewJob, RefusesLightOfNoOneDirection)
-{
+TEST_F(EnvironmentViewJob, RefusesLightOfNoOneDirection) {
   preset::Preset p = lit();
-  for (const preset::Light::Type type : {preset::Light::Type::point, preset::Light::Type::spot, preset::Light::Type::area}) {
+  for (const preset::Light::Type type :
+       {preset::Light::Type::point, preset::Light::Type::spot, preset::Light::Type::area}) {
     p.scene.lights.resize(2);
     p.scene.lights[1] = {};
     p.scene.lights[1].type = type;
     const std::string line = refusal_of([&] { plan_of(p); });
-    EXPECT_THAT(line, testing::StartsWith("own.json#/scene/lights/1/type: is no directional light; expected \"directional\""));
+    EXPECT_THAT(
+        line, testing::StartsWith("own.json#/scene/lights/1/type: is no directional light; expected \"directional\""));
     EXPECT_EQ(line.find('\n'), std::string::npos);
   }
 }

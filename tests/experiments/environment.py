@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures engine 2 against engine 1 and prints the tables of docs/notebook/environment.md: the caustic layer where the camera sees a receiver, as the thesis compares.
+"""Measures engine 2 against engine 1 and prints the tables of docs/notebook/environment.md: the caustic layer where the
+camera sees a receiver, as the thesis compares.
 
-    tests/experiments/environment.py PROGRAM OUT [--presets NAME...] [--sky MAP] [--size N] [--reference-seconds S] [TABLE...]
+    tests/experiments/environment.py PROGRAM OUT [--presets NAME...] [--sky MAP] [--size N] [--reference-seconds S]
+    [TABLE...]
 
-Tables: scenes (five scenes with their references; pictures OUT/NAME-sheet.png), and of the preset bunny: lights (3.1: how many, by which segmentation),
-spheres (3.2: how many, with which radii), histogram (figure 3.16), directions, refining; converging (error against time of all
-scenes, where kernels have been compiled before and the machine has nothing else to do), estimate (a run's own
-estimate against its error). Engine 1 traces photons from every texel of the same environment
-through the same objects: no spheres, no segments. Two of its runs with different seeds tell the noise floor. What is in OUT is not made again. Needs numpy
-and ImageMagick.
+Tables: scenes (five scenes with their references; pictures OUT/NAME-sheet.png), and of the preset bunny: lights (3.1:
+how many, by which segmentation), spheres (3.2: how many, with which radii), histogram (figure 3.16), directions,
+refining; converging (error against time of all scenes, where kernels have been compiled before and the machine has
+nothing else to do), estimate (a run's own estimate against its error). Engine 1 traces photons from every texel of the
+same environment through the same objects: no spheres, no segments. Two of its runs with different seeds tell the noise
+floor. What is in OUT is not made again. Needs numpy and ImageMagick.
 """
 import argparse
 import json

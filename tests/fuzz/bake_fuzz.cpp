@@ -11,8 +11,7 @@ namespace {
 
 constexpr environment::BakeIdentity identity{.key = 7, .kernels = 9};
 
-std::string hashed(std::string bytes)
-{
+std::string hashed(std::string bytes) {
   PieceHash hash;
   hash.add(std::as_bytes(std::span(bytes)));
   const std::uint64_t value = hash.value();
@@ -22,10 +21,10 @@ std::string hashed(std::string bytes)
 
 } // namespace
 
-void read(std::string_view input)
-{
+void read(std::string_view input) {
   std::string bytes(input);
-  const std::uint64_t begin[] = {4, hash_of(version()), identity.kernels, identity.key}; // after the file's eight letters
+  const std::uint64_t begin[] = {4, hash_of(version()), identity.kernels,
+                                 identity.key}; // after the file's eight letters
   if (bytes.size() > 8 + sizeof begin) std::memcpy(bytes.data() + 8, begin, sizeof begin);
   const fs::path file = write("fuzz.bake", hashed(bytes));
   environment::bake_file_fault(file, identity);
@@ -35,8 +34,7 @@ void read(std::string_view input)
   bake.at(bake.baked.size() - 1, bake.radii.size() - 1, bake.map.texels() - 1);
 }
 
-std::vector<std::string> seeds()
-{
+std::vector<std::string> seeds() {
   environment::Bake bake;
   bake.map.side = 2;
   bake.radii = {1, 2};

@@ -6,11 +6,11 @@
 
 namespace nephroid::fuzz {
 
-void read(std::string_view input)
-{
+void read(std::string_view input) {
   using optics::Extrapolation;
   const optics::DispersionCurve curve = optics::parse_dispersion(std::string(input), "glass.yml");
-  for (const Extrapolation outside : {Extrapolation::automatic, Extrapolation::hold, Extrapolation::extrapolate, Extrapolation::refuse}) {
+  for (const Extrapolation outside :
+       {Extrapolation::automatic, Extrapolation::hold, Extrapolation::extrapolate, Extrapolation::refuse}) {
     accepts([&] {
       for (const double n : optics::sample_n(curve, outside))
         if (!(n > 0 && std::isfinite(n))) finding("an index that is none");
@@ -24,8 +24,7 @@ void read(std::string_view input)
   }
 }
 
-std::vector<std::string> seeds()
-{
+std::vector<std::string> seeds() {
   std::vector<std::string> seeds = shipped("materials", ".yml");
   for (int formula = 1; formula <= 9; ++formula)
     seeds.push_back("DATA:\n  - type: formula " + std::to_string(formula) +

@@ -24,10 +24,10 @@ constexpr const char* scene = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[
 "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
 "buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}]})";
 
-std::string glb(std::string json)
-{
+std::string glb(std::string json) {
   while (json.size() % 4 != 0) json += ' ';
-  const std::uint32_t words[] = {2, static_cast<std::uint32_t>(20 + json.size()), static_cast<std::uint32_t>(json.size())};
+  const std::uint32_t words[] = {2, static_cast<std::uint32_t>(20 + json.size()),
+                                 static_cast<std::uint32_t>(json.size())};
   std::string file = "glTF" + std::string(sizeof words, '\0') + "JSON" + json;
   std::memcpy(file.data() + 4, words, sizeof words);
   return file;
@@ -35,8 +35,7 @@ std::string glb(std::string json)
 
 } // namespace
 
-void read(std::string_view input)
-{
+void read(std::string_view input) {
   const fs::path preset = folder() / "imported.json";
   formats::import_gltf(write(input.starts_with("glTF") ? "scene.glb" : "scene.gltf", input), preset);
   try {

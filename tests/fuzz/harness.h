@@ -6,8 +6,8 @@
 
 namespace nephroid::fuzz {
 
-/// Of a harness. An Error of bad input, whose line is one line, is as good as an answer. Any other exception is a finding; so is more than
-/// a second of processor time.
+/// Of a harness. An Error of bad input, whose line is one line, is as good as an answer. Any other exception is a
+/// finding; so is more than a second of processor time.
 void read(std::string_view input);
 /// Of a harness: good inputs to begin with.
 std::vector<std::string> seeds();
@@ -19,8 +19,7 @@ void judge(const Error& refusal);
 
 /// Whether the call ends without a refusal.
 template <class Call>
-bool accepts(Call call)
-{
+bool accepts(Call call) {
   try {
     call();
     return true;

@@ -13,8 +13,7 @@ constexpr const char* names[] = {"history.csv", "run.json", "plan.json", "preset
 
 } // namespace
 
-void read(std::string_view input)
-{
+void read(std::string_view input) {
   std::vector<std::string> parts = parts_of(input);
   parts.resize(std::size(names));
   fs::create_directories(folder() / "run");
@@ -22,7 +21,8 @@ void read(std::string_view input)
   accepts([&] {
     const job::History history = measure::read_history(folder() / "run/history.csv");
     const std::string written = measure::to_csv(history);
-    if (measure::to_csv(measure::read_history(write("again.csv", written))) != written) finding("another history is read than was written");
+    if (measure::to_csv(measure::read_history(write("again.csv", written))) != written)
+      finding("another history is read than was written");
   });
   plan::inputs_of(parts[2]);
   const fs::path folders[] = {folder() / "run"};
@@ -30,10 +30,10 @@ void read(std::string_view input)
   report::metrics_json(runs, {std::nullopt});
 }
 
-std::vector<std::string> seeds()
-{
+std::vector<std::string> seeds() {
   const std::string parts[] = {
-      "seconds,wall_seconds,step,work,lab_mean,estimated_lab_mean\n0.5,0.7,1,1000,2.5,\n1,1.25,2,2000,1.25,1.5\n2,2.5,4,4000,0.7,0.8\n",
+      "seconds,wall_seconds,step,work,lab_mean,estimated_lab_mean\n0.5,0.7,1,1000,2.5,\n1,1.25,2,2000,1.25,1.5\n2,2.5,"
+      "4,4000,0.7,0.8\n",
       R"({"name":"r","engine":"spectral","seed":1,"version":"0.1.0","commit":"","compiler":"","finished":true,"passes":4,"photons":4000,
         "work_seconds":2,"wall_seconds":2.5,"device":{"name":"d"},"phase_seconds":{"photons":1.5},"energy":{"emitted_w":1},
         "errors":{"lab_mean":0.7},"error_column":"lab_mean","noise_floor":{"lab_mean":0.1},"reference":{"origin":"r.exr"}})",

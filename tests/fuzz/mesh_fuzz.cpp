@@ -8,8 +8,7 @@ namespace nephroid::fuzz {
 namespace {
 
 template <class Item>
-std::string list(const std::vector<Item>& items)
-{
+std::string list(const std::vector<Item>& items) {
   const std::uint64_t count = items.size();
   std::string bytes(sizeof count + count * sizeof(Item), '\0');
   std::memcpy(bytes.data(), &count, sizeof count);
@@ -17,15 +16,13 @@ std::string list(const std::vector<Item>& items)
   return bytes;
 }
 
-std::string answer(const std::vector<char>& refusal, const std::vector<glm::vec3>& normals)
-{
+std::string answer(const std::vector<char>& refusal, const std::vector<glm::vec3>& normals) {
   const std::vector<glm::vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const std::vector<glm::uvec3> triangles{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   return list(refusal) + list(corners) + list(normals) + list(triangles) + list(std::vector<std::uint32_t>{0});
 }
 
-scene::Mesh mesh_of(std::string_view bytes)
-{
+scene::Mesh mesh_of(std::string_view bytes) {
   std::FILE* const stream = fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");
   try {
     std::optional<scene::MeshAnswer> answer = scene::take_answer(stream);
@@ -39,8 +36,7 @@ scene::Mesh mesh_of(std::string_view bytes)
 
 } // namespace
 
-void read(std::string_view input)
-{
+void read(std::string_view input) {
   if (input.starts_with("ply") || input.starts_with("glTF")) return scene::check_declared_size(input, "mesh.ply");
   if (input.empty()) return;
   scene::Mesh mesh = mesh_of(input);
@@ -53,12 +49,12 @@ void read(std::string_view input)
   scene::build_bvh(mesh);
 }
 
-std::vector<std::string> seeds()
-{
-  return {answer({}, {}), answer({}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}}), answer({'n', 'o'}, {}),
-          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-          "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
-          "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uchar short i\nend_header\n\3aabbcc"};
+std::vector<std::string> seeds() {
+  return {
+      answer({}, {}), answer({}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}}), answer({'n', 'o'}, {}),
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+      "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uchar short i\nend_header\n\3aabbcc"};
 }
 
 } // namespace nephroid::fuzz

@@ -6,8 +6,7 @@
 
 namespace nephroid::fuzz {
 
-void read(std::string_view input)
-{
+void read(std::string_view input) {
   const fs::path preset = folder() / "imported.json";
   formats::import_scene(write("scene.xml", input), preset);
   try {
@@ -17,9 +16,9 @@ void read(std::string_view input)
   }
 }
 
-std::vector<std::string> seeds()
-{
-  return {R"(<scene version="3.0.0"><default name="n" value="1.5"/><sensor type="perspective"><float name="fov" value="45"/>
+std::vector<std::string> seeds() {
+  return {
+      R"(<scene version="3.0.0"><default name="n" value="1.5"/><sensor type="perspective"><float name="fov" value="45"/>
 <transform name="to_world"><lookat origin="1,3,6" target="0,0,0" up="0,1,0"/></transform></sensor>
 <bsdf type="twosided" id="a"><bsdf type="diffuse"><rgb name="reflectance" value="0.5 0.2 0.1"/></bsdf></bsdf>
 <shape type="rectangle"><transform name="toWorld"><rotate x="1" angle="-90"/><scale value="4"/></transform><ref id="a"/></shape>

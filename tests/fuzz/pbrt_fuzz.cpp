@@ -6,8 +6,7 @@
 
 namespace nephroid::fuzz {
 
-void read(std::string_view input)
-{
+void read(std::string_view input) {
   const fs::path preset = folder() / "imported.json";
   formats::import_scene(write("scene.pbrt", input), preset);
   try {
@@ -17,8 +16,7 @@ void read(std::string_view input)
   }
 }
 
-std::vector<std::string> seeds()
-{
+std::vector<std::string> seeds() {
   return {R"(LookAt 1 3 6 0 0 0 0 1 0 Camera "perspective" "float fov" 45 WorldBegin
 LightSource "spot" "rgb I" [ 1 2 3 ] "float coneangle" 30
 MakeNamedMaterial "g" "string type" "dielectric" "float eta" 1.5

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures as environment maps, as masks, and as what engine 3 wants. The input is what pixels hold, of a few sizes and channels:
-// OpenImageIO's own readers are not ours.
+// Pictures as environment maps, as masks, and as what engine 3 wants. The input is what pixels hold, of a few sizes and
+// channels: OpenImageIO's own readers are not ours.
 #include "image/image.h"
 #include "inverse/pictures/target.h"
 #include "measure/read_picture.h"
@@ -10,9 +10,9 @@
 namespace nephroid::fuzz {
 namespace {
 
-/// A portable float map: W bytes wide and H high by the first two bytes of the input, with one channel or three by the third.
-fs::path map_of(std::string_view input, int& width, int& height)
-{
+/// A portable float map: W bytes wide and H high by the first two bytes of the input, with one channel or three by the
+/// third.
+fs::path map_of(std::string_view input, int& width, int& height) {
   const auto byte = [&](std::size_t at) { return at < input.size() ? static_cast<unsigned char>(input[at]) : 0; };
   width = 1 + byte(0) % 16;
   height = 1 + byte(1) % 16;
@@ -22,8 +22,7 @@ fs::path map_of(std::string_view input, int& width, int& height)
   return write("map.pfm", fmt::format("P{}\n{} {}\n-1.0\n", channels == 3 ? 'F' : 'f', width, height) + pixels);
 }
 
-std::string pixels(int width, int height, bool grey, float value)
-{
+std::string pixels(int width, int height, bool grey, float value) {
   std::string bytes{static_cast<char>(width - 1), static_cast<char>(height - 1), static_cast<char>(grey)};
   for (int i = 0; i < width * height * (grey ? 1 : 3); ++i) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -34,8 +33,7 @@ std::string pixels(int width, int height, bool grey, float value)
 
 } // namespace
 
-void read(std::string_view input)
-{
+void read(std::string_view input) {
   int width = 0, height = 0;
   const fs::path file = map_of(input, width, height);
   const FileFinder finder(folder());
@@ -57,6 +55,8 @@ void read(std::string_view input)
   });
 }
 
-std::vector<std::string> seeds() { return {pixels(4, 2, false, 1e-3f), pixels(8, 4, true, 0.1f), pixels(1, 1, false, 0)}; }
+std::vector<std::string> seeds() {
+  return {pixels(4, 2, false, 1e-3f), pixels(8, 4, true, 0.1f), pixels(1, 1, false, 0)};
+}
 
 } // namespace nephroid::fuzz

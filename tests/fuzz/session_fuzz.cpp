@@ -5,21 +5,21 @@
 
 namespace nephroid::fuzz {
 
-void read(std::string_view input)
-{
+void read(std::string_view input) {
   const std::string text(input);
   accepts([&] { ui::parse_session_header(text, "session.json"); });
   accepts([&] {
     const ui::Settings settings = ui::parse_settings(text, "settings.json");
-    if (ui::parse_settings(ui::to_json(settings), "settings.json") != settings) finding("other settings are read than were written");
+    if (ui::parse_settings(ui::to_json(settings), "settings.json") != settings)
+      finding("other settings are read than were written");
   });
   const ui::Session session = ui::parse_session(text, "session.json");
   const std::string written = ui::SessionText().of(session);
-  if (ui::SessionText().of(ui::parse_session(written, "session.json")) != written) finding("another session is read than was written");
+  if (ui::SessionText().of(ui::parse_session(written, "session.json")) != written)
+    finding("another session is read than was written");
 }
 
-std::vector<std::string> seeds()
-{
+std::vector<std::string> seeds() {
   ui::Settings settings;
   settings.engines["spectral"] = {"[Window][View]\nPos=0,20\n", {"Plan"}};
   ui::Session session;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Animations as the program renders them: each frame has the bits of a run of its own, killed ones go on at the missing frame, the video is
-// asked for as ffmpeg wants it, and what cannot be is a clear line.
+// Animations as the program renders them: each frame has the bits of a run of its own, killed ones go on at the missing
+// frame, the video is asked for as ffmpeg wants it, and what cannot be is a clear line.
 #include "image/image.h"
 #include "tests/support/plate_runs.h"
 #include "tests/support/program_test.h"
@@ -14,28 +14,24 @@ using nlohmann::json;
 class Animations : public PlateRuns {
 protected:
   /// The plate turns about z by 0, 10, 20, ... degrees.
-  static std::string turning(int frames)
-  {
-    return fmt::format(R"(animation={{"frames":{},"fps":12.5,"tracks":[{{"path":"scene.objects.0.transform.rotate_deg",)"
-                       R"("keys":[{{"frame":0,"value":[0,0,0]}},{{"frame":10,"value":[0,0,100]}}]}}]}})",
-                       frames);
+  static std::string turning(int frames) {
+    return fmt::format(
+        R"(animation={{"frames":{},"fps":12.5,"tracks":[{{"path":"scene.objects.0.transform.rotate_deg",)"
+        R"("keys":[{{"frame":0,"value":[0,0,0]}},{{"frame":10,"value":[0,0,100]}}]}}]}})",
+        frames);
   }
-  std::vector<std::string> turned(int frames, std::vector<std::string> more) const
-  {
+  std::vector<std::string> turned(int frames, std::vector<std::string> more) const {
     more.insert(more.end(), {"--set", turning(frames)});
     return more;
   }
-  fs::path frame(const std::string& name, int number, const char* extension = ".exr") const
-  {
+  fs::path frame(const std::string& name, int number, const char* extension = ".exr") const {
     return file(name) / fmt::format("frame_{:04}{}", number, extension);
   }
-  fs::path own(const std::string& name, int number, const char* which) const
-  {
+  fs::path own(const std::string& name, int number, const char* which) const {
     return file(name) / "frames" / fmt::format("{:04}", number) / which;
   }
   /// A program of the name ffmpeg before all others on the PATH.
-  Environment with_ffmpeg(const std::string& script) const
-  {
+  Environment with_ffmpeg(const std::string& script) const {
     const fs::path bin = scratch.path() / "bin";
     fs::create_directories(bin);
     write_file_whole(bin / "ffmpeg", "#!/bin/sh\n" + script);
@@ -44,8 +40,7 @@ protected:
   }
 };
 
-TEST_F(Animations, HaveTheBitsOfSingleRunsAndEveryFile)
-{
+TEST_F(Animations, HaveTheBitsOfSingleRunsAndEveryFile) {
   const Ended ended = run("film", turned(3, {"--passes", "2"}));
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   for (int i = 0; i < 3; ++i) {
@@ -56,13 +51,18 @@ TEST_F(Animations, HaveTheBitsOfSingleRunsAndEveryFile)
     EXPECT_FALSE(fs::exists(own("film", i, "checkpoint.bin"))) << "it would fill the disk";
     EXPECT_EQ(nephroid::image::read_image(frame("film", i, ".png")).width, 48);
     const std::string single = fmt::format("single{}", i);
-    ASSERT_EQ(run(single, {"--passes", "2", "--set", fmt::format("scene.objects.0.transform.rotate_deg=[0,0,{}]", 10 * i)}).exit_code, 0);
-    const auto a = nephroid::image::read_image(frame("film", i)), b = nephroid::image::read_image(file(single) / "image.exr");
+    ASSERT_EQ(
+        run(single, {"--passes", "2", "--set", fmt::format("scene.objects.0.transform.rotate_deg=[0,0,{}]", 10 * i)})
+            .exit_code,
+        0);
+    const auto a = nephroid::image::read_image(frame("film", i)),
+               b = nephroid::image::read_image(file(single) / "image.exr");
     EXPECT_EQ(a.channels, b.channels);
     EXPECT_TRUE(a.data == b.data);
   }
   EXPECT_NE(read_file(frame("film", 0, ".png")), read_file(frame("film", 2, ".png"))) << "the plate turns";
-  const Ended again = nephroid::test::nephroid({"run", own("film", 1, "preset.json").string(), "-o", "again"}, scratch.path(), logs);
+  const Ended again =
+      nephroid::test::nephroid({"run", own("film", 1, "preset.json").string(), "-o", "again"}, scratch.path(), logs);
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_TRUE(read_file(frame("film", 1)) == read_file(file("again") / "image.exr"));
 
@@ -71,8 +71,7 @@ TEST_F(Animations, HaveTheBitsOfSingleRunsAndEveryFile)
   EXPECT_EQ(std::count(figures.begin(), figures.end(), '\n'), 4);
 }
 
-TEST_F(Animations, KilledAndResumedEqualUninterruptedOnes)
-{
+TEST_F(Animations, KilledAndResumedEqualUninterruptedOnes) {
   ASSERT_EQ(run("whole", turned(5, {"--passes", "60"})).exit_code, 0);
   {
     Child child(into("killed", turned(5, {"--passes", "60", "--checkpoint-seconds", "0.02"})), scratch.path(), logs);
@@ -88,7 +87,8 @@ TEST_F(Animations, KilledAndResumedEqualUninterruptedOnes)
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_THAT(resumed.err, HasSubstr("0003: going on in pass"));
   for (int i = 0; i < 5; ++i)
-    for (const char* kind : {".exr", ".png"}) EXPECT_TRUE(read_file(frame("whole", i, kind)) == read_file(frame("killed", i, kind))) << i;
+    for (const char* kind : {".exr", ".png"})
+      EXPECT_TRUE(read_file(frame("whole", i, kind)) == read_file(frame("killed", i, kind))) << i;
 
   const json last = json_lines(resumed.out).back();
   EXPECT_EQ(last["type"], "animation");
@@ -106,19 +106,19 @@ TEST_F(Animations, KilledAndResumedEqualUninterruptedOnes)
   EXPECT_THAT(results, testing::ElementsAre(0, 1, 2, 3, 4));
 }
 
-TEST_F(Animations, AskFfmpegForAVideo)
-{
-  const Environment makes =
-      with_ffmpeg("printf '%s\\n' \"$@\" > arguments.txt\nfor last; do :; done\ncat frame_0000.png frame_0001.png > \"$last\"\n");
+TEST_F(Animations, AskFfmpegForAVideo) {
+  const Environment makes = with_ffmpeg(
+      "printf '%s\\n' \"$@\" > arguments.txt\nfor last; do :; done\ncat frame_0000.png frame_0001.png > \"$last\"\n");
   const Ended made = run("film", turned(2, {"--passes", "1"}), makes);
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr((file("film") / "animation.mp4").string() + ": 2 frames, 12.5 a second"));
-  EXPECT_EQ(read_file(file("film") / "animation.mp4"), read_file(frame("film", 0, ".png")) + read_file(frame("film", 1, ".png")));
+  EXPECT_EQ(read_file(file("film") / "animation.mp4"),
+            read_file(frame("film", 0, ".png")) + read_file(frame("film", 1, ".png")));
   EXPECT_THAT(read_file(file("film") / "arguments.txt"),
               HasSubstr("-framerate\n12.5\n-start_number\n0\n-i\nframe_%04d.png\n-frames:v\n2\n"));
 
-  const Ended fails =
-      run("film", turned(2, {"--passes", "1", "--resume"}), with_ffmpeg("echo \"Unknown encoder 'libx264'\" >&2\nexit 1\n"));
+  const Ended fails = run("film", turned(2, {"--passes", "1", "--resume"}),
+                          with_ffmpeg("echo \"Unknown encoder 'libx264'\" >&2\nexit 1\n"));
   EXPECT_EQ(fails.exit_code, 0);
   EXPECT_THAT(fails.err, HasSubstr("these frames are finished"));
   EXPECT_THAT(fails.err, HasSubstr("there is no video: ffmpeg failed: Unknown encoder 'libx264'"));
@@ -129,8 +129,7 @@ TEST_F(Animations, AskFfmpegForAVideo)
   EXPECT_THAT(none.err, HasSubstr("there is no video: ffmpeg is not installed"));
 }
 
-TEST_F(Animations, RenderChosenFrames)
-{
+TEST_F(Animations, RenderChosenFrames) {
   const Ended some = run("film", turned(4, {"--passes", "1", "--frames", "1-2"}));
   ASSERT_EQ(some.exit_code, 0) << some.err;
   EXPECT_THAT(some.err, HasSubstr("there is no video: 2 frames are missing; go on with --resume"));
@@ -150,14 +149,14 @@ TEST_F(Animations, RenderChosenFrames)
   EXPECT_TRUE(fs::exists(file("film") / "image.png"));
 }
 
-TEST_F(Animations, AreRefusedBeforeTheFirstFrame)
-{
+TEST_F(Animations, AreRefusedBeforeTheFirstFrame) {
   const auto refused = [&](std::vector<std::string> more, const std::string& says) {
     const std::vector<std::string> arguments = into("none", more);
     expect_refused(nephroid::test::nephroid(arguments, scratch.path(), logs), {arguments, says});
     EXPECT_FALSE(fs::exists(file("none")));
   };
-  for (const char* frames : {"x", "-1", "2-1", "1-", "1-2-3", "1.5"}) refused(turned(4, {"--frames", frames}), "names no frames");
+  for (const char* frames : {"x", "-1", "2-1", "1-", "1-2-3", "1.5"})
+    refused(turned(4, {"--frames", frames}), "names no frames");
   refused(turned(4, {"--frames", "2-4"}), "--frames 2-4: the animation has no frame 4; its frames are 0 to 3");
   refused({"--frames", "0"}, "--frames: the preset has no animation");
   refused({"--set", turning(0)}, "is 0; expected a whole number from 1 to 10000");

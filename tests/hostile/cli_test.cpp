@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bad command lines: each is answered by one line on standard error that says what is wrong, the exit code of the contract, nothing
-// on standard output and no file.
+// Bad command lines: each is answered by one line on standard error that says what is wrong, the exit code of the
+// contract, nothing on standard output and no file.
 #include "tests/support/program_test.h"
 
 namespace nephroid::cli_test {
@@ -69,8 +69,7 @@ const std::vector<Wrong> cases{
     {{"schema", "--jsn"}, "unknown option '--jsn'"},
 };
 
-TEST_F(CommandLine, BadOnesAreAnsweredInOneLine)
-{
+TEST_F(CommandLine, BadOnesAreAnsweredInOneLine) {
   ASSERT_GE(cases.size(), 25u);
   for (const Wrong& wrong : cases) {
     SCOPED_TRACE(wrong.says);
@@ -80,8 +79,7 @@ TEST_F(CommandLine, BadOnesAreAnsweredInOneLine)
   }
 }
 
-TEST_F(CommandLine, HelpTeachesEveryVerb)
-{
+TEST_F(CommandLine, HelpTeachesEveryVerb) {
   const Ended help = run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.err, "");
@@ -95,8 +93,7 @@ TEST_F(CommandLine, HelpTeachesEveryVerb)
   }
 }
 
-TEST_F(CommandLine, VersionIsOneFigureAndQuick)
-{
+TEST_F(CommandLine, VersionIsOneFigureAndQuick) {
   EXPECT_THAT(run({"--version"}).out, StartsWith("nephroid "));
   const Ended version = run({"version"});
   EXPECT_EQ(version.exit_code, 0);
@@ -104,33 +101,36 @@ TEST_F(CommandLine, VersionIsOneFigureAndQuick)
   EXPECT_THAT(run({"version", "--json"}).out, HasSubstr("\"compiler\":"));
 }
 
-TEST_F(CommandLine, WithoutAWindowSomethingSaysWhatToDo)
-{
+TEST_F(CommandLine, WithoutAWindowSomethingSaysWhatToDo) {
   const Ended ended = run({"spectral/plate"}, {{"DISPLAY", std::nullopt}, {"WAYLAND_DISPLAY", std::nullopt}});
   EXPECT_NE(ended.exit_code, 0);
   expect_one_line(ended);
   EXPECT_THAT(ended.err, HasSubstr("nephroid run"));
 }
 
-TEST_F(CommandLine, AClosedStandardOutputIsAFailureNotSilence)
-{
+TEST_F(CommandLine, AClosedStandardOutputIsAFailureNotSilence) {
   if (::access("/dev/full", W_OK) != 0) GTEST_SKIP() << "there is no /dev/full";
-  for (const char* arguments : {"version", "schema", "presets --json", "plan spectral/plate", "--help"}) { // short and long ones
-    const std::string command = fmt::format("'{}' {} >/dev/full 2>'{}'", NEPHROID_PROGRAM, arguments, (logs / "stderr").string());
+  for (const char* arguments :
+       {"version", "schema", "presets --json", "plan spectral/plate", "--help"}) { // short and long ones
+    const std::string command =
+        fmt::format("'{}' {} >/dev/full 2>'{}'", NEPHROID_PROGRAM, arguments, (logs / "stderr").string());
     const int status = std::system(command.c_str());
     EXPECT_EQ(WEXITSTATUS(status), 1) << arguments;
-    EXPECT_EQ(nephroid::read_file(logs / "stderr"), "nephroid: standard output: cannot be written: No space left on device\n") << arguments;
+    EXPECT_EQ(nephroid::read_file(logs / "stderr"),
+              "nephroid: standard output: cannot be written: No space left on device\n")
+        << arguments;
   }
 }
 
-// Verbs load what they need and no more: pictures, windows and devices each cost time to start. The dynamic loader itself says what was
-// loaded (LD_DEBUG, see ld.so(8)).
+// Verbs load what they need and no more: pictures, windows and devices each cost time to start. The dynamic loader
+// itself says what was loaded (LD_DEBUG, see ld.so(8)).
 
-/// By the file name of each program that a run of nephroid started, itself among them: every library that it initialised, one a line.
-std::map<std::string, std::string> programs_of(const std::vector<std::string>& arguments)
-{
+/// By the file name of each program that a run of nephroid started, itself among them: every library that it
+/// initialised, one a line.
+std::map<std::string, std::string> programs_of(const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
-  Child child(arguments, folder.path(), folder.path(), {{"LD_DEBUG", "libs"}, {"LD_DEBUG_OUTPUT", (folder.path() / "loader").string()}});
+  Child child(arguments, folder.path(), folder.path(),
+              {{"LD_DEBUG", "libs"}, {"LD_DEBUG_OUTPUT", (folder.path() / "loader").string()}});
   const Ended ended = child.wait();
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   std::map<std::string, std::string> programs;
@@ -139,7 +139,8 @@ std::map<std::string, std::string> programs_of(const std::vector<std::string>& a
     std::ifstream file(entry.path());
     std::string program, loaded;
     for (std::string line; std::getline(file, line);) {
-      if (const std::size_t at = line.find("calling init: "); at != std::string::npos) loaded += line.substr(at + 14) + "\n";
+      if (const std::size_t at = line.find("calling init: "); at != std::string::npos)
+        loaded += line.substr(at + 14) + "\n";
       if (line.find("initialize program: ") != std::string::npos) program = line.substr(line.rfind('/') + 1);
     }
     programs[program] += loaded;
@@ -156,8 +157,7 @@ const char* const window = "libGL";
 #endif
 const char* const compiler = "libLLVM"; // of the device's driver
 
-TEST(LoadedLibraries, VerbsThatOnlyReadLoadNoPicturesNoWindowAndNoDriver)
-{
+TEST(LoadedLibraries, VerbsThatOnlyReadLoadNoPicturesNoWindowAndNoDriver) {
   const std::string material = NEPHROID_SOURCE_DIR "/presets/materials/N-BK7.yml";
   for (const std::vector<std::string>& verb :
        {std::vector<std::string>{"version"}, {"dispersion", material}, {"schema"}, {"plan", "first-light"}}) {
@@ -170,22 +170,24 @@ TEST(LoadedLibraries, VerbsThatOnlyReadLoadNoPicturesNoWindowAndNoDriver)
   }
 }
 
-// Its reader meets corrupt files in a process of its own, which has neither the driver nor the window nor their threads.
-TEST(LoadedLibraries, OnlyTheMeshReaderLoadsAssimp)
-{
+// Its reader meets corrupt files in a process of its own, which has neither the driver nor the window nor their
+// threads.
+TEST(LoadedLibraries, OnlyTheMeshReaderLoadsAssimp) {
   const TemporaryFolder folder;
-  const std::string mesh = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
-  std::map<std::string, std::string> programs = programs_of({"plan", "first-light", "--set", "scene.objects.0.mesh=" + mesh});
+  const std::string mesh =
+      folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  std::map<std::string, std::string> programs =
+      programs_of({"plan", "first-light", "--set", "scene.objects.0.mesh=" + mesh});
   EXPECT_THAT(programs, SizeIs(2));
   EXPECT_THAT(programs["nephroid"], Not(HasSubstr("libassimp")));
   EXPECT_THAT(programs["nephroid_mesh_reader"], HasSubstr("libassimp"));
-  EXPECT_THAT(programs["nephroid_mesh_reader"], Not(AnyOf(HasSubstr("libOpenCL"), HasSubstr("libembree"), HasSubstr("libGL"))));
+  EXPECT_THAT(programs["nephroid_mesh_reader"],
+              Not(AnyOf(HasSubstr("libOpenCL"), HasSubstr("libembree"), HasSubstr("libGL"))));
 }
 
-TEST(LoadedLibraries, ARunLoadsPicturesAndTheDriver)
-{
-  const std::string loaded = loaded_by({"run", "spectral/plate", "--passes", "1", "-o", "out", "--set", "scene.camera.resolution=[16,16]",
-                                        "--set", "spectral.photons_per_pass=1000"});
+TEST(LoadedLibraries, ARunLoadsPicturesAndTheDriver) {
+  const std::string loaded = loaded_by({"run", "spectral/plate", "--passes", "1", "-o", "out", "--set",
+                                        "scene.camera.resolution=[16,16]", "--set", "spectral.photons_per_pass=1000"});
   EXPECT_THAT(loaded, HasSubstr(pictures));
   EXPECT_THAT(loaded, HasSubstr("libpocl"));
 }
@@ -194,15 +196,13 @@ TEST(LoadedLibraries, ARunLoadsPicturesAndTheDriver)
 
 class CheckVerb : public ProgramTest {
 protected:
-  Ended check(std::vector<std::string> arguments) const
-  {
+  Ended check(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "check");
     return run(arguments);
   }
 };
 
-TEST_F(CheckVerb, JsonIsAsTheContractHasIt)
-{
+TEST_F(CheckVerb, JsonIsAsTheContractHasIt) {
   const Ended ended = check({"--json"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   const json all = json::parse(ended.out);
@@ -210,12 +210,12 @@ TEST_F(CheckVerb, JsonIsAsTheContractHasIt)
   ASSERT_GT(all.at("checks").size(), 30u);
   for (const json& one : all.at("checks")) {
     EXPECT_TRUE(one.at("name").is_string() && one.at("unit").is_string() && one.at("detail").is_string()) << one;
-    EXPECT_EQ(one.at("pass").get<bool>(), std::abs(one.at("figure").get<double>()) <= one.at("tolerance").get<double>()) << one;
+    EXPECT_EQ(one.at("pass").get<bool>(), std::abs(one.at("figure").get<double>()) <= one.at("tolerance").get<double>())
+        << one;
   }
 }
 
-TEST_F(CheckVerb, AWrongKernelIsNamedAndExitsWithOne)
-{
+TEST_F(CheckVerb, AWrongKernelIsNamedAndExitsWithOne) {
   const fs::path kernels = folder / "kernels";
   fs::copy(NEPHROID_SOURCE_DIR "/kernels", kernels, fs::copy_options::recursive);
   std::string text = nephroid::read_file(kernels / "tracing/film.h");
@@ -229,8 +229,7 @@ TEST_F(CheckVerb, AWrongKernelIsNamedAndExitsWithOne)
   EXPECT_THAT(ended.out, HasSubstr("interface: Snell's directions")); // and it went on
 }
 
-TEST_F(CheckVerb, NoSuchDeviceExitsWithThree)
-{
+TEST_F(CheckVerb, NoSuchDeviceExitsWithThree) {
   const Ended ended = check({"--device", "abacus"});
   EXPECT_EQ(ended.exit_code, 3);
   EXPECT_THAT(ended.err, HasSubstr("abacus"));
@@ -238,17 +237,16 @@ TEST_F(CheckVerb, NoSuchDeviceExitsWithThree)
   EXPECT_EQ(check({"--kernels", "nowhere"}).exit_code, 2);
 }
 
-TEST_F(CheckVerb, ASeedIsAWholeNumber)
-{
+TEST_F(CheckVerb, ASeedIsAWholeNumber) {
   for (const char* seed : {"-1", "x", "1.5", "nan", "18446744073709551616"}) {
     const Ended ended = check({"--seed", seed});
     EXPECT_EQ(ended.exit_code, 2) << seed;
-    EXPECT_THAT(ended.err, HasSubstr(std::string("--seed: '") + seed + "' is not a whole number from 0 to 18446744073709551615"));
+    EXPECT_THAT(ended.err,
+                HasSubstr(std::string("--seed: '") + seed + "' is not a whole number from 0 to 18446744073709551615"));
   }
 }
 
-TEST_F(CheckVerb, CtrlCEndsInOrder)
-{
+TEST_F(CheckVerb, CtrlCEndsInOrder) {
   Child child({"check"}, folder, logs);
   ASSERT_TRUE(child.until([&] { return child.out().find("built-in: exp") != std::string::npos; }));
   child.send(SIGINT);

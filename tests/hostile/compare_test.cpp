@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `nephroid compare` as scripts use it: JSON as the contract has it, masks, difference pictures, and one line for whatever is wrong.
+// `nephroid compare` as scripts use it: JSON as the contract has it, masks, difference pictures, and one line for
+// whatever is wrong.
 #include "image/image.h"
 #include "tests/support/pictures.h"
 #include "tests/support/program_test.h"
@@ -10,32 +11,27 @@ using json = nlohmann::ordered_json;
 
 class Compare : public ProgramTest {
 protected:
-  Ended run(std::vector<std::string> arguments) const
-  {
+  Ended run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "compare");
     return ProgramTest::run(arguments);
   }
-  json compared(std::vector<std::string> arguments) const
-  {
+  json compared(std::vector<std::string> arguments) const {
     arguments.emplace_back("--json");
     const Ended ended = run(arguments);
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(std::count(ended.out.begin(), ended.out.end(), '\n'), 1);
     return json::parse(ended.out);
   }
-  void write(const std::string& name, const Picture& picture) const
-  {
+  void write(const std::string& name, const Picture& picture) const {
     image::write_exr(folder / name, {picture.width, picture.height, {"R", "G", "B"}, picture.rgb, {}});
   }
-  void write_grey(const std::string& name, int width, std::vector<float> values) const
-  {
+  void write_grey(const std::string& name, int width, std::vector<float> values) const {
     const int height = static_cast<int>(values.size()) / width;
     image::write_exr(folder / name, {width, height, {"Y"}, std::move(values), {}});
   }
 };
 
-std::vector<std::string> keys(const json& object)
-{
+std::vector<std::string> keys(const json& object) {
   std::vector<std::string> names;
   for (const auto& [name, value] : object.items()) names.push_back(name);
   return names;
@@ -44,8 +40,7 @@ std::vector<std::string> keys(const json& object)
 const std::vector<std::string> contract{"lab_mean", "lab_rms", "lab_max", "mse",      "rel_mse", "rel_l2",
                                         "psnr_db",  "iw_ssim", "flip",    "hdr_flip", "pixels"};
 
-TEST_F(Compare, JsonIsTheContracts)
-{
+TEST_F(Compare, JsonIsTheContracts) {
   const Picture b = textured(170, 161);
   write("b.exr", b);
   write("a.exr", with_noise(b, 0.2));
@@ -56,8 +51,7 @@ TEST_F(Compare, JsonIsTheContracts)
   for (const auto& [name, value] : metrics) EXPECT_EQ(object[name].get<double>(), value) << name;
 }
 
-TEST_F(Compare, WhatIsNotDefinedIsNull)
-{
+TEST_F(Compare, WhatIsNotDefinedIsNull) {
   write("white.exr", flat(20, 20, 1));
   write("black.exr", flat(20, 20, 0));
   const json same = compared({"white.exr", "white.exr"});
@@ -70,8 +64,7 @@ TEST_F(Compare, WhatIsNotDefinedIsNull)
   EXPECT_THAT(run({"white.exr", "black.exr"}).out, HasSubstr("rel_l2              -"));
 }
 
-TEST_F(Compare, AMaskAddsItsPixels)
-{
+TEST_F(Compare, AMaskAddsItsPixels) {
   const Picture b = flat(20, 10, 0.5);
   Picture a = b;
   for (int c = 0; c < 3; ++c) a.at(3, 4, c) = 1;
@@ -88,13 +81,15 @@ TEST_F(Compare, AMaskAddsItsPixels)
   EXPECT_EQ(object["masked"]["pixels"], 2);
   EXPECT_NEAR(object["mse"].get<double>(), 0.25 / 200, 1e-9);
   EXPECT_NEAR(object["masked"]["mse"].get<double>(), 0.25 / 2, 1e-9);
-  EXPECT_THAT(run({"a.exr", "b.exr", "--mask", "m.exr"}).out, testing::AllOf(HasSubstr("mask\n"), HasSubstr("200           2")));
+  EXPECT_THAT(run({"a.exr", "b.exr", "--mask", "m.exr"}).out,
+              testing::AllOf(HasSubstr("mask\n"), HasSubstr("200           2")));
 }
 
-TEST_F(Compare, ALayerIsComparedAlone)
-{
+TEST_F(Compare, ALayerIsComparedAlone) {
   const auto write_layers = [&](const char* name, float caustic) {
-    image::write_exr(folder / name, {1, 1, {"R", "G", "B", "caustic.R", "caustic.G", "caustic.B"}, {9, 9, 9, caustic, 0.5f, 0.5f}, {}});
+    image::write_exr(
+        folder / name,
+        {1, 1, {"R", "G", "B", "caustic.R", "caustic.G", "caustic.B"}, {9, 9, 9, caustic, 0.5f, 0.5f}, {}});
   };
   write_layers("a.exr", 0.75f);
   write_layers("b.exr", 0.5f);
@@ -103,8 +98,7 @@ TEST_F(Compare, ALayerIsComparedAlone)
 }
 
 // The PNG holds codes of 8 bits: half a code is .0025 of linear grey at most there.
-TEST_F(Compare, IntegersAndFloatsAreOnOneScale)
-{
+TEST_F(Compare, IntegersAndFloatsAreOnOneScale) {
   const Picture picture = textured(40, 30);
   write("a.exr", picture);
   image::write_png(folder / "a.png", 40, 30, picture.rgb);
@@ -114,8 +108,7 @@ TEST_F(Compare, IntegersAndFloatsAreOnOneScale)
   EXPECT_LT(object["lab_max"].get<double>(), 1);
 }
 
-TEST_F(Compare, TextNamesEveryMetric)
-{
+TEST_F(Compare, TextNamesEveryMetric) {
   write("a.exr", flat(20, 20, 0.5));
   const Ended ended = run({"a.exr", "a.exr"});
   EXPECT_EQ(ended.exit_code, 0);
@@ -124,8 +117,7 @@ TEST_F(Compare, TextNamesEveryMetric)
   EXPECT_THAT(ended.out, HasSubstr("psnr_db             -"));
 }
 
-TEST_F(Compare, DifferencePicturesAreWritten)
-{
+TEST_F(Compare, DifferencePicturesAreWritten) {
   const Picture b = textured(60, 50);
   write("b.exr", b);
   write("a.exr", with_noise(b, 0.2));
@@ -141,8 +133,7 @@ TEST_F(Compare, DifferencePicturesAreWritten)
   EXPECT_EQ(run({"a.exr", "b.exr", "-o", "no/d.png"}).exit_code, 1);
 }
 
-TEST_F(Compare, WhatIsWrongIsSaidInOneLine)
-{
+TEST_F(Compare, WhatIsWrongIsSaidInOneLine) {
   const Picture good = flat(6, 4, 0.5);
   Picture nan = good, infinite = good;
   nan.at(5, 3, 2) = std::numeric_limits<float>::quiet_NaN();
@@ -167,7 +158,8 @@ TEST_F(Compare, WhatIsWrongIsSaidInOneLine)
       {{"good.exr", "none.exr"}, "none.exr: cannot be read: No such file"},
       {{"good.exr", "/"}, "/: is a folder; expected a picture\n"},
       {{"run", "good.exr"}, "run: is a folder; expected a picture; did you mean 'run/image.exr'?"},
-      {{"good.exr", "good.exr", "--layer", "caustic"}, "good.exr: has no layer 'caustic'; expected a picture with layers"},
+      {{"good.exr", "good.exr", "--layer", "caustic"},
+       "good.exr: has no layer 'caustic'; expected a picture with layers"},
       {{"text.png", "good.exr"}, "text.png: is no picture that can be read"},
       {{"good.exr", "cut.exr"}, "cut.exr: is no picture that can be read"},
       {{"cut.png", "good.exr"}, "cut.png: is no picture that can be read: its end is missing"},
@@ -179,12 +171,14 @@ TEST_F(Compare, WhatIsWrongIsSaidInOneLine)
       {{"depth.exr", "good.exr"}, "depth.exr: has the channels Z; expected R, G, B or Y alone"},
       {{"nan.exr", "good.exr"}, "nan.exr: pixel (5, 3) has NaN in B; expected finite values everywhere"},
       {{"good.exr", "infinite.exr"}, "infinite.exr: pixel (0, 1) has -infinity in R"},
-      {{"good.exr", "good.exr", "--mask", "small.exr"}, "small.exr: is 5 x 4 pixels; expected 6 x 4, the size of the pictures"},
+      {{"good.exr", "good.exr", "--mask", "small.exr"},
+       "small.exr: is 5 x 4 pixels; expected 6 x 4, the size of the pictures"},
       {{"good.exr", "good.exr", "--mask", "black.exr"}, "black.exr: is all black: no pixel counts"},
       {{"good.exr", "good.exr", "--mask", "none.png"}, "none.png: cannot be read"},
       {{"good.exr", "good.exr", "-o", "d.exr"}, "-o: a difference picture is a PNG, not 'd.exr'; expected FILE.png"},
       {{"good.exr", "good.exr", "-o", "d.png", "--metric", "ssim"}, "ssim not in"},
-      {{"good.exr", "good.exr", "-o", "d.png", "--scale", "0"}, "--scale: the colours cannot end at 0; expected a number above 0"},
+      {{"good.exr", "good.exr", "-o", "d.png", "--scale", "0"},
+       "--scale: the colours cannot end at 0; expected a number above 0"},
       {{"good.exr", "good.exr", "-o", "d.png", "--scale", "nan"}, "expected a number above 0"},
       {{"good.exr", "good.exr", "--metric", "lab"}, "--metric requires --output"},
       {{"good.exr", "good.exr", "--masks", "m.png"}, "unknown option '--masks'; did you mean '--mask'?"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `nephroid export`: irradiance under a pane of glass against its closed form, the glTF file read back by `nephroid import`, and what is
-// refused.
+// `nephroid export`: irradiance under a pane of glass against its closed form, the glTF file read back by `nephroid
+// import`, and what is refused.
 #include "image/image.h"
 #include "measure/lab.h"
 #include "optics/colour.h"
@@ -17,8 +17,8 @@ namespace nephroid::export_test {
 
 constexpr double index = 1.5, irradiance = 10;
 
-/// Light from above through a pane that covers the middle half of a floor, each way, and stands between it and every camera. A card lies
-/// in a quarter of its light.
+/// Light from above through a pane that covers the middle half of a floor, each way, and stands between it and every
+/// camera. A card lies in a quarter of its light.
 const std::string pane = R"({"engine": "spectral", "unit": "m", "white": 2, "scene": {
   "camera": {"position": [3, 4, 5], "target": [0, 0, 0], "fov_deg": 30, "resolution": [64, 32]},
   "materials": {"glass": {"type": "dielectric", "dispersion": {"type": "cauchy", "coefficients": [1.5, 0]}},
@@ -35,12 +35,12 @@ const std::string pane = R"({"engine": "spectral", "unit": "m", "white": 2, "sce
 class Export : public ProgramTest {
 protected:
   /// Luminous W/m^2 at a place of the floor, along its edges of 4 m and 2 m from its middle.
-  double floor_at(double along, double across) const
-  {
+  double floor_at(double along, double across) const {
     const nlohmann::json about = of("x/caustics.json")["caustics"][0];
     const auto vector = [&](const char* name) { return glm::dvec3(about[name][0], about[name][1], about[name][2]); };
     const double turn = 30 * std::numbers::pi / 180;
-    const glm::dvec3 place(along * std::cos(turn) + across * std::sin(turn), 0, across * std::cos(turn) - along * std::sin(turn));
+    const glm::dvec3 place(along * std::cos(turn) + across * std::sin(turn), 0,
+                           across * std::cos(turn) - along * std::sin(turn));
     const glm::dvec3 way = place - vector("corner_m"), right = vector("across_m"), down = vector("down_m");
     const image::Image map = image::read_image(folder / "x" / about["file"].get<std::string>());
     const int column = static_cast<int>(glm::dot(way, right) / glm::dot(right, right) * map.width),
@@ -53,14 +53,14 @@ protected:
   }
 };
 
-TEST_F(Export, IrradianceUnderAPaneIsItsClosedForm)
-{
+TEST_F(Export, IrradianceUnderAPaneIsItsClosedForm) {
   write("pane.json", pane);
   const Ended ended = run({"export", "pane.json", "-o", "x", "--size", "64", "--seconds", "2"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   // What two seconds send is within 1 % on two cores; a machine of a tenth of their speed is within 3 %.
   // All reflections between both sides of the pane together: (1 - R) / (1 + R) = 2 n / (n^2 + 1).
-  const double luminous = irradiance * optics::to_xyz(optics::illuminant("D65"))[1], through = luminous * 2 * index / (index * index + 1);
+  const double luminous = irradiance * optics::to_xyz(optics::illuminant("D65"))[1],
+               through = luminous * 2 * index / (index * index + 1);
   EXPECT_NEAR(floor_at(0.5, 0), through, 0.05 * through);
   EXPECT_EQ(floor_at(-0.5, 0), 0) << "the card is in the way of light, and its own light is not the floor's";
   EXPECT_EQ(floor_at(1.5, 0.5), 0) << "no light through glass";
@@ -72,13 +72,13 @@ TEST_F(Export, IrradianceUnderAPaneIsItsClosedForm)
   EXPECT_NEAR(about["caustics"][1]["luminous_w"].get<double>(), through * 0.5, 0.05 * through);
 }
 
-TEST_F(Export, UnitsAndExposureChangeNoLight)
-{
+TEST_F(Export, UnitsAndExposureChangeNoLight) {
   write("pane.json", pane);
   ASSERT_EQ(run({"export", "pane.json", "-o", "x", "--size", "64", "--seconds", "1"}).exit_code, 0);
   const nlohmann::json metres = of("x/caustics.json")["caustics"][0];
   const double watts = metres["luminous_w"], there = floor_at(0.5, 0);
-  const std::string film = R"(animation={"frames": 2, "tracks": [{"path": "white", "keys": [{"frame": 0, "value": 5}]}]})";
+  const std::string film =
+      R"(animation={"frames": 2, "tracks": [{"path": "white", "keys": [{"frame": 0, "value": 5}]}]})";
   const Ended ended = run({"export", "pane.json", "-o", "x", "--size", "64", "--seconds", "1", "--set", film});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_EQ(of("x/caustics.json")["white"], 5);
@@ -90,8 +90,7 @@ TEST_F(Export, UnitsAndExposureChangeNoLight)
     EXPECT_NEAR(centimetres["across_m"][axis].get<double>(), 0.01 * metres["across_m"][axis].get<double>(), 1e-9);
 }
 
-TEST_F(Export, WhatIsImportedAgainIsTheSame)
-{
+TEST_F(Export, WhatIsImportedAgainIsTheSame) {
   write("pane.json", pane);
   ASSERT_EQ(run({"export", "pane.json", "-o", "x", "--size", "8", "--seconds", "0.1"}).exit_code, 0);
   const Ended imported = run({"import", "x/scene.glb", "-o", "back.json"});
@@ -119,13 +118,13 @@ TEST_F(Export, WhatIsImportedAgainIsTheSame)
   EXPECT_NEAR(after.scene.lights[1].power_w * optics::to_xyz(optics::light_table(table))[1], luminous, 0.01 * luminous);
 }
 
-TEST_F(Export, SaysWhatIsWrongInOneLineAndWritesNothing)
-{
+TEST_F(Export, SaysWhatIsWrongInOneLineAndWritesNothing) {
   write("pane.json", pane);
   fs::create_directory(folder / "taken");
   write("taken/letter.txt", "mine");
   for (const Wrong& wrong : std::vector<Wrong>{
-           {{"export", "pane.json", "-o", "x", "--receiver", "wall"}, "no flat matt object is called 'wall'; one of: floor, card"},
+           {{"export", "pane.json", "-o", "x", "--receiver", "wall"},
+            "no flat matt object is called 'wall'; one of: floor, card"},
            {{"export", "pane.json", "-o", "taken"}, "holds files that are not of an export"},
            {{"export", "pane.json", "-o", "x", "--size", "0"}, "--size"},
            {{"export", "pane.json", "-o", "x", "--set", "scene.lights=[]"}, "has no caustic: the scene has no light"},
@@ -137,12 +136,12 @@ TEST_F(Export, SaysWhatIsWrongInOneLineAndWritesNothing)
   EXPECT_EQ(bytes("taken/letter.txt"), "mine");
 }
 
-TEST_F(Export, AnOlderExportIsReplacedAndWhatIsBesideItStays)
-{
+TEST_F(Export, AnOlderExportIsReplacedAndWhatIsBesideItStays) {
   write("pane.json", pane);
   ASSERT_EQ(run({"export", "pane.json", "-o", "x", "--size", "8", "--seconds", "0.1"}).exit_code, 0);
   write("x/mine.blend", "mine");
-  ASSERT_EQ(run({"export", "pane.json", "-o", "x", "--size", "8", "--seconds", "0.1", "--receiver", "card"}).exit_code, 0);
+  ASSERT_EQ(run({"export", "pane.json", "-o", "x", "--size", "8", "--seconds", "0.1", "--receiver", "card"}).exit_code,
+            0);
   EXPECT_FALSE(fs::exists(folder / "x/caustic-0-floor.exr"));
   EXPECT_TRUE(fs::exists(folder / "x/caustic-1-card.exr"));
   EXPECT_EQ(bytes("x/mine.blend"), "mine");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// "white": "auto" through the program: the number that it becomes, who shares it, and that a run of that number has the same bits.
+// "white": "auto" through the program: the number that it becomes, who shares it, and that a run of that number has the
+// same bits.
 #include "tests/support/plate_runs.h"
 #include "tests/support/program_test.h"
 
@@ -10,8 +11,7 @@ using nlohmann::json;
 
 class Exposure : public PlateRuns {
 protected:
-  Ended fitted(const std::string& name, std::vector<std::string> more, const Environment& environment = {}) const
-  {
+  Ended fitted(const std::string& name, std::vector<std::string> more, const Environment& environment = {}) const {
     more.insert(more.end(), {"--set", "white=auto"});
     return run(name, more, environment);
   }
@@ -19,8 +19,7 @@ protected:
   double white(const std::string& name) const { return run_json(name)["white"]; }
 };
 
-TEST_F(Exposure, IsANumberOfTheSameBitsHoweverTheRunCameThere)
-{
+TEST_F(Exposure, IsANumberOfTheSameBitsHoweverTheRunCameThere) {
   const Ended one = fitted("one", {"--passes", "4"}, {{"POCL_MAX_PTHREAD_COUNT", "1"}});
   ASSERT_EQ(one.exit_code, 0) << one.err;
   EXPECT_THAT(one.err, HasSubstr(fmt::format("note: plate: white {} fits the first picture", white("one"))));
@@ -42,8 +41,7 @@ TEST_F(Exposure, IsANumberOfTheSameBitsHoweverTheRunCameThere)
   EXPECT_THAT(again.err, HasSubstr("this run is finished"));
 }
 
-TEST_F(Exposure, IsOneForASweepAnAnimationAndAReference)
-{
+TEST_F(Exposure, IsOneForASweepAnAnimationAndAReference) {
   write_file_whole(scratch.path() / "sweep.json", R"({"parent": "spectral/plate.json", "white": "auto",
     "scene": {"camera": {"resolution": [16, 16]}}, "sweep": {"scene.lights.0.irradiance_w_m2": [1, 100]}})");
   const Ended sweep = nephroid::test::nephroid({"run", "sweep.json", "--passes", "1"}, scratch.path(), logs);
@@ -52,7 +50,8 @@ TEST_F(Exposure, IsOneForASweepAnAnimationAndAReference)
 
   const std::string tracks =
       R"([{"path": "scene.lights.0.irradiance_w_m2", "keys": [{"frame": 0, "value": 1}, {"frame": 1, "value": 100}]}])";
-  const Ended film = fitted("film", {"--passes", "1", "--frames", "1", "--set", R"(animation={"frames": 2, "tracks": )" + tracks + "}"});
+  const Ended film = fitted(
+      "film", {"--passes", "1", "--frames", "1", "--set", R"(animation={"frames": 2, "tracks": )" + tracks + "}"});
   ASSERT_EQ(film.exit_code, 0) << film.err;
   ASSERT_EQ(fitted("frame", {"--passes", "1", "--set", "scene.lights.0.irradiance_w_m2=1"}).exit_code, 0);
   EXPECT_EQ(white("film/frames/0001"), white("frame")) << "frame 0's, though that is not rendered";
@@ -67,8 +66,7 @@ TEST_F(Exposure, IsOneForASweepAnAnimationAndAReference)
   EXPECT_EQ(run_json("measured")["errors"], run_json("by number")["errors"]);
 }
 
-TEST_F(Exposure, BadOnesAreRefusedInOneLine)
-{
+TEST_F(Exposure, BadOnesAreRefusedInOneLine) {
   const auto refused = [&](const std::string& preset, const std::string& white, const std::string& says) {
     const Wrong wrong{{"run", preset, "-o", "out", "--set", "white=" + white}, says};
     expect_refused(nephroid::test::nephroid(wrong.arguments, scratch.path(), logs), wrong);
@@ -77,11 +75,11 @@ TEST_F(Exposure, BadOnesAreRefusedInOneLine)
   refused("spectral/plate", "0", "is 0; expected a number");
 }
 
-TEST_F(Exposure, IsOneWhereWhiteChangesNothing)
-{
-  const Ended ended = nephroid::test::nephroid({"run", "inverse/shapes", "-o", "out", "--passes", "1", "--set", "inverse.facets=[16,16]",
-                                                "--set", "inverse.cells=[8,8]", "--set", "white=auto"},
-                                               scratch.path(), logs);
+TEST_F(Exposure, IsOneWhereWhiteChangesNothing) {
+  const Ended ended =
+      nephroid::test::nephroid({"run", "inverse/shapes", "-o", "out", "--passes", "1", "--set",
+                                "inverse.facets=[16,16]", "--set", "inverse.cells=[8,8]", "--set", "white=auto"},
+                               scratch.path(), logs);
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_EQ(json::parse(read_file(scratch.path() / "out" / "preset.json"))["white"], 1);
 }

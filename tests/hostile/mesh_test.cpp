@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mesh files that are broken on purpose: each is refused with one line that names the file and says why, quickly, and nothing
-// crashes, hangs or takes all memory, whatever the reader underneath does.
+// Mesh files that are broken on purpose: each is refused with one line that names the file and says why, quickly, and
+// nothing crashes, hangs or takes all memory, whatever the reader underneath does.
 #include "scene/mesh.h"
 #include "tests/support/program_test.h"
 
@@ -13,30 +13,27 @@ using namespace nephroid::scene;
 
 constexpr const char* corners = "0 0 0\n1 0 0\n0 1 0\n";
 
-std::string ply(const std::string& vertices, const std::string& faces, const std::string& body, const char* format = "ascii")
-{
+std::string ply(const std::string& vertices, const std::string& faces, const std::string& body,
+                const char* format = "ascii") {
   return fmt::format("ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
                      "element face {}\nproperty list uchar int vertex_indices\nend_header\n{}",
                      format, vertices, faces, body);
 }
 
 /// 36 bytes: three vertices of a binary PLY file.
-std::string binary_corners()
-{
+std::string binary_corners() {
   const float values[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   return {reinterpret_cast<const char*>(values), sizeof values};
 }
 
-std::string little_endian(std::uint32_t value)
-{
+std::string little_endian(std::uint32_t value) {
   std::string bytes;
   for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 255);
   return bytes;
 }
 
 /// One triangle whose buffer is 42 bytes; the words are replaced in it.
-std::string gltf(const std::string& from = {}, const std::string& to = {})
-{
+std::string gltf(const std::string& from = {}, const std::string& to = {}) {
   std::string text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
     "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
     "buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}],
@@ -48,8 +45,7 @@ std::string gltf(const std::string& from = {}, const std::string& to = {})
 }
 
 /// A chain of nodes, each the child of the one before: readers that recurse overrun their stack.
-std::string deep_gltf()
-{
+std::string deep_gltf() {
   std::string nodes;
   for (int i = 1; i <= 200000; ++i) nodes += fmt::format(R"({{"children":[{}]}},)", i);
   return gltf(R"("nodes":[{"mesh":0}])", fmt::format(R"("nodes":[{}{{"mesh":0}}])", nodes));
@@ -61,8 +57,7 @@ struct BadFile {
   const char* says;
 };
 
-std::vector<BadFile> bad_files()
-{
+std::vector<BadFile> bad_files() {
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   const std::string stl_head(80, 'x');
   const std::string little = "binary_little_endian", three_bytes("\3\0\0", 3);
@@ -103,10 +98,12 @@ std::vector<BadFile> bad_files()
       {"count.gltf", gltf(R"("count":3,"type":"VEC3")", R"("count":4000000000,"type":"VEC3")"), "out of range"},
       {"buffer.gltf", gltf(R"("byteLength":42)", R"("byteLength":4000000000)"), "expected 4000000000 bytes"},
       {"missing.gltf", gltf("data:application/octet-stream;base64,", "missing_"), "could not open referenced file"},
-      {"cycle.gltf", gltf(R"("nodes":[{"mesh":0}])", R"("nodes":[{"children":[1]},{"children":[0]}])"), "recursive reference"},
+      {"cycle.gltf", gltf(R"("nodes":[{"mesh":0}])", R"("nodes":[{"children":[1]},{"children":[0]}])"),
+       "recursive reference"},
       {"no_mesh.gltf", gltf(R"({"mesh":0})", R"({"mesh":7})"), "out of bounds"},
       {"deep.gltf", deep_gltf(), "crashed"},
-      {"length.glb", "glTF" + little_endian(2) + little_endian(4000000000u) + "JSON", "of the 4000000000 that its header declares"},
+      {"length.glb", "glTF" + little_endian(2) + little_endian(4000000000u) + "JSON",
+       "of the 4000000000 that its header declares"},
       {"stub.glb", "glTF", "header declares"},
       {"stub.3ds", std::string("MM\x10\0\0\0\x3d\x3d\xff\xff\xff\x7f", 12), "cannot be read"},
   };
@@ -114,8 +111,7 @@ std::vector<BadFile> bad_files()
 
 class HostileMesh : public testing::Test {
 protected:
-  std::string refusal(const fs::path& file) const
-  {
+  std::string refusal(const fs::path& file) const {
     try {
       load_mesh(file);
       return "accepted";
@@ -128,8 +124,7 @@ protected:
   test::TemporaryFolder folder;
 };
 
-TEST_F(HostileMesh, EachIsRefusedWithItsReason)
-{
+TEST_F(HostileMesh, EachIsRefusedWithItsReason) {
   for (const BadFile& bad : bad_files()) {
     const fs::path file = folder.path() / bad.name;
     write_file_whole(file, bad.bytes);
@@ -139,24 +134,22 @@ TEST_F(HostileMesh, EachIsRefusedWithItsReason)
   }
 }
 
-TEST_F(HostileMesh, TheGoodFileOfTheFamilyIsRead)
-{
+TEST_F(HostileMesh, TheGoodFileOfTheFamilyIsRead) {
   write_file_whole(folder.path() / "good.gltf", gltf());
   EXPECT_EQ(load_mesh(folder.path() / "good.gltf").triangles.size(), 1u);
   write_file_whole(folder.path() / "good.ply", ply("3", "1", std::string(corners) + "3 0 1 2\n"));
   EXPECT_EQ(load_mesh(folder.path() / "good.ply").triangles.size(), 1u);
 }
 
-TEST_F(HostileMesh, MissingFilesAndFolders)
-{
+TEST_F(HostileMesh, MissingFilesAndFolders) {
   EXPECT_THAT(refusal(folder.path() / "nowhere.obj"), StartsWith((folder.path() / "nowhere.obj").string() + ": "));
   EXPECT_THAT(refusal(folder.path()), HasSubstr("folder"));
 }
 
 // Whatever is cut out of a good file's end, and whichever byte is changed, it is read or refused; this process stays.
-TEST_F(HostileMesh, CutAndChangedFilesDoNotBringTheProgramDown)
-{
-  const std::string good[] = {ply("3", "2", std::string(corners) + "3 0 1 2\n3 0 2 1\n"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"};
+TEST_F(HostileMesh, CutAndChangedFilesDoNotBringTheProgramDown) {
+  const std::string good[] = {ply("3", "2", std::string(corners) + "3 0 1 2\n3 0 2 1\n"),
+                              "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"};
   const char* names[] = {"fuzz.ply", "fuzz.obj"};
   std::mt19937 random(1);
   for (int i = 0; i < 60; ++i) {
@@ -173,31 +166,31 @@ TEST_F(HostileMesh, CutAndChangedFilesDoNotBringTheProgramDown)
   }
 }
 
-// The program that reads mesh files for nephroid: whatever happens to it, nephroid says so in one line; and it ends within its limits.
+// The program that reads mesh files for nephroid: whatever happens to it, nephroid says so in one line; and it ends
+// within its limits.
 
-const fs::path real_reader = fs::path(NEPHROID_PROGRAM).parent_path().parent_path() / "lib/nephroid/nephroid_mesh_reader";
+const fs::path real_reader =
+    fs::path(NEPHROID_PROGRAM).parent_path().parent_path() / "lib/nephroid/nephroid_mesh_reader";
 
 /// nephroid in an installation of its own, where a shell script takes the reader's place.
 class StrangeMeshReader : public ProgramTest {
 protected:
-  StrangeMeshReader()
-  {
+  StrangeMeshReader() {
     fs::create_directories(folder / "bin");
     fs::create_directories(reader.parent_path());
     fs::copy_file(NEPHROID_PROGRAM, folder / "bin/nephroid");
     write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   }
-  std::string refusal(int exit_code) const
-  {
-    const std::vector<std::string> arguments{"plan", "first-light", "--set", "scene.objects.0.mesh=" + (folder / "a.obj").string()};
+  std::string refusal(int exit_code) const {
+    const std::vector<std::string> arguments{"plan", "first-light", "--set",
+                                             "scene.objects.0.mesh=" + (folder / "a.obj").string()};
     const Environment environment{{"NEPHROID_PRESETS", NEPHROID_SOURCE_DIR "/presets"}};
     const Ended ended = Child(arguments, folder, logs, environment, folder / "bin/nephroid").wait();
     EXPECT_EQ(ended.exit_code, exit_code);
     expect_one_line(ended);
     return ended.err;
   }
-  std::string refusal_with(const std::string& script) const
-  {
+  std::string refusal_with(const std::string& script) const {
     std::ofstream(reader) << "#!/bin/sh\n" << script << "\n";
     fs::permissions(reader, fs::perms::owner_all);
     return refusal(2);
@@ -205,30 +198,30 @@ protected:
   const fs::path reader = folder / "lib/nephroid/nephroid_mesh_reader";
 };
 
-TEST_F(StrangeMeshReader, IsMissingOrCannotBeStarted)
-{
-  EXPECT_THAT(refusal(1), HasSubstr("nephroid_mesh_reader: not found in lib/nephroid beside " + (folder / "bin").string() + "; build or"));
+TEST_F(StrangeMeshReader, IsMissingOrCannotBeStarted) {
+  EXPECT_THAT(refusal(1), HasSubstr("nephroid_mesh_reader: not found in lib/nephroid beside " +
+                                    (folder / "bin").string() + "; build or"));
   std::ofstream(reader) << "words\n";
   EXPECT_THAT(refusal(1), HasSubstr(reader.string() + ": cannot be started: Permission denied; build or"));
 }
 
-TEST_F(StrangeMeshReader, EndsAsItShouldNot)
-{
+TEST_F(StrangeMeshReader, EndsAsItShouldNot) {
   const std::string line = (folder / "a.obj").string() + ": the mesh cannot be read: ";
   EXPECT_THAT(refusal_with("kill -SEGV $$"), HasSubstr(line + "crashed (Segmentation fault); a triangle mesh as"));
   EXPECT_THAT(refusal_with("kill -ABRT $$"), HasSubstr(line + "crashed (Aborted); "));
   EXPECT_THAT(refusal_with("kill -XCPU $$"), HasSubstr(line + "did not end within 5 s of processor time; "));
   EXPECT_THAT(refusal_with("kill -ALRM $$"), HasSubstr(line + "did not end within 25 s; "));
   EXPECT_THAT(refusal_with("exit 0"), HasSubstr(line + "ended early; "));
-  const std::string three = R"(\3\0\0\0\0\0\0\0)", zero = R"(\0\0\0\0\0\0\0\0)", one_number = R"(\1\0\0\0\0\0\0\0\0\0\0\0)";
+  const std::string three = R"(\3\0\0\0\0\0\0\0)", zero = R"(\0\0\0\0\0\0\0\0)",
+                    one_number = R"(\1\0\0\0\0\0\0\0\0\0\0\0)";
   EXPECT_THAT(refusal_with("printf '" + three + "not'"), HasSubstr(line + "ended early; ")); // cut after its first part
-  EXPECT_THAT(refusal_with("printf '" + three + "not" + zero + zero + zero + one_number + "'"), HasSubstr(line + "not; "));
+  EXPECT_THAT(refusal_with("printf '" + three + "not" + zero + zero + zero + one_number + "'"),
+              HasSubstr(line + "not; "));
 }
 
 /// Bytes as printf has them.
 template <class... T>
-std::string printed(const T&... values)
-{
+std::string printed(const T&... values) {
   std::string text;
   const auto add = [&](const auto& value) {
     for (const unsigned char byte : std::bit_cast<std::array<unsigned char, sizeof value>>(value)) {
@@ -246,39 +239,41 @@ struct Answer {
   float coordinate = 1, normal = 1;
   std::uint32_t corner = 2, mended = 0;
 
-  std::string script() const
-  {
+  std::string script() const {
     std::string bytes = printed(refusal, vertices, 0.0f, 0.0f, 0.0f, coordinate, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, normals);
     for (std::uint64_t i = 0; i < normals; ++i) bytes += printed(0.0f, 0.0f, normal);
     return "printf '" + bytes + printed(triangles, 0u, 1u, corner, counts, mended) + "'";
   }
 };
 
-TEST_F(StrangeMeshReader, AnswersNonsense)
-{
-  const std::string line = (folder / "a.obj").string() + ": the mesh cannot be read: the program that reads it answers nonsense: ";
+TEST_F(StrangeMeshReader, AnswersNonsense) {
+  const std::string line =
+      (folder / "a.obj").string() + ": the mesh cannot be read: the program that reads it answers nonsense: ";
   constexpr std::uint64_t many = std::uint64_t{1} << 62;
-  EXPECT_THAT(refusal_with(Answer{.corner = 3}.script()), HasSubstr(line + "a triangle with vertex 3 of 3; a triangle mesh as"));
+  EXPECT_THAT(refusal_with(Answer{.corner = 3}.script()),
+              HasSubstr(line + "a triangle with vertex 3 of 3; a triangle mesh as"));
   EXPECT_THAT(refusal_with(Answer{.coordinate = NAN}.script()), HasSubstr(line + "a coordinate that is not finite; "));
   EXPECT_THAT(refusal_with(Answer{.normals = 2}.script()), HasSubstr(line + "2 normals of 3 vertices; "));
-  EXPECT_THAT(refusal_with(Answer{.normals = 3, .normal = 0}.script()), HasSubstr(line + "a normal that is no unit vector; "));
+  EXPECT_THAT(refusal_with(Answer{.normals = 3, .normal = 0}.script()),
+              HasSubstr(line + "a normal that is no unit vector; "));
   EXPECT_THAT(refusal_with(Answer{.mended = 1}.script()), HasSubstr(line + "1 mended normals of 0; "));
   EXPECT_THAT(refusal_with(Answer{.counts = 0}.script()), HasSubstr(line + "no count of mended normals; "));
-  for (const Answer& promise : {Answer{.refusal = many}, Answer{.vertices = many}, Answer{.triangles = many}, Answer{.counts = 2}})
+  for (const Answer& promise :
+       {Answer{.refusal = many}, Answer{.vertices = many}, Answer{.triangles = many}, Answer{.counts = 2}})
     EXPECT_THAT(refusal_with(promise.script()), HasSubstr(line)) << promise.script();
 }
 
-TEST_F(StrangeMeshReader, PromisesMoreThanComes)
-{
+TEST_F(StrangeMeshReader, PromisesMoreThanComes) {
   const std::string line = (folder / "a.obj").string() + ": the mesh cannot be read: ";
-  EXPECT_THAT(refusal_with(Answer{.triangles = std::uint64_t{1} << 28}.script()), HasSubstr(line + "ended early; ")); // 3 GB
+  EXPECT_THAT(refusal_with(Answer{.triangles = std::uint64_t{1} << 28}.script()),
+              HasSubstr(line + "ended early; ")); // 3 GB
   EXPECT_THAT(refusal_with(Answer{}.script() + "; exit 1"), HasSubstr(line + "ended early; "));
 }
 
 // It would go on beside the program, and in the window stay as a zombie.
-TEST_F(StrangeMeshReader, EndsWithTheProgram)
-{
-  refusal_with("echo $$ >" + (folder / "id").string() + "; " + Answer{.refusal = std::uint64_t{1} << 62}.script() + "; exec sleep 1000");
+TEST_F(StrangeMeshReader, EndsWithTheProgram) {
+  refusal_with("echo $$ >" + (folder / "id").string() + "; " + Answer{.refusal = std::uint64_t{1} << 62}.script() +
+               "; exec sleep 1000");
   pid_t id = 0;
   std::ifstream(folder / "id") >> id;
   ASSERT_GT(id, 0);
@@ -288,27 +283,23 @@ TEST_F(StrangeMeshReader, EndsWithTheProgram)
 /// The reader itself, with small limits.
 class MeshReaderLimits : public ProgramTest {
 protected:
-  Ended read(const std::string& file, const std::string& memory_bytes = "2000000000") const
-  {
+  Ended read(const std::string& file, const std::string& memory_bytes = "2000000000") const {
     return Child({file, "1", memory_bytes}, folder, logs, {}, real_reader).wait();
   }
-  static std::string many_triangles(int count)
-  {
+  static std::string many_triangles(int count) {
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < count; ++i) text += "f 1 2 3\n";
     return text;
   }
 };
 
-TEST_F(MeshReaderLimits, ProcessorTime)
-{
+TEST_F(MeshReaderLimits, ProcessorTime) {
   write("long.obj", many_triangles(9'000'000));
   // A second of a processor, or five of a clock where there is hardly a processor to be had.
   EXPECT_THAT(read("long.obj", "8000000000").signal, AnyOf(SIGXCPU, SIGALRM));
 }
 
-TEST_F(MeshReaderLimits, Memory)
-{
+TEST_F(MeshReaderLimits, Memory) {
   write("large.obj", many_triangles(100'000));
   const Ended ended = read("large.obj", "1000000");
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -319,8 +310,7 @@ TEST_F(MeshReaderLimits, Memory)
 }
 
 // Opening a pipe that nobody writes to takes for ever, and no processor time.
-TEST_F(MeshReaderLimits, Patience)
-{
+TEST_F(MeshReaderLimits, Patience) {
   ASSERT_EQ(::mkfifo((folder / "pipe.mtl").c_str(), 0600), 0);
   write("waits.obj", "mtllib pipe.mtl\n" + many_triangles(1));
   EXPECT_EQ(read("waits.obj").signal, SIGALRM);

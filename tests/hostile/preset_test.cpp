@@ -12,24 +12,28 @@ struct Case {
 
 std::string top(const std::string& fields) { return R"({"engine":"spectral",)" + fields + "}"; }
 std::string scene(const std::string& fields) { return top(R"("scene":{)" + fields + "}"); }
-std::string object(const std::string& json) { return scene(R"("materials":{"m":{"type":"diffuse"}},"objects":[)" + json + "]"); }
+std::string object(const std::string& json) {
+  return scene(R"("materials":{"m":{"type":"diffuse"}},"objects":[)" + json + "]");
+}
 std::string light(const std::string& json) { return scene(R"("lights":[)" + json + "]"); }
 std::string camera(const std::string& fields) { return scene(R"("camera":{)" + fields + "}"); }
-std::string material(const std::string& name, const std::string& json) { return scene(R"("materials":{")" + name + R"(":)" + json + "}"); }
+std::string material(const std::string& name, const std::string& json) {
+  return scene(R"("materials":{")" + name + R"(":)" + json + "}");
+}
 std::string shape(const std::string& json) { return object(R"({"material":"m","shape":)" + json + "}"); }
 std::string spectral_with(const std::string& fields) { return top(R"("spectral":{)" + fields + "}"); }
-std::string glass(const std::string& dispersion) { return material("glass", R"({"type":"dielectric","dispersion":)" + dispersion + "}"); }
+std::string glass(const std::string& dispersion) {
+  return material("glass", R"({"type":"dielectric","dispersion":)" + dispersion + "}");
+}
 
 /// "[1,2,...,count]"
-std::string numbers(int count)
-{
+std::string numbers(int count) {
   std::string list = "[1";
   for (int i = 2; i <= count; ++i) list += fmt::format(",{}", i);
   return list + "]";
 }
 
-std::string zeros(int count)
-{
+std::string zeros(int count) {
   std::string pointer;
   for (int i = 0; i < count; ++i) pointer += "/0";
   return pointer;
@@ -43,8 +47,7 @@ protected:
   test::CurrentFolder here{folder.path()}; // so that lines show short names
 };
 
-TEST_F(BadPresets, AreRefusedInOneLine)
-{
+TEST_F(BadPresets, AreRefusedInOneLine) {
   const std::vector<Case> cases = {
       {R"()", R"(: is empty; expected a preset: one JSON object)"},
       {"\n\n  ", R"(: is empty; expected a preset: one JSON object)"},
@@ -56,15 +59,18 @@ TEST_F(BadPresets, AreRefusedInOneLine)
        R"(:1:22: is not JSON; syntax error while parsing object - invalid literal; last read: '"spectral" /'; expected '}')"},
       {R"({"engine":"spectral",})",
        R"(:1:22: is not JSON; syntax error while parsing object key - unexpected '}'; expected string literal)"},
-      {R"({"engine":"spectral"} {})", R"(:1:23: is not JSON; syntax error while parsing value - unexpected '{'; expected end of input)"},
+      {R"({"engine":"spectral"} {})",
+       R"(:1:23: is not JSON; syntax error while parsing value - unexpected '{'; expected end of input)"},
       {"{\"engine\":\"spectral\",\n\"white\":1e999}", R"(:2:13: is not JSON; number overflow parsing '1e999')"},
-      {top(R"("white":NaN)"), R"(:1:30: is not JSON; syntax error while parsing value - invalid literal; last read: '"white":N')"},
+      {top(R"("white":NaN)"),
+       R"(:1:30: is not JSON; syntax error while parsing value - invalid literal; last read: '"white":N')"},
       {"{\"engine\":\"spectral\",\"name\":\"\xff\"}",
        R"(:1:30: is not JSON; syntax error while parsing value - invalid string: ill-formed UTF-8 byte; last read: '"')"},
       {R"([1, 2])", R"(#: is a list of 2 items; expected a preset: one JSON object)"},
       {R"(3)", R"(#: is 3; expected a preset: one JSON object)"},
       {top(R"("seed":1,"seed":2)"), R"(#/seed: key 'seed' is given twice; expected each key once)"},
-      {camera(R"("fov_deg":30,"fov_deg":40)"), R"(#/scene/camera/fov_deg: key 'fov_deg' is given twice; expected each key once)"},
+      {camera(R"("fov_deg":30,"fov_deg":40)"),
+       R"(#/scene/camera/fov_deg: key 'fov_deg' is given twice; expected each key once)"},
       {R"({"seed":1})", R"(#: has no 'engine'; expected one of spectral, environment, inverse)"},
       {R"({"engine":"spectrel"})",
        R"(#/engine: is the string 'spectrel'; expected one of spectral, environment, inverse; did you mean 'spectral'?)"},
@@ -88,9 +94,12 @@ TEST_F(BadPresets, AreRefusedInOneLine)
       {top(R"("unit":"inch")"), R"(#/unit: is the string 'inch'; expected one of mm, cm, m)"},
       {top(R"("white":0)"), R"(#/white: is 0; expected a number from 1e-12 to 1000000000000 W/(m^2 sr) or "auto")"},
       {top(R"("spectral":3)"), R"(#/spectral: is 3; expected an object)"},
-      {spectral_with(R"("threshold_deg":0)"), R"(#/spectral/threshold_deg: is 0; expected a number above 0 and below 90 degrees)"},
-      {spectral_with(R"("threshold_deg":90)"), R"(#/spectral/threshold_deg: is 90; expected a number above 0 and below 90 degrees)"},
-      {spectral_with(R"("photons_per_pass":0)"), R"(#/spectral/photons_per_pass: is 0; expected a whole number from 1 to 16777216)"},
+      {spectral_with(R"("threshold_deg":0)"),
+       R"(#/spectral/threshold_deg: is 0; expected a number above 0 and below 90 degrees)"},
+      {spectral_with(R"("threshold_deg":90)"),
+       R"(#/spectral/threshold_deg: is 90; expected a number above 0 and below 90 degrees)"},
+      {spectral_with(R"("photons_per_pass":0)"),
+       R"(#/spectral/photons_per_pass: is 0; expected a whole number from 1 to 16777216)"},
       {spectral_with(R"("photons_per_pass":16777217)"),
        R"(#/spectral/photons_per_pass: is 16777217; expected a whole number from 1 to 16777216)"},
       {spectral_with(R"("direct":1)"), R"(#/spectral/direct: is 1; expected true or false)"},
@@ -98,18 +107,22 @@ TEST_F(BadPresets, AreRefusedInOneLine)
        R"(#/spectral/method: is the string 'bruteforce'; expected one of optimal, thesis, brute_force; did you mean 'brute_force'?)"},
       {top(R"("stop":{"seconds":0})"), R"(#/stop/seconds: is 0; expected a number from 0.001 to 10000000 s)"},
       {top(R"("stop":{"passes":0.5})"), R"(#/stop/passes: is 0.5; expected a whole number from 1 to 1048576)"},
-      {top(R"("description":"a\nb")"), R"(#/description: is the string 'a\nb'; expected one line without control characters)"},
+      {top(R"("description":"a\nb")"),
+       R"(#/description: is the string 'a\nb'; expected one line without control characters)"},
       {camera(R"("fov_deg":0)"), R"(#/scene/camera/fov_deg: is 0; expected a number from 0.001 to 179.9 degrees)"},
       {camera(R"("fov_deg":180)"), R"(#/scene/camera/fov_deg: is 180; expected a number from 0.001 to 179.9 degrees)"},
-      {camera(R"("resolution":[512,0])"), R"(#/scene/camera/resolution/1: is 0; expected a whole number from 1 to 16384 pixels)"},
-      {camera(R"("resolution":[512,16385])"), R"(#/scene/camera/resolution/1: is 16385; expected a whole number from 1 to 16384 pixels)"},
+      {camera(R"("resolution":[512,0])"),
+       R"(#/scene/camera/resolution/1: is 0; expected a whole number from 1 to 16384 pixels)"},
+      {camera(R"("resolution":[512,16385])"),
+       R"(#/scene/camera/resolution/1: is 16385; expected a whole number from 1 to 16384 pixels)"},
       {camera(R"("resolution":[512])"),
        R"(#/scene/camera/resolution: is a list of 1 item; expected a list of 2 items, each a whole number from 1 to 16384 pixels)"},
       {camera(R"("position":[0,1])"),
        R"(#/scene/camera/position: is a list of 2 items; expected a list of 3 items, each a number from -10000000 to 10000000 length units)"},
       {camera(R"("position":[0,"1",2])"),
        R"(#/scene/camera/position/1: is the string '1'; expected a number from -10000000 to 10000000 length units)"},
-      {camera(R"("position":[1,2,3],"target":[1,2,3])"), R"(#/scene/camera/target: is where the camera stands; expected another point)"},
+      {camera(R"("position":[1,2,3],"target":[1,2,3])"),
+       R"(#/scene/camera/target: is where the camera stands; expected another point)"},
       {camera(R"("position":[0,5,0],"target":[0,0,0])"),
        R"(#/scene/camera/up: points along the line of sight or of light; expected a direction across it)"},
       {camera(R"("up":[0,0,0])"), R"(#/scene/camera/up: has no length; expected a direction)"},
@@ -117,10 +130,12 @@ TEST_F(BadPresets, AreRefusedInOneLine)
        R"(#/scene/camera/position/2: is 100000000.0; expected a number from -10000000 to 10000000 length units)"},
       {scene(R"("materials":[])"),
        R"(#/scene/materials: is an empty list; expected an object of names with at most 1000 items, each an object)"},
-      {material("glass", R"({})"), R"(#/scene/materials/glass: has no 'type'; expected one of diffuse, dielectric, mirror)"},
+      {material("glass", R"({})"),
+       R"(#/scene/materials/glass: has no 'type'; expected one of diffuse, dielectric, mirror)"},
       {material("m", R"({"type":"difuse"})"),
        R"(#/scene/materials/m/type: is the string 'difuse'; expected one of diffuse, dielectric, mirror; did you mean 'diffuse'?)"},
-      {material("glass", R"({"type":"dielectric"})"), R"(#/scene/materials/glass: has no 'dispersion'; this key is required)"},
+      {material("glass", R"({"type":"dielectric"})"),
+       R"(#/scene/materials/glass: has no 'dispersion'; this key is required)"},
       {material("m", R"({"type":"mirror","dispersion":1.5})"),
        R"(#/scene/materials/m/dispersion: 'dispersion' has no meaning for the type 'mirror'; it belongs to 'dielectric'; remove it or change the type)"},
       {material("m", R"({"type":"diffuse","reflectance":1.2})"),
@@ -145,7 +160,8 @@ TEST_F(BadPresets, AreRefusedInOneLine)
        R"(#/scene/materials/glass/dispersion/table: is a list of 1 item; expected a list of 2 to 100000 items, each [wavelength, n])"},
       {glass(R"({"type":"constant","n":1.5,"outside":"hold"})"),
        R"(#/scene/materials/glass/dispersion/outside: 'outside' has no meaning for the type 'constant'; it belongs to 'file', 'sellmeier', 'cauchy', 'table', 'points'; remove it or change the type)"},
-      {object(R"({"material":"m"})"), R"(#/scene/objects/0: has neither 'mesh' nor 'shape'; expected exactly one of them)"},
+      {object(R"({"material":"m"})"),
+       R"(#/scene/objects/0: has neither 'mesh' nor 'shape'; expected exactly one of them)"},
       {object(R"({"material":"m","mesh":"a.obj","shape":{"type":"sphere"}})"),
        R"(#/scene/objects/0: has both 'mesh' and 'shape'; expected exactly one of them)"},
       {object(R"({"shape":{"type":"sphere"}})"), R"(#/scene/objects/0: has no 'material'; this key is required)"},
@@ -161,16 +177,19 @@ TEST_F(BadPresets, AreRefusedInOneLine)
        R"(#/scene/objects/0/shape/radius: is 0; expected a number from 1e-06 to 10000000 length units)"},
       {shape(R"({"type":"sphere","segments":256})"),
        R"(#/scene/objects/0/shape/segments: 'segments' has no meaning for the type 'sphere'; it belongs to 'cylinder'; remove it or change the type)"},
-      {shape(R"({"type":"cylinder","segments":2})"), R"(#/scene/objects/0/shape/segments: is 2; expected a whole number from 3 to 4096)"},
+      {shape(R"({"type":"cylinder","segments":2})"),
+       R"(#/scene/objects/0/shape/segments: is 2; expected a whole number from 3 to 4096)"},
       {object(R"({"material":"m","shape":{"type":"sphere"},"transform":{"scale":[1,0,1]}})"),
        R"(#/scene/objects/0/transform/scale/1: is 0; expected a factor of at least 1e-06 or at most -1e-06; for a thin object use a plate)"},
       {light(R"({"power_w":1})"), R"(#/scene/lights/0: has no 'type'; expected one of point, spot, directional, area)"},
       {light(R"({"type":"spotlight"})"),
        R"(#/scene/lights/0/type: is the string 'spotlight'; expected one of point, spot, directional, area)"},
-      {light(R"({"type":"point","power_w":-1})"), R"(#/scene/lights/0/power_w: is -1; expected a number from 0 to 1000000000 W)"},
+      {light(R"({"type":"point","power_w":-1})"),
+       R"(#/scene/lights/0/power_w: is -1; expected a number from 0 to 1000000000 W)"},
       {light(R"({"type":"directional","power_w":1})"),
        R"(#/scene/lights/0/power_w: 'power_w' has no meaning for the type 'directional'; it belongs to 'point', 'spot', 'area'; remove it or change the type)"},
-      {light(R"({"type":"spot","direction":[0,0,0]})"), R"(#/scene/lights/0/direction: has no length; expected a direction)"},
+      {light(R"({"type":"spot","direction":[0,0,0]})"),
+       R"(#/scene/lights/0/direction: has no length; expected a direction)"},
       {light(R"({"type":"area","direction":[0,-1,0],"up":[0,1,0]})"),
        R"(#/scene/lights/0/up: points along the line of sight or of light; expected a direction across it)"},
       {light(R"({"type":"point","spectrum":5})"), R"(#/scene/lights/0/spectrum: is 5; expected a string or an object)"},
@@ -192,15 +211,18 @@ TEST_F(BadPresets, AreRefusedInOneLine)
        R"(#/scene/environment/lights: is 1; expected true or false)"},
       {top(R"("parent":"nobody.json")"),
        R"(#/parent: there is no preset 'nobody.json'; expected a file or the name of a shipped preset; see `nephroid presets`)"},
-      {top(R"("parent":["first-light"])"), R"(#/parent: is a list of 1 item; expected a path or the name of a shipped preset)"},
+      {top(R"("parent":["first-light"])"),
+       R"(#/parent: is a list of 1 item; expected a path or the name of a shipped preset)"},
       {top(R"("parent":"bad.json")"), R"(#/parent: parents go round in a circle: bad.json -> bad.json)"},
       {top(R"("$schema":1)"), R"(#/$schema: is 1; expected a string)"},
-      {top(R"("sweep":[1,2])"), R"(#/sweep: is a list of 2 items; expected an object of lists, for instance {"seed": [1, 2]})"},
+      {top(R"("sweep":[1,2])"),
+       R"(#/sweep: is a list of 2 items; expected an object of lists, for instance {"seed": [1, 2]})"},
       {top(R"("sweep":{"seed":[]})"), R"(#/sweep/seed: is an empty list; expected a list of at least one value)"},
       {top(R"("sweep":{"seed":3})"), R"(#/sweep/seed: is 3; expected a list of at least one value)"},
       {top(R"("sweep":{"spectral.treshold_deg":[0.1]})"),
        R"(#/sweep/spectral.treshold_deg/0: unknown key 'treshold_deg'; the keys here are method, threshold_deg, step_nm, estimator, effort, importance, jitter, low_discrepancy, differentials, smoothing, relight, photons_per_pass, indirect_photons_per_pass, pixel_samples, max_surfaces, sppm, direct, caustic, indirect, background; did you mean 'threshold_deg'?)"},
-      {top(R"("sweep":{"seed":[1,-2]})"), R"(#/sweep/seed/1: is -2; expected a whole number from 0 to 18446744073709551615)"},
+      {top(R"("sweep":{"seed":[1,-2]})"),
+       R"(#/sweep/seed/1: is -2; expected a whole number from 0 to 18446744073709551615)"},
       {top(R"("sweep":{"spectral":[{}],"spectral.direct":[true]})"),
        R"(#/sweep/spectral.direct: 'spectral.direct' lies inside 'spectral', which is swept too; expected keys apart from each other)"},
       {top("\"sweep\":{\"seed\":" + numbers(101) + ",\"white\":" + numbers(100) + "}"),
@@ -214,16 +236,17 @@ TEST_F(BadPresets, AreRefusedInOneLine)
   }
 }
 
-TEST_F(BadPresets, OverridesAreRefusedInOneLine)
-{
+TEST_F(BadPresets, OverridesAreRefusedInOneLine) {
   const std::vector<Case> cases = {
       {R"(seed)", R"(--set seed: has no '='; expected KEY=VALUE, for instance scene.lights.0.power_w=2)"},
-      {R"(.seed=1)", R"(--set .seed=1: has an empty key; expected keys joined by dots, for instance scene.lights.0.power_w=2)"},
+      {R"(.seed=1)",
+       R"(--set .seed=1: has an empty key; expected keys joined by dots, for instance scene.lights.0.power_w=2)"},
       {R"(spectral.treshold_deg=0.1)",
        R"(--set spectral.treshold_deg=0.1: unknown key 'treshold_deg'; the keys here are method, threshold_deg, step_nm, estimator, effort, importance, jitter, low_discrepancy, differentials, smoothing, relight, photons_per_pass, indirect_photons_per_pass, pixel_samples, max_surfaces, sppm, direct, caustic, indirect, background; did you mean 'threshold_deg'?)"},
       {R"(spectra.threshold_deg=0.1)",
        R"(--set spectra.threshold_deg=0.1: unknown key 'spectra'; the keys here are name, description, engine, unit, seed, white, scene, spectral, stop, reference, measure, animation, leave_out; did you mean 'spectral'?)"},
-      {R"(scene.lights.0.power_w=2)", R"(--set scene.lights.0.power_w=2: 'scene.lights' is a list and has no item '0'; it is empty)"},
+      {R"(scene.lights.0.power_w=2)",
+       R"(--set scene.lights.0.power_w=2: 'scene.lights' is a list and has no item '0'; it is empty)"},
       {R"(scene.lights[0].power_w=2)",
        R"(--set scene.lights[0].power_w=2: 'lights[0]' is no key; items of a list go by number after a dot; for instance scene.lights.0.power_w=2)"},
       {R"(scene.objects.first.material=m)",
@@ -231,51 +254,62 @@ TEST_F(BadPresets, OverridesAreRefusedInOneLine)
       {R"(seed.low=2)", R"(--set seed.low=2: is an object; expected a whole number from 0 to 18446744073709551615)"},
       {R"(scene.camera={"fov_deg":})",
        R"(--set scene.camera={"fov_deg":}:1:12: is not JSON; syntax error while parsing value - unexpected '}'; expected '[', '{', or a literal)"},
-      {R"(spectral.threshold_deg=180)", R"(--set spectral.threshold_deg=180: is 180; expected a number above 0 and below 90 degrees)"},
-      {R"(seed=many)", R"(--set seed=many: is the string 'many'; expected a whole number from 0 to 18446744073709551615)"},
-      {R"(white=nan)", R"(--set white=nan: is the string 'nan'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr) or "auto")"},
-      {R"(white=+-3)", R"(--set white=+-3: is the string '+-3'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr) or "auto")"},
-      {R"(white=.)", R"(--set white=.: is the string '.'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr) or "auto")"},
-      {R"(white=1,5)", R"(--set white=1,5: is the string '1,5'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr) or "auto")"},
+      {R"(spectral.threshold_deg=180)",
+       R"(--set spectral.threshold_deg=180: is 180; expected a number above 0 and below 90 degrees)"},
+      {R"(seed=many)",
+       R"(--set seed=many: is the string 'many'; expected a whole number from 0 to 18446744073709551615)"},
+      {R"(white=nan)",
+       R"(--set white=nan: is the string 'nan'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr) or "auto")"},
+      {R"(white=+-3)",
+       R"(--set white=+-3: is the string '+-3'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr) or "auto")"},
+      {R"(white=.)",
+       R"(--set white=.: is the string '.'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr) or "auto")"},
+      {R"(white=1,5)",
+       R"(--set white=1,5: is the string '1,5'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr) or "auto")"},
       {R"(seed=007)", R"(--set seed=007: is the string '007'; expected a whole number from 0 to 18446744073709551615)"},
       {R"(scene.camera.position=[.5 1])",
        R"(--set scene.camera.position=[.5 1]:1:2: is not JSON; syntax error while parsing value - invalid literal; last read: '[.')"},
-      {R"(white=1e999)", R"(--set white=1e999: is the string '1e999'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr) or "auto")"},
+      {R"(white=1e999)",
+       R"(--set white=1e999: is the string '1e999'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr) or "auto")"},
       {"name=\xff\x41", "--set: 'name=\xef\xbf\xbd\x41' is not UTF-8; expected KEY=VALUE in UTF-8"},
       {"\xc3=1", "--set: '\xef\xbf\xbd=1' is not UTF-8; expected KEY=VALUE in UTF-8"},
       {R"(scene.camera={"fov":30})",
        R"(--set scene.camera={"fov":30}: unknown key 'fov'; the keys here are position, target, up, fov_deg, resolution; did you mean 'fov_deg'?)"},
   };
   write("good.json", scene(R"("objects":[],"lights":[])"));
-  for (const Case& c : cases) EXPECT_EQ(refusal_of([&] { preset::read_presets("good.json", {c.text}); }), c.line) << c.text;
+  for (const Case& c : cases)
+    EXPECT_EQ(refusal_of([&] { preset::read_presets("good.json", {c.text}); }), c.line) << c.text;
 }
 
-TEST_F(BadPresets, FilesThatAreNone)
-{
+TEST_F(BadPresets, FilesThatAreNone) {
   fs::create_directory("folder");
   fs::create_symlink("gone.json", "link.json");
   std::ofstream("huge.json").put('{');
   fs::resize_file("huge.json", std::uintmax_t(1) << 30); // sparse: takes no space
   const std::vector<Case> cases = {
       {"folder", "preset: 'folder' is a folder; expected a file"},
-      {"link.json", "preset: there is no preset 'link.json'; expected a file or the name of a shipped preset; see `nephroid presets`"},
+      {"link.json", "preset: there is no preset 'link.json'; expected a file or the name of a shipped preset; see "
+                    "`nephroid presets`"},
       {"", "preset: the name of a preset is empty or holds a NUL"},
       {"/dev/zero", "/dev/zero: is not a regular file; expected a preset in JSON"},
       {"huge.json", "huge.json: is 1073741824 bytes long; expected at most 8388608"},
-      {"first-ligth",
-       "preset: there is no preset 'first-ligth'; expected a file or the name of a shipped preset; did you mean 'first-light'?"},
+      {"first-ligth", "preset: there is no preset 'first-ligth'; expected a file or the name of a shipped preset; did "
+                      "you mean 'first-light'?"},
   };
   for (const Case& c : cases) EXPECT_EQ(refusal_of([&] { preset::read_preset(c.text); }), c.line) << c.text;
 }
 
-TEST_F(BadPresets, ErrorsNameTheFileThatTheyStandIn)
-{
-  write("parent.json", top(R"("spectral":{"threshold_deg":90,"method":"optimal"},"scene":{"materials":{"m":{"type":"diffuse"}}})"));
+TEST_F(BadPresets, ErrorsNameTheFileThatTheyStandIn) {
+  write("parent.json",
+        top(R"("spectral":{"threshold_deg":90,"method":"optimal"},"scene":{"materials":{"m":{"type":"diffuse"}}})"));
   const std::vector<Case> cases = {
       {R"("seed":2)", "parent.json#/spectral/threshold_deg: is 90; expected a number above 0 and below 90 degrees"},
-      {R"("spectral":{"method":"thesis"})", "parent.json#/spectral/threshold_deg: is 90; expected a number above 0 and below 90 degrees"},
-      {R"("spectral":{"threshold_deg":91})", "child.json#/spectral/threshold_deg: is 91; expected a number above 0 and below 90 degrees"},
-      {R"("scene":{"materials":{"m":{"type":"dielectric"}}})", "child.json#/scene/materials/m: has no 'dispersion'; this key is required"},
+      {R"("spectral":{"method":"thesis"})",
+       "parent.json#/spectral/threshold_deg: is 90; expected a number above 0 and below 90 degrees"},
+      {R"("spectral":{"threshold_deg":91})",
+       "child.json#/spectral/threshold_deg: is 91; expected a number above 0 and below 90 degrees"},
+      {R"("scene":{"materials":{"m":{"type":"dielectric"}}})",
+       "child.json#/scene/materials/m: has no 'dispersion'; this key is required"},
   };
   for (const Case& c : cases) {
     write("child.json", R"({"parent":"parent.json",)" + c.text + "}");
@@ -286,8 +320,7 @@ TEST_F(BadPresets, ErrorsNameTheFileThatTheyStandIn)
             "parent.json#/parent: parents go round in a circle: child.json -> parent.json -> child.json");
 }
 
-TEST_F(BadPresets, HugeAndDeepTextEndsQuickly)
-{
+TEST_F(BadPresets, HugeAndDeepTextEndsQuickly) {
   const std::string deep(1'000'000, '[');
   EXPECT_EQ(refusal_of([&] { preset::parse_preset(deep, "bad.json"); }),
             fmt::format("bad.json#{}: is nested deeper than 64 levels", zeros(64)));
@@ -298,14 +331,17 @@ TEST_F(BadPresets, HugeAndDeepTextEndsQuickly)
             "bad.json#/k998: too many keys; expected at most 1000 in one object");
 }
 
-TEST_F(BadPresets, ASweepIsNotOnePreset)
-{
+TEST_F(BadPresets, ASweepIsNotOnePreset) {
   const std::string sweep = top(R"("sweep":{"seed":[1,2,3]})");
-  EXPECT_EQ(refusal_of([&] { preset::parse_preset(sweep, "bad.json"); }),
-            "bad.json#/sweep: gives 3 runs; one preset is wanted here; fix the swept keys by --set, or --set sweep=null");
+  EXPECT_EQ(
+      refusal_of([&] { preset::parse_preset(sweep, "bad.json"); }),
+      "bad.json#/sweep: gives 3 runs; one preset is wanted here; fix the swept keys by --set, or --set sweep=null");
   EXPECT_EQ(preset::parse_preset(sweep, "bad.json", {"seed=7"}).seed, 7u);
-  EXPECT_EQ(refusal_of([&] { preset::parse_preset(top(R"("sweep":{"scene.camera":[{}]})"), "bad.json", {"scene.camera.fov_deg=30"}); }),
-            "--set scene.camera.fov_deg=30: the preset sweeps 'scene.camera', which would overwrite it; set scene.camera as a whole");
+  EXPECT_EQ(refusal_of([&] {
+              preset::parse_preset(top(R"("sweep":{"scene.camera":[{}]})"), "bad.json", {"scene.camera.fov_deg=30"});
+            }),
+            "--set scene.camera.fov_deg=30: the preset sweeps 'scene.camera', which would overwrite it; set "
+            "scene.camera as a whole");
 }
 
 } // namespace nephroid::preset_test

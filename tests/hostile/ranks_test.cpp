@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several ranks under mpirun: the bits of one process, also after one of them was killed, and a clear line where they do not belong
-// together.
+// Several ranks under mpirun: the bits of one process, also after one of them was killed, and a clear line where they
+// do not belong together.
 #include "tests/support/child.h"
 #include "tests/support/test.h"
 
@@ -13,8 +13,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 /// mpirun starts as root where it is told so twice.
-Environment for_mpirun(const fs::path& cache)
-{
+Environment for_mpirun(const fs::path& cache) {
   Environment environment = own_cache(cache);
   environment["OMPI_ALLOW_RUN_AS_ROOT"] = environment["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1";
   return environment;
@@ -24,22 +23,22 @@ class Ranks : public testing::Test {
 protected:
   TemporaryFolder scratch;
 
-  std::vector<std::string> command(int ranks, const std::vector<std::string>& arguments) const
-  {
-    std::vector<std::string> all{"--oversubscribe", "--bind-to", "none", "-n", std::to_string(ranks), NEPHROID_PROGRAM, "run"};
+  std::vector<std::string> command(int ranks, const std::vector<std::string>& arguments) const {
+    std::vector<std::string> all{"--oversubscribe",     "--bind-to",      "none", "-n",
+                                 std::to_string(ranks), NEPHROID_PROGRAM, "run"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     return all;
   }
-  Ended run(int ranks, std::vector<std::string> arguments, const std::string& folder) const
-  {
+  Ended run(int ranks, std::vector<std::string> arguments, const std::string& folder) const {
     arguments.insert(arguments.end(), {"-o", folder});
-    if (ranks > 1) return Child(command(ranks, arguments), scratch.path(), scratch.path(), for_mpirun(scratch.path()), "mpirun").wait();
+    if (ranks > 1)
+      return Child(command(ranks, arguments), scratch.path(), scratch.path(), for_mpirun(scratch.path()), "mpirun")
+          .wait();
     arguments.insert(arguments.begin(), "run");
     return nephroid::test::nephroid(arguments, scratch.path(), scratch.path(), own_cache(scratch.path()));
   }
   /// The newest process of the program that works in the test's folder.
-  pid_t last_rank() const
-  {
+  pid_t last_rank() const {
     pid_t last = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
       const int process = std::atoi(entry.path().filename().c_str());
@@ -50,19 +49,18 @@ protected:
     }
     return last;
   }
-  void expect_same(const std::string& folder, const std::string& other) const
-  {
+  void expect_same(const std::string& folder, const std::string& other) const {
     int files = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(scratch.path() / other))
       if (const auto kind = entry.path().extension(); kind == ".exr" || kind == ".stl") {
-        EXPECT_TRUE(read_file(entry.path()) == read_file(scratch.path() / folder / entry.path().filename())) << folder << entry.path();
+        EXPECT_TRUE(read_file(entry.path()) == read_file(scratch.path() / folder / entry.path().filename()))
+            << folder << entry.path();
         ++files;
       }
     EXPECT_GT(files, 0);
   }
   /// On one rank, and on as many as are named, with new caches each.
-  void expect_one_picture(const std::vector<std::string>& arguments, std::initializer_list<int> counts) const
-  {
+  void expect_one_picture(const std::vector<std::string>& arguments, std::initializer_list<int> counts) const {
     const Ended alone = run(1, arguments, "alone");
     ASSERT_EQ(alone.exit_code, 0) << alone.err;
     for (const int ranks : counts) {
@@ -77,34 +75,33 @@ protected:
 };
 
 // Photons that are dealt by variance, splats, photon maps, direct light with more samples where they help, previews.
-TEST_F(Ranks, GiveOnePictureOfPhotons)
-{
-  expect_one_picture(
-      {"first-light", "--passes", "5", "--set", "scene.camera.resolution=[96,72]", "--set", "spectral.photons_per_pass=20000"}, {2, 3});
+TEST_F(Ranks, GiveOnePictureOfPhotons) {
+  expect_one_picture({"first-light", "--passes", "5", "--set", "scene.camera.resolution=[96,72]", "--set",
+                      "spectral.photons_per_pass=20000"},
+                     {2, 3});
 }
 
-TEST_F(Ranks, GiveOnePictureOfProgressiveMaps)
-{
-  expect_one_picture({"spectral/ball-lens", "--passes", "2", "--set", "scene.camera.resolution=[40,30]", "--set", "spectral.estimator=sppm",
-                      "--set", "spectral.photons_per_pass=5000"},
+TEST_F(Ranks, GiveOnePictureOfProgressiveMaps) {
+  expect_one_picture({"spectral/ball-lens", "--passes", "2", "--set", "scene.camera.resolution=[40,30]", "--set",
+                      "spectral.estimator=sppm", "--set", "spectral.photons_per_pass=5000"},
                      {3});
 }
 
-TEST_F(Ranks, GiveOnePictureOfLayers)
-{
-  expect_one_picture({"first-light", "--passes", "2", "--set", "scene.camera.resolution=[40,30]", "--set", "spectral.relight=true"}, {2});
+TEST_F(Ranks, GiveOnePictureOfLayers) {
+  expect_one_picture(
+      {"first-light", "--passes", "2", "--set", "scene.camera.resolution=[40,30]", "--set", "spectral.relight=true"},
+      {2});
 }
 
 // The bake, receivers around the object, light in the air, and photons.
-TEST_F(Ranks, GiveOnePictureOfAnEnvironment)
-{
-  expect_one_picture({"environment/beam", "--passes", "3", "--set", "scene.camera.resolution=[64,48]", "--set", "environment.directions=26",
-                      "--set", "environment.photons=20000", "--set", "environment.resolution=32"},
+TEST_F(Ranks, GiveOnePictureOfAnEnvironment) {
+  expect_one_picture({"environment/beam", "--passes", "3", "--set", "scene.camera.resolution=[64,48]", "--set",
+                      "environment.directions=26", "--set", "environment.photons=20000", "--set",
+                      "environment.resolution=32"},
                      {3});
 }
 
-TEST_F(Ranks, FindABakeThatOneOfThemHas)
-{
+TEST_F(Ranks, FindABakeThatOneOfThemHas) {
   const std::vector<std::string> arguments{"environment/ball",
                                            "--passes",
                                            "2",
@@ -121,26 +118,26 @@ TEST_F(Ranks, FindABakeThatOneOfThemHas)
 }
 
 // What rank 0 has rendered alone before, here and of a reference, leaves its kernels ready where the others' are not.
-TEST_F(Ranks, GiveOnePictureWithAWhiteThatRank0Fits)
-{
+TEST_F(Ranks, GiveOnePictureWithAWhiteThatRank0Fits) {
   expect_one_picture({"first-light", "--passes", "2", "--set", "scene.camera.resolution=[40,30]", "--set",
                       "spectral.photons_per_pass=20000", "--set", "white=auto"},
                      {2});
 }
 
 // Facets and their judge, of light in colours.
-TEST_F(Ranks, DesignOneObject) { expect_one_picture({"inverse/dispersion", "--passes", "1", "--set", "inverse.facets=[32,32]"}, {2, 3}); }
+TEST_F(Ranks, DesignOneObject) {
+  expect_one_picture({"inverse/dispersion", "--passes", "1", "--set", "inverse.facets=[32,32]"}, {2, 3});
+}
 
-TEST_F(Ranks, GoOnWhereOneWasKilled)
-{
+TEST_F(Ranks, GoOnWhereOneWasKilled) {
   const auto with = [](std::vector<std::string> more) {
-    more.insert(more.begin(),
-                {"first-light", "--passes", "40", "--set", "scene.camera.resolution=[40,30]", "--set", "spectral.photons_per_pass=20000"});
+    more.insert(more.begin(), {"first-light", "--passes", "40", "--set", "scene.camera.resolution=[40,30]", "--set",
+                               "spectral.photons_per_pass=20000"});
     return more;
   };
   const fs::path checkpoint = scratch.path() / "killed" / "checkpoint.bin";
-  Child child(command(2, with({"--checkpoint-seconds", "0.1", "-o", "killed"})), scratch.path(), scratch.path(), for_mpirun(scratch.path()),
-              "mpirun");
+  Child child(command(2, with({"--checkpoint-seconds", "0.1", "-o", "killed"})), scratch.path(), scratch.path(),
+              for_mpirun(scratch.path()), "mpirun");
   ASSERT_TRUE(child.until([&] { return fs::exists(checkpoint); }));
   const pid_t last = last_rank();
   ASSERT_GT(last, 0);
@@ -158,9 +155,9 @@ TEST_F(Ranks, GoOnWhereOneWasKilled)
   expect_same("killed", "alone");
 }
 
-TEST_F(Ranks, TakeTheNextRunOfASweep)
-{
-  const std::string sweep = scratch.write("sweep.json", R"({"parent": "first-light", "sweep": {"seed": [1, 2, 3, 4, 5]}})");
+TEST_F(Ranks, TakeTheNextRunOfASweep) {
+  const std::string sweep =
+      scratch.write("sweep.json", R"({"parent": "first-light", "sweep": {"seed": [1, 2, 3, 4, 5]}})");
   const std::vector<std::string> arguments{sweep, "--passes", "1", "--set", "scene.camera.resolution=[40,30]"};
   const Ended ended = run(2, arguments, "dealt");
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -173,9 +170,9 @@ TEST_F(Ranks, TakeTheNextRunOfASweep)
   EXPECT_EQ(read_file(scratch.path() / "dealt/sweep.json"), read_file(scratch.path() / "alone/sweep.json"));
 }
 
-TEST_F(Ranks, TakeTheNextFrameOfAnAnimation)
-{
-  const std::string tracks = R"([{"path": "scene.lights.0.power_w", "keys": [{"frame": 0, "value": 100}, {"frame": 3, "value": 200}]}])";
+TEST_F(Ranks, TakeTheNextFrameOfAnAnimation) {
+  const std::string tracks =
+      R"([{"path": "scene.lights.0.power_w", "keys": [{"frame": 0, "value": 100}, {"frame": 3, "value": 200}]}])";
   const std::vector<std::string> arguments{"first-light",
                                            "--passes",
                                            "1",
@@ -189,8 +186,7 @@ TEST_F(Ranks, TakeTheNextFrameOfAnAnimation)
   expect_same("dealt", "alone");
 }
 
-TEST_F(Ranks, HaveToBelongTogether)
-{
+TEST_F(Ranks, HaveToBelongTogether) {
   // First-light on two ranks, the second of which is given something else.
   const auto run_apart = [this](const std::vector<std::string>& first, const std::vector<std::string>& second) {
     std::vector<std::string> command{"--oversubscribe"};
@@ -215,8 +211,7 @@ TEST_F(Ranks, HaveToBelongTogether)
 }
 
 // A program without its module: several would write into one folder.
-TEST_F(Ranks, NeedMpi)
-{
+TEST_F(Ranks, NeedMpi) {
   fs::create_directories(scratch.path() / "bin");
   fs::copy_file(NEPHROID_PROGRAM, scratch.path() / "bin/nephroid");
   const Ended ended = Child({"run", "first-light"}, scratch.path(), scratch.path(), {{"OMPI_COMM_WORLD_SIZE", "2"}},

@@ -15,8 +15,7 @@ protected:
   fs::path file(const std::string& name, const std::string& which) const { return file(name) / which; }
 };
 
-TEST_F(RunPictures, LeavePicturesAtTheTimesThatWereAskedFor)
-{
+TEST_F(RunPictures, LeavePicturesAtTheTimesThatWereAskedFor) {
   const Ended ended = run("a", {"--seconds", "1", "--pictures-at", ".6,+2e-1,9,.2", "--json"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_THAT(ended.err, HasSubstr("no picture at 9 s"));
@@ -36,10 +35,11 @@ TEST_F(RunPictures, LeavePicturesAtTheTimesThatWereAskedFor)
     EXPECT_TRUE(fs::exists(scratch.path() / "a" / made["picture"]));
     const double when = made["work_seconds"];
     EXPECT_GE(when, made["seconds"]);
-    EXPECT_TRUE(std::ranges::none_of(history.rows, [&](const auto& r) { return r.seconds > made["seconds"] && r.seconds < when - 1e-5; }))
-        << "it is of the first step that ends after its time";
-    const auto row =
-        std::find_if(history.rows.begin(), history.rows.end(), [&](const auto& r) { return std::abs(r.seconds - when) < 1e-5; });
+    EXPECT_TRUE(std::ranges::none_of(history.rows, [&](const auto& r) {
+      return r.seconds > made["seconds"] && r.seconds < when - 1e-5;
+    })) << "it is of the first step that ends after its time";
+    const auto row = std::find_if(history.rows.begin(), history.rows.end(),
+                                  [&](const auto& r) { return std::abs(r.seconds - when) < 1e-5; });
     ASSERT_NE(row, history.rows.end()) << "its error is its own";
     const double error = job::error_in(history, *row, "estimated_lab_mean");
     EXPECT_NEAR(made["errors"]["estimated_lab_mean"], error, 1e-4 * error);
@@ -55,13 +55,13 @@ TEST_F(RunPictures, LeavePicturesAtTheTimesThatWereAskedFor)
   EXPECT_FALSE(fs::exists(file("a", "pictures.json")));
 }
 
-TEST_F(RunPictures, KeepTheirPicturesWhenTheyGoOn)
-{
+TEST_F(RunPictures, KeepTheirPicturesWhenTheyGoOn) {
   ASSERT_EQ(run("a", {"--seconds", ".5", "--pictures-at", ".2"}).exit_code, 0);
   const std::string before = read_file(file("a", "at-0000.2s.png"));
   // However long the last step took, the second picture is still to come.
   const double later = std::ceil(10 * run_json("a")["work_seconds"].get<double>() + 1) / 10;
-  const Ended ended = run("a", {"--seconds", fmt::to_string(later + 0.2), "--pictures-at", fmt::format(".1,.2,{}", later), "--resume"});
+  const Ended ended =
+      run("a", {"--seconds", fmt::to_string(later + 0.2), "--pictures-at", fmt::format(".1,.2,{}", later), "--resume"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_THAT(ended.err, HasSubstr("0.1 s of work are past"));
   EXPECT_THAT(ended.err, testing::Not(HasSubstr("0.2 s of work are past")));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs that are interrupted, killed, resumed, repeated, given one thread or two, a full disk, no HOME: the same bits or a clear line.
+// Runs that are interrupted, killed, resumed, repeated, given one thread or two, a full disk, no HOME: the same bits or
+// a clear line.
 #include "image/image.h"
 #include "measure/run_files.h"
 #include "preset/read.h"
@@ -22,10 +23,11 @@ protected:
   std::string picture(const std::string& name) const { return read_file(file(name, "image.exr")); }
 };
 
-std::size_t lines(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
+std::size_t lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
 
-TEST_F(Runs, LeaveEveryFileOfTheContract)
-{
+TEST_F(Runs, LeaveEveryFileOfTheContract) {
   const Ended ended = run("a", {"--passes", "3"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_THAT(messages_of(ended), IsEmpty()) << "short runs and finished ones are quiet";
@@ -36,7 +38,8 @@ TEST_F(Runs, LeaveEveryFileOfTheContract)
   EXPECT_EQ(image.height, 40);
   ASSERT_THAT(image.channels, testing::IsSupersetOf({"R", "G", "B", "caustic.R", "direct.G"}));
   const auto channel = [&](const char* name) {
-    return static_cast<std::size_t>(std::find(image.channels.begin(), image.channels.end(), name) - image.channels.begin());
+    return static_cast<std::size_t>(std::find(image.channels.begin(), image.channels.end(), name) -
+                                    image.channels.begin());
   };
   double sum = 0;
   for (std::size_t i = 0; i < image.data.size(); i += image.channels.size()) {
@@ -59,21 +62,21 @@ TEST_F(Runs, LeaveEveryFileOfTheContract)
   EXPECT_EQ(png.width * png.height, 48 * 40);
 }
 
-TEST_F(Runs, AreTheSameBitsForTheSameSeedOnAnyThreadsAndFromTheirOwnPreset)
-{
+TEST_F(Runs, AreTheSameBitsForTheSameSeedOnAnyThreadsAndFromTheirOwnPreset) {
   ASSERT_EQ(run("one", {"--passes", "5"}, {{"POCL_MAX_PTHREAD_COUNT", "1"}}).exit_code, 0);
   ASSERT_EQ(run("two", {"--passes", "5"}, {{"POCL_MAX_PTHREAD_COUNT", "2"}}).exit_code, 0);
   ASSERT_EQ(run("other", {"--passes", "5", "--seed", "2"}).exit_code, 0);
-  const auto again = nephroid::test::nephroid({"run", file("one", "preset.json").string(), "-o", "again"}, scratch.path(), logs);
+  const auto again =
+      nephroid::test::nephroid({"run", file("one", "preset.json").string(), "-o", "again"}, scratch.path(), logs);
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_TRUE(picture("one") == picture("two"));
   EXPECT_TRUE(picture("one") == picture("again"));
-  const auto one = nephroid::image::read_image(file("one", "image.exr")), other = nephroid::image::read_image(file("other", "image.exr"));
+  const auto one = nephroid::image::read_image(file("one", "image.exr")),
+             other = nephroid::image::read_image(file("other", "image.exr"));
   EXPECT_NE(one.data, other.data);
 }
 
-TEST_F(Runs, KilledAndResumedEqualUninterruptedOnes)
-{
+TEST_F(Runs, KilledAndResumedEqualUninterruptedOnes) {
   ASSERT_EQ(run("whole", {"--passes", "80"}).exit_code, 0);
   {
     Child child(into("killed", {"--passes", "80", "--checkpoint-seconds", "0.05"}), scratch.path(), logs);
@@ -82,7 +85,8 @@ TEST_F(Runs, KilledAndResumedEqualUninterruptedOnes)
     ASSERT_EQ(child.wait().signal, SIGKILL) << "the run was over before it could be killed";
   }
   EXPECT_FALSE(fs::exists(file("killed", "image.exr")));
-  write_file_whole(scratch.path() / "killed" / ".image.1-1.tmp.exr", "half a picture"); // as a writer killed at its work leaves it
+  write_file_whole(scratch.path() / "killed" / ".image.1-1.tmp.exr",
+                   "half a picture"); // as a writer killed at its work leaves it
   const Ended resumed = run("killed", {"--passes", "80", "--resume"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_THAT(resumed.err, HasSubstr("going on in pass"));
@@ -90,8 +94,7 @@ TEST_F(Runs, KilledAndResumedEqualUninterruptedOnes)
   EXPECT_FALSE(fs::exists(scratch.path() / "killed" / ".image.1-1.tmp.exr"));
 }
 
-TEST_F(Runs, InterruptedOnesLeaveAPictureAndACheckpoint)
-{
+TEST_F(Runs, InterruptedOnesLeaveAPictureAndACheckpoint) {
   for (const auto& [signal, name] : {std::pair(SIGINT, "by Ctrl-C"), std::pair(SIGTERM, "by SIGTERM")}) {
     Child child(into(name, {"--passes", "1000000", "--checkpoint-seconds", "0.05"}), scratch.path(), logs);
     ASSERT_TRUE(child.until([&] { return fs::exists(file(name, "checkpoint.bin")); }));
@@ -109,8 +112,7 @@ TEST_F(Runs, InterruptedOnesLeaveAPictureAndACheckpoint)
   }
 }
 
-TEST_F(Runs, FinishedOnesSaySoAndCanBeExtended)
-{
+TEST_F(Runs, FinishedOnesSaySoAndCanBeExtended) {
   ASSERT_EQ(run("a", {"--passes", "3"}).exit_code, 0);
   const std::string before = picture("a");
   const Ended again = run("a", {"--passes", "3", "--resume", "--device", "no such device"}); // nothing is opened
@@ -122,16 +124,14 @@ TEST_F(Runs, FinishedOnesSaySoAndCanBeExtended)
   EXPECT_TRUE(picture("a") == picture("b"));
 }
 
-TEST_F(Runs, ThatCannotBeginLeaveTheFoldersThereWere)
-{
+TEST_F(Runs, ThatCannotBeginLeaveTheFoldersThereWere) {
   fs::create_directory(file("mine", ""));
   for (const char* name : {"mine", "new"}) EXPECT_EQ(run(name, {"--set", "reference=none.exr"}).exit_code, 2);
   EXPECT_TRUE(fs::exists(file("mine", "")));
   EXPECT_FALSE(fs::exists(file("new", "")));
 }
 
-TEST_F(Runs, RefuseCheckpointsThatAreNotTheirs)
-{
+TEST_F(Runs, RefuseCheckpointsThatAreNotTheirs) {
   ASSERT_EQ(run("a", {"--passes", "2"}).exit_code, 0);
   const std::string good = read_file(file("a", "checkpoint.bin"));
   const auto answer = [&](const std::vector<std::string>& more) {
@@ -142,13 +142,15 @@ TEST_F(Runs, RefuseCheckpointsThatAreNotTheirs)
     EXPECT_EQ(lines(ended.err), 1u) << ended.err;
     return ended.err;
   };
-  EXPECT_THAT(answer({"--seed", "2"}), HasSubstr("belongs to another preset or seed, or to other files; run without --resume"));
+  EXPECT_THAT(answer({"--seed", "2"}),
+              HasSubstr("belongs to another preset or seed, or to other files; run without --resume"));
   EXPECT_THAT(answer({"--set", "scene.camera.fov_deg=41"}), HasSubstr("belongs to another preset"));
   // Its sums are the same, but the errors in its history are those of another picture.
   EXPECT_THAT(answer({"--set", "spectral.smoothing=on"}), HasSubstr("belongs to another preset"));
   std::string changed = good;
   changed[changed.size() / 2] ^= 1;
-  for (const std::string& bytes : {good.substr(0, good.size() - 1), good.substr(0, good.size() / 2), good + "x", changed}) {
+  for (const std::string& bytes :
+       {good.substr(0, good.size() - 1), good.substr(0, good.size() / 2), good + "x", changed}) {
     write_file_whole(file("a", "checkpoint.bin"), bytes);
     EXPECT_THAT(answer({}), HasSubstr("is cut or damaged"));
   }
@@ -159,8 +161,7 @@ TEST_F(Runs, RefuseCheckpointsThatAreNotTheirs)
   EXPECT_EQ(run("a", {"--passes", "1"}).exit_code, 0) << "without --resume it starts over";
 }
 
-TEST_F(Runs, RefuseCheckpointsOfAnotherDeviceOrOtherKernels)
-{
+TEST_F(Runs, RefuseCheckpointsOfAnotherDeviceOrOtherKernels) {
   ASSERT_EQ(run("a", {"--passes", "2"}).exit_code, 0);
   const auto answer = [&](const std::vector<std::string>& more, const nephroid::test::Environment& environment = {}) {
     std::vector<std::string> arguments{"--passes", "4", "--resume"};
@@ -177,21 +178,24 @@ TEST_F(Runs, RefuseCheckpointsOfAnotherDeviceOrOtherKernels)
   write_file_whole(kernels / "photons/photons.cl", photons + "// other text\n");
   EXPECT_THAT(answer({"--kernels", kernels.string()}), HasSubstr("checkpoint.bin: was written with other kernels"));
   write_file_whole(kernels / "photons/photons.cl", photons);
-  EXPECT_EQ(run("a", {"--passes", "4", "--resume", "--kernels", kernels.string()}).exit_code, 0) << "the same text from another place";
+  EXPECT_EQ(run("a", {"--passes", "4", "--resume", "--kernels", kernels.string()}).exit_code, 0)
+      << "the same text from another place";
 }
 
-TEST_F(Runs, SweepsFillFoldersThatAreCalledByWhatVaries)
-{
-  write_file_whole(scratch.path() / "sweep.json",
-                   R"({"parent": "spectral/plate.json", "scene": {"camera": {"resolution": [16, 16]}}, "sweep": {"seed": [4, 5, 6]}})");
+TEST_F(Runs, SweepsFillFoldersThatAreCalledByWhatVaries) {
+  write_file_whole(
+      scratch.path() / "sweep.json",
+      R"({"parent": "spectral/plate.json", "scene": {"camera": {"resolution": [16, 16]}}, "sweep": {"seed": [4, 5, 6]}})");
   const std::vector<std::string> arguments{"run", "sweep.json", "--passes", "1", "--json"};
   const Ended ended = nephroid::test::nephroid(arguments, scratch.path(), logs);
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   int seed = 4;
-  for (const char* folder : {"out/sweep/seed=4", "out/sweep/seed=5", "out/sweep/seed=6"}) EXPECT_EQ(run_json(folder)["seed"], seed++);
+  for (const char* folder : {"out/sweep/seed=4", "out/sweep/seed=5", "out/sweep/seed=6"})
+    EXPECT_EQ(run_json(folder)["seed"], seed++);
 
   // Every line names its run as run.json and the plan do.
-  const std::vector<json> plans = json_lines(nephroid::test::nephroid({"plan", "sweep.json", "--json"}, scratch.path(), logs).out);
+  const std::vector<json> plans =
+      json_lines(nephroid::test::nephroid({"plan", "sweep.json", "--json"}, scratch.path(), logs).out);
   ASSERT_EQ(plans.size(), 3u);
   std::size_t results = 0;
   for (const json& line : json_lines(ended.out)) {
@@ -204,17 +208,15 @@ TEST_F(Runs, SweepsFillFoldersThatAreCalledByWhatVaries)
   EXPECT_EQ(results, 3u);
 }
 
-TEST_F(Runs, OnePassIsNotPasses)
-{
-  const Ended ended =
-      run("a", {"--passes", "1", "--set", R"(reference={"type":"recipe","passes":1})"}, test::own_cache(scratch.path() / "cache"));
+TEST_F(Runs, OnePassIsNotPasses) {
+  const Ended ended = run("a", {"--passes", "1", "--set", R"(reference={"type":"recipe","passes":1})"},
+                          test::own_cache(scratch.path() / "cache"));
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("image.png: 1 pass, "));
   EXPECT_THAT(ended.err, HasSubstr("rendering the reference, 2 x 1 pass; "));
 }
 
-TEST_F(Runs, JsonLinesEndWithTheResult)
-{
+TEST_F(Runs, JsonLinesEndWithTheResult) {
   const Ended ended = run("a", {"--seconds", "1.2", "--json"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   const std::vector<json> all = json_lines(ended.out);
@@ -235,19 +237,17 @@ TEST_F(Runs, JsonLinesEndWithTheResult)
   EXPECT_GE(all.back()["work_seconds"], 1.2);
 }
 
-TEST_F(Runs, SayOnATerminalThatTheyCompileKernels)
-{
-  const std::string command =
-      fmt::format("cd '{0}' && TERM=xterm POCL_CACHE_DIR='{0}/cache' script -qec \"'{1}' run spectral/plate --passes 1 -o a\" shown "
-                  ">/dev/null 2>&1 </dev/null",
-                  scratch.path().string(), NEPHROID_PROGRAM);
+TEST_F(Runs, SayOnATerminalThatTheyCompileKernels) {
+  const std::string command = fmt::format("cd '{0}' && TERM=xterm POCL_CACHE_DIR='{0}/cache' script -qec \"'{1}' run "
+                                          "spectral/plate --passes 1 -o a\" shown "
+                                          ">/dev/null 2>&1 </dev/null",
+                                          scratch.path().string(), NEPHROID_PROGRAM);
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_THAT(read_file(scratch.path() / "shown"), HasSubstr("\rplate  compiling kernels\033[K\r\033[K"));
   EXPECT_THAT(messages_of(run("b", {"--passes", "1"})), IsEmpty()) << "elsewhere it would be one line more to read";
 }
 
-TEST_F(Runs, BadOutputFoldersAreRefusedBeforeRendering)
-{
+TEST_F(Runs, BadOutputFoldersAreRefusedBeforeRendering) {
   write_file_whole(scratch.path() / "file", "mine");
   fs::create_directory(scratch.path() / "full");
   write_file_whole(scratch.path() / "full/letter.txt", "mine");
@@ -265,8 +265,7 @@ TEST_F(Runs, BadOutputFoldersAreRefusedBeforeRendering)
   EXPECT_EQ(read_file(scratch.path() / "full/letter.txt"), "mine");
 }
 
-TEST_F(Runs, AFullDiskIsALineAndNoHalfFile)
-{
+TEST_F(Runs, AFullDiskIsALineAndNoHalfFile) {
   const fs::path disk = scratch.path() / "disk";
   fs::create_directory(disk);
   if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=20k") != 0) GTEST_SKIP() << "mounting a small disk needs root";
@@ -285,23 +284,22 @@ TEST_F(Runs, AFullDiskIsALineAndNoHalfFile)
 }
 
 // Linux's file names are bytes. In JSON, which is UTF-8, such a name cannot stand as it is; that must not cost the run.
-TEST_F(Runs, FileAndFolderNamesMayBeAnyBytes)
-{
+TEST_F(Runs, FileAndFolderNamesMayBeAnyBytes) {
   fs::create_directory(scratch.path() / "f\xff");
   write_file_whole(scratch.path() / "f\xff/p\xfe.json",
                    R"({"parent": "spectral/plate.json", "scene": {"camera": {"resolution": [16, 16]}}})");
   for (const char* option : {"--json", "--resume"}) {
-    const Ended ended = nephroid::test::nephroid({"run", "f\xff/p\xfe.json", "--passes", "2", option}, scratch.path(), logs);
+    const Ended ended =
+        nephroid::test::nephroid({"run", "f\xff/p\xfe.json", "--passes", "2", option}, scratch.path(), logs);
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
   }
   EXPECT_EQ(run_json("out/p\xfe")["name"], "p\xef\xbf\xbd");
   EXPECT_EQ(nephroid::test::nephroid({"plan", "f\xff/p\xfe.json", "--json"}, scratch.path(), logs).exit_code, 0);
 }
 
-TEST_F(Runs, NeedNoHome)
-{
-  const Ended ended =
-      run("a", {"--passes", "1"}, {{"HOME", std::nullopt}, {"XDG_CACHE_HOME", std::nullopt}, {"POCL_CACHE_DIR", std::nullopt}});
+TEST_F(Runs, NeedNoHome) {
+  const Ended ended = run("a", {"--passes", "1"},
+                          {{"HOME", std::nullopt}, {"XDG_CACHE_HOME", std::nullopt}, {"POCL_CACHE_DIR", std::nullopt}});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `nephroid dispersion`, `clusters` and `importance` as scripts use them: JSON as the contract has it, good files among bad ones, odd
-// names, and one line for whatever is wrong, here and with spectral.effort elsewhere.
+// `nephroid dispersion`, `clusters` and `importance` as scripts use them: JSON as the contract has it, good files among
+// bad ones, odd names, and one line for whatever is wrong, here and with spectral.effort elsewhere.
 #include "tests/support/program_test.h"
 
 namespace nephroid::spectral_verbs_test {
@@ -9,13 +9,13 @@ using nlohmann::json;
 
 class SpectralVerbs : public ProgramTest {};
 
-TEST_F(SpectralVerbs, GoodFilesAmongBadOnesAreStillAnswered)
-{
-  write("Gauß (o), 1.5 μm.yml", "DATA:\n  - type: tabulated nk\n    data: |\n        0.4 1.6 -0.1\n        0.6 1.5 0.1\n");
+TEST_F(SpectralVerbs, GoodFilesAmongBadOnesAreStillAnswered) {
+  write("Gauß (o), 1.5 μm.yml",
+        "DATA:\n  - type: tabulated nk\n    data: |\n        0.4 1.6 -0.1\n        0.6 1.5 0.1\n");
   write("broken.yml", "DATA:\n  - type: tabulated n\n    data: |\n        0.4 one\n");
   write("k.yml", "DATA:\n  - type: tabulated k\n    data: |\n        0.4 0.5\n");
-  const Ended ended =
-      run({"dispersion", "N-BK7", "missing.yml", "Gauß (o), 1.5 μm.yml", "broken.yml", "k.yml", "--nm", "500", "--nm", "700", "--json"});
+  const Ended ended = run({"dispersion", "N-BK7", "missing.yml", "Gauß (o), 1.5 μm.yml", "broken.yml", "k.yml", "--nm",
+                           "500", "--nm", "700", "--json"});
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(ended.err, "");
   const std::vector<json> answers = json_lines(ended.out);
@@ -35,25 +35,23 @@ TEST_F(SpectralVerbs, GoodFilesAmongBadOnesAreStillAnswered)
   EXPECT_EQ(answers[4]["samples"][0]["k"], 0.5);
 }
 
-TEST_F(SpectralVerbs, AFormulaWithoutAValueIsNullAndSaid)
-{
+TEST_F(SpectralVerbs, AFormulaWithoutAValueIsNullAndSaid) {
   write("pole.yml", "DATA:\n  - type: formula 1\n    wavelength_range: 0.5 1\n    coefficients: 0 1.2 0.45\n");
   const Ended ended = run({"dispersion", "pole.yml", "--nm", "445", "--json"});
   EXPECT_EQ(ended.exit_code, 0);
-  EXPECT_EQ(json_lines(ended.out).at(0)["samples"][0], json({{"nm", 445.0}, {"n", nullptr}, {"k", nullptr}, {"extrapolated", true}}));
+  EXPECT_EQ(json_lines(ended.out).at(0)["samples"][0],
+            json({{"nm", 445.0}, {"n", nullptr}, {"k", nullptr}, {"extrapolated", true}}));
   EXPECT_EQ(ended.err, "nephroid: pole.yml: the formula gives no finite n at 445 nm\n");
 }
 
-TEST_F(SpectralVerbs, TextHasTheUsualLinesAndTheAbbeNumber)
-{
+TEST_F(SpectralVerbs, TextHasTheUsualLinesAndTheAbbeNumber) {
   const Ended ended = run({"dispersion", "N-SF66"});
   EXPECT_EQ(ended.exit_code, 0);
-  EXPECT_THAT(ended.out,
-              testing::AllOf(HasSubstr("587.5618   1.922860"), HasSubstr("Abbe number V_d 20.88"), HasSubstr("outside the range")));
+  EXPECT_THAT(ended.out, testing::AllOf(HasSubstr("587.5618   1.922860"), HasSubstr("Abbe number V_d 20.88"),
+                                        HasSubstr("outside the range")));
 }
 
-TEST_F(SpectralVerbs, ClustersOfAFileAndOfAPreset)
-{
+TEST_F(SpectralVerbs, ClustersOfAFileAndOfAPreset) {
   const Ended ended = run({"clusters", "--ior", "N-SF66", "--threshold", "0.1", "--method", "thesis", "--json"});
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_EQ(ended.err, "nephroid: N-SF66: n is extrapolated below 390 nm (data: 390..2500 nm)\n");
@@ -78,13 +76,12 @@ TEST_F(SpectralVerbs, ClustersOfAFileAndOfAPreset)
   EXPECT_EQ(plate, crown);
 }
 
-TEST_F(SpectralVerbs, OneClusterIsNotClusters)
-{
-  EXPECT_THAT(run({"clusters", "--ior", "N-BK7", "--threshold", "80"}).out, StartsWith("N-BK7: 1 cluster by the method optimal"));
+TEST_F(SpectralVerbs, OneClusterIsNotClusters) {
+  EXPECT_THAT(run({"clusters", "--ior", "N-BK7", "--threshold", "80"}).out,
+              StartsWith("N-BK7: 1 cluster by the method optimal"));
 }
 
-TEST_F(SpectralVerbs, APresetWithSeveralGlassesAsksForOne)
-{
+TEST_F(SpectralVerbs, APresetWithSeveralGlassesAsksForOne) {
   write("two.json", R"({"parent": "spectral/plate", "scene": {
     "materials": {"glass": {"type": "dielectric", "dispersion": "materials/N-BK7.yml"},
                   "dense/flint": {"type": "dielectric", "dispersion": "materials/missing.yml"},
@@ -93,14 +90,17 @@ TEST_F(SpectralVerbs, APresetWithSeveralGlassesAsksForOne)
                 {"name": "b", "shape": {"type": "sphere"}, "material": "dense/flint"}]}})");
   const Ended ended = run({"clusters", "two.json"});
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.err, HasSubstr("objects are made of several dielectrics: dense/flint, glass; expected one of them with --material\n"));
+  EXPECT_THAT(
+      ended.err,
+      HasSubstr("objects are made of several dielectrics: dense/flint, glass; expected one of them with --material\n"));
   EXPECT_EQ(run({"clusters", "two.json", "--material", "glass"}).exit_code, 0);
-  EXPECT_THAT(run({"clusters", "two.json", "--material", "screen"}).err, HasSubstr("no object is made of a dielectric \"screen\""));
-  EXPECT_THAT(run({"clusters", "two.json", "--material", "dense/flint"}).err, HasSubstr("#/scene/materials/dense~1flint/dispersion: "));
+  EXPECT_THAT(run({"clusters", "two.json", "--material", "screen"}).err,
+              HasSubstr("no object is made of a dielectric \"screen\""));
+  EXPECT_THAT(run({"clusters", "two.json", "--material", "dense/flint"}).err,
+              HasSubstr("#/scene/materials/dense~1flint/dispersion: "));
 }
 
-TEST_F(SpectralVerbs, WhatIsWrongIsSaidInOneLine)
-{
+TEST_F(SpectralVerbs, WhatIsWrongIsSaidInOneLine) {
   write("empty.yml", "");
   write("binary.yml", std::string("\0\x01\xff\"\\\x02", 6));
   write("k.yml", "DATA:\n  - type: tabulated k\n    data: |\n        0.4 0.5\n");
@@ -120,17 +120,22 @@ TEST_F(SpectralVerbs, WhatIsWrongIsSaidInOneLine)
       {{"dispersion", "N-BK7", "--nm", "-500"}, "--nm: the wavelength is -500 nm"},
       {{"dispersion", "N-BK7", "--nm", "nan"}, "expected a number above 0"},
       {{"dispersion", "N-BK7", "--outside", "guess"}, "guess not in"},
-      {{"dispersion", "N-BK7", "--outside", "refuse", "--nm", "200"}, "expected a wavelength in its range 300..2500 nm"},
+      {{"dispersion", "N-BK7", "--outside", "refuse", "--nm", "200"},
+       "expected a wavelength in its range 300..2500 nm"},
       {{"clusters"}, "nothing to cluster; expected a PRESET or --ior FILE"},
       {{"clusters", "spectral/plate", "--ior", "N-BK7"}, "both a preset and --ior are given"},
       {{"clusters", "no-such-preset"}, "no-such-preset"},
       {{"clusters", "N-BK7"}, "clusters: 'N-BK7' is a dispersion file, not a preset; take it with --ior N-BK7"},
       {{"clusters", "environment/bunny"},
        "bunny.json#/engine: is 'environment', which clusters no wavelengths; expected 'spectral'; choose"},
-      {{"clusters", "first-light", "--set", "engine=inverse"}, "--set engine=inverse: is 'inverse', which clusters no wavelengths"},
-      {{"importance", "environment/ring"}, "ring.json#/engine: is 'environment', which weighs no wavelengths; expected 'spectral'; choose"},
-      {{"importance", "inverse/shapes"}, "shapes.json#/engine: is 'inverse', which weighs no wavelengths; expected 'spectral'; choose"},
-      {{"pictures", "first-light"}, "first-light.json#/engine: is 'spectral', which casts no pictures; expected 'inverse'; choose"},
+      {{"clusters", "first-light", "--set", "engine=inverse"},
+       "--set engine=inverse: is 'inverse', which clusters no wavelengths"},
+      {{"importance", "environment/ring"},
+       "ring.json#/engine: is 'environment', which weighs no wavelengths; expected 'spectral'; choose"},
+      {{"importance", "inverse/shapes"},
+       "shapes.json#/engine: is 'inverse', which weighs no wavelengths; expected 'spectral'; choose"},
+      {{"pictures", "first-light"},
+       "first-light.json#/engine: is 'spectral', which casts no pictures; expected 'inverse'; choose"},
       {{"clusters", "k.yml"}, "take it with --ior k.yml"},
       {{"clusters", "--ior", "NBK7"}, "; did you mean 'N-BK7'?"},
       {{"clusters", "--ior", "no-such-glass"}, "'no-such-glass' not found"},
@@ -147,8 +152,7 @@ TEST_F(SpectralVerbs, WhatIsWrongIsSaidInOneLine)
 
 class ImportanceVerb : public ProgramTest {
 protected:
-  void SetUp() override
-  {
+  void SetUp() override {
     write("ball.json", R"({
       "engine": "spectral", "unit": "m",
       "scene": {
@@ -161,8 +165,7 @@ protected:
   }
 };
 
-TEST_F(ImportanceVerb, AnswersInTheContractsShape)
-{
+TEST_F(ImportanceVerb, AnswersInTheContractsShape) {
   const Ended ended = run({"importance", "ball.json", "--json"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   const json answer = json::parse(ended.out);
@@ -176,7 +179,8 @@ TEST_F(ImportanceVerb, AnswersInTheContractsShape)
   EXPECT_EQ(answer["surroundings"].size(), 1u);
   EXPECT_EQ(answer["surroundings"][0]["material"], "the \"floor\"");
   EXPECT_EQ(answer["surroundings"][0]["share"], 1);
-  EXPECT_NEAR(answer["surroundings"][0]["lightness"].get<double>(), 116 * std::cbrt(0.8) - 16, 1e-9); // a reflectance of 0.8
+  EXPECT_NEAR(answer["surroundings"][0]["lightness"].get<double>(), 116 * std::cbrt(0.8) - 16,
+              1e-9); // a reflectance of 0.8
 
   std::set<int> wavelengths;
   for (const json& cluster : answer["iterations"]) {
@@ -192,12 +196,12 @@ TEST_F(ImportanceVerb, AnswersInTheContractsShape)
   EXPECT_EQ(answer["iterations"].size(), 32u); // of N-SF66 at 0.05 degrees
 }
 
-TEST_F(ImportanceVerb, TakesTheMethodFromTheOptionElseFromThePreset)
-{
+TEST_F(ImportanceVerb, TakesTheMethodFromTheOptionElseFromThePreset) {
   const auto method_of = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"importance", "ball.json", "--json"});
     const json answer = json::parse(run(arguments).out);
-    const bool fixed = answer["surroundings"].empty() && std::abs(answer["importance"][0].get<double>() - 0.338048) < 1e-6;
+    const bool fixed =
+        answer["surroundings"].empty() && std::abs(answer["importance"][0].get<double>() - 0.338048) < 1e-6;
     EXPECT_EQ(fixed, answer["method"] == "radziszewski");
     return answer["method"].get<std::string>();
   };
@@ -208,17 +212,16 @@ TEST_F(ImportanceVerb, TakesTheMethodFromTheOptionElseFromThePreset)
   EXPECT_EQ(method_of({"--method", "radziszewski"}), "radziszewski");
 }
 
-TEST_F(ImportanceVerb, PrintsTablesForPeople)
-{
+TEST_F(ImportanceVerb, PrintsTablesForPeople) {
   const Ended ended = run({"importance", "ball.json", "--set", "stop.passes=1000"});
   EXPECT_EQ(ended.exit_code, 0);
-  EXPECT_THAT(ended.out, testing::AllOf(HasSubstr("1.0000   91.7  the \"floor\"\n"), HasSubstr(" 1000  "),
-                                        HasSubstr("32 clusters alike: 32000"), HasSubstr("401 wavelengths one by one: 401000")));
+  EXPECT_THAT(ended.out,
+              testing::AllOf(HasSubstr("1.0000   91.7  the \"floor\"\n"), HasSubstr(" 1000  "),
+                             HasSubstr("32 clusters alike: 32000"), HasSubstr("401 wavelengths one by one: 401000")));
 }
 
 // Lines of a sweep are told apart by their names.
-TEST_F(ImportanceVerb, ASweepIsALineARun)
-{
+TEST_F(ImportanceVerb, ASweepIsALineARun) {
   for (const char* verb : {"importance", "plan"}) {
     const Ended ended = run({verb, "ball.json", "--json", "--set", R"(sweep={"seed": [1, 2]})"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -228,19 +231,22 @@ TEST_F(ImportanceVerb, ASweepIsALineARun)
   }
 }
 
-TEST_F(ImportanceVerb, WhatIsWrongIsSaidInOneLine)
-{
-  const std::string says = "the importance (4.15) is 0 at every wavelength: ", zero = "ball.json#/spectral/effort: " + says;
+TEST_F(ImportanceVerb, WhatIsWrongIsSaidInOneLine) {
+  const std::string says = "the importance (4.15) is 0 at every wavelength: ",
+                    zero = "ball.json#/spectral/effort: " + says;
   const std::vector<std::string> black{"--set", "scene.materials.the \"floor\".reflectance=0"};
   const Wrong cases[] = {
       {{"importance"}, "PRESET is required"},
       {{"importance", "no-such-preset"}, "no-such-preset"},
       {{"importance", "ball.json", "--method", "best"}, "best not in"},
-      {{"importance", "ball.json", "--set", "scene.lights.0.power_w=0"}, zero + "no light sends power towards the caustic objects"},
+      {{"importance", "ball.json", "--set", "scene.lights.0.power_w=0"},
+       zero + "no light sends power towards the caustic objects"},
       {{"importance", "ball.json", black[0], black[1]}, zero + "nothing around the caustic objects reflects"},
       {{"importance", "spectral/plate", "--set", "scene.objects=[]"}, "no object is of glass or a mirror"},
-      {{"plan", "ball.json", black[0], black[1], "--set", "spectral.effort=importance"}, "--set spectral.effort=importance: " + says},
-      {{"run", "ball.json", black[0], black[1], "--set", "spectral.effort=importance"}, "--set spectral.effort=importance: " + says},
+      {{"plan", "ball.json", black[0], black[1], "--set", "spectral.effort=importance"},
+       "--set spectral.effort=importance: " + says},
+      {{"run", "ball.json", black[0], black[1], "--set", "spectral.effort=importance"},
+       "--set spectral.effort=importance: " + says},
       {{"plan", "ball.json", "--set", "spectral.effort=random"}, "random needs the estimator sppm"},
       {{"plan", "ball.json", "--set", "spectral.effort=variance", "--set", "spectral.estimator=sppm"},
        "variance is not measured by the estimator sppm"},

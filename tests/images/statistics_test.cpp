@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Five small scenes against stored means and variances of the same rendering with other seeds: who changes a kernel sees whether a
-// picture changed by more than its noise, or its noise did. README.md beside this file: how the stored pictures are made.
+// Five small scenes against stored means and variances of the same rendering with other seeds: who changes a kernel
+// sees whether a picture changed by more than its noise, or its noise did. README.md beside this file: how the stored
+// pictures are made.
 #include "preset/read.h"
 #include "spectral/engine.h"
 #include "tests/support/render.h"
@@ -11,10 +12,9 @@ namespace nephroid::statistics_test {
 constexpr int stored_renders = 64;
 constexpr std::uint64_t first_stored_seed = 1'000'001, fresh_seed = 7;
 
-/// 16 passes of 2^13 photons and 16 samples a pixel: under a second. What the stored statistics are of is said here rather than left to
-/// the engine's defaults: splats of independent photons, each for a whole cluster.
-void make_small(preset::Preset& p)
-{
+/// 16 passes of 2^13 photons and 16 samples a pixel: under a second. What the stored statistics are of is said here
+/// rather than left to the engine's defaults: splats of independent photons, each for a whole cluster.
+void make_small(preset::Preset& p) {
   p.scene.camera.resolution = {stored_size, stored_size};
   spectral::settings(p).threshold_deg = 0.2;
   spectral::settings(p).photons_per_pass = 1 << 13;
@@ -29,8 +29,7 @@ void make_small(preset::Preset& p)
   p.white = 1;
 }
 
-preset::Preset shipped(const std::string& name)
-{
+preset::Preset shipped(const std::string& name) {
   preset::Preset p = preset::read_preset(name);
   make_small(p);
   for (preset::Object& object : p.scene.objects)
@@ -38,18 +37,18 @@ preset::Preset shipped(const std::string& name)
   return p;
 }
 
-/// Glass that absorbs red and blue: k as a table is in dispersion files only, so a shipped material with absorption serves.
-preset::Material absorbing_glass()
-{
+/// Glass that absorbs red and blue: k as a table is in dispersion files only, so a shipped material with absorption
+/// serves.
+preset::Material absorbing_glass() {
   preset::Material m = glass(1.5);
   m.dispersion.type = preset::Dispersion::Type::file;
   m.dispersion.file = "materials/rhodamine-6G-Seckin.yml";
   return m;
 }
 
-/// A pane of dye and a glass ball with a bubble and with a water ball that overlaps its side, between a tinted mirror and coloured walls.
-preset::Preset nested()
-{
+/// A pane of dye and a glass ball with a bubble and with a water ball that overlaps its side, between a tinted mirror
+/// and coloured walls.
+preset::Preset nested() {
   preset::Preset p = empty_preset(stored_size);
   p.unit = preset::Preset::Unit::cm;
   p.scene.materials = {{"dye", absorbing_glass()}, {"glass", glass(1.6)}, {"water", glass(1.33)}, {"air", glass(1)},
@@ -82,8 +81,7 @@ preset::Preset nested()
 }
 
 /// A brilliant under a panel of light and the sun.
-preset::Preset diamond_under_a_panel()
-{
+preset::Preset diamond_under_a_panel() {
   preset::Preset p = empty_preset(stored_size);
   p.unit = preset::Preset::Unit::mm;
   preset::Material stone = glass(2.4);
@@ -93,7 +91,8 @@ preset::Preset diamond_under_a_panel()
   preset::Shape brilliant;
   brilliant.type = preset::Shape::Type::brilliant;
   brilliant.radius = 3;
-  p.scene.objects = {object("stone", brilliant, "diamond", at({0, 4, 0}, {10, 0, 5})), object("ground", quad(60, 60), "ground")};
+  p.scene.objects = {object("stone", brilliant, "diamond", at({0, 4, 0}, {10, 0, 5})),
+                     object("ground", quad(60, 60), "ground")};
   preset::Light panel, sun;
   panel.type = preset::Light::Type::area;
   panel.position = {8, 18, -6};
@@ -119,10 +118,9 @@ struct Case {
 
 void PrintTo(const Case& tested, std::ostream* out) { *out << tested.name; }
 
-/// Without the direct layer: the lamp is so close to a wall that what glass shows of the wall now and then is far brighter than all else,
-/// too seldom for its variance to be known from the stored renders.
-preset::Preset bunny()
-{
+/// Without the direct layer: the lamp is so close to a wall that what glass shows of the wall now and then is far
+/// brighter than all else, too seldom for its variance to be known from the stored renders.
+preset::Preset bunny() {
   preset::Preset p = shipped("first-light");
   spectral::settings(p).direct = false;
   return p;
@@ -134,8 +132,7 @@ const std::vector<Case> cases{{"bunny", bunny},
                               {"nested", nested},
                               {"diamond", diamond_under_a_panel}};
 
-XyzPicture to_xyz(const std::vector<float>& rgb)
-{
+XyzPicture to_xyz(const std::vector<float>& rgb) {
   XyzPicture picture(rgb.size());
   for (std::size_t i = 0; i < rgb.size(); i += 3) {
     const optics::Colour xyz = optics::linear_srgb_to_xyz({rgb[i], rgb[i + 1], rgb[i + 2]});
@@ -149,12 +146,9 @@ class Renderer {
 public:
   explicit Renderer(preset::Preset preset)
       : preset_(std::move(preset)), scene_(scene::load_scene(preset_)), bvh_(scene::build_bvh(scene_.geometry)),
-        plan_(spectral::make_plan(preset_, scene_, bvh_))
-  {
-  }
+        plan_(spectral::make_plan(preset_, scene_, bvh_)) {}
 
-  job::Snapshot render(std::uint64_t seed)
-  {
+  job::Snapshot render(std::uint64_t seed) {
     preset_.seed = seed;
     const auto job = photons::make_job(preset_, scene_, bvh_, plan_, shared_context());
     while (!job->finished()) job->advance();
@@ -169,15 +163,13 @@ private:
   photons::RunPlan plan_;
 };
 
-std::filesystem::path stored_file(const std::string& name)
-{
+std::filesystem::path stored_file(const std::string& name) {
   return std::filesystem::path(NEPHROID_SOURCE_DIR "/tests/images/stored") / (name + ".exr");
 }
 
 /// Writes what a person needs to see why a comparison failed, and returns the folder: beside this test program.
-std::filesystem::path write_artefacts(const std::string& name, const job::Picture& picture, const StoredStatistics& stored,
-                                      const Comparison& comparison)
-{
+std::filesystem::path write_artefacts(const std::string& name, const job::Picture& picture,
+                                      const StoredStatistics& stored, const Comparison& comparison) {
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "failed" / name;
   std::filesystem::create_directories(folder);
   std::vector<float> reference, signs;
@@ -198,30 +190,30 @@ std::filesystem::path write_artefacts(const std::string& name, const job::Pictur
   write("z_of_XYZ", comparison.z, false);
   image::write_png(folder / "z_of_Y.png", stored_size, stored_size, signs);
   std::ofstream(folder / "p-values.txt") << fmt::format(
-      "worst block: p = {:.3g}, {}\nmean of clipped z^2: {:.4f}, stored {:.4f} +- {:.4f}, p = {:.3g}\n", comparison.block_p,
-      comparison.worst, comparison.z2, stored.mean_z2, stored.standard_deviation_z2, comparison.z2_p);
+      "worst block: p = {:.3g}, {}\nmean of clipped z^2: {:.4f}, stored {:.4f} +- {:.4f}, p = {:.3g}\n",
+      comparison.block_p, comparison.worst, comparison.z2, stored.mean_z2, stored.standard_deviation_z2,
+      comparison.z2_p);
   return folder;
 }
 
 class StoredPicture : public testing::TestWithParam<Case> {};
 
-TEST_P(StoredPicture, HasTheStoredMeanAndVariance)
-{
+TEST_P(StoredPicture, HasTheStoredMeanAndVariance) {
   const StoredStatistics stored = read_statistics(stored_file(GetParam().name));
   const job::Snapshot snapshot = Renderer(GetParam().preset()).render(fresh_seed);
   const Comparison comparison = compare(to_xyz(snapshot.picture->rgb), stored);
   EXPECT_EQ(photons::energy_of(snapshot).refused_contributions, 0u);
   EXPECT_GT(comparison.block_p, false_alarm) << comparison.worst;
-  EXPECT_GT(comparison.z2_p, false_alarm) << "mean of clipped z^2 " << comparison.z2 << ", stored " << stored.mean_z2 << " +- "
-                                          << stored.standard_deviation_z2;
+  EXPECT_GT(comparison.z2_p, false_alarm) << "mean of clipped z^2 " << comparison.z2 << ", stored " << stored.mean_z2
+                                          << " +- " << stored.standard_deviation_z2;
   if (HasFailure())
-    ADD_FAILURE() << "image, reference, z and p-values are in " << write_artefacts(GetParam().name, *snapshot.picture, stored, comparison);
+    ADD_FAILURE() << "image, reference, z and p-values are in "
+                  << write_artefacts(GetParam().name, *snapshot.picture, stored, comparison);
 }
 
-// The test itself: a picture that is 5 % brighter, one whose rows have moved by one, one with a single far too bright pixel and one with
-// twice the noise are found out in every scene.
-TEST_P(StoredPicture, IsToldFromWrongOnes)
-{
+// The test itself: a picture that is 5 % brighter, one whose rows have moved by one, one with a single far too bright
+// pixel and one with twice the noise are found out in every scene.
+TEST_P(StoredPicture, IsToldFromWrongOnes) {
   const StoredStatistics stored = read_statistics(stored_file(GetParam().name));
   const XyzPicture right = to_xyz(Renderer(GetParam().preset()).render(fresh_seed + 1).picture->rgb);
   XyzPicture bright = right, moved = right, spotted = right, noisy = right;
@@ -240,8 +232,7 @@ TEST_P(StoredPicture, IsToldFromWrongOnes)
 }
 
 // Not run by itself: makes the stored pictures again.
-TEST_P(StoredPicture, DISABLED_IsMadeAgain)
-{
+TEST_P(StoredPicture, DISABLED_IsMadeAgain) {
   Renderer renderer(GetParam().preset());
   std::vector<XyzPicture> renders;
   std::vector<XyzPicture> caustics;
@@ -250,10 +241,11 @@ TEST_P(StoredPicture, DISABLED_IsMadeAgain)
     renders.push_back(to_xyz(snapshot.picture->rgb));
     caustics.push_back(to_xyz(layer(snapshot, "caustic").rgb));
   }
-  // A photon adds about variance / mean to its pixel, and exactly that where it came alone; a sample of the direct layer what the
-  // brightest surface sends to the eye: each of the four paths through glass adds at most three quarters of that, because its cluster
-  // was chosen in proportion to X + Y + Z.
-  const StoredStatistics::Level photons = make_statistics(caustics, {}).levels[0], pixels = make_statistics(renders, {}).levels[0];
+  // A photon adds about variance / mean to its pixel, and exactly that where it came alone; a sample of the direct
+  // layer what the brightest surface sends to the eye: each of the four paths through glass adds at most three quarters
+  // of that, because its cluster was chosen in proportion to X + Y + Z.
+  const StoredStatistics::Level photons = make_statistics(caustics, {}).levels[0],
+                                pixels = make_statistics(renders, {}).levels[0];
   std::array<double, 3> largest{};
   for (std::size_t i = 0; i < pixels.mean.size(); ++i) {
     double& l = largest[i % 3];
@@ -264,18 +256,19 @@ TEST_P(StoredPicture, DISABLED_IsMadeAgain)
 }
 
 // Not run by itself: twenty more seeds must pass, and none of them by a hair.
-TEST_P(StoredPicture, DISABLED_PassesWithTwentySeeds)
-{
+TEST_P(StoredPicture, DISABLED_PassesWithTwentySeeds) {
   const StoredStatistics stored = read_statistics(stored_file(GetParam().name));
   Renderer renderer(GetParam().preset());
   for (std::uint64_t seed = 101; seed <= 120; ++seed) {
     const Comparison comparison = compare(to_xyz(renderer.render(seed).picture->rgb), stored);
-    fmt::print("{} seed {}: p of the worst block {:.2g}, of mean z^2 {:.2g}\n", GetParam().name, seed, comparison.block_p, comparison.z2_p);
+    fmt::print("{} seed {}: p of the worst block {:.2g}, of mean z^2 {:.2g}\n", GetParam().name, seed,
+               comparison.block_p, comparison.z2_p);
     EXPECT_GT(comparison.block_p, 1e-6) << "seed " << seed << ": " << comparison.worst;
     EXPECT_GT(comparison.z2_p, 1e-6) << "seed " << seed;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, StoredPicture, testing::ValuesIn(cases), [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Scenes, StoredPicture, testing::ValuesIn(cases),
+                         [](const auto& tested) { return tested.param.name; });
 
 } // namespace nephroid::statistics_test

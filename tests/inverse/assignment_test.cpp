@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sweeps bring facets to the pictures: what they believe, that they only gain, and that they go on with the same bits. Their cost
-// and its smoothing.
+// Sweeps bring facets to the pictures: what they believe, that they only gain, and that they go on with the same bits.
+// Their cost and its smoothing.
 #include "inverse/assign/assignment.h"
 #include "inverse/assign/conflicts.h"
 #include "inverse/assign/footprint.h"
@@ -13,8 +13,7 @@ namespace nephroid::assignment_test {
 
 using namespace inverse;
 
-TEST(Assignment, NeverLosesAndSoonHasThePictures)
-{
+TEST(Assignment, NeverLosesAndSoonHasThePictures) {
   const Layout layout = small_layout();
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment a(test::shared_context(), layout, targets, 1);
@@ -37,8 +36,7 @@ TEST(Assignment, NeverLosesAndSoonHasThePictures)
 }
 
 // Every slope is below the limit, and the light on a receiver is what leaves the object less what is beside it.
-TEST(Assignment, KeepsTheLightAndTheLimit)
-{
+TEST(Assignment, KeepsTheLightAndTheLimit) {
   Layout layout = small_layout();
   layout.n = 1.1; // bends by a slope of 0.46 at most
   layout.distances = {90, 110};
@@ -58,8 +56,7 @@ TEST(Assignment, KeepsTheLightAndTheLimit)
   }
 }
 
-TEST(Assignment, GoesOnWithTheSameBits)
-{
+TEST(Assignment, GoesOnWithTheSameBits) {
   const Layout layout = small_layout();
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment whole(test::shared_context(), layout, targets, 5), first(test::shared_context(), layout, targets, 5),
@@ -75,8 +72,7 @@ TEST(Assignment, GoesOnWithTheSameBits)
 }
 
 // All facets together find more than one after the other: as much as several further sweeps.
-TEST(Assignment, IsRefinedInItsLastSweep)
-{
+TEST(Assignment, IsRefinedInItsLastSweep) {
   Layout layout = small_layout();
   layout.facets = {64, 64};
   layout.cells = {32, 32};
@@ -103,15 +99,15 @@ TEST(Assignment, IsRefinedInItsLastSweep)
 }
 
 // Cut before the refinement, after some steps of it, and at its end.
-TEST(Assignment, GoesOnWithTheSameBitsInTheRefinement)
-{
+TEST(Assignment, GoesOnWithTheSameBitsInTheRefinement) {
   const Layout layout = small_layout();
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment whole(test::shared_context(), layout, targets, 5);
   std::vector<std::vector<std::byte>> cuts;
   for (std::uint64_t tried = 0; !whole.finished(); tried = whole.tried()) {
     whole.advance();
-    if (whole.tried() - tried == layout.facet_count()) cuts.push_back(test::saved<State>(whole)); // a step moves all facets
+    if (whole.tried() - tried == layout.facet_count())
+      cuts.push_back(test::saved<State>(whole)); // a step moves all facets
   }
   ASSERT_GT(cuts.size(), 8u);
   for (const std::size_t cut : {std::size_t{0}, std::size_t{7}, cuts.size() - 1}) {
@@ -124,8 +120,7 @@ TEST(Assignment, GoesOnWithTheSameBitsInTheRefinement)
   }
 }
 
-TEST(Assignment, HasThePicturesOfAnObjectThatIsNotSquare)
-{
+TEST(Assignment, HasThePicturesOfAnObjectThatIsNotSquare) {
   Layout layout{.size = {120, 60}, .facets = {64, 32}, .receiver = {80, 80}, .cells = {24, 24}, .distances = {150}};
   const Picture star{.type = Picture::Type::star, .count = 5};
   const std::vector<Target> targets{make_target(star, layout, FileFinder(), "star")};
@@ -135,10 +130,9 @@ TEST(Assignment, HasThePicturesOfAnObjectThatIsNotSquare)
 }
 
 // Figures by hand: T / Tmax = 1, 1, 0, 0 and Z / Zmax = 1, 0.5, 0.5, 0.
-// Two receivers that no ray reaches both share the light: each has half, in its own tone. Wanted of all light, the dark half of a gradient
-// would get none.
-TEST(Assignment, GivesReceiversBesideEachOtherTheirParts)
-{
+// Two receivers that no ray reaches both share the light: each has half, in its own tone. Wanted of all light, the dark
+// half of a gradient would get none.
+TEST(Assignment, GivesReceiversBesideEachOtherTheirParts) {
   Layout layout = small_layout();
   layout.distances = {150, 155};
   layout.offsets = {{{-80, 0}, {80, 0}}};
@@ -157,8 +151,7 @@ TEST(Assignment, GivesReceiversBesideEachOtherTheirParts)
   }
 }
 
-TEST(Cost, IsThatOfTheThesisOverCellsWithLight)
-{
+TEST(Cost, IsThatOfTheThesisOverCellsWithLight) {
   const Target t{0.5, 0.5, 0, 0};
   const std::vector<double> z{4, 2, 2, 0};
   const Cost c = inverse::cost_of(t, z, 10);
@@ -172,10 +165,10 @@ TEST(Cost, IsThatOfTheThesisOverCellsWithLight)
 
 // Smoothing: its figure by hand, that it makes the object smoother, and that none of it is no term.
 
-// Two rows of three; one facet in the middle of the upper row tilted by theta against all others, which lie flat. It has 3 neighbours, each
-// unlike it alone: 1 - cos theta for itself; of its neighbours, two have 2 of their own and one has 3.
-TEST(Smoothing, RoughnessIsCostN)
-{
+// Two rows of three; one facet in the middle of the upper row tilted by theta against all others, which lie flat. It
+// has 3 neighbours, each unlike it alone: 1 - cos theta for itself; of its neighbours, two have 2 of their own and one
+// has 3.
+TEST(Smoothing, RoughnessIsCostN) {
   Layout layout{.facets = {3, 2}};
   std::vector<glm::dvec2> slopes(6);
   EXPECT_NEAR(roughness(layout, slopes), 0, 1e-15);
@@ -188,8 +181,7 @@ struct Made {
   double cost = 0, roughness = 0;
 };
 
-Made made(double smoothing)
-{
+Made made(double smoothing) {
   Layout layout{.facets = {32, 32}, .cells = {16, 16}, .distances = {100, 200}, .smoothing = smoothing};
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment a(test::shared_context(), layout, targets, 1);
@@ -205,8 +197,7 @@ Made made(double smoothing)
   return {mean(a.costs()).cost, roughness(layout, a.slopes())};
 }
 
-TEST(Smoothing, CostsErrorAndMakesSmoother)
-{
+TEST(Smoothing, CostsErrorAndMakesSmoother) {
   const Made none = made(0), some = made(0.3), much = made(100);
   EXPECT_LT(some.roughness, 0.9 * none.roughness);
   EXPECT_LT(much.roughness, 0.2 * none.roughness);
@@ -214,8 +205,7 @@ TEST(Smoothing, CostsErrorAndMakesSmoother)
 }
 
 // A weight so small that it turns no choice is as good as none, which has no term; but neighbours wait for each other.
-TEST(Smoothing, NoneIsAsATermOfNoWeight)
-{
+TEST(Smoothing, NoneIsAsATermOfNoWeight) {
   const Made none = made(0), little = made(1e-30);
   EXPECT_NEAR(little.cost, none.cost, 0.25 * none.cost);
   EXPECT_NEAR(little.roughness, none.roughness, 0.1 * none.roughness);
@@ -224,11 +214,11 @@ TEST(Smoothing, NoneIsAsATermOfNoWeight)
 // Which pictures fight: none where light can serve both, all of it where it cannot, and no third one is blamed.
 
 /// Cells of these columns and rows, half open, of 16 x 16.
-Target box(int left, int right, int top = 0, int bottom = 16)
-{
+Target box(int left, int right, int top = 0, int bottom = 16) {
   Target target(256);
   for (int y = top; y < bottom; ++y)
-    for (int x = left; x < right; ++x) target[static_cast<std::size_t>(16 * y + x)] = 1.0 / ((right - left) * (bottom - top));
+    for (int x = left; x < right; ++x)
+      target[static_cast<std::size_t>(16 * y + x)] = 1.0 / ((right - left) * (bottom - top));
   return target;
 }
 
@@ -242,8 +232,7 @@ struct Found {
   ConflictSearch search() const { return ConflictSearch(layout, targets, slopes, heights, light); }
 };
 
-Found assigned(const std::vector<double>& distances, const std::vector<Target>& targets)
-{
+Found assigned(const std::vector<double>& distances, const std::vector<Target>& targets) {
   Found found{.layout = {.facets = {64, 64}, .cells = {16, 16}, .distances = distances}, .targets = targets};
   Assignment a(test::shared_context(), found.layout, targets, 1);
   while (!a.finished()) a.advance();
@@ -256,15 +245,13 @@ Found assigned(const std::vector<double>& distances, const std::vector<Target>& 
 double fight(const Conflicts& c, std::size_t j, std::size_t k) { return c.between[j][k] + c.between[k][j]; }
 
 // Light that goes straight on makes the same picture at any distance: here the whole receiver.
-TEST(Conflicts, NoneWhereStraightLightMakesBoth)
-{
+TEST(Conflicts, NoneWhereStraightLightMakesBoth) {
   EXPECT_LT(fight(assigned({100, 200}, {box(0, 16), box(0, 16)}).search().picture_conflicts(), 0, 1), 0.05);
 }
 
-// Through a first receiver's left edge no light comes to a second one's right edge. A facet serves one of them: all of the light is
-// misplaced in one, for the other's sake.
-TEST(Conflicts, AllLightWherePicturesExcludeEachOther)
-{
+// Through a first receiver's left edge no light comes to a second one's right edge. A facet serves one of them: all of
+// the light is misplaced in one, for the other's sake.
+TEST(Conflicts, AllLightWherePicturesExcludeEachOther) {
   const Found found = assigned({100, 200}, {box(0, 2, 6, 10), box(14, 16, 6, 10)});
   const Conflicts c = found.search().picture_conflicts();
   EXPECT_NEAR(c.misplaced[0] + c.misplaced[1], 1, 0.1);
@@ -275,8 +262,7 @@ TEST(Conflicts, AllLightWherePicturesExcludeEachOther)
 }
 
 // What is misplaced by facets is what the picture lacks elsewhere: |Z - T| / 2 of light that is all there.
-TEST(Conflicts, AddUpToTheError)
-{
+TEST(Conflicts, AddUpToTheError) {
   Layout layout{.facets = {32, 32}, .cells = {16, 16}, .distances = {100}};
   const std::vector<Target> targets{box(3, 9, 2, 12)};
   const Assignment a(test::shared_context(), layout, targets, 4); // random slopes, all of them to the receiver
@@ -290,8 +276,7 @@ TEST(Conflicts, AddUpToTheError)
 }
 
 // Between two that exclude each other stands a third, which is what their light makes there by itself.
-TEST(Conflicts, BlameNoThird)
-{
+TEST(Conflicts, BlameNoThird) {
   Found found = assigned({100, 200}, {box(0, 2, 6, 10), box(14, 16, 6, 10)});
   found.layout.distances = {100, 130, 200};
   found.light.assign(3, std::vector<double>(256));
@@ -300,7 +285,8 @@ TEST(Conflicts, BlameNoThird)
   found.targets.insert(found.targets.begin() + 1, found.light[1]);
   for (double& t : found.targets[1]) t /= received;
   const Conflicts c = found.search().picture_conflicts();
-  EXPECT_NEAR(c.misplaced[1], 1 - received / inverse::light_sent(found.layout, found.slopes), 1e-6); // what is beside the receiver
+  EXPECT_NEAR(c.misplaced[1], 1 - received / inverse::light_sent(found.layout, found.slopes),
+              1e-6); // what is beside the receiver
   EXPECT_GT(fight(c, 0, 2), 0.8);
   EXPECT_LT(fight(c, 0, 1), 0.1 * fight(c, 0, 2));
   EXPECT_LT(fight(c, 1, 2), 0.1 * fight(c, 0, 2));

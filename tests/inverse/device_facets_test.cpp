@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels of facets against the host, which has double precision: the light that facets send, and how the weighted squares change with a
-// slope.
+// Kernels of facets against the host, which has double precision: the light that facets send, and how the weighted
+// squares change with a slope.
 #include "inverse/assign/device_facets.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/assign/squares.h"
@@ -23,43 +23,43 @@ void PrintTo(const Lit& lit, std::ostream* stream) { *stream << lit.what; }
 
 class DeviceFacetsTest : public testing::TestWithParam<Lit> {
 protected:
-  Layout layout()
-  {
+  Layout layout() {
     const Lit& lit = GetParam();
-    Layout made{.size = {100, 60}, .facets = {32, 20}, .receiver = {90, 80}, .cells = {30, 24}, .distances = {100, 220}};
+    Layout made{
+        .size = {100, 60}, .facets = {32, 20}, .receiver = {90, 80}, .cells = {30, 24}, .distances = {100, 220}};
     made.sun_radius = lit.sun;
     made.scatter = lit.scatter;
     made.free_heights = lit.free_heights;
     if (!lit.offsets.empty()) made.offsets = lit.offsets;
     if (lit.band > 0) made.spectrum = test::band(made.n, lit.band);
-    for (std::size_t i = 0; i < made.parts().size(); ++i) made.spectrum->parts[i].xyz *= 2 * (static_cast<double>(i) + 0.5) / 400;
+    for (std::size_t i = 0; i < made.parts().size(); ++i)
+      made.spectrum->parts[i].xyz *= 2 * (static_cast<double>(i) + 0.5) / 400;
     made.light = make_illumination(made, lit.light, "light");
     return made;
   }
 
   /// Towards places on the last receiver, and beside it.
-  static std::vector<glm::dvec2> slopes(const Layout& layout)
-  {
+  static std::vector<glm::dvec2> slopes(const Layout& layout) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(-0.6, 0.6);
     std::vector<glm::dvec2> made;
     for (std::size_t i = 0; i < layout.facet_count(); ++i) {
       const glm::dvec2 to = glm::dvec2(uniform(random), uniform(random)) * layout.receiver;
-      made.push_back(nearest_reachable((to - layout.middle(i)) / layout.distances.back(), layout.n, layout.sines_on(i), layout.steepest));
+      made.push_back(nearest_reachable((to - layout.middle(i)) / layout.distances.back(), layout.n, layout.sines_on(i),
+                                       layout.steepest));
     }
     return made;
   }
 
-  std::vector<double> heights(const Layout& layout)
-  {
+  std::vector<double> heights(const Layout& layout) {
     std::vector<double> made(layout.facet_count());
-    for (std::size_t i = 0; i < made.size() && GetParam().free_heights; ++i) made[i] = 5 * std::sin(static_cast<double>(i));
+    for (std::size_t i = 0; i < made.size() && GetParam().free_heights; ++i)
+      made[i] = 5 * std::sin(static_cast<double>(i));
     return made;
   }
 };
 
-TEST_P(DeviceFacetsTest, SendTheirLightAsTheHostSays)
-{
+TEST_P(DeviceFacetsTest, SendTheirLightAsTheHostSays) {
   const Layout l = layout();
   const std::vector<Target> targets = ring_and_disc(l);
   DeviceFacets facets(test::shared_context(), l, targets, picture_weights(l, targets));
@@ -80,8 +80,7 @@ TEST_P(DeviceFacetsTest, SendTheirLightAsTheHostSays)
 }
 
 // Every seventh facet is turned a little; differences of the host's sum.
-TEST_P(DeviceFacetsTest, KnowTheGradient)
-{
+TEST_P(DeviceFacetsTest, KnowTheGradient) {
   const Layout l = layout();
   const std::vector<Target> targets = ring_and_disc(l);
   const std::vector<double> weights = picture_weights(l, targets), z = heights(l);
@@ -114,10 +113,12 @@ TEST_P(DeviceFacetsTest, KnowTheGradient)
 INSTANTIATE_TEST_SUITE_P(
     Lights, DeviceFacetsTest,
     testing::Values(Lit{.what = "straight"}, Lit{.what = "tilted", .light = {.tilt_deg = 20, .turn_deg = 30}},
-                    Lit{.what = "lamp", .light = {.type = Light::Type::point, .distance_mm = 300, .offset_mm = {20, 10}}},
-                    Lit{.what = "sun", .sun = 0.03}, Lit{.what = "narrow sun", .sun = 0.004}, Lit{.what = "rough", .scatter = 0.01},
-                    Lit{.what = "band", .band = 0.06},
+                    Lit{.what = "lamp",
+                        .light = {.type = Light::Type::point, .distance_mm = 300, .offset_mm = {20, 10}}},
+                    Lit{.what = "sun", .sun = 0.03}, Lit{.what = "narrow sun", .sun = 0.004},
+                    Lit{.what = "rough", .scatter = 0.01}, Lit{.what = "band", .band = 0.06},
                     Lit{.what = "tilted sun and band", .light = {.tilt_deg = 15}, .sun = 0.03, .band = 0.06},
-                    Lit{.what = "free heights", .free_heights = true}, Lit{.what = "receivers aside", .offsets = {{-30, 10}, {25, -20}}}));
+                    Lit{.what = "free heights", .free_heights = true},
+                    Lit{.what = "receivers aside", .offsets = {{-30, 10}, {25, -20}}}));
 
 } // namespace nephroid::device_facets_test

@@ -12,8 +12,7 @@ namespace nephroid::going_on_test {
 using namespace inverse;
 
 /// The light of all facets, added up beside the search.
-std::vector<double> light_of(const Layout& layout, const std::vector<glm::dvec2>& slopes, std::size_t receiver)
-{
+std::vector<double> light_of(const Layout& layout, const std::vector<glm::dvec2>& slopes, std::size_t receiver) {
   std::vector<double> light(layout.cell_count());
   for (std::size_t f = 0; f < slopes.size(); ++f) {
     for_cells(layout, inverse::footprint(layout, f, slopes[f], receiver),
@@ -22,10 +21,9 @@ std::vector<double> light_of(const Layout& layout, const std::vector<glm::dvec2>
   return light;
 }
 
-// As if the sweeps had begun from those slopes: their light is that of the new distances, and a search that never knew the old ones goes on
-// with the same bits.
-TEST(GoingOn, IsAsBeginningFromThoseSlopes)
-{
+// As if the sweeps had begun from those slopes: their light is that of the new distances, and a search that never knew
+// the old ones goes on with the same bits.
+TEST(GoingOn, IsAsBeginningFromThoseSlopes) {
   Layout layout = small_layout();
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment a(test::shared_context(), layout, targets, 1);
@@ -56,8 +54,7 @@ TEST(GoingOn, IsAsBeginningFromThoseSlopes)
   EXPECT_EQ(a.slopes(), b.slopes());
 }
 
-TEST(GoingOn, AWeightBringsItsPictureForward)
-{
+TEST(GoingOn, AWeightBringsItsPictureForward) {
   Layout layout = small_layout(), heavy = small_layout();
   heavy.weights = {{20, 1}};
   const std::vector<Target> targets = ring_and_disc(layout);
@@ -69,27 +66,24 @@ TEST(GoingOn, AWeightBringsItsPictureForward)
 }
 
 /// The shipped shapes with a quarter of their facets and cells.
-preset::Preset shapes(std::vector<std::string> overrides = {})
-{
-  overrides.insert(overrides.end(), {"inverse.facets=[64, 64]", "inverse.cells=[32, 32]", "scene.camera.resolution=[64, 64]"});
+preset::Preset shapes(std::vector<std::string> overrides = {}) {
+  overrides.insert(overrides.end(),
+                   {"inverse.facets=[64, 64]", "inverse.cells=[32, 32]", "scene.camera.resolution=[64, 64]"});
   return preset::read_preset("inverse/shapes", overrides);
 }
 
-std::unique_ptr<job::Job> job_of(const preset::Preset& preset)
-{
+std::unique_ptr<job::Job> job_of(const preset::Preset& preset) {
   return inverse::make_job(preset, inverse::make_plan(preset), test::shared_context());
 }
 
-void finish(job::Job& job)
-{
+void finish(job::Job& job) {
   while (!job.finished()) job.advance();
 }
 
 double cost(job::Job& job, const char* group) { return job::scalar(job.snapshot(), group, "cost"); }
 
 /// What the search believes after a step: rel_l2.
-double after_step(job::Job& job, std::int64_t step)
-{
+double after_step(job::Job& job, std::int64_t step) {
   const job::Snapshot snapshot = job.snapshot();
   for (const std::vector<double>& row : snapshot.curves.at(0).rows)
     if (row[0] == static_cast<double>(step)) return row[4];
@@ -97,8 +91,7 @@ double after_step(job::Job& job, std::int64_t step)
 }
 
 // Which facets' light is misplaced is searched by steps, and only where somebody looks.
-TEST(GoingOn, ASnapshotSearchesNoConflicts)
-{
+TEST(GoingOn, ASnapshotSearchesNoConflicts) {
   const auto job = job_of(shapes());
   const auto has_conflict = [&] {
     return std::ranges::count(job->snapshot().pictures, std::string("conflict"), &job::NamedPicture::name) == 1;
@@ -108,8 +101,7 @@ TEST(GoingOn, ASnapshotSearchesNoConflicts)
   EXPECT_TRUE(has_conflict());
 }
 
-TEST(GoingOn, ADraggedDistanceIsNearerAfterASweepThanAFreshRun)
-{
+TEST(GoingOn, ADraggedDistanceIsNearerAfterASweepThanAFreshRun) {
   const preset::Preset before = shapes();
   preset::Preset now = before;
   inverse::settings(now).receivers[1].distance_mm = 158;
@@ -128,8 +120,7 @@ TEST(GoingOn, ADraggedDistanceIsNearerAfterASweepThanAFreshRun)
   EXPECT_LT(cost(*run, "judged"), 1.05 * cost(*fresh, "judged"));
 }
 
-TEST(GoingOn, TheStopCountsFromThere)
-{
+TEST(GoingOn, TheStopCountsFromThere) {
   const preset::Preset before = shapes({"stop.passes=1"});
   preset::Preset now = before;
   inverse::settings(now).receivers[2].weight = 2;
@@ -144,8 +135,7 @@ TEST(GoingOn, TheStopCountsFromThere)
   EXPECT_EQ(run->progress().steps, 4);
 }
 
-TEST(GoingOn, IsRefusedWhereFacetsOrReceiversAreOthers)
-{
+TEST(GoingOn, IsRefusedWhereFacetsOrReceiversAreOthers) {
   const preset::Preset before = shapes({"stop.passes=1"});
   const auto run = job_of(before);
   finish(*run);

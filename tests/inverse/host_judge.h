@@ -13,19 +13,19 @@ namespace nephroid::test {
 
 using namespace inverse;
 
-inline glm::dvec3 outward_normal(const scene::Mesh& mesh, std::uint32_t triangle)
-{
+inline glm::dvec3 outward_normal(const scene::Mesh& mesh, std::uint32_t triangle) {
   const glm::uvec3& t = mesh.triangles[triangle];
   const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
   return glm::normalize(glm::cross(b - a, c - a));
 }
 
-inline WayOut follow_on_host(const Solid& solid, const scene::Bvh& bvh, double n, glm::dvec3 from, glm::dvec3 direction)
-{
+inline WayOut follow_on_host(const Solid& solid, const scene::Bvh& bvh, double n, glm::dvec3 from,
+                             glm::dvec3 direction) {
   WayOut way{from, glm::normalize(direction), 1, 0, false};
   std::uint32_t leaves = scene::no_primitive;
   for (int surfaces = 0; surfaces < 16; ++surfaces) {
-    const auto hit = scene::closest_hit(bvh, way.from, way.direction, {}, std::numeric_limits<double>::infinity(), leaves);
+    const auto hit =
+        scene::closest_hit(bvh, way.from, way.direction, {}, std::numeric_limits<double>::infinity(), leaves);
     if (!hit) {
       if (way.direction.z >= 0) way.part = 0;
       return way;
@@ -37,7 +37,8 @@ inline WayOut follow_on_host(const Solid& solid, const scene::Bvh& bvh, double n
     glm::dvec3 normal = outward_normal(solid.mesh, leaves);
     const bool enters = glm::dot(normal, way.direction) < 0;
     if (!enters) normal = -normal;
-    const double before = enters ? 1 : n, behind = enters ? n : 1, cos_i = std::min(1.0, -glm::dot(normal, way.direction));
+    const double before = enters ? 1 : n, behind = enters ? n : 1,
+                 cos_i = std::min(1.0, -glm::dot(normal, way.direction));
     if (const auto cos_t = optics::refracted_cosine(cos_i, before, behind)) {
       const double reflected = way.part * optics::fresnel_reflectance(cos_i, before, behind);
       way.reflected += reflected;

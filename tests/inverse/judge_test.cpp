@@ -18,9 +18,9 @@ double total(const std::vector<double>& values) { return std::accumulate(values.
 
 void expect_all_light(const RayOutcomes& f) { EXPECT_NEAR(f.sent + f.reflected + f.lost, 1, 1e-6); }
 
-// Light goes straight through a slab: both sides let 1 - ((n - 1) / (n + 1))^2 = 0.96 through, and every cell gets the same.
-TEST(Judge, SeesASlabAsAWindow)
-{
+// Light goes straight through a slab: both sides let 1 - ((n - 1) / (n + 1))^2 = 0.96 through, and every cell gets the
+// same.
+TEST(Judge, SeesASlabAsAWindow) {
   Layout layout{.facets = {16, 16}, .cells = {8, 8}, .distances = {50, 500}};
   const Solid solid = make_solid(layout, std::vector<glm::dvec2>(256));
   Judge judge(test::shared_context(), layout, solid, 1);
@@ -33,8 +33,7 @@ TEST(Judge, SeesASlabAsAWindow)
       EXPECT_NEAR(cell, 0.96 * 0.96 * 4, 1e-3); // 4 facets a cell; a ray at an edge may take the next one
 }
 
-TEST(Judge, FindsAFacetsSpotToAHundredthOfAMillimetre)
-{
+TEST(Judge, FindsAFacetsSpotToAHundredthOfAMillimetre) {
   Layout layout{.size = {2, 2}, .facets = {1, 1}, .distances = {100}};
   for (const double n : {1.33, 1.5, 2.4})
     for (const glm::dvec2& slope : {glm::dvec2(0.3, 0), glm::dvec2(-0.2, 0.4), glm::dvec2(0, 0)}) {
@@ -50,11 +49,15 @@ TEST(Judge, FindsAFacetsSpotToAHundredthOfAMillimetre)
     }
 }
 
-// A beam of slope s is at s d on a screen at d, a receiver or not. Screens between two receivers stand on the line between these.
-TEST(Judge, LooksBetweenReceiversToo)
-{
-  Layout layout{
-      .size = {1, 1}, .facets = {1, 1}, .receiver = {80, 80}, .cells = {80, 80}, .distances = {100, 200}, .frames = {400.0 / 3, 500.0 / 3}};
+// A beam of slope s is at s d on a screen at d, a receiver or not. Screens between two receivers stand on the line
+// between these.
+TEST(Judge, LooksBetweenReceiversToo) {
+  Layout layout{.size = {1, 1},
+                .facets = {1, 1},
+                .receiver = {80, 80},
+                .cells = {80, 80},
+                .distances = {100, 200},
+                .frames = {400.0 / 3, 500.0 / 3}};
   layout.offsets = {{{-10, 5}, {20, 15}}};
   const glm::dvec2 slope{0.15, 0.1};
   const Solid solid = make_solid(layout, {slope});
@@ -65,30 +68,32 @@ TEST(Judge, LooksBetweenReceiversToo)
     for (std::size_t c = 0; c < 6400; ++c)
       mean += judge.frame(i)[c] * glm::dvec2(static_cast<double>(c % 80) - 39.5, 39.5 - static_cast<double>(c / 80));
     EXPECT_NEAR(glm::length(mean / total(judge.frame(i)) -
-                            (slope * layout.frames[i] - glm::mix(layout.offset(0), layout.offset(1), layout.frames[i] / 100 - 1))),
+                            (slope * layout.frames[i] -
+                             glm::mix(layout.offset(0), layout.offset(1), layout.frames[i] / 100 - 1))),
                 0, 0.1);
   }
   EXPECT_EQ(judge.costs({inverse::Target(6400, 1 / 6400.0), inverse::Target(6400, 1 / 6400.0)}).size(), 2u);
 }
 
-// Two facets, 1 mm wide; ga and gb are how steeply they fall towards the line between them, the right one more so. The left one sends light
-// to the right by a slope of a. A ray that leaves it at u before the line is at -ga (1/2 - u) - u / a when it gets there, and meets the
-// wall if that is above the right one's edge, -gb / 2: where u < (gb - ga) / 2 / (1 / a - ga).
-TEST(Judge, MeetsAWallWhereItsShadowIs)
-{
+// Two facets, 1 mm wide; ga and gb are how steeply they fall towards the line between them, the right one more so. The
+// left one sends light to the right by a slope of a. A ray that leaves it at u before the line is at -ga (1/2 - u) - u
+// / a when it gets there, and meets the wall if that is above the right one's edge, -gb / 2: where u < (gb - ga) / 2 /
+// (1 / a - ga).
+TEST(Judge, MeetsAWallWhereItsShadowIs) {
   Layout layout{.size = {2, 1}, .facets = {2, 1}, .distances = {100}};
   const double a = 0.05, b = 0.3;
   const Solid solid = make_solid(layout, {{a, 0}, {-b, 0}});
-  const double ga = std::abs(inverse::facet_gradient({a, 0}, 1.5).x), gb = std::abs(inverse::facet_gradient({b, 0}, 1.5).x);
+  const double ga = std::abs(inverse::facet_gradient({a, 0}, 1.5).x),
+               gb = std::abs(inverse::facet_gradient({b, 0}, 1.5).x);
   const double shadow = (gb - ga) / 2 / (1 / a - ga);
   for (const double u : {0.02 * shadow, 0.5 * shadow, 0.98 * shadow, 1.02 * shadow, 2 * shadow, 0.9})
-    EXPECT_EQ(follow(test::shared_context(), solid, 1.5, {{{-u, 0.1, 20}, {0, 0, -1}}}).front().met_wall, u < shadow) << u / shadow;
+    EXPECT_EQ(follow(test::shared_context(), solid, 1.5, {{{-u, 0.1, 20}, {0, 0, -1}}}).front().met_wall, u < shadow)
+        << u / shadow;
 }
 
-// Single precision against double, ray by ray, through facets, their walls and total reflections. A ray that comes closer to an edge than
-// rounding may take another way.
-TEST(Judge, FollowsRaysAsTheHostDoes)
-{
+// Single precision against double, ray by ray, through facets, their walls and total reflections. A ray that comes
+// closer to an edge than rounding may take another way.
+TEST(Judge, FollowsRaysAsTheHostDoes) {
   Layout layout{.facets = {20, 15}, .distances = {300}};
   std::vector<glm::dvec2> slopes;
   for (int i = 0; i < 300; ++i) slopes.push_back(0.6 * glm::dvec2(std::sin(3 * i), std::cos(5 * i)));
@@ -97,8 +102,8 @@ TEST(Judge, FollowsRaysAsTheHostDoes)
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (int i = 0; i < 4000; ++i)
-    rays.push_back(
-        {{49 * uniform(random), 49 * uniform(random), 11}, glm::normalize(glm::dvec3(0.1 * uniform(random), 0.1 * uniform(random), -1))});
+    rays.push_back({{49 * uniform(random), 49 * uniform(random), 11},
+                    glm::normalize(glm::dvec3(0.1 * uniform(random), 0.1 * uniform(random), -1))});
   const std::vector<WayOut> ways = follow(test::shared_context(), solid, 1.5, rays);
   const scene::Bvh bvh = scene::build_bvh(solid.mesh);
   int others = 0, walls = 0;
@@ -111,16 +116,22 @@ TEST(Judge, FollowsRaysAsTheHostDoes)
     }
     EXPECT_NEAR(ways[i].reflected, truth.reflected, 1e-4);
     if (truth.part == 0) continue;
-    const auto spot = [](const WayOut& w) { return glm::dvec2(w.from) - glm::dvec2(w.direction) / w.direction.z * (300 + w.from.z); };
+    const auto spot = [](const WayOut& w) {
+      return glm::dvec2(w.from) - glm::dvec2(w.direction) / w.direction.z * (300 + w.from.z);
+    };
     EXPECT_LT(glm::length(spot(ways[i]) - spot(truth)), 0.01 * std::max(1.0, glm::length(spot(truth)) / 300));
   }
   EXPECT_GT(walls, 20);
   EXPECT_LT(others, 16);
 }
 
-TEST(Judge, AccountsForAllLight)
-{
-  Layout layout{.facets = {12, 9}, .receiver = {300, 200}, .cells = {20, 10}, .distances = {70}, .sun_radius = 0.05, .scatter = 0.02};
+TEST(Judge, AccountsForAllLight) {
+  Layout layout{.facets = {12, 9},
+                .receiver = {300, 200},
+                .cells = {20, 10},
+                .distances = {70},
+                .sun_radius = 0.05,
+                .scatter = 0.02};
   std::vector<glm::dvec2> slopes;
   for (int i = 0; i < 108; ++i) slopes.push_back(0.9 * glm::dvec2(std::sin(3 * i), std::cos(5 * i)));
   const Solid solid = make_solid(layout, slopes);
@@ -135,8 +146,7 @@ TEST(Judge, AccountsForAllLight)
 }
 
 // The blur that the optimiser reckons with is the one that rays have.
-TEST(Judge, BlursAsTheFootprintDoes)
-{
+TEST(Judge, BlursAsTheFootprintDoes) {
   Layout layout{.size = {1, 1},
                 .facets = {1, 1},
                 .receiver = {20, 20},
@@ -148,25 +158,25 @@ TEST(Judge, BlursAsTheFootprintDoes)
   Judge judge(test::shared_context(), layout, solid, 1);
   while (!judge.finished()) judge.advance();
   double variance = 0;
-  for (std::size_t c = 0; c < 1600; ++c) variance += judge.light(0)[c] * std::pow((static_cast<double>(c % 40) - 19.5) * 0.5, 2);
+  for (std::size_t c = 0; c < 1600; ++c)
+    variance += judge.light(0)[c] * std::pow((static_cast<double>(c % 40) - 19.5) * 0.5, 2);
   variance /= total(judge.light(0));
   // The facet's box, a cell's (which the sum above takes for a point), the sun's disc, and roughness.
   const double sun = layout.sun_radius * 100;
   EXPECT_NEAR(variance, 1 / 12.0 + 0.25 / 12 + sun * sun / 4 + 1, 0.1);
 }
 
-// The vector form of a facet's normal against the thesis' quadratic, Snell's law and the limit of what a facet can bend.
+// The vector form of a facet's normal against the thesis' quadratic, Snell's law and the limit of what a facet can
+// bend.
 
-glm::dvec3 random_direction(std::mt19937_64& random)
-{
+glm::dvec3 random_direction(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
 }
 
-// (5.6) in the plane of both directions, with R = (1, 0) and M = -in: a quadratic of the tangent of the normal's angle. Its roots are the
-// two normals that (5.5), Snell's law squared, allows; ours must be one of them.
-TEST(Bending, TheVectorFormSolvesTheThesisQuadratic)
-{
+// (5.6) in the plane of both directions, with R = (1, 0) and M = -in: a quadratic of the tangent of the normal's angle.
+// Its roots are the two normals that (5.5), Snell's law squared, allows; ours must be one of them.
+TEST(Bending, TheVectorFormSolvesTheThesisQuadratic) {
   std::mt19937_64 random(1);
   int solved = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -176,7 +186,8 @@ TEST(Bending, TheVectorFormSolvesTheThesisQuadratic)
     if (!normal) continue;
     ++solved;
     const double mx = -glm::dot(in, out), my = std::sqrt(1 - mx * mx), eta2 = n * n;
-    const double a1 = (eta2 * mx * mx - 1) / (eta2 - 1), a2 = 2 * eta2 * mx * my / (eta2 - 1), a3 = eta2 * my * my / (eta2 - 1);
+    const double a1 = (eta2 * mx * mx - 1) / (eta2 - 1), a2 = 2 * eta2 * mx * my / (eta2 - 1),
+                 a3 = eta2 * my * my / (eta2 - 1);
     const glm::dvec3 across = glm::normalize(-in - mx * out); // M's part across R: the second axis
     const double x = glm::dot(*normal, out), y = glm::dot(*normal, across);
     EXPECT_NEAR(a1 * x * x + a2 * x * y + a3 * y * y, 1, 1e-9);                         // (5.5)
@@ -186,14 +197,13 @@ TEST(Bending, TheVectorFormSolvesTheThesisQuadratic)
 }
 
 // The quadratic is 0 = 0 for light that goes straight on; the vector form is not.
-TEST(Bending, UndeviatedLightHasAFlatFacet)
-{
+TEST(Bending, UndeviatedLightHasAFlatFacet) {
   const glm::dvec3 down{0, 0, -1};
-  for (const double n : {1.0001, 1.5, 0.7}) EXPECT_NEAR(glm::length(*inverse::facet_normal(down, down, n) - down), 0, 1e-12) << n;
+  for (const double n : {1.0001, 1.5, 0.7})
+    EXPECT_NEAR(glm::length(*inverse::facet_normal(down, down, n) - down), 0, 1e-12) << n;
 }
 
-TEST(Bending, AFacetsNormalRefractsToItsSlope)
-{
+TEST(Bending, AFacetsNormalRefractsToItsSlope) {
   for (const double n : {0.7, 1.33, 1.5, 2.4})
     for (const double part : {0.01, 0.5, 0.99}) {
       const glm::dvec2 slope = part * inverse::slope_limit(n) * glm::dvec2(0.6, -0.8);
@@ -208,8 +218,7 @@ TEST(Bending, AFacetsNormalRefractsToItsSlope)
 }
 
 // n = 1.5: cos delta = 2 / 3, tan delta = sqrt(5) / 2.
-TEST(Bending, SlopesEndWhereLightRunsAlongTheFacet)
-{
+TEST(Bending, SlopesEndWhereLightRunsAlongTheFacet) {
   EXPECT_NEAR(inverse::slope_limit(1.5), std::sqrt(5.0) / 2, 1e-12);
   for (const double n : {0.7, 1.5, 2.4}) {
     const glm::dvec2 limit{inverse::slope_limit(n), 0};
@@ -222,13 +231,11 @@ TEST(Bending, SlopesEndWhereLightRunsAlongTheFacet)
 
 // A facet's footprint against points drawn on it.
 
-Layout coarse()
-{
+Layout coarse() {
   return {.facets = {8, 6}, .distances = {60, 130}}; // a facet of 12.5 x 16.7 mm over cells of 1.56 mm
 }
 
-std::vector<double> sums(const std::vector<double>& cells, int columns, bool along_x)
-{
+std::vector<double> sums(const std::vector<double>& cells, int columns, bool along_x) {
   std::vector<double> all(static_cast<std::size_t>(columns));
   for (std::size_t c = 0; c < cells.size(); ++c)
     all[along_x ? c % static_cast<std::size_t>(columns) : c / static_cast<std::size_t>(columns)] += cells[c];
@@ -236,9 +243,8 @@ std::vector<double> sums(const std::vector<double>& cells, int columns, bool alo
 }
 
 /// Points of the facet, each sent on its way from its own height; blurred as the sun's disc and a rough surface do.
-std::vector<double> drawn(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, int count,
-                          double height = 0)
-{
+std::vector<double> drawn(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver,
+                          int count, double height = 0) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(0, 1);
   std::normal_distribution<double> normal;
@@ -250,57 +256,59 @@ std::vector<double> drawn(const Layout& layout, std::size_t facet, const glm::dv
     const double r = std::sqrt(uniform(random)), phi = 6.283185307179586 * uniform(random);
     const glm::dvec2 turned = widens * (layout.sun_radius * r * glm::dvec2(std::cos(phi), std::sin(phi))) +
                               layout.scatter * glm::dvec2(normal(random), normal(random));
-    const glm::dvec2 at =
-        layout.in_cells(layout.middle(facet) + p + slope * glm::dot(g, p) + (slope + turned) * (layout.distances[receiver] + height));
+    const glm::dvec2 at = layout.in_cells(layout.middle(facet) + p + slope * glm::dot(g, p) +
+                                          (slope + turned) * (layout.distances[receiver] + height));
     if (at.x < 0 || at.y < 0 || at.x >= layout.cells.x || at.y >= layout.cells.y) continue;
-    cells[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(at.x)] += 1.0 / count;
+    cells[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(at.x)] +=
+        1.0 / count;
   }
   return cells;
 }
 
-std::vector<double> computed(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height = 0)
-{
+std::vector<double> computed(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver,
+                             double height = 0) {
   std::vector<double> cells(layout.cell_count());
-  for_cells(layout, inverse::footprint(layout, facet, slope, receiver, height), [&](std::size_t cell, double part) { cells[cell] = part; });
+  for_cells(layout, inverse::footprint(layout, facet, slope, receiver, height),
+            [&](std::size_t cell, double part) { cells[cell] = part; });
   return cells;
 }
 
-TEST(Footprint, HoldsAllOfABeamThatHitsTheReceiver)
-{
+TEST(Footprint, HoldsAllOfABeamThatHitsTheReceiver) {
   const Layout layout = coarse();
   EXPECT_NEAR(total(computed(layout, 20, {0.1, -0.2}, 0)), 1, 1e-12);
-  // Facet 0 is 6.25 mm from the left edge and as wide as that twice. Straight on, its shadow begins at the edge; a slope that moves it
-  // half its width to the left leaves half of what its own shrinking leaves there.
+  // Facet 0 is 6.25 mm from the left edge and as wide as that twice. Straight on, its shadow begins at the edge; a
+  // slope that moves it half its width to the left leaves half of what its own shrinking leaves there.
   const double moved = -6.25 / 60;
   EXPECT_NEAR(total(computed(layout, 0, {moved, 0}, 0)), 0.5, 1e-9);
   EXPECT_EQ(total(computed(layout, 0, {-1, 0}, 0)), 0);
 }
 
 // Along one axis alone the product is exact: every cell within 5 standard errors of the drawn points.
-TEST(Footprint, IsThatOfPointsOnTheFacet)
-{
+TEST(Footprint, IsThatOfPointsOnTheFacet) {
   const Layout layout = coarse();
   const int count = 400000;
   for (const glm::dvec2& slope : {glm::dvec2(0, 0), glm::dvec2(0.35, 0), glm::dvec2(0, -0.4)})
     for (const std::size_t receiver : {0u, 1u}) {
-      const std::vector<double> is = computed(layout, 27, slope, receiver), truth = drawn(layout, 27, slope, receiver, count);
+      const std::vector<double> is = computed(layout, 27, slope, receiver),
+                                truth = drawn(layout, 27, slope, receiver, count);
       for (std::size_t c = 0; c < is.size(); ++c)
-        ASSERT_NEAR(is[c], truth[c], 5 * std::sqrt((is[c] + 1e-6) / count) + 1e-9) << c << " slope " << slope.x << " " << slope.y;
+        ASSERT_NEAR(is[c], truth[c], 5 * std::sqrt((is[c] + 1e-6) / count) + 1e-9)
+            << c << " slope " << slope.x << " " << slope.y;
     }
 }
 
 // From a facet that stands higher, light has further to go: at a slope of 0.35, 8 mm are almost two cells.
-TEST(Footprint, IsThatOfAFacetThatStandsHigher)
-{
+TEST(Footprint, IsThatOfAFacetThatStandsHigher) {
   const Layout layout = coarse();
   const int count = 400000;
-  const std::vector<double> is = computed(layout, 27, {0.35, 0}, 0, 8), truth = drawn(layout, 27, {0.35, 0}, 0, count, 8);
-  for (std::size_t c = 0; c < is.size(); ++c) ASSERT_NEAR(is[c], truth[c], 5 * std::sqrt((is[c] + 1e-6) / count) + 1e-9) << c;
+  const std::vector<double> is = computed(layout, 27, {0.35, 0}, 0, 8),
+                            truth = drawn(layout, 27, {0.35, 0}, 0, count, 8);
+  for (std::size_t c = 0; c < is.size(); ++c)
+    ASSERT_NEAR(is[c], truth[c], 5 * std::sqrt((is[c] + 1e-6) / count) + 1e-9) << c;
 }
 
 // Across the axes both shadows are exact.
-TEST(Footprint, HasTheShadowsOfAParallelogram)
-{
+TEST(Footprint, HasTheShadowsOfAParallelogram) {
   const Layout layout = coarse();
   const int count = 400000;
   const glm::dvec2 slope{0.25, 0.2};
@@ -311,9 +319,9 @@ TEST(Footprint, HasTheShadowsOfAParallelogram)
   }
 }
 
-// The blur's box has the disc's and the roughness' variance: mean and variance of the shadow are right, its shape nearly so.
-TEST(Footprint, IsBlurredByTheSunAndByRoughness)
-{
+// The blur's box has the disc's and the roughness' variance: mean and variance of the shadow are right, its shape
+// nearly so.
+TEST(Footprint, IsBlurredByTheSunAndByRoughness) {
   Layout layout = coarse();
   layout.sun_radius = 0.03;
   layout.scatter = 0.02;

@@ -14,22 +14,21 @@ using inverse::Grid;
 
 const Place own = Place("p.json") / "inverse";
 
-TEST(Poisson, SolvesForACosine)
-{
+TEST(Poisson, SolvesForACosine) {
   const int columns = 24, rows = 16;
   const glm::dvec2 spacing{0.5, 0.25};
   Grid wave(rows, columns);
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x)
-      wave(y, x) = std::cos(glm::pi<double>() * 3 * (x + 0.5) / columns) * std::cos(glm::pi<double>() * 2 * (y + 0.5) / rows);
-  const double value =
-      2 * (1 - std::cos(glm::pi<double>() * 3 / columns)) / 0.25 + 2 * (1 - std::cos(glm::pi<double>() * 2 / rows)) / 0.0625;
+      wave(y, x) =
+          std::cos(glm::pi<double>() * 3 * (x + 0.5) / columns) * std::cos(glm::pi<double>() * 2 * (y + 0.5) / rows);
+  const double value = 2 * (1 - std::cos(glm::pi<double>() * 3 / columns)) / 0.25 +
+                       2 * (1 - std::cos(glm::pi<double>() * 2 / rows)) / 0.0625;
   const Grid solved = inverse::Poisson(columns, rows, spacing).solve(wave * value + Grid::Constant(rows, columns, 7));
   EXPECT_LT((solved - wave).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(Conjugate, IsTheLeastOverAllCells)
-{
+TEST(Conjugate, IsTheLeastOverAllCells) {
   const int columns = 13, rows = 9;
   const double cell = 0.1;
   Grid f(rows, columns);
@@ -40,14 +39,14 @@ TEST(Conjugate, IsTheLeastOverAllCells)
     for (int x = 0; x < columns; ++x) {
       double least = 1e9;
       for (int v = 0; v < rows; ++v)
-        for (int u = 0; u < columns; ++u) least = std::min(least, cell * cell * ((x - u) * (x - u) + (y - v) * (y - v)) / 2 - f(v, u));
+        for (int u = 0; u < columns; ++u)
+          least = std::min(least, cell * cell * ((x - u) * (x - u) + (y - v) * (y - v)) / 2 - f(v, u));
       EXPECT_NEAR(found(y, x), least, 1e-12);
     }
 }
 
 /// A rectangle of light goes into a smaller one by a map that is linear: the shortest way.
-TEST(Transport, ShrinksARectangle)
-{
+TEST(Transport, ShrinksARectangle) {
   Grid from = Grid::Ones(64, 96), to = Grid::Zero(64, 96);
   to.block(16, 24, 32, 48).setOnes();
   inverse::Transport transport(from, to);
@@ -58,14 +57,14 @@ TEST(Transport, ShrinksARectangle)
       const glm::dvec2 expected{48 + (x - 48) / 2.0, 32 + (y - 32) / 2.0};
       const double off = glm::length(transport.map({x, y}) - expected);
       sum += off;
-      if (x > 3 && x < 93 && y > 3 && y < 61) farthest = std::max(farthest, off); // the rim's corner is off by three cells
+      if (x > 3 && x < 93 && y > 3 && y < 61)
+        farthest = std::max(farthest, off); // the rim's corner is off by three cells
     }
   EXPECT_LT(farthest, 0.15) << "cells, where light moves by up to 29";
   EXPECT_LT(sum / (63 * 95), 0.02);
 }
 
-inverse::Target disc(const inverse::Layout& layout)
-{
+inverse::Target disc(const inverse::Layout& layout) {
   inverse::Target target;
   for (int y = 0; y < layout.cells.y; ++y)
     for (int x = 0; x < layout.cells.x; ++x) target.push_back(std::hypot(x - 14.5, y - 9.5) < 6 ? 1 : 0.1);
@@ -76,8 +75,7 @@ inverse::Target disc(const inverse::Layout& layout)
 
 class Lens : public testing::Test {
 protected:
-  static void advance_to(inverse::Lens& method, int steps)
-  {
+  static void advance_to(inverse::Lens& method, int steps) {
     while (method.steps() < steps) method.advance();
   }
   struct Designed {
@@ -85,8 +83,7 @@ protected:
     double light;  ///< all that the judge has counted, of what enters
     double relief; ///< the relief that is asked for by the solid's
   };
-  Designed designed(const inverse::Layout& lit) const
-  {
+  Designed designed(const inverse::Layout& lit) const {
     inverse::Lens method(lit, target, 0.3, own);
     while (!method.finished() && method.steps() < method.most()) method.advance();
     const inverse::Solid solid = method.solid();
@@ -97,14 +94,17 @@ protected:
             method.relief() / solid.relief()};
   }
 
-  inverse::Layout layout{
-      .size = {60, 40}, .thickness = 12, .facets = {120, 80}, .receiver = {60, 40}, .cells = {30, 20}, .distances = {150}};
+  inverse::Layout layout{.size = {60, 40},
+                         .thickness = 12,
+                         .facets = {120, 80},
+                         .receiver = {60, 40},
+                         .cells = {30, 20},
+                         .distances = {150}};
   inverse::Target target = disc(layout);
   inverse::Lens lens{layout, target, 0.3, own};
 };
 
-TEST_F(Lens, IsJudgedAsItBelievesAndHasNoWalls)
-{
+TEST_F(Lens, IsJudgedAsItBelievesAndHasNoWalls) {
   const double flat = lens.costs().front().rel_l2;
   advance_to(lens, 1);
   const double transported = lens.costs().front().rel_l2;
@@ -123,8 +123,7 @@ TEST_F(Lens, IsJudgedAsItBelievesAndHasNoWalls)
 }
 
 // Cut within the transport, and between corrections.
-TEST_F(Lens, GoesOnWithTheSameBits)
-{
+TEST_F(Lens, GoesOnWithTheSameBits) {
   advance_to(lens, 4);
   for (const int cut : {10, 42}) {
     inverse::Lens first(layout, target, 0.3, own), second(layout, target, 0.3, own);
@@ -136,16 +135,15 @@ TEST_F(Lens, GoesOnWithTheSameBits)
   }
 }
 
-TEST_F(Lens, IsRefusedWhereItReachesTheFront)
-{
+TEST_F(Lens, IsRefusedWhereItReachesTheFront) {
   layout.thickness = 0.2;
   advance_to(lens, 2);
-  EXPECT_THAT(refusal_of([&] { lens.solid(); }), StartsWith("p.json#/inverse/thickness_mm: is 0.2 mm, and half of the lens's relief is "));
+  EXPECT_THAT(refusal_of([&] { lens.solid(); }),
+              StartsWith("p.json#/inverse/thickness_mm: is 0.2 mm, and half of the lens's relief is "));
 }
 
 // What a workshop is told is the steepest of its triangles.
-TEST_F(Lens, IsAsSteepAsItsTriangles)
-{
+TEST_F(Lens, IsAsSteepAsItsTriangles) {
   advance_to(lens, 2);
   const inverse::Solid solid = lens.solid();
   double steepest = 0;
@@ -161,11 +159,11 @@ TEST_F(Lens, IsAsSteepAsItsTriangles)
 }
 
 // Both bend the light that they get to the same picture: tilted light falls beside the receiver, were it not bent back.
-TEST_F(Lens, IsLitFromTheSideAndByALamp)
-{
+TEST_F(Lens, IsLitFromTheSideAndByALamp) {
   using inverse::Light;
-  for (const Light& light : {Light{.tilt_deg = 5, .turn_deg = 30}, Light{.type = Light::Type::point, .distance_mm = 300},
-                             Light{.type = Light::Type::point, .distance_mm = 400, .offset_mm = {30, -20}}}) {
+  for (const Light& light :
+       {Light{.tilt_deg = 5, .turn_deg = 30}, Light{.type = Light::Type::point, .distance_mm = 300},
+        Light{.type = Light::Type::point, .distance_mm = 400, .offset_mm = {30, -20}}}) {
     inverse::Layout lit = layout;
     lit.thickness = 20;
     lit.light = inverse::make_illumination(lit, light, own);
@@ -176,9 +174,9 @@ TEST_F(Lens, IsLitFromTheSideAndByALamp)
   }
 }
 
-// A round lens gets the light of a disc alone: what falls on its corners is not there. Receivers are smaller and larger than the object.
-TEST_F(Lens, MayBeRoundAndOfAnotherSizeThanItsReceiver)
-{
+// A round lens gets the light of a disc alone: what falls on its corners is not there. Receivers are smaller and larger
+// than the object.
+TEST_F(Lens, MayBeRoundAndOfAnotherSizeThanItsReceiver) {
   using inverse::Light;
   for (const auto& [round, light, receiver] :
        {std::tuple(true, Light{}, glm::dvec2(60, 40)),
@@ -204,8 +202,7 @@ TEST_F(Lens, MayBeRoundAndOfAnotherSizeThanItsReceiver)
 }
 
 // The ellipse within 60 x 40.
-TEST(PartWithin, IsAnEllipsesArea)
-{
+TEST(PartWithin, IsAnEllipsesArea) {
   const inverse::Layout layout{.size = {60, 40}, .round = true, .facets = {33, 20}};
   double area = 0;
   for (std::size_t i = 0; i < layout.facet_count(); ++i)
@@ -213,8 +210,7 @@ TEST(PartWithin, IsAnEllipsesArea)
   EXPECT_NEAR(area / (glm::pi<double>() * 30 * 20), 1, 2e-3);
 }
 
-TEST_F(Lens, IsRefusedWhereItsMeshIsTooLarge)
-{
+TEST_F(Lens, IsRefusedWhereItsMeshIsTooLarge) {
   inverse::Lens fine(layout, target, 0.001, own);
   advance_to(fine, 1);
   const std::string said = refusal_of([&] { fine.solid(); });
@@ -222,16 +218,15 @@ TEST_F(Lens, IsRefusedWhereItsMeshIsTooLarge)
   EXPECT_THAT(said, HasSubstr(" million triangles, an STL of "));
 }
 
-TEST_F(Lens, KeepsAWorkshopsRelief)
-{
+TEST_F(Lens, KeepsAWorkshopsRelief) {
   layout.band = 0.1;
   advance_to(lens, 2);
   EXPECT_THROW(lens.solid(), Error);
 }
 
-// Of such an object the grid would have less than a row; and of so fine a picture it has no cell's middle in the only one that is lit.
-TEST_F(Lens, HasNarrowObjectsAndFinePictures)
-{
+// Of such an object the grid would have less than a row; and of so fine a picture it has no cell's middle in the only
+// one that is lit.
+TEST_F(Lens, HasNarrowObjectsAndFinePictures) {
   layout.size = layout.receiver = {600, 0.5};
   layout.facets = {120, 1};
   layout.cells = {1000, 2};
@@ -242,8 +237,7 @@ TEST_F(Lens, HasNarrowObjectsAndFinePictures)
   EXPECT_TRUE(std::isfinite(narrow.costs().front().rel_l2));
 }
 
-TEST(FacetSlope, TakesBackFacetGradient)
-{
+TEST(FacetSlope, TakesBackFacetGradient) {
   for (const double n : {1.5, 2.4, 0.7})
     for (const glm::dvec2& slope : {glm::dvec2(0.1, -0.3), glm::dvec2(0), glm::dvec2(-0.4, 0.2)})
       EXPECT_LT(glm::length(inverse::facet_slope(inverse::facet_gradient(slope, n), n) - slope), 1e-12) << n;

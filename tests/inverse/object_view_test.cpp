@@ -20,8 +20,7 @@ struct Scene {
   std::vector<double> heights = std::vector<double>(16);
   std::size_t lit = 0;
 
-  std::shared_ptr<const job::Picture> seen_by(const preset::Camera& camera) const
-  {
+  std::shared_ptr<const job::Picture> seen_by(const preset::Camera& camera) const {
     std::vector<double> light(16);
     light[lit] = 1;
     return view_of({layout, slopes, heights, false, {grey_picture(light, 1, layout.cells)}}, camera);
@@ -29,8 +28,7 @@ struct Scene {
 };
 
 /// So far away that all pixels look along the light; a pixel a facet.
-preset::Camera along_the_light()
-{
+preset::Camera along_the_light() {
   preset::Camera camera;
   camera.position = {0, 0, 1e6};
   camera.up = {0, 1, 0};
@@ -41,9 +39,9 @@ preset::Camera along_the_light()
 
 float red(const job::Picture& picture, std::size_t pixel) { return picture.rgb[3 * pixel]; }
 
-// Light's way through a facet is the camera's: where the facet sends light, the camera sees. A window sees what is behind it.
-TEST(ObjectView, AFacetShowsWhereItsLightGoes)
-{
+// Light's way through a facet is the camera's: where the facet sends light, the camera sees. A window sees what is
+// behind it.
+TEST(ObjectView, AFacetShowsWhereItsLightGoes) {
   Scene scene;
   scene.lit = 6;
   for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(red(*scene.seen_by(along_the_light()), i) > 0.5f, i == 6) << i;
@@ -57,23 +55,23 @@ TEST(ObjectView, AFacetShowsWhereItsLightGoes)
 }
 
 // A facet in the corner of a round object is not there: the camera sees past it.
-TEST(ObjectView, ARoundObjectHasNoCorners)
-{
+TEST(ObjectView, ARoundObjectHasNoCorners) {
   Scene scene;
   scene.slopes[0] = (scene.layout.middle_of_cell(15) - scene.layout.middle(0)) / 200.0;
   EXPECT_LT(red(*scene.seen_by(along_the_light()), 0), 0.5f);
   scene.layout.round = true;
   EXPECT_GT(red(*scene.seen_by(along_the_light()), 0), 0.5f);
-  preset::Camera camera = along_the_light(); // from the side, where a ray meets the middle of the rim and one passes the corner
+  preset::Camera camera =
+      along_the_light(); // from the side, where a ray meets the middle of the rim and one passes the corner
   camera.position = {-300, 0, 5};
   camera.target = {0, 0, 5};
   camera.resolution = {33, 33};
   EXPECT_THAT(scene.seen_by(camera)->rgb, testing::Each(testing::Ge(0)));
 }
 
-// Into its sides, along its front, from inside of it and from its own target, which sees nothing: none of these falls out of the object.
-TEST(ObjectView, ACameraMayBeAnywhere)
-{
+// Into its sides, along its front, from inside of it and from its own target, which sees nothing: none of these falls
+// out of the object.
+TEST(ObjectView, ACameraMayBeAnywhere) {
   const Scene scene;
   for (const auto& [position, target] : std::vector<std::pair<preset::Vec3, preset::Vec3>>{{{-300, 0, 5}, {0, 0, 5}},
                                                                                            {{0, 0, 5}, {0, 0, 0}},
@@ -90,8 +88,7 @@ TEST(ObjectView, ACameraMayBeAnywhere)
 }
 
 // From below the receiver, past the object: the lit cell as it is, mirrored left to right.
-TEST(ObjectView, AReceiverIsSeenFromBothSides)
-{
+TEST(ObjectView, AReceiverIsSeenFromBothSides) {
   Scene scene;
   scene.lit = 4;
   preset::Camera camera = along_the_light();
@@ -100,16 +97,14 @@ TEST(ObjectView, AReceiverIsSeenFromBothSides)
   for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(red(*picture, i) > 0.9f, i == 7) << i;
 }
 
-preset::Preset preset_with(const std::string& camera)
-{
+preset::Preset preset_with(const std::string& camera) {
   return preset::parse_preset(R"({"engine": "inverse", "unit": "mm", "scene": {"camera": )" + camera +
                                   R"(}, "inverse": {"facets": [16, 16], "cells": [8, 8], "index": 1.5, "receivers": [
     {"distance_mm": 100, "picture": {"type": "ring"}}, {"distance_mm": 300, "picture": {"type": "disc"}}]}, "stop": {"passes": 1}})",
                               "p.json");
 }
 
-TEST(ObjectView, ACameraThatNobodyPutSomewhereSeesAll)
-{
+TEST(ObjectView, ACameraThatNobodyPutSomewhereSeesAll) {
   const preset::Camera camera = view_camera(preset_with(R"({"resolution": [300, 200]})"));
   EXPECT_THAT(camera.resolution, ElementsAre(300, 200));
   const glm::dvec3 from(camera.position[0], camera.position[1], camera.position[2]), to(0, 0, -145);
@@ -127,8 +122,7 @@ TEST(ObjectView, ACameraThatNobodyPutSomewhereSeesAll)
 }
 
 // While it is designed, and another one for another camera; the sheet of pictures stays what is written.
-TEST(ObjectView, ComesWithEverySnapshot)
-{
+TEST(ObjectView, ComesWithEverySnapshot) {
   preset::Preset p = preset_with(R"({"resolution": [60, 40]})");
   const auto job = make_job(p, make_plan(p), test::shared_context());
   const job::Snapshot first = job->snapshot();

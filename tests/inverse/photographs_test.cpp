@@ -23,16 +23,14 @@ Layout cells(int across, int down) { return {.receiver = glm::dvec2(across, down
 class Photographs : public testing::Test {
 protected:
   Target made(const Picture& picture, const Layout& layout) { return make_target(picture, layout, FileFinder(), "p"); }
-  std::string write(int width, int height, const std::vector<float>& greys)
-  {
+  std::string write(int width, int height, const std::vector<float>& greys) {
     image::write_exr(folder.path() / "p.exr", {width, height, {"Y"}, greys, {}, false});
     return (folder.path() / "p.exr").string();
   }
   test::TemporaryFolder folder;
 };
 
-TEST_F(Photographs, ToneIsAnExponent)
-{
+TEST_F(Photographs, ToneIsAnExponent) {
   Picture picture{.type = Picture::Type::file, .file = write(2, 1, {2, 4}), .tone = 2};
   const Target target = made(picture, cells(2, 1));
   EXPECT_NEAR(target[0], 0.2, 1e-9); // (1/2)^2 of 1 + (1/2)^2
@@ -40,23 +38,24 @@ TEST_F(Photographs, ToneIsAnExponent)
 }
 
 // Of .2, .5 and 1 of the brightest, levels from .2 to .8 make 0, .5 and 1.
-TEST_F(Photographs, LevelsAreContrast)
-{
+TEST_F(Photographs, LevelsAreContrast) {
   Picture picture{.type = Picture::Type::file, .file = write(3, 1, {0.4f, 1, 2}), .levels = {0.2, 0.8}};
   const Target target = made(picture, cells(3, 1));
-  for (const auto& [cell, part] : {std::pair<std::size_t, double>(0, 0), {1, 1 / 3.0}, {2, 2 / 3.0}}) EXPECT_NEAR(target[cell], part, 1e-7);
+  for (const auto& [cell, part] : {std::pair<std::size_t, double>(0, 0), {1, 1 / 3.0}, {2, 2 / 3.0}})
+    EXPECT_NEAR(target[cell], part, 1e-7);
   picture.levels = {0.2, 0.2};
   EXPECT_THAT(test::refusal_of([&] {
-                preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"receivers": [{"distance_mm": 100,
+                preset::parse_preset(
+                    R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"receivers": [{"distance_mm": 100,
                   "picture": {"type": "file", "file": "p.exr", "levels": [0.5, 0.5]}}]}})",
-                                     "p.json");
+                    "p.json");
               }),
               HasSubstr("levels: is [0.5, 0.5]; expected the darker one first"));
 }
 
-// A picture of 4 x 2 on 8 x 8 cells is 8 x 4: its edge fades over half of 2 cells. The cells' middles are .5, 1.5 and more from the edge.
-TEST_F(Photographs, AVignetteFadesTowardsThePicturesOwnEdge)
-{
+// A picture of 4 x 2 on 8 x 8 cells is 8 x 4: its edge fades over half of 2 cells. The cells' middles are .5, 1.5 and
+// more from the edge.
+TEST_F(Photographs, AVignetteFadesTowardsThePicturesOwnEdge) {
   Picture picture{.type = Picture::Type::file, .file = write(4, 2, {1, 1, 1, 1, 1, 1, 1, 0.999f}), .vignette = 1};
   const Target target = made(picture, cells(8, 8));
   const auto at = [&](std::size_t x, std::size_t y) { return target[y * 8 + x]; };
@@ -67,19 +66,18 @@ TEST_F(Photographs, AVignetteFadesTowardsThePicturesOwnEdge)
   EXPECT_NEAR(at(0, 2), at(7, 2), 1e-6);
 }
 
-TEST_F(Photographs, AreDarkWhereTheyAreTransparent)
-{
+TEST_F(Photographs, AreDarkWhereTheyAreTransparent) {
   image::write_png_bytes(folder.path() / "cut.png", 2, 1, {255, 255, 255, 0, 255, 255, 255, 255});
   Picture picture{.type = Picture::Type::file, .file = (folder.path() / "cut.png").string()};
   EXPECT_THAT(made(picture, cells(2, 1)), ElementsAre(0, 1));
   image::write_png_bytes(folder.path() / "cut.png", 2, 1, {255, 255, 255, 0, 0, 255, 0, 0});
-  EXPECT_THAT(test::refusal_of([&] { made(picture, cells(2, 1)); }), HasSubstr("cut.png: is black all over or transparent"));
+  EXPECT_THAT(test::refusal_of([&] { made(picture, cells(2, 1)); }),
+              HasSubstr("cut.png: is black all over or transparent"));
 }
 
-// 1700 x 1300 pixels of three channels are read in two bands. Row y has the byte y / 6, column x adds nothing: a row of cells is the mean
-// of the rows that it covers, decoded.
-TEST_F(Photographs, AreReadInBands)
-{
+// 1700 x 1300 pixels of three channels are read in two bands. Row y has the byte y / 6, column x adds nothing: a row of
+// cells is the mean of the rows that it covers, decoded.
+TEST_F(Photographs, AreReadInBands) {
   const int width = 1700, height = 1300;
   std::vector<unsigned char> bytes;
   std::vector<double> rows;
@@ -105,8 +103,7 @@ TEST_F(Photographs, AreReadInBands)
 }
 
 // Three bytes in a row: 6 says that the row is the right column of what was seen, 8 that it is the left one from below.
-TEST_F(Photographs, AreTurnedAsTheirFileSays)
-{
+TEST_F(Photographs, AreTurnedAsTheirFileSays) {
   const auto seen = [&](int orientation, int across, int down) {
     const std::string file = (folder.path() / "p.tif").string();
     write_file_whole(file, test::tiff(3, 1, orientation, std::string("\x00\x80\xff", 3)));
@@ -126,27 +123,26 @@ TEST_F(Photographs, AreTurnedAsTheirFileSays)
 }
 
 // A strip of 30000 x 2 grows brighter to the right; on 8 x 8 cells it is less than a thousandth of a cell high.
-TEST_F(Photographs, MayBeVeryWide)
-{
+TEST_F(Photographs, MayBeVeryWide) {
   std::vector<float> greys(60000);
   for (std::size_t i = 0; i < greys.size(); ++i) greys[i] = static_cast<float>(i % 30000) / 30000;
   const Target target = made({.type = Picture::Type::file, .file = write(30000, 2, greys)}, cells(8, 8));
   for (std::size_t x = 0; x < 8; ++x)
-    EXPECT_NEAR(target[3 * 8 + x], (2 * static_cast<double>(x) + 1) / 128, 1e-5); // the strip is on the line between two rows
+    EXPECT_NEAR(target[3 * 8 + x], (2 * static_cast<double>(x) + 1) / 128,
+                1e-5); // the strip is on the line between two rows
   EXPECT_EQ(target[0], 0);
 }
 
-TEST_F(Photographs, AreRefusedWhereTheyAreHuge)
-{
+TEST_F(Photographs, AreRefusedWhereTheyAreHuge) {
   const std::string file = (folder.path() / "p.hdr").string();
   std::ofstream(file, std::ios::binary) << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n";
-  EXPECT_THAT(test::refusal_of([&] { made({.type = Picture::Type::file, .file = file}, cells(8, 8)); }),
-              AllOf(HasSubstr("p.hdr"), HasSubstr("60000 x 60000 pixels of 3 channels, and at most 2^32 values are read")));
+  EXPECT_THAT(
+      test::refusal_of([&] { made({.type = Picture::Type::file, .file = file}, cells(8, 8)); }),
+      AllOf(HasSubstr("p.hdr"), HasSubstr("60000 x 60000 pixels of 3 channels, and at most 2^32 values are read")));
 }
 
 // A JPEG without its second half, whose pixels a decoder makes grey.
-TEST_F(Photographs, AreRefusedWithoutTheirEnd)
-{
+TEST_F(Photographs, AreRefusedWithoutTheirEnd) {
   const std::string whole = test::jpeg(), file = (folder.path() / "p.jpg").string();
   write_file_whole(file, whole);
   EXPECT_EQ(made({.type = Picture::Type::file, .file = file}, cells(8, 8)).size(), 64u);
@@ -156,27 +152,28 @@ TEST_F(Photographs, AreRefusedWithoutTheirEnd)
 }
 
 /// Facets of a cell's size and light that rough surfaces do not scatter: every picture can be cast.
-Layout layout_with(double scatter) { return {.facets = {32, 32}, .cells = {32, 32}, .distances = {200}, .scatter = scatter}; }
+Layout layout_with(double scatter) {
+  return {.facets = {32, 32}, .cells = {32, 32}, .distances = {200}, .scatter = scatter};
+}
 
-TEST(BestPossible, IsThePictureWhereFacetsAreSmall)
-{
+TEST(BestPossible, IsThePictureWhereFacetsAreSmall) {
   const Layout layout = layout_with(0);
   const Target target = make_target({.type = Picture::Type::star}, layout, FileFinder(), "p");
   EXPECT_EQ(best_possible(layout, target, 0), target);
 }
 
-// With a rough surface nothing is sharper than its blur. What the search finds is better by a tenth at most: it aims finer than at cells'
-// middles, and the smear is kept along the axes alone.
-TEST(BestPossible, IsAsSoftAsTheLightOfAFacet)
-{
+// With a rough surface nothing is sharper than its blur. What the search finds is better by a tenth at most: it aims
+// finer than at cells' middles, and the smear is kept along the axes alone.
+TEST(BestPossible, IsAsSoftAsTheLightOfAFacet) {
   const Layout layout = layout_with(0.02); // 4 mm, cells are 3.1 mm
   const Target target = make_target({.type = Picture::Type::ring}, layout, FileFinder(), "p");
   const Target best = best_possible(layout, target, 0);
   EXPECT_NEAR(std::accumulate(best.begin(), best.end(), 0.0), 1, 1e-12);
   EXPECT_GE(*std::min_element(best.begin(), best.end()), 0);
-  preset::Preset p = preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"facets": [32, 32],
+  preset::Preset p =
+      preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"facets": [32, 32],
     "cells": [32, 32], "index": 1.5, "receivers": [{"distance_mm": 200, "picture": {"type": "ring"}}]}})",
-                                          "p.json");
+                           "p.json");
   settings(p).scatter_deg = glm::degrees(std::atan(0.02));
   const auto job = make_job(p, make_plan(p), test::shared_context());
   while (!job->finished()) job->advance();
@@ -187,11 +184,11 @@ TEST(BestPossible, IsAsSoftAsTheLightOfAFacet)
 }
 
 // A picture that is dropped on the window: what can come of it is there before any step.
-TEST_F(Photographs, ArePreviewedAtOnce)
-{
-  preset::Preset p = preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"facets": [32, 32],
+TEST_F(Photographs, ArePreviewedAtOnce) {
+  preset::Preset p =
+      preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"facets": [32, 32],
     "cells": [8, 8], "index": 1.5, "receivers": [{"distance_mm": 200, "picture": {"type": "ring"}}]}})",
-                                          "p.json");
+                           "p.json");
   const auto job = make_job(p, make_plan(p), test::shared_context());
   std::vector<float> greys(64);
   for (std::size_t i = 0; i < 64; ++i) greys[i] = static_cast<float>(i) / 63;
@@ -205,38 +202,39 @@ TEST_F(Photographs, ArePreviewedAtOnce)
 class PictureNotes : public Photographs {
 protected:
   /// Of one picture, 1 / 16 of it white.
-  std::vector<std::string> notes(const std::string& more)
-  {
+  std::vector<std::string> notes(const std::string& more) {
     std::vector<float> greys(64);
     for (const std::size_t i : {27u, 28u, 35u, 36u}) greys[i] = 1;
-    const std::string text = R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"facets": [64, 64], "cells": [32, 32],
+    const std::string text =
+        R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"facets": [64, 64], "cells": [32, 32],
       "index": 1.5, "receivers": [{"distance_mm": 200, "picture": {"type": "file", "file": ")" +
-                             write(8, 8, greys) + "\"" + more + "}";
+        write(8, 8, greys) + "\"" + more + "}";
     const preset::Preset preset = preset::parse_preset(text + "}", "p.json");
     return notes_of(preset, Design(preset));
   }
 };
 
-TEST_F(PictureNotes, SayWhatAPhotographComesTo)
-{
-  EXPECT_THAT(notes("}}]"), ElementsAre(AllOf(HasSubstr("picture 1 is dark"), HasSubstr("gets 16 times that of an even picture"),
-                                              HasSubstr("a 'background' of 0.20 more makes that 4")),
-                                        HasSubstr("choose the method 'lens'")));
+TEST_F(PictureNotes, SayWhatAPhotographComesTo) {
+  EXPECT_THAT(notes("}}]"),
+              ElementsAre(AllOf(HasSubstr("picture 1 is dark"), HasSubstr("gets 16 times that of an even picture"),
+                                HasSubstr("a 'background' of 0.20 more makes that 4")),
+                          HasSubstr("choose the method 'lens'")));
   // The background that it asks for leaves the other note alone.
   EXPECT_THAT(notes(R"(, "background": 0.2}}])"), ElementsAre(HasSubstr("choose the method 'lens'")));
   EXPECT_THAT(notes(R"(, "background": 0.2}}], "scatter_deg": 1)"), Contains(HasSubstr("comes hardly closer than")));
 }
 
 // In every light the coarse lens is as deep as the one that is made.
-TEST_F(PictureNotes, ALensIsAsDeepInLightFromTheSide)
-{
-  for (const char* light : {R"({"type": "parallel", "tilt_deg": 5, "turn_deg": 30})", R"({"type": "point", "distance_mm": 500})"})
+TEST_F(PictureNotes, ALensIsAsDeepInLightFromTheSide) {
+  for (const char* light :
+       {R"({"type": "parallel", "tilt_deg": 5, "turn_deg": 30})", R"({"type": "point", "distance_mm": 500})"})
     for (const char* outline : {"rectangle", "round"}) {
-      const preset::Preset p = preset::parse_preset(fmt::format(R"({{"engine": "inverse", "scene": {{"camera": {{}}}}, "inverse": {{
+      const preset::Preset p =
+          preset::parse_preset(fmt::format(R"({{"engine": "inverse", "scene": {{"camera": {{}}}}, "inverse": {{
         "method": "lens", "facets": [64, 64], "cells": [32, 32], "index": 1.5, "thickness_mm": 40, "light": {}, "outline": "{}",
         "receivers": [{{"distance_mm": 300, "picture": {{"type": "ring"}}}}]}}}})",
-                                                                light, outline),
-                                                    "p.json");
+                                           light, outline),
+                               "p.json");
       const InversePlan plan = make_plan(p);
       const auto job = make_job(p, plan, test::shared_context());
       while (!job->finished()) job->advance();
@@ -246,11 +244,11 @@ TEST_F(PictureNotes, ALensIsAsDeepInLightFromTheSide)
 }
 
 // A lens gathers the light of facets that are larger than a cell: nothing may be said to come of their size.
-TEST_F(PictureNotes, ALensHasNoGrain)
-{
-  preset::Preset p = preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"method": "lens",
+TEST_F(PictureNotes, ALensHasNoGrain) {
+  preset::Preset p =
+      preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"method": "lens",
     "facets": [16, 16], "cells": [64, 64], "index": 1.5, "thickness_mm": 40, "receivers": [{"distance_mm": 300, "picture": {"type": "ring"}}]}})",
-                                          "p.json");
+                           "p.json");
   EXPECT_THAT(notes_of(p, Design(p)), IsEmpty());
   settings(p).scatter_deg = 1;
   EXPECT_THAT(notes_of(p, Design(p)), ElementsAre(HasSubstr("picture 1 comes hardly closer than")));
@@ -260,16 +258,17 @@ TEST_F(PictureNotes, ALensHasNoGrain)
 }
 
 // The coarse lens is as deep as the one that is made.
-TEST_F(PictureNotes, ALensIsAsDeepAsTheySay)
-{
+TEST_F(PictureNotes, ALensIsAsDeepAsTheySay) {
   EXPECT_THAT(notes(R"(, "background": 0.2}}], "method": "lens", "thickness_mm": 40)"), IsEmpty());
-  const preset::Preset p = preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"method": "lens",
+  const preset::Preset p =
+      preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"method": "lens",
     "facets": [96, 96], "cells": [48, 48], "index": 1.5, "thickness_mm": 4, "receivers": [{"distance_mm": 300, "picture": {"type": "ring"}}]}})",
-                                                "p.json");
+                           "p.json");
   const InversePlan plan = make_plan(p);
   const double estimated = estimated_relief(plan.design->layout, plan.design->targets[0]);
   EXPECT_THAT(notes_of(p, *plan.design),
-              Contains(HasSubstr(fmt::format("the lens becomes some {:.2g} mm deep, and the object is 4 mm thick", estimated))));
+              Contains(HasSubstr(
+                  fmt::format("the lens becomes some {:.2g} mm deep, and the object is 4 mm thick", estimated))));
   const auto job = make_job(p, plan, test::shared_context());
   while (job->progress().step < 40 && !job->finished()) job->advance();
   const job::Snapshot made = job->snapshot();

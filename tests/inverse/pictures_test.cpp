@@ -9,7 +9,9 @@ using namespace inverse;
 
 Layout cells(int across, int down) { return {.receiver = glm::dvec2(across, down), .cells = {across, down}}; }
 
-Picture words(const std::string& text, double length) { return {.type = Picture::Type::text, .text = text, .length = length}; }
+Picture words(const std::string& text, double length) {
+  return {.type = Picture::Type::text, .text = text, .length = length};
+}
 
 Picture code(const std::string& text) { return {.type = Picture::Type::qr, .text = text}; }
 
@@ -19,8 +21,7 @@ struct Box {
   int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1;
 };
 
-Box lit(const Target& target, int across)
-{
+Box lit(const Target& target, int across) {
   Box box;
   for (std::size_t c = 0; c < target.size(); ++c) {
     if (target[c] <= 0) continue;
@@ -30,8 +31,7 @@ Box lit(const Target& target, int across)
   return box;
 }
 
-TEST(Pictures, WordsAreAsWideAsTheyShouldBeAndUpright)
-{
+TEST(Pictures, WordsAreAsWideAsTheyShouldBeAndUpright) {
   const Target target = made(words("L", 0.4), cells(100, 80)); // 32 cells of the shorter side's 80
   const Box box = lit(target, 100);
   EXPECT_NEAR(box.right - box.left + 1, 32, 1);
@@ -45,8 +45,7 @@ TEST(Pictures, WordsAreAsWideAsTheyShouldBeAndUpright)
   EXPECT_EQ(at(box.right - 2, box.top + 2), 0);
 }
 
-TEST(Pictures, WordsTurn)
-{
+TEST(Pictures, WordsTurn) {
   Picture picture = words("WIDE", 0.9);
   const Box before = lit(made(picture, cells(90, 90)), 90);
   picture.turn_deg = 90;
@@ -57,13 +56,13 @@ TEST(Pictures, WordsTurn)
 }
 
 // Version 1 has 21 modules and 4 of quiet zone on each side: 58 cells are 29 modules of 2 cells.
-TEST(Pictures, ACodeIsWholeCellsWithItsQuietZone)
-{
+TEST(Pictures, ACodeIsWholeCellsWithItsQuietZone) {
   for (const auto& [across, module] : {std::pair(58, 2), {64, 2}, {29, 1}, {128, 4}}) {
     const Target target = made(code("NEPHROID"), cells(across, across));
     const double most = *std::max_element(target.begin(), target.end());
     const int corner = (across - 29 * module) / 2;
-    // In modules from the code's corner: the finder patterns are 7 wide, with a light ring in them; their middles are 3 from the edges.
+    // In modules from the code's corner: the finder patterns are 7 wide, with a light ring in them; their middles are 3
+    // from the edges.
     const auto light = [&](int u, int v) {
       const int x = corner + (u + 4) * module, y = corner + (v + 4) * module;
       return target[static_cast<std::size_t>(y * across + x)] / most;
@@ -79,24 +78,25 @@ TEST(Pictures, ACodeIsWholeCellsWithItsQuietZone)
   }
 }
 
-TEST(Pictures, ACodeSaysHowManyCellsWouldDo)
-{
+TEST(Pictures, ACodeSaysHowManyCellsWouldDo) {
   EXPECT_THAT(test::refusal_of([] { made(code("NEPHROID"), cells(28, 64)); }),
-              AllOf(HasSubstr("p#/text: needs a QR code of version 1, 29 modules with its quiet zone, and the receiver has 28 x 64 cells"),
+              AllOf(HasSubstr("p#/text: needs a QR code of version 1, 29 modules with its quiet zone, and the receiver "
+                              "has 28 x 64 cells"),
                     HasSubstr("expected at least 29 cells across and down, better 58")));
   EXPECT_NO_THROW(made(code("NEPHROID"), cells(29, 64)));
-  EXPECT_THAT(test::refusal_of([] { made(code(std::string(60, 'x')), cells(36, 36)); }), HasSubstr("version 4")); // 78 bytes at level L
-  EXPECT_THAT(test::refusal_of([] { made(code(std::string(2954, 'x')), cells(1024, 1024)); }), HasSubstr("more than any QR code holds"));
+  EXPECT_THAT(test::refusal_of([] { made(code(std::string(60, 'x')), cells(36, 36)); }),
+              HasSubstr("version 4")); // 78 bytes at level L
+  EXPECT_THAT(test::refusal_of([] { made(code(std::string(2954, 'x')), cells(1024, 1024)); }),
+              HasSubstr("more than any QR code holds"));
 }
 
-TEST(Pictures, WordsWithoutLetters)
-{
-  EXPECT_THAT(test::refusal_of([] { made(words("  ", 0.5), cells(32, 32)); }), HasSubstr("p: leaves every cell of the receiver dark"));
+TEST(Pictures, WordsWithoutLetters) {
+  EXPECT_THAT(test::refusal_of([] { made(words("  ", 0.5), cells(32, 32)); }),
+              HasSubstr("p: leaves every cell of the receiver dark"));
 }
 
 // A face is lit, has grey levels, and its eyes are darker than its brow.
-TEST(Pictures, AFaceHasGreyLevels)
-{
+TEST(Pictures, AFaceHasGreyLevels) {
   Picture picture{.type = Picture::Type::face, .radius = 0.5};
   const Target target = made(picture, cells(64, 64));
   std::vector<double> values(target);

@@ -13,21 +13,20 @@ using namespace inverse;
 inline Layout small_layout() { return {.facets = {32, 32}, .cells = {16, 16}, .distances = {100, 200}}; }
 
 /// Light without colours whose indices are spread evenly over this width.
-inline Spectrum band(double n, double width)
-{
+inline Spectrum band(double n, double width) {
   constexpr int count = 400;
   Spectrum spectrum;
-  for (int i = 0; i < count; ++i) spectrum.parts.push_back({n + width * ((i + 0.5) / count - 0.5), glm::dvec3(1.0 / count)});
+  for (int i = 0; i < count; ++i)
+    spectrum.parts.push_back({n + width * ((i + 0.5) / count - 0.5), glm::dvec3(1.0 / count)});
   return spectrum;
 }
 
-inline std::vector<Target> ring_and_disc(const Layout& layout)
-{
-  return {make_target({.type = Picture::Type::ring}, layout, FileFinder(), "ring"), make_target({}, layout, FileFinder(), "disc")};
+inline std::vector<Target> ring_and_disc(const Layout& layout) {
+  return {make_target({.type = Picture::Type::ring}, layout, FileFinder(), "ring"),
+          make_target({}, layout, FileFinder(), "disc")};
 }
 
-inline void sweep(Assignment& a, int sweeps)
-{
+inline void sweep(Assignment& a, int sweeps) {
   while (a.steps() < sweeps) a.advance();
 }
 

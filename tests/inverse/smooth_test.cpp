@@ -16,8 +16,7 @@ using namespace inverse;
 
 /// z at the facets' corners.
 template <class F>
-Grid corners_of(const Layout& layout, const F& z)
-{
+Grid corners_of(const Layout& layout, const F& z) {
   Grid grid(layout.facets.y + 1, layout.facets.x + 1);
   for (int b = 0; b <= layout.facets.y; ++b)
     for (int a = 0; a <= layout.facets.x; ++a)
@@ -28,8 +27,7 @@ Grid corners_of(const Layout& layout, const F& z)
 double waves(const glm::dvec2& p) { return 0.05 * std::sin(1.3 * p.x) * std::cos(0.9 * p.y + 0.4); }
 
 // A spline through a quadratic is the quadratic, up to the rim.
-TEST(Surface, HasAQuadraticsSlopesAndCurvatures)
-{
+TEST(Surface, HasAQuadraticsSlopesAndCurvatures) {
   const Layout layout{.size = {7, 5}, .facets = {9, 4}};
   const Surface surface(layout.size, corners_of(layout, [](const glm::dvec2& p) {
                           return 0.3 + 0.2 * p.x - 0.1 * p.y + 0.05 * p.x * p.x + 0.03 * p.x * p.y - 0.04 * p.y * p.y;
@@ -46,19 +44,20 @@ TEST(Surface, HasAQuadraticsSlopesAndCurvatures)
 }
 
 // Neighbours in 1, 2, 4 and 8 parts.
-TEST(SmoothSolid, IsClosedWhereFinerFacetsMeetCoarserOnes)
-{
+TEST(SmoothSolid, IsClosedWhereFinerFacetsMeetCoarserOnes) {
   for (const glm::ivec2& facets : {glm::ivec2(12, 9), {1, 1}, {1, 5}, {6, 1}}) {
     const Layout layout{.size = {7, 5}, .thickness = 3, .facets = facets};
     const Surface surface(layout.size, corners_of(layout, waves));
     std::vector<int> parts;
     for (std::size_t i = 0; i < mesh_layout(layout).facet_count(); ++i) parts.push_back(1 << (i * 7 % 4));
     const Solid solid = make_smooth_solid(layout, surface, parts);
-    test::expect_sound(solid.mesh, scene::signed_volume(solid.mesh, 0, static_cast<std::uint32_t>(solid.mesh.triangles.size())));
+    test::expect_sound(solid.mesh,
+                       scene::signed_volume(solid.mesh, 0, static_cast<std::uint32_t>(solid.mesh.triangles.size())));
     EXPECT_EQ(count_triangles(layout, parts), solid.mesh.triangles.size());
     double volume = 0, area = 0;
     for (int i = 0; i < 6400; ++i) {
-      const glm::dvec2 p = (glm::dvec2(i % 80 + 0.5, i / 80 + 0.5) / 80.0 - 0.5) * layout.size; // NOLINT(bugprone-integer-division)
+      const glm::dvec2 p =
+          (glm::dvec2(i % 80 + 0.5, i / 80 + 0.5) / 80.0 - 0.5) * layout.size; // NOLINT(bugprone-integer-division)
       volume += (layout.thickness - surface.at(p).z) * 35 / 6400;
     }
     for (std::size_t t = 0; t < solid.parts.size(); ++t)
@@ -74,9 +73,9 @@ TEST(SmoothSolid, IsClosedWhereFinerFacetsMeetCoarserOnes)
 }
 
 // Every triangle's flat slope against the surface's at its corners, over the distance, in cells.
-TEST(SmoothSolid, SendsLightAsFarAstrayAsItSays)
-{
-  const Layout layout{.size = {7, 5}, .thickness = 3, .facets = {28, 20}, .receiver = {7, 5}, .cells = {28, 20}, .distances = {20}};
+TEST(SmoothSolid, SendsLightAsFarAstrayAsItSays) {
+  const Layout layout{
+      .size = {7, 5}, .thickness = 3, .facets = {28, 20}, .receiver = {7, 5}, .cells = {28, 20}, .distances = {20}};
   const Surface surface(layout.size, corners_of(layout, waves));
   std::size_t before = 0;
   for (const double error : {0.4, 0.1, 0.025}) {
@@ -87,7 +86,8 @@ TEST(SmoothSolid, SendsLightAsFarAstrayAsItSays)
       const glm::dvec3 across = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
       const glm::dvec2 slope = facet_slope(glm::dvec2(across) / -across.z, layout.n);
       for (int i = 0; i < 3; ++i) {
-        const glm::dvec2 off = (facet_slope(surface.at(glm::dvec2(corner(i))).gradient, layout.n) - slope) * 20.0 / layout.cell();
+        const glm::dvec2 off =
+            (facet_slope(surface.at(glm::dvec2(corner(i))).gradient, layout.n) - slope) * 20.0 / layout.cell();
         squares += glm::dot(off, off) * std::abs(across.z);
       }
       area += 3 * std::abs(across.z);
@@ -100,20 +100,22 @@ TEST(SmoothSolid, SendsLightAsFarAstrayAsItSays)
 }
 
 // The ellipse within 7 x 5, cut out of facets in 1, 2, 4 and 8 parts.
-TEST(SmoothSolid, IsClosedAlongARoundOutline)
-{
+TEST(SmoothSolid, IsClosedAlongARoundOutline) {
   for (const glm::ivec2& facets : {glm::ivec2(12, 9), {1, 1}, {1, 5}, {6, 1}, {40, 40}}) {
     const Layout layout{.size = {7, 5}, .round = true, .thickness = 3, .facets = facets};
     const Surface surface(layout.size, corners_of(layout, waves));
     for (const int most : {1, 4}) {
       std::vector<int> parts;
-      for (std::size_t i = 0; i < mesh_layout(layout).facet_count(); ++i) parts.push_back(1 << (i * 7 % static_cast<std::size_t>(most)));
+      for (std::size_t i = 0; i < mesh_layout(layout).facet_count(); ++i)
+        parts.push_back(1 << (i * 7 % static_cast<std::size_t>(most)));
       const Solid solid = make_smooth_solid(layout, surface, parts);
-      test::expect_sound(solid.mesh, scene::signed_volume(solid.mesh, 0, static_cast<std::uint32_t>(solid.mesh.triangles.size())));
+      test::expect_sound(solid.mesh,
+                         scene::signed_volume(solid.mesh, 0, static_cast<std::uint32_t>(solid.mesh.triangles.size())));
       std::array<double, 4> area{}; // of each part, as the light sees it
       for (std::size_t t = 0; t < solid.parts.size(); ++t) {
         const glm::uvec3& corner = solid.mesh.triangles[t];
-        const glm::dvec3 a = solid.mesh.positions[corner.x], b = solid.mesh.positions[corner.y], c = solid.mesh.positions[corner.z];
+        const glm::dvec3 a = solid.mesh.positions[corner.x], b = solid.mesh.positions[corner.y],
+                         c = solid.mesh.positions[corner.z];
         area[static_cast<std::size_t>(solid.parts[t])] += glm::cross(b - a, c - a).z / 2;
         for (const glm::dvec3& p : {a, b, c}) EXPECT_LT(glm::length(glm::dvec2(p) / layout.size), 0.5 + 1e-6);
       }
@@ -131,27 +133,30 @@ TEST(SmoothSolid, IsClosedAlongARoundOutline)
 }
 
 // A long facet is cut across, so that a mesh of the same error takes no more triangles than one of short facets.
-TEST(SmoothSolid, HasFewTrianglesForLongFacets)
-{
+TEST(SmoothSolid, HasFewTrianglesForLongFacets) {
   const auto triangles = [](const glm::ivec2& facets) {
-    const Layout layout{.size = {60, 60}, .thickness = 3, .facets = facets, .receiver = {60, 60}, .cells = {60, 60}, .distances = {200}};
+    const Layout layout{.size = {60, 60},
+                        .thickness = 3,
+                        .facets = facets,
+                        .receiver = {60, 60},
+                        .cells = {60, 60},
+                        .distances = {200}};
     const Surface surface(layout.size, corners_of(layout, [](const glm::dvec2& p) { return 0.002 * glm::dot(p, p); }));
     return count_triangles(layout, mesh_parts(layout, surface, 0.3));
   };
   EXPECT_LT(static_cast<double>(triangles({3, 120})), 1.1 * static_cast<double>(triangles({120, 120})));
 }
 
-/// How strong waves along the rows of a window in an even grey are, in parts of the grey: the strongest of those of two cells and longer,
-/// and the noise of rays. Two judges with other rays see the same waves and another noise. So the mean over rows of one's spectrum times
-/// the other's has the waves alone, and their difference has the noise alone.
+/// How strong waves along the rows of a window in an even grey are, in parts of the grey: the strongest of those of two
+/// cells and longer, and the noise of rays. Two judges with other rays see the same waves and another noise. So the
+/// mean over rows of one's spectrum times the other's has the waves alone, and their difference has the noise alone.
 struct Waves {
   double strongest = 0, noise = 0;
 };
 
 constexpr int first_wave = 8; ///< of those across the window: longer ones are the light's fall towards the rim
 
-Waves waves_in(const Layout& layout, const Solid& solid)
-{
+Waves waves_in(const Layout& layout, const Solid& solid) {
   const int n = layout.cells.x;
   std::vector<std::vector<std::complex<double>>> spectra; // of each judge, row by row
   for (const std::uint64_t seed : {1u, 2u}) {
@@ -184,32 +189,35 @@ Waves waves_in(const Layout& layout, const Solid& solid)
   return found;
 }
 
-// A bowl sends parallel light evenly to a square of 60 mm, of which the receiver is a window. Facets, cells and the mesh's error are the
-// defaults. A flat patch of every facet covers 2.8 times the place that it has. Patches that overlap make waves with the cells: rings.
-TEST(SmoothSolid, ShowsNoRingsInEvenGrey)
-{
+// A bowl sends parallel light evenly to a square of 60 mm, of which the receiver is a window. Facets, cells and the
+// mesh's error are the defaults. A flat patch of every facet covers 2.8 times the place that it has. Patches that
+// overlap make waves with the cells: rings.
+TEST(SmoothSolid, ShowsNoRingsInEvenGrey) {
   Layout layout;
   layout.receiver = {51, 51};
   layout.distances = {150};
-  const Surface surface(layout.size,
-                        corners_of(layout, [&](const glm::dvec2& p) { return 0.4 / 150 / (layout.n - 1) / 2 * glm::dot(p, p); }));
+  const Surface surface(layout.size, corners_of(layout, [&](const glm::dvec2& p) {
+                          return 0.4 / 150 / (layout.n - 1) / 2 * glm::dot(p, p);
+                        }));
   std::vector<glm::dvec2> slopes;
   std::vector<double> heights;
   for (std::size_t i = 0; i < layout.facet_count(); ++i) {
     slopes.push_back(facet_slope(surface.at(layout.middle(i)).gradient, layout.n));
     heights.push_back(surface.at(layout.middle(i)).z);
   }
-  const Waves smooth = waves_in(layout, make_smooth_solid(layout, surface, mesh_parts(layout, surface, Settings().mesh_error))),
+  const Waves smooth = waves_in(layout,
+                                make_smooth_solid(layout, surface, mesh_parts(layout, surface, Settings().mesh_error))),
               flat = waves_in(layout, make_solid(layout, slopes, heights));
   EXPECT_LT(smooth.strongest, 0.01) << "the rays' noise is " << smooth.noise;
   EXPECT_GT(flat.strongest, 0.02);
 }
 
 // Four pixels a facet, between whose middles the surface bends.
-TEST(SmoothSolid, HasTheSurfacesHeightsInItsMap)
-{
+TEST(SmoothSolid, HasTheSurfacesHeightsInItsMap) {
   const Layout layout{.size = {7, 5}, .thickness = 3, .facets = {256, 200}};
-  const Surface surface(layout.size, corners_of(layout, [](const glm::dvec2& p) { return 0.1 * std::sin(20 * p.x) * std::cos(30 * p.y); }));
+  const Surface surface(layout.size, corners_of(layout, [](const glm::dvec2& p) {
+                          return 0.1 * std::sin(20 * p.x) * std::cos(30 * p.y);
+                        }));
   const Solid solid = make_smooth_solid(layout, surface, std::vector<int>(layout.facet_count(), 1));
   const image::Image map = height_map(layout, solid);
   for (const auto& [x, y] : {std::pair(0, 0), {301, 77}, {1023, 799}, {512, 400}}) {

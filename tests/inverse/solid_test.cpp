@@ -13,8 +13,7 @@ namespace nephroid::solid_test {
 
 using namespace inverse;
 
-TEST(Solid, IsClosedWithAnySlopes)
-{
+TEST(Solid, IsClosedWithAnySlopes) {
   for (int seed = 0; seed < 12; ++seed) {
     const Layout layout = small(23, 17);
     expect_sound(layout, make_solid(layout, random_slopes(layout, 0.7, seed)));
@@ -22,19 +21,18 @@ TEST(Solid, IsClosedWithAnySlopes)
 }
 
 // Equal heights at a corner, equal edges, and two high facets across from two low ones.
-TEST(Solid, IsClosedWhereHeightsTie)
-{
+TEST(Solid, IsClosedWhereHeightsTie) {
   const Layout layout = small(8, 8);
   std::mt19937_64 random(3);
   for (int round = 0; round < 40; ++round) {
     std::vector<glm::dvec2> slopes(layout.facet_count());
-    for (glm::dvec2& s : slopes) s = 0.2 * glm::dvec2(static_cast<int>(random() % 3) - 1, static_cast<int>(random() % 3) - 1);
+    for (glm::dvec2& s : slopes)
+      s = 0.2 * glm::dvec2(static_cast<int>(random() % 3) - 1, static_cast<int>(random() % 3) - 1);
     expect_sound(layout, make_solid(layout, slopes));
   }
 }
 
-TEST(Solid, IsClosedWhereHeightsNearlyTie)
-{
+TEST(Solid, IsClosedWhereHeightsNearlyTie) {
   const Layout layout = small(12, 12);
   for (int seed = 0; seed < 8; ++seed) {
     std::vector<glm::dvec2> slopes = random_slopes(layout, 1e-7 * std::pow(10, seed), seed);
@@ -43,16 +41,14 @@ TEST(Solid, IsClosedWhereHeightsNearlyTie)
   }
 }
 
-TEST(Solid, OfOneFacetOrOneRow)
-{
+TEST(Solid, OfOneFacetOrOneRow) {
   for (const glm::ivec2& facets : {glm::ivec2(1, 1), glm::ivec2(1, 9), glm::ivec2(9, 1), glm::ivec2(2, 2)}) {
     const Layout layout = small(facets.x, facets.y);
     expect_sound(layout, make_solid(layout, random_slopes(layout, 0.3, 1)));
   }
 }
 
-TEST(Solid, FacetsHaveTheirNormals)
-{
+TEST(Solid, FacetsHaveTheirNormals) {
   const Layout layout = small(9, 7);
   const std::vector<glm::dvec2> slopes = random_slopes(layout, 0.6, 5);
   const Solid solid = make_solid(layout, slopes);
@@ -60,7 +56,8 @@ TEST(Solid, FacetsHaveTheirNormals)
   std::size_t facets = 0;
   for (std::size_t t = 0; t < solid.parts.size(); ++t) {
     const glm::uvec3 corners = solid.mesh.triangles[t];
-    const glm::dvec3 a = solid.mesh.positions[corners.x], b = solid.mesh.positions[corners.y], c = solid.mesh.positions[corners.z];
+    const glm::dvec3 a = solid.mesh.positions[corners.x], b = solid.mesh.positions[corners.y],
+                     c = solid.mesh.positions[corners.z];
     const glm::dvec3 cross = glm::cross(b - a, c - a), middle = (a + b + c) / 3.0;
     const Part part = solid.parts[t];
     if (part == Part::front) {
@@ -81,14 +78,12 @@ TEST(Solid, FacetsHaveTheirNormals)
 // Free heights against surfaces that have no walls, and against every other choice of heights; the solid stays closed.
 
 /// The slope that has this gradient: the tilt's own, against the direction in which z rises.
-glm::dvec2 slope_with(const glm::dvec2& gradient, double n)
-{
+glm::dvec2 slope_with(const glm::dvec2& gradient, double n) {
   const double steep = glm::length(gradient);
   return steep > 0 ? -gradient / steep * inverse::slope_behind(std::atan(steep), n) : glm::dvec2(0);
 }
 
-Layout tall(int columns, int rows)
-{
+Layout tall(int columns, int rows) {
   Layout layout = test::small(columns, rows);
   layout.thickness = 20;
   layout.free_heights = true;
@@ -97,23 +92,21 @@ Layout tall(int columns, int rows)
 
 /// Of a surface z(p) with this gradient at each facet's middle.
 template <class F>
-std::vector<glm::dvec2> slopes_of(const Layout& layout, const F& gradient)
-{
+std::vector<glm::dvec2> slopes_of(const Layout& layout, const F& gradient) {
   std::vector<glm::dvec2> slopes;
-  for (std::size_t i = 0; i < layout.facet_count(); ++i) slopes.push_back(slope_with(gradient(layout.middle(i)), layout.n));
+  for (std::size_t i = 0; i < layout.facet_count(); ++i)
+    slopes.push_back(slope_with(gradient(layout.middle(i)), layout.n));
   return slopes;
 }
 
-std::vector<glm::dvec2> gradients_of(const Layout& layout, const std::vector<glm::dvec2>& slopes)
-{
+std::vector<glm::dvec2> gradients_of(const Layout& layout, const std::vector<glm::dvec2>& slopes) {
   std::vector<glm::dvec2> gradients;
   for (const glm::dvec2& s : slopes) gradients.push_back(inverse::facet_gradient(s, layout.n));
   return gradients;
 }
 
 /// Sum over shared edges of the integral of the squared step, by Simpson's rule, which is exact for squares.
-double squared_steps(const Layout& layout, const std::vector<glm::dvec2>& g, const std::vector<double>& h)
-{
+double squared_steps(const Layout& layout, const std::vector<glm::dvec2>& g, const std::vector<double>& h) {
   const auto columns = static_cast<std::size_t>(layout.facets.x);
   double sum = 0;
   const auto edge = [&](std::size_t i, std::size_t j, const glm::dvec2& along) {
@@ -131,8 +124,7 @@ double squared_steps(const Layout& layout, const std::vector<glm::dvec2>& g, con
   return sum;
 }
 
-TEST(Heights, ATiltBehavesAsItsGradient)
-{
+TEST(Heights, ATiltBehavesAsItsGradient) {
   for (const double n : {0.7, 1.5, 2.4})
     for (const glm::dvec2& g : {glm::dvec2(0.1, 0), glm::dvec2(-0.2, 0.15)}) {
       const glm::dvec2 back = inverse::facet_gradient(slope_with(g, n), n);
@@ -141,23 +133,23 @@ TEST(Heights, ATiltBehavesAsItsGradient)
 }
 
 // A plane: every facet lies in it, and there is no wall.
-TEST(Heights, ATiltedPlaneHasNoWalls)
-{
+TEST(Heights, ATiltedPlaneHasNoWalls) {
   const Layout layout = tall(13, 9);
   const glm::dvec2 g{0.3, -0.2};
   const Solid solid = make_solid(layout, slopes_of(layout, [&](const glm::dvec2&) { return g; }));
   EXPECT_NEAR(solid.highest_wall, 0, 1e-12);
   EXPECT_NEAR(solid.relief(), 0.3 * 7 + 0.2 * 5, 1e-12);
   EXPECT_NEAR(solid.highest, solid.relief() / 2, 1e-12);
-  for (std::size_t i = 0; i < layout.facet_count(); ++i) EXPECT_NEAR(solid.facets[i].height, glm::dot(g, layout.middle(i)), 1e-12);
+  for (std::size_t i = 0; i < layout.facet_count(); ++i)
+    EXPECT_NEAR(solid.facets[i].height, glm::dot(g, layout.middle(i)), 1e-12);
   Layout flat = layout;
   flat.free_heights = false;
   EXPECT_GT(make_solid(flat, slopes_of(layout, [&](const glm::dvec2&) { return g; })).wall_area, 10);
 }
 
-// z = a x^2 / 2 + b y^2 / 2: facets that touch it in their middles, moved by a constant each, meet along their whole edges.
-TEST(Heights, ALensIsContinuous)
-{
+// z = a x^2 / 2 + b y^2 / 2: facets that touch it in their middles, moved by a constant each, meet along their whole
+// edges.
+TEST(Heights, ALensIsContinuous) {
   const Layout layout = tall(24, 15);
   const double a = 0.11, b = -0.07;
   const auto slopes = slopes_of(layout, [&](const glm::dvec2& p) { return glm::dvec2(a * p.x, b * p.y); });
@@ -171,8 +163,7 @@ TEST(Heights, ALensIsContinuous)
     EXPECT_NEAR(solid.facets[i].height - solid.facets[0].height, lens(i) - lens(0), 1e-12);
 }
 
-TEST(Heights, NoOthersHaveLowerWalls)
-{
+TEST(Heights, NoOthersHaveLowerWalls) {
   Layout layout = tall(17, 12);
   const auto slopes = test::random_slopes(layout, 0.4, 3);
   const auto gradients = gradients_of(layout, slopes);
@@ -181,8 +172,11 @@ TEST(Heights, NoOthersHaveLowerWalls)
   for (const double band : {1e9, 0.5, 0.3}) { // 0.3: hardly more than a facet of 0.41 x 0.42 mm with these slopes
     layout.band = band;
     const std::vector<double> h = least_steps(layout, gradients);
-    const double least = squared_steps(layout, gradients, h), half_x = layout.facet().x / 2, half_y = layout.facet().y / 2;
-    const auto bound = [&](std::size_t i) { return band - std::abs(gradients[i].x) * half_x - std::abs(gradients[i].y) * half_y; };
+    const double least = squared_steps(layout, gradients, h), half_x = layout.facet().x / 2,
+                 half_y = layout.facet().y / 2;
+    const auto bound = [&](std::size_t i) {
+      return band - std::abs(gradients[i].x) * half_x - std::abs(gradients[i].y) * half_y;
+    };
     EXPECT_LT(least, squared_steps(layout, gradients, std::vector<double>(h.size())));
     std::size_t at_bound = 0;
     for (std::size_t i = 0; i < h.size(); ++i) {
@@ -199,26 +193,26 @@ TEST(Heights, NoOthersHaveLowerWalls)
       std::vector<double> other = h;
       const double kx = normal(random), ky = normal(random), noise = round % 2 ? 0.02 : 0;
       for (std::size_t i = 0; i < h.size(); ++i)
-        other[i] = std::clamp(h[i] + 0.05 * std::cos(glm::dot({kx, ky}, layout.middle(i))) + noise * normal(random), -bound(i), bound(i));
+        other[i] = std::clamp(h[i] + 0.05 * std::cos(glm::dot({kx, ky}, layout.middle(i))) + noise * normal(random),
+                              -bound(i), bound(i));
       EXPECT_GE(squared_steps(layout, gradients, other), least * (1 - 1e-6));
     }
   }
 }
 
 // A facet that is alone, and rows of them.
-TEST(Heights, OfOneFacetOrOneRow)
-{
+TEST(Heights, OfOneFacetOrOneRow) {
   for (const glm::ivec2& facets : {glm::ivec2(1, 1), glm::ivec2(1, 9), glm::ivec2(9, 1)}) {
     const Layout layout = tall(facets.x, facets.y);
-    const Solid solid = make_solid(layout, slopes_of(layout, [](const glm::dvec2& p) { return glm::dvec2(0.1, 0.05 * p.y); }));
+    const Solid solid =
+        make_solid(layout, slopes_of(layout, [](const glm::dvec2& p) { return glm::dvec2(0.1, 0.05 * p.y); }));
     EXPECT_NEAR(solid.highest_wall, 0, 1e-12);
     test::expect_sound(layout, solid);
   }
 }
 
 // Heights with and without ties, and nearly with: solved ones, drawn ones and those at a bound.
-TEST(Heights, TheSolidIsClosedWithAny)
-{
+TEST(Heights, TheSolidIsClosedWithAny) {
   for (int seed = 0; seed < 12; ++seed) {
     Layout layout = tall(19, 14);
     const auto slopes = test::random_slopes(layout, std::pow(10, -seed % 5) / 2, seed);
@@ -233,8 +227,7 @@ TEST(Heights, TheSolidIsClosedWithAny)
 }
 
 // Flat heights are no solve: the same mesh as that of heights of 0.
-TEST(Heights, FlatOnesAreZero)
-{
+TEST(Heights, FlatOnesAreZero) {
   Layout layout = tall(11, 8);
   layout.free_heights = false;
   const auto slopes = test::random_slopes(layout, 0.5, 9);
@@ -244,11 +237,10 @@ TEST(Heights, FlatOnesAreZero)
   EXPECT_EQ(inverse::heights_of(layout, slopes), std::vector<double>(slopes.size()));
 }
 
-// The files for a workshop: the solid as independent readers find it (Assimp, behind load_mesh; admesh, which checks STL as slicers do and
-// without which that test is skipped), facets, height map, page.
+// The files for a workshop: the solid as independent readers find it (Assimp, behind load_mesh; admesh, which checks
+// STL as slicers do and without which that test is skipped), facets, height map, page.
 
-std::string text_of(const std::function<void(ByteSink&)>& write)
-{
+std::string text_of(const std::function<void(ByteSink&)>& write) {
   ByteStore store;
   write(store);
   return {reinterpret_cast<const char*>(store.bytes().data()), store.bytes().size()};
@@ -260,15 +252,13 @@ protected:
   Layout layout = test::small(15, 11);
   Solid solid = make_solid(layout, test::random_slopes(layout, 0.5, 2));
 
-  fs::path written(const char* name, const std::function<void(ByteSink&)>& write) const
-  {
+  fs::path written(const char* name, const std::function<void(ByteSink&)>& write) const {
     write_file_whole(folder.path() / name, write);
     return folder.path() / name;
   }
 };
 
-TEST_F(InverseFiles, MeshesAreReadByOthers)
-{
+TEST_F(InverseFiles, MeshesAreReadByOthers) {
   const auto obj = written("object.obj", [&](ByteSink&to) { inverse::write_obj(solid.mesh, to); }),
              stl = written("object.stl", [&](ByteSink&to) { inverse::write_stl(solid.mesh, to); }),
              ply = written("object.ply", [&](ByteSink&to) { scene::write_ply(solid.mesh, to, inverse::mesh_title); });
@@ -279,9 +269,9 @@ TEST_F(InverseFiles, MeshesAreReadByOthers)
   }
 }
 
-// What admesh counts before and after its repairs: nothing to repair, one part, the volume of the slab in which the facets' middles lie.
-TEST_F(InverseFiles, AMeshRepairerFindsNothingToRepair)
-{
+// What admesh counts before and after its repairs: nothing to repair, one part, the volume of the slab in which the
+// facets' middles lie.
+TEST_F(InverseFiles, AMeshRepairerFindsNothingToRepair) {
   if (std::system("admesh --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "needs the package admesh";
   const auto stl = written("object.stl", [&](ByteSink& to) { inverse::write_stl(solid.mesh, to); });
   const auto said = folder.path() / "said";
@@ -289,18 +279,18 @@ TEST_F(InverseFiles, AMeshRepairerFindsNothingToRepair)
   const std::string report = read_file(said);
   const auto figure = [&](const std::string& what) {
     std::smatch found;
-    return std::regex_search(report, found, std::regex(what + R"( *: *(-?[0-9.]+))")) ? std::stod(found[1]) : std::nan("");
+    return std::regex_search(report, found, std::regex(what + R"( *: *(-?[0-9.]+))")) ? std::stod(found[1])
+                                                                                      : std::nan("");
   };
   EXPECT_EQ(figure("Number of facets"), static_cast<double>(solid.mesh.triangles.size())) << report;
   EXPECT_EQ(figure("Number of parts"), 1) << report;
-  for (const char* fault : {"Total disconnected facets", "Degenerate facets", "Edges fixed", "Facets removed", "Facets added",
-                            "Facets reversed", "Backwards edges", "Normals fixed"})
+  for (const char* fault : {"Total disconnected facets", "Degenerate facets", "Edges fixed", "Facets removed",
+                            "Facets added", "Facets reversed", "Backwards edges", "Normals fixed"})
     EXPECT_EQ(figure(fault), 0) << fault << "\n" << report;
   EXPECT_NEAR(figure("Volume"), layout.size.x * layout.size.y * layout.thickness, 1e-3) << report;
 }
 
-TEST_F(InverseFiles, FacetsAreListedWithTheirPlanes)
-{
+TEST_F(InverseFiles, FacetsAreListedWithTheirPlanes) {
   const auto list = nlohmann::json::parse(text_of([&](ByteSink& to) { write_facets(layout, solid, to); }));
   EXPECT_EQ(list.at("columns"), 15);
   EXPECT_EQ(list.at("rows"), 11);
@@ -313,9 +303,9 @@ TEST_F(InverseFiles, FacetsAreListedWithTheirPlanes)
   }
 }
 
-// One facet that rises by 0.2 mm a mm along x over 7 mm. Who looks at it from its own side has +x at the left; the object is thin there.
-TEST_F(InverseFiles, TheHeightMapIsSeenFromTheFacets)
-{
+// One facet that rises by 0.2 mm a mm along x over 7 mm. Who looks at it from its own side has +x at the left; the
+// object is thin there.
+TEST_F(InverseFiles, TheHeightMapIsSeenFromTheFacets) {
   layout.facets = {1, 1};
   const double g = 0.2, slope = -0.1076; // near enough for a rise: its own gradient is asked for below
   solid = make_solid(layout, {{slope, 0}});
@@ -326,13 +316,15 @@ TEST_F(InverseFiles, TheHeightMapIsSeenFromTheFacets)
   const double pixel = 7.0 / 1024;
   EXPECT_NEAR(map.data[0], 3 - rise * (3.5 - pixel / 2), 1e-6);
   EXPECT_NEAR(map.data[1023], 3 + rise * (3.5 - pixel / 2), 1e-6);
-  EXPECT_THAT(map.attributes.at("ImageDescription"), HasSubstr("thickness in mm; a pixel is 0.00683594 x 0.00488281 mm"));
+  EXPECT_THAT(map.attributes.at("ImageDescription"),
+              HasSubstr("thickness in mm; a pixel is 0.00683594 x 0.00488281 mm"));
 }
 
-TEST_F(InverseFiles, TheHeightMapsAgree)
-{
-  const image::Image exr = image::read_image(written("h.exr", [&](ByteSink&to) { write_height_exr(layout, solid, to); })),
-                     png = image::read_image(written("h.png", [&](ByteSink&to) { write_height_png(layout, solid, to); }));
+TEST_F(InverseFiles, TheHeightMapsAgree) {
+  const image::Image exr =
+                         image::read_image(written("h.exr", [&](ByteSink&to) { write_height_exr(layout, solid, to); })),
+                     png =
+                         image::read_image(written("h.png", [&](ByteSink&to) { write_height_png(layout, solid, to); }));
   EXPECT_EQ(exr.channels, std::vector<std::string>{"Y"});
   ASSERT_EQ(exr.data.size(), png.data.size());
   const double step = solid.relief() / 65535, thinnest = layout.thickness - solid.highest;
@@ -346,10 +338,9 @@ TEST_F(InverseFiles, TheHeightMapsAgree)
   EXPECT_NEAR(exr.data[static_cast<std::size_t>(exr.width)], 3 - f.height - glm::dot(f.gradient, from_middle), 1e-6);
 }
 
-// Two facets of 3.5 x 5 mm that fall towards each other by g: corners at +-1.75 g, no wall between them. The other way round they have
-// none either; both falling to the right, the wall is 2 * 1.75 g high and 5 mm long.
-TEST_F(InverseFiles, ThePageHasTheFigures)
-{
+// Two facets of 3.5 x 5 mm that fall towards each other by g: corners at +-1.75 g, no wall between them. The other way
+// round they have none either; both falling to the right, the wall is 2 * 1.75 g high and 5 mm long.
+TEST_F(InverseFiles, ThePageHasTheFigures) {
   layout.facets = {2, 1};
   solid = make_solid(layout, {{0.1, 0}, {-0.1, 0}});
   EXPECT_EQ(solid.highest_wall, 0);
@@ -369,8 +360,7 @@ TEST_F(InverseFiles, ThePageHasTheFigures)
 }
 
 // Facets whose edges cross in the middle: two triangles of half the edge's length.
-TEST_F(InverseFiles, AWallHasTwoPartsWhereEdgesCross)
-{
+TEST_F(InverseFiles, AWallHasTwoPartsWhereEdgesCross) {
   layout.facets = {2, 1};
   solid = make_solid(layout, {{0, 0.1}, {0, -0.1}});
   const double g = std::abs(solid.facets[0].gradient.y);

@@ -10,8 +10,7 @@ using inverse::Layout;
 
 inline Layout small(int columns, int rows) { return {.size = {7, 5}, .thickness = 3, .facets = {columns, rows}}; }
 
-inline std::vector<glm::dvec2> random_slopes(const Layout& layout, double most, int seed)
-{
+inline std::vector<glm::dvec2> random_slopes(const Layout& layout, double most, int seed) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   std::uniform_real_distribution<double> uniform(-most, most);
   std::vector<glm::dvec2> slopes(layout.facet_count());
@@ -20,11 +19,12 @@ inline std::vector<glm::dvec2> random_slopes(const Layout& layout, double most, 
 }
 
 using Vertices = std::array<float, 3>;
-inline Vertices at(const scene::Mesh& mesh, std::uint32_t id) { return {mesh.positions[id].x, mesh.positions[id].y, mesh.positions[id].z}; }
+inline Vertices at(const scene::Mesh& mesh, std::uint32_t id) {
+  return {mesh.positions[id].x, mesh.positions[id].y, mesh.positions[id].z};
+}
 
 /// Pieces that hang together by edges; vertices at one place are one.
-inline std::size_t bodies(const scene::Mesh& mesh)
-{
+inline std::size_t bodies(const scene::Mesh& mesh) {
   std::map<std::pair<Vertices, Vertices>, std::size_t> edges;
   std::vector<std::size_t> parent(mesh.triangles.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -44,8 +44,7 @@ inline std::size_t bodies(const scene::Mesh& mesh)
 }
 
 /// volume: what the mesh encloses.
-inline void expect_sound(const scene::Mesh& mesh, double volume)
-{
+inline void expect_sound(const scene::Mesh& mesh, double volume) {
   const scene::MeshReport report = scene::inspect(mesh);
   EXPECT_EQ(report.open_edges, 0u);
   EXPECT_EQ(report.crowded_edges, 0u);
@@ -56,13 +55,15 @@ inline void expect_sound(const scene::Mesh& mesh, double volume)
 }
 
 /// Facets are planes, so that the prism over each has the volume that its middle's height gives.
-inline double volume_of(const Layout& layout, const inverse::Solid& solid)
-{
+inline double volume_of(const Layout& layout, const inverse::Solid& solid) {
   double sum = 0;
-  for (const inverse::Facet& f : solid.facets) sum += layout.facet().x * layout.facet().y * (layout.thickness - f.height);
+  for (const inverse::Facet& f : solid.facets)
+    sum += layout.facet().x * layout.facet().y * (layout.thickness - f.height);
   return sum;
 }
 
-inline void expect_sound(const Layout& layout, const inverse::Solid& solid) { expect_sound(solid.mesh, volume_of(layout, solid)); }
+inline void expect_sound(const Layout& layout, const inverse::Solid& solid) {
+  expect_sound(solid.mesh, volume_of(layout, solid));
+}
 
 } // namespace nephroid::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis' pipeline: draws from the joint probability, what is done to pictures, annealing; and as a whole: what its stages gain, that
-// it ends, and that it goes on with the same bits.
+// The thesis' pipeline: draws from the joint probability, what is done to pictures, annealing; and as a whole: what its
+// stages gain, that it ends, and that it goes on with the same bits.
 #include "inverse/thesis/pipeline.h"
 #include "inverse/thesis/sampler.h"
 #include "inverse/uniform.h"
@@ -13,8 +13,7 @@ using namespace inverse;
 
 class ThesisPipeline : public testing::Test {
 protected:
-  ThesisPipeline()
-  {
+  ThesisPipeline() {
     settings.cycles = 3;
     settings.moves = 2;
     settings.corrections = 5;
@@ -22,14 +21,12 @@ protected:
   }
 
   /// Light through the left edge of the first receiver never comes to the right edge of the second.
-  void light_edges()
-  {
+  void light_edges() {
     targets.assign(2, Target(256));
     targets[0][8 * 16 + 0] = 1;
     targets[1][8 * 16 + 15] = 1;
   }
-  static job::Snapshot finish(Pipeline& pipeline)
-  {
+  static job::Snapshot finish(Pipeline& pipeline) {
     while (!pipeline.finished()) pipeline.advance();
     job::Snapshot snapshot;
     pipeline.show(snapshot);
@@ -41,8 +38,7 @@ protected:
   Thesis settings;
 };
 
-TEST_F(ThesisPipeline, GainsInEveryStageAndEnds)
-{
+TEST_F(ThesisPipeline, GainsInEveryStageAndEnds) {
   settings.cycles = 5;
   for (const Thesis::Adjust adjust : {Thesis::Adjust::convergence, Thesis::Adjust::each}) {
     settings.adjust = adjust;
@@ -63,8 +59,7 @@ TEST_F(ThesisPipeline, GainsInEveryStageAndEnds)
   }
 }
 
-TEST_F(ThesisPipeline, GoesOnWithTheSameBitsInEveryStage)
-{
+TEST_F(ThesisPipeline, GoesOnWithTheSameBitsInEveryStage) {
   for (const Thesis::Adjust adjust : {Thesis::Adjust::convergence, Thesis::Adjust::each}) {
     settings.adjust = adjust;
     Pipeline whole(layout, targets, settings, 7);
@@ -89,8 +84,7 @@ TEST_F(ThesisPipeline, GoesOnWithTheSameBitsInEveryStage)
 }
 
 // Such facets are counted, nothing loops or becomes infinite, and the cost is the highest that there is.
-TEST_F(ThesisPipeline, CountsFacetsWithoutADirection)
-{
+TEST_F(ThesisPipeline, CountsFacetsWithoutADirection) {
   light_edges();
   settings.sampling = Thesis::Sampling::rejection;
   settings.cycles = 0;
@@ -105,8 +99,7 @@ TEST_F(ThesisPipeline, CountsFacetsWithoutADirection)
 }
 
 // With extension and overshoot the same facets find their way.
-TEST_F(ThesisPipeline, ReachesMissingCellsBySecondAnnealing)
-{
+TEST_F(ThesisPipeline, ReachesMissingCellsBySecondAnnealing) {
   light_edges();
   settings.size_limit = 0;
   Pipeline pipeline(layout, targets, settings, 1);
@@ -119,18 +112,18 @@ TEST_F(ThesisPipeline, ReachesMissingCellsBySecondAnnealing)
 constexpr Thesis::Sampling both[] = {Thesis::Sampling::exact, Thesis::Sampling::rejection};
 
 /// A facet in the middle, on the axis; cells of 10 mm.
-Layout one_facet() { return {.size = {90, 90}, .facets = {1, 1}, .receiver = {90, 90}, .cells = {9, 9}, .distances = {100, 200}}; }
+Layout one_facet() {
+  return {.size = {90, 90}, .facets = {1, 1}, .receiver = {90, 90}, .cells = {9, 9}, .distances = {100, 200}};
+}
 
 /// Of 9 x 9 cells: 1 in these, which are columns of the middle row.
-std::vector<double> lit(const std::vector<std::size_t>& columns)
-{
+std::vector<double> lit(const std::vector<std::size_t>& columns) {
   std::vector<double> picture(81);
   for (const std::size_t x : columns) picture[4 * 9 + x] = 1;
   return picture;
 }
 
-TEST(ThesisSampler, DrawsCellsAsOftenAsTheyAreBright)
-{
+TEST(ThesisSampler, DrawsCellsAsOftenAsTheyAreBright) {
   Layout layout = one_facet();
   std::vector<double> picture = lit({2, 7});
   picture[4 * 9 + 7] = 0.25;
@@ -150,9 +143,9 @@ TEST(ThesisSampler, DrawsCellsAsOftenAsTheyAreBright)
   }
 }
 
-// (5.1) by brute force: for each cell of the first receiver the product of both pictures, over many directions through it.
-TEST(ThesisSampler, FollowsTheProductOfThePictures)
-{
+// (5.1) by brute force: for each cell of the first receiver the product of both pictures, over many directions through
+// it.
+TEST(ThesisSampler, FollowsTheProductOfThePictures) {
   Layout layout{.facets = {4, 4}, .cells = {6, 6}, .distances = {100, 150}};
   std::mt19937_64 random(5);
   std::vector<SamplingTarget> aims{{100, {}, 0}, {150, {}, 0}};
@@ -162,11 +155,13 @@ TEST(ThesisSampler, FollowsTheProductOfThePictures)
   std::vector<double> expected(36);
   constexpr int fine = 1200;
   for (int i = 0; i < fine * fine; ++i) {
-    const glm::dvec2 first = (glm::dvec2(i % fine + 0.5, i / fine + 0.5) / double(fine) - 0.5) * 100.0, from = layout.middle(facet),
-                     second = from + (first - from) * 1.5, a = layout.in_cells(first), b = layout.in_cells(second);
+    const glm::dvec2 first = (glm::dvec2(i % fine + 0.5, i / fine + 0.5) / double(fine) - 0.5) * 100.0,
+                     from = layout.middle(facet), second = from + (first - from) * 1.5, a = layout.in_cells(first),
+                     b = layout.in_cells(second);
     if (b.x < 0 || b.y < 0 || b.x >= 6 || b.y >= 6) continue;
     const std::size_t cell = static_cast<std::size_t>(a.y) * 6 + static_cast<std::size_t>(a.x);
-    expected[cell] += aims[0].picture[cell] * aims[1].picture[static_cast<std::size_t>(b.y) * 6 + static_cast<std::size_t>(b.x)];
+    expected[cell] +=
+        aims[0].picture[cell] * aims[1].picture[static_cast<std::size_t>(b.y) * 6 + static_cast<std::size_t>(b.x)];
   }
   const double all = std::accumulate(expected.begin(), expected.end(), 0.0);
   for (const Thesis::Sampling sampling : both) {
@@ -183,8 +178,7 @@ TEST(ThesisSampler, FollowsTheProductOfThePictures)
 }
 
 // Through column 6 of the first picture light of the only facet comes to column 8 of the second.
-TEST(ThesisSampler, HasNoDrawWhereNoDirectionIsLitInAll)
-{
+TEST(ThesisSampler, HasNoDrawWhereNoDirectionIsLitInAll) {
   const Layout layout = one_facet();
   std::mt19937_64 random(1);
   for (const Thesis::Sampling sampling : both) {
@@ -198,8 +192,7 @@ TEST(ThesisSampler, HasNoDrawWhereNoDirectionIsLitInAll)
   }
 }
 
-TEST(ThesisPictures, Move)
-{
+TEST(ThesisPictures, Move) {
   const Layout layout = one_facet();
   EXPECT_EQ(moved(lit({3, 4}), layout, 1, {0, 0}), lit({3, 4}));
   EXPECT_EQ(moved(lit({3, 4}), layout, 1, {2.0 / 9, 0}), lit({5, 6}));
@@ -214,8 +207,7 @@ TEST(ThesisPictures, Move)
   EXPECT_EQ(std::accumulate(gone.begin(), gone.end(), 0.0), 0);
 }
 
-TEST(ThesisPictures, MarginIsTheDistanceToTheNearestLitCell)
-{
+TEST(ThesisPictures, MarginIsTheDistanceToTheNearestLitCell) {
   Layout layout = one_facet();
   layout.cells = {11, 7};
   std::mt19937_64 random(3);
@@ -225,15 +217,15 @@ TEST(ThesisPictures, MarginIsTheDistanceToTheNearestLitCell)
   for (int i = 0; i < 77; ++i) {
     double nearest = 1e9;
     for (int k = 0; k < 77; ++k)
-      if (picture[static_cast<std::size_t>(k)] > 0) nearest = std::min(nearest, std::hypot(i % 11 - k % 11, i / 11 - k / 11));
+      if (picture[static_cast<std::size_t>(k)] > 0)
+        nearest = std::min(nearest, std::hypot(i % 11 - k % 11, i / 11 - k / 11));
     EXPECT_NEAR(margin.distance[static_cast<std::size_t>(i)], nearest, 1e-12) << i;
     EXPECT_GT(picture[margin.nearest[static_cast<std::size_t>(i)]], 0);
   }
 }
 
 // Two cells further, in thirds.
-TEST(ThesisPictures, ExtendWithLinearlyLessLight)
-{
+TEST(ThesisPictures, ExtendWithLinearlyLessLight) {
   const Layout layout = one_facet();
   std::vector<double> picture = lit({4});
   picture[4 * 9 + 4] = 0.6;
@@ -246,8 +238,7 @@ TEST(ThesisPictures, ExtendWithLinearlyLessLight)
 }
 
 // As figure 5.12: the facet's light through column 4 + k of the first picture comes to column 4 + 2 k of the second.
-TEST(ThesisPictures, MissingCellsNeedExtensionAndOvershoot)
-{
+TEST(ThesisPictures, MissingCellsNeedExtensionAndOvershoot) {
   const Layout layout = one_facet();
   const auto needs = [&](const std::vector<std::size_t>& first, const std::vector<std::size_t>& second) {
     const std::vector<SamplingTarget> aims{{100, lit(first), 0}, {200, lit(second), 0}};
@@ -268,8 +259,7 @@ TEST(ThesisPictures, MissingCellsNeedExtensionAndOvershoot)
   EXPECT_EQ(all[1].overshoot, 0); // 0 of 0
 }
 
-TEST(ThesisAnnealer, CoolsAndFindsTheLowest)
-{
+TEST(ThesisAnnealer, CoolsAndFindsTheLowest) {
   const auto cost = [](const std::vector<double>& v) { return (v[0] - 0.3) * (v[0] - 0.3) + (v[1] - 2) * (v[1] - 2); };
   const std::vector<AnnealedParameter> knobs{{0.9, 0.1, 0, 1}, {1, 0.1, 0.5, 1.2}}; // 2 is out of reach: 1.2
   Annealer annealer(knobs, {0.01, 0.5, 20, 20}, cost({0.9, 1}));
@@ -287,8 +277,7 @@ TEST(ThesisAnnealer, CoolsAndFindsTheLowest)
 }
 
 // A rise by the temperature is taken with probability 1 / e; without temperature never.
-TEST(ThesisAnnealer, TakesRisesAsTheTemperatureSays)
-{
+TEST(ThesisAnnealer, TakesRisesAsTheTemperatureSays) {
   for (const double temperature : {0.1, 0.0}) {
     int taken = 0;
     for (std::uint64_t i = 0; i < 2000; ++i) {

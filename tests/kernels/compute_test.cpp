@@ -14,8 +14,7 @@ using compute::Program;
 
 /// The line of the Error that f throws.
 template <class F>
-std::string error_line(const F& f, ErrorKind kind = ErrorKind::failed)
-{
+std::string error_line(const F& f, ErrorKind kind = ErrorKind::failed) {
   const Error error = error_of(f);
   EXPECT_EQ(error.kind(), kind) << error.line();
   EXPECT_THAT(error.line(), Not(HasSubstr("\n")));
@@ -33,8 +32,7 @@ private:
   test::TemporaryFolder folder_;
 };
 
-TEST(Devices, AreListedWithWhatTheyCanDo)
-{
+TEST(Devices, AreListedWithWhatTheyCanDo) {
   const std::vector<compute::DeviceInfo> devices = compute::list_devices();
   ASSERT_FALSE(devices.empty()) << compute::no_device_error().line();
   for (std::size_t i = 0; i < devices.size(); ++i) {
@@ -45,20 +43,19 @@ TEST(Devices, AreListedWithWhatTheyCanDo)
   }
 }
 
-TEST(Devices, AreChosenByNumberAndByPartOfTheirName)
-{
+TEST(Devices, AreChosenByNumberAndByPartOfTheirName) {
   const compute::DeviceInfo first = compute::list_devices().at(0);
   EXPECT_EQ(Context::open({.selector = "0"}).device().name, first.name);
   std::string part = first.name.substr(1, 5);
-  std::transform(part.begin(), part.end(), part.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(part.begin(), part.end(), part.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   EXPECT_EQ(Context::open({.selector = part}).device().name, first.name);
   for (const std::string selector : {"17", "no such device"})
     EXPECT_THAT(error_line([&] { Context::open({.selector = selector}); }, ErrorKind::no_device),
                 AllOf(HasSubstr(selector), HasSubstr(first.name)));
 }
 
-TEST(Buffers, KeepWhatIsWritten)
-{
+TEST(Buffers, KeepWhatIsWritten) {
   const Context context = Context::open();
   std::vector<int> numbers(1001);
   std::iota(numbers.begin(), numbers.end(), -3);
@@ -74,16 +71,14 @@ TEST(Buffers, KeepWhatIsWritten)
   EXPECT_TRUE(Buffer<int>(context, "nothing", 0).read().empty());
 }
 
-TEST(Buffers, SayWhatDoesNotFit)
-{
+TEST(Buffers, SayWhatDoesNotFit) {
   const Context context = Context::open();
   const std::size_t bytes = context.device().max_buffer_bytes + 1;
   EXPECT_THAT(error_line([&] { Buffer<char>(context, "film", bytes); }),
               AllOf(HasSubstr("film"), HasSubstr("MB"), HasSubstr(context.device().name)));
 }
 
-TEST(Programs, EveryEmbeddedSourceIsTheFileItWasMadeFrom)
-{
+TEST(Programs, EveryEmbeddedSourceIsTheFileItWasMadeFrom) {
   EXPECT_FALSE(compute::embedded_sources().empty());
   for (const compute::EmbeddedSource& source : compute::embedded_sources()) {
     std::ifstream file(fs::path(NEPHROID_SOURCE_DIR) / "kernels" / source.name);
@@ -91,13 +86,13 @@ TEST(Programs, EveryEmbeddedSourceIsTheFileItWasMadeFrom)
   }
 }
 
-TEST_F(EditedKernels, RunWithIncludesDefinesAndRoundedSizes)
-{
+TEST_F(EditedKernels, RunWithIncludesDefinesAndRoundedSizes) {
   write("twice.h", "// once\ninline int twice(int a) { return 2 * a; }\n");
   write("also.h", "#include \"twice.h\"\n");
-  write("test.cl", "#include \"twice.h\"\n#include \"also.h\"\n"
-                   "kernel void fill(global int* a, int first, uint count)\n"
-                   "{ const uint i = get_global_id(0); if (i < count) a[i] = twice(first) + OFFSET + get_local_size(0); }\n");
+  write("test.cl",
+        "#include \"twice.h\"\n#include \"also.h\"\n"
+        "kernel void fill(global int* a, int first, uint count)\n"
+        "{ const uint i = get_global_id(0); if (i < count) a[i] = twice(first) + OFFSET + get_local_size(0); }\n");
   const Context context = open();
   Buffer<int> a(context, "a", 100);
   for (const int offset : {5, 6}) {
@@ -107,8 +102,7 @@ TEST_F(EditedKernels, RunWithIncludesDefinesAndRoundedSizes)
   }
 }
 
-TEST_F(EditedKernels, SayWhenTheyAreCompiled)
-{
+TEST_F(EditedKernels, SayWhenTheyAreCompiled) {
   write("test.cl", "kernel void k(global int* a) { a[0] = VALUE; }\n");
   const Context context = open();
   int told = 0;
@@ -117,18 +111,20 @@ TEST_F(EditedKernels, SayWhenTheyAreCompiled)
   EXPECT_EQ(told, 2) << "not of the one that is built already";
 }
 
-TEST_F(EditedKernels, ErrorsNameTheFileAndLineThatIsWrong)
-{
+TEST_F(EditedKernels, ErrorsNameTheFileAndLineThatIsWrong) {
   write("wrong.h", "// a comment\ninline int f(int a) { return a + b; }\n");
   write("test.cl", "\n#include \"wrong.h\"\nkernel void k(global int* a) { a[0] = f(1); }\n");
   write("below.cl", "#include \"fine.h\"\nkernel void k(global int* a) {\n  a[0] = nothing;\n}\n");
   write("fine.h", "#define A 1\n#define B 2\n");
   write("missing.cl", "// a comment\n  #  include \"not there.h\"\n");
   const Context context = open();
-  EXPECT_THAT(error_line([&] { Program(context, "test.cl"); }), AllOf(StartsWith("wrong.h:2: "), HasSubstr("'b'"), HasSubstr("test.cl")));
+  EXPECT_THAT(error_line([&] { Program(context, "test.cl"); }),
+              AllOf(StartsWith("wrong.h:2: "), HasSubstr("'b'"), HasSubstr("test.cl")));
   EXPECT_THAT(error_line([&] { Program(context, "below.cl"); }), StartsWith("below.cl:3: "));
-  EXPECT_THAT(error_line([&] { Program(context, "missing.cl"); }), AllOf(StartsWith("missing.cl:2: "), HasSubstr("not there.h")));
-  EXPECT_THAT(error_line([&] { Program(Context::open(), "nothing.cl"); }), AllOf(HasSubstr("nothing.cl"), HasSubstr("tracing/trace.cl")));
+  EXPECT_THAT(error_line([&] { Program(context, "missing.cl"); }),
+              AllOf(StartsWith("missing.cl:2: "), HasSubstr("not there.h")));
+  EXPECT_THAT(error_line([&] { Program(Context::open(), "nothing.cl"); }),
+              AllOf(HasSubstr("nothing.cl"), HasSubstr("tracing/trace.cl")));
   try {
     Program(context, "test.cl");
   } catch (const compute::BuildError& error) {
@@ -136,23 +132,37 @@ TEST_F(EditedKernels, ErrorsNameTheFileAndLineThatIsWrong)
   }
 }
 
-TEST_F(EditedKernels, CallsWithOtherArgumentsAreRefused)
-{
+TEST_F(EditedKernels, CallsWithOtherArgumentsAreRefused) {
   write("test.cl", "kernel void k(global int* a, int b) { a[0] = b; }\n");
   const Context context = open();
   Program program(context, "test.cl");
   compute::Kernel kernel = program.kernel("k");
   Buffer<int> a(context, "a", 1);
-  EXPECT_THAT(error_line([&] { kernel.run(1, 1, {{"a", a}}); }), AllOf(HasSubstr("test.cl: k"), HasSubstr("argument b is not given")));
+  EXPECT_THAT(error_line([&] {
+                kernel.run(1, 1, {{"a", a}});
+              }),
+              AllOf(HasSubstr("test.cl: k"), HasSubstr("argument b is not given")));
   EXPECT_THAT(error_line([&] {
                 kernel.run(1, 1, {{"a", 1}, {"b", 2}});
               }),
               HasSubstr("argument a is a value of type int; it takes a buffer"));
-  EXPECT_THAT(error_line([&] { kernel.run(1, 1, {{"a", a}, {"b", a}}); }), HasSubstr("argument b is a buffer of int; it takes a value"));
+  EXPECT_THAT(error_line([&] {
+                kernel.run(1, 1, {{"a", a}, {"b", a}});
+              }),
+              HasSubstr("argument b is a buffer of int; it takes a value"));
   EXPECT_THAT(error_line([&] { kernel.run(1, 1, {{"a", Buffer<int>()}, {"b", 2}}); }), HasSubstr("never made"));
-  EXPECT_THAT(error_line([&] { kernel.run(1, 1, {{"a", a}, {"b", 2.0f}}); }), HasSubstr("argument b is a value of type float; it takes a"));
-  EXPECT_THAT(error_line([&] { kernel.run(1, 1, {{"a", a}, {"b", 2}, {"c", 2}}); }), HasSubstr("argument c: the kernel has none"));
-  EXPECT_THAT(error_line([&] { kernel.run(1, 1, {{"a", a}, {"b", 2}, {"b", 2}}); }), HasSubstr("argument b is given twice"));
+  EXPECT_THAT(error_line([&] {
+                kernel.run(1, 1, {{"a", a}, {"b", 2.0f}});
+              }),
+              HasSubstr("argument b is a value of type float; it takes a"));
+  EXPECT_THAT(error_line([&] {
+                kernel.run(1, 1, {{"a", a}, {"b", 2}, {"c", 2}});
+              }),
+              HasSubstr("argument c: the kernel has none"));
+  EXPECT_THAT(error_line([&] {
+                kernel.run(1, 1, {{"a", a}, {"b", 2}, {"b", 2}});
+              }),
+              HasSubstr("argument b is given twice"));
   EXPECT_THAT(error_line([&] {
                 kernel.run(1, 1000000, {{"a", a}, {"b", 2}});
               }),
@@ -164,8 +174,7 @@ TEST_F(EditedKernels, CallsWithOtherArgumentsAreRefused)
   EXPECT_EQ(a.read().at(0), 4);
 }
 
-TEST_F(EditedKernels, AChangeIsBuilt)
-{
+TEST_F(EditedKernels, AChangeIsBuilt) {
   write("test.cl", "kernel void k(global int* a) { a[0] = 1; }\n");
   const Context context = open();
   Buffer<int> a(context, "a", 1);
@@ -174,12 +183,13 @@ TEST_F(EditedKernels, AChangeIsBuilt)
   write("test.cl", "kernel void k(global int* a) { a[0] = 2; }\n");
   Program(context, "test.cl").kernel("k").run(1, 1, {{"a", a}});
   EXPECT_EQ(a.read().at(0), 2);
-  EXPECT_THAT(error_line([&] { Context::open({.kernels = folder() / "none"}); }, ErrorKind::bad_input), HasSubstr("not a folder"));
+  EXPECT_THAT(error_line([&] { Context::open({.kernels = folder() / "none"}); }, ErrorKind::bad_input),
+              HasSubstr("not a folder"));
 }
 
-// The window's worker builds programs while another thread watches the folder: what is built stays, whatever changes beside it.
-TEST_F(EditedKernels, AreWatchedWhileTheyAreBuilt)
-{
+// The window's worker builds programs while another thread watches the folder: what is built stays, whatever changes
+// beside it.
+TEST_F(EditedKernels, AreWatchedWhileTheyAreBuilt) {
   write("test.cl", "kernel void k(global int* a) { a[0] = 1; }\n");
   const Context context = open();
   int told = 0;
@@ -200,8 +210,7 @@ TEST_F(EditedKernels, AreWatchedWhileTheyAreBuilt)
   EXPECT_EQ(compute::kernel_times(folder() / "none"), compute::KernelTimes());
 }
 
-TEST_F(EditedKernels, AnEngineMayHaveNone)
-{
+TEST_F(EditedKernels, AnEngineMayHaveNone) {
   const Context context = open();
   fs::create_directory(folder() / "photons");
   write("photons/test.cl", "// a kernel\n");
@@ -211,25 +220,23 @@ TEST_F(EditedKernels, AnEngineMayHaveNone)
   EXPECT_THAT(error_line([&] { compute::kernel_sources(context, "loop"); }), HasSubstr("loop: cannot be read: "));
 }
 
-test::Ended devices_with(const test::Environment& environment)
-{
+test::Ended devices_with(const test::Environment& environment) {
   const test::TemporaryFolder logs;
   return test::nephroid({"devices"}, logs.path(), logs.path(), environment);
 }
 
 long lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 
-TEST(Environment, WithoutAPlatformThereIsOneClearLine)
-{
+TEST(Environment, WithoutAPlatformThereIsOneClearLine) {
   const test::Ended ended = devices_with({{"OCL_ICD_VENDORS", "/nonexistent"}});
   EXPECT_EQ(ended.exit_code, 3);
-  EXPECT_THAT(ended.err, AllOf(StartsWith("nephroid: "), HasSubstr("no OpenCL platform"), HasSubstr("apt install pocl-opencl-icd")));
+  EXPECT_THAT(ended.err, AllOf(StartsWith("nephroid: "), HasSubstr("no OpenCL platform"),
+                               HasSubstr("apt install pocl-opencl-icd")));
   EXPECT_EQ(lines(ended.err), 1);
   EXPECT_EQ(ended.out, "");
 }
 
-TEST(Environment, WithoutHomeOrAWritableCacheThereIsANoteAndAWayOn)
-{
+TEST(Environment, WithoutHomeOrAWritableCacheThereIsANoteAndAWayOn) {
   const test::Environment environments[] = {{{"HOME", {}}, {"XDG_CACHE_HOME", {}}, {"POCL_CACHE_DIR", {}}},
                                             {{"POCL_CACHE_DIR", "/dev/null/cache"}},
                                             {{"POCL_CACHE_DIR", {}}, {"XDG_CACHE_HOME", "/dev/null"}}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/differential.h against finite differences of the same paths in double precision, and a prism's angular dispersion in
-// closed form.
+// kernels/tracing/differential.h against finite differences of the same paths in double precision, and a prism's
+// angular dispersion in closed form.
 #include "spectral/engine.h"
 #include "tests/support/differential_reference.h"
 #include "tests/support/render.h"
@@ -72,14 +72,12 @@ struct Lab {
 };
 
 /// One for all tests: opening a device takes a second.
-const TestKernels& kernels()
-{
+const TestKernels& kernels() {
   static const TestKernels once(source);
   return once;
 }
 
-std::unique_ptr<Lab> make_lab(const preset::Preset& preset)
-{
+std::unique_ptr<Lab> make_lab(const preset::Preset& preset) {
   auto lab = std::make_unique<Lab>();
   lab->scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(lab->scene.geometry);
@@ -92,8 +90,7 @@ std::unique_ptr<Lab> make_lab(const preset::Preset& preset)
 }
 
 /// The paths of rays, each in a cluster; those that never end are empty.
-std::vector<Followed> follow(Lab& lab, const std::vector<Ray64>& rays, const std::vector<int>& clusters)
-{
+std::vector<Followed> follow(Lab& lab, const std::vector<Ray64>& rays, const std::vector<int>& clusters) {
   const compute::Context& context = lab.world.context;
   std::vector<float> numbers;
   for (const Ray64& r : rays)
@@ -130,8 +127,7 @@ std::vector<Followed> follow(Lab& lab, const std::vector<Ray64>& rays, const std
 }
 
 /// A room of diffuse walls about the origin, so that every path ends, with glass and mirrors in it.
-preset::Preset room()
-{
+preset::Preset room() {
   preset::Preset p = empty_preset(8);
   p.scene.materials["wall"] = white();
   preset::Material& flint = p.scene.materials["flint"] = glass(1);
@@ -149,8 +145,7 @@ preset::Preset room()
   return p;
 }
 
-preset::Shape prism_shape(double apex_deg)
-{
+preset::Shape prism_shape(double apex_deg) {
   preset::Shape prism;
   prism.type = preset::Shape::Type::prism;
   prism.side = prism.height = 2;
@@ -159,30 +154,26 @@ preset::Shape prism_shape(double apex_deg)
 }
 
 /// Light that is reflected once inside an equilateral prism leaves it as from a plate, so this one is not.
-preset::Preset prism()
-{
+preset::Preset prism() {
   preset::Preset p = room();
   p.scene.objects.push_back(object("prism", prism_shape(40), "flint", at({0, 0, 0}, {10, 20, 30})));
   return p;
 }
 
-preset::Preset ball_of_flint()
-{
+preset::Preset ball_of_flint() {
   preset::Preset p = room();
   p.scene.objects.push_back(object("ball", ball(1), "flint"));
   return p;
 }
 
-preset::Preset ellipsoid()
-{
+preset::Preset ellipsoid() {
   preset::Preset p = ball_of_flint();
   p.scene.objects.back().transform = at({0.1, 0, 0}, {10, 20, 30});
   p.scene.objects.back().transform.scale = {1, 0.6, 1.3};
   return p;
 }
 
-preset::Preset rod(preset::Object::Normals normals)
-{
+preset::Preset rod(preset::Object::Normals normals) {
   preset::Preset p = room();
   preset::Shape cylinder;
   cylinder.type = preset::Shape::Type::cylinder;
@@ -196,8 +187,7 @@ preset::Preset rod(preset::Object::Normals normals)
 preset::Preset faceted_rod() { return rod(preset::Object::Normals::faceted); }
 preset::Preset smooth_rod() { return rod(preset::Object::Normals::smooth); }
 
-preset::Preset brilliant()
-{
+preset::Preset brilliant() {
   preset::Preset p = room();
   preset::Shape stone{.type = preset::Shape::Type::brilliant, .radius = 1};
   p.scene.objects.push_back(object("stone", stone, "flint", at({0, 0, 0}, {20, 10, 0})));
@@ -205,8 +195,7 @@ preset::Preset brilliant()
 }
 
 /// A prism before a flat and a curved mirror.
-preset::Preset mirrors()
-{
+preset::Preset mirrors() {
   preset::Preset p = prism();
   p.scene.objects.push_back(object("mirror", quad(8, 8), "mirror", at({0, -3, 0}, {10, 0, 5})));
   p.scene.objects.push_back(object("ball mirror", ball(1.5), "mirror", at({0, 3.5, 0})));
@@ -214,8 +203,7 @@ preset::Preset mirrors()
 }
 
 /// Two curves: flint, a core of crown in it that takes its place, and a block of crown that overlaps both.
-preset::Preset nested()
-{
+preset::Preset nested() {
   preset::Preset p = ball_of_flint();
   p.scene.objects.push_back(object("core", ball(0.5), "crown", at({0.2, 0.1, 0})));
   p.scene.objects.back().priority = 1;
@@ -224,13 +212,13 @@ preset::Preset nested()
 }
 
 /// From the room into the middle of it.
-std::vector<Ray64> random_rays(std::size_t count, double radius)
-{
+std::vector<Ray64> random_rays(std::size_t count, double radius) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
   std::vector<Ray64> rays;
   while (rays.size() < count) {
-    const glm::dvec3 d(uniform(random), uniform(random), uniform(random)), to(uniform(random), uniform(random), uniform(random));
+    const glm::dvec3 d(uniform(random), uniform(random), uniform(random)),
+        to(uniform(random), uniform(random), uniform(random));
     if (glm::length(d) > 1 || glm::length(d) < 0.1 || glm::length(to) > 1) continue;
     // Rounded as the kernel gets it, so that both follow the same ray.
     const glm::dvec3 from(glm::vec3(5.0 * glm::normalize(d)));
@@ -239,8 +227,7 @@ std::vector<Ray64> random_rays(std::size_t count, double radius)
   return rays;
 }
 
-double quantile(std::vector<double> values, double q)
-{
+double quantile(std::vector<double> values, double q) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
 }
@@ -254,17 +241,17 @@ struct DifferentialCase {
 class Differential : public testing::TestWithParam<DifferentialCase> {};
 
 /// n of every material where s is larger by ds than in the cluster.
-std::vector<double> indices(const photons::RunTables& tables, int cluster, double ds)
-{
-  const std::size_t materials = static_cast<std::size_t>(tables.scene.material_count), row = static_cast<std::size_t>(cluster) * materials;
+std::vector<double> indices(const photons::RunTables& tables, int cluster, double ds) {
+  const std::size_t materials = static_cast<std::size_t>(tables.scene.material_count),
+                    row = static_cast<std::size_t>(cluster) * materials;
   std::vector<double> n;
   for (std::size_t m = 0; m < materials; ++m)
-    n.push_back(double(tables.wavelengths.index_of_cluster[row + m]) + ds * double(tables.stretch.index_slope[row + m]));
+    n.push_back(double(tables.wavelengths.index_of_cluster[row + m]) +
+                ds * double(tables.stretch.index_slope[row + m]));
   return n;
 }
 
-TEST_P(Differential, IsWhatFiniteDifferencesOfTheSamePathGive)
-{
+TEST_P(Differential, IsWhatFiniteDifferencesOfTheSamePathGive) {
   const auto lab = make_lab(GetParam().preset());
   const photons::RunTables& tables = lab->tables;
   const PathReference reference(lab->scene);
@@ -283,7 +270,8 @@ TEST_P(Differential, IsWhatFiniteDifferencesOfTheSamePathGive)
     reference.retrace(rays[i], encounters, indices(tables, clusters[i], 0), true);
     const Ray64 above = reference.retrace(rays[i], encounters, indices(tables, clusters[i], h), false).back(),
                 below = reference.retrace(rays[i], encounters, indices(tables, clusters[i], -h), false).back();
-    const glm::dvec3 d_position = (above.position - below.position) / (2 * h), d_direction = (above.direction - below.direction) / (2 * h);
+    const glm::dvec3 d_position = (above.position - below.position) / (2 * h),
+                     d_direction = (above.direction - below.direction) / (2 * h);
     // Mirrors only, parallel faces (the ends of a rod), the critical angle.
     if (!std::isfinite(glm::length(d_position)) || glm::length(d_direction) < 1e-4) continue;
     const State& last = paths[i].states.back();
@@ -303,18 +291,18 @@ TEST_P(Differential, IsWhatFiniteDifferencesOfTheSamePathGive)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Differential,
-                         testing::Values(DifferentialCase{"Prism", prism, 3}, DifferentialCase{"Ball", ball_of_flint, 3},
-                                         DifferentialCase{"Ellipsoid", ellipsoid, 3}, DifferentialCase{"FacetedRod", faceted_rod, 4},
-                                         DifferentialCase{"SmoothRod", smooth_rod, 3}, DifferentialCase{"Brilliant", brilliant, 8},
-                                         DifferentialCase{"Mirrors", mirrors, 5}, DifferentialCase{"NestedTwoCurves", nested, 6}),
-                         [](const auto& scene) { return scene.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, Differential,
+    testing::Values(DifferentialCase{"Prism", prism, 3}, DifferentialCase{"Ball", ball_of_flint, 3},
+                    DifferentialCase{"Ellipsoid", ellipsoid, 3}, DifferentialCase{"FacetedRod", faceted_rod, 4},
+                    DifferentialCase{"SmoothRod", smooth_rod, 3}, DifferentialCase{"Brilliant", brilliant, 8},
+                    DifferentialCase{"Mirrors", mirrors, 5}, DifferentialCase{"NestedTwoCurves", nested, 6}),
+    [](const auto& scene) { return scene.param.name; });
 
-// A prism of apex A at minimum deviation: both refractions are alike, sin((A + d) / 2) = n sin(A / 2). There the deviation d does not
-// change with the angle of incidence, so for a fixed ray too
+// A prism of apex A at minimum deviation: both refractions are alike, sin((A + d) / 2) = n sin(A / 2). There the
+// deviation d does not change with the angle of incidence, so for a fixed ray too
 //   dd/dn = 2 sin(A / 2) / cos((A + d) / 2) = 2 sin(A / 2) / sqrt(1 - n^2 sin^2(A / 2)).
-TEST(PrismDifferential, IsTheAngularDispersionAtMinimumDeviation)
-{
+TEST(PrismDifferential, IsTheAngularDispersionAtMinimumDeviation) {
   preset::Preset p = room();
   p.scene.objects.push_back(object("prism", prism_shape(60), "flint"));
   const auto lab = make_lab(p);
@@ -324,8 +312,8 @@ TEST(PrismDifferential, IsTheAngularDispersionAtMinimumDeviation)
   std::vector<Ray64> rays;
   std::vector<int> clusters;
   for (int cluster = 0; cluster < tables.scene.cluster_count; cluster += 20) clusters.push_back(cluster);
-  const auto flint =
-      std::find_if(lab->scene.materials.begin(), lab->scene.materials.end(), [](const auto& m) { return m.name == "flint"; });
+  const auto flint = std::find_if(lab->scene.materials.begin(), lab->scene.materials.end(),
+                                  [](const auto& m) { return m.name == "flint"; });
   const auto material = static_cast<std::size_t>(flint - lab->scene.materials.begin());
   for (const int cluster : clusters) {
     const double n = indices(tables, cluster, 0)[material];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/fresnel.h in single precision against optics/fresnel.h in double precision; rays that meet an ellipsoid.
+// kernels/tracing/fresnel.h in single precision against optics/fresnel.h in double precision; rays that meet an
+// ellipsoid.
 #include "check/tracer.h"
 #include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
@@ -16,18 +17,17 @@ namespace nephroid::ellipsoid_test {
 using Float4 = shared::float4;
 using namespace check;
 
-std::vector<Float4> run(const char* kernel, const std::vector<Float4>& in, std::size_t outputs_each)
-{
+std::vector<Float4> run(const char* kernel, const std::vector<Float4>& in, std::size_t outputs_each) {
   const compute::Context context = compute::Context::open(test::device_options());
-  compute::Buffer<Float4> from(context, "in", std::span<const Float4>(in)), to(context, "out", in.size() * outputs_each);
+  compute::Buffer<Float4> from(context, "in", std::span<const Float4>(in)),
+      to(context, "out", in.size() * outputs_each);
   compute::Program(context, "check/check.cl")
       .kernel(kernel)
       .run(in.size(), 64, {{"in", from}, {"out", to}, {"count", static_cast<std::uint32_t>(in.size())}});
   return to.read();
 }
 
-TEST(FresnelKernel, ReflectanceAndRefractionFollowTheDoublePrecisionFormulas)
-{
+TEST(FresnelKernel, ReflectanceAndRefractionFollowTheDoublePrecisionFormulas) {
   std::vector<Float4> in;
   const float indices[] = {1, 1.0001f, 1.33f, 1.5f, 1.9f, 2.42f, 4};
   for (const float a : indices)
@@ -48,22 +48,23 @@ TEST(FresnelKernel, ReflectanceAndRefractionFollowTheDoublePrecisionFormulas)
       continue;
     }
     if (!cos_t) continue;
-    // cos_t = sqrt(1 - sin_t^2): an error e of sin_t is e tan_t of cos_t, which grows without bound at grazing refraction; its square does
-    // not.
+    // cos_t = sqrt(1 - sin_t^2): an error e of sin_t is e tan_t of cos_t, which grows without bound at grazing
+    // refraction; its square does not.
     worst_cosine = std::max(worst_cosine, std::abs(out[i].x * double(out[i].x) - *cos_t * *cos_t));
-    // R depends on cos_t with a slope of the order of n_i / n_t + n_t / n_i, and cos_t has the error of its square over 2 cos_t.
+    // R depends on cos_t with a slope of the order of n_i / n_t + n_t / n_i, and cos_t has the error of its square over
+    // 2 cos_t.
     const double condition = (n_i / n_t + n_t / n_i) / *cos_t;
     EXPECT_TRUE(out[i].y >= 0 && out[i].y <= 1.000001f);
     if (*cos_t > 0.01)
-      worst_reflectance = std::max(worst_reflectance, std::abs(out[i].y - optics::fresnel_reflectance(cos_i, n_i, n_t)) / condition);
+      worst_reflectance =
+          std::max(worst_reflectance, std::abs(out[i].y - optics::fresnel_reflectance(cos_i, n_i, n_t)) / condition);
   }
   EXPECT_LT(worst_cosine, 1e-6);
   EXPECT_LT(worst_reflectance, 1e-6);
   EXPECT_LT(at_the_edge, 10);
 }
 
-TEST(FresnelKernel, TotalReflectionStartsWithinFloatSpacingOfTheCriticalAngle)
-{
+TEST(FresnelKernel, TotalReflectionStartsWithinFloatSpacingOfTheCriticalAngle) {
   const float n = 1.5f;
   const double critical = std::asin(1 / double(n));
   std::vector<Float4> in;
@@ -77,8 +78,7 @@ TEST(FresnelKernel, TotalReflectionStartsWithinFloatSpacingOfTheCriticalAngle)
   }
 }
 
-TEST(FresnelKernel, DirectionsKeepTheTangentialPartTimesTheIndex)
-{
+TEST(FresnelKernel, DirectionsKeepTheTangentialPartTimesTheIndex) {
   std::vector<Float4> in;
   for (const float eta : {0.25f, 0.5f, 1 / 1.5f, 1.0f, 1.2f})
     for (int k = 0; k < 500; ++k) {
@@ -103,26 +103,25 @@ TEST(FresnelKernel, DirectionsKeepTheTangentialPartTimesTheIndex)
 constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// Half axes of these lengths, turned somehow.
-scene::Ellipsoid turned(const glm::vec3& centre, const glm::dvec3& lengths)
-{
+scene::Ellipsoid turned(const glm::vec3& centre, const glm::dvec3& lengths) {
   const glm::dmat4 turn = glm::rotate(glm::dmat4(1), 1.1, glm::dvec3(1, -2, 0.5));
   scene::Ellipsoid ellipsoid{centre, {}, false};
-  for (glm::length_t i = 0; i < 3; ++i) ellipsoid.half_axes[static_cast<std::size_t>(i)] = lengths[i] * glm::dvec3(turn[i]);
+  for (glm::length_t i = 0; i < 3; ++i)
+    ellipsoid.half_axes[static_cast<std::size_t>(i)] = lengths[i] * glm::dvec3(turn[i]);
   return ellipsoid;
 }
 
 /// A point of the ball that the ellipsoid is an image of, `reach` of the way to the surface.
-glm::dvec3 inner_point(const scene::Ellipsoid& e, std::mt19937& random, double reach)
-{
+glm::dvec3 inner_point(const scene::Ellipsoid& e, std::mt19937& random, double reach) {
   const glm::dvec3 u = reach * glm::dvec3(random_direction(random));
-  return glm::dvec3(e.centre) + u.x * glm::dvec3(e.half_axes[0]) + u.y * glm::dvec3(e.half_axes[1]) + u.z * glm::dvec3(e.half_axes[2]);
+  return glm::dvec3(e.centre) + u.x * glm::dvec3(e.half_axes[0]) + u.y * glm::dvec3(e.half_axes[1]) +
+         u.z * glm::dvec3(e.half_axes[2]);
 }
 
 enum class From { outside, inside, surface };
 
 /// Rays that meet the ellipsoid: from `distance` half axes away, from inside of it, or from its surface inwards.
-std::vector<Ray> rays_at(const scene::Ellipsoid& e, From from, double distance, std::size_t count)
-{
+std::vector<Ray> rays_at(const scene::Ellipsoid& e, From from, double distance, std::size_t count) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(0, 1);
   std::vector<Ray> rays;
@@ -130,7 +129,8 @@ std::vector<Ray> rays_at(const scene::Ellipsoid& e, From from, double distance, 
     const double reach = std::cbrt(uniform(random));
     const glm::dvec3 to = inner_point(e, random, from == From::surface ? 0.9 * reach : reach);
     glm::dvec3 start = inner_point(e, random, from == From::surface ? 1 : 0.5 * uniform(random));
-    if (from == From::outside) start = glm::dvec3(e.centre) + distance * longest_half_axis(e) * glm::dvec3(random_direction(random));
+    if (from == From::outside)
+      start = glm::dvec3(e.centre) + distance * longest_half_axis(e) * glm::dvec3(random_direction(random));
     Ray ray{.origin = glm::vec3(start), .direction = glm::vec3(glm::normalize(to - start))};
     if (from == From::surface) ray.skip = 0;
     rays.push_back(ray);
@@ -147,10 +147,9 @@ struct EllipsoidCase {
 
 class EllipsoidRays : public testing::TestWithParam<EllipsoidCase> {};
 
-// The error of a hit is that of the ray's coordinates over the cosine at the surface, not of the square of its distance, as it would be
-// from the quadratic in single precision.
-TEST_P(EllipsoidRays, MeetItWhereTheQuadraticSays)
-{
+// The error of a hit is that of the ray's coordinates over the cosine at the surface, not of the square of its
+// distance, as it would be from the quadratic in single precision.
+TEST_P(EllipsoidRays, MeetItWhereTheQuadraticSays) {
   const auto& [name, ellipsoid, distance, tolerance] = GetParam();
   scene::Mesh mesh{.ellipsoids = {ellipsoid}};
   const compute::Context context = compute::Context::open(device_options());
@@ -187,14 +186,14 @@ INSTANTIATE_TEST_SUITE_P(Sizes, EllipsoidRays,
                          testing::Values(EllipsoidCase{"unit", sphere_at({0, 0, 0}, 1), 4, 2e-6},
                                          EllipsoidCase{"unit, from 1000 radii", sphere_at({0, 0, 0}, 1), 1000, 2e-4},
                                          EllipsoidCase{"radius 1e-5", sphere_at({0, 0, 0}, 1e-5f), 4, 2e-6},
-                                         EllipsoidCase{"radius 1e5 at 1e6", sphere_at({7e5f, -7e5f, 1e5f}, 1e5f), 4, 4e-6},
+                                         EllipsoidCase{"radius 1e5 at 1e6", sphere_at({7e5f, -7e5f, 1e5f}, 1e5f), 4,
+                                                       4e-6},
                                          EllipsoidCase{"three half axes", turned({1, 2, 3}, {1, 0.6, 0.3}), 4, 1e-5}),
                          [](const auto& tested) { return "case" + std::to_string(tested.index); });
 
-// A ray that leaves a sphere outwards does not meet it again, one that enters it meets its far side: also at a radius of 1e-5 of the
-// coordinates, where the rounded place is off the surface by a two-hundredth of the radius.
-TEST(Ellipsoid, TheOneThatARayLeavesIsMetOnItsFarSideOnly)
-{
+// A ray that leaves a sphere outwards does not meet it again, one that enters it meets its far side: also at a radius
+// of 1e-5 of the coordinates, where the rounded place is off the surface by a two-hundredth of the radius.
+TEST(Ellipsoid, TheOneThatARayLeavesIsMetOnItsFarSideOnly) {
   const compute::Context context = compute::Context::open(device_options());
   std::mt19937 random(2);
   for (const glm::vec3& centre : {glm::vec3(0), glm::vec3(0.7f, -0.7f, 0.1f)})
@@ -205,7 +204,8 @@ TEST(Ellipsoid, TheOneThatARayLeavesIsMetOnItsFarSideOnly)
       for (int i = 0; i < 20000; ++i) {
         const glm::vec3 normal = random_direction(random), direction = random_direction(random);
         const float cosine = glm::dot(normal, direction);
-        // A place that is rounded by 5e-8 of its coordinates, .005 of the radius, is off the ray's chord where the cosine is below .1.
+        // A place that is rounded by 5e-8 of its coordinates, .005 of the radius, is off the ray's chord where the
+        // cosine is below .1.
         if (std::abs(cosine) < 0.12f) continue;
         rays.push_back({.origin = centre + radius * normal, .direction = direction, .skip = 0});
         inwards.push_back(cosine < 0);
@@ -215,14 +215,14 @@ TEST(Ellipsoid, TheOneThatARayLeavesIsMetOnItsFarSideOnly)
       const std::vector<std::uint32_t> any = tracer.any(rays);
       std::size_t wrong = 0;
       for (std::size_t i = 0; i < rays.size(); ++i)
-        wrong += (hits[i].primitive == 0) != inwards[i] || (any[i] != 0) != inwards[i] || (inwards[i] && !(hits[i].t > 0.05f * radius));
+        wrong += (hits[i].primitive == 0) != inwards[i] || (any[i] != 0) != inwards[i] ||
+                 (inwards[i] && !(hits[i].t > 0.05f * radius));
       EXPECT_EQ(wrong, 0u) << radius << " at " << centre.x;
     }
 }
 
 // Hundreds of spheres among triangles: the tree finds the same one as asking each.
-TEST(Ellipsoid, ATreeOfManyFindsTheClosest)
-{
+TEST(Ellipsoid, ATreeOfManyFindsTheClosest) {
   scene::Mesh mesh = placed(box_mesh(), 3, {0, 0, 0});
   std::mt19937 random(9);
   std::uniform_real_distribution<float> uniform(-1.5f, 1.5f);

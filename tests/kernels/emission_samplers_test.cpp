@@ -36,14 +36,12 @@ kernel void emissions(DeviceLight light, global const DeviceTarget* targets, Dev
 }
 )";
 
-const TestKernels& kernels()
-{
+const TestKernels& kernels() {
   static const TestKernels kernels(source);
   return kernels;
 }
 
-std::vector<float4> sample(const std::vector<DeviceTarget>& targets, std::size_t count)
-{
+std::vector<float4> sample(const std::vector<DeviceTarget>& targets, std::size_t count) {
   const compute::Buffer<DeviceTarget> on_device(kernels().context(), "targets", std::span<const DeviceTarget>(targets));
   compute::Buffer<float4> out(kernels().context(), "out", count);
   kernels().kernel("sample").run(count, 64,
@@ -56,8 +54,7 @@ std::vector<float4> sample(const std::vector<DeviceTarget>& targets, std::size_t
   return out.read();
 }
 
-TEST(Emission, OneFarTargetHasItsSolidAngle)
-{
+TEST(Emission, OneFarTargetHasItsSolidAngle) {
   // 1 mm seen from 1 km: 1 - cos is 5e-13, far below what 1 - cos(x) keeps in single precision.
   const std::vector<float4> samples = sample({{{0, 0, 1000, 1e-3f}}}, 1000);
   for (const float4& s : samples) {
@@ -67,8 +64,7 @@ TEST(Emission, OneFarTargetHasItsSolidAngle)
 }
 
 // Uniform on the sphere: each coordinate has mean 0 and mean square 1/3, also from the very middle of a target.
-TEST(Emission, FromInsideATargetItIsTheWholeSphere)
-{
+TEST(Emission, FromInsideATargetItIsTheWholeSphere) {
   constexpr std::size_t count = 1 << 16;
   for (const float z : {0.1f, 0.0f}) {
     std::array<double, 3> mean{}, square{};
@@ -88,8 +84,9 @@ TEST(Emission, FromInsideATargetItIsTheWholeSphere)
 }
 
 // Photons of every type of light towards several overlapping targets. Their density is what the sampler is
-// meant to have, by chi-square, and the power that they carry is what the light sends towards the targets, everywhere, whatever the
-// density. Both truths are integrals over cells, of formulas that are written here anew, in double precision.
+// meant to have, by chi-square, and the power that they carry is what the light sends towards the targets, everywhere,
+// whatever the density. Both truths are integrals over cells, of formulas that are written here anew, in double
+// precision.
 
 struct Sent {
   float4 origin_watts, direction;
@@ -98,20 +95,21 @@ struct Sent {
 constexpr std::uint32_t count = 1 << 20;
 
 glm::dvec3 vector(const float4& v) { return {v.x, v.y, v.z}; }
-float4 device(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
+float4 device(const glm::dvec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+}
 
-DeviceTarget target(double x, double y, double z, double radius)
-{
+DeviceTarget target(double x, double y, double z, double radius) {
   DeviceTarget t{.centre_radius = device({x, y, z})};
   t.centre_radius.w = static_cast<float>(radius);
   return t;
 }
 
 /// Overlapping, one behind another, one apart, seen from near the origin.
-const std::vector<DeviceTarget> targets{target(0, 0, -3, 1), target(0.8, 0, -3, 1), target(0, 0.3, -6, 1), target(-2, 1, -1, 0.7)};
+const std::vector<DeviceTarget> targets{target(0, 0, -3, 1), target(0.8, 0, -3, 1), target(0, 0.3, -6, 1),
+                                        target(-2, 1, -1, 0.7)};
 
-std::vector<Sent> emit(const DeviceLight& light)
-{
+std::vector<Sent> emit(const DeviceLight& light) {
   DeviceLight with_targets = light;
   with_targets.first_target = 0;
   with_targets.target_count = static_cast<int>(targets.size());
@@ -132,20 +130,18 @@ std::vector<Sent> emit(const DeviceLight& light)
 
 double radius_of(const DeviceTarget& t) { return static_cast<double>(t.centre_radius.w); }
 
-bool meets(const DeviceTarget& t, const glm::dvec3& from, const glm::dvec3& direction)
-{
+bool meets(const DeviceTarget& t, const glm::dvec3& from, const glm::dvec3& direction) {
   const glm::dvec3 way = vector(t.centre_radius) - from;
   const double along = glm::dot(way, direction), aside2 = glm::dot(way, way) - along * along;
   return glm::length(way) <= radius_of(t) || (along > 0 && aside2 <= radius_of(t) * radius_of(t));
 }
 
 /// How many targets a direction meets, and the sum of all their solid angles in steradians.
-int targets_met(const glm::dvec3& from, const glm::dvec3& direction)
-{
-  return static_cast<int>(std::count_if(targets.begin(), targets.end(), [&](const DeviceTarget& t) { return meets(t, from, direction); }));
+int targets_met(const glm::dvec3& from, const glm::dvec3& direction) {
+  return static_cast<int>(
+      std::count_if(targets.begin(), targets.end(), [&](const DeviceTarget& t) { return meets(t, from, direction); }));
 }
-double sum_of_solid_angles(const glm::dvec3& from)
-{
+double sum_of_solid_angles(const glm::dvec3& from) {
   double sum = 0;
   for (const DeviceTarget& t : targets) {
     const double d = glm::length(vector(t.centre_radius) - from);
@@ -157,35 +153,32 @@ double sum_of_solid_angles(const glm::dvec3& from)
 /// Cells of equal measure over a square of two coordinates in [0, 1).
 constexpr int columns = 48, rows = 32;
 constexpr int points_a_cell = 4096;
-std::size_t cell_of(double a, double b)
-{
+std::size_t cell_of(double a, double b) {
   const auto index = [](double x, int n) { return std::clamp(static_cast<int>(std::floor(x * n)), 0, n - 1); };
   return static_cast<std::size_t>(index(b, rows) * columns + index(a, columns));
 }
 
 /// Directions by their height and angle about z: cells of equal solid angle.
-glm::dvec3 direction_of(double a, double b)
-{
+glm::dvec3 direction_of(double a, double b) {
   const double z = 2 * b - 1, s = std::sqrt(1 - z * z), phi = 2 * M_PI * a;
   return {s * std::cos(phi), s * std::sin(phi), z};
 }
-std::size_t cell_of_direction(const glm::dvec3& d)
-{
+std::size_t cell_of_direction(const glm::dvec3& d) {
   const double turn = std::atan2(d.y, d.x) / (2 * M_PI);
   return cell_of(turn < 0 ? turn + 1 : turn, (d.z + 1) / 2);
 }
 
-/// Integrals over the cells of f(a, b, s, t) times `measure`, the whole square's, as means over s and t in [0, 1): quasi-random points
-/// whose steps are powers of the root of x^5 = x + 1 (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
+/// Integrals over the cells of f(a, b, s, t) times `measure`, the whole square's, as means over s and t in [0, 1):
+/// quasi-random points whose steps are powers of the root of x^5 = x + 1 (Roberts 2018, "The unreasonable effectiveness
+/// of quasirandom sequences").
 template <class F>
-std::vector<double> integrals(double measure, F f)
-{
+std::vector<double> integrals(double measure, F f) {
   constexpr double root = 1.1673039782614187;
   std::vector<double> result(static_cast<std::size_t>(columns * rows), 0.0);
   const auto fraction = [](double x) { return x - std::floor(x); };
   for (int k = 0; k < points_a_cell; ++k) {
-    const double n = k + 0.5, a = fraction(n / root), b = fraction(n / (root * root)), s = fraction(n / std::pow(root, 3)),
-                 t = fraction(n / std::pow(root, 4));
+    const double n = k + 0.5, a = fraction(n / root), b = fraction(n / (root * root)),
+                 s = fraction(n / std::pow(root, 3)), t = fraction(n / std::pow(root, 4));
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column)
         result[static_cast<std::size_t>(row * columns + column)] += f((column + a) / columns, (row + b) / rows, s, t);
@@ -194,10 +187,10 @@ std::vector<double> integrals(double measure, F f)
   return result;
 }
 
-/// Holds what was sent against its density (any scale) and its power, cell by cell, and shows that a few per cent more would be seen.
-void expect_emission(const std::vector<Sent>& sent, const std::function<std::size_t(const Sent&)>& cell, std::vector<double> density,
-                     std::vector<double> watts)
-{
+/// Holds what was sent against its density (any scale) and its power, cell by cell, and shows that a few per cent more
+/// would be seen.
+void expect_emission(const std::vector<Sent>& sent, const std::function<std::size_t(const Sent&)>& cell,
+                     std::vector<double> density, std::vector<double> watts) {
   std::vector<double> counts(density.size(), 0.0);
   WeightedCells weights(watts.size());
   for (const Sent& photon : sent) {
@@ -221,19 +214,18 @@ void expect_emission(const std::vector<Sent>& sent, const std::function<std::siz
 
 std::size_t cell_of_sent_direction(const Sent& photon) { return cell_of_direction(vector(photon.direction)); }
 
-TEST(EmissionSamplers, PointLight)
-{
+TEST(EmissionSamplers, PointLight) {
   DeviceLight light{.position = device({0.1, -0.2, 0.3}), .type = LIGHT_POINT, .radiometric = 7};
   const glm::dvec3 from = vector(light.position);
-  const std::vector<double> density =
-      integrals(4 * M_PI, [&](double a, double b, double, double) { return double(targets_met(from, direction_of(a, b))); });
-  const std::vector<double> watts = integrals(
-      4 * M_PI, [&](double a, double b, double, double) { return targets_met(from, direction_of(a, b)) > 0 ? 7 / (4 * M_PI) : 0.0; });
+  const std::vector<double> density = integrals(
+      4 * M_PI, [&](double a, double b, double, double) { return double(targets_met(from, direction_of(a, b))); });
+  const std::vector<double> watts = integrals(4 * M_PI, [&](double a, double b, double, double) {
+    return targets_met(from, direction_of(a, b)) > 0 ? 7 / (4 * M_PI) : 0.0;
+  });
   expect_emission(emit(light), cell_of_sent_direction, density, watts);
 }
 
-DeviceLight spot(double half_angle_deg)
-{
+DeviceLight spot(double half_angle_deg) {
   DeviceLight light{.direction = device(glm::normalize(glm::dvec3(0.1, 0.1, -1))),
                     .type = LIGHT_SPOT,
                     .one_minus_cos = static_cast<float>(1 - std::cos(half_angle_deg * M_PI / 180)),
@@ -242,30 +234,27 @@ DeviceLight spot(double half_angle_deg)
   return light;
 }
 
-bool in_cone(const DeviceLight& light, const glm::dvec3& direction)
-{
+bool in_cone(const DeviceLight& light, const glm::dvec3& direction) {
   return 1 - glm::dot(direction, vector(light.direction)) <= static_cast<double>(light.one_minus_cos);
 }
 
 // The cone is tighter than the targets: photons fill it evenly, whether they meet a target or not.
-TEST(EmissionSamplers, NarrowSpot)
-{
+TEST(EmissionSamplers, NarrowSpot) {
   const DeviceLight light = spot(25);
-  const std::vector<double> inside =
-      integrals(4 * M_PI, [&](double a, double b, double, double) { return in_cone(light, direction_of(a, b)) ? 1.0 : 0.0; });
+  const std::vector<double> inside = integrals(
+      4 * M_PI, [&](double a, double b, double, double) { return in_cone(light, direction_of(a, b)) ? 1.0 : 0.0; });
   std::vector<double> watts = inside;
   for (double& w : watts) w *= 7 / static_cast<double>(light.solid_angle);
   expect_emission(emit(light), cell_of_sent_direction, inside, watts);
 }
 
 // The targets are tighter than the cone, which cuts one of them: photons beyond it carry nothing.
-TEST(EmissionSamplers, WideSpot)
-{
+TEST(EmissionSamplers, WideSpot) {
   const DeviceLight light = spot(62);
   const glm::dvec3 from(0);
   ASSERT_GT(static_cast<double>(light.solid_angle), sum_of_solid_angles(from));
-  const std::vector<double> density =
-      integrals(4 * M_PI, [&](double a, double b, double, double) { return double(targets_met(from, direction_of(a, b))); });
+  const std::vector<double> density = integrals(
+      4 * M_PI, [&](double a, double b, double, double) { return double(targets_met(from, direction_of(a, b))); });
   const std::vector<double> watts = integrals(4 * M_PI, [&](double a, double b, double, double) {
     const glm::dvec3 d = direction_of(a, b);
     return in_cone(light, d) && targets_met(from, d) > 0 ? 7 / static_cast<double>(light.solid_angle) : 0.0;
@@ -274,8 +263,7 @@ TEST(EmissionSamplers, WideSpot)
 }
 
 /// A rectangle of 1.2 by 0.6 that faces between the targets, with one of them partly behind it.
-DeviceLight panel()
-{
+DeviceLight panel() {
   return {.position = device({-0.2, 0.1, 0.2}),
           .direction = device(glm::normalize(glm::dvec3(1, 0, -1))),
           .edge_u = device(1.2 * glm::normalize(glm::dvec3(1, 0, 1))),
@@ -284,9 +272,9 @@ DeviceLight panel()
           .radiometric = 7};
 }
 
-/// Power through a cell of directions is P cos(theta) / pi a steradian from each point of the light, where that meets a target.
-TEST(EmissionSamplers, AreaLightDirections)
-{
+/// Power through a cell of directions is P cos(theta) / pi a steradian from each point of the light, where that meets a
+/// target.
+TEST(EmissionSamplers, AreaLightDirections) {
   const DeviceLight light = panel();
   const auto point = [&](double s, double t) {
     return vector(light.position) + (s - 0.5) * vector(light.edge_u) + (t - 0.5) * vector(light.edge_v);
@@ -303,16 +291,17 @@ TEST(EmissionSamplers, AreaLightDirections)
 }
 
 /// Places are even on the rectangle; the power from a place is that of the directions from there that meet a target.
-TEST(EmissionSamplers, AreaLightPlaces)
-{
+TEST(EmissionSamplers, AreaLightPlaces) {
   const DeviceLight light = panel();
   const auto cell = [&](const Sent& photon) {
-    const glm::dvec3 from = vector(photon.origin_watts) - vector(light.position), u = vector(light.edge_u), v = vector(light.edge_v);
+    const glm::dvec3 from = vector(photon.origin_watts) - vector(light.position), u = vector(light.edge_u),
+                     v = vector(light.edge_v);
     return cell_of(glm::dot(from, u) / glm::dot(u, u) + 0.5, glm::dot(from, v) / glm::dot(v, v) + 0.5);
   };
   const std::vector<double> density = integrals(1, [&](double, double, double, double) { return 1.0; });
   const std::vector<double> watts = integrals(4 * M_PI, [&](double a, double b, double s, double t) {
-    const glm::dvec3 from = vector(light.position) + (a - 0.5) * vector(light.edge_u) + (b - 0.5) * vector(light.edge_v),
+    const glm::dvec3 from =
+                         vector(light.position) + (a - 0.5) * vector(light.edge_u) + (b - 0.5) * vector(light.edge_v),
                      d = direction_of(s, t);
     return targets_met(from, d) > 0 ? 7 / M_PI * std::max(glm::dot(d, vector(light.direction)), 0.0) : 0.0;
   });
@@ -329,9 +318,9 @@ TEST(EmissionSamplers, AreaLightPlaces)
   EXPECT_GT(weights_test(weights, watts, count, 0.01 * fullest), false_alarm);
 }
 
-// Places in the plane across the light's direction; every cell of a target's shadow carries E times its area in square metres.
-TEST(EmissionSamplers, DirectionalLight)
-{
+// Places in the plane across the light's direction; every cell of a target's shadow carries E times its area in square
+// metres.
+TEST(EmissionSamplers, DirectionalLight) {
   DeviceLight light{.type = LIGHT_DIRECTIONAL, .radiometric = 7};
   const glm::dvec3 along = glm::normalize(glm::dvec3(0.3, -0.2, -1));
   light.direction = device(along);
@@ -346,8 +335,8 @@ TEST(EmissionSamplers, DirectionalLight)
   };
   const std::vector<double> density =
       integrals(edge * edge, [&](double a, double b, double, double) { return double(shadows(place(a, b))); });
-  const std::vector<double> watts =
-      integrals(edge * edge, [&](double a, double b, double, double) { return shadows(place(a, b)) > 0 ? 7 * 1e-4 : 0.0; });
+  const std::vector<double> watts = integrals(
+      edge * edge, [&](double a, double b, double, double) { return shadows(place(a, b)) > 0 ? 7 * 1e-4 : 0.0; });
   const std::vector<Sent> sent = emit(light);
   for (const Sent& photon : sent) ASSERT_LT(glm::distance(vector(photon.direction), along), 1e-6);
   const auto cell = [&](const Sent& photon) {

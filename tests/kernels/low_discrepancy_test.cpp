@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/random.h against the published test vectors of its generator. samplers_test.cpp tests the distribution of its uniforms.
-// Low-discrepancy sequences, and the guide of emission.
+// kernels/tracing/random.h against the published test vectors of its generator. samplers_test.cpp tests the
+// distribution of its uniforms. Low-discrepancy sequences, and the guide of emission.
 #include "kernels/tracing/shared_types.h"
 #include "photons/effort/emitters.h"
 #include "tests/support/statistics.h"
@@ -12,8 +12,7 @@ namespace nephroid::low_discrepancy_test {
 using Block = std::array<std::uint32_t, 4>;
 using Point = std::array<float, 4>;
 
-TEST(Random, PhiloxGivesThePublishedVectors)
-{
+TEST(Random, PhiloxGivesThePublishedVectors) {
   // Random123's tests/kat_vectors, the lines "philox4x32 10": counter, key, result.
   const std::vector<Block> counters{
       {0, 0, 0, 0}, {0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}};
@@ -26,12 +25,13 @@ TEST(Random, PhiloxGivesThePublishedVectors)
   const compute::Buffer<std::array<std::uint32_t, 2>> key(context, "keys", std::span(keys));
   compute::Program(context, "check/check.cl")
       .kernel("philox")
-      .run(counters.size(), 1, {{"counters", in}, {"keys", key}, {"results", out}, {"count", static_cast<std::uint32_t>(counters.size())}});
+      .run(counters.size(), 1,
+           {{"counters", in}, {"keys", key}, {"results", out}, {"count", static_cast<std::uint32_t>(counters.size())}});
   EXPECT_EQ(out.read(), published);
 }
 
-// kernels/tracing/low_discrepancy.h and what kernels/photons/photon_path.h makes of it: what Owen's scrambling keeps of a Sobol sequence
-// is exact and is tested so; that other keys give independent sequences is tested by chi-square.
+// kernels/tracing/low_discrepancy.h and what kernels/photons/photon_path.h makes of it: what Owen's scrambling keeps of
+// a Sobol sequence is exact and is tested so; that other keys give independent sequences is tested by chi-square.
 
 const char* const source = R"(
 #include "kernels/tracing/film.h"
@@ -85,22 +85,20 @@ struct Key {
   std::array<std::uint32_t, 4> sequence_set{0, 0, 0, 0}; ///< the last: set
 };
 
-const test::TestKernels& kernels()
-{
+const test::TestKernels& kernels() {
   static const test::TestKernels kernels(source);
   return kernels;
 }
 
-std::vector<Point> points(const Key& key, std::uint32_t count, std::uint32_t first = 0)
-{
+std::vector<Point> points(const Key& key, std::uint32_t count, std::uint32_t first = 0) {
   compute::Buffer<Point> out(kernels().context(), "points", count);
   kernels().kernel("points").run(
-      count, 1, {{"out", out}, {"seed", key.seed}, {"sequence_set", key.sequence_set}, {"first", first}, {"count", count}});
+      count, 1,
+      {{"out", out}, {"seed", key.seed}, {"sequence_set", key.sequence_set}, {"first", first}, {"count", count}});
   return out.read();
 }
 
-std::vector<Point> over_sequences(const Key& key)
-{
+std::vector<Point> over_sequences(const Key& key) {
   const std::uint32_t count = 4096;
   compute::Buffer<Point> out(kernels().context(), "points", count);
   kernels()
@@ -109,11 +107,13 @@ std::vector<Point> over_sequences(const Key& key)
   return out.read();
 }
 
-std::size_t cell(float x, std::size_t cells) { return std::min(static_cast<std::size_t>(x * static_cast<float>(cells)), cells - 1); }
+std::size_t cell(float x, std::size_t cells) {
+  return std::min(static_cast<std::size_t>(x * static_cast<float>(cells)), cells - 1);
+}
 
-// 2^k points that follow each other from a multiple of 2^k on have one in each of 2^k equal intervals, in every dimension.
-TEST(LowDiscrepancy, EveryDimensionIsStratified)
-{
+// 2^k points that follow each other from a multiple of 2^k on have one in each of 2^k equal intervals, in every
+// dimension.
+TEST(LowDiscrepancy, EveryDimensionIsStratified) {
   for (const std::uint32_t first : {0u, 1024u, 7u * 1024u})
     for (const std::uint32_t seed : {1u, 2u, 99u}) {
       const std::vector<Point> all = points({{seed, 0}, {3, 1, 0, 0}}, 1024, first);
@@ -125,9 +125,9 @@ TEST(LowDiscrepancy, EveryDimensionIsStratified)
     }
 }
 
-// The first two dimensions are a (0, 2)-sequence in base 2: of 2^k points one is in each box of 2^-a by 2^-(k - a), for every a.
-TEST(LowDiscrepancy, TwoDimensionsAreStratifiedTogether)
-{
+// The first two dimensions are a (0, 2)-sequence in base 2: of 2^k points one is in each box of 2^-a by 2^-(k - a), for
+// every a.
+TEST(LowDiscrepancy, TwoDimensionsAreStratifiedTogether) {
   const std::vector<Point> all = points({{5, 6}, {0, 0, 1, 0}}, 256);
   for (std::size_t wide = 1; wide <= 256; wide *= 2) {
     std::vector<int> hits(256, 0);
@@ -137,30 +137,29 @@ TEST(LowDiscrepancy, TwoDimensionsAreStratifiedTogether)
 }
 
 /// Pairs of one dimension of two sequences, counted in 16 x 16 cells, against an even distribution.
-double p_of_independence(const std::vector<Point>& a, const std::vector<Point>& b, std::size_t d)
-{
+double p_of_independence(const std::vector<Point>& a, const std::vector<Point>& b, std::size_t d) {
   std::vector<double> hits(256, 0);
   for (std::size_t i = 0; i < a.size(); ++i) ++hits[16 * cell(a[i][d], 16) + cell(b[i][d], 16)];
   return test::chi_square_test(hits, std::vector<double>(256, 1.0)).p;
 }
 
-// Point 3 of each of 4096 sequences is plain random; so are pairs of such points of sequences that differ in one more part of their key.
-TEST(LowDiscrepancy, OtherKeysAreIndependent)
-{
+// Point 3 of each of 4096 sequences is plain random; so are pairs of such points of sequences that differ in one more
+// part of their key.
+TEST(LowDiscrepancy, OtherKeysAreIndependent) {
   const std::vector<Point> all = over_sequences({{11, 12}, {0, 0, 0, 0}});
   for (const Key& other : {Key{{11, 13}, {0, 0, 0, 0}}, Key{{10, 12}, {0, 0, 0, 0}}, Key{{11, 12}, {0, 1, 0, 0}},
                            Key{{11, 12}, {0, 0, 1, 0}}, Key{{11, 12}, {0, 0, 0, 1}}, Key{{11, 12}, {4096, 0, 0, 0}}}) {
     const std::vector<Point> others = over_sequences(other);
     for (std::size_t d = 0; d < 4; ++d)
-      EXPECT_GT(p_of_independence(all, others, d), test::false_alarm) << testing::PrintToString(other.sequence_set) << ", dimension " << d;
+      EXPECT_GT(p_of_independence(all, others, d), test::false_alarm)
+          << testing::PrintToString(other.sequence_set) << ", dimension " << d;
   }
 }
 
-// The wavelength in a cluster is as fine as its light's spectrum, however few of a pass' photons the cluster has: 2000 of 16 photons each,
-// beside one of all the rest. Each has its own part of the sequence, so what falls into 401 equal parts of them is like plain random
-// numbers or more even.
-TEST(LowDiscrepancy, WavelengthsOfSmallClustersAreFine)
-{
+// The wavelength in a cluster is as fine as its light's spectrum, however few of a pass' photons the cluster has: 2000
+// of 16 photons each, beside one of all the rest. Each has its own part of the sequence, so what falls into 401 equal
+// parts of them is like plain random numbers or more even.
+TEST(LowDiscrepancy, WavelengthsOfSmallClustersAreFine) {
   constexpr unsigned small = 16, clusters = 2000;
   for (const std::uint32_t photons : {1u << 22, 1u << 24}) {
     std::vector<shared::DeviceEmitter> emitters(clusters + 1);
@@ -168,7 +167,8 @@ TEST(LowDiscrepancy, WavelengthsOfSmallClustersAreFine)
     emitters.back().photon_count = photons - small * clusters;
     photons::number_photons(emitters);
     const auto table = compute::Buffer(kernels().context(), "emitters", emitters);
-    const compute::Buffer<shared::DeviceLight> lights = compute::Buffer(kernels().context(), "lights", std::vector<shared::DeviceLight>(1));
+    const compute::Buffer<shared::DeviceLight> lights =
+        compute::Buffer(kernels().context(), "lights", std::vector<shared::DeviceLight>(1));
     compute::Buffer<std::uint32_t> hits(kernels().context(), "hits", 401);
     hits.fill_zero();
     const std::array<std::uint32_t, 2> seed{7, 0};
@@ -190,14 +190,13 @@ TEST(LowDiscrepancy, WavelengthsOfSmallClustersAreFine)
   }
 }
 
-// kernels/photons/guide.h: numbers are drawn from a learned histogram as its chances say, and what they are drawn more often is what they
-// count less.
+// kernels/photons/guide.h: numbers are drawn from a learned histogram as its chances say, and what they are drawn more
+// often is what they count less.
 
 constexpr std::size_t cells = GUIDE_CELLS;
 
 /// A guide that has learned from cells of very different moments: from two that have all to a slope over x, y and z.
-photons::EmissionGuide learned_guide()
-{
+photons::EmissionGuide learned_guide() {
   std::vector<std::int64_t> moments(cells);
   for (std::size_t c = 0; c < cells; ++c) {
     const std::size_t x = c / (GUIDE_BINS_Y * GUIDE_BINS_Z), y = c / GUIDE_BINS_Z % GUIDE_BINS_Y, z = c % GUIDE_BINS_Z;
@@ -210,13 +209,11 @@ photons::EmissionGuide learned_guide()
 }
 
 /// What the table says: the difference of a cdf before its entry i.
-double chance_of(const std::vector<float>& table, std::size_t cdf, std::size_t i)
-{
+double chance_of(const std::vector<float>& table, std::size_t cdf, std::size_t i) {
   return static_cast<double>(table[cdf + i]) - (i > 0 ? static_cast<double>(table[cdf + i - 1]) : 0.0);
 }
 
-std::vector<double> chances(const std::vector<float>& table)
-{
+std::vector<double> chances(const std::vector<float>& table) {
   std::vector<double> result(cells);
   for (std::size_t c = 0; c < cells; ++c) {
     const std::size_t xy = c / GUIDE_BINS_Z, x = xy / GUIDE_BINS_Y;
@@ -231,22 +228,23 @@ struct Draws {
   std::vector<std::uint32_t> cell;
 };
 
-Draws draw(const std::vector<float>& table, std::uint32_t seed, std::uint32_t count)
-{
+Draws draw(const std::vector<float>& table, std::uint32_t seed, std::uint32_t count) {
   const compute::Buffer<float> guide(kernels().context(), "guide", std::span<const float>(table));
   compute::Buffer<Point> out(kernels().context(), "points", count);
   compute::Buffer<std::uint32_t> cell(kernels().context(), "cells", count);
-  kernels().kernel("guided").run(count, 64, {{"guide", guide}, {"out", out}, {"cell", cell}, {"seed", seed}, {"count", count}});
+  kernels().kernel("guided").run(count, 64,
+                                 {{"guide", guide}, {"out", out}, {"cell", cell}, {"seed", seed}, {"count", count}});
   return {out.read(), cell.read()};
 }
 
 constexpr std::uint32_t draws = 1 << 18;
 
-std::size_t part_of(double x, std::size_t parts) { return std::min(static_cast<std::size_t>(x * static_cast<double>(parts)), parts - 1); }
+std::size_t part_of(double x, std::size_t parts) {
+  return std::min(static_cast<std::size_t>(x * static_cast<double>(parts)), parts - 1);
+}
 
 // Every number is in the cell that it says, the cells come by their chances, and density = chance * cells.
-TEST(Guide, DrawsCellsByTheirChances)
-{
+TEST(Guide, DrawsCellsByTheirChances) {
   const std::vector<float> table = learned_guide().table();
   const std::vector<double> chance = chances(table);
   for (const std::uint32_t seed : {1u, 2u}) {
@@ -269,8 +267,7 @@ TEST(Guide, DrawsCellsByTheirChances)
 }
 
 // Where in its cell a point is, is even: counted in 8 x 8 x 8 parts of a cell, all cells together.
-TEST(Guide, PlacesInACellAreEven)
-{
+TEST(Guide, PlacesInACellAreEven) {
   const Draws drawn = draw(learned_guide().table(), 3, draws);
   std::vector<double> hits(512, 0);
   for (const Point& p : drawn.points) {
@@ -284,10 +281,9 @@ TEST(Guide, PlacesInACellAreEven)
   EXPECT_GT(test::chi_square_test(hits, std::vector<double>(512, 1.0)).p, test::false_alarm);
 }
 
-// What a photon counts, 1 / density, makes up for how often it comes: the mean over draws of the weights in any box is the box's volume.
-// 5 x 5 x 5 boxes, whose sides cut through cells.
-TEST(Guide, WeightsMakeUpForTheChances)
-{
+// What a photon counts, 1 / density, makes up for how often it comes: the mean over draws of the weights in any box is
+// the box's volume. 5 x 5 x 5 boxes, whose sides cut through cells.
+TEST(Guide, WeightsMakeUpForTheChances) {
   const Draws drawn = draw(learned_guide().table(), 4, draws);
   test::WeightedCells boxes(125);
   for (const Point& p : drawn.points)
@@ -295,8 +291,7 @@ TEST(Guide, WeightsMakeUpForTheChances)
   EXPECT_GT(test::weights_test(boxes, std::vector<double>(125, 1.0 / 125), draws), test::false_alarm);
 }
 
-std::vector<Point> moved(const std::vector<float>& table, const std::vector<Point>& numbers)
-{
+std::vector<Point> moved(const std::vector<float>& table, const std::vector<Point>& numbers) {
   const compute::Buffer<float> guide(kernels().context(), "guide", std::span<const float>(table));
   const auto count = static_cast<std::uint32_t>(numbers.size());
   compute::Buffer<Point> out(kernels().context(), "numbers", std::span<const Point>(numbers));
@@ -305,20 +300,19 @@ std::vector<Point> moved(const std::vector<float>& table, const std::vector<Poin
 }
 
 // Before anything is learned the numbers stay what they are, to the bit.
-TEST(Guide, ThatIsEvenMovesNothing)
-{
+TEST(Guide, ThatIsEvenMovesNothing) {
   std::vector<Point> numbers;
   for (int i = 0; i < 4096; ++i) {
     const auto number = [&](int step) { return static_cast<float>((i * step + 12345) & 0xffffff) * 0x1p-24f; };
     numbers.push_back({number(4099), number(7919 * 3), number(104729), 0});
   }
   const std::vector<Point> after = moved(photons::EmissionGuide(1).table(), numbers);
-  for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(after[i], (Point{numbers[i][0], numbers[i][1], numbers[i][2], 1}));
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    EXPECT_EQ(after[i], (Point{numbers[i][0], numbers[i][1], numbers[i][2], 1}));
 }
 
 // The smallest and the largest numbers of a device, where one cell has nearly all of the chance.
-TEST(Guide, StaysBelowOne)
-{
+TEST(Guide, StaysBelowOne) {
   const float ends[] = {0, 0x1p-24f, 1 - 0x1p-24f};
   std::vector<Point> numbers;
   for (const float x : ends)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/film.h: sums are exact, whatever the order and whichever atomics the device has. Photons against an independent tracer;
-// photon maps.
+// kernels/tracing/film.h: sums are exact, whatever the order and whichever atomics the device has. Photons against an
+// independent tracer; photon maps.
 #include "photons/maps/photon_map.h"
 #include "spectral/settings.h"
 #include "tests/support/reference_photons.h"
@@ -12,8 +12,7 @@ namespace nephroid::photons_test {
 using Float4 = shared::float4;
 using namespace shared;
 
-TEST(Film, BothKindsOfAtomicsGiveTheExactSum)
-{
+TEST(Film, BothKindsOfAtomicsGiveTheExactSum) {
   constexpr std::size_t count = 200000, sums = 7;
   std::mt19937_64 random(5);
   std::vector<std::int64_t> values(count), truth(sums, 0);
@@ -31,14 +30,15 @@ TEST(Film, BothKindsOfAtomicsGiveTheExactSum)
     to.fill_zero();
     compute::Program(context, "check/check_sums.cl", defines)
         .kernel("add_all")
-        .run(count, 64, {{"values", from}, {"places", where}, {"sums", to}, {"count", static_cast<std::uint32_t>(count)}});
+        .run(count, 64,
+             {{"values", from}, {"places", where}, {"sums", to}, {"count", static_cast<std::uint32_t>(count)}});
     EXPECT_EQ(to.read(), truth) << (defines.empty() ? "the device's own" : "32-bit halves");
   }
 }
 
-TEST(Film, RefusesWhatDoesNotFit)
-{
-  const float limit = std::exp2(42.0f), nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+TEST(Film, RefusesWhatDoesNotFit) {
+  const float limit = std::exp2(42.0f), nan = std::numeric_limits<float>::quiet_NaN(),
+              infinity = std::numeric_limits<float>::infinity();
   const std::vector<Float4> in{{1, 2, 3, 4},   {limit, 0, 0, 1},    {0, -limit, 0, 1},      {0, 0, limit * 1.0001f, 1},
                                {nan, 0, 0, 1}, {0, infinity, 0, 1}, {-0.4f, 0.5f, 1.5f, 1}, {1, 1, 1, 0}};
   const std::vector<int> truth{1, 1, 1, 0, 0, 0, 1, 1};
@@ -49,20 +49,24 @@ TEST(Film, RefusesWhatDoesNotFit)
   compute::Buffer<std::int32_t> accepted(context, "accepted", in.size());
   compute::Program(context, "check/check_sums.cl")
       .kernel("add_to_film")
-      .run(in.size(), 64, {{"xyz_scale", from}, {"film", film}, {"accepted", accepted}, {"count", static_cast<std::uint32_t>(in.size())}});
+      .run(in.size(), 64,
+           {{"xyz_scale", from},
+            {"film", film},
+            {"accepted", accepted},
+            {"count", static_cast<std::uint32_t>(in.size())}});
   EXPECT_EQ(accepted.read(), truth);
   const std::vector<std::int64_t> sums = film.read();
   EXPECT_EQ(std::vector<std::int64_t>(sums.begin(), sums.begin() + 3), (std::vector<std::int64_t>{4, 8, 12}));
   EXPECT_EQ(sums[3], std::int64_t{1} << 42);
   EXPECT_EQ(sums[11], 0);
-  EXPECT_EQ(std::vector<std::int64_t>(sums.begin() + 18, sums.begin() + 21), (std::vector<std::int64_t>{0, 0, 2})); // ties to even
+  EXPECT_EQ(std::vector<std::int64_t>(sums.begin() + 18, sums.begin() + 21),
+            (std::vector<std::int64_t>{0, 0, 2})); // ties to even
 }
 
 // kernels/photons/photons.cl against an independent tracer on Embree, pixel by pixel within the noise of both.
 
 /// A smooth ball, a diamond and a mirror above a coloured floor, of dispersive glass; a point light.
-preset::Preset glass_preset()
-{
+preset::Preset glass_preset() {
   preset::Preset p = empty_preset(24);
   p.unit = preset::Preset::Unit::cm;
   preset::Material dispersive = glass(1.7);
@@ -76,8 +80,10 @@ preset::Preset glass_preset()
   ball.radius = 1;
   diamond.type = preset::Shape::Type::brilliant;
   diamond.radius = 1;
-  p.scene.objects = {object("ball", ball, "glass", at({-1.5, 1.5, 0})), object("diamond", diamond, "glass", at({1.5, 1.5, 0}, {20, 0, 15})),
-                     object("mirror", quad(2, 2), "mirror", at({0, 1.5, -2}, {75, 0, 0})), object("floor", quad(40, 40), "floor")};
+  p.scene.objects = {object("ball", ball, "glass", at({-1.5, 1.5, 0})),
+                     object("diamond", diamond, "glass", at({1.5, 1.5, 0}, {20, 0, 15})),
+                     object("mirror", quad(2, 2), "mirror", at({0, 1.5, -2}, {75, 0, 0})),
+                     object("floor", quad(40, 40), "floor")};
   p.scene.objects[0].normals = preset::Object::Normals::smooth;
   preset::Light light{.power_w = 10, .position = {0.5, 6, 3}};
   p.scene.lights = {light};
@@ -89,10 +95,9 @@ preset::Preset glass_preset()
   return p;
 }
 
-/// What the other scene does not have: flint that absorbs, most of all violet; a core of denser glass and a bubble of air in it, one that
-/// overlaps the surface, of three priorities; a coloured mirror; faceted and smooth.
-preset::Preset nested_preset()
-{
+/// What the other scene does not have: flint that absorbs, most of all violet; a core of denser glass and a bubble of
+/// air in it, one that overlaps the surface, of three priorities; a coloured mirror; faceted and smooth.
+preset::Preset nested_preset() {
   preset::Preset p = glass_preset();
   p.unit = preset::Preset::Unit::m;
   preset::Material& flint = p.scene.materials["flint"];
@@ -127,8 +132,7 @@ struct Moments {
 
 class PhotonKernel : public testing::TestWithParam<preset::Preset (*)()> {};
 
-TEST_P(PhotonKernel, AgreesWithAnIndependentTracerInEveryPixel)
-{
+TEST_P(PhotonKernel, AgreesWithAnIndependentTracerInEveryPixel) {
   preset::Preset p = GetParam()();
   constexpr int runs = 24;
   const std::size_t values = 3 * 24 * 24;
@@ -150,7 +154,8 @@ TEST_P(PhotonKernel, AgreesWithAnIndependentTracerInEveryPixel)
   for (Moments& m : kernel) m.variance_of_mean = std::max(m.variance_of_mean - m.mean * m.mean, 0.0) / (runs - 1);
 
   const scene::Scene scene = scene::load_scene(p);
-  const photons::RunTables tables = photons::make_lit_tables(spectral::settings(p), scene, scene::build_bvh(scene.geometry), {});
+  const photons::RunTables tables =
+      photons::make_lit_tables(spectral::settings(p), scene, scene::build_bvh(scene.geometry), {});
   constexpr int photons = 1'500'000;
   const ReferenceFilm film = ReferencePhotons(scene, tables, 99).trace(photons);
 
@@ -162,7 +167,8 @@ TEST_P(PhotonKernel, AgreesWithAnIndependentTracerInEveryPixel)
     sum_kernel += kernel[i].mean;
     sum_reference += mean;
     const double total = variance + kernel[i].variance_of_mean;
-    if (!(variance > 0) || !(kernel[i].variance_of_mean > 0) || mean * mean / variance < 30) continue; // fewer than 30 photons
+    if (!(variance > 0) || !(kernel[i].variance_of_mean > 0) || mean * mean / variance < 30)
+      continue; // fewer than 30 photons
     const double z = (kernel[i].mean - mean) / std::sqrt(total);
     sum_z2 += z * z;
     smallest_p = std::min(smallest_p, bernstein(z, 1, 0, runs - 1));
@@ -171,8 +177,8 @@ TEST_P(PhotonKernel, AgreesWithAnIndependentTracerInEveryPixel)
   ASSERT_GT(lit, 300);
   // Sums over the picture are known to better than 0.2 %.
   EXPECT_NEAR(sum_kernel / sum_reference, 1, 0.01);
-  // Student's t with 23 degrees of freedom has variance 23 / 21, and its square the variance 2.8; the three channels of a pixel move
-  // together, so about lit / 3 are independent. Six standard deviations.
+  // Student's t with 23 degrees of freedom has variance 23 / 21, and its square the variance 2.8; the three channels of
+  // a pixel move together, so about lit / 3 are independent. Six standard deviations.
   EXPECT_NEAR(sum_z2 / lit, 1.05, 6 * std::sqrt(2.8 * 3 / lit));
   EXPECT_GT(sidak(smallest_p, lit), false_alarm);
   RecordProperty("lit", lit);
@@ -180,12 +186,13 @@ TEST_P(PhotonKernel, AgreesWithAnIndependentTracerInEveryPixel)
   RecordProperty("mean_z2", std::to_string(sum_z2 / lit));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, PhotonKernel, testing::Values(glass_preset, nested_preset),
-                         [](const auto& parameter) { return std::string(parameter.index == 0 ? "dispersion" : "absorption_and_nesting"); });
+INSTANTIATE_TEST_SUITE_P(Scenes, PhotonKernel, testing::Values(glass_preset, nested_preset), [](const auto& parameter) {
+  return std::string(parameter.index == 0 ? "dispersion" : "absorption_and_nesting");
+});
 
-// What a run adds up may not depend on how its steps are cut: the job cuts them by the clock, so two runs differ in that.
-TEST(Photons, SameSeedSameBitsAnotherSeedNot)
-{
+// What a run adds up may not depend on how its steps are cut: the job cuts them by the clock, so two runs differ in
+// that.
+TEST(Photons, SameSeedSameBitsAnotherSeedNot) {
   preset::Preset p = glass_preset();
   p.stop.passes = 3;
   spectral::settings(p).direct = true;
@@ -195,7 +202,8 @@ TEST(Photons, SameSeedSameBitsAnotherSeedNot)
   EXPECT_NE(first.picture->rgb, render(p).picture->rgb);
 }
 
-// kernels/photons/photon_map.h and grid.cl against a sum over all photons: the same whole numbers, whatever order the photons came in.
+// kernels/photons/photon_map.h and grid.cl against a sum over all photons: the same whole numbers, whatever order the
+// photons came in.
 
 const char* const source = R"(
 #include "kernels/photons/photon_map.h"
@@ -216,13 +224,14 @@ struct Sum {
   bool operator==(const Sum&) const = default;
 };
 
-/// Coordinates are multiples of 1/256 and below 4, so that squares of distances are exact in single precision: a photon is inside or not,
-/// however a compiler orders the operations.
-float lattice(std::mt19937& random, float reach) { return std::floor(random() * 0x1p-32f * 2 * reach * 256 - reach * 256) / 256; }
+/// Coordinates are multiples of 1/256 and below 4, so that squares of distances are exact in single precision: a photon
+/// is inside or not, however a compiler orders the operations.
+float lattice(std::mt19937& random, float reach) {
+  return std::floor(random() * 0x1p-32f * 2 * reach * 256 - reach * 256) / 256;
+}
 
 /// Photons in a cube and on its middle plane, of `groups` groups and some empty slots.
-std::vector<StoredPhoton> make_photons(std::size_t count, int groups, std::mt19937& random)
-{
+std::vector<StoredPhoton> make_photons(std::size_t count, int groups, std::mt19937& random) {
   std::vector<StoredPhoton> photons(count);
   for (StoredPhoton& p : photons) {
     for (float& x : p.position) x = lattice(random, 2);
@@ -233,9 +242,9 @@ std::vector<StoredPhoton> make_photons(std::size_t count, int groups, std::mt199
   return photons;
 }
 
-std::vector<VisiblePoint> make_points(std::size_t count, int groups, float largest, std::mt19937& random)
-{
-  const std::array<shared::float4, 4> normals{{{0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, -1, 0}, {0.75f, -0.5f, 0.25f, 0}}}; // exact, any length
+std::vector<VisiblePoint> make_points(std::size_t count, int groups, float largest, std::mt19937& random) {
+  const std::array<shared::float4, 4> normals{
+      {{0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, -1, 0}, {0.75f, -0.5f, 0.25f, 0}}}; // exact, any length
   std::vector<VisiblePoint> points(count);
   for (VisiblePoint& p : points) {
     p.position = {lattice(random, 2.5f), random() % 2 ? 0 : lattice(random, 2), lattice(random, 2.5f), largest};
@@ -246,13 +255,14 @@ std::vector<VisiblePoint> make_points(std::size_t count, int groups, float large
   return points;
 }
 
-Sum reference(const std::vector<StoredPhoton>& photons, const VisiblePoint& at)
-{
+Sum reference(const std::vector<StoredPhoton>& photons, const VisiblePoint& at) {
   Sum sum;
   for (const StoredPhoton& p : photons) {
-    const double dx = p.position[0] - at.position.x, dy = p.position[1] - at.position.y, dz = p.position[2] - at.position.z;
+    const double dx = p.position[0] - at.position.x, dy = p.position[1] - at.position.y,
+                 dz = p.position[2] - at.position.z;
     const double height = dx * at.normal.x + dy * at.normal.y + dz * at.normal.z;
-    if (p.group != at.group || !(dx * dx + dy * dy + dz * dz + 16 * height * height < at.position.w * at.position.w)) continue;
+    if (p.group != at.group || !(dx * dx + dy * dy + dz * dz + 16 * height * height < at.position.w * at.position.w))
+      continue;
     sum.x += p.xyz[0], sum.y += p.xyz[1], sum.z += p.xyz[2], ++sum.count;
   }
   return sum;
@@ -261,8 +271,8 @@ Sum reference(const std::vector<StoredPhoton>& photons, const VisiblePoint& at)
 class PhotonMapTest : public testing::Test {
 protected:
   /// Sorts the photons, and hands back the sums at the points.
-  static std::vector<Sum> gather(const std::vector<StoredPhoton>& photons, const std::vector<VisiblePoint>& points, double cell)
-  {
+  static std::vector<Sum> gather(const std::vector<StoredPhoton>& photons, const std::vector<VisiblePoint>& points,
+                                 double cell) {
     static const test::TestKernels kernels(source);
     photons::PhotonMap map(kernels.context(), static_cast<std::uint32_t>(photons.size()));
     map.stored().write(photons);
@@ -270,12 +280,13 @@ protected:
     const compute::Buffer<VisiblePoint> at(kernels.context(), "points", std::span<const VisiblePoint>(points));
     compute::Buffer<Sum> sums(kernels.context(), "sums", points.size());
     kernels.kernel("gather_all")
-        .run(points.size(), 64, map.arguments(), {{"points", at}, {"sums", sums}, {"count", static_cast<std::uint32_t>(points.size())}});
+        .run(points.size(), 64, map.arguments(),
+             {{"points", at}, {"sums", sums}, {"count", static_cast<std::uint32_t>(points.size())}});
     return sums.read();
   }
 
-  static void expect_reference(const std::vector<StoredPhoton>& photons, const std::vector<VisiblePoint>& points, double cell)
-  {
+  static void expect_reference(const std::vector<StoredPhoton>& photons, const std::vector<VisiblePoint>& points,
+                               double cell) {
     const std::vector<Sum> sums = gather(photons, points, cell);
     std::int64_t found = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -286,8 +297,7 @@ protected:
   }
 };
 
-TEST_F(PhotonMapTest, SumsAreThoseOverAllPhotons)
-{
+TEST_F(PhotonMapTest, SumsAreThoseOverAllPhotons) {
   std::mt19937 random(1);
   const std::vector<StoredPhoton> photons = make_photons(20000, 3, random);
   const std::vector<VisiblePoint> points = make_points(300, 3, 0.5f, random);
@@ -295,8 +305,7 @@ TEST_F(PhotonMapTest, SumsAreThoseOverAllPhotons)
 }
 
 // Fewer buckets than cells in a search: runs wrap round the table, and rows of one search share buckets.
-TEST_F(PhotonMapTest, NothingCountsTwiceWhereCellsShareBuckets)
-{
+TEST_F(PhotonMapTest, NothingCountsTwiceWhereCellsShareBuckets) {
   std::mt19937 random(2);
   const std::vector<StoredPhoton> photons = make_photons(1500, 2, random);
   expect_reference(photons, make_points(500, 2, 2.0f, random), 0.7);
@@ -305,16 +314,14 @@ TEST_F(PhotonMapTest, NothingCountsTwiceWhereCellsShareBuckets)
 }
 
 // All in one place: every sum of 24-bit quanta has to be widened in time.
-TEST_F(PhotonMapTest, ManyLargePhotonsDoNotOverflow)
-{
+TEST_F(PhotonMapTest, ManyLargePhotonsDoNotOverflow) {
   std::vector<StoredPhoton> photons(100000, {{0.25f, 0, 0.25f}, 0, {1 << 24, (1 << 24) - 1, 1}, 0});
   const VisiblePoint here{{0.25f, 0, 0.25f, 0.125f}, {0, 1, 0, 0}, {}, 0, {}};
   EXPECT_EQ(gather(photons, {here}, 0.25)[0],
             (Sum{(std::int64_t{1} << 24) * 100000, ((std::int64_t{1} << 24) - 1) * 100000, 100000, 100000}));
 }
 
-TEST_F(PhotonMapTest, TheOrderOfPhotonsChangesNothing)
-{
+TEST_F(PhotonMapTest, TheOrderOfPhotonsChangesNothing) {
   std::mt19937 random(3);
   std::vector<StoredPhoton> photons = make_photons(50000, 2, random);
   for (StoredPhoton& p : photons) // no lattice: any positions
@@ -325,8 +332,7 @@ TEST_F(PhotonMapTest, TheOrderOfPhotonsChangesNothing)
   EXPECT_EQ(gather(photons, points, 0.4), before);
 }
 
-TEST_F(PhotonMapTest, PlacesBeyondEveryCellAndEmptyMapsAreHarmless)
-{
+TEST_F(PhotonMapTest, PlacesBeyondEveryCellAndEmptyMapsAreHarmless) {
   std::vector<StoredPhoton> photons(10, {{3e20f, -3e20f, 1e30f}, 0, {1, 2, 3}, 0});
   const std::vector<VisiblePoint> points{{{3e20f, -3e20f, 1e30f, 1.0f}, {0, 1, 0, 0}, {}, 0, {}},
                                          {{0, 0, 0, 1.0f}, {0, 1, 0, 0}, {}, 0, {}}};

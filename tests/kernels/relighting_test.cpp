@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers weighed by a light are the picture under that light: against runs without layers, in a scene with dispersion, several reflectors,
-// an edge in most pixels' reach, glass before the camera and a dark lamp.
+// Layers weighed by a light are the picture under that light: against runs without layers, in a scene with dispersion,
+// several reflectors, an edge in most pixels' reach, glass before the camera and a dark lamp.
 #include "photons/clusters/scene_clusters.h"
 #include "spectral/settings.h"
 #include "tests/support/leaving_out_scenes.h"
@@ -11,10 +11,9 @@ namespace nephroid::relighting_test {
 
 preset::LightSpectrum illuminant(const std::string& name) { return {.illuminant = name}; }
 
-/// A ball of dispersing glass over a floor of coloured tiles, which the camera sees beside the ball and through it; two lamps, the second
-/// of which is dark.
-preset::Preset tiled_scene()
-{
+/// A ball of dispersing glass over a floor of coloured tiles, which the camera sees beside the ball and through it; two
+/// lamps, the second of which is dark.
+preset::Preset tiled_scene() {
   preset::Preset p = ball_scene();
   const char* patches[] = {"orange", "blue sky", "moderate red"};
   p.scene.objects.pop_back();
@@ -38,43 +37,39 @@ preset::Preset tiled_scene()
   return p;
 }
 
-preset::Preset layered(preset::Preset p)
-{
+preset::Preset layered(preset::Preset p) {
   spectral::settings(p).relight = true;
   return p;
 }
 
 /// Means over blocks of 3 x 3 pixels of a layer, in three channels.
-std::vector<double> blocks_of(const job::Snapshot& snapshot, const std::string& name)
-{
+std::vector<double> blocks_of(const job::Snapshot& snapshot, const std::string& name) {
   const std::vector<float>& rgb = layer(snapshot, name).rgb;
   const int width = snapshot.picture->width, blocks = width / 3;
   std::vector<double> means(static_cast<std::size_t>(3 * blocks * blocks), 0);
   for (int y = 0; y < 3 * blocks; ++y)
     for (int x = 0; x < 3 * blocks; ++x)
       for (int c = 0; c < 3; ++c)
-        means[static_cast<std::size_t>(3 * (y / 3 * blocks + x / 3) + c)] += rgb[static_cast<std::size_t>(3 * (y * width + x) + c)] / 9.0;
+        means[static_cast<std::size_t>(3 * (y / 3 * blocks + x / 3) + c)] +=
+            rgb[static_cast<std::size_t>(3 * (y * width + x) + c)] / 9.0;
   return means;
 }
 
-std::vector<double> both_layers(const job::Snapshot& snapshot)
-{
+std::vector<double> both_layers(const job::Snapshot& snapshot) {
   std::vector<double> all = blocks_of(snapshot, "direct");
   const std::vector<double> caustic = blocks_of(snapshot, "caustic");
   all.insert(all.end(), caustic.begin(), caustic.end());
   return all;
 }
 
-double largest(const std::vector<Estimate>& estimates)
-{
+double largest(const std::vector<Estimate>& estimates) {
   double most = 0;
   for (const Estimate& e : estimates) most = std::max(most, e.mean);
   return most;
 }
 
 /// Of a run whose passes go on under its own light; only the figures are of the other one.
-std::vector<Estimate> relit_passes(const preset::Preset& own, const preset::Preset& other)
-{
+std::vector<Estimate> relit_passes(const preset::Preset& own, const preset::Preset& other) {
   return step_passes(*job_of(own), [&](job::Job& job) {
     EXPECT_TRUE(job.adopt(other));
     const std::vector<double> figures = both_layers(job.snapshot());
@@ -84,19 +79,18 @@ std::vector<Estimate> relit_passes(const preset::Preset& own, const preset::Pres
 }
 
 /// The same without layers, by other random numbers.
-preset::Preset fresh_run(preset::Preset p)
-{
+preset::Preset fresh_run(preset::Preset p) {
   spectral::settings(p).relight = false;
   p.seed = 1000;
   return p;
 }
 
 /// The ball's glass bends all wavelengths alike and is from clear at 380 nm to exp(-9) over its radius at 780 nm.
-preset::Preset dyed_scene(const fs::path& folder)
-{
+preset::Preset dyed_scene(const fs::path& folder) {
   preset::Preset p = tiled_scene();
   const double k = 9 * 780e-9 / (4 * M_PI * p.scene.objects[0].shape->radius);
-  std::ofstream(folder / "dye.yml") << "DATA:\n  - type: tabulated nk\n    data: |\n        0.38 1.5 0\n        0.78 1.5 " << k << "\n";
+  std::ofstream(folder / "dye.yml")
+      << "DATA:\n  - type: tabulated nk\n    data: |\n        0.38 1.5 0\n        0.78 1.5 " << k << "\n";
   preset::Material& material = p.scene.materials["glass"];
   material.dispersion = {};
   material.dispersion.type = preset::Dispersion::Type::file;
@@ -105,17 +99,16 @@ preset::Preset dyed_scene(const fs::path& folder)
   return p;
 }
 
-TEST(Relighting, UnderItsOwnLightThePictureIsThatOfARunWithoutLayers)
-{
+TEST(Relighting, UnderItsOwnLightThePictureIsThatOfARunWithoutLayers) {
   preset::Preset plain = tiled_scene();
   plain.seed = 1000;
-  const std::vector<Estimate> layers = render_passes(layered(tiled_scene()), both_layers), without = render_passes(plain, both_layers);
+  const std::vector<Estimate> layers = render_passes(layered(tiled_scene()), both_layers),
+                              without = render_passes(plain, both_layers);
   EXPECT_GT(largest(without), 0);
   EXPECT_GT(same_expectations(layers, without), false_alarm);
 }
 
-TEST(Relighting, UnderAnotherLightItIsThatOfARunWithThatLight)
-{
+TEST(Relighting, UnderAnotherLightItIsThatOfARunWithThatLight) {
   // F10 has narrow lines where D65 is smooth; the dark lamp comes on, the white changes.
   preset::Preset other = layered(tiled_scene());
   other.scene.lights[0].spectrum = illuminant("F10");
@@ -133,8 +126,7 @@ TEST(Relighting, UnderAnotherLightItIsThatOfARunWithThatLight)
   EXPECT_LT(same_expectations(render_passes(old, both_layers), truth), false_alarm);
 }
 
-TEST(Relighting, ThroughADyeItIsThatOfARunWithThatLight)
-{
+TEST(Relighting, ThroughADyeItIsThatOfARunWithThatLight) {
   const TemporaryFolder folder;
   preset::Preset own = layered(dyed_scene(folder.path()));
   own.scene.camera.resolution = {12, 12};
@@ -145,7 +137,8 @@ TEST(Relighting, ThroughADyeItIsThatOfARunWithThatLight)
     clear.scene.materials["glass"].absorption = false;
     const std::vector<Estimate> relit = relit_passes(own, other), truth = render_passes(fresh_run(other), both_layers),
                                 undyed = render_passes(clear, both_layers);
-    // Clusters promise that a line is not off by more than this share of what arrives without the dye, and smooth light by far less.
+    // Clusters promise that a line is not off by more than this share of what arrives without the dye, and smooth light
+    // by far less.
     const double share = wavelength_nm > 0 ? photons::largest_loss_difference : 0.005;
     std::vector<double> bias;
     for (const Estimate& e : undyed) bias.push_back(share * std::abs(e.mean));
@@ -154,8 +147,7 @@ TEST(Relighting, ThroughADyeItIsThatOfARunWithThatLight)
   }
 }
 
-TEST(Relighting, TheRunGoesOnUnderTheNewLightAndItsEnergyIsThatLights)
-{
+TEST(Relighting, TheRunGoesOnUnderTheNewLightAndItsEnergyIsThatLights) {
   preset::Preset other = layered(tiled_scene());
   other.scene.lights[0].spectrum = line(480);
   other.scene.lights[0].power_w = 1e6;
@@ -169,16 +161,15 @@ TEST(Relighting, TheRunGoesOnUnderTheNewLightAndItsEnergyIsThatLights)
   spectral::settings(fresh).relight = false;
   const job::Snapshot relit = job->snapshot(), truth = render(fresh);
   const photons::EnergyBalance &e = photons::energy_of(relit), &t = photons::energy_of(truth);
-  // Point lamps' photons differ little in power, and of 21 x 2^13 at least a tenth reach the floor through the ball: a standard error
-  // of less than 1 %.
+  // Point lamps' photons differ little in power, and of 21 x 2^13 at least a tenth reach the floor through the ball: a
+  // standard error of less than 1 %.
   EXPECT_NEAR(e.emitted_w / t.emitted_w, 1, 0.07);
   EXPECT_NEAR(e.deposited_w / t.deposited_w, 1, 0.07);
   EXPECT_NEAR(e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w, e.emitted_w, 1e-6 * e.emitted_w);
   EXPECT_EQ(e.refused_contributions, 0u);
 }
 
-TEST(Relighting, TheDrawOfTheErrorHasThePicturesScatter)
-{
+TEST(Relighting, TheDrawOfTheErrorHasThePicturesScatter) {
   // Over many seeds, the mean of (picture - mean of pictures)^2 and of draw^2 are the same.
   preset::Preset p = layered(tiled_scene());
   p.stop.passes = 4;
@@ -207,8 +198,7 @@ TEST(Relighting, TheDrawOfTheErrorHasThePicturesScatter)
   EXPECT_NEAR(std::log2(draws / scatter), 0, 1);
 }
 
-TEST(Relighting, ACheckpointGoesOnToTheSameBits)
-{
+TEST(Relighting, ACheckpointGoesOnToTheSameBits) {
   const preset::Preset own = layered(tiled_scene());
   preset::Preset other = own;
   other.scene.lights[1].power_w = 5;
@@ -224,8 +214,7 @@ TEST(Relighting, ACheckpointGoesOnToTheSameBits)
   EXPECT_EQ(photons::energy_of(a).emitted_w, photons::energy_of(b).emitted_w);
 }
 
-TEST(Relighting, OnlyTheLightIsAdopted)
-{
+TEST(Relighting, OnlyTheLightIsAdopted) {
   const preset::Preset own = layered(tiled_scene());
   const auto job = job_of(own);
   preset::Preset moved = own, broken = own;
@@ -238,8 +227,7 @@ TEST(Relighting, OnlyTheLightIsAdopted)
   EXPECT_EQ(photons::energy_of(job->snapshot()).refused_contributions, 0u);
 }
 
-TEST(Relighting, ASceneThatShowsNothingCanBeAskedForLayers)
-{
+TEST(Relighting, ASceneThatShowsNothingCanBeAskedForLayers) {
   preset::Preset p = layered(ball_scene());
   p.scene.objects.pop_back(); // no diffuse surface
   p.stop.passes = 1;
@@ -248,8 +236,7 @@ TEST(Relighting, ASceneThatShowsNothingCanBeAskedForLayers)
   for (const float value : snapshot.picture->rgb) ASSERT_EQ(value, 0);
 }
 
-TEST(Relighting, ThePlanSaysWhatIsKeptAndTheMemory)
-{
+TEST(Relighting, ThePlanSaysWhatIsKeptAndTheMemory) {
   preset::Preset p = layered(tiled_scene());
   p.scene.camera.resolution = {128, 128};
   const photons::RunPlan plan = plan_of(p);

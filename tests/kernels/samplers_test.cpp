@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chi-square tests of what the kernels draw, but for emission (emission_samplers_test.cpp): uniforms, places on area lights, places in a
-// pixel, clusters of a camera path, reflection or refraction. Each also shows that it rejects a distribution a few per cent off.
+// Chi-square tests of what the kernels draw, but for emission (emission_samplers_test.cpp): uniforms, places on area
+// lights, places in a pixel, clusters of a camera path, reflection or refraction. Each also shows that it rejects a
+// distribution a few per cent off.
 #include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
 #include "tests/support/statistics.h"
@@ -60,25 +61,23 @@ kernel void reflections(global const float4* interfaces, int interface_count, ui
 constexpr std::uint32_t count = 1 << 20;
 constexpr shared::uint2 seed{20'26, 4};
 
-const TestKernels& kernels()
-{
+const TestKernels& kernels() {
   static const TestKernels kernels(source);
   return kernels;
 }
 
 /// What a kernel of `source` writes to "out" for `count` items.
 template <class T>
-std::vector<T> draw(const std::string& kernel, std::initializer_list<compute::Argument> arguments)
-{
+std::vector<T> draw(const std::string& kernel, std::initializer_list<compute::Argument> arguments) {
   const compute::Buffer<T> out(kernels().context(), "out", count);
-  kernels().kernel(kernel).run(count, 64, std::array{compute::Argument("out", out), compute::Argument("count", count)}, arguments);
+  kernels().kernel(kernel).run(count, 64, std::array{compute::Argument("out", out), compute::Argument("count", count)},
+                               arguments);
   return out.read();
 }
 
 using Column = std::vector<float>; ///< uniforms in [0, 1)
 
-std::vector<Column> columns_of(const std::vector<float4>& numbers)
-{
+std::vector<Column> columns_of(const std::vector<float4>& numbers) {
   std::vector<Column> columns(4, Column(numbers.size()));
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::array<float, 4> n{numbers[i].x, numbers[i].y, numbers[i].z, numbers[i].w};
@@ -88,8 +87,7 @@ std::vector<Column> columns_of(const std::vector<float4>& numbers)
 }
 
 /// Counts in bins^d equal cells of the unit cube of d columns. Outside of [0, 1) counts in a last cell of its own.
-std::vector<double> cube_counts(const std::vector<const Column*>& columns, std::size_t bins)
-{
+std::vector<double> cube_counts(const std::vector<const Column*>& columns, std::size_t bins) {
   std::size_t cells = 1;
   for (std::size_t d = 0; d < columns.size(); ++d) cells *= bins;
   std::vector<double> counts(cells + 1, 0.0);
@@ -109,8 +107,7 @@ std::vector<double> cube_counts(const std::vector<const Column*>& columns, std::
 }
 
 /// p of the columns being uniform in their cube.
-double uniform_p(const std::vector<const Column*>& columns, std::size_t bins)
-{
+double uniform_p(const std::vector<const Column*>& columns, std::size_t bins) {
   const std::vector<double> counts = cube_counts(columns, bins);
   std::vector<double> distribution(counts.size(), 1.0);
   distribution.back() = 0;
@@ -118,25 +115,25 @@ double uniform_p(const std::vector<const Column*>& columns, std::size_t bins)
 }
 
 /// The distribution with half of its cells 3 % too likely and half too unlikely.
-std::vector<double> tilted(std::vector<double> distribution)
-{
+std::vector<double> tilted(std::vector<double> distribution) {
   for (std::size_t i = 0; i < distribution.size(); ++i) distribution[i] *= i % 2 == 0 ? 1.03 : 0.97;
   return distribution;
 }
 
 /// A right distribution is accepted and one that is 3 % off is not.
-void expect_distribution(const std::vector<double>& counts, const std::vector<double>& distribution, int constraints = 1)
-{
+void expect_distribution(const std::vector<double>& counts, const std::vector<double>& distribution,
+                         int constraints = 1) {
   EXPECT_GT(chi_square_test(counts, distribution, constraints).p, false_alarm);
   EXPECT_LT(chi_square_test(counts, tilted(distribution), constraints).p, false_alarm);
 }
 
-// Every pair among the numbers of a photon (two blocks), of its neighbour, of the next pass, of another stream and of another seed.
-TEST(Uniforms, ArePairwiseIndependent)
-{
+// Every pair among the numbers of a photon (two blocks), of its neighbour, of the next pass, of another stream and of
+// another seed.
+TEST(Uniforms, ArePairwiseIndependent) {
   std::vector<Column> columns;
   const auto add = [&](shared::uint2 key, std::uint32_t pass, std::uint32_t block, std::uint32_t stream) {
-    for (Column& column : columns_of(draw<float4>("uniforms", {{"seed", key}, {"pass", pass}, {"block", block}, {"stream", stream}})))
+    for (Column& column :
+         columns_of(draw<float4>("uniforms", {{"seed", key}, {"pass", pass}, {"block", block}, {"stream", stream}})))
       columns.push_back(std::move(column));
   };
   add(seed, 0, 0, 0);
@@ -155,17 +152,17 @@ TEST(Uniforms, ArePairwiseIndependent)
   }
 }
 
-TEST(Uniforms, FillTheCubesOfThreeAndFourDimensions)
-{
-  const std::vector<Column> columns = columns_of(draw<float4>("uniforms", {{"seed", seed}, {"pass", 5u}, {"block", 0u}, {"stream", 0u}}));
+TEST(Uniforms, FillTheCubesOfThreeAndFourDimensions) {
+  const std::vector<Column> columns =
+      columns_of(draw<float4>("uniforms", {{"seed", seed}, {"pass", 5u}, {"block", 0u}, {"stream", 0u}}));
   EXPECT_GT(uniform_p({&columns[0], &columns[1], &columns[2]}, 16), false_alarm);
   EXPECT_GT(uniform_p({&columns[1], &columns[2], &columns[3]}, 16), false_alarm);
   EXPECT_GT(uniform_p({&columns[0], &columns[1], &columns[2], &columns[3]}, 8), false_alarm);
 }
 
-TEST(Uniforms, WrongOnesAreFound)
-{
-  const std::vector<Column> columns = columns_of(draw<float4>("uniforms", {{"seed", seed}, {"pass", 0u}, {"block", 0u}, {"stream", 0u}}));
+TEST(Uniforms, WrongOnesAreFound) {
+  const std::vector<Column> columns =
+      columns_of(draw<float4>("uniforms", {{"seed", seed}, {"pass", 0u}, {"block", 0u}, {"stream", 0u}}));
   EXPECT_LT(uniform_p({&columns[0], &columns[0]}, 32), false_alarm);
   Column bent = columns[0], leaning = columns[1];
   for (std::size_t i = 0; i < bent.size(); ++i) {
@@ -183,8 +180,7 @@ TEST(Uniforms, WrongOnesAreFound)
   }());
 }
 
-TEST(AreaPoint, FillsTheRectangleEvenly)
-{
+TEST(AreaPoint, FillsTheRectangleEvenly) {
   shared::DeviceLight light{.position = {3, -2, 1, 0}};
   light.edge_u = {0.6f, 0.8f, 0, 0}; // of length 1 and 2, at right angles
   light.edge_v = {-0.96f, 0.72f, 1.6f, 0};
@@ -205,9 +201,9 @@ TEST(AreaPoint, FillsTheRectangleEvenly)
   EXPECT_LT(uniform_p({&u, &v}, 32), false_alarm);
 }
 
-// Directions, projected back, fall into their own pixel and fill its square evenly, the same in every part of the picture.
-TEST(CameraJitter, FillsThePixel)
-{
+// Directions, projected back, fall into their own pixel and fill its square evenly, the same in every part of the
+// picture.
+TEST(CameraJitter, FillsThePixel) {
   shared::DeviceCamera camera{.right = {1, 0, 0, 0},
                               .up = {0, 0.6f, 0.8f, 0},
                               .forward = {0, 0.8f, -0.6f, 0},
@@ -237,28 +233,29 @@ TEST(CameraJitter, FillsThePixel)
 class ClusterChoice : public testing::Test {
 protected:
   /// Uneven clusters, one of them empty.
-  ClusterChoice()
-  {
+  ClusterChoice() {
     for (std::size_t c = 0; c < 17; ++c) shares_.push_back(c == 5 ? 0.0 : 0.3 + static_cast<double>(c * 7 % 11));
     double sum = 0, before = 0;
     for (const double s : shares_) sum += s;
     cdf_.push_back(0);
     for (const double s : shares_) cdf_.push_back(static_cast<float>((before += s) / sum));
     cdf_.back() = 1;
-    for (std::size_t c = 0; c < shares_.size(); ++c) shares_[c] = static_cast<double>(cdf_[c + 1]) - static_cast<double>(cdf_[c]);
+    for (std::size_t c = 0; c < shares_.size(); ++c)
+      shares_[c] = static_cast<double>(cdf_[c + 1]) - static_cast<double>(cdf_[c]);
   }
-  std::vector<int> choices(std::uint32_t frame, std::uint32_t path) const
-  {
+  std::vector<int> choices(std::uint32_t frame, std::uint32_t path) const {
     const compute::Buffer<float> cdf(kernels().context(), "cdf", std::span<const float>(cdf_));
-    return draw<int>("clusters",
-                     {{"cdf", cdf}, {"clusters", static_cast<int>(shares_.size())}, {"seed", seed}, {"frame", frame}, {"path", path}});
+    return draw<int>("clusters", {{"cdf", cdf},
+                                  {"clusters", static_cast<int>(shares_.size())},
+                                  {"seed", seed},
+                                  {"frame", frame},
+                                  {"path", path}});
   }
   std::vector<double> shares_;
   std::vector<float> cdf_;
 };
 
-TEST_F(ClusterChoice, HasTheStatedProbabilities)
-{
+TEST_F(ClusterChoice, HasTheStatedProbabilities) {
   for (const std::array<std::uint32_t, 2> at : {std::array<std::uint32_t, 2>{0, 0}, {0, 3}, {1, 0}, {2, 1}, {63, 2}}) {
     std::vector<double> counts(shares_.size(), 0.0);
     for (const int cluster : choices(at[0], at[1])) ++counts.at(static_cast<std::size_t>(cluster));
@@ -268,9 +265,9 @@ TEST_F(ClusterChoice, HasTheStatedProbabilities)
   }
 }
 
-// The halves of the film are independent: what a pixel takes in an even frame says nothing of an odd one. Nor does its neighbour.
-TEST_F(ClusterChoice, FramesOfBothHalvesAndNeighboursAreIndependent)
-{
+// The halves of the film are independent: what a pixel takes in an even frame says nothing of an odd one. Nor does its
+// neighbour.
+TEST_F(ClusterChoice, FramesOfBothHalvesAndNeighboursAreIndependent) {
   std::vector<double> product;
   for (const double a : shares_)
     for (const double b : shares_) product.push_back(a * b);
@@ -288,21 +285,20 @@ TEST_F(ClusterChoice, FramesOfBothHalvesAndNeighboursAreIndependent)
 }
 
 // Reflection has Fresnel's probability whichever of four numbers chooses; beyond the critical angle it is certain.
-TEST(ReflectOrRefract, HasFresnelsProbability)
-{
+TEST(ReflectOrRefract, HasFresnelsProbability) {
   std::vector<float4> interfaces;
   std::vector<double> distribution;
   for (const std::array<float, 2> n : {std::array<float, 2>{1, 1.5f}, {1.5f, 1}, {1, 2.4f}, {1.33f, 1.9f}})
     for (const float degrees : {0.0f, 20.0f, 35.0f, 60.0f, 75.0f, 85.0f}) {
       const float cosine = std::cos(degrees * static_cast<float>(M_PI) / 180);
-      const double reflectance =
-          optics::fresnel_reflectance(static_cast<double>(cosine), static_cast<double>(n[0]), static_cast<double>(n[1]));
+      const double reflectance = optics::fresnel_reflectance(static_cast<double>(cosine), static_cast<double>(n[0]),
+                                                             static_cast<double>(n[1]));
       interfaces.push_back({cosine, n[0], n[1], 0});
       distribution.insert(distribution.end(), {reflectance, 1 - reflectance});
     }
   const compute::Buffer<float4> at(kernels().context(), "interfaces", std::span<const float4>(interfaces));
-  const std::vector<int> reflected =
-      draw<int>("reflections", {{"interfaces", at}, {"interface_count", static_cast<int>(interfaces.size())}, {"seed", seed}});
+  const std::vector<int> reflected = draw<int>(
+      "reflections", {{"interfaces", at}, {"interface_count", static_cast<int>(interfaces.size())}, {"seed", seed}});
   for (int choice = 0; choice < 4; ++choice) {
     std::vector<double> counts, expected;
     std::vector<double> all(distribution.size(), 0.0);

@@ -8,8 +8,7 @@ namespace nephroid::scene_buffers_test {
 
 #define PLUS_BYTES(type, name, words) +buffers.name.bytes()
 
-void expect_planned(const preset::Preset& preset)
-{
+void expect_planned(const preset::Preset& preset) {
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   const photons::RunPlan plan = spectral::make_plan(preset, scene, bvh);
@@ -25,8 +24,7 @@ void expect_planned(const preset::Preset& preset)
   EXPECT_EQ(planned, 0 SCENE_TABLES(PLUS_BYTES));
 }
 
-TEST(SceneBuffers, AreWhatThePlanSays)
-{
+TEST(SceneBuffers, AreWhatThePlanSays) {
   preset::Preset p = empty_preset();
   p.scene.materials["glass"] = glass(1.5);
   p.scene.materials["glass"].dispersion = {.type = preset::Dispersion::Type::cauchy, .coefficients = {1.5, 0.01}};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/sky.h: directions are drawn by the flux of texels or by their peaks, evenly by solid angle inside of one, and a direction
-// is of the texel that is seen there. The truth is the map's definition (scene/environment.h), written here anew in double precision.
+// kernels/tracing/sky.h: directions are drawn by the flux of texels or by their peaks, evenly by solid angle inside of
+// one, and a direction is of the texel that is seen there. The truth is the map's definition (scene/environment.h),
+// written here anew in double precision.
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test_kernels.h"
@@ -31,8 +32,7 @@ kernel void places(global const float* cdf, global const float* colour, DeviceBa
 
 constexpr std::uint32_t count = 1 << 20;
 
-scene::Environment uneven(int width, int height)
-{
+scene::Environment uneven(int width, int height) {
   scene::Environment map{.width = width, .height = height, .rotate_deg = 50};
   for (int i = 0; i < width * height; ++i)
     for (int c = 0; c < 3; ++c) map.rgb.push_back(i % 5 == 4 ? 0.0f : static_cast<float>(0.2 + (i * 7 + c) % 4));
@@ -42,8 +42,7 @@ scene::Environment uneven(int width, int height)
 class SkyKernel : public testing::TestWithParam<std::array<int, 2>> {};
 
 /// floor: what the grey of a texel has to exceed to be drawn, and by how much is its chance.
-void expect_drawn(const scene::Environment& map, bool by_peaks, double floor)
-{
+void expect_drawn(const scene::Environment& map, bool by_peaks, double floor) {
   const tracing::SkyTables tables = tracing::make_sky_tables(map);
   static const TestKernels kernels(source);
   const compute::Buffer<float> cdf(kernels.context(), "cdf", std::span<const float>(tables.texel_cdf)),
@@ -67,11 +66,13 @@ void expect_drawn(const scene::Environment& map, bool by_peaks, double floor)
   for (std::size_t row = 0; row < height; ++row)
     for (std::size_t column = 0; column < width; ++column) {
       const float* rgb = map.rgb.data() + 3 * (row * width + column);
-      const double steradians = (edge(row) - edge(row + 1)) * 2 * M_PI / map.width, grey = (rgb[0] + rgb[1] + rgb[2]) / 3.0;
+      const double steradians = (edge(row) - edge(row + 1)) * 2 * M_PI / map.width,
+                   grey = (rgb[0] + rgb[1] + rgb[2]) / 3.0;
       const double chance = std::max(grey - floor, 0.0) * steradians;
       flux += grey * steradians;
       drawn_flux += chance;
-      for (std::size_t part = 0; part < within * within; ++part) chances[(row * width + column) * within * within + part] = chance;
+      for (std::size_t part = 0; part < within * within; ++part)
+        chances[(row * width + column) * within * within + part] = chance;
     }
   int elsewhere = 0;
   for (std::size_t i = 0; i < got.size(); i += 3) {
@@ -83,7 +84,8 @@ void expect_drawn(const scene::Environment& map, bool by_peaks, double floor)
     const std::size_t row = std::min(static_cast<std::size_t>(zenith / M_PI * map.height), height - 1),
                       column = std::min(static_cast<std::size_t>(x), width - 1);
     const double down = std::clamp((edge(row) - d.y) / (edge(row) - edge(row + 1)), 0.0, 1 - 1e-9);
-    const std::size_t part = static_cast<std::size_t>(down * within) * within + static_cast<std::size_t>((x - std::floor(x)) * within);
+    const std::size_t part =
+        static_cast<std::size_t>(down * within) * within + static_cast<std::size_t>((x - std::floor(x)) * within);
     ++counts[(row * width + column) * within * within + part];
     // At a texel's edge rounding may find its neighbour.
     const bool same = got[i + 1].x == got[i + 2].x && got[i + 1].y == got[i + 2].y && got[i].w == got[i + 1].w;
@@ -107,14 +109,12 @@ void expect_drawn(const scene::Environment& map, bool by_peaks, double floor)
 
 TEST_P(SkyKernel, DrawsByFlux) { expect_drawn(uneven(GetParam()[0], GetParam()[1]), false, 0); }
 
-TEST_P(SkyKernel, DrawsByPeaks)
-{
+TEST_P(SkyKernel, DrawsByPeaks) {
   const scene::Environment map = uneven(GetParam()[0], GetParam()[1]);
   expect_drawn(map, true, scene::flux_of(map).grey / (4 * M_PI));
 }
 
-TEST(Sky, AnEvenSkyHasNoPeaks)
-{
+TEST(Sky, AnEvenSkyHasNoPeaks) {
   scene::Environment map{.width = 16, .height = 8};
   map.rgb.assign(3 * 16 * 8, 0.7f);
   EXPECT_FALSE(tracing::make_sky_tables(map).size.has_peaks);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layer "background" against closed forms: exact colours, which way up and round a map is, radiance that glass keeps, Beer's law in a
-// plate, and Snell's law in a prism that takes white light apart.
+// The layer "background" against closed forms: exact colours, which way up and round a map is, radiance that glass
+// keeps, Beer's law in a plate, and Snell's law in a prism that takes white light apart.
 #include "image/image.h"
 #include "optics/fresnel.h"
 #include "spectral/settings.h"
@@ -9,8 +9,7 @@
 
 namespace nephroid::background_test {
 
-preset::Preset with_constant(const preset::Vec3& colour, int resolution, double radiance = 1)
-{
+preset::Preset with_constant(const preset::Vec3& colour, int resolution, double radiance = 1) {
   preset::Preset p = empty_preset(resolution);
   spectral::settings(p).caustic = false;
   spectral::settings(p).pixel_samples = 4;
@@ -22,8 +21,8 @@ preset::Preset with_constant(const preset::Vec3& colour, int resolution, double 
   return p;
 }
 
-preset::Preset with_map(const std::filesystem::path& folder, int width, int height, const std::vector<float>& rgb, int resolution)
-{
+preset::Preset with_map(const std::filesystem::path& folder, int width, int height, const std::vector<float>& rgb,
+                        int resolution) {
   preset::Preset p = with_constant({0, 0, 0}, resolution);
   p.scene.environment->type = preset::Environment::Type::file;
   p.scene.environment->file = (folder / "map.exr").string();
@@ -31,44 +30,41 @@ preset::Preset with_map(const std::filesystem::path& folder, int width, int heig
   return p;
 }
 
-void look_along(preset::Camera& camera, const preset::Vec3& direction, double fov_deg)
-{
+void look_along(preset::Camera& camera, const preset::Vec3& direction, double fov_deg) {
   camera.position = {0, 0, 0};
   camera.target = direction;
   camera.up = std::abs(direction[1]) > 0.9 ? preset::Vec3{0, 0, -1} : preset::Vec3{0, 1, 0};
   camera.fov_deg = fov_deg;
 }
 
-glm::dvec3 mean_of(const std::vector<float>& rgb)
-{
+glm::dvec3 mean_of(const std::vector<float>& rgb) {
   glm::dvec3 sum(0);
   for (std::size_t i = 0; i < rgb.size(); i += 3) sum += glm::dvec3(rgb[i], rgb[i + 1], rgb[i + 2]);
   return sum / (static_cast<double>(rgb.size()) / 3);
 }
 
-/// The direction of a latitude-longitude map's place, u to the right and v down, both 0..1: the contract's words as a formula.
-glm::dvec3 direction_at(double u, double v)
-{
+/// The direction of a latitude-longitude map's place, u to the right and v down, both 0..1: the contract's words as a
+/// formula.
+glm::dvec3 direction_at(double u, double v) {
   const double azimuth = 2 * M_PI * (u - 0.5), zenith = M_PI * v; // azimuth from -z to +x
   return {std::sin(zenith) * std::sin(azimuth), std::cos(zenith), -std::sin(zenith) * std::cos(azimuth)};
 }
 
-TEST(Background, AConstantIsExactlyItsColour)
-{
+TEST(Background, AConstantIsExactlyItsColour) {
   preset::Preset p = with_constant({0.2, 0.5, 0.9}, 8, 3);
   p.white = 2;
   const job::Snapshot snapshot = render(p);
   const std::vector<float>& rgb = layer(snapshot, "background").rgb;
   double worst = 0;
-  for (std::size_t i = 0; i < rgb.size(); ++i) worst = std::max(worst, std::abs(rgb[i] / (p.scene.environment->colour[i % 3] * 1.5) - 1));
+  for (std::size_t i = 0; i < rgb.size(); ++i)
+    worst = std::max(worst, std::abs(rgb[i] / (p.scene.environment->colour[i % 3] * 1.5) - 1));
   expect_truth("background, one colour seen directly: worst channel", worst, 0, 2e-6);
   EXPECT_EQ(snapshot.picture->rgb, rgb); // the only layer
 }
 
-// A map whose colour is the direction itself, 0.5 + 0.5 d: so each of six directions, and any other, says what it should look like.
-// Bilinear steps of 360 / 64 degrees are off by (2 pi / 64)^2 / 8 / 2 = 6e-4 at most.
-TEST(Background, MapsAreTheRightWayUpAndRound)
-{
+// A map whose colour is the direction itself, 0.5 + 0.5 d: so each of six directions, and any other, says what it
+// should look like. Bilinear steps of 360 / 64 degrees are off by (2 pi / 64)^2 / 8 / 2 = 6e-4 at most.
+TEST(Background, MapsAreTheRightWayUpAndRound) {
   constexpr int width = 64, height = 32;
   std::vector<float> map;
   for (int row = 0; row < height; ++row)
@@ -84,12 +80,14 @@ TEST(Background, MapsAreTheRightWayUpAndRound)
          {preset::Vec3{0, 0, -1}, {1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {1, 2, 3}, {-0.01, 0, 1}}) {
       p.scene.environment->rotate_deg = turn;
       look_along(p.scene.camera, way, 0.1);
-      // The surroundings turned by +30 degrees about +y, so that what was in front is to the left: d there was R(-30) d before.
+      // The surroundings turned by +30 degrees about +y, so that what was in front is to the left: d there was R(-30) d
+      // before.
       const glm::dvec3 d = glm::normalize(glm::dvec3(way[0], way[1], way[2]));
       const double c = std::cos(turn * degree), s = std::sin(turn * degree);
       const glm::dvec3 before(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
       const glm::dvec3 figure = mean_of(layer(render(p), "background").rgb);
-      for (int i = 0; i < 3 && std::abs(d.y) < 1; ++i) worst = std::max(worst, std::abs(figure[i] - (0.5 + 0.5 * before[i])));
+      for (int i = 0; i < 3 && std::abs(d.y) < 1; ++i)
+        worst = std::max(worst, std::abs(figure[i] - (0.5 + 0.5 * before[i])));
       EXPECT_LT(glm::length(figure - (0.5 + 0.5 * before)), std::abs(d.y) == 1 ? 0.025 : 2e-3)
           << way[0] << " " << way[1] << " " << way[2] << " turned " << turn;
     }
@@ -100,9 +98,9 @@ TEST(Background, MapsAreTheRightWayUpAndRound)
   EXPECT_GT(mean_of(layer(render(p), "background").rgb).x, 0.99);
 }
 
-// Four columns of unlike colours: at 180 degrees, between the last and the first, the picture is as smooth as everywhere.
-TEST(Background, TheSeamIsBilinearToo)
-{
+// Four columns of unlike colours: at 180 degrees, between the last and the first, the picture is as smooth as
+// everywhere.
+TEST(Background, TheSeamIsBilinearToo) {
   constexpr int width = 4, height = 2, pixels = 48;
   const std::vector<float> map{1, 0, 0, 0, 2, 0, 0, 0, 3, 4, 0, 1, 0, 0, 5, 3, 1, 0, 0, 2, 2, 1, 0, 0};
   TemporaryFolder temporary;
@@ -114,7 +112,8 @@ TEST(Background, TheSeamIsBilinearToo)
   double worst = 0;
   for (int row = 0; row < pixels; ++row)
     for (int column = 0; column < pixels; ++column) {
-      const double t = std::tan(50 * degree), right = (2 * (column + 0.5) / pixels - 1) * t, up = (1 - 2 * (row + 0.5) / pixels) * t;
+      const double t = std::tan(50 * degree), right = (2 * (column + 0.5) / pixels - 1) * t,
+                   up = (1 - 2 * (row + 0.5) / pixels) * t;
       const glm::dvec3 d = glm::normalize(glm::dvec3(-right, up, 1)); // looking along +z, -x is on the right
       const double x = (std::atan2(d.x, -d.z) / (2 * M_PI) + 0.5) * width - 0.5;
       const double y = std::clamp(std::acos(d.y) / M_PI * height - 0.5, 0.0, height - 1.0);
@@ -130,13 +129,15 @@ TEST(Background, TheSeamIsBilinearToo)
         worst = std::max(worst, std::abs(rgb[static_cast<std::size_t>(3 * (row * pixels + column) + c)] - truth));
       }
     }
-  // A pixel is up to 4 degrees wide, a texel 90: colours change by 5 * 4 / 90 in a pixel at most, of which 16 samples know the mean to
-  // a 14th; at a kink the middle is another eighth off.
-  expect_truth("background, bilinear around the seam: worst pixel", worst, 0, 5 * 4 / 90.0 * (6.2 / std::sqrt(12 * 16.0) + 0.125));
+  // A pixel is up to 4 degrees wide, a texel 90: colours change by 5 * 4 / 90 in a pixel at most, of which 16 samples
+  // know the mean to a 14th; at a kink the middle is another eighth off.
+  expect_truth("background, bilinear around the seam: worst pixel", worst, 0,
+               5 * 4 / 90.0 * (6.2 / std::sqrt(12 * 16.0) + 0.125));
 }
 
-// Where the same radiance is everywhere, nothing that takes no light can be seen: each path ends at the environment, by whatever way.
-// That is the same with the number of every sample, so there is no noise unless glass takes colours apart.
+// Where the same radiance is everywhere, nothing that takes no light can be seen: each path ends at the environment, by
+// whatever way. That is the same with the number of every sample, so there is no noise unless glass takes colours
+// apart.
 struct Thing {
   const char* name;
   std::function<void(preset::Preset&)> place;
@@ -146,8 +147,7 @@ struct Thing {
 
 class BackgroundFurnace : public testing::TestWithParam<Thing> {};
 
-TEST_P(BackgroundFurnace, GlassCannotBeSeen)
-{
+TEST_P(BackgroundFurnace, GlassCannotBeSeen) {
   constexpr int pixels = 12;
   preset::Preset p = with_constant({0.7, 0.4, 0.2}, pixels);
   p.scene.camera.position = {0.2, 0.3, 2};
@@ -169,8 +169,7 @@ TEST_P(BackgroundFurnace, GlassCannotBeSeen)
   }
 }
 
-preset::Material shipped_glass(const std::string& file)
-{
+preset::Material shipped_glass(const std::string& file) {
   preset::Material m = glass(1);
   m.dispersion.type = preset::Dispersion::Type::file;
   m.dispersion.file = file;
@@ -180,48 +179,50 @@ preset::Material shipped_glass(const std::string& file)
 
 INSTANTIATE_TEST_SUITE_P(
     Things, BackgroundFurnace,
-    testing::Values(Thing{"glass_ball",
-                          [](preset::Preset& p) {
-                            p.scene.materials["glass"] = glass(1.5);
-                            p.scene.objects = {object("ball", check::ball(0.4), "glass")};
-                            p.scene.objects[0].normals = preset::Object::Normals::smooth;
-                          },
-                          false, 0},
-                    Thing{"nested_and_mirror",
-                          [](preset::Preset& p) {
-                            p.scene.materials = {{"glass", glass(1.5)}, {"dense", glass(2.4)}, {"mirror", check::mirror(1)}};
-                            p.scene.objects = {object("ball", check::ball(0.4), "glass"), object("core", check::ball(0.15), "dense"),
-                                               object("mirror", quad(0.5, 0.5), "mirror", at({0.3, 0, -0.6}, {70, 10, 0}))};
-                            p.scene.objects[1].priority = 1;
-                            for (preset::Object& o : p.scene.objects) o.normals = preset::Object::Normals::smooth;
-                          },
-                          false, 1e-3},
-                    Thing{"dispersing_ball",
-                          [](preset::Preset& p) {
-                            p.scene.materials["glass"] = shipped_glass("N-SF66");
-                            p.scene.objects = {object("ball", check::ball(0.4), "glass")};
-                          },
-                          true, 1e-4}),
+    testing::Values(
+        Thing{"glass_ball",
+              [](preset::Preset& p) {
+                p.scene.materials["glass"] = glass(1.5);
+                p.scene.objects = {object("ball", check::ball(0.4), "glass")};
+                p.scene.objects[0].normals = preset::Object::Normals::smooth;
+              },
+              false, 0},
+        Thing{"nested_and_mirror",
+              [](preset::Preset& p) {
+                p.scene.materials = {{"glass", glass(1.5)}, {"dense", glass(2.4)}, {"mirror", check::mirror(1)}};
+                p.scene.objects = {object("ball", check::ball(0.4), "glass"),
+                                   object("core", check::ball(0.15), "dense"),
+                                   object("mirror", quad(0.5, 0.5), "mirror", at({0.3, 0, -0.6}, {70, 10, 0}))};
+                p.scene.objects[1].priority = 1;
+                for (preset::Object& o : p.scene.objects) o.normals = preset::Object::Normals::smooth;
+              },
+              false, 1e-3},
+        Thing{"dispersing_ball",
+              [](preset::Preset& p) {
+                p.scene.materials["glass"] = shipped_glass("N-SF66");
+                p.scene.objects = {object("ball", check::ball(0.4), "glass")};
+              },
+              true, 1e-4}),
     [](const testing::TestParamInfo<Thing>& parameter) { return std::string(parameter.param.name); });
 
 // Inside of glass radiance is n^2 times that outside (Nicodemus 1963).
-TEST(Background, AnEyeInGlassSeesMore)
-{
+TEST(Background, AnEyeInGlassSeesMore) {
   preset::Preset p = with_constant({0.3, 0.6, 0.1}, 8);
   p.scene.materials["glass"] = glass(1.5);
   p.scene.objects = {object("ball", check::ball(1), "glass")};
   look_along(p.scene.camera, {0.3, 0.2, -1}, 60);
   const std::vector<float> rgb = layer(render(p), "background").rgb;
   double worst = 0;
-  for (std::size_t i = 0; i < rgb.size(); ++i) worst = std::max(worst, std::abs(rgb[i] / (2.25 * p.scene.environment->colour[i % 3]) - 1));
+  for (std::size_t i = 0; i < rgb.size(); ++i)
+    worst = std::max(worst, std::abs(rgb[i] / (2.25 * p.scene.environment->colour[i % 3]) - 1));
   expect_truth("background, from inside glass, worst channel / n^2", worst, 0, 3e-6);
 }
 
-// A plate of absorbing glass, straight on: with R the reflectance of a face and a = exp(-4 pi k t / lambda), sums over all ways give
+// A plate of absorbing glass, straight on: with R the reflectance of a face and a = exp(-4 pi k t / lambda), sums over
+// all ways give
 //   transmitted (1 - R)^2 a / (1 - R^2 a^2), reflected R + R (1 - R)^2 a^2 / (1 - R^2 a^2),
 // for each wavelength of the colour's spectrum.
-TEST(Background, APlateAbsorbsByBeersLaw)
-{
+TEST(Background, APlateAbsorbsByBeersLaw) {
   constexpr double n = 1.5, k = 2e-5, thickness = 0.005;
   TemporaryFolder temporary;
   preset::Preset p = with_constant({0.2, 0.9, 0.4}, 4);
@@ -235,8 +236,10 @@ TEST(Background, APlateAbsorbsByBeersLaw)
   optics::Spectrum left{};
   for (std::size_t w = 0; w < left.size(); ++w) {
     const double a = std::exp(-4 * M_PI * k * thickness / (optics::wavelength_nm(static_cast<int>(w)) * 1e-9));
-    const double passes = (1 - r) * (1 - r) * a / (1 - r * r * a * a), returns = r + r * (1 - r) * (1 - r) * a * a / (1 - r * r * a * a);
-    for (std::size_t c = 0; c < 3; ++c) left[w] += p.scene.environment->colour[c] * optics::primary_spectra()[c][w] * (passes + returns);
+    const double passes = (1 - r) * (1 - r) * a / (1 - r * r * a * a),
+                 returns = r + r * (1 - r) * (1 - r) * a * a / (1 - r * r * a * a);
+    for (std::size_t c = 0; c < 3; ++c)
+      left[w] += p.scene.environment->colour[c] * optics::primary_spectra()[c][w] * (passes + returns);
   }
   const optics::Colour truth = optics::xyz_to_linear_srgb(optics::to_xyz(left));
   const std::vector<Estimate> estimates = render_passes(p, [&](const job::Snapshot& snapshot) {
@@ -245,14 +248,15 @@ TEST(Background, APlateAbsorbsByBeersLaw)
   });
   for (std::size_t c = 0; c < 3; ++c) {
     EXPECT_LT(truth[c], 0.5 * p.scene.environment->colour[c]);
-    expect_truth("background, absorbing plate: channel " + std::to_string(c), estimates[c].mean, truth[c], tolerance(estimates[c]) + 1e-4);
+    expect_truth("background, absorbing plate: channel " + std::to_string(c), estimates[c].mean, truth[c],
+                 tolerance(estimates[c]) + 1e-4);
   }
 }
 
-// A prism as a monochromator: the environment is black but for a slit, and the eye looks through the prism at it. By Snell's law only some
-// wavelengths come from the slit, and what is seen is their part of white times what two faces let through.
-TEST(Background, APrismTakesWhiteApart)
-{
+// A prism as a monochromator: the environment is black but for a slit, and the eye looks through the prism at it. By
+// Snell's law only some wavelengths come from the slit, and what is seen is their part of white times what two faces
+// let through.
+TEST(Background, APrismTakesWhiteApart) {
   constexpr int width = 7200; // .05 degrees a texel
   constexpr double apex = 60 * degree;
   TemporaryFolder temporary;
@@ -266,18 +270,20 @@ TEST(Background, APrismTakesWhiteApart)
   const optics::Spectrum n = scene::load_scene(p).materials[1].n;
   ASSERT_GT(n[0], 1.8);
 
-  // The eye looks in the plane of the prism's triangle at an incidence of 60 degrees; its faces' outward normals are at +-30 degrees off
-  // the x axis towards the apex, +z.
+  // The eye looks in the plane of the prism's triangle at an incidence of 60 degrees; its faces' outward normals are at
+  // +-30 degrees off the x axis towards the apex, +z.
   const double incidence = 60 * degree;
-  const glm::dvec3 first_normal(-std::cos(apex / 2), 0, std::sin(apex / 2)), second_normal(std::cos(apex / 2), 0, std::sin(apex / 2));
+  const glm::dvec3 first_normal(-std::cos(apex / 2), 0, std::sin(apex / 2)),
+      second_normal(std::cos(apex / 2), 0, std::sin(apex / 2));
   const glm::dvec3 along(std::sin(apex / 2), 0, std::cos(apex / 2)); // of the first face, towards the apex
   const glm::dvec3 look = -std::cos(incidence) * first_normal + std::sin(incidence) * along;
   std::vector<double> azimuth(n.size(), 0.0), through(n.size(), 0.0);
   for (std::size_t w = 0; w < n.size(); ++w) {
-    const double inside = std::asin(std::sin(incidence) / n[w]), at_second = apex - inside, sine = n[w] * std::sin(at_second);
+    const double inside = std::asin(std::sin(incidence) / n[w]), at_second = apex - inside,
+                 sine = n[w] * std::sin(at_second);
     ASSERT_LT(sine, 1);
-    through[w] =
-        (1 - optics::fresnel_reflectance(std::cos(incidence), 1, n[w])) * (1 - optics::fresnel_reflectance(std::cos(at_second), n[w], 1));
+    through[w] = (1 - optics::fresnel_reflectance(std::cos(incidence), 1, n[w])) *
+                 (1 - optics::fresnel_reflectance(std::cos(at_second), n[w], 1));
     // Leaves at asin(sine) from the second normal, on the side away from the apex.
     const glm::dvec3 away(std::sin(apex / 2), 0, -std::cos(apex / 2));
     const glm::dvec3 out = std::sqrt(1 - sine * sine) * second_normal + sine * away;
@@ -320,8 +326,7 @@ TEST(Background, APrismTakesWhiteApart)
                  tolerance(estimates[c]) / truth[c] + 0.005);
 }
 
-TEST(Background, IsLeftOutWhereThereIsNothingToSee)
-{
+TEST(Background, IsLeftOutWhereThereIsNothingToSee) {
   const auto pass = [](const preset::Preset& p) {
     for (const plan::Pass& candidate : plan_of(p).passes)
       if (candidate.name == "background") return candidate;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// `nephroid check` on every device there is: every check passes, with other seeds, too; and a wrong kernel makes the right check fail.
-// The faults are those of tests/faults/faults.json that name a check: edits of one place in a copy of kernels/, as a slip of the hand or a
-// wrong compiler would make them.
+// `nephroid check` on every device there is: every check passes, with other seeds, too; and a wrong kernel makes the
+// right check fail. The faults are those of tests/faults/faults.json that name a check: edits of one place in a copy of
+// kernels/, as a slip of the hand or a wrong compiler would make them.
 #include "check/check.h"
 #include "engine/engine.h"
 #include "tests/support/test.h"
@@ -13,20 +13,18 @@
 
 namespace nephroid::check_test {
 
-std::string line_of(const check::Result& r)
-{
-  return r.name + ": " + std::to_string(r.figure) + " of " + std::to_string(r.tolerance) + " " + r.unit + "; " + r.detail;
+std::string line_of(const check::Result& r) {
+  return r.name + ": " + std::to_string(r.figure) + " of " + std::to_string(r.tolerance) + " " + r.unit + "; " +
+         r.detail;
 }
 
-const check::Check& check_named(const std::string& name)
-{
+const check::Check& check_named(const std::string& name) {
   for (const check::Check& check : engine::checks())
     if (check.name == name) return check;
   throw failed(name, "no such check");
 }
 
-TEST(Check, PassesOnEveryDevice)
-{
+TEST(Check, PassesOnEveryDevice) {
   const std::vector<compute::DeviceInfo> devices = compute::list_devices();
   ASSERT_FALSE(devices.empty());
   for (const compute::DeviceInfo& device : devices) {
@@ -45,15 +43,13 @@ TEST(Check, PassesOnEveryDevice)
   }
 }
 
-TEST(Check, EachHasItsName)
-{
+TEST(Check, EachHasItsName) {
   std::set<std::string> names;
   for (const check::Check& check : engine::checks()) EXPECT_TRUE(names.insert(check.name).second) << check.name;
   EXPECT_GT(names.size(), 30u);
 }
 
-TEST(Check, AFigureThatIsNoNumberFails)
-{
+TEST(Check, AFigureThatIsNoNumberFails) {
   check::Result result{"", std::nan(""), 1, "", ""};
   EXPECT_FALSE(result.passed());
   result.figure = -1;
@@ -62,8 +58,7 @@ TEST(Check, AFigureThatIsNoNumberFails)
   EXPECT_FALSE(result.passed());
 }
 
-TEST(Check, AKernelThatDoesNotCompileFailsWithItsPlace)
-{
+TEST(Check, AKernelThatDoesNotCompileFailsWithItsPlace) {
   const test::TemporaryFolder folder;
   fs::copy(test::kernel_folder(), folder.path(), fs::copy_options::recursive);
   std::ofstream(folder.path() / "check/check_sums.cl", std::ios::app) << "\nnonsense\n";
@@ -73,9 +68,10 @@ TEST(Check, AKernelThatDoesNotCompileFailsWithItsPlace)
   EXPECT_THAT(result.detail, testing::HasSubstr("check_sums.cl:"));
 }
 
-/// What stands before every kernel here: a max, min and clamp that give 7.5 where an operand is infinite or no number, as they may (OpenCL
-/// 1.2, 6.12.4).
-const char* const open_to_infinities = R"(#define OPEN(T)                                                                         \
+/// What stands before every kernel here: a max, min and clamp that give 7.5 where an operand is infinite or no number,
+/// as they may (OpenCL 1.2, 6.12.4).
+const char* const open_to_infinities =
+    R"(#define OPEN(T)                                                                         \
   static inline T __attribute__((overloadable)) open_max(T a, T b) { return isfinite(a) & isfinite(b) ? max(a, b) : (T)(7.5f); } \
   static inline T __attribute__((overloadable)) open_min(T a, T b) { return isfinite(a) & isfinite(b) ? min(a, b) : (T)(7.5f); }
 #define CLOSED(T)                                                                                    \
@@ -87,8 +83,7 @@ OPEN(float) OPEN(float2) OPEN(float3) OPEN(float4) OPEN(float8) CLOSED(int) CLOS
 #define clamp(x, low, high) open_min(open_max(x, low), high)
 )";
 
-TEST(Check, PassesWhateverMaxAndMinOfInfinitiesAre)
-{
+TEST(Check, PassesWhateverMaxAndMinOfInfinitiesAre) {
   const test::TemporaryFolder folder;
   fs::copy(test::kernel_folder(), folder.path(), fs::copy_options::recursive);
   for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
@@ -108,14 +103,12 @@ struct Fault {
   std::string check; ///< that must fail
 };
 
-void PrintTo(const Fault& fault, std::ostream* out)
-{
+void PrintTo(const Fault& fault, std::ostream* out) {
   *out << fault.name << ", " << fault.file << ": " << fault.right << " -> " << fault.wrong;
 }
 
 /// Those that a check has to see. tests/faults/README.md describes them.
-std::vector<Fault> faults()
-{
+std::vector<Fault> faults() {
   const auto groups = nlohmann::json::parse(read_file(NEPHROID_SOURCE_DIR "/tests/faults/faults.json"));
   std::vector<Fault> found;
   for (const auto& group : groups)
@@ -126,8 +119,7 @@ std::vector<Fault> faults()
 }
 
 /// A fault's name in the form that a test's has: "no n^2" is No_n_2.
-std::string test_name(std::string name)
-{
+std::string test_name(std::string name) {
   name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
@@ -136,8 +128,7 @@ std::string test_name(std::string name)
 
 class CheckFault : public testing::TestWithParam<Fault> {};
 
-TEST_P(CheckFault, IsSeen)
-{
+TEST_P(CheckFault, IsSeen) {
   const Fault& fault = GetParam();
   const test::TemporaryFolder folder;
   fs::copy(test::kernel_folder(), folder.path(), fs::copy_options::recursive);
@@ -151,6 +142,7 @@ TEST_P(CheckFault, IsSeen)
   EXPECT_FALSE(std::isnan(result.figure)) << "failed for another reason: " << result.detail;
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernels, CheckFault, testing::ValuesIn(faults()), [](const auto& tested) { return test_name(tested.param.name); });
+INSTANTIATE_TEST_SUITE_P(Kernels, CheckFault, testing::ValuesIn(faults()),
+                         [](const auto& tested) { return test_name(tested.param.name); });
 
 } // namespace nephroid::check_test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extreme lights and mirrors: powers from 1e-30 W, beams of 0.01 degrees, lights in glass and on it, rectangles of every size, reflectances
-// of 0 and 1. docs/notebook/extremes.md sums it up.
+// Extreme lights and mirrors: powers from 1e-30 W, beams of 0.01 degrees, lights in glass and on it, rectangles of
+// every size, reflectances of 0 and 1. docs/notebook/extremes.md sums it up.
 #include "spectral/settings.h"
 #include "tests/support/extremes.h"
 
@@ -9,8 +9,7 @@ namespace nephroid::extreme_lights_test {
 constexpr int photons = 1 << 17;
 
 /// Power P gives P times the picture of 1 W.
-Outcome power_scales(double watts)
-{
+Outcome power_scales(double watts) {
   preset::Preset p = ball_over_lit_floor();
   const job::Snapshot truth = render(p);
   p.scene.lights[0].power_w = watts;
@@ -20,8 +19,7 @@ Outcome power_scales(double watts)
 }
 
 /// A beam straight down on mirrors or glass.
-preset::Preset beam(const preset::Vec3& from, const preset::Vec3& direction)
-{
+preset::Preset beam(const preset::Vec3& from, const preset::Vec3& direction) {
   preset::Preset p = over_floor(photons);
   p.source = "p.json";
   p.scene.materials["glass"] = glass(1.5);
@@ -31,8 +29,7 @@ preset::Preset beam(const preset::Vec3& from, const preset::Vec3& direction)
 }
 
 /// Colour of the floor under a black body, as x + y of CIE 1931.
-Outcome blackbody(double kelvin)
-{
+Outcome blackbody(double kelvin) {
   preset::Preset p = lit_floor(1);
   p.scene.lights[0].spectrum = {};
   p.scene.lights[0].spectrum.type = preset::LightSpectrum::Type::blackbody;
@@ -43,7 +40,8 @@ Outcome blackbody(double kelvin)
   // Planck: lambda^-5 / (exp(c2 / (lambda T)) - 1), over the colour matching functions, in long double.
   long double xyz[3] = {0, 0, 0};
   for (int i = 0; i < optics::wavelength_count; ++i) {
-    const long double nm = optics::wavelength_nm(i), power = std::pow(780 / nm, 5.0L) / std::expm1(1.438776877e7L / (nm * kelvin));
+    const long double nm = optics::wavelength_nm(i),
+                      power = std::pow(780 / nm, 5.0L) / std::expm1(1.438776877e7L / (nm * kelvin));
     const optics::ColourMatching& eye = optics::cie_1931();
     const auto w = static_cast<std::size_t>(i);
     xyz[0] += power * eye.x[w], xyz[1] += power * eye.y[w], xyz[2] += power * eye.z[w];
@@ -55,7 +53,8 @@ Outcome blackbody(double kelvin)
 }
 
 const std::vector<Extreme> extremes = {
-    {"Power1em30", "a lamp of 1e-30 W", "light is linear: 1e-30 times the picture of 1 W", [] { return power_scales(1e-30); }},
+    {"Power1em30", "a lamp of 1e-30 W", "light is linear: 1e-30 times the picture of 1 W",
+     [] { return power_scales(1e-30); }},
     {"Power1e9", "a lamp of 1e9 W", "the same", [] { return power_scales(1e9); }},
     {"PowerZero", "a lamp of 0 W", "black",
      [] {
@@ -69,11 +68,12 @@ const std::vector<Extreme> extremes = {
        p.scene.lights.push_back(p.scene.lights[0]);
        p.scene.lights[0].power_w = 1e-6;
        p.scene.lights[1].power_w = 1e9;
-       return warns(p,
-                    "light 0: is 1e-15 of the strongest light, less than the film's numbers resolve: what it lights alone is noise; render "
-                    "it in a run of its own");
+       return warns(p, "light 0: is 1e-15 of the strongest light, less than the film's numbers resolve: what it lights "
+                       "alone is noise; render "
+                       "it in a run of its own");
      }},
-    {"LaserBesideLamp", "a spot of 0.01 degrees (1.6e8 times as bright) pointing away from the floor that a lamp lights",
+    {"LaserBesideLamp",
+     "a spot of 0.01 degrees (1.6e8 times as bright) pointing away from the floor that a lamp lights",
      "I cos / d^2 of the lamp",
      [] {
        preset::Preset p = lit_floor();
@@ -87,14 +87,16 @@ const std::vector<Extreme> extremes = {
        Screen screen{{0, 0, 0}, 8e-3, 16};
        screen.fill(p.scene.camera, 0.5);
        spectral::settings(p).pixel_samples = p.stop.passes.emplace(64);
-       return share_of_one(mean_irradiance(p), irradiance_of_point(p.scene.lights[0].position, 1 / (4 * M_PI), 8e-3), 0.02);
+       return share_of_one(mean_irradiance(p), irradiance_of_point(p.scene.lights[0].position, 1 / (4 * M_PI), 8e-3),
+                           0.02);
      }},
     {"BlackBody300", "a black body of 300 K", "Planck's law in long double", [] { return blackbody(300); }},
     {"BlackBody1e6", "a black body of 1e6 K", "the same", [] { return blackbody(1e6); }},
     {"NoPower", "a light's spectrum that is all zero", "refused",
      [] {
-       return refused_json(R"("scene":{"lights":[{"type":"point","spectrum":{"type":"table","table":[[380,0],[780,0]]}}]})",
-                           "/scene/lights/0/spectrum/table: has no power at any wavelength; expected at least one power above 0");
+       return refused_json(
+           R"("scene":{"lights":[{"type":"point","spectrum":{"type":"table","table":[[380,0],[780,0]]}}]})",
+           "/scene/lights/0/spectrum/table: has no power at any wavelength; expected at least one power above 0");
      }},
     {"OneLine", "a spectrum of one line", "I cos / d^2",
      [] {
@@ -105,7 +107,8 @@ const std::vector<Extreme> extremes = {
      [] {
        preset::Preset p = ball_over_lit_floor();
        double sum = 0;
-       for (const double nm : {450.0, 620.0}) p.scene.lights[0].spectrum = line(nm), sum += mean_y(render(p), "direct") / 2;
+       for (const double nm : {450.0, 620.0})
+         p.scene.lights[0].spectrum = line(nm), sum += mean_y(render(p), "direct") / 2;
        p.scene.lights[0].spectrum.table = {{450, 1}, {620, 1}};
        return share_of_one(mean_y(render(p), "direct"), sum, 1e-5);
      }},
@@ -142,9 +145,9 @@ const std::vector<Extreme> extremes = {
        p.scene.lights[0].type = preset::Light::Type::area;
        p.scene.lights[0].position = {0, 3, 0};
        p.scene.lights[0].size = {1e4, 1e4};
-       return warns(
-           p, "light 0: is 707 times as wide as the scene: nearly all of its samples are too far away to matter, and the picture is dark "
-              "but for rare bright dots; make it smaller, or take directional light");
+       return warns(p, "light 0: is 707 times as wide as the scene: nearly all of its samples are too far away to "
+                       "matter, and the picture is dark "
+                       "but for rare bright dots; make it smaller, or take directional light");
      }},
     {"AreaWide", "an area light of 60 m, 3 m above the floor", "the form factor of a rectangle, by quadrature",
      [] {
@@ -228,7 +231,8 @@ const std::vector<Extreme> extremes = {
        const photons::EnergyBalance e = photons::energy_of(render(p));
        return share(e.lost_w / e.emitted_w, 0.96, photons);
      }},
-    {"Diamond", "n = 2.42, a prism that sends light back: total reflection", "R + (1 - R)^2 + ... comes back: nothing gets through",
+    {"Diamond", "n = 2.42, a prism that sends light back: total reflection",
+     "R + (1 - R)^2 + ... comes back: nothing gets through",
      [] {
        preset::Preset p = beam({0.01, 2, 0.02}, {0, -1, 0});
        p.scene.materials["glass"] = glass(2.42);
@@ -251,6 +255,7 @@ const std::vector<Extreme> extremes = {
 
 class Lights : public testing::TestWithParam<Extreme> {};
 TEST_P(Lights, AreRight) { expect_right(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Extremes, Lights, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Extremes, Lights, testing::ValuesIn(extremes),
+                         [](const auto& tested) { return tested.param.name; });
 
 } // namespace nephroid::extreme_lights_test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extreme places and shapes: scenes of any size, far from the origin, tiny objects beside large ones, thin plates, needles, meshes that are
-// open, doubled, inside out or inside each other. docs/notebook/extremes.md sums it up.
+// Extreme places and shapes: scenes of any size, far from the origin, tiny objects beside large ones, thin plates,
+// needles, meshes that are open, doubled, inside out or inside each other. docs/notebook/extremes.md sums it up.
 #include "optics/fresnel.h"
 #include "spectral/settings.h"
 #include "tests/support/extremes.h"
@@ -10,13 +10,15 @@ namespace nephroid::extreme_places_test {
 
 constexpr int photons = 1 << 17;
 
-/// A glass ball over a floor with a lamp, all lengths times `size`, moved by `shift`, with the power that keeps the radiance.
-preset::Preset ball(double size, double shift = 0)
-{
+/// A glass ball over a floor with a lamp, all lengths times `size`, moved by `shift`, with the power that keeps the
+/// radiance.
+preset::Preset ball(double size, double shift = 0) {
   preset::Preset p = empty_preset(32);
   p.scene.materials["white"] = white(0.8);
   p.scene.materials["glass"] = glass(1.5);
-  const auto place = [&](double x, double y, double z) { return preset::Vec3{x * size + shift, y * size - shift, z * size + shift}; };
+  const auto place = [&](double x, double y, double z) {
+    return preset::Vec3{x * size + shift, y * size - shift, z * size + shift};
+  };
   p.scene.objects = {object("ball", sphere(0.5 * size), "glass", at(place(0, 0, 0))),
                      object("floor", quad(4 * size, 4 * size), "white", at(place(0, -1, 0)))};
   p.scene.objects[0].normals = preset::Object::Normals::smooth;
@@ -32,16 +34,15 @@ preset::Preset ball(double size, double shift = 0)
 }
 
 /// The picture of the ball is that of the ball of size 1: light knows no lengths.
-Outcome same_picture(const preset::Preset& p, double tolerance)
-{
+Outcome same_picture(const preset::Preset& p, double tolerance) {
   const job::Snapshot truth = render(ball(1)), snapshot = render(p);
   EXPECT_EQ(photons::energy_of(snapshot).refused_contributions, 0u);
   return at_most(largest_difference(snapshot.picture->rgb, truth.picture->rgb), tolerance);
 }
 
-/// A ball over a floor as before, but only the ball is small. The far floor catches the same share as for any other small ball.
-preset::Preset small_ball(double radius)
-{
+/// A ball over a floor as before, but only the ball is small. The far floor catches the same share as for any other
+/// small ball.
+preset::Preset small_ball(double radius) {
   preset::Preset p = over_floor(1 << 14);
   p.scene.materials["glass"] = glass(1.5);
   p.scene.objects.push_back(object("ball", sphere(radius), "glass"));
@@ -51,8 +52,7 @@ preset::Preset small_ball(double radius)
 }
 
 /// A ball of radius 1 of a million triangles, as OBJ.
-std::string write_ball(const std::filesystem::path& folder)
-{
+std::string write_ball(const std::filesystem::path& folder) {
   const scene::Mesh mesh = sphere_mesh(1024, 512);
   const std::filesystem::path file = folder / "ball.obj";
   std::ofstream out(file);
@@ -61,42 +61,38 @@ std::string write_ball(const std::filesystem::path& folder)
   return file.string();
 }
 
-Outcome small_ball_is_like_any(double radius)
-{
+Outcome small_ball_is_like_any(double radius) {
   const double truth = deposited(small_ball(1e-2));
   // The same random numbers make the same paths but for the angle that the ball fills, 1e-2.
   return near(deposited(small_ball(radius)), truth, 2e-3);
 }
 
 /// Seconds a pass, the best of a few.
-double seconds(const preset::Preset& p)
-{
+double seconds(const preset::Preset& p) {
   double best = INFINITY;
   for (int i = 0; i < 3; ++i) best = std::min(best, render(p).progress.work_seconds);
   return best;
 }
 
 /// A plate of 1 m under a pencil at 45 degrees, turned about z together with the pencil.
-preset::Preset thin_plate(double thickness, double turn_deg)
-{
+preset::Preset thin_plate(double thickness, double turn_deg) {
   preset::Preset p = over_floor(photons);
   p.source = "p.json";
   p.scene.materials["glass"] = glass(1.5);
   p.scene.objects.push_back(object("plate", box(1, thickness, 1), "glass", at({0, 0, 0}, {0, 0, turn_deg})));
   const double angle = (45 + turn_deg) * degree;
-  p.scene.lights = {pencil({-0.2 * std::sin(angle), 0.2 * std::cos(angle), 0.01}, {std::sin(angle), -std::cos(angle), 0}, 0.01)};
+  p.scene.lights = {
+      pencil({-0.2 * std::sin(angle), 0.2 * std::cos(angle), 0.01}, {std::sin(angle), -std::cos(angle), 0}, 0.01)};
   return p;
 }
 
-Outcome thin_plate_is_fresnels(double thickness, double turn_deg)
-{
+Outcome thin_plate_is_fresnels(double thickness, double turn_deg) {
   const double r = optics::fresnel_reflectance(std::cos(45 * degree), 1, 1.5);
   return share(deposited(thin_plate(thickness, turn_deg)), (1 - r) / (1 + r), photons);
 }
 
 /// A pencil straight down on what stands at the origin.
-preset::Preset under_pencil(const preset::Object& standing)
-{
+preset::Preset under_pencil(const preset::Object& standing) {
   preset::Preset p = over_floor(photons);
   p.source = "p.json";
   p.scene.materials["glass"] = glass(1.5);
@@ -109,8 +105,7 @@ constexpr double r15 = 0.04;
 constexpr double one_plate = (1 - r15) / (1 + r15), two_plates = (1 - r15) / (1 + 3 * r15);
 
 /// Two boxes, one standing on the other, turned about z by the angle, with a pencil along their common axis.
-Outcome box_on_box(double turn_deg)
-{
+Outcome box_on_box(double turn_deg) {
   preset::Preset p = over_floor(photons);
   p.scene.materials["glass"] = glass(1.5);
   const double s = std::sin(turn_deg * degree), c = std::cos(turn_deg * degree);
@@ -120,7 +115,8 @@ Outcome box_on_box(double turn_deg)
   const double gave = deposited(p);
   const double tolerance = sigmas * std::sqrt(one_plate * (1 - one_plate) / photons);
   // A gap of air makes two plates, no gap makes one: either is a right answer, anything else is lost light.
-  Outcome outcome = near(gave, std::abs(gave - one_plate) < std::abs(gave - two_plates) ? one_plate : two_plates, tolerance);
+  Outcome outcome =
+      near(gave, std::abs(gave - one_plate) < std::abs(gave - two_plates) ? one_plate : two_plates, tolerance);
   return outcome;
 }
 
@@ -130,17 +126,19 @@ struct Box {
   bool inwards = false;
   int inverted_face = -1;
 };
-std::string write_boxes(const std::filesystem::path& file, const std::vector<Box>& boxes, const std::string& more = "")
-{
+std::string write_boxes(const std::filesystem::path& file, const std::vector<Box>& boxes,
+                        const std::string& more = "") {
   std::ofstream obj(file);
   const int faces[12][3] = {{1, 3, 4}, {1, 4, 2}, {5, 6, 8}, {5, 8, 7}, {1, 2, 6}, {1, 6, 5},
                             {3, 7, 8}, {3, 8, 4}, {1, 5, 7}, {1, 7, 3}, {2, 4, 8}, {2, 8, 6}};
   int first = 0;
   for (const Box& b : boxes) {
-    for (int i = 0; i < 8; ++i) obj << "v " << (i & 1 ? b.x : -b.x) << " " << (i & 2 ? b.y : -b.y) << " " << (i & 4 ? b.z : -b.z) << "\n";
+    for (int i = 0; i < 8; ++i)
+      obj << "v " << (i & 1 ? b.x : -b.x) << " " << (i & 2 ? b.y : -b.y) << " " << (i & 4 ? b.z : -b.z) << "\n";
     for (int i = 0; i < 12; ++i) {
       const bool inwards = b.inwards != (i == b.inverted_face);
-      obj << "f " << first + faces[i][0] << " " << first + faces[i][inwards ? 2 : 1] << " " << first + faces[i][inwards ? 1 : 2] << "\n";
+      obj << "f " << first + faces[i][0] << " " << first + faces[i][inwards ? 2 : 1] << " "
+          << first + faces[i][inwards ? 1 : 2] << "\n";
     }
     first += 8;
   }
@@ -148,8 +146,7 @@ std::string write_boxes(const std::filesystem::path& file, const std::vector<Box
   return file.string();
 }
 
-preset::Preset mesh_under_pencil(const std::vector<Box>& boxes, const std::string& more = "")
-{
+preset::Preset mesh_under_pencil(const std::vector<Box>& boxes, const std::string& more = "") {
   static const TemporaryFolder folder;
   static int count = 0;
   preset::Object mesh;
@@ -160,8 +157,7 @@ preset::Preset mesh_under_pencil(const std::vector<Box>& boxes, const std::strin
 }
 
 /// The warning that loading gives, and the share that gets through.
-Outcome warned(const preset::Preset& p, const std::string& line, double truth)
-{
+Outcome warned(const preset::Preset& p, const std::string& line, double truth) {
   const scene::Scene scene = scene::load_scene(p);
   std::string lines;
   for (const std::string& warning : scene.warnings) lines += (lines.empty() ? "" : " / ") + warning;
@@ -169,7 +165,8 @@ Outcome warned(const preset::Preset& p, const std::string& line, double truth)
 }
 
 const std::vector<Extreme> extremes = {
-    {"Millimetre", "a scene of 1 mm", "scale invariance: the picture of 1 m", [] { return same_picture(ball(0x1p-10), 0); }},
+    {"Millimetre", "a scene of 1 mm", "scale invariance: the picture of 1 m",
+     [] { return same_picture(ball(0x1p-10), 0); }},
     {"Kilometre", "a scene of 1 km", "the same", [] { return same_picture(ball(0x1p10), 0); }},
     {"Micrometre", "a scene of 2 um", "the same", [] { return same_picture(ball(0x1p-19), 0); }},
     {"ThousandKilometres", "a scene of 1000 km", "the same", [] { return same_picture(ball(0x1p20), 0); }},
@@ -196,17 +193,19 @@ const std::vector<Extreme> extremes = {
        return refused([&] { scene::load_scene(p); },
                       "p.json#/scene/objects/1: is 2e-07 units across; at least 1e-06; choose a smaller unit");
      }},
-    {"ThinPlate1em3", "a plate of 1e-3 of its size, 45 degrees", "Fresnel", [] { return thin_plate_is_fresnels(1e-3, 0); }},
+    {"ThinPlate1em3", "a plate of 1e-3 of its size, 45 degrees", "Fresnel",
+     [] { return thin_plate_is_fresnels(1e-3, 0); }},
     {"ThinPlate1em5", "1e-5", "Fresnel", [] { return thin_plate_is_fresnels(1e-5, 0); }},
     {"ThinPlate1em6", "1e-6", "Fresnel", [] { return thin_plate_is_fresnels(1e-6, 0); }},
     {"ThinPlate1em7", "1e-7: less than rays are started off a surface", "refused",
      [] {
-       return refused(
-           [] { scene::load_scene(thin_plate(1e-7, 0)); },
-           "p.json#/scene/objects/1: is 1e-07 units thick, too little for single precision; at least 9.54e-07 for what is 1 units "
-           "long; make it thicker or smaller");
+       return refused([] { scene::load_scene(thin_plate(1e-7, 0)); },
+                      "p.json#/scene/objects/1: is 1e-07 units thick, too little for single precision; at least "
+                      "9.54e-07 for what is 1 units "
+                      "long; make it thicker or smaller");
      }},
-    {"ThinPlateTurned1em4", "a plate of 1e-4, turned by 30 degrees", "Fresnel", [] { return thin_plate_is_fresnels(1e-4, 30); }},
+    {"ThinPlateTurned1em4", "a plate of 1e-4, turned by 30 degrees", "Fresnel",
+     [] { return thin_plate_is_fresnels(1e-4, 30); }},
     {"ThinPlateTurned1em5", "1e-5", "Fresnel", [] { return thin_plate_is_fresnels(1e-5, 30); }},
     {"ThinPlateTurned1em6", "1e-6", "Fresnel", [] { return thin_plate_is_fresnels(1e-6, 30); }},
     {"Needles", "a pencil on the vertex of 4096 needles of 2 km x 3 m", "Fresnel: a plate",
@@ -234,24 +233,30 @@ const std::vector<Extreme> extremes = {
      }},
     {"InsideOut", "a closed mesh whose triangles look inwards", "turned round: Fresnel",
      [] {
-       return warned(mesh_under_pencil({{0.5, 0.5, 0.5, true}}), "object 'mesh': is inside out; its triangles are turned round", one_plate);
+       return warned(mesh_under_pencil({{0.5, 0.5, 0.5, true}}),
+                     "object 'mesh': is inside out; its triangles are turned round", one_plate);
      }},
     {"Duplicated", "a face given twice, and one without area", "dropped: Fresnel",
      [] {
        return warned(mesh_under_pencil({{0.5, 0.5, 0.5}}, "f 3 7 8\nf 3 7 7\n"),
-                     "object 'mesh': 1 triangle without area dropped / object 'mesh': 1 duplicated triangle dropped", one_plate);
+                     "object 'mesh': 1 triangle without area dropped / object 'mesh': 1 duplicated triangle dropped",
+                     one_plate);
      }},
-    {"OneInverted", "one triangle of a box looks inwards, beside the light's way", "warned; Fresnel where the light goes",
+    {"OneInverted", "one triangle of a box looks inwards, beside the light's way",
+     "warned; Fresnel where the light goes",
      [] {
        return warned(mesh_under_pencil({{0.5, 0.5, 0.5, false, 8}}),
-                     "object 'mesh': dielectric, but its inside is not clear: 3 edges with more than two triangles, or with two that face "
+                     "object 'mesh': dielectric, but its inside is not clear: 3 edges with more than two triangles, or "
+                     "with two that face "
                      "opposite ways",
                      one_plate);
      }},
     {"OpenMesh", "glass that is a single sheet", "warned; one surface: T = 1 - R",
      [] {
-       return warned(under_pencil(object("sheet", quad(1, 1), "glass")),
-                     "object 'sheet': dielectric, but not closed: 4 edges with one triangle; light that enters may never leave", 1 - r15);
+       return warned(
+           under_pencil(object("sheet", quad(1, 1), "glass")),
+           "object 'sheet': dielectric, but not closed: 4 edges with one triangle; light that enters may never leave",
+           1 - r15);
      }},
     {"Cavity", "a mesh inside a mesh, looking inwards: a cavity", "Fresnel: two plates",
      [] {
@@ -261,7 +266,8 @@ const std::vector<Extreme> extremes = {
      [] {
        return warned(mesh_under_pencil({{0.5, 0.5, 0.5}, {0.3, 0.3, 0.3}}), "", one_plate);
      }},
-    {"BoxOnBox", "a glass box standing exactly on another", "Fresnel: one plate, or two with a gap", [] { return box_on_box(0); }},
+    {"BoxOnBox", "a glass box standing exactly on another", "Fresnel: one plate, or two with a gap",
+     [] { return box_on_box(0); }},
     {"BoxOnBoxTurned", "the same turned by 30 degrees", "the same", [] { return box_on_box(30); }},
     {"TwoInOne", "a glass box given twice", "one plate, whichever is entered first",
      [] {
@@ -278,6 +284,7 @@ const std::vector<Extreme> extremes = {
 
 class Places : public testing::TestWithParam<Extreme> {};
 TEST_P(Places, AreRight) { expect_right(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Extremes, Places, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Extremes, Places, testing::ValuesIn(extremes),
+                         [](const auto& tested) { return tested.param.name; });
 
 } // namespace nephroid::extreme_places_test

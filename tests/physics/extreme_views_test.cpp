@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extreme views and settings: counts of one and far too many, pictures of one pixel and of 1 x 4096, telescopes, cameras in glass, in a
-// mirror, in a surface and close to it, any white. docs/notebook/extremes.md sums it up.
+// Extreme views and settings: counts of one and far too many, pictures of one pixel and of 1 x 4096, telescopes,
+// cameras in glass, in a mirror, in a surface and close to it, any white. docs/notebook/extremes.md sums it up.
 #include "spectral/settings.h"
 #include "tests/support/extreme_waves.h"
 
@@ -9,9 +9,9 @@ namespace nephroid::extreme_views_test {
 using Estimator = photons::Settings::Estimator;
 using Effort = photons::Settings::Effort;
 
-/// Looking at a wall from far away through a telescope: the picture of a white square of 1 m on black, which fills half of it.
-Outcome telescope(double distance)
-{
+/// Looking at a wall from far away through a telescope: the picture of a white square of 1 m on black, which fills half
+/// of it.
+Outcome telescope(double distance) {
   preset::Preset p = lit_floor(32);
   p.scene.objects = {object("floor", quad(0.5, 0.5), "white")};
   p.scene.lights[0].type = preset::Light::Type::directional;
@@ -46,7 +46,9 @@ const std::vector<Extreme> extremes = {
                            "/spectral/photons_per_pass: is 2147483648; expected a whole number from 1 to 16777216");
      }},
     {"PassesZero", "0 passes", "refused",
-     [] { return refused_json(R"("stop":{"passes":0})", "/stop/passes: is 0; expected a whole number from 1 to 1048576"); }},
+     [] {
+       return refused_json(R"("stop":{"passes":0})", "/stop/passes: is 0; expected a whole number from 1 to 1048576");
+     }},
     {"SurfacesFarTooMany", "max_surfaces 1025", "refused",
      [] {
        return refused_json(R"("spectral":{"max_surfaces":1025})",
@@ -140,13 +142,14 @@ const std::vector<Extreme> extremes = {
        p.scene.camera.position = {0, 0, 3};
        p.scene.camera.target = {0, 0, 0};
        p.scene.camera.up = {0, 1, 0};
-       const double foot =
-           1 / (4 * M_PI) / std::pow(0.01 + 1 + 3.2 * 3.2, 1.5) / M_PI * optics::to_xyz(optics::light_lines({{{550, 1}}}))[1];
+       const double foot = 1 / (4 * M_PI) / std::pow(0.01 + 1 + 3.2 * 3.2, 1.5) / M_PI *
+                           optics::to_xyz(optics::light_lines({{{550, 1}}}))[1];
        const std::vector<double> y = luminance(layer(render(p), "direct"));
        const double brightest = *std::max_element(y.begin(), y.end()) / foot;
        return Outcome{fmt::format("0 to {:.4f} of the floor at its foot", brightest), "0 to 1", brightest <= 1.001};
      }},
-    {"CameraNearFloor", "a camera 1 mm above the caustic of a floor of 10 m", "flux through the picture: that of a camera 1 m above",
+    {"CameraNearFloor", "a camera 1 mm above the caustic of a floor of 10 m",
+     "flux through the picture: that of a camera 1 m above",
      [] {
        preset::Preset p = lit_floor(8);
        p.scene.materials["glass"] = glass(1);
@@ -157,27 +160,27 @@ const std::vector<Extreme> extremes = {
        p.scene.camera.position = {0, 1e-3, 0};
        p.scene.camera.fov_deg = 2 * std::atan(50.0) / degree;
        // 8e-4 W fall on the 10 cm in view: 3300 of the 2^22 photons, so 6.2 sigmas are 0.11.
-       return share_of_one(mean_irradiance(p, "caustic"), irradiance_of_point(p.scene.lights[0].position, 1 / (4 * M_PI), 0.1), 0.11);
+       return share_of_one(mean_irradiance(p, "caustic"),
+                           irradiance_of_point(p.scene.lights[0].position, 1 / (4 * M_PI), 0.1), 0.11);
      }},
 };
 
 class Views : public testing::TestWithParam<Extreme> {};
 TEST_P(Views, AreRight) { expect_right(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Extremes, Views, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Extremes, Views, testing::ValuesIn(extremes),
+                         [](const auto& tested) { return tested.param.name; });
 
-// Extreme settings of photon maps: radii from a millionth of a pixel to 10^9 scenes, alpha next to 0 and to 1, single photons, single
-// pixels. docs/notebook/extremes.md sums it up.
+// Extreme settings of photon maps: radii from a millionth of a pixel to 10^9 scenes, alpha next to 0 and to 1, single
+// photons, single pixels. docs/notebook/extremes.md sums it up.
 
 /// Splats, which have no radius.
-const std::vector<Estimate>& truth()
-{
+const std::vector<Estimate>& truth() {
   static const std::vector<Estimate> colour = colour_by_passes(caustic_of_ball());
   return colour;
 }
 
 /// Whole clusters: with jitter a turn in sppm has one wavelength, and a short run is of few colours.
-preset::Preset gathered(int passes = 2)
-{
+preset::Preset gathered(int passes = 2) {
   preset::Preset p = caustic_of_ball();
   spectral::settings(p).estimator = Estimator::sppm;
   spectral::settings(p).threshold_deg = 2;
@@ -186,30 +189,31 @@ preset::Preset gathered(int passes = 2)
   return p;
 }
 
-Outcome gathers_the_same(const preset::Preset& p, int runs = 24) { return same_colour(colour_by_runs(p, runs), truth(), 0.01); }
+Outcome gathers_the_same(const preset::Preset& p, int runs = 24) {
+  return same_colour(colour_by_runs(p, runs), truth(), 0.01);
+}
 
 /// The scene `factor` times as large in its own unit of length, with its power.
-preset::Preset scaled(preset::Preset p, double factor)
-{
+preset::Preset scaled(preset::Preset p, double factor) {
   const auto grow = [factor](preset::Vec3& v) { v = {factor * v[0], factor * v[1], factor * v[2]}; };
   grow(p.scene.camera.position), grow(p.scene.camera.target), grow(p.scene.lights[0].position);
   for (preset::Object& o : p.scene.objects) grow(o.transform.scale), grow(o.transform.translate);
   return p;
 }
 
-std::string notes_of(const preset::Preset& p)
-{
+std::string notes_of(const preset::Preset& p) {
   std::string lines;
   for (const std::string& note : plan_of(p).notes) lines += (lines.empty() ? "" : " / ") + note;
   return lines;
 }
 
-/// The plan notes exactly this line, and the largest number of the picture is finite and at most that share of the caustic's.
-Outcome noted(const preset::Preset& p, const std::string& line, double most)
-{
+/// The plan notes exactly this line, and the largest number of the picture is finite and at most that share of the
+/// caustic's.
+Outcome noted(const preset::Preset& p, const std::string& line, double most) {
   const job::Snapshot snapshot = render(p);
   double largest = 0;
-  for (const float v : snapshot.picture->rgb) largest = std::max(largest, std::isfinite(v) ? std::abs(double(v)) : INFINITY);
+  for (const float v : snapshot.picture->rgb)
+    largest = std::max(largest, std::isfinite(v) ? std::abs(double(v)) : INFINITY);
   return both(says(notes_of(p), line), at_most(largest / truth()[1].mean, most));
 }
 
@@ -219,7 +223,8 @@ const std::vector<Extreme> map_extremes = {
        preset::Preset p = scaled(gathered(), 1000);
        spectral::settings(p).sppm.radius = 1e-6;
        return noted(p,
-                    "spectral.sppm.radius: 1e-06 units are 4.42e-09 pixels: hardly a photon lies so near, and caustics are black but for "
+                    "spectral.sppm.radius: 1e-06 units are 4.42e-09 pixels: hardly a photon lies so near, and caustics "
+                    "are black but for "
                     "rare bright dots; choose about 452, two pixels, or leave it out",
                     0);
      }},
@@ -229,7 +234,8 @@ const std::vector<Extreme> map_extremes = {
        spectral::settings(p).sppm.radius = 1e7;
        spectral::settings(p).photons_per_pass = 1 << 10;
        return noted(p,
-                    "spectral.sppm.radius: 10000000 units are 4.42e+09 pixels: caustics are blurred away, and gathering is slow; choose "
+                    "spectral.sppm.radius: 10000000 units are 4.42e+09 pixels: caustics are blurred away, and "
+                    "gathering is slow; choose "
                     "about 0.00452, two pixels, or leave it out",
                     1e-9);
      }},
@@ -242,8 +248,10 @@ const std::vector<Extreme> map_extremes = {
      [] {
        preset::Preset p = gathered();
        spectral::settings(p).sppm.alpha = 1e-9;
-       return says(notes_of(p), "spectral.sppm.alpha: 1e-09 shrinks a radius from 2 to 6.32e-05 pixels at its first photons, and hardly "
-                                "another one lies so near: caustics grow darker from pass to pass; choose 0.667 or so");
+       return says(
+           notes_of(p),
+           "spectral.sppm.alpha: 1e-09 shrinks a radius from 2 to 6.32e-05 pixels at its first photons, and hardly "
+           "another one lies so near: caustics grow darker from pass to pass; choose 0.667 or so");
      }},
     {"AlphaSmall", "sppm, alpha 0.01", "the caustic of splats",
      [] {
@@ -259,7 +267,8 @@ const std::vector<Extreme> map_extremes = {
      }},
     {"AlphaOne", "sppm.alpha 1", "refused",
      [] {
-       return refused_json(R"("spectral":{"sppm":{"alpha":1}})", "/spectral/sppm/alpha: is 1; expected a number above 0 and below 1");
+       return refused_json(R"("spectral":{"sppm":{"alpha":1}})",
+                           "/spectral/sppm/alpha: is 1; expected a number above 0 and below 1");
      }},
     {"OneCluster", "sppm, importance, one cluster", "the caustic of splats",
      [] {
@@ -294,6 +303,7 @@ const std::vector<Extreme> map_extremes = {
 
 class Maps : public testing::TestWithParam<Extreme> {};
 TEST_P(Maps, IsRight) { expect_right(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Extremes, Maps, testing::ValuesIn(map_extremes), [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Extremes, Maps, testing::ValuesIn(map_extremes),
+                         [](const auto& tested) { return tested.param.name; });
 
 } // namespace nephroid::extreme_views_test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layer "indirect" against closed forms: a furnace, one bounce between two patches by quadrature, a lit patch against a lamp in its
-// place, and where the power goes.
+// The layer "indirect" against closed forms: a furnace, one bounce between two patches by quadrature, a lit patch
+// against a lamp in its place, and where the power goes.
 #include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
@@ -8,8 +8,7 @@
 
 namespace nephroid::indirect_test {
 
-preset::Preset indirect_only(int resolution)
-{
+preset::Preset indirect_only(int resolution) {
   preset::Preset p = empty_preset(resolution);
   spectral::settings(p).direct = spectral::settings(p).caustic = false;
   spectral::settings(p).indirect = true;
@@ -17,16 +16,15 @@ preset::Preset indirect_only(int resolution)
 }
 
 /// XYZ of a spectrum after reflectances.
-optics::Colour seen(optics::Spectrum light, const std::vector<optics::Spectrum>& reflectances)
-{
+optics::Colour seen(optics::Spectrum light, const std::vector<optics::Spectrum>& reflectances) {
   for (const optics::Spectrum& r : reflectances)
     for (std::size_t w = 0; w < light.size(); ++w) light[w] *= r[w];
   return optics::to_xyz(light);
 }
 
-/// Mean XYZ of the squares of `group` x `group` pixels of a layer: 3 figures a square; and the mean Y of all of them at the end.
-std::vector<double> squares_of(const job::Layer& layer, int pixels, int group)
-{
+/// Mean XYZ of the squares of `group` x `group` pixels of a layer: 3 figures a square; and the mean Y of all of them at
+/// the end.
+std::vector<double> squares_of(const job::Layer& layer, int pixels, int group) {
   const int squares = pixels / group;
   std::vector<double> figures(3 * static_cast<std::size_t>(squares * squares) + 1, 0.0);
   for (int row = 0; row < pixels; ++row)
@@ -40,9 +38,10 @@ std::vector<double> squares_of(const job::Layer& layer, int pixels, int group)
   return figures;
 }
 
-/// Every figure of squares_of agrees with its truth, within its own scatter and a share `bias` of the truth. truths: of the squares.
-void expect_figures(const std::string& what, const std::vector<Estimate>& estimates, const std::vector<double>& truths, double bias)
-{
+/// Every figure of squares_of agrees with its truth, within its own scatter and a share `bias` of the truth. truths: of
+/// the squares.
+void expect_figures(const std::string& what, const std::vector<Estimate>& estimates, const std::vector<double>& truths,
+                    double bias) {
   ASSERT_EQ(estimates.size(), truths.size() + 1);
   double smallest = 1, sum_of_y = 0;
   for (std::size_t i = 0; i < truths.size(); ++i) {
@@ -57,11 +56,11 @@ void expect_figures(const std::string& what, const std::vector<Estimate>& estima
 }
 
 // Inside of a sphere of reflectance rho: what any piece of the wall reflects goes to all of the wall evenly, because
-// cos(theta) cos(theta') / (pi d^2) = 1 / (4 pi R^2) between any two points. So wherever the light is, what was reflected k times makes the
-// irradiance P rho^k / (4 pi R^2), and all that was reflected once or more
+// cos(theta) cos(theta') / (pi d^2) = 1 / (4 pi R^2) between any two points. So wherever the light is, what was
+// reflected k times makes the irradiance P rho^k / (4 pi R^2), and all that was reflected once or more
 //   E = P / (4 pi R^2) * rho / (1 - rho).
-// A ball of clear glass around a light in the middle changes nothing: all that leaves it goes straight outwards, and later on every
-// order is even by symmetry.
+// A ball of clear glass around a light in the middle changes nothing: all that leaves it goes straight outwards, and
+// later on every order is even by symmetry.
 struct Furnace {
   const char* name;
   preset::Light::Type type;
@@ -71,8 +70,7 @@ struct Furnace {
 
 class DiffuseFurnace : public testing::TestWithParam<Furnace> {};
 
-TEST_P(DiffuseFurnace, IsEvenlyLit)
-{
+TEST_P(DiffuseFurnace, IsEvenlyLit) {
   constexpr double radius = 2, reflectance = 0.7, power = 10;
   constexpr int pixels = 16, group = 4;
   preset::Preset p = indirect_only(pixels);
@@ -106,9 +104,11 @@ TEST_P(DiffuseFurnace, IsEvenlyLit)
   const optics::Colour xyz = optics::to_xyz(optics::illuminant("E"));
   std::vector<double> truths;
   for (std::size_t i = 0; i + 1 < estimates.size(); ++i) truths.push_back(irradiance * reflectance / M_PI * xyz[i % 3]);
-  // 256 x 128 facets have an area that is smaller than the sphere's by 1.5e-4, and are not quite a sphere to each other.
+  // 256 x 128 facets have an area that is smaller than the sphere's by 1.5e-4, and are not quite a sphere to each
+  // other.
   expect_figures(std::string("indirect, furnace, ") + GetParam().name, estimates, truths, 5e-4);
-  EXPECT_NEAR(energy.emitted_w / power, 1, 0.05); // wavelengths are drawn by what the eye makes of them, so power scatters
+  EXPECT_NEAR(energy.emitted_w / power, 1,
+              0.05); // wavelengths are drawn by what the eye makes of them, so power scatters
   EXPECT_LT(energy.escaped_w, 1e-4 * energy.emitted_w);
   EXPECT_LT(energy.lost_w, 1e-4 * energy.emitted_w);
 }
@@ -118,20 +118,24 @@ INSTANTIATE_TEST_SUITE_P(Lights, DiffuseFurnace,
                                          Furnace{"spot", preset::Light::Type::spot, {-0.5, 0.5, 0}, 0},
                                          Furnace{"area", preset::Light::Type::area, {0, -0.4, 0.6}, 0},
                                          Furnace{"in_a_glass_ball", preset::Light::Type::point, {0, 0, 0}, 0.5}),
-                         [](const testing::TestParamInfo<Furnace>& parameter) { return std::string(parameter.param.name); });
+                         [](const testing::TestParamInfo<Furnace>& parameter) {
+                           return std::string(parameter.param.name);
+                         });
 
-// A pencil of light on the middle of a red tile, which lights a green screen at a right angle to it. With P the power and one bounce,
+// A pencil of light on the middle of a red tile, which lights a green screen at a right angle to it. With P the power
+// and one bounce,
 //   L(screen) = P rho_red rho_green / pi^2 * cos(theta) cos(theta') / d^2, wavelength by wavelength.
-TEST(Indirect, ARedTileTintsAGreenScreen)
-{
+TEST(Indirect, ARedTileTintsAGreenScreen) {
   constexpr int pixels = 24, group = 6;
   constexpr double power = 3, height = 0.5;
   const Screen screen{{0, 0, 0}, 1, pixels};
   preset::Preset p = indirect_only(pixels);
-  p.scene.materials["red"].reflectance.type = p.scene.materials["green"].reflectance.type = preset::Reflectance::Type::patch;
+  p.scene.materials["red"].reflectance.type = p.scene.materials["green"].reflectance.type =
+      preset::Reflectance::Type::patch;
   p.scene.materials["red"].reflectance.patch = "red";
   p.scene.materials["green"].reflectance.patch = "green";
-  p.scene.objects = {object("tile", quad(0.1, 0.1), "red", at({-0.8, height, 0}, {0, 0, -90})), object("screen", quad(1, 1), "green")};
+  p.scene.objects = {object("tile", quad(0.1, 0.1), "red", at({-0.8, height, 0}, {0, 0, -90})),
+                     object("screen", quad(1, 1), "green")};
   preset::Light light = pencil({1, height + 0.4, 0.2}, {-1.8, -0.4, -0.2}, 0.05);
   light.spectrum.type = preset::LightSpectrum::Type::illuminant;
   light.spectrum.illuminant = "F10";
@@ -142,7 +146,8 @@ TEST(Indirect, ARedTileTintsAGreenScreen)
   spectral::settings(p).indirect_photons_per_pass = 1 << 15;
   p.stop.passes = 64;
 
-  const optics::Colour xyz = seen(optics::illuminant("F10"), {optics::colorchecker_patch("red"), optics::colorchecker_patch("green")});
+  const optics::Colour xyz =
+      seen(optics::illuminant("F10"), {optics::colorchecker_patch("red"), optics::colorchecker_patch("green")});
   constexpr int squares = pixels / group;
   std::vector<double> truths(3 * squares * squares, 0.0);
   for (int row = 0; row < pixels; ++row)
@@ -151,17 +156,19 @@ TEST(Indirect, ARedTileTintsAGreenScreen)
       const double dx = screen.x(column) + 0.8, dz = screen.z(row), d2 = dx * dx + height * height + dz * dz;
       const double radiance = power / (M_PI * M_PI) * dx * height / (d2 * d2);
       for (std::size_t c = 0; c < 3; ++c)
-        truths[3 * static_cast<std::size_t>(row / group * squares + column / group) + c] += radiance * xyz[c] / (group * group);
+        truths[3 * static_cast<std::size_t>(row / group * squares + column / group) + c] +=
+            radiance * xyz[c] / (group * group);
     }
-  const auto estimates =
-      render_passes(p, [&](const job::Snapshot& snapshot) { return squares_of(layer(snapshot, "indirect"), pixels, group); });
-  expect_figures("indirect, red tile and green screen", estimates, truths, 2e-3); // middles of pixels, and the pencil's width
+  const auto estimates = render_passes(
+      p, [&](const job::Snapshot& snapshot) { return squares_of(layer(snapshot, "indirect"), pixels, group); });
+  expect_figures("indirect, red tile and green screen", estimates, truths,
+                 2e-3); // middles of pixels, and the pencil's width
 }
 
-// A lit spot of a diffuse tile is a lamp: direct light of a small area lamp in its place, with the power that it reflects, is its
-// indirect light, at every place of a coarse rod with interpolated normals. So both layers mean the same by light on a shading normal.
-TEST(Indirect, ALitTileIsALamp)
-{
+// A lit spot of a diffuse tile is a lamp: direct light of a small area lamp in its place, with the power that it
+// reflects, is its indirect light, at every place of a coarse rod with interpolated normals. So both layers mean the
+// same by light on a shading normal.
+TEST(Indirect, ALitTileIsALamp) {
   constexpr int pixels = 24, group = 4;
   constexpr double reflectance = 0.8, power = 4;
   preset::Preset p = indirect_only(pixels);
@@ -171,7 +178,8 @@ TEST(Indirect, ALitTileIsALamp)
   p.scene.camera.position = {2.5, 0.3, 0.6};
   p.scene.camera.fov_deg = 26;
   const preset::Vec3 place{0.3, 1.2, 0.2};
-  preset::Light light = pencil({place[0] - 1.8, place[1] - 1.2, place[2]}, {1.8, 1.2, 0}, 0.5); // from below, past the ball
+  preset::Light light =
+      pencil({place[0] - 1.8, place[1] - 1.2, place[2]}, {1.8, 1.2, 0}, 0.5); // from below, past the ball
   light.power_w = power;
 
   preset::Preset tile = p;
@@ -186,16 +194,17 @@ TEST(Indirect, ALitTileIsALamp)
   lamp.scene.lights[0].type = preset::Light::Type::area;
   lamp.scene.lights[0].position = place;
   lamp.scene.lights[0].direction = {0, -1, 0};
-  lamp.scene.lights[0].size = {0.03, 0.03}; // 2 cm is the radius of the spot: seen from 70 cm, its shape changes light by some 1e-4
+  lamp.scene.lights[0].size = {
+      0.03, 0.03}; // 2 cm is the radius of the spot: seen from 70 cm, its shape changes light by some 1e-4
   lamp.scene.lights[0].power_w = reflectance * power;
   spectral::settings(lamp).direct = true;
   spectral::settings(lamp).indirect = false;
   lamp.stop.passes = 64;
 
-  const auto truths =
-      render_passes(lamp, [&](const job::Snapshot& snapshot) { return squares_of(layer(snapshot, "direct"), pixels, group); });
-  const auto estimates =
-      render_passes(tile, [&](const job::Snapshot& snapshot) { return squares_of(layer(snapshot, "indirect"), pixels, group); });
+  const auto truths = render_passes(
+      lamp, [&](const job::Snapshot& snapshot) { return squares_of(layer(snapshot, "direct"), pixels, group); });
+  const auto estimates = render_passes(
+      tile, [&](const job::Snapshot& snapshot) { return squares_of(layer(snapshot, "indirect"), pixels, group); });
   double smallest = 1;
   int lit = 0;
   for (std::size_t i = 1; i + 1 < truths.size(); i += 3) { // one wavelength: Y says all
@@ -214,8 +223,7 @@ TEST(Indirect, ALitTileIsALamp)
 }
 
 /// Everything that can happen to a photon: glass that absorbs, a coloured mirror, coloured walls, the open.
-preset::Preset open_room(const std::filesystem::path& folder)
-{
+preset::Preset open_room(const std::filesystem::path& folder) {
   preset::Preset p = indirect_only(16);
   p.scene.materials["wall"].reflectance.type = preset::Reflectance::Type::patch;
   p.scene.materials["wall"].reflectance.patch = "orange";
@@ -223,8 +231,10 @@ preset::Preset open_room(const std::filesystem::path& folder)
   p.scene.materials["glass"] = glass(1.5);
   p.scene.materials["glass"].dispersion.type = preset::Dispersion::Type::file;
   p.scene.materials["glass"].dispersion.file = write_constant_nk(folder / "glass.yml", 1.5, 2e-7);
-  p.scene.objects = {object("floor", quad(4, 4), "wall", at({0, -1, 0})), object("back", quad(4, 4), "wall", at({0, 1, -2}, {90, 0, 0})),
-                     object("ball", check::ball(0.6), "glass"), object("mirror", quad(1, 1), "mirror", at({1.5, 0, 0}, {0, 0, 80}))};
+  p.scene.objects = {object("floor", quad(4, 4), "wall", at({0, -1, 0})),
+                     object("back", quad(4, 4), "wall", at({0, 1, -2}, {90, 0, 0})),
+                     object("ball", check::ball(0.6), "glass"),
+                     object("mirror", quad(1, 1), "mirror", at({1.5, 0, 0}, {0, 0, 80}))};
   preset::Light lamp, sun;
   lamp.position = {0.5, 2, 0.5};
   sun.type = preset::Light::Type::directional;
@@ -235,13 +245,13 @@ preset::Preset open_room(const std::filesystem::path& folder)
   return p;
 }
 
-TEST(Indirect, AccountsForItsEnergy)
-{
+TEST(Indirect, AccountsForItsEnergy) {
   TemporaryFolder temporary;
   const preset::Preset p = open_room(temporary.path());
   const job::Snapshot snapshot = render(p);
   const photons::EnergyBalance e = photons::energy_of(snapshot, "indirect_energy");
-  expect_truth("indirect, energy: accounted for / emitted", (e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w, 1, 1e-12);
+  expect_truth("indirect, energy: accounted for / emitted", (e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w, 1,
+               1e-12);
   EXPECT_GT(e.absorbed_w, 0.1 * e.emitted_w);
   EXPECT_GT(e.escaped_w, 0.1 * e.emitted_w);
   EXPECT_LT(e.lost_w, 1e-3 * e.emitted_w);
@@ -250,8 +260,7 @@ TEST(Indirect, AccountsForItsEnergy)
 }
 
 // However long a step is, and where a run is taken up again, the bits are the same.
-TEST(Indirect, HasTheSameBitsWhenItIsResumed)
-{
+TEST(Indirect, HasTheSameBitsWhenItIsResumed) {
   TemporaryFolder temporary;
   const preset::Preset p = open_room(temporary.path());
   const job::Snapshot whole = render(p);
@@ -262,7 +271,8 @@ TEST(Indirect, HasTheSameBitsWhenItIsResumed)
   test::load(*job, state);
   const job::Snapshot resumed = render(*job);
   EXPECT_EQ(layer(resumed, "indirect").rgb, layer(whole, "indirect").rgb);
-  EXPECT_EQ(photons::energy_of(resumed, "indirect_energy").escaped_w, photons::energy_of(whole, "indirect_energy").escaped_w);
+  EXPECT_EQ(photons::energy_of(resumed, "indirect_energy").escaped_w,
+            photons::energy_of(whole, "indirect_energy").escaped_w);
 }
 
 } // namespace nephroid::indirect_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Leaving out what a scene does not need changes no picture: a run that leaves out all it can against one with the general kernels and with
-// this omission turned back on; and it is not made in scenes that come close to not needing it.
+// Leaving out what a scene does not need changes no picture: a run that leaves out all it can against one with the
+// general kernels and with this omission turned back on; and it is not made in scenes that come close to not needing
+// it.
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
@@ -8,8 +9,7 @@
 
 namespace nephroid::leaving_out_test {
 
-plan::Pass pass_of(const preset::Preset& p, std::string name, const LeaveOut& leave_out = {})
-{
+plan::Pass pass_of(const preset::Preset& p, std::string name, const LeaveOut& leave_out = {}) {
   std::replace(name.begin(), name.end(), '_', ' ');
   const scene::Scene scene = scene::load_scene(p);
   for (const plan::Pass& pass : spectral::make_plan(p, scene, scene::build_bvh(scene.geometry), leave_out).passes)
@@ -18,22 +18,21 @@ plan::Pass pass_of(const preset::Preset& p, std::string name, const LeaveOut& le
 }
 
 /// Luminance of the layer "caustic" in 4 x 4 blocks of pixels, and the power that came down.
-std::vector<double> caustic_blocks(const job::Snapshot& snapshot)
-{
+std::vector<double> caustic_blocks(const job::Snapshot& snapshot) {
   const std::vector<float>& rgb = layer(snapshot, "caustic").rgb;
   const int size = snapshot.picture->width, block = size / 4;
   std::vector<double> figures(17);
   for (int row = 0; row < size; ++row)
     for (int column = 0; column < size; ++column)
-      figures[static_cast<std::size_t>(4 * (row / block) + column / block)] += rgb[3 * static_cast<std::size_t>(row * size + column) + 1];
+      figures[static_cast<std::size_t>(4 * (row / block) + column / block)] +=
+          rgb[3 * static_cast<std::size_t>(row * size + column) + 1];
   figures[16] = photons::energy_of(snapshot).deposited_w;
   return figures;
 }
 
 class LeavingOut : public testing::TestWithParam<Omission> {};
 
-TEST_P(LeavingOut, ThePlanSaysWhyAndWhatTurnsItBackOn)
-{
+TEST_P(LeavingOut, ThePlanSaysWhyAndWhatTurnsItBackOn) {
   const Omission& o = GetParam();
   const plan::Pass out = pass_of(o.scene, o.key), in = pass_of(o.scene, o.key, all_but(o));
   EXPECT_FALSE(out.runs);
@@ -44,10 +43,9 @@ TEST_P(LeavingOut, ThePlanSaysWhyAndWhatTurnsItBackOn)
   EXPECT_THAT(in.reason, testing::HasSubstr("but leave_out is false"));
 }
 
-// Where the same photons fly, the sums are the same bits. Where others do, both pictures have the same expectation: of the worst
-// of 17 figures, the chance to differ as much, Sidak-corrected, may not be below 1e-9.
-TEST_P(LeavingOut, ThePictureIsTheSame)
-{
+// Where the same photons fly, the sums are the same bits. Where others do, both pictures have the same expectation: of
+// the worst of 17 figures, the chance to differ as much, Sidak-corrected, may not be below 1e-9.
+TEST_P(LeavingOut, ThePictureIsTheSame) {
   const Omission& o = GetParam();
   const auto with = [&](const preset::Preset& p) { return general_job(plain(p), all_but(o), shared_context()); };
   if (o.same_bits) {
@@ -63,7 +61,8 @@ TEST_P(LeavingOut, ThePictureIsTheSame)
                               in = step_passes(*with(other_seed), blocks);
   double smallest = 1, out_variance = 0, in_variance = 0;
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const Estimate difference{out[i].mean - in[i].mean, out[i].variance + in[i].variance, std::min(out[i].degrees, in[i].degrees)};
+    const Estimate difference{out[i].mean - in[i].mean, out[i].variance + in[i].variance,
+                              std::min(out[i].degrees, in[i].degrees)};
     if (difference.variance > 0) smallest = std::min(smallest, p_value(difference, 0));
     if (i < 16) out_variance += out[i].variance, in_variance += in[i].variance;
   }
@@ -78,8 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Omissions, LeavingOut, testing::ValuesIn(omissions()),
                          [](const testing::TestParamInfo<Omission>& parameter) { return parameter.param.key; });
 
 /// Scenes that only just need a thing: the plan may not leave it out.
-TEST(NotLeftOut, WhereTheSceneNeedsIt)
-{
+TEST(NotLeftOut, WhereTheSceneNeedsIt) {
   preset::Preset p = ball_scene();
   p.scene.objects[0].shape->type = preset::Shape::Type::cylinder; // a ball has no normals to interpolate
   p.scene.objects[0].normals = preset::Object::Normals::smooth;
@@ -116,8 +114,7 @@ TEST(NotLeftOut, WhereTheSceneNeedsIt)
 }
 
 /// Two lights have the wavelengths of both.
-TEST(NotLeftOut, WavelengthsOfAnyLight)
-{
+TEST(NotLeftOut, WavelengthsOfAnyLight) {
   preset::Preset p = line_light_scene();
   p.scene.lights.push_back(p.scene.lights[0]);
   p.scene.lights[1].spectrum = line(500);
@@ -131,17 +128,18 @@ TEST(NotLeftOut, WavelengthsOfAnyLight)
   EXPECT_EQ(render(p).picture->rgb, std::vector<float>(3 * 24 * 24, 0.0f));
 }
 
-TEST(NotLeftOut, TheLookBackWhereSomethingMayBlockIt)
-{
+TEST(NotLeftOut, TheLookBackWhereSomethingMayBlockIt) {
   EXPECT_TRUE(pass_of(ball_scene(), "occlusion").runs);
   preset::Preset p = floor_scene();
   EXPECT_FALSE(pass_of(p, "occlusion").runs);
-  p.scene.camera.fov_deg = 44; // the upper edge of the view is 0.2 degrees above the horizon, the ball 0.1 / 2.5 = 2.3 degrees
+  p.scene.camera.fov_deg =
+      44; // the upper edge of the view is 0.2 degrees above the horizon, the ball 0.1 / 2.5 = 2.3 degrees
   EXPECT_FALSE(pass_of(p, "occlusion").runs);
   p.scene.camera.fov_deg = 52; // 4.2 degrees above
   EXPECT_TRUE(pass_of(p, "occlusion").runs);
 
-  // Walls of a room, seen from inside: none stands before another. Moved towards the eye, the wall hides a part of the floor.
+  // Walls of a room, seen from inside: none stands before another. Moved towards the eye, the wall hides a part of the
+  // floor.
   p = floor_scene();
   p.scene.objects.push_back(object("wall", quad(8, 8), "white", at({0, 4, -4}, {90, 0, 0})));
   EXPECT_FALSE(pass_of(p, "occlusion").runs);
@@ -155,15 +153,13 @@ TEST(NotLeftOut, TheLookBackWhereSomethingMayBlockIt)
 
 // From (0, 3, 0) the ball "beside" of radius 0.9 at (3, 1, 0) is seen from 56.31 degrees off the axis to its tangent at
 // 56.31 - asin(0.9 / sqrt(13)) = 41.86 degrees.
-TEST(NotLeftOut, WhatASpotsConeGrazes)
-{
+TEST(NotLeftOut, WhatASpotsConeGrazes) {
   EXPECT_EQ(pass_of(spot_scene(41.5), "unreached_targets").runs, false);
   EXPECT_THAT(pass_of(spot_scene(41.5), "unreached_targets").reason, testing::HasSubstr("outside of a spot's cone"));
   EXPECT_THAT(pass_of(spot_scene(42), "unreached_targets").reason, testing::HasSubstr("no pass"));
 }
 
-TEST(NotLeftOut, WhatAnAreaLightsPlaneCuts)
-{
+TEST(NotLeftOut, WhatAnAreaLightsPlaneCuts) {
   scene::Light light;
   light.type = preset::Light::Type::area;
   light.direction = {0, -1, 0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which wavelengths meet in a photon map. A photon and the path from the eye that gathers it have to be of one wavelength, or a prism
-// before the camera shows one line's light where another line's image is.
+// Which wavelengths meet in a photon map. A photon and the path from the eye that gathers it have to be of one
+// wavelength, or a prism before the camera shows one line's light where another line's image is.
 #include "optics/fresnel.h"
 #include "spectral/settings.h"
 #include "tests/support/closed_form.h"
@@ -14,7 +14,8 @@ using Effort = photons::Settings::Effort;
 
 struct Line {
   double nm, n, share; ///< the prism's n; of the lamp's power
-  double sppm_scatter; ///< standard deviation over 30 seeds of what sppm makes of radiance(), over it; the means were .999 and 1.001
+  double sppm_scatter; ///< standard deviation over 30 seeds of what sppm makes of radiance(), over it; the means were
+                       ///< .999 and 1.001
 };
 constexpr std::array<Line, 2> lines{{{450, 2.0, 0.2, 0.0203}, {620, 1.3, 0.8, 0.0097}}};
 
@@ -24,20 +25,19 @@ struct Place {
   double x, z;
 };
 
-/// Where a path meets the prism, on the middle of its right side, and where it leaves, on the left side: the way between is at right angles
-/// to the right side.
+/// Where a path meets the prism, on the middle of its right side, and where it leaves, on the left side: the way
+/// between is at right angles to the right side.
 Place entry() { return {side / 2 * std::sin(apex / 2), 0}; }
 Place normal_of_entry() { return {std::cos(apex / 2), std::sin(apex / 2)}; }
-Place exit_place()
-{
+Place exit_place() {
   const double inside = side / 2 * std::tan(apex);
   return {entry().x - inside * normal_of_entry().x, entry().z - inside * normal_of_entry().z};
 }
 
-/// Where the plane x = screen_x is met by a path of that index of refraction. It meets the left side at the apex angle and leaves at b,
-/// sin(b) = n sin(apex), from the normal (-cos(apex / 2), 0, sin(apex / 2)) towards the base, (-sin(apex / 2), 0, -cos(apex / 2)).
-double landing_z(double n)
-{
+/// Where the plane x = screen_x is met by a path of that index of refraction. It meets the left side at the apex angle
+/// and leaves at b, sin(b) = n sin(apex), from the normal (-cos(apex / 2), 0, sin(apex / 2)) towards the base,
+/// (-sin(apex / 2), 0, -cos(apex / 2)).
+double landing_z(double n) {
   const double b = std::asin(n * std::sin(apex));
   const double along_x = -std::cos(apex / 2) * std::cos(b) - std::sin(apex / 2) * std::sin(b),
                along_z = std::sin(apex / 2) * std::cos(b) - std::cos(apex / 2) * std::sin(b);
@@ -45,18 +45,17 @@ double landing_z(double n)
   return from.z + (screen_x - from.x) * along_z / along_x;
 }
 
-/// The radiance of the stripe in a line over the lamp's irradiance in all: the light falls at 45 degrees, so E = cos(45 degrees) share, and
-/// two faces of the prism let it through.
-double radiance(const Line& line)
-{
+/// The radiance of the stripe in a line over the lamp's irradiance in all: the light falls at 45 degrees, so E = cos(45
+/// degrees) share, and two faces of the prism let it through.
+double radiance(const Line& line) {
   return std::cos(45 * degree) * line.share / M_PI * (1 - optics::fresnel_reflectance(1, 1, line.n)) *
          (1 - optics::fresnel_reflectance(std::cos(apex), line.n, 1));
 }
 
-/// A white stripe along the prism's edge, where light of `line` lands that comes through the prism from the camera. Before it stands a pane
-/// of n = 1, which makes a caustic of parallel light of two lines, and the camera looks at its image in the one.
-preset::Preset stripe_through_a_prism(const Line& line)
-{
+/// A white stripe along the prism's edge, where light of `line` lands that comes through the prism from the camera.
+/// Before it stands a pane of n = 1, which makes a caustic of parallel light of two lines, and the camera looks at its
+/// image in the one.
+preset::Preset stripe_through_a_prism(const Line& line) {
   preset::Preset p = empty_preset(32);
   preset::Material& flint = p.scene.materials["flint"] = glass(1);
   flint.dispersion.type = preset::Dispersion::Type::table;
@@ -68,7 +67,8 @@ preset::Preset stripe_through_a_prism(const Line& line)
   prism.apex_deg = apex / degree;
   prism.side = prism.height = side;
   const double z = landing_z(line.n);
-  p.scene.objects = {object("prism", prism, "flint"), object("pane", box(0.005, 0.1, 0.15), "nothing", at({screen_x + 0.01, 0, z})),
+  p.scene.objects = {object("prism", prism, "flint"),
+                     object("pane", box(0.005, 0.1, 0.15), "nothing", at({screen_x + 0.01, 0, z})),
                      object("stripe", quad(0.2, 0.1), "white", at({screen_x, 0, z}, {0, 0, 90}))};
   preset::Light& lamp = p.scene.lights.emplace_back(parallel_light({-1, -1, 0}));
   lamp.spectrum.table = {{lines[0].nm, lines[0].share}, {lines[1].nm, lines[1].share}};
@@ -83,8 +83,7 @@ preset::Preset stripe_through_a_prism(const Line& line)
 }
 
 /// The mean radiance of the layer "caustic" in each line, from X and Z.
-std::vector<double> radiance_in_lines(const job::Snapshot& snapshot)
-{
+std::vector<double> radiance_in_lines(const job::Snapshot& snapshot) {
   const std::vector<float>& rgb = layer(snapshot, "caustic").rgb;
   optics::Colour mean{};
   for (std::size_t i = 0; i < rgb.size(); ++i) mean[i % 3] += rgb[i] / (static_cast<double>(rgb.size()) / 3);
@@ -103,11 +102,11 @@ struct Way {
 
 class MapBands : public testing::TestWithParam<Way> {};
 
-// Each image has the light of its own line, and nothing of the other, whose paths pass the stripe by. One wavelength a path and pass, or a
-// cluster for each, of which the eye's paths are allocated unequal parts. All of a pass of sppm has one wavelength, by steps of the golden
-// ratio, and the radius shrinks from pass to pass: they are not independent, and how far its figure may be off is known from other seeds.
-TEST_P(MapBands, AStripeHasOneImageForEachLine)
-{
+// Each image has the light of its own line, and nothing of the other, whose paths pass the stripe by. One wavelength a
+// path and pass, or a cluster for each, of which the eye's paths are allocated unequal parts. All of a pass of sppm has
+// one wavelength, by steps of the golden ratio, and the radius shrinks from pass to pass: they are not independent, and
+// how far its figure may be off is known from other seeds.
+TEST_P(MapBands, AStripeHasOneImageForEachLine) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     preset::Preset p = stripe_through_a_prism(lines[i]);
     spectral::settings(p).estimator = GetParam().estimator;
@@ -115,25 +114,28 @@ TEST_P(MapBands, AStripeHasOneImageForEachLine)
     const std::vector<Estimate> figures = render_passes(p, radiance_in_lines);
     const double truth = radiance(lines[i]);
     const bool hang_together = GetParam().estimator == photons::Settings::Estimator::sppm;
-    const double error = hang_together ? tolerance_over_seeds(lines[i].sppm_scatter, 30) : tolerance(figures[i]) / truth + 1e-3;
-    expect_truth(fmt::format("stripe through a prism, {} nm, {}: radiance over its truth", lines[i].nm, GetParam().name),
-                 figures[i].mean / truth, 1, error);
+    const double error =
+        hang_together ? tolerance_over_seeds(lines[i].sppm_scatter, 30) : tolerance(figures[i]) / truth + 1e-3;
+    expect_truth(
+        fmt::format("stripe through a prism, {} nm, {}: radiance over its truth", lines[i].nm, GetParam().name),
+        figures[i].mean / truth, 1, error);
     EXPECT_LE(error, 0.13) << "such a check would see too little";
     EXPECT_NEAR(figures[1 - i].mean / truth, 0, 1e-4) << "light of " << lines[1 - i].nm << " nm";
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, MapBands,
-                         testing::Values(Way{"automatic", photons::Settings::Estimator::automatic, photons::Settings::Method::optimal},
-                                         Way{"sppm", photons::Settings::Estimator::sppm, photons::Settings::Method::optimal},
-                                         Way{"clusters", photons::Settings::Estimator::automatic, photons::Settings::Method::brute_force}),
-                         [](const auto& way) { return std::string(way.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    , MapBands,
+    testing::Values(Way{"automatic", photons::Settings::Estimator::automatic, photons::Settings::Method::optimal},
+                    Way{"sppm", photons::Settings::Estimator::sppm, photons::Settings::Method::optimal},
+                    Way{"clusters", photons::Settings::Estimator::automatic, photons::Settings::Method::brute_force}),
+    [](const auto& way) { return std::string(way.param.name); });
 
-// Runs with photon maps: the same bits however they are cut or resumed, iterations by importance, energy, and what the plan says.
+// Runs with photon maps: the same bits however they are cut or resumed, iterations by importance, energy, and what the
+// plan says.
 
 /// A ball of dispersive glass that absorbs, and a mirror behind it, in view; two lamps.
-preset::Preset glass_in_view(Estimator estimator, Effort effort = Effort::power)
-{
+preset::Preset glass_in_view(Estimator estimator, Effort effort = Effort::power) {
   preset::Preset p = empty_preset(20);
   p.scene.materials = {{"floor", white(0.8)}, {"mirror", check::mirror(0.6)}, {"glass", glass(1.6)}};
   p.scene.materials["glass"].dispersion.type = preset::Dispersion::Type::file;
@@ -141,7 +143,8 @@ preset::Preset glass_in_view(Estimator estimator, Effort effort = Effort::power)
   p.unit = preset::Preset::Unit::cm;
   p.scene.objects = {object("ball", check::ball(0.5), "glass", at({0, 0.7, 0})), object("floor", quad(8, 8), "floor"),
                      object("mirror", quad(3, 2), "mirror", at({0, 1, -1.2}, {90, 0, 0}))};
-  p.scene.lights = {{.power_w = 2, .position = {1, 3, 1}}, {.spectrum = {.illuminant = "A"}, .power_w = 2, .position = {-1, 2, 1}}};
+  p.scene.lights = {{.power_w = 2, .position = {1, 3, 1}},
+                    {.spectrum = {.illuminant = "A"}, .power_w = 2, .position = {-1, 2, 1}}};
   p.scene.camera.position = {0, 1.5, 4};
   p.scene.camera.target = {0, 0.5, 0};
   spectral::settings(p).direct = true;
@@ -162,8 +165,7 @@ struct Case {
 
 class MapRuns : public testing::TestWithParam<Case> {
 protected:
-  static preset::Preset preset()
-  {
+  static preset::Preset preset() {
     preset::Preset p = glass_in_view(GetParam().estimator, GetParam().effort);
     spectral::settings(p).jitter = GetParam().jitter;
     spectral::settings(p).low_discrepancy = GetParam().jitter;
@@ -171,10 +173,9 @@ protected:
   }
 };
 
-// Steps are cut by the clock, so two runs differ in that; and a run that is saved after any step and loaded elsewhere ends with the
-// bits of one that never was.
-TEST_P(MapRuns, ResumedAnywhereTheyEndWithTheSameBits)
-{
+// Steps are cut by the clock, so two runs differ in that; and a run that is saved after any step and loaded elsewhere
+// ends with the bits of one that never was.
+TEST_P(MapRuns, ResumedAnywhereTheyEndWithTheSameBits) {
   const auto make = [p = preset()] { return job_as_it_is(p); };
   const job::Snapshot truth = render(*make());
 
@@ -199,17 +200,20 @@ TEST_P(MapRuns, ResumedAnywhereTheyEndWithTheSameBits)
   EXPECT_THROW(test::load(*make(), std::vector<std::byte>(100)), Error);
 }
 
-// Whatever the estimator and however the clusters take turns: the same power leaves the lamps towards the ball and the mirror.
-TEST_P(MapRuns, SendTheLampsPower)
-{
+// Whatever the estimator and however the clusters take turns: the same power leaves the lamps towards the ball and the
+// mirror.
+TEST_P(MapRuns, SendTheLampsPower) {
   preset::Preset splat = glass_in_view(Estimator::splat);
   preset::Preset p = preset();
   spectral::settings(splat).direct = spectral::settings(p).direct = false;
   const photons::EnergyBalance truth = photons::energy_of(render(splat)), energy = photons::energy_of(render(p));
   // The same spheres are aimed at, so every photon carries what is sent there, but for places where spheres overlap.
-  EXPECT_NEAR((energy.deposited_w + energy.missed_w + energy.absorbed_w + energy.escaped_w + energy.lost_w) / energy.emitted_w, 1, 1e-6);
+  EXPECT_NEAR((energy.deposited_w + energy.missed_w + energy.absorbed_w + energy.escaped_w + energy.lost_w) /
+                  energy.emitted_w,
+              1, 1e-6);
   EXPECT_EQ(energy.refused_contributions, 0u);
-  if (GetParam().effort == Effort::random || GetParam().jitter) return; // what a pass stands for changes from pass to pass
+  if (GetParam().effort == Effort::random || GetParam().jitter)
+    return; // what a pass stands for changes from pass to pass
   EXPECT_NEAR(energy.emitted_w / truth.emitted_w, 1, 0.03);
   EXPECT_NEAR(energy.deposited_w / truth.deposited_w, 1, 0.06);
 }
@@ -221,28 +225,27 @@ INSTANTIATE_TEST_SUITE_P(Estimators, MapRuns,
                                          Case{"random", Estimator::sppm, Effort::random, false}),
                          [](const auto& c) { return std::string(c.param.name); });
 
-plan::Pass pass_of(const plan::Plan& plan, const std::string& name)
-{
+plan::Pass pass_of(const plan::Plan& plan, const std::string& name) {
   for (const plan::Pass& pass : plan.passes)
     if (pass.name == name) return pass;
   return {};
 }
 
-std::uint64_t bytes_of(const plan::Plan& plan, const std::string& name)
-{
+std::uint64_t bytes_of(const plan::Plan& plan, const std::string& name) {
   for (const plan::PlannedBuffer& buffer : plan.buffers)
     if (buffer.name == name) return buffer.bytes;
   return 0;
 }
 
-TEST(MapPlan, SaysWhichEstimatorRunsAndWhy)
-{
-  const plan::Plan automatic = plan_of(glass_in_view(Estimator::automatic)), splat = plan_of(glass_in_view(Estimator::splat)),
-                   sppm = plan_of(glass_in_view(Estimator::sppm));
-  EXPECT_TRUE(pass_of(automatic, "photons").runs && pass_of(automatic, "photon maps").runs && pass_of(automatic, "error estimate").runs);
+TEST(MapPlan, SaysWhichEstimatorRunsAndWhy) {
+  const plan::Plan automatic = plan_of(glass_in_view(Estimator::automatic)),
+                   splat = plan_of(glass_in_view(Estimator::splat)), sppm = plan_of(glass_in_view(Estimator::sppm));
+  EXPECT_TRUE(pass_of(automatic, "photons").runs && pass_of(automatic, "photon maps").runs &&
+              pass_of(automatic, "error estimate").runs);
   EXPECT_TRUE(pass_of(splat, "photons").runs && !pass_of(splat, "photon maps").runs);
   EXPECT_THAT(pass_of(splat, "photon maps").reason, testing::HasSubstr("left out"));
-  EXPECT_TRUE(!pass_of(sppm, "photons").runs && pass_of(sppm, "photon maps").runs && !pass_of(sppm, "error estimate").runs);
+  EXPECT_TRUE(!pass_of(sppm, "photons").runs && pass_of(sppm, "photon maps").runs &&
+              !pass_of(sppm, "error estimate").runs);
   preset::Preset away = glass_in_view(Estimator::automatic);
   away.scene.camera.target = {0, 1.5, 8};
   EXPECT_FALSE(pass_of(plan_of(away), "photon maps").runs);
@@ -250,28 +253,29 @@ TEST(MapPlan, SaysWhichEstimatorRunsAndWhy)
   EXPECT_TRUE(pass_of(plan_of(away), "photon maps").runs);
 }
 
-TEST(MapPlan, SaysWhereARadiusLosesTheCaustics)
-{
+TEST(MapPlan, SaysWhereARadiusLosesTheCaustics) {
   // Pixels cover some 0.1 units, and the scene is 8 units across.
   const auto notes = [](double radius, Estimator estimator) {
     preset::Preset p = glass_in_view(estimator);
     spectral::settings(p).sppm.radius = radius;
     std::vector<std::string> all = plan_of(p).notes;
-    std::erase_if(all, [](const std::string& note) { return !note.starts_with("spectral."); }); // N-SF66 starts at 390 nm
+    std::erase_if(all,
+                  [](const std::string& note) { return !note.starts_with("spectral."); }); // N-SF66 starts at 390 nm
     return all;
   };
   for (const Estimator estimator : {Estimator::automatic, Estimator::sppm}) {
-    EXPECT_THAT(notes(1e7, estimator), testing::ElementsAre(testing::AllOf(testing::StartsWith("spectral.sppm.radius: 10000000 units are "),
-                                                                           testing::HasSubstr("blurred away"))));
-    EXPECT_THAT(notes(1e-6, estimator), testing::ElementsAre(testing::AllOf(testing::StartsWith("spectral.sppm.radius: 1e-06 units are "),
-                                                                            testing::HasSubstr("hardly a photon"))));
+    EXPECT_THAT(notes(1e7, estimator),
+                testing::ElementsAre(testing::AllOf(testing::StartsWith("spectral.sppm.radius: 10000000 units are "),
+                                                    testing::HasSubstr("blurred away"))));
+    EXPECT_THAT(notes(1e-6, estimator),
+                testing::ElementsAre(testing::AllOf(testing::StartsWith("spectral.sppm.radius: 1e-06 units are "),
+                                                    testing::HasSubstr("hardly a photon"))));
     for (const double usual : {0.03, 0.1, 0.5}) EXPECT_THAT(notes(usual, estimator), testing::IsEmpty()) << usual;
   }
   EXPECT_THAT(notes(1e7, Estimator::splat), testing::IsEmpty());
 }
 
-TEST(MapPlan, SppmTakesTwentyBytesForEachPixelInEachCluster)
-{
+TEST(MapPlan, SppmTakesTwentyBytesForEachPixelInEachCluster) {
   preset::Preset p = glass_in_view(Estimator::sppm);
   spectral::settings(p).method = photons::Settings::Method::brute_force;
   EXPECT_EQ(bytes_of(plan_of(p), "statistics of pixels"), 401u * 400 * 20);

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ball as a lens is below. The curve in the coffee cup. Parallel light meets the inside of a mirror cylinder; its caustic is a nephroid.
+// A ball as a lens is below. The curve in the coffee cup. Parallel light meets the inside of a mirror cylinder; its
+// caustic is a nephroid.
 //
-// Seen along the axis, with R = 1 and light along +x: a ray at height z = sin(phi) meets the wall at P = (cos phi, sin phi), where the
-// normal is -P. Reflection turns its direction d = (1, 0) into d - 2 (d.P) P = -(cos 2 phi, sin 2 phi), so a ray next to it, d phi farther,
-// starts cos(phi) d phi beside it and is turned by 2 d phi: after a way s the two are |cos(phi) - 2 s| d phi apart. They meet at
-// s = cos(phi) / 2, and the envelope of all rays is
+// Seen along the axis, with R = 1 and light along +x: a ray at height z = sin(phi) meets the wall at P = (cos phi, sin
+// phi), where the normal is -P. Reflection turns its direction d = (1, 0) into d - 2 (d.P) P = -(cos 2 phi, sin 2 phi),
+// so a ray next to it, d phi farther, starts cos(phi) d phi beside it and is turned by 2 d phi: after a way s the two
+// are |cos(phi) - 2 s| d phi apart. They meet at s = cos(phi) / 2, and the envelope of all rays is
 //   P - cos(phi) / 2 (cos 2 phi, sin 2 phi) = ((3 cos phi - cos 3 phi) / 4, (3 sin phi - sin 3 phi) / 4),
 // an arc of a nephroid with its cusp, phi = 0, at half the radius.
 //
-// Here light also falls at a slope: the wall's points between two heights reflect it to the floor, a way s0 < s < s1 from the wall seen
-// from above, which does not change its pattern, because reflection at an upright wall keeps the slope. The strip dz of incoming light
-// spreads over the area |1 - 2 s / cos phi| dz ds of floor: E = E0 sin(elevation) / |1 - 2 s / cos phi|, summed over all rays through a
-// point.
+// Here light also falls at a slope: the wall's points between two heights reflect it to the floor, a way s0 < s < s1
+// from the wall seen from above, which does not change its pattern, because reflection at an upright wall keeps the
+// slope. The strip dz of incoming light spreads over the area |1 - 2 s / cos phi| dz ds of floor: E = E0 sin(elevation)
+// / |1 - 2 s / cos phi|, summed over all rays through a point.
 #include "optics/fresnel.h"
 #include "spectral/settings.h"
 #include "tests/support/closed_form.h"
@@ -25,12 +26,12 @@ constexpr int fine = 4;                // the truth's pixels in one of the pictu
 const Screen cup_floor{{0.6, 0, 0}, 0.7, 128};
 
 /// The half of the wall with x > 0, facing the axis, with exact vertex normals.
-void write_half_cylinder(const std::filesystem::path& file)
-{
+void write_half_cylinder(const std::filesystem::path& file) {
   std::string text;
   for (int i = 0; i <= facets; ++i) {
     const double phi = M_PI * (double(i) / facets - 0.5), x = std::cos(phi), z = std::sin(phi);
-    for (const double s : {s0, s1}) text += fmt::format("v {:.9f} {:.9f} {:.9f}\nvn {:.9f} 0 {:.9f}\n", x, s * slope, z, -x, -z);
+    for (const double s : {s0, s1})
+      text += fmt::format("v {:.9f} {:.9f} {:.9f}\nvn {:.9f} 0 {:.9f}\n", x, s * slope, z, -x, -z);
   }
   for (int i = 0; i < facets; ++i) {
     const int a = 2 * i + 1, b = a + 1, c = a + 2, d = a + 3; // low, high, next low, next high
@@ -39,8 +40,7 @@ void write_half_cylinder(const std::filesystem::path& file)
   std::ofstream(file) << text;
 }
 
-preset::Preset cup(const TemporaryFolder& folder)
-{
+preset::Preset cup(const TemporaryFolder& folder) {
   write_half_cylinder(folder.path() / "wall.obj");
   preset::Preset p = empty_preset();
   p.scene.materials["mirror"] = check::mirror(1);
@@ -58,11 +58,10 @@ preset::Preset cup(const TemporaryFolder& folder)
   return p;
 }
 
-/// W that the wall sends into squares of the floor, by Kronecker's sequence of Roberts' numbers in the strip's (z, s), where the
-/// incoming light is uniform. Exact for all points less than sin(60 degrees) from the axis: what meets the wall twice or lies beyond
-/// |z| = 0.9 stays farther out.
-std::vector<double> truth(const Screen& squares)
-{
+/// W that the wall sends into squares of the floor, by Kronecker's sequence of Roberts' numbers in the strip's (z, s),
+/// where the incoming light is uniform. Exact for all points less than sin(60 degrees) from the axis: what meets the
+/// wall twice or lies beyond |z| = 0.9 stays farther out.
+std::vector<double> truth(const Screen& squares) {
   constexpr int points = 1 << 25;
   constexpr double a1 = 0.7548776662466927, a2 = 0.5698402909980532; // 1 / g, 1 / g^2 with g^3 = g + 1
   std::vector<double> picture(squares.count(), 0.0);
@@ -71,21 +70,22 @@ std::vector<double> truth(const Screen& squares)
   for (int i = 0; i < points; ++i) {
     u += a1, v += a2;
     u -= u >= 1, v -= v >= 1;
-    const double z = 1.8 * u - 0.9, s = s0 + (s1 - s0) * v, cosine = std::sqrt(1 - z * z); // phi is the arc whose sine is z
+    const double z = 1.8 * u - 0.9, s = s0 + (s1 - s0) * v,
+                 cosine = std::sqrt(1 - z * z); // phi is the arc whose sine is z
     squares.add(picture, cosine - s * (cosine * cosine - z * z), z - s * 2 * z * cosine, each);
   }
   return picture;
 }
 
-/// How far the light of some pixels lies to the right of the truth, in pixels, and the standard error of that. To first order a picture
-/// moved by a shift differs by g = -d(truth)/dx times the shift, so the shift is the regression of (picture - truth) on g, with weights
-/// 1 / variance: right on average and with a known error where the picture is the truth, however steep that is.
+/// How far the light of some pixels lies to the right of the truth, in pixels, and the standard error of that. To first
+/// order a picture moved by a shift differs by g = -d(truth)/dx times the shift, so the shift is the regression of
+/// (picture - truth) on g, with weights 1 / variance: right on average and with a known error where the picture is the
+/// truth, however steep that is.
 struct Shift {
   double pixels = 0, error = 0;
 };
-Shift shift_of(const std::vector<double>& picture, const std::vector<double>& fine_truth, double photon_w, int first_row, int last_row,
-               int first_column, int last_column)
-{
+Shift shift_of(const std::vector<double>& picture, const std::vector<double>& fine_truth, double photon_w,
+               int first_row, int last_row, int first_column, int last_column) {
   const auto expected = [&](int row, int column, int steps) {
     double sum = 0;
     for (int y = row * fine; y < (row + 1) * fine; ++y)
@@ -107,8 +107,7 @@ Shift shift_of(const std::vector<double>& picture, const std::vector<double>& fi
 
 class Nephroid : public testing::Test {
 protected:
-  static void SetUpTestSuite()
-  {
+  static void SetUpTestSuite() {
     const TemporaryFolder folder;
     const preset::Preset p = cup(folder);
     const job::Snapshot snapshot = render(p);
@@ -120,18 +119,17 @@ protected:
   inline static double photon_w = 0;
 };
 
-TEST_F(Nephroid, IrradianceIsTheSumOverRays)
-{
+TEST_F(Nephroid, IrradianceIsTheSumOverRays) {
   std::vector<bool> once(cup_floor.count()); // what light reaches after one reflection only
   for (int row = 0; row < cup_floor.pixels; ++row)
     for (int column = 0; column < cup_floor.pixels; ++column)
-      once[static_cast<std::size_t>(row * cup_floor.pixels + column)] = std::hypot(cup_floor.x(column), cup_floor.z(row)) < 0.86;
+      once[static_cast<std::size_t>(row * cup_floor.pixels + column)] =
+          std::hypot(cup_floor.x(column), cup_floor.z(row)) < 0.86;
   // A pixel has some 600 points of the sequence and more, which are within 1 %.
   expect_agreement("nephroid: irradiance", agreement(picture, truth(cup_floor), photon_w, 0.01, once));
 }
 
-TEST_F(Nephroid, CuspAndEdgeAreWhereTheCurveSays)
-{
+TEST_F(Nephroid, CuspAndEdgeAreWhereTheCurveSays) {
   const std::vector<double> fine_truth = truth({cup_floor.centre, cup_floor.side, cup_floor.pixels * fine});
   const auto row_of = [](double z) { return static_cast<int>((z + cup_floor.side / 2) / cup_floor.pixel_side()); };
   const auto expect_edge = [&](const std::string& what, double x, double low_z, double high_z) {
@@ -142,18 +140,19 @@ TEST_F(Nephroid, CuspAndEdgeAreWhereTheCurveSays)
   };
   expect_edge("nephroid: x of the cusp / R", 0.5, -0.015, 0.015); // on the axis the only edge is the cusp
   for (const double phi_deg : {-43, -38, -33, -28, 28, 33, 38, 43}) {
-    const double phi = phi_deg * degree, x = (3 * std::cos(phi) - std::cos(3 * phi)) / 4, z = (3 * std::sin(phi) - std::sin(3 * phi)) / 4;
+    const double phi = phi_deg * degree, x = (3 * std::cos(phi) - std::cos(3 * phi)) / 4,
+                 z = (3 * std::sin(phi) - std::sin(3 * phi)) / 4;
     expect_edge(fmt::format("nephroid: x of the edge / R at z = {:+.3f} R", z), x, z, z);
   }
 }
 
-// Near the edge. The tangent T of the envelope is the ray's own direction, (cos 2 phi, sin 2 phi), and its arc is dl = 3/2 sin(phi) d phi
-// (the derivative of the curve), so its radius of curvature is r = dl / d(2 phi) = 3/4 sin(phi). A point inside the curve, a small d from
-// it, lies on the two rays that touch it at l = +-sqrt(2 r d) from its foot. A ray that touches at l is d = l^2 / 2r away, so of the
-// strip cos(phi) d phi = cos(phi) dl / 2r falls on dd = l dl / r, twice: E / E0' = cos(phi) / l = cos(phi) / sqrt(3/2 sin(phi) d),
-// the inverse square root of the distance, on top of the light of the third ray, which changes slowly.
-TEST_F(Nephroid, IrradianceFallsWithTheInverseRootOfTheDistance)
-{
+// Near the edge. The tangent T of the envelope is the ray's own direction, (cos 2 phi, sin 2 phi), and its arc is dl =
+// 3/2 sin(phi) d phi (the derivative of the curve), so its radius of curvature is r = dl / d(2 phi) = 3/4 sin(phi). A
+// point inside the curve, a small d from it, lies on the two rays that touch it at l = +-sqrt(2 r d) from its foot. A
+// ray that touches at l is d = l^2 / 2r away, so of the strip cos(phi) d phi = cos(phi) dl / 2r falls on dd = l dl / r,
+// twice: E / E0' = cos(phi) / l = cos(phi) / sqrt(3/2 sin(phi) d), the inverse square root of the distance, on top of
+// the light of the third ray, which changes slowly.
+TEST_F(Nephroid, IrradianceFallsWithTheInverseRootOfTheDistance) {
   constexpr int bins = 5; // of distances d = 0.012 * 2^(i/2)...
   const double sine = slope / std::hypot(1, slope), innermost = 0.012;
   std::vector<double> excess(bins, 0), law(bins, 0), distance(bins, 0), outside(2, 0);
@@ -171,7 +170,8 @@ TEST_F(Nephroid, IrradianceFallsWithTheInverseRootOfTheDistance)
       for (int i = 0; i < 50; ++i) (along((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
       const double cx = (3 * std::cos(low) - std::cos(3 * low)) / 4, cz = (3 * std::sin(low) - std::sin(3 * low)) / 4;
       const double d = (x - cx) * std::sin(2 * low) - (z - cz) * std::cos(2 * low);
-      const double e = picture[static_cast<std::size_t>(row * cup_floor.pixels + column)] / cup_floor.pixel_area() / sine;
+      const double e =
+          picture[static_cast<std::size_t>(row * cup_floor.pixels + column)] / cup_floor.pixel_area() / sine;
       if (d < -cup_floor.pixel_side() && d > -4 * cup_floor.pixel_side()) outside[0] += e, ++outside[1];
       const int bin = static_cast<int>(std::floor(2 * std::log2(d / innermost)));
       if (!(d > 0) || bin < 0 || bin >= bins) continue;
@@ -187,8 +187,10 @@ TEST_F(Nephroid, IrradianceFallsWithTheInverseRootOfTheDistance)
     const double x = distance[i] / pixels[i], y = std::log(excess[i] / pixels[i] - third_ray);
     sx += x, sy += y, sxx += x * x, sxy += x * y;
   }
-  expect_truth("nephroid: exponent of irradiance over distance", (bins * sxy - sx * sy) / (bins * sxx - sx * sx), -0.5, 0.04);
-  expect_truth("nephroid: irradiance over its law nearest the edge", (excess[0] / pixels[0] - third_ray) / (law[0] / pixels[0]), 1, 0.04);
+  expect_truth("nephroid: exponent of irradiance over distance", (bins * sxy - sx * sy) / (bins * sxx - sx * sx), -0.5,
+               0.04);
+  expect_truth("nephroid: irradiance over its law nearest the edge",
+               (excess[0] / pixels[0] - third_ray) / (law[0] / pixels[0]), 1, 0.04);
 }
 
 // A glass ball as a lens: its focus, and what it makes of parallel light on a screen.
@@ -196,8 +198,7 @@ TEST_F(Nephroid, IrradianceFallsWithTheInverseRootOfTheDistance)
 constexpr double n = 1.5;
 
 /// A ball of radius 1 m and a screen at y = -distance.
-preset::Preset ball_and_screen(double distance)
-{
+preset::Preset ball_and_screen(double distance) {
   preset::Preset p = empty_preset();
   p.scene.materials["glass"] = glass(n);
   p.scene.materials["white"] = white();
@@ -207,11 +208,10 @@ preset::Preset ball_and_screen(double distance)
   return p;
 }
 
-/// W on the screen from light of 1 W/m^2 that comes from a point at `source` above the ball's centre (or INFINITY) and meets the ball
-/// within `aperture` of the axis: the integral over h, of which every ring h dh goes to a ring of the screen, for each branch of
-/// reflections.
-std::vector<double> truth(const Screen& screen, double distance, double aperture, double source = INFINITY)
-{
+/// W on the screen from light of 1 W/m^2 that comes from a point at `source` above the ball's centre (or INFINITY) and
+/// meets the ball within `aperture` of the axis: the integral over h, of which every ring h dh goes to a ring of the
+/// screen, for each branch of reflections.
+std::vector<double> truth(const Screen& screen, double distance, double aperture, double source = INFINITY) {
   constexpr int rings = 1 << 17, directions = 1 << 12, each = 192;
   std::vector<double> picture(screen.count(), 0.0), cosine, sine;
   for (int i = 0; i < directions; ++i) {
@@ -220,7 +220,8 @@ std::vector<double> truth(const Screen& screen, double distance, double aperture
   }
   for (int ring = 0; ring < rings; ++ring) {
     const double h = aperture * std::sqrt((ring + 0.5) / rings);
-    // A ray from a near point, at h before the ball's centre, is one at h' = h cos(tilt), with everything turned by the tilt.
+    // A ray from a near point, at h before the ball's centre, is one at h' = h cos(tilt), with everything turned by the
+    // tilt.
     const double tilt = std::isinf(source) ? 0 : std::atan(h / source);
     for (int inner = -1; inner <= 3; ++inner) {
       optics::BallRay ray = optics::ball_ray(h * std::cos(tilt), n, inner);
@@ -232,7 +233,8 @@ std::vector<double> truth(const Screen& screen, double distance, double aperture
       const double r = ray.y + (distance - ray.x) * std::tan(ray.angle);
       const double power = M_PI * aperture * aperture / rings / each * ray.share;
       for (int j = 0; j < each; ++j) {
-        const auto k = static_cast<std::size_t>((j * directions / each + ring * 2531) % directions); // 2531 / 4096: the golden ratio
+        const auto k = static_cast<std::size_t>((j * directions / each + ring * 2531) %
+                                                directions); // 2531 / 4096: the golden ratio
         screen.add(picture, r * cosine[k], r * sine[k], power);
       }
     }
@@ -241,8 +243,7 @@ std::vector<double> truth(const Screen& screen, double distance, double aperture
 }
 
 /// Root mean square distance from the axis of what lands on the screen.
-double spread(const std::vector<double>& picture, const Screen& screen)
-{
+double spread(const std::vector<double>& picture, const Screen& screen) {
   double power = 0, moment = 0;
   for (int row = 0; row < screen.pixels; ++row)
     for (int column = 0; column < screen.pixels; ++column) {
@@ -250,15 +251,15 @@ double spread(const std::vector<double>& picture, const Screen& screen)
       power += w;
       moment += w * (std::pow(screen.x(column), 2) + std::pow(screen.z(row), 2));
     }
-  return std::sqrt(moment / power - std::pow(screen.pixel_side(), 2) / 6); // a pixel's own square adds side^2 / 12 each way
+  return std::sqrt(moment / power -
+                   std::pow(screen.pixel_side(), 2) / 6); // a pixel's own square adds side^2 / 12 each way
 }
 
-// Near the axis i = h and t = h / n. A ray leaves at the height 2 t - i and is turned by 2 (i - t), so it crosses the axis
-// 1 + (2 t - i) / (2 (i - t)) = n / (2 (n - 1)) from the centre: 1.5 radii for n = 1.5. The beam's spread on a screen is proportional to
-// its distance from the focus; screens before and behind it say where it is. Light comes from a point at a = 1000 into a cone that is 0.02
-// wide at the ball, and meets at b, 1 / a + 1 / b = 1 / f.
-TEST(BallLens, FocusIsWhereTheParaxialFormulaSays)
-{
+// Near the axis i = h and t = h / n. A ray leaves at the height 2 t - i and is turned by 2 (i - t), so it crosses the
+// axis 1 + (2 t - i) / (2 (i - t)) = n / (2 (n - 1)) from the centre: 1.5 radii for n = 1.5. The beam's spread on a
+// screen is proportional to its distance from the focus; screens before and behind it say where it is. Light comes from
+// a point at a = 1000 into a cone that is 0.02 wide at the ball, and meets at b, 1 / a + 1 / b = 1 / f.
+TEST(BallLens, FocusIsWhereTheParaxialFormulaSays) {
   constexpr double source = 1000, aperture = 0.02;
   constexpr int photons = 1 << 18;
   const auto focus = [&](const std::array<double, 2>& at, const std::array<double, 2>& spreads) {
@@ -277,16 +278,18 @@ TEST(BallLens, FocusIsWhereTheParaxialFormulaSays)
     exact[i] = spread(truth(screen, distances[i], aperture, source), screen);
   }
   // A uniform disc's mean square radius is known to 1 / sqrt(3 N), so the spread to 1 / sqrt(12 N), and the focus to
-  // 0.15 / sqrt(24 N). The axis is off by rounding of the light's direction, 6e-8 of 1000. Rays at h focus nearer by about h^2.
+  // 0.15 / sqrt(24 N). The axis is off by rounding of the light's direction, 6e-8 of 1000. Rays at h focus nearer by
+  // about h^2.
   const double noise = sigmas * 0.15 / std::sqrt(24.0 * photons);
-  expect_truth("ball lens: focus / R, from the exact rays", focus(distances, measured), focus(distances, exact), noise + 1e-5);
-  expect_truth("ball lens: paraxial focus / R", focus(distances, measured), n / (2 * (n - 1)), noise + 1e-5 + aperture * aperture);
+  expect_truth("ball lens: focus / R, from the exact rays", focus(distances, measured), focus(distances, exact),
+               noise + 1e-5);
+  expect_truth("ball lens: paraxial focus / R", focus(distances, measured), n / (2 * (n - 1)),
+               noise + 1e-5 + aperture * aperture);
 }
 
-// E(r) = sum over branches of T(h) h dh / (r dr): beyond the focus the rays that passed near the rim cross the axis first and form a bright
-// ring, the caustic's edge.
-TEST(BallLens, IrradianceOnAScreenIsTheIntegralOverHeights)
-{
+// E(r) = sum over branches of T(h) h dh / (r dr): beyond the focus the rays that passed near the rim cross the axis
+// first and form a bright ring, the caustic's edge.
+TEST(BallLens, IrradianceOnAScreenIsTheIntegralOverHeights) {
   constexpr double distance = 2.5;
   preset::Preset p = ball_and_screen(distance);
   p.scene.lights = {parallel_light({0, -1, 0})};
@@ -305,7 +308,8 @@ TEST(BallLens, IrradianceOnAScreenIsTheIntegralOverHeights)
         inside[static_cast<std::size_t>(row * screen.pixels + column)] =
             static_cast<int>(std::hypot(screen.x(column), screen.z(row)) / 0.12) == ring;
     const Agreement a = agreement(picture, expected, photon_w, 0, inside);
-    expect_truth(fmt::format("ball lens: power on the ring {:.2f} to {:.2f} R, over the integral", ring * 0.12, ring * 0.12 + 0.12),
+    expect_truth(fmt::format("ball lens: power on the ring {:.2f} to {:.2f} R, over the integral", ring * 0.12,
+                             ring * 0.12 + 0.12),
                  a.ratio, 1, sigmas * a.error + 2e-4);
   }
 }

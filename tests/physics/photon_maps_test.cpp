@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics gathered from photon maps: seen through glass and in mirrors by the estimator `automatic`, everywhere by `sppm`. Radiance in
-// closed form, and pictures against those of splats, which have no radius and no bias.
+// Caustics gathered from photon maps: seen through glass and in mirrors by the estimator `automatic`, everywhere by
+// `sppm`. Radiance in closed form, and pictures against those of splats, which have no radius and no bias.
 #include "optics/fresnel.h"
 #include "spectral/settings.h"
 #include "tests/support/closed_form.h"
@@ -11,20 +11,20 @@ namespace nephroid::photon_maps_test {
 using Estimator = photons::Settings::Estimator;
 
 /// Mean Y of the layer "caustic", of a light of 1 W.
-std::vector<double> mean_luminance(const job::Snapshot& snapshot)
-{
+std::vector<double> mean_luminance(const job::Snapshot& snapshot) {
   const std::vector<double> y = luminance(layer(snapshot, "caustic"));
   double sum = 0;
   for (const double value : y) sum += value / static_cast<double>(y.size());
   return {sum / optics::to_xyz(spectrum_of(parallel_light({0, -1, 0})))[1]};
 }
 
-/// Parallel light falls straight through a wide plate onto a white floor, which is then lit uniformly by (1 - R) / (1 + R) (slab_test.cpp).
-preset::Preset lit_floor(double n)
-{
+/// Parallel light falls straight through a wide plate onto a white floor, which is then lit uniformly by (1 - R) / (1 +
+/// R) (slab_test.cpp).
+preset::Preset lit_floor(double n) {
   preset::Preset p = empty_preset(16);
   p.scene.materials = {{"glass", glass(n)}, {"white", white()}, {"mirror", check::mirror(0.7)}};
-  p.scene.objects = {object("plate", box(1, 0.02, 1), "glass"), object("floor", quad(100, 100), "white", at({0, -1, 0}))};
+  p.scene.objects = {object("plate", box(1, 0.02, 1), "glass"),
+                     object("floor", quad(100, 100), "white", at({0, -1, 0}))};
   p.scene.lights = {parallel_light({0, -1, 0})};
   p.scene.camera.position = {0, 1, 0};
   p.scene.camera.target = {0, -1, 0};
@@ -39,22 +39,22 @@ preset::Preset lit_floor(double n)
 
 class MapEstimators : public testing::TestWithParam<Estimator> {};
 
-// On its way to the eye the light of the floor passes the plate again: L = E / pi ((1 - R) / (1 + R))^2. A plate scales radiance by n^2 and
-// back again.
-TEST_P(MapEstimators, FloorSeenThroughAPlate)
-{
+// On its way to the eye the light of the floor passes the plate again: L = E / pi ((1 - R) / (1 + R))^2. A plate scales
+// radiance by n^2 and back again.
+TEST_P(MapEstimators, FloorSeenThroughAPlate) {
   constexpr double n = 1.6;
   preset::Preset p = lit_floor(n);
   spectral::settings(p).estimator = GetParam();
   const double r = optics::fresnel_reflectance(1, 1, n), truth = std::pow((1 - r) / (1 + r), 2) / M_PI;
   const Estimate figure = render_passes(p, mean_luminance)[0];
-  expect_truth("maps: radiance of a lit floor through a plate, over its truth", figure.mean / truth, 1, tolerance(figure) / truth);
+  expect_truth("maps: radiance of a lit floor through a plate, over its truth", figure.mean / truth, 1,
+               tolerance(figure) / truth);
   EXPECT_LT(tolerance(figure), 0.15 * truth);
 }
 
-// A mirror of reflectance 0.7 shows the floor below it. The light comes from far aside, so that the mirror throws no shadow there.
-TEST_P(MapEstimators, FloorSeenInAMirror)
-{
+// A mirror of reflectance 0.7 shows the floor below it. The light comes from far aside, so that the mirror throws no
+// shadow there.
+TEST_P(MapEstimators, FloorSeenInAMirror) {
   constexpr double n = 1.6;
   preset::Preset p = lit_floor(n);
   spectral::settings(p).estimator = GetParam();
@@ -67,14 +67,14 @@ TEST_P(MapEstimators, FloorSeenInAMirror)
   const double cosine = 1 / std::hypot(2, 1), r = optics::fresnel_reflectance(cosine, 1, n);
   const double truth = 0.7 * cosine * (1 - r) / (1 + r) / M_PI;
   const Estimate figure = render_passes(p, mean_luminance)[0];
-  expect_truth("maps: radiance of a lit floor in a mirror, over its truth", figure.mean / truth, 1, tolerance(figure) / truth);
+  expect_truth("maps: radiance of a lit floor in a mirror, over its truth", figure.mean / truth, 1,
+               tolerance(figure) / truth);
   EXPECT_LT(tolerance(figure), 0.25 * truth);
 }
 
-// A sheet has two sides: what lights one does not show on the other. A camera above the plate and one below the floor see the same places,
-// the lower one through a window of its own, which no light reaches.
-TEST_P(MapEstimators, ASheetIsDarkOnItsOtherSide)
-{
+// A sheet has two sides: what lights one does not show on the other. A camera above the plate and one below the floor
+// see the same places, the lower one through a window of its own, which no light reaches.
+TEST_P(MapEstimators, ASheetIsDarkOnItsOtherSide) {
   preset::Preset p = lit_floor(1.6);
   spectral::settings(p).estimator = GetParam();
   p.stop.passes = 2;
@@ -88,8 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, MapEstimators, testing::Values(Estimator::a
                          [](const auto& e) { return e.param == Estimator::sppm ? "sppm" : "automatic"; });
 
 // What the splats leave out is what maps are for.
-TEST(PhotonMaps, SplatsAloneShowNothingBehindGlass)
-{
+TEST(PhotonMaps, SplatsAloneShowNothingBehindGlass) {
   preset::Preset p = lit_floor(1.6);
   spectral::settings(p).estimator = Estimator::splat;
   p.stop.passes = 2;
@@ -98,10 +97,9 @@ TEST(PhotonMaps, SplatsAloneShowNothingBehindGlass)
 
 constexpr int size = 64, blocks = 8, edge = size / blocks;
 
-/// X + Y + Z of the layer "caustic" in blocks of pixels, row by row, and its mean. Wavelengths and clusters are chosen in proportion to
-/// that sum, so it is the least noisy figure.
-std::vector<double> block_sums(const job::Snapshot& snapshot)
-{
+/// X + Y + Z of the layer "caustic" in blocks of pixels, row by row, and its mean. Wavelengths and clusters are chosen
+/// in proportion to that sum, so it is the least noisy figure.
+std::vector<double> block_sums(const job::Snapshot& snapshot) {
   const std::vector<float>& rgb = layer(snapshot, "caustic").rgb;
   std::vector<double> sums(blocks * blocks + 1, 0.0);
   for (int row = 0; row < size; ++row)
@@ -115,26 +113,27 @@ std::vector<double> block_sums(const job::Snapshot& snapshot)
   return sums;
 }
 
-/// A picture of maps is that of splats with every place blurred over a disc. Of the light in a strip along a block's side, the mean of
-/// max(dx, 0) over the disc, 2 r / (3 pi), crosses that side. radius: in pixels, of the first pass, the largest.
-std::vector<double> blur_bound(const std::vector<double>& splats, double radius)
-{
+/// A picture of maps is that of splats with every place blurred over a disc. Of the light in a strip along a block's
+/// side, the mean of max(dx, 0) over the disc, 2 r / (3 pi), crosses that side. radius: in pixels, of the first pass,
+/// the largest.
+std::vector<double> blur_bound(const std::vector<double>& splats, double radius) {
   std::vector<double> bound(splats.size(), 0.005 * splats.back()); // of the mean: what leaves the picture
   for (int y = 0; y < blocks; ++y)
     for (int x = 0; x < blocks; ++x) {
-      double brightest = 0; // of the block and those around it: no strip is brighter in the mean, as long as a caustic is wider than blocks
+      double brightest = 0; // of the block and those around it: no strip is brighter in the mean, as long as a caustic
+                            // is wider than blocks
       for (int v = std::max(y - 1, 0); v <= std::min(y + 1, blocks - 1); ++v)
         for (int u = std::max(x - 1, 0); u <= std::min(x + 1, blocks - 1); ++u)
           brightest = std::max(brightest, splats[static_cast<std::size_t>(v * blocks + u)]);
-      bound[static_cast<std::size_t>(y * blocks + x)] = 4 * edge * (2 * radius / (3 * M_PI)) * brightest / (edge * edge);
+      bound[static_cast<std::size_t>(y * blocks + x)] =
+          4 * edge * (2 * radius / (3 * M_PI)) * brightest / (edge * edge);
     }
   return bound;
 }
 
 /// Every block of maps is that of splats, within the noise of both and what the radius blurs.
-void expect_same_picture(const std::string& what, const std::vector<Estimate>& maps, const std::vector<Estimate>& splats,
-                         double radius_pixels)
-{
+void expect_same_picture(const std::string& what, const std::vector<Estimate>& maps,
+                         const std::vector<Estimate>& splats, double radius_pixels) {
   std::vector<double> means;
   for (const Estimate& e : splats) means.push_back(e.mean);
   const std::vector<double> bias = blur_bound(means, radius_pixels);
@@ -142,7 +141,8 @@ void expect_same_picture(const std::string& what, const std::vector<Estimate>& m
   double smallest = 1, worst = 0, sum_z2 = 0;
   int lit = 0;
   for (std::size_t i = 0; i < maps.size(); ++i) {
-    const Estimate off{maps[i].mean - splats[i].mean, maps[i].variance + splats[i].variance, std::min(maps[i].degrees, splats[i].degrees)};
+    const Estimate off{maps[i].mean - splats[i].mean, maps[i].variance + splats[i].variance,
+                       std::min(maps[i].degrees, splats[i].degrees)};
     if (off.variance == 0) continue; // black in both
     smallest = std::min(smallest, p_value(off, 0, bias[i]));
     if (means[i] < 0.2 * brightest || i + 1 == maps.size()) continue;
@@ -152,7 +152,8 @@ void expect_same_picture(const std::string& what, const std::vector<Estimate>& m
   }
   Estimate all = maps.back();
   all.variance += splats.back().variance;
-  record(what + ": light in all, over that of splats", all.mean / means.back(), 1, tolerance(all) / means.back() + 0.005);
+  record(what + ": light in all, over that of splats", all.mean / means.back(), 1,
+         tolerance(all) / means.back() + 0.005);
   EXPECT_LT(tolerance(all), 0.1 * means.back()) << what << ": such a check would see too little";
   EXPECT_GT(sidak(smallest, static_cast<double>(maps.size())), false_alarm) << what;
   EXPECT_GT(lit, 4) << what;
@@ -161,8 +162,7 @@ void expect_same_picture(const std::string& what, const std::vector<Estimate>& m
 }
 
 /// A ball of flint under a lamp of D65: its caustic on the floor beside the camera's way.
-preset::Preset ball_caustic()
-{
+preset::Preset ball_caustic() {
   preset::Preset p = empty_preset(size);
   p.scene.materials["floor"].reflectance.type = preset::Reflectance::Type::patch;
   p.scene.materials["floor"].reflectance.patch = "orange";
@@ -183,13 +183,11 @@ preset::Preset ball_caustic()
 }
 
 /// Radius of a fraction of a pixel's width on the floor.
-void set_radius(preset::Preset& p, double pixels)
-{
+void set_radius(preset::Preset& p, double pixels) {
   spectral::settings(p).sppm.radius = pixels * 2 * 2.5 * std::tan(p.scene.camera.fov_deg / 2 * degree) / size;
 }
 
-TEST(PhotonMaps, SppmIsWhatSplatsAre)
-{
+TEST(PhotonMaps, SppmIsWhatSplatsAre) {
   preset::Preset splat = ball_caustic(), sppm = splat;
   sppm.seed = 77;
   spectral::settings(sppm).estimator = Estimator::sppm;
@@ -199,9 +197,9 @@ TEST(PhotonMaps, SppmIsWhatSplatsAre)
   expect_same_picture("sppm against splats", render_passes(sppm, block_sums), render_passes(splat, block_sums), 0.4);
 }
 
-// A window before the camera whose glass hardly bends: what is behind it is gathered, and has to look like what is splatted without it.
-TEST(PhotonMaps, AWindowChangesNothing)
-{
+// A window before the camera whose glass hardly bends: what is behind it is gathered, and has to look like what is
+// splatted without it.
+TEST(PhotonMaps, AWindowChangesNothing) {
   preset::Preset splat = ball_caustic(), maps = splat;
   maps.seed = 78;
   spectral::settings(maps).estimator = Estimator::automatic;
@@ -217,15 +215,14 @@ TEST(PhotonMaps, AWindowChangesNothing)
         spectral::settings(*p).photons_per_pass = 1 << 15;
         p->stop.passes = 110;
       }
-    expect_same_picture(jitter ? "jittered maps through a window" : "maps through a window", render_passes(maps, block_sums),
-                        render_passes(splat, block_sums), 0.4);
+    expect_same_picture(jitter ? "jittered maps through a window" : "maps through a window",
+                        render_passes(maps, block_sums), render_passes(splat, block_sums), 0.4);
   }
 }
 
-// A spot's light through a tilted plate, seen in a mirror, is what the mirrored camera sees without it, left and right exchanged. The
-// plate's reflections go up: none meets the mirror.
-TEST(PhotonMaps, AMirrorShowsWhatTheMirroredCameraSees)
-{
+// A spot's light through a tilted plate, seen in a mirror, is what the mirrored camera sees without it, left and right
+// exchanged. The plate's reflections go up: none meets the mirror.
+TEST(PhotonMaps, AMirrorShowsWhatTheMirroredCameraSees) {
   preset::Preset splat = ball_caustic();
   splat.scene.objects[0] = object("plate", box(0.7, 0.2, 0.7), "glass", at({0, 1, 0}, {0, 0, 20}));
   preset::Light& light = splat.scene.lights[0];

@@ -11,8 +11,7 @@ namespace nephroid::previews_test {
 constexpr int size = 192;
 
 /// A ball of glass over a floor, which shows its caustic directly and through the ball.
-preset::Preset seen_through_glass()
-{
+preset::Preset seen_through_glass() {
   preset::Preset p = test::ball_over_floor();
   p.scene.camera.position = {0, 1, 4};
   p.scene.camera.target = {0, -0.5, 0};
@@ -23,13 +22,12 @@ preset::Preset seen_through_glass()
   return p;
 }
 
-double error_of(const job::Picture& picture, const job::Picture& truth)
-{
-  return measure::compare({picture.width, picture.height, picture.rgb, "picture"}, {size, size, truth.rgb, "truth"}).rel_l2;
+double error_of(const job::Picture& picture, const job::Picture& truth) {
+  return measure::compare({picture.width, picture.height, picture.rgb, "picture"}, {size, size, truth.rgb, "truth"})
+      .rel_l2;
 }
 
-TEST(Previews, AreWholeAndGetBetter)
-{
+TEST(Previews, AreWholeAndGetBetter) {
   preset::Preset p = seen_through_glass(), long_run = p;
   long_run.stop.passes = 36;
   long_run.seed = 77;
@@ -52,9 +50,9 @@ TEST(Previews, AreWholeAndGetBetter)
   RecordProperty("rel_l2 of both first pictures, and of one pass", testing::PrintToString(errors));
 }
 
-// Where the camera sees the sky alone, there is nothing but that; where photons_per_pass is small, no round of photons is to spare.
-TEST(Previews, ARunMayHaveNoPhotonsForThem)
-{
+// Where the camera sees the sky alone, there is nothing but that; where photons_per_pass is small, no round of photons
+// is to spare.
+TEST(Previews, ARunMayHaveNoPhotonsForThem) {
   preset::Preset p = seen_through_glass();
   spectral::settings(p).photons_per_pass = 1024;
   const auto job = test::job_as_it_is(p);

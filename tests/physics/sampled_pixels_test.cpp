@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pixels that get samples from the eye by their noise: the mean is that of as many samples everywhere, and a run that is resumed has the
-// bits of one that was not.
+// Pixels that get samples from the eye by their noise: the mean is that of as many samples everywhere, and a run that
+// is resumed has the bits of one that was not.
 #include "photons/pixel_surfaces.h"
 #include "preset/read.h"
 #include "tests/support/render.h"
@@ -15,13 +15,13 @@ namespace nephroid::sampled_pixels_test {
 constexpr int side = 20, runs = 160;
 
 /// Glass before a bright and a dark ground, under a lamp with soft shadows and a sky: all kinds of pixels have noise.
-preset::Preset ball(photons::Settings::Effort effort, int passes)
-{
+preset::Preset ball(photons::Settings::Effort effort, int passes) {
   preset::Preset p = test::empty_preset(side);
   p.scene.materials = {{"glass", test::glass(1.6)}, {"floor", test::white(0.8)}};
   preset::Shape shape;
   shape.radius = 1;
-  p.scene.objects = {test::object("ball", shape, "glass", test::at({0, 1.2, 0})), test::object("floor", test::quad(6, 5), "floor")};
+  p.scene.objects = {test::object("ball", shape, "glass", test::at({0, 1.2, 0})),
+                     test::object("floor", test::quad(6, 5), "floor")};
   preset::Light lamp;
   lamp.type = preset::Light::Type::area;
   lamp.position = {1, 4, 1.5};
@@ -50,8 +50,7 @@ struct Sums {
   std::vector<double> sum = std::vector<double>(side * side), square = sum;
 };
 
-Sums render_many(preset::Preset preset, const char* layer, std::uint64_t first_seed)
-{
+Sums render_many(preset::Preset preset, const char* layer, std::uint64_t first_seed) {
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   const photons::RunPlan plan = spectral::make_plan(preset, scene, bvh);
@@ -71,21 +70,25 @@ Sums render_many(preset::Preset preset, const char* layer, std::uint64_t first_s
 
 class SampledPixels : public testing::TestWithParam<const char*> {};
 
-TEST_P(SampledPixels, HaveTheMeanOfAsManySamplesEverywhere)
-{
+TEST_P(SampledPixels, HaveTheMeanOfAsManySamplesEverywhere) {
   using Effort = photons::Settings::Effort;
-  const Sums shared = render_many(ball(Effort::automatic, 9), GetParam(), 1), even = render_many(ball(Effort::power, 9), GetParam(), 1000);
+  const Sums shared = render_many(ball(Effort::automatic, 9), GetParam(), 1),
+             even = render_many(ball(Effort::power, 9), GetParam(), 1000);
   std::vector<bool> glass(side * side);
-  for (const std::uint32_t pixel : photons::glass_pixels(scene::load_scene(ball(Effort::power, 1)))) glass[pixel] = true;
+  for (const std::uint32_t pixel : photons::glass_pixels(scene::load_scene(ball(Effort::power, 1))))
+    glass[pixel] = true;
   for (const bool of_glass : {true, false}) {
     double difference = 0, variance = 0, squares = 0, pixels = 0, gain = 0;
     for (std::size_t i = 0; i < glass.size(); ++i) {
       if (glass[i] != of_glass) continue;
-      const auto variance_of = [&](const Sums& s) { return (s.square[i] - s.sum[i] * s.sum[i] / runs) / (runs - 1) / runs; };
+      const auto variance_of = [&](const Sums& s) {
+        return (s.square[i] - s.sum[i] * s.sum[i] / runs) / (runs - 1) / runs;
+      };
       const double d = (shared.sum[i] - even.sum[i]) / runs, v = variance_of(shared) + variance_of(even);
       difference += d;
       variance += v;
-      if (std::min(variance_of(shared), variance_of(even)) <= 1e-12) continue; // what is so rare that not both have met it
+      if (std::min(variance_of(shared), variance_of(even)) <= 1e-12)
+        continue; // what is so rare that not both have met it
       squares += d * d / v;
       gain += std::log(std::max(variance_of(even), 1e-12) / std::max(variance_of(shared), 1e-12));
       ++pixels;
@@ -93,18 +96,20 @@ TEST_P(SampledPixels, HaveTheMeanOfAsManySamplesEverywhere)
     ASSERT_GT(pixels, 20);
     RecordProperty(of_glass ? "glass_gain" : "other_gain", std::to_string(std::exp(gain / pixels)));
     // The mean of pixels, and each on its own: a pixel's z^2 is 1 in the mean.
-    EXPECT_GT(test::two_sided(difference / std::sqrt(variance)), test::false_alarm) << of_glass << ": " << difference / pixels;
+    EXPECT_GT(test::two_sided(difference / std::sqrt(variance)), test::false_alarm)
+        << of_glass << ": " << difference / pixels;
     EXPECT_GT(test::chi_square_survival(squares, pixels), 1e-6) << of_glass << ": " << squares << " of " << pixels;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Layers, SampledPixels, testing::Values("direct", "background"));
 
-TEST(SampledPixelsResumed, HaveTheirBits)
-{
+TEST(SampledPixelsResumed, HaveTheirBits) {
   const preset::Preset preset = ball(photons::Settings::Effort::automatic, 12);
-  const auto whole = test::job_as_it_is(preset), stopped = test::job_as_it_is(preset), resumed = test::job_as_it_is(preset);
-  for (int step = 0; step < 23; ++step) stopped->advance(); // after samples were shared out, and in the middle of a pass
+  const auto whole = test::job_as_it_is(preset), stopped = test::job_as_it_is(preset),
+             resumed = test::job_as_it_is(preset);
+  for (int step = 0; step < 23; ++step)
+    stopped->advance(); // after samples were shared out, and in the middle of a pass
   ASSERT_TRUE(test::load(*resumed, test::saved(*stopped)));
   EXPECT_EQ(test::render(*resumed).picture->rgb, test::render(*whole).picture->rgb);
 }

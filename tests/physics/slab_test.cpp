@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plate with parallel faces: light leaves it in the direction it came from, moved aside and weaker, and otherwise as it was.
-// Balls; the critical angle and Brewster's.
+// A plate with parallel faces: light leaves it in the direction it came from, moved aside and weaker, and otherwise as
+// it was. Balls; the critical angle and Brewster's.
 #include "optics/fresnel.h"
 #include "spectral/settings.h"
 #include "tests/support/closed_form.h"
@@ -9,25 +9,27 @@ namespace nephroid::slab_test {
 
 constexpr double plate_n = 1.5;
 
-preset::Preset plate_over_floor(double thickness)
-{
+preset::Preset plate_over_floor(double thickness) {
   preset::Preset p = empty_preset();
   p.scene.materials["glass"] = glass(plate_n);
   p.scene.materials["white"] = white();
-  p.scene.objects = {object("plate", box(4, thickness, 4), "glass"), object("floor", quad(100, 100), "white", at({0, -1, 0}))};
+  p.scene.objects = {object("plate", box(4, thickness, 4), "glass"),
+                     object("floor", quad(100, 100), "white", at({0, -1, 0}))};
   return p;
 }
 
-// Inside a plate of thickness d a ray that came at theta runs at t, sin(theta) = n sin(t), and gets d tan(t) aside instead of d tan(theta):
-// on a floor parallel to the plate it lands d (tan(theta) - tan(t)) short. Light reflected inside lands 2 d tan(t) farther, out of view.
-TEST(Slab, MovesLightSideways)
-{
+// Inside a plate of thickness d a ray that came at theta runs at t, sin(theta) = n sin(t), and gets d tan(t) aside
+// instead of d tan(theta): on a floor parallel to the plate it lands d (tan(theta) - tan(t)) short. Light reflected
+// inside lands 2 d tan(t) farther, out of view.
+TEST(Slab, MovesLightSideways) {
   constexpr double d = 0.1;
   constexpr int photons = 1 << 17;
   for (const double theta_deg : {0.0, 15.0, 30.0, 45.0, 60.0}) {
     preset::Preset p = plate_over_floor(d);
-    const double theta = theta_deg * degree, t = std::asin(std::sin(theta) / plate_n), truth = d * (std::tan(theta) - std::tan(t));
-    p.scene.lights = {pencil({-2 * std::tan(theta), 1, 0}, {std::sin(theta), -std::cos(theta), 0}, 0.02)}; // aims at (0, -1, 0)
+    const double theta = theta_deg * degree, t = std::asin(std::sin(theta) / plate_n),
+                 truth = d * (std::tan(theta) - std::tan(t));
+    p.scene.lights = {
+        pencil({-2 * std::tan(theta), 1, 0}, {std::sin(theta), -std::cos(theta), 0}, 0.02)}; // aims at (0, -1, 0)
     spectral::settings(p).photons_per_pass = photons;
     const Screen screen{{-truth, -1, 0}, 0.02, 100};
     screen.fill(p.scene.camera, 0.5);
@@ -40,22 +42,23 @@ TEST(Slab, MovesLightSideways)
         moment_x += w * screen.x(column);
         moment_z += w * screen.z(row);
       }
-    // The beam's radius on the floor is below 0.02 degrees * 2 m / cos^2, and a uniform disc's centre is known to radius / 2 / sqrt(N).
-    // The tangent's second derivative moves the centre of a cone of half angle a by 2 m tan(theta) / cos^2(theta) a^2 / 4. Squares of 0.2
-    // mm average to 0.2 mm / sqrt(12) a photon.
+    // The beam's radius on the floor is below 0.02 degrees * 2 m / cos^2, and a uniform disc's centre is known to
+    // radius / 2 / sqrt(N). The tangent's second derivative moves the centre of a cone of half angle a by 2 m
+    // tan(theta) / cos^2(theta) a^2 / 4. Squares of 0.2 mm average to 0.2 mm / sqrt(12) a photon.
     const double a = 0.02 * degree, radius = 2 * a / std::pow(std::cos(theta), 2),
                  bend = 2 * std::tan(theta) / std::pow(std::cos(theta), 2) * a * a / 4;
-    const double tolerance = sigmas * (radius / 2 + screen.pixel_side() / std::sqrt(12.0)) / std::sqrt(0.6 * photons) + bend + 1e-6;
-    expect_truth(fmt::format("plate: sideways shift / d at {} degrees", theta_deg), -moment_x / power / d, truth / d, tolerance / d);
-    expect_truth(fmt::format("plate: shift across the plane of incidence / d at {} degrees", theta_deg), moment_z / power / d, 0,
+    const double tolerance =
+        sigmas * (radius / 2 + screen.pixel_side() / std::sqrt(12.0)) / std::sqrt(0.6 * photons) + bend + 1e-6;
+    expect_truth(fmt::format("plate: sideways shift / d at {} degrees", theta_deg), -moment_x / power / d, truth / d,
                  tolerance / d);
+    expect_truth(fmt::format("plate: shift across the plane of incidence / d at {} degrees", theta_deg),
+                 moment_z / power / d, 0, tolerance / d);
   }
 }
 
-// Under a wide plate in parallel light every place gets, after 0, 2, 4... reflections inside, (1 - R)^2 (1 + R^2 + R^4 + ...) =
-// (1 - R) / (1 + R) of E cos(theta): as uniform as it was.
-TEST(Slab, LeavesIrradianceUniform)
-{
+// Under a wide plate in parallel light every place gets, after 0, 2, 4... reflections inside, (1 - R)^2 (1 + R^2 + R^4
+// + ...) = (1 - R) / (1 + R) of E cos(theta): as uniform as it was.
+TEST(Slab, LeavesIrradianceUniform) {
   for (const double theta_deg : {0.0, 50.0, 75.0}) {
     preset::Preset p = plate_over_floor(0.02);
     const double theta = theta_deg * degree;
@@ -72,17 +75,17 @@ TEST(Slab, LeavesIrradianceUniform)
   }
 }
 
-// What an absorbing ball takes out of parallel light. A ray at h = R sin(i) has chords of length l = 2 R cos(t), sin(t) = sin(i) / n. A
-// share 1 - F enters; each chord leaves e = exp(-a l) of it, of which F stays inside:
+// What an absorbing ball takes out of parallel light. A ray at h = R sin(i) has chords of length l = 2 R cos(t), sin(t)
+// = sin(i) / n. A share 1 - F enters; each chord leaves e = exp(-a l) of it, of which F stays inside:
 //   absorbed = (1 - F) (1 - e) (1 + F e + (F e)^2 + ...) = (1 - F) (1 - e) / (1 - F e),
-// and the ball absorbs as a disc of area Q pi R^2 does, Q = integral of absorbed 2 sin(i) cos(i) di: the absorption efficiency of
-// geometrical optics (van de Hulst, Light Scattering by Small Particles, 12.3). For n = 1 the chords are distributed like l / (2 R^2), and
+// and the ball absorbs as a disc of area Q pi R^2 does, Q = integral of absorbed 2 sin(i) cos(i) di: the absorption
+// efficiency of geometrical optics (van de Hulst, Light Scattering by Small Particles, 12.3). For n = 1 the chords are
+// distributed like l / (2 R^2), and
 //   Q = 1 - 2 (1 - (1 + tau) exp(-tau)) / tau^2, tau = 2 R a.
 
 constexpr double radius = 0.05; // m
 
-double efficiency(double n, double per_metre)
-{
+double efficiency(double n, double per_metre) {
   if (n == 1) {
     const double tau = 2 * radius * per_metre;
     return 1 - 2 * (1 - (1 + tau) * std::exp(-tau)) / (tau * tau);
@@ -97,8 +100,7 @@ double efficiency(double n, double per_metre)
   return q;
 }
 
-TEST(AbsorbingBall, TakesWhatItsChordsTake)
-{
+TEST(AbsorbingBall, TakesWhatItsChordsTake) {
   const TemporaryFolder folder;
   for (const double n : {1.0, 1.5, 2.4})
     for (const double tau : {0.01, 1.0, 20.0}) {
@@ -110,15 +112,16 @@ TEST(AbsorbingBall, TakesWhatItsChordsTake)
       preset::Shape ball;
       ball.radius = radius;
       p.scene.materials["white"] = white();
-      p.scene.objects = {object("ball", ball, "glass"), object("floor", quad(1, 1), "white", at({0, -1, 0}))}; // it catches some: no matter
+      p.scene.objects = {object("ball", ball, "glass"),
+                         object("floor", quad(1, 1), "white", at({0, -1, 0}))}; // it catches some: no matter
       p.scene.objects[0].normals = preset::Object::Normals::smooth;
       p.scene.lights = {parallel_light({0.3, -1, 0.2})};
       spectral::settings(p).photons_per_pass = 1 << 17;
       spectral::settings(p).max_surfaces = 100;
       const photons::EnergyBalance e = photons::energy_of(render(p));
       const double area = M_PI * radius * radius, q = efficiency(n, per_metre);
-      // Photons carry w each and lose a share A <= 1, so the sum's variance is at most w times the power absorbed. The facets' shadow
-      // is smaller than the sphere's by up to 8e-4 and their chords are shorter by 3e-4.
+      // Photons carry w each and lose a share A <= 1, so the sum's variance is at most w times the power absorbed. The
+      // facets' shadow is smaller than the sphere's by up to 8e-4 and their chords are shorter by 3e-4.
       const double photon_w = directional_photon_w(p, spectral::settings(p).photons_per_pass);
       expect_truth(fmt::format("absorbing ball: efficiency, n = {}, 2 R a = {}", n, tau), e.absorbed_w / area, q,
                    sigmas * std::sqrt(q * area * photon_w) / area + 1e-3 * q);
@@ -127,19 +130,20 @@ TEST(AbsorbingBall, TakesWhatItsChordsTake)
     }
 }
 
-// Two angles at which Fresnel's equations do something exact: the critical angle, beyond which nothing goes through, and Brewster's, at
-// which light polarised in the plane of incidence is not reflected. Photons meet a single interface here (max_surfaces 1): what is
-// deposited on a catcher came straight from it.
+// Two angles at which Fresnel's equations do something exact: the critical angle, beyond which nothing goes through,
+// and Brewster's, at which light polarised in the plane of incidence is not reflected. Photons meet a single interface
+// here (max_surfaces 1): what is deposited on a catcher came straight from it.
 
 constexpr int photons = 1 << 19;
 
-/// A block of glass below y = 0, light that meets its upper face at the origin, from below (1) or from above (-1), and a catcher above.
-double share_above(double theta, double n, double from_below)
-{
+/// A block of glass below y = 0, light that meets its upper face at the origin, from below (1) or from above (-1), and
+/// a catcher above.
+double share_above(double theta, double n, double from_below) {
   preset::Preset p = empty_preset(16);
   p.scene.materials["glass"] = glass(n);
   p.scene.materials["white"] = white();
-  p.scene.objects = {object("block", box(2, 2, 2), "glass", at({0, -1, 0})), object("catcher", quad(400, 400), "white", at({0, 0.01, 0}))};
+  p.scene.objects = {object("block", box(2, 2, 2), "glass", at({0, -1, 0})),
+                     object("catcher", quad(400, 400), "white", at({0, 0.01, 0}))};
   // A ray that leaves at cos(t) = 1e-3 meets a catcher at 0.01 within 10 m. Light from above starts below the catcher.
   const double s = 0.008 * std::sin(theta), c = 0.008 * std::cos(theta);
   p.scene.lights = {pencil({-s, -c * from_below, 0}, {s, c * from_below, 0}, 1e-6)};
@@ -150,41 +154,44 @@ double share_above(double theta, double n, double from_below)
   return e.deposited_w / e.emitted_w;
 }
 
-// sin(t) = n sin(theta) reaches 1 at the critical angle. A little before it, by delta, cos(t)^2 = 1 - n^2 sin^2(theta) is about
-// 2 delta sqrt(n^2 - 1), so that a few photons of a thousand still go through at delta = 1e-6, and none beyond. Directions in single
-// precision are off by up to 1.5e-7, which is how sharp the edge can be.
-TEST(CriticalAngle, PhotonsAreTotallyReflectedBeyondItAndNotBefore)
-{
+// sin(t) = n sin(theta) reaches 1 at the critical angle. A little before it, by delta, cos(t)^2 = 1 - n^2 sin^2(theta)
+// is about 2 delta sqrt(n^2 - 1), so that a few photons of a thousand still go through at delta = 1e-6, and none
+// beyond. Directions in single precision are off by up to 1.5e-7, which is how sharp the edge can be.
+TEST(CriticalAngle, PhotonsAreTotallyReflectedBeyondItAndNotBefore) {
   constexpr double rounding = 1.5e-7;
   for (const double n : {1.1, 1.5, 2.417}) {
     const double critical = std::asin(1 / n);
     for (const double beyond : {1e-6, 1e-5, 1e-3}) {
       EXPECT_EQ(share_above(critical + beyond, n, 1), 0) << n << " at " << beyond << " beyond";
-      const auto transmittance = [&](double before) { return 1 - optics::fresnel_reflectance(std::cos(critical - before), n, 1); };
-      const double truth = transmittance(beyond), band = transmittance(beyond + rounding) - transmittance(beyond - rounding);
-      expect_share(fmt::format("critical angle: transmittance {:g} rad before it, n = {}", beyond, n), share_above(critical - beyond, n, 1),
-                   truth, photons, band);
+      const auto transmittance = [&](double before) {
+        return 1 - optics::fresnel_reflectance(std::cos(critical - before), n, 1);
+      };
+      const double truth = transmittance(beyond),
+                   band = transmittance(beyond + rounding) - transmittance(beyond - rounding);
+      expect_share(fmt::format("critical angle: transmittance {:g} rad before it, n = {}", beyond, n),
+                   share_above(critical - beyond, n, 1), truth, photons, band);
     }
   }
 }
 
-// tan(theta) = n: refracted and reflected ray are at right angles, and the reflected amplitude of light polarised in the plane of
-// incidence, (n cos(theta) - cos(t)) / (n cos(theta) + cos(t)), is 0 because cos(t) = sin(theta) = n cos(theta). With that the other one is
-// (cos(theta) - n cos(t)) / (cos(theta) + n cos(t)) = (1 - n^2) / (1 + n^2), and of unpolarised light half its square is reflected.
-TEST(BrewstersAngle, HalfOfTheOtherPolarisationIsReflected)
-{
+// tan(theta) = n: refracted and reflected ray are at right angles, and the reflected amplitude of light polarised in
+// the plane of incidence, (n cos(theta) - cos(t)) / (n cos(theta) + cos(t)), is 0 because cos(t) = sin(theta) = n
+// cos(theta). With that the other one is (cos(theta) - n cos(t)) / (cos(theta) + n cos(t)) = (1 - n^2) / (1 + n^2), and
+// of unpolarised light half its square is reflected.
+TEST(BrewstersAngle, HalfOfTheOtherPolarisationIsReflected) {
   for (const double n : {1.1, 1.5, 2.417}) {
     const double truth = std::pow((1 - n * n) / (1 + n * n), 2) / 2;
-    expect_share(fmt::format("Brewster's angle: reflectance, n = {}", n), share_above(std::atan(n), n, -1), truth, photons);
+    expect_share(fmt::format("Brewster's angle: reflectance, n = {}", n), share_above(std::atan(n), n, -1), truth,
+                 photons);
     expect_truth(fmt::format("Brewster's angle: reflectance by optics/fresnel.h, n = {}", n),
                  optics::fresnel_reflectance(std::cos(std::atan(n)), 1, n), truth, 1e-15);
   }
 }
 
-// kernels/tracing/fresnel.h in single precision: its unpolarised R less half of R_s = ((cos(theta) - n cos(t)) / (cos(theta) + n
-// cos(t)))^2, which a double works out from the same cosine, leaves half of R_p: nothing at Brewster's angle.
-TEST(BrewstersAngle, TheKernelReflectsNothingPolarisedInThePlane)
-{
+// kernels/tracing/fresnel.h in single precision: its unpolarised R less half of R_s = ((cos(theta) - n cos(t)) /
+// (cos(theta) + n cos(t)))^2, which a double works out from the same cosine, leaves half of R_p: nothing at Brewster's
+// angle.
+TEST(BrewstersAngle, TheKernelReflectsNothingPolarisedInThePlane) {
   const TestKernels kernels(R"(
 #include "kernels/tracing/fresnel.h"
 kernel void reflectances(global const float4* in, global float4* out, uint count)
@@ -201,7 +208,8 @@ kernel void reflectances(global const float4* in, global float4* out, uint count
   }
   const compute::Buffer<Float4> from(kernels.context(), "in", std::span<const Float4>(in));
   compute::Buffer<Float4> to(kernels.context(), "out", in.size());
-  kernels.kernel("reflectances").run(in.size(), 64, {{"in", from}, {"out", to}, {"count", static_cast<std::uint32_t>(in.size())}});
+  kernels.kernel("reflectances")
+      .run(in.size(), 64, {{"in", from}, {"out", to}, {"count", static_cast<std::uint32_t>(in.size())}});
   const std::vector<Float4> out = to.read();
   double worst_p = 0, worst = 0;
   for (std::size_t i = 0; i < in.size(); ++i) {
@@ -214,13 +222,14 @@ kernel void reflectances(global const float4* in, global float4* out, uint count
   expect_truth("Brewster's angle: kernel against optics/fresnel.h, n = 1 to 4", worst, 0, 2e-7);
 }
 
-// Radiance changes at an interface: what a path keeps is L / n^2 (Nicodemus 1963, "Radiance"). Paths that enter glass and leave it again
-// say nothing of that, because n cancels; so here the lit surface is inside the glass and the eye outside.
+// Radiance changes at an interface: what a path keeps is L / n^2 (Nicodemus 1963, "Radiance"). Paths that enter glass
+// and leave it again say nothing of that, because n cancels; so here the lit surface is inside the glass and the eye
+// outside.
 
-// A white sheet and a lamp of intensity I = P / (4 pi) inside a block of glass, seen from above along the normal. The sheet has the
-// radiance L = I cos(theta) / (pi d^2); of that the eye gets (1 - R) L / n^2 with R = ((n - 1) / (n + 1))^2 at normal incidence.
-TEST(RadianceInGlass, IsDividedByTheSquareOfTheIndexOnTheWayOut)
-{
+// A white sheet and a lamp of intensity I = P / (4 pi) inside a block of glass, seen from above along the normal. The
+// sheet has the radiance L = I cos(theta) / (pi d^2); of that the eye gets (1 - R) L / n^2 with R = ((n - 1) / (n +
+// 1))^2 at normal incidence.
+TEST(RadianceInGlass, IsDividedByTheSquareOfTheIndexOnTheWayOut) {
   constexpr double n = 1.5, power = 5;
   preset::Preset p = empty_preset(9);
   p.scene.materials = {{"white", white()}, {"glass", glass(n)}};
@@ -237,7 +246,8 @@ TEST(RadianceInGlass, IsDividedByTheSquareOfTheIndexOnTheWayOut)
   double mean = 0;
   const job::Snapshot snapshot = render(p);
   const std::vector<float>& rgb = layer(snapshot, "direct").rgb;
-  for (std::size_t i = 0; i < rgb.size(); i += 3) mean += optics::linear_srgb_to_xyz({rgb[i], rgb[i + 1], rgb[i + 2]})[1] / (9 * 9);
+  for (std::size_t i = 0; i < rgb.size(); i += 3)
+    mean += optics::linear_srgb_to_xyz({rgb[i], rgb[i + 1], rgb[i + 2]})[1] / (9 * 9);
 
   const double d2 = 0.3 * 0.3 + 0.5 * 0.5 + 0.1 * 0.1, cosine = 0.5 / std::sqrt(d2);
   const double radiance = power / (4 * M_PI) * cosine / d2 / M_PI, reflected = std::pow((n - 1) / (n + 1), 2);

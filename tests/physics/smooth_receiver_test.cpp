@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces with smooth normals are lit by these in every layer: light that came through a wide plate (layer "caustic") makes the picture
-// that it makes without the plate (layer "direct"), but for what the plate lets through, (1 - R) / (1 + R) (slab_test.cpp). A photon on its
-// own knows how many of its kind meet a facet, not the normal that the facet is meant to have.
+// Surfaces with smooth normals are lit by these in every layer: light that came through a wide plate (layer "caustic")
+// makes the picture that it makes without the plate (layer "direct"), but for what the plate lets through, (1 - R) / (1
+// + R) (slab_test.cpp). A photon on its own knows how many of its kind meet a facet, not the normal that the facet is
+// meant to have.
 #include "optics/fresnel.h"
 #include "spectral/settings.h"
 #include "tests/support/closed_form.h"
@@ -13,15 +14,13 @@ constexpr double n = 1.5;
 const preset::Vec3 direction = {0.25, -1, 0.15};
 
 /// Of the light's power, through the plate with all its reflections.
-double through_plate()
-{
+double through_plate() {
   const double cosine = 1 / std::sqrt(1 + 0.25 * 0.25 + 0.15 * 0.15), r = optics::fresnel_reflectance(cosine, 1, n);
   return (1 - r) / (1 + r);
 }
 
 /// A smooth receiver about the origin, seen aslant from below the plate.
-preset::Preset lit_receiver(const preset::Object& receiver, bool plate)
-{
+preset::Preset lit_receiver(const preset::Object& receiver, bool plate) {
   preset::Preset p = empty_preset(24);
   p.scene.materials = {{"white", white()}, {"glass", glass(n)}};
   p.scene.objects = {receiver};
@@ -40,8 +39,7 @@ preset::Preset lit_receiver(const preset::Object& receiver, bool plate)
 }
 
 /// Mean Y of blocks of 3 x 3 pixels of the only layer, and of all of them.
-std::vector<double> blocks_of(const job::Snapshot& snapshot)
-{
+std::vector<double> blocks_of(const job::Snapshot& snapshot) {
   const std::vector<double> y = luminance(snapshot.picture->layers.at(0));
   const std::size_t width = static_cast<std::size_t>(snapshot.picture->width), blocks = width / 3;
   std::vector<double> means(blocks * blocks + 1, 0.0);
@@ -52,9 +50,10 @@ std::vector<double> blocks_of(const job::Snapshot& snapshot)
   return means;
 }
 
-/// The picture through the plate is that without it, times what the plate lets through. bias: what a map's radius may add, as a share.
-void expect_lit_as_directly(const std::string& what, const preset::Preset& with_plate, const preset::Preset& without, double bias = 0)
-{
+/// The picture through the plate is that without it, times what the plate lets through. bias: what a map's radius may
+/// add, as a share.
+void expect_lit_as_directly(const std::string& what, const preset::Preset& with_plate, const preset::Preset& without,
+                            double bias = 0) {
   std::vector<Estimate> through = render_passes(with_plate, blocks_of);
   const std::vector<Estimate> direct = render_passes(without, blocks_of);
   double brightest = 0;
@@ -70,11 +69,11 @@ void expect_lit_as_directly(const std::string& what, const preset::Preset& with_
   biases.back() = bias * direct.back().mean;
   EXPECT_GT(same_expectations(through, direct, biases), false_alarm) << what;
   const double truth = direct.back().mean;
-  record(what + ": light of the picture, over its truth", through.back().mean / truth, 1, tolerance(through.back()) / truth + bias);
+  record(what + ": light of the picture, over its truth", through.back().mean / truth, 1,
+         tolerance(through.back()) / truth + bias);
 }
 
-TEST(SmoothReceiver, ACoarseRodIsLitAsDirectly)
-{
+TEST(SmoothReceiver, ACoarseRodIsLitAsDirectly) {
   const preset::Object ball = object("receiver", check::rod(0.5, 8), "white");
   for (const bool relight : {false, true}) {
     preset::Preset with_plate = lit_receiver(ball, true), without = lit_receiver(ball, false);
@@ -84,10 +83,10 @@ TEST(SmoothReceiver, ACoarseRodIsLitAsDirectly)
 }
 
 /// A horizontal square from (-0.4, -0.4) to (0.4, 0.4) with the normals of its corners, in OBJ's lines.
-preset::Object square_with_normals(const std::string& name, const std::filesystem::path& folder, const char* normals)
-{
+preset::Object square_with_normals(const std::string& name, const std::filesystem::path& folder, const char* normals) {
   const std::filesystem::path file = folder / (name + ".obj");
-  std::ofstream(file) << "v -0.4 0 -0.4\nv -0.4 0 0.4\nv 0.4 0 0.4\nv 0.4 0 -0.4\n" << normals << "f 1//1 2//2 3//3\nf 1//1 3//3 4//4\n";
+  std::ofstream(file) << "v -0.4 0 -0.4\nv -0.4 0 0.4\nv 0.4 0 0.4\nv 0.4 0 -0.4\n"
+                      << normals << "f 1//1 2//2 3//3\nf 1//1 3//3 4//4\n";
   preset::Object square;
   square.name = name;
   square.mesh = file.string();
@@ -96,20 +95,17 @@ preset::Object square_with_normals(const std::string& name, const std::filesyste
 }
 
 /// Its normals lean outwards: on a flat surface, irradiance falls towards its corners.
-preset::Object leaning_square(const std::filesystem::path& folder)
-{
+preset::Object leaning_square(const std::filesystem::path& folder) {
   return square_with_normals("receiver", folder, "vn -1 1 -1\nvn -1 1 1\nvn 1 1 1\nvn 1 1 -1\n");
 }
 
-TEST(SmoothReceiver, ALeaningSquareIsLitAsDirectly)
-{
+TEST(SmoothReceiver, ALeaningSquareIsLitAsDirectly) {
   const TemporaryFolder folder;
   const preset::Object square = leaning_square(folder.path());
   expect_lit_as_directly("leaning square", lit_receiver(square, true), lit_receiver(square, false));
 }
 
-TEST(SmoothReceiver, PhotonMapsKnowTheNormalsToo)
-{
+TEST(SmoothReceiver, PhotonMapsKnowTheNormalsToo) {
   const TemporaryFolder folder;
   const preset::Object square = leaning_square(folder.path());
   preset::Preset with_plate = lit_receiver(square, true), without = lit_receiver(square, false);
@@ -120,15 +116,13 @@ TEST(SmoothReceiver, PhotonMapsKnowTheNormalsToo)
 }
 
 /// Its normals all lean by 45 degrees.
-preset::Object leaning_tile(const std::filesystem::path& folder)
-{
+preset::Object leaning_tile(const std::filesystem::path& folder) {
   return square_with_normals("tile", folder, "vn 1 1 0\nvn 1 1 0\nvn 1 1 0\nvn 1 1 0\n");
 }
 
-// Light from straight above meets the tile at cos(45 degrees) by its normals, and at 1 by its facets: that much less is what it sends on to
-// a wall beside it.
-TEST(SmoothReceiver, SendsOnWhatItGetsByItsNormals)
-{
+// Light from straight above meets the tile at cos(45 degrees) by its normals, and at 1 by its facets: that much less is
+// what it sends on to a wall beside it.
+TEST(SmoothReceiver, SendsOnWhatItGetsByItsNormals) {
   const TemporaryFolder folder;
   preset::Preset p = empty_preset(24);
   p.scene.materials = {{"white", white(0.8)}};

@@ -12,8 +12,7 @@ namespace nephroid::smoothing_test {
 using Smooth = photons::Settings::Smoothing;
 using Effort = photons::Settings::Effort;
 
-preset::Preset ball(int passes, Smooth smoothing)
-{
+preset::Preset ball(int passes, Smooth smoothing) {
   preset::Preset p = test::ball_over_floor();
   p.scene.camera.position = {0, 2, 4};
   p.scene.camera.target = {0, -2, 0};
@@ -30,23 +29,20 @@ preset::Preset ball(int passes, Smooth smoothing)
 
 double sum(const std::vector<float>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
 
-double mean_distance(const std::vector<float>& a, const std::vector<float>& b)
-{
+double mean_distance(const std::vector<float>& a, const std::vector<float>& b) {
   double all = 0;
   for (std::size_t i = 0; i < a.size(); ++i) all += std::abs(static_cast<double>(a[i]) - b[i]);
   return all / static_cast<double>(a.size());
 }
 
-plan::Pass smoothing_pass(const preset::Preset& preset)
-{
+plan::Pass smoothing_pass(const preset::Preset& preset) {
   const scene::Scene scene = scene::load_scene(preset);
   for (const plan::Pass& pass : spectral::make_plan(preset, scene, scene::build_bvh(scene.geometry)).passes)
     if (pass.name == "smoothing") return pass;
   throw std::runtime_error("the plan does not tell of smoothing");
 }
 
-TEST(SmoothedRun, has_the_power_of_the_plain_one_and_less_error)
-{
+TEST(SmoothedRun, has_the_power_of_the_plain_one_and_less_error) {
   const job::Snapshot plain = test::render(ball(4, Smooth::off)), smooth = test::render(ball(4, Smooth::on)),
                       truth = test::render(ball(256, Smooth::off));
   const std::vector<float>& caustic = test::layer(smooth, "caustic").rgb;
@@ -55,13 +51,14 @@ TEST(SmoothedRun, has_the_power_of_the_plain_one_and_less_error)
   EXPECT_NEAR(sum(caustic), power, 1e-4 * power);
   EXPECT_LT(mean_distance(caustic, truth.picture->rgb), 0.8 * mean_distance(plain.picture->rgb, truth.picture->rgb));
   // The run's own estimate sees less noise, too.
-  const auto squares = [](const std::vector<float>& v) { return std::inner_product(v.begin(), v.end(), v.begin(), 0.0); };
+  const auto squares = [](const std::vector<float>& v) {
+    return std::inner_product(v.begin(), v.end(), v.begin(), 0.0);
+  };
   EXPECT_LT(squares(smooth.picture->error_draw), squares(plain.picture->error_draw));
 }
 
 /// A ball's light on a table and, past the table's edge, on a floor below, seen through a pane of glass that leans.
-preset::Preset behind_a_window(Smooth smoothing)
-{
+preset::Preset behind_a_window(Smooth smoothing) {
   preset::Preset p = ball(4, smoothing);
   p.scene.camera.position = {0, 2, 4};
   p.scene.camera.target = {-0.3, -2.4, 0.2};
@@ -80,8 +77,7 @@ preset::Preset behind_a_window(Smooth smoothing)
   return p;
 }
 
-TEST(SmoothedRun, keeps_light_on_its_side_of_an_edge_behind_a_window)
-{
+TEST(SmoothedRun, keeps_light_on_its_side_of_an_edge_behind_a_window) {
   const preset::Preset p = behind_a_window(Smooth::on);
   const job::Snapshot plain = test::render(behind_a_window(Smooth::off)), smooth = test::render(p);
   const scene::Scene scene = scene::load_scene(p);
@@ -89,11 +85,13 @@ TEST(SmoothedRun, keeps_light_on_its_side_of_an_edge_behind_a_window)
   constexpr std::size_t table = 1, lower = 2, window = 3;
   std::vector<double> before(scene.objects.size()), after(scene.objects.size());
   for (std::size_t i = 0; i < 64 * 64; ++i) {
-    const photons::PixelSurfaces surfaces = photons::surfaces_of_pixel(scene, bvh, scene.camera, static_cast<int>(i) % 64, static_cast<int>(i) / 64);
+    const photons::PixelSurfaces surfaces =
+        photons::surfaces_of_pixel(scene, bvh, scene.camera, static_cast<int>(i) % 64, static_cast<int>(i) / 64);
     ASSERT_EQ(surfaces.first.object, static_cast<int>(window));
     const auto object = static_cast<std::size_t>(surfaces.last.object);
     ASSERT_TRUE(object == table || object == lower);
-    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) before[object] += plain.picture->rgb[c], after[object] += smooth.picture->rgb[c];
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
+      before[object] += plain.picture->rgb[c], after[object] += smooth.picture->rgb[c];
   }
   ASSERT_GT(before[lower], 0.01);
   ASSERT_GT(before[table], before[lower]);
@@ -103,8 +101,7 @@ TEST(SmoothedRun, keeps_light_on_its_side_of_an_edge_behind_a_window)
             0.2 * (before[table] + before[lower]));
 }
 
-TEST(SmoothedRun, leaves_other_layers_alone)
-{
+TEST(SmoothedRun, leaves_other_layers_alone) {
   preset::Preset plain = ball(2, Smooth::off), smooth = ball(2, Smooth::on);
   spectral::settings(plain).direct = spectral::settings(smooth).direct = true;
   const job::Snapshot a = test::render(plain), b = test::render(smooth);
@@ -112,8 +109,7 @@ TEST(SmoothedRun, leaves_other_layers_alone)
   EXPECT_NE(test::layer(a, "caustic").rgb, test::layer(b, "caustic").rgb);
 }
 
-TEST(SmoothedRun, needs_halves_and_splats_and_says_so)
-{
+TEST(SmoothedRun, needs_halves_and_splats_and_says_so) {
   EXPECT_TRUE(smoothing_pass(ball(2, Smooth::on)).runs);
   EXPECT_FALSE(smoothing_pass(ball(2, Smooth::off)).runs);
   EXPECT_FALSE(smoothing_pass(ball(1, Smooth::on)).runs);
@@ -127,12 +123,12 @@ TEST(SmoothedRun, needs_halves_and_splats_and_says_so)
   EXPECT_EQ(smoothing_pass(sppm).field, "");
 }
 
-// What the camera sees through glass gets samples as long as a run goes on, and its share of the work by what that gains; other pixels end
-// at spectral.pixel_samples.
+// What the camera sees through glass gets samples as long as a run goes on, and its share of the work by what that
+// gains; other pixels end at spectral.pixel_samples.
 
-/// A ball of glass that dispersion pulls apart, before a sky of one colour; the floor under it, half of the picture, is seen directly.
-preset::Preset ball(int passes, std::uint64_t seed = 1)
-{
+/// A ball of glass that dispersion pulls apart, before a sky of one colour; the floor under it, half of the picture, is
+/// seen directly.
+preset::Preset ball(int passes, std::uint64_t seed = 1) {
   preset::Preset p = test::ball_scene();
   p.seed = seed;
   p.scene.environment = preset::Environment{preset::Environment::Type::constant, "", {0.2, 0.5, 1}};
@@ -147,16 +143,14 @@ struct Errors {
   double glass = 0, elsewhere = 0; ///< sums of squares
 };
 
-Errors errors_of(const std::vector<float>& rgb, const std::vector<float>& truth, const std::vector<bool>& glass)
-{
+Errors errors_of(const std::vector<float>& rgb, const std::vector<float>& truth, const std::vector<bool>& glass) {
   Errors errors;
   for (std::size_t i = 0; i < rgb.size(); ++i)
     (glass[i / 3] ? errors.glass : errors.elsewhere) += std::pow(static_cast<double>(rgb[i]) - truth[i], 2);
   return errors;
 }
 
-TEST(ThroughGlass, RunsGoOnConverging)
-{
+TEST(ThroughGlass, RunsGoOnConverging) {
   std::vector<bool> glass(48 * 48, false);
   for (const std::uint32_t pixel : photons::glass_pixels(scene::load_scene(ball(1)))) glass[pixel] = true;
   const job::Snapshot few = test::render(ball(4)), many = test::render(ball(64));
@@ -179,8 +173,7 @@ TEST(ThroughGlass, RunsGoOnConverging)
 }
 
 /// The same with caustics, photon maps and all that a run decides by what it measures.
-preset::Preset whole(int passes)
-{
+preset::Preset whole(int passes) {
   preset::Preset p = ball(passes);
   spectral::settings(p).caustic = true;
   spectral::settings(p).estimator = photons::Settings::Estimator::automatic;
@@ -190,8 +183,7 @@ preset::Preset whole(int passes)
   return p;
 }
 
-TEST(ThroughGlass, ARunThatIsResumedHasTheSameBits)
-{
+TEST(ThroughGlass, ARunThatIsResumedHasTheSameBits) {
   const job::Snapshot straight = test::render_as_it_is(whole(20));
   for (const int steps : {1, 17, 40}) { // somewhere in passes before and after what is measured has changed anything
     const auto first = test::job_as_it_is(whole(20));
@@ -206,9 +198,9 @@ TEST(ThroughGlass, ARunThatIsResumedHasTheSameBits)
   }
 }
 
-/// The sum of the caustic that the ball shows, over passes: the number of paths a pass changes, what they show does not.
-TEST(ThroughGlass, SharesChangeNoLight)
-{
+/// The sum of the caustic that the ball shows, over passes: the number of paths a pass changes, what they show does
+/// not.
+TEST(ThroughGlass, SharesChangeNoLight) {
   preset::Preset shared = whole(64), plain = test::plain(shared);
   spectral::settings(shared).smoothing = photons::Settings::Smoothing::off;
   plain.seed = 7;
@@ -228,8 +220,7 @@ TEST(ThroughGlass, SharesChangeNoLight)
 // Which clusters photons are allocated to changes the noise of a picture and not what it shows.
 
 /// X, Y and Z of the layer "caustic", and the power that came down.
-std::vector<double> caustic_colour(const job::Snapshot& snapshot)
-{
+std::vector<double> caustic_colour(const job::Snapshot& snapshot) {
   const std::vector<float>& rgb = layer(snapshot, "caustic").rgb;
   optics::Colour sum{};
   for (std::size_t i = 0; i < rgb.size(); ++i) sum[i % 3] += rgb[i];
@@ -237,9 +228,9 @@ std::vector<double> caustic_colour(const job::Snapshot& snapshot)
   return {xyz[0], xyz[1], xyz[2], photons::energy_of(snapshot).deposited_w};
 }
 
-/// A ball under daylight and a candle, on a floor that reflects no blue below 480 nm, to which (4.15) gives no importance.
-preset::Preset scene_by(Effort effort, std::uint64_t seed)
-{
+/// A ball under daylight and a candle, on a floor that reflects no blue below 480 nm, to which (4.15) gives no
+/// importance.
+preset::Preset scene_by(Effort effort, std::uint64_t seed) {
   preset::Preset p = ball_scene();
   p.seed = seed;
   p.scene.lights.push_back(p.scene.lights[0]);
@@ -256,8 +247,7 @@ preset::Preset scene_by(Effort effort, std::uint64_t seed)
 
 class AllocatedEffort : public testing::TestWithParam<Effort> {};
 
-TEST_P(AllocatedEffort, LeavesThePictureAsItIs)
-{
+TEST_P(AllocatedEffort, LeavesThePictureAsItIs) {
   static const std::vector<Estimate> power = render_passes(scene_by(Effort::power, 1), caustic_colour);
   const std::vector<Estimate> other = render_passes(scene_by(GetParam(), 1000), caustic_colour);
   double smallest = 1;
@@ -269,6 +259,7 @@ TEST_P(AllocatedEffort, LeavesThePictureAsItIs)
   EXPECT_GT(sidak(smallest, 4), false_alarm);
 }
 
-INSTANTIATE_TEST_SUITE_P(Choices, AllocatedEffort, testing::Values(Effort::equal, Effort::importance, Effort::radziszewski));
+INSTANTIATE_TEST_SUITE_P(Choices, AllocatedEffort,
+                         testing::Values(Effort::equal, Effort::importance, Effort::radziszewski));
 
 } // namespace nephroid::smoothing_test

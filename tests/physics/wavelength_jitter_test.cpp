@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// One path for a whole cluster is biased; one wavelength of the cluster for each path is not, however coarse the clusters are. The truth is
-// brute force, a path for every wavelength. Low-discrepancy numbers and photons allocated by variance have to keep the expectation too. The
-// two halves of a film, from which a run tells its own error, have to be independent whatever the paths follow.
+// One path for a whole cluster is biased; one wavelength of the cluster for each path is not, however coarse the
+// clusters are. The truth is brute force, a path for every wavelength. Low-discrepancy numbers and photons allocated by
+// variance have to keep the expectation too. The two halves of a film, from which a run tells its own error, have to be
+// independent whatever the paths follow.
 #include "job/job.h"
 #include "spectral/settings.h"
 #include "tests/support/closed_form.h"
@@ -10,10 +11,9 @@
 
 namespace nephroid::wavelength_jitter_test {
 
-/// Strong dispersion, so that a whole cluster's mean n is far from most of its wavelengths', over a floor that is not grey. Photons take
-/// whole clusters, are independent, and are allocated by power: what a test is about it turns on.
-preset::Preset dispersing_ball(bool absorbing)
-{
+/// Strong dispersion, so that a whole cluster's mean n is far from most of its wavelengths', over a floor that is not
+/// grey. Photons take whole clusters, are independent, and are allocated by power: what a test is about it turns on.
+preset::Preset dispersing_ball(bool absorbing) {
   preset::Preset p = ball_scene();
   p.scene.materials["glass"].dispersion.coefficients = {1.4, 0.04};
   p.scene.lights[0].spectrum.illuminant = "A";
@@ -33,8 +33,7 @@ preset::Preset dispersing_ball(bool absorbing)
 }
 
 /// Linear sRGB of the picture in 3 x 3 blocks, and the watts of the energy balance.
-std::vector<double> figures(const job::Snapshot& snapshot)
-{
+std::vector<double> figures(const job::Snapshot& snapshot) {
   const std::vector<float>& rgb = snapshot.picture->rgb;
   const int size = snapshot.picture->width, block = size / 3;
   std::vector<double> sums(27);
@@ -43,15 +42,14 @@ std::vector<double> figures(const job::Snapshot& snapshot)
       for (int c = 0; c < 3; ++c)
         sums[static_cast<std::size_t>(3 * (3 * (row / block) + column / block) + c)] +=
             rgb[static_cast<std::size_t>(3 * (row * size + column) + c)];
-  for (const double watts :
-       {photons::energy_of(snapshot).emitted_w, photons::energy_of(snapshot).deposited_w, photons::energy_of(snapshot).absorbed_w})
+  for (const double watts : {photons::energy_of(snapshot).emitted_w, photons::energy_of(snapshot).deposited_w,
+                             photons::energy_of(snapshot).absorbed_w})
     sums.push_back(watts);
   return sums;
 }
 
 /// Sidak's p-value of the worst figure of two runs that should have one expectation.
-double p_of_same(const std::vector<Estimate>& a, const std::vector<Estimate>& b)
-{
+double p_of_same(const std::vector<Estimate>& a, const std::vector<Estimate>& b) {
   double worst = 1;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Estimate both{a[i].mean - b[i].mean, a[i].variance + b[i].variance, std::min(a[i].degrees, b[i].degrees)};
@@ -62,8 +60,7 @@ double p_of_same(const std::vector<Estimate>& a, const std::vector<Estimate>& b)
 
 class WavelengthJitter : public testing::TestWithParam<bool> {};
 
-TEST_P(WavelengthJitter, HasTheExpectationOfBruteForce)
-{
+TEST_P(WavelengthJitter, HasTheExpectationOfBruteForce) {
   preset::Preset p = dispersing_ball(GetParam());
   spectral::settings(p).method = photons::Settings::Method::brute_force;
   const std::vector<Estimate> truth = render_passes(p, figures);
@@ -81,11 +78,11 @@ TEST_P(WavelengthJitter, HasTheExpectationOfBruteForce)
   EXPECT_GT(p_of_same(render_passes(p, figures), truth), false_alarm);
 }
 
-INSTANTIATE_TEST_SUITE_P(, WavelengthJitter, testing::Bool(), [](const auto& test) { return test.param ? "WithColouredMirror" : "Glass"; });
+INSTANTIATE_TEST_SUITE_P(, WavelengthJitter, testing::Bool(),
+                         [](const auto& test) { return test.param ? "WithColouredMirror" : "Glass"; });
 
 // Without jitter one cluster sends all wavelengths the way of one: it differs from brute force far beyond the noise.
-TEST(WholeClusters, AreBiased)
-{
+TEST(WholeClusters, AreBiased) {
   preset::Preset p = dispersing_ball(false);
   spectral::settings(p).photons_per_pass = 1 << 16;
   spectral::settings(p).method = photons::Settings::Method::brute_force;
@@ -96,10 +93,9 @@ TEST(WholeClusters, AreBiased)
   EXPECT_LT(p_of_same(render_passes(p, figures), truth), false_alarm);
 }
 
-// The sequence spreads photons more evenly than chance does: behind glass that bends nothing (n = 1 + 1e-6) a floor's irradiance is smooth,
-// and its pixels scatter far less about their mean.
-TEST(LowDiscrepancy, SpreadsPhotonsEvenly)
-{
+// The sequence spreads photons more evenly than chance does: behind glass that bends nothing (n = 1 + 1e-6) a floor's
+// irradiance is smooth, and its pixels scatter far less about their mean.
+TEST(LowDiscrepancy, SpreadsPhotonsEvenly) {
   preset::Preset p = dispersing_ball(false);
   p.scene.materials["glass"].dispersion.coefficients = {1.000001};
   spectral::settings(p).direct = false;
@@ -118,10 +114,9 @@ TEST(LowDiscrepancy, SpreadsPhotonsEvenly)
   EXPECT_LT(scatter(true), 0.5 * scatter(false));
 }
 
-/// The squares of what runs take for their own error, of two runs each of eight pairs, over the squares of the pairs' differences: 1 in the
-/// mean, for such a draw has the variance of the picture, and a difference twice that.
-double believed_over_true_error(preset::Preset p)
-{
+/// The squares of what runs take for their own error, of two runs each of eight pairs, over the squares of the pairs'
+/// differences: 1 in the mean, for such a draw has the variance of the picture, and a difference twice that.
+double believed_over_true_error(preset::Preset p) {
   double draws = 0, differences = 0;
   const auto square = [](double x) { return x * x; };
   for (int pair = 0; pair < 8; ++pair) {
@@ -130,7 +125,8 @@ double believed_over_true_error(preset::Preset p)
     ++p.seed;
     const job::Snapshot b = render(p);
     const std::vector<float>&draw_a = a.picture->error_draw, &draw_b = b.picture->error_draw;
-    if (draw_a.empty() || draw_b.empty()) throw std::logic_error("believed_over_true_error: the run has no estimate of its error");
+    if (draw_a.empty() || draw_b.empty())
+      throw std::logic_error("believed_over_true_error: the run has no estimate of its error");
     for (std::size_t i = 0; i < draw_a.size(); ++i) {
       draws += square(draw_a[i]) + square(draw_b[i]);
       differences += square(a.picture->rgb[i] - b.picture->rgb[i]);
@@ -139,11 +135,11 @@ double believed_over_true_error(preset::Preset p)
   return draws / differences;
 }
 
-// A run takes its error for the difference of the film's halves, so they have to be independent, each with sequences of its own. Where
-// glass bends nothing and reflects nothing, how a photon starts is all that is random: halves that follow the same sequence would be the
-// same picture. The ratio, of thousands of pixels, scatters by 0.06; a factor of 2 is more than ten times that.
-TEST(HalvesOfTheFilm, PhotonsFollowIndependentSequences)
-{
+// A run takes its error for the difference of the film's halves, so they have to be independent, each with sequences of
+// its own. Where glass bends nothing and reflects nothing, how a photon starts is all that is random: halves that
+// follow the same sequence would be the same picture. The ratio, of thousands of pixels, scatters by 0.06; a factor of
+// 2 is more than ten times that.
+TEST(HalvesOfTheFilm, PhotonsFollowIndependentSequences) {
   preset::Preset p = dispersing_ball(false);
   p.scene.materials["glass"].dispersion.coefficients = {1.000001};
   spectral::settings(p).direct = false;
@@ -156,8 +152,7 @@ TEST(HalvesOfTheFilm, PhotonsFollowIndependentSequences)
 }
 
 // Through a plate that hardly bends, which clusters a pixel's paths take is nearly all that is random.
-TEST(HalvesOfTheFilm, EyePathsTakeIndependentClusters)
-{
+TEST(HalvesOfTheFilm, EyePathsTakeIndependentClusters) {
   preset::Preset p = dispersing_ball(false);
   p.scene.materials["glass"].dispersion.coefficients = {1.01, 0.001};
   p.scene.objects[0].shape = box(6, 0.02, 6);
@@ -172,15 +167,14 @@ TEST(HalvesOfTheFilm, EyePathsTakeIndependentClusters)
   EXPECT_LT(ratio, 2);
 }
 
-// The spectrum of a pixel that layers keep: against the closed form of a point light over a diffuse plane, and against the picture's own
-// colours.
+// The spectrum of a pixel that layers keep: against the closed form of a point light over a diffuse plane, and against
+// the picture's own colours.
 
 constexpr int size = 16;
 constexpr double metres = 1; ///< of the floor, to a side of the picture
 
 /// A floor of a ColorChecker patch seen from straight above: a lamp of illuminant A above it. Layers are kept.
-preset::Preset floor_preset()
-{
+preset::Preset floor_preset() {
   preset::Preset p = empty_preset(size);
   Screen{{0, 0, 0}, metres, size}.fill(p.scene.camera, 2);
   p.scene.materials["orange"] = white();
@@ -195,9 +189,9 @@ preset::Preset floor_preset()
   return p;
 }
 
-/// W m^-2 sr^-1 nm^-1 that a pixel of the floor sends: rho / pi times the irradiance, Phi / (4 pi) cos / d^2 of a point of Phi W.
-std::vector<double> truth(const preset::Preset& p, const std::array<int, 2>& pixel)
-{
+/// W m^-2 sr^-1 nm^-1 that a pixel of the floor sends: rho / pi times the irradiance, Phi / (4 pi) cos / d^2 of a point
+/// of Phi W.
+std::vector<double> truth(const preset::Preset& p, const std::array<int, 2>& pixel) {
   const preset::Light& light = p.scene.lights[0];
   const double x = ((pixel[0] + 0.5) / size - 0.5) * metres, z = ((pixel[1] + 0.5) / size - 0.5) * metres;
   const double dx = light.position[0] - x, dy = light.position[1], dz = light.position[2] - z;
@@ -210,40 +204,36 @@ std::vector<double> truth(const preset::Preset& p, const std::array<int, 2>& pix
 }
 
 /// As of the colour that the film adds up, over white.
-std::array<double, 3> colour_of(const std::vector<double>& radiance, double white)
-{
+std::array<double, 3> colour_of(const std::vector<double>& radiance, double white) {
   optics::Spectrum spectrum{};
   for (std::size_t w = 0; w < spectrum.size(); ++w) spectrum[w] = radiance[w] / white;
   return optics::xyz_to_linear_srgb(optics::to_xyz(spectrum));
 }
 
-std::unique_ptr<job::Job> finished(const preset::Preset& p)
-{
+std::unique_ptr<job::Job> finished(const preset::Preset& p) {
   auto job = job_of(p);
   while (!job->finished()) job->advance();
   return job;
 }
 
-std::shared_ptr<const job::PixelSpectrum> spectrum_of(job::Job& job, const std::array<int, 2>& pixel)
-{
+std::shared_ptr<const job::PixelSpectrum> spectrum_of(job::Job& job, const std::array<int, 2>& pixel) {
   auto* source = dynamic_cast<job::SpectrumSource*>(&job);
   return source ? source->spectrum(pixel) : nullptr;
 }
 
 /// The picture's layer in a pixel is the colour of its spectrum, up to the film's single precision.
-void expect_colour_of_picture(job::Job& job, const job::PixelSpectrum& spectrum, double white)
-{
+void expect_colour_of_picture(job::Job& job, const job::PixelSpectrum& spectrum, double white) {
   const job::Snapshot snapshot = job.snapshot();
   for (const job::PixelSpectrum::Layer& part : spectrum.layers) {
     const std::array<double, 3> colour = colour_of(part.radiance, white);
     const std::size_t at = 3 * static_cast<std::size_t>(spectrum.pixel[1] * size + spectrum.pixel[0]);
     for (std::size_t c = 0; c < 3; ++c)
-      EXPECT_NEAR(layer(snapshot, part.name).rgb[at + c], colour[c], 1e-5 * (std::abs(colour[1]) + 1e-6)) << part.name << " channel " << c;
+      EXPECT_NEAR(layer(snapshot, part.name).rgb[at + c], colour[c], 1e-5 * (std::abs(colour[1]) + 1e-6))
+          << part.name << " channel " << c;
   }
 }
 
-TEST(PixelSpectrum, OfAPlaneUnderAPointIsTheClosedForm)
-{
+TEST(PixelSpectrum, OfAPlaneUnderAPointIsTheClosedForm) {
   preset::Preset p = floor_preset();
   p.stop.passes = 64;
   const auto job = finished(p);
@@ -256,18 +246,19 @@ TEST(PixelSpectrum, OfAPlaneUnderAPointIsTheClosedForm)
     const std::vector<double> wanted = truth(p, pixel), &found = spectrum->layers[0].radiance;
     ASSERT_EQ(found.size(), wanted.size());
     // 64 samples in a pixel of 6 cm, over which the irradiance changes by 7 % at most: 0.26 %.
-    expect_truth("pixel spectrum: direct light of a point over its closed form at 600 nm", found[220] / wanted[220], 1, 0.01);
+    expect_truth("pixel spectrum: direct light of a point over its closed form at 600 nm", found[220] / wanted[220], 1,
+                 0.01);
     for (std::size_t w = 0; w < wanted.size(); ++w)
-      EXPECT_NEAR(found[w] / found[220], wanted[w] / wanted[220], 1e-6) << "the form does not hang on the samples; " << w + 380 << " nm";
+      EXPECT_NEAR(found[w] / found[220], wanted[w] / wanted[220], 1e-6)
+          << "the form does not hang on the samples; " << w + 380 << " nm";
     expect_colour_of_picture(*job, *spectrum, p.white.value());
   }
 }
 
-TEST(PixelSpectrum, OfLightThroughGlassIsClusterByCluster)
-{
+TEST(PixelSpectrum, OfLightThroughGlassIsClusterByCluster) {
   preset::Preset p = floor_preset();
-  // A sheet that bends nothing (n = 1), out of the camera's sight of the floor: the light comes as from the point itself, and the clusters
-  // are of 40 nm each.
+  // A sheet that bends nothing (n = 1), out of the camera's sight of the floor: the light comes as from the point
+  // itself, and the clusters are of 40 nm each.
   p.scene.objects.push_back(object("sheet", box(8, 0.01, 8), "nothing", at({0, 0.5, 0})));
   p.scene.camera.position[1] = 0.45;
   Screen{{0, 0, 0}, metres, size}.fill(p.scene.camera, 0.45);
@@ -297,8 +288,7 @@ TEST(PixelSpectrum, OfLightThroughGlassIsClusterByCluster)
   expect_colour_of_picture(*job, *spectrum_of(*job, {7, 8}), p.white.value());
 }
 
-TEST(PixelSpectrum, FollowsAnotherLight)
-{
+TEST(PixelSpectrum, FollowsAnotherLight) {
   preset::Preset p = floor_preset();
   p.stop.passes = 4;
   const auto job = finished(p);
@@ -306,11 +296,11 @@ TEST(PixelSpectrum, FollowsAnotherLight)
   p.scene.lights[0].power_w = 15;
   ASSERT_TRUE(job->adopt(p));
   const auto after = spectrum_of(*job, {5, 5});
-  for (std::size_t w = 0; w < before.size(); w += 50) EXPECT_NEAR(after->layers[0].radiance[w], 3 * before[w], 1e-9 * before[w]);
+  for (std::size_t w = 0; w < before.size(); w += 50)
+    EXPECT_NEAR(after->layers[0].radiance[w], 3 * before[w], 1e-9 * before[w]);
 }
 
-TEST(PixelSpectrum, WithoutLayersSaysWhatToSwitchOn)
-{
+TEST(PixelSpectrum, WithoutLayersSaysWhatToSwitchOn) {
   preset::Preset p = floor_preset();
   spectral::settings(p).relight = false;
   p.stop.passes = 1;

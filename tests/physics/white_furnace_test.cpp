@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The white furnace: where the same radiance L comes from everywhere, nothing that takes no light can be seen, because radiance is kept
-// along a ray: Fresnel's two parts of it add up to one, and n^2 goes in and comes out.
+// The white furnace: where the same radiance L comes from everywhere, nothing that takes no light can be seen, because
+// radiance is kept along a ray: Fresnel's two parts of it add up to one, and n^2 goes in and comes out.
 //
-// Six area lights, the faces of a cube, shine inwards, or an environment of one colour does. A small diffuse receiver inside gets pi L and
-// sends rho L back. Glass or a mirror above hides a part of the lights (the direct layer gets darker) and sends as much (the caustic
-// layer): the sum stays rho L. One thing is missing: a way from the receiver through the glass and back to it should end at the receiver's
-// own radiance, which neither layer has (that is interreflection). Its share r is measured apart: an area light in the receiver's place,
-// and what comes back to it. So direct + caustic = rho L (1 - r).
+// Six area lights, the faces of a cube, shine inwards, or an environment of one colour does. A small diffuse receiver
+// inside gets pi L and sends rho L back. Glass or a mirror above hides a part of the lights (the direct layer gets
+// darker) and sends as much (the caustic layer): the sum stays rho L. One thing is missing: a way from the receiver
+// through the glass and back to it should end at the receiver's own radiance, which neither layer has (that is
+// interreflection). Its share r is measured apart: an area light in the receiver's place, and what comes back to it. So
+// direct + caustic = rho L (1 - r).
 #include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
@@ -17,8 +18,7 @@ constexpr double cube = 3, receiver_side = 0.4, reflectance = 0.7, radiance = 1;
 constexpr int groups = 6, group = 4; // pixels are looked at in squares of 4 x 4, of which there are 6 x 6
 const Screen receiver_view{{0, -0.75, 0}, receiver_side, groups* group};
 
-preset::Light area_light(const preset::Vec3& position, const preset::Vec3& direction, double side)
-{
+preset::Light area_light(const preset::Vec3& position, const preset::Vec3& direction, double side) {
   return {.type = preset::Light::Type::area,
           .spectrum = line(550),
           .power_w = radiance * M_PI * side * side,
@@ -28,8 +28,7 @@ preset::Light area_light(const preset::Vec3& position, const preset::Vec3& direc
           .up = {direction[1], direction[2], direction[0]}};
 }
 
-preset::Preset furnace(const std::vector<preset::Object>& things)
-{
+preset::Preset furnace(const std::vector<preset::Object>& things) {
   preset::Preset p = empty_preset();
   p.scene.materials["receiver"] = white(reflectance);
   p.scene.materials["glass"] = glass(1.5);
@@ -41,7 +40,8 @@ preset::Preset furnace(const std::vector<preset::Object>& things)
   p.scene.materials["flint"].absorption = false;
   p.scene.materials["mirror"] = check::mirror(1);
   p.scene.objects = things;
-  p.scene.objects.push_back(object("receiver", quad(receiver_side, receiver_side), "receiver", at(receiver_view.centre)));
+  p.scene.objects.push_back(
+      object("receiver", quad(receiver_side, receiver_side), "receiver", at(receiver_view.centre)));
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0}) {
       preset::Vec3 position{0, 0, 0}, direction{0, 0, 0};
@@ -58,8 +58,7 @@ preset::Preset furnace(const std::vector<preset::Object>& things)
 }
 
 /// r, as a mean over the receiver.
-double returning_share(preset::Preset p)
-{
+double returning_share(preset::Preset p) {
   preset::Vec3 above = receiver_view.centre;
   above[1] += 1e-4;
   p.scene.lights = {area_light(above, {0, 1, 0}, receiver_side)};
@@ -68,9 +67,8 @@ double returning_share(preset::Preset p)
   return photons::energy_of(render(p)).deposited_w / p.scene.lights[0].power_w;
 }
 
-preset::Object ball(const std::string& name, double radius, const std::string& material, double x, preset::Object::Normals normals,
-                    int priority = 0)
-{
+preset::Object ball(const std::string& name, double radius, const std::string& material, double x,
+                    preset::Object::Normals normals, int priority = 0) {
   preset::Shape shape;
   shape.radius = radius;
   preset::Object o = object(name, shape, material, at({x, 0, 0}));
@@ -86,8 +84,7 @@ struct Furnace {
 };
 
 /// White, so that all luminance is that of its radiance.
-void put_under_a_sky(preset::Preset& p)
-{
+void put_under_a_sky(preset::Preset& p) {
   p.scene.lights.clear();
   p.scene.environment.emplace();
   p.scene.environment->type = preset::Environment::Type::constant;
@@ -95,30 +92,29 @@ void put_under_a_sky(preset::Preset& p)
   p.scene.environment->lights = true;
 }
 
-std::vector<Furnace> furnaces()
-{
+std::vector<Furnace> furnaces() {
   using enum preset::Object::Normals;
   preset::Shape stone;
   stone.type = preset::Shape::Type::brilliant;
   stone.radius = 0.5;
-  return {
-      {"glass_ball", {ball("ball", 0.5, "glass", 0, smooth)}},
-      {"diamond", {object("stone", stone, "dense", at({0, 0, 0}, {30, 10, 0}))}},
-      {"nested",
-       {ball("ball", 0.5, "glass", 0, smooth), ball("core", 0.2, "dense", 0.2, faceted, 1), ball("bubble", 0.15, "air", -0.2, smooth, 2)}},
-      {"mirror", {ball("ball", 0.4, "mirror", 0, smooth)}},
-      {"glass_ball_under_a_sky", {ball("ball", 0.5, "glass", 0, smooth)}, true},
-      {"dispersing_ball_under_a_sky", {ball("ball", 0.5, "flint", 0, smooth)}, true},
-      {"plate_under_a_sky", {object("plate", box(1.2, 0.2, 1.2), "glass")}, true},
-      {"mirror_under_a_sky", {ball("ball", 0.4, "mirror", 0, smooth)}, true}};
+  return {{"glass_ball", {ball("ball", 0.5, "glass", 0, smooth)}},
+          {"diamond", {object("stone", stone, "dense", at({0, 0, 0}, {30, 10, 0}))}},
+          {"nested",
+           {ball("ball", 0.5, "glass", 0, smooth), ball("core", 0.2, "dense", 0.2, faceted, 1),
+            ball("bubble", 0.15, "air", -0.2, smooth, 2)}},
+          {"mirror", {ball("ball", 0.4, "mirror", 0, smooth)}},
+          {"glass_ball_under_a_sky", {ball("ball", 0.5, "glass", 0, smooth)}, true},
+          {"dispersing_ball_under_a_sky", {ball("ball", 0.5, "flint", 0, smooth)}, true},
+          {"plate_under_a_sky", {object("plate", box(1.2, 0.2, 1.2), "glass")}, true},
+          {"mirror_under_a_sky", {ball("ball", 0.4, "mirror", 0, smooth)}, true}};
 }
 
 class WhiteFurnace : public testing::TestWithParam<Furnace> {};
 
-TEST_P(WhiteFurnace, NothingInItCanBeSeen)
-{
+TEST_P(WhiteFurnace, NothingInItCanBeSeen) {
   preset::Preset p = furnace(GetParam().things);
-  const double of_a_watt = GetParam().sky ? 1 : optics::to_xyz(spectrum_of(p.scene.lights[0]))[1], r = returning_share(p);
+  const double of_a_watt = GetParam().sky ? 1 : optics::to_xyz(spectrum_of(p.scene.lights[0]))[1],
+               r = returning_share(p);
   const double truth = reflectance * radiance * of_a_watt;
   if (GetParam().sky) put_under_a_sky(p);
   EXPECT_LT(r, 0.04);
@@ -127,7 +123,8 @@ TEST_P(WhiteFurnace, NothingInItCanBeSeen)
   const std::vector<Estimate> estimates = render_passes(p, [&](const job::Snapshot& snapshot) {
     energy = photons::energy_of(snapshot);
     std::vector<double> figures(squares + 2, 0.0); // the squares, their mean, the mean of the direct layer
-    const std::vector<double> direct = luminance(layer(snapshot, "direct")), caustic = luminance(layer(snapshot, "caustic"));
+    const std::vector<double> direct = luminance(layer(snapshot, "direct")),
+                              caustic = luminance(layer(snapshot, "caustic"));
     for (std::size_t i = 0; i < receiver_view.count(); ++i) {
       const std::size_t wide = groups * group, square = i / wide / group * groups + i % wide / group;
       const double sum = (direct[i] + caustic[i]) / truth;
@@ -156,12 +153,15 @@ TEST_P(WhiteFurnace, NothingInItCanBeSeen)
 }
 
 INSTANTIATE_TEST_SUITE_P(Things, WhiteFurnace, testing::ValuesIn(furnaces()),
-                         [](const testing::TestParamInfo<Furnace>& parameter) { return std::string(parameter.param.name); });
+                         [](const testing::TestParamInfo<Furnace>& parameter) {
+                           return std::string(parameter.param.name);
+                         });
 
-// Helmholtz' reciprocity: light finds its way back. A patch A of radiance L sends to a patch B the power L G / n_A^2, where G is the sum
-// over all ways between them of n^2 dA cos(theta) d(omega) times what Fresnel and absorption leave; that quantity is the same at both ends
-// of a way and in both directions (Nicodemus 1963, "Radiance"). So swapping light and receiver gives the same power per
-// radiance, but for the n^2 of the media that they are in; and paths from the eye find the radiance that photons carry.
+// Helmholtz' reciprocity: light finds its way back. A patch A of radiance L sends to a patch B the power L G / n_A^2,
+// where G is the sum over all ways between them of n^2 dA cos(theta) d(omega) times what Fresnel and absorption leave;
+// that quantity is the same at both ends of a way and in both directions (Nicodemus 1963, "Radiance"). So swapping
+// light and receiver gives the same power per radiance, but for the n^2 of the media that they are in; and paths from
+// the eye find the radiance that photons carry.
 
 /// A rectangle that shines or receives: u and v are its full edges' lengths, `up` runs along v.
 struct Patch {
@@ -170,8 +170,7 @@ struct Patch {
   preset::Vec3 rotate_deg; // turns a quad that faces +y to face along normal, with its z along up
 };
 
-preset::Light shining(const Patch& patch)
-{
+preset::Light shining(const Patch& patch) {
   preset::Light light;
   light.type = preset::Light::Type::area;
   light.spectrum = line(550);
@@ -184,9 +183,9 @@ preset::Light shining(const Patch& patch)
   return light;
 }
 
-/// The power that patch `to`, square, gets on its front from patch `from`, of radiance 1. Both are there as opaque surfaces.
-Estimate transfer(preset::Preset p, const Patch& from, const Patch& to, double camera_distance)
-{
+/// The power that patch `to`, square, gets on its front from patch `from`, of radiance 1. Both are there as opaque
+/// surfaces.
+Estimate transfer(preset::Preset p, const Patch& from, const Patch& to, double camera_distance) {
   p.scene.lights = {shining(from)};
   for (const Patch* patch : {&from, &to})
     p.scene.objects.push_back(object("patch", quad(patch->u, patch->v), "white", at(patch->centre, patch->rotate_deg)));
@@ -201,8 +200,7 @@ Estimate transfer(preset::Preset p, const Patch& from, const Patch& to, double c
   })[0];
 }
 
-preset::Preset glass_between()
-{
+preset::Preset glass_between() {
   preset::Preset p = empty_preset();
   p.scene.materials["white"] = white();
   spectral::settings(p).photons_per_pass = 1 << 15;
@@ -212,50 +210,49 @@ preset::Preset glass_between()
 }
 
 /// figure / other * factor = 1, within the noise of both.
-void expect_equal(const std::string& what, const Estimate& figure, const Estimate& other, double factor, double bias = 0)
-{
+void expect_equal(const std::string& what, const Estimate& figure, const Estimate& other, double factor,
+                  double bias = 0) {
   Estimate ratio = figure;
   ratio.mean = figure.mean / other.mean * factor;
-  ratio.variance = std::pow(ratio.mean, 2) * (figure.variance / std::pow(figure.mean, 2) + other.variance / std::pow(other.mean, 2));
+  ratio.variance =
+      std::pow(ratio.mean, 2) * (figure.variance / std::pow(figure.mean, 2) + other.variance / std::pow(other.mean, 2));
   expect_truth(what, ratio.mean, 1, tolerance(ratio) + bias);
   EXPECT_LT(tolerance(ratio), 0.1) << what;
 }
 
 // A faceted stone of absorbing glass between a small patch beside it and a larger one below: nothing is symmetric here.
-TEST(Reciprocity, LightAndReceiverMayChangePlaces)
-{
+TEST(Reciprocity, LightAndReceiverMayChangePlaces) {
   const TemporaryFolder folder;
   preset::Preset p = glass_between();
   p.scene.materials["glass"] = glass(1.7);
   p.scene.materials["glass"].dispersion.type = preset::Dispersion::Type::file;
-  p.scene.materials["glass"].dispersion.file = write_constant_nk(folder.path() / "glass.yml", 1.7, 0.5 * 550e-9 / (4 * M_PI)); // 0.5 / m
+  p.scene.materials["glass"].dispersion.file =
+      write_constant_nk(folder.path() / "glass.yml", 1.7, 0.5 * 550e-9 / (4 * M_PI)); // 0.5 / m
   preset::Shape stone;
   stone.type = preset::Shape::Type::brilliant;
   stone.radius = 0.5;
   p.scene.objects = {object("stone", stone, "glass", at({0, 0, 0}, {35, 20, 0}))};
   const Patch beside{{0.7, 0, 0}, {-1, 0, 0}, {0, 0, 1}, 0.5, 0.5, {0, 0, 90}},
       below{{0, -0.8, 0}, {0, 1, 0}, {0, 0, 1}, 0.8, 0.8, {0, 0, 0}};
-  expect_equal("reciprocity: transfer through a stone, there and back", transfer(p, beside, below, 0.1), transfer(p, below, beside, 0.1),
-               1);
+  expect_equal("reciprocity: transfer through a stone, there and back", transfer(p, beside, below, 0.1),
+               transfer(p, below, beside, 0.1), 1);
 }
 
 // One patch inside a block of glass: into the glass goes n^2 times what comes out of it per radiance.
-TEST(Reciprocity, InsideGlassRadianceCountsOverTheSquareOfTheIndex)
-{
+TEST(Reciprocity, InsideGlassRadianceCountsOverTheSquareOfTheIndex) {
   constexpr double n = 1.8;
   preset::Preset p = glass_between();
   p.scene.materials["glass"] = glass(n);
   p.scene.objects = {object("block", box(2, 1, 2), "glass", at({0, -0.5, 0}))};
   const Patch inside{{0, -0.6, 0}, {0, 1, 0}, {0, 0, 1}, 0.5, 0.5, {0, 0, 0}},
       above{{0.2, 0.5, 0}, {0, -1, 0}, {0, 0, 1}, 0.6, 0.6, {180, 0, 0}};
-  expect_equal("reciprocity: into glass over out of it, times 1 / n^2", transfer(p, above, inside, 0.2), transfer(p, inside, above, 0.2),
-               1 / (n * n));
+  expect_equal("reciprocity: into glass over out of it, times 1 / n^2", transfer(p, above, inside, 0.2),
+               transfer(p, inside, above, 0.2), 1 / (n * n));
 }
 
-/// The irradiance at a point that faces +y from what a camera there sees within 38 degrees each way: of a pixel cos(theta) d(omega) is
-/// cos^4(theta) times its area on the plane at distance 1.
-Estimate seen_irradiance(preset::Preset p, const preset::Vec3& from)
-{
+/// The irradiance at a point that faces +y from what a camera there sees within 38 degrees each way: of a pixel
+/// cos(theta) d(omega) is cos^4(theta) times its area on the plane at distance 1.
+Estimate seen_irradiance(preset::Preset p, const preset::Vec3& from) {
   const Screen view{{0, 0, 0}, 2 * std::tan(38 * degree), 48}; // on the plane at distance 1
   view.fill(p.scene.camera, 1);
   p.scene.camera.position = from;
@@ -271,12 +268,11 @@ Estimate seen_irradiance(preset::Preset p, const preset::Vec3& from)
   })[0];
 }
 
-// A receiver below glass and a patch of radiance L above, which see each other through the glass only. Photons: the patch is an area light.
-// Eye: the patch is a diffuse surface in parallel light, which makes the same radiance, and a camera in the receiver's place looks
-// at it through the glass; what it sees, times cos(theta) d(omega), is the irradiance there. Cameras stand
-// on the places of Gauss' quadrature over the receiver.
-TEST(Reciprocity, TheEyeSeesThroughGlassWhatPhotonsBring)
-{
+// A receiver below glass and a patch of radiance L above, which see each other through the glass only. Photons: the
+// patch is an area light. Eye: the patch is a diffuse surface in parallel light, which makes the same radiance, and a
+// camera in the receiver's place looks at it through the glass; what it sees, times cos(theta) d(omega), is the
+// irradiance there. Cameras stand on the places of Gauss' quadrature over the receiver.
+TEST(Reciprocity, TheEyeSeesThroughGlassWhatPhotonsBring) {
   preset::Preset base = glass_between();
   base.scene.materials["glass"] = glass(1.6);
   preset::Shape ball;
@@ -304,14 +300,16 @@ TEST(Reciprocity, TheEyeSeesThroughGlassWhatPhotonsBring)
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j) {
         eye.seed = base.seed + 4 * i + j;
-        const Estimate one = seen_irradiance(eye, {receiver[0] + place[i] * side / 2, receiver[1], receiver[2] + place[j] * side / 2});
+        const Estimate one =
+            seen_irradiance(eye, {receiver[0] + place[i] * side / 2, receiver[1], receiver[2] + place[j] * side / 2});
         by_eye.mean += one.mean * side * side * weight[i] * weight[j];
         by_eye.variance += one.variance * std::pow(side * side * weight[i] * weight[j], 2);
         by_eye.degrees += one.degrees;
       }
     // What the quadrature may be off by where a facet's image ends on the receiver.
-    expect_equal(std::string("reciprocity: photons over eye paths, through a ") + (smooth ? "smooth ball" : "faceted block"), by_photons,
-                 by_eye, 1, 0.005);
+    expect_equal(std::string("reciprocity: photons over eye paths, through a ") +
+                     (smooth ? "smooth ball" : "faceted block"),
+                 by_photons, by_eye, 1, 0.005);
   }
 }
 

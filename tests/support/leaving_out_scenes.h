@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For each thing that engine 1 can leave out, a small scene that does not need it. Tests show that its picture stays the same without,
-// the bench how much time that saves.
+// For each thing that engine 1 can leave out, a small scene that does not need it. Tests show that its picture stays
+// the same without, the bench how much time that saves.
 #pragma once
 #include "spectral/settings.h"
 #include "tests/support/presets.h"
@@ -19,8 +19,7 @@ struct Omission {
 };
 
 /// Leaves out what a scene does not need but for this.
-inline LeaveOut all_but(const Omission& omission)
-{
+inline LeaveOut all_but(const Omission& omission) {
   LeaveOut leave_out;
   leave_out.*omission.field = false;
   return leave_out;
@@ -29,8 +28,7 @@ inline LeaveOut all_but(const Omission& omission)
 inline void PrintTo(const Omission& omission, std::ostream* out) { *out << omission.key; }
 
 /// A glass ball with facets over a floor, a point light above; the camera sees the floor beside and through the ball.
-inline preset::Preset ball_scene()
-{
+inline preset::Preset ball_scene() {
   preset::Preset p = empty_preset(24);
   p.scene.materials["glass"] = glass(1.5);
   p.scene.materials["glass"].dispersion.type = preset::Dispersion::Type::cauchy;
@@ -52,8 +50,7 @@ inline preset::Preset ball_scene()
 using check::mirror;
 
 /// Seven lamps that are switched off before one, an area light, that is on.
-inline preset::Preset dark_lights_scene()
-{
+inline preset::Preset dark_lights_scene() {
   preset::Preset p = ball_scene();
   preset::Light off = p.scene.lights[0], on = off;
   off.power_w = 0;
@@ -66,8 +63,7 @@ inline preset::Preset dark_lights_scene()
 }
 
 /// A spot on one ball; another, larger ball is outside its cone.
-inline preset::Preset spot_scene(double half_angle_deg)
-{
+inline preset::Preset spot_scene(double half_angle_deg) {
   preset::Preset p = ball_scene();
   preset::Shape beside;
   p.scene.objects.push_back(object("beside", beside, "glass", at({3, 1, 0})));
@@ -82,8 +78,7 @@ inline preset::Preset spot_scene(double half_angle_deg)
 }
 
 /// The floor under the ball, seen from below the ball.
-inline preset::Preset floor_scene()
-{
+inline preset::Preset floor_scene() {
   preset::Preset p = ball_scene();
   p.scene.camera.position = {0, 0.4, 2};
   p.scene.camera.target = {0, -0.2, 0.5};
@@ -91,8 +86,7 @@ inline preset::Preset floor_scene()
 }
 
 /// A brass-like mirror on the floor's side under a light of three lines.
-inline preset::Preset line_light_scene()
-{
+inline preset::Preset line_light_scene() {
   preset::Preset p = ball_scene();
   p.scene.materials["metal"] = mirror(0.5);
   p.scene.materials["metal"].reflectance.type = preset::Reflectance::Type::table;
@@ -103,8 +97,7 @@ inline preset::Preset line_light_scene()
   return p;
 }
 
-inline std::vector<Omission> omissions()
-{
+inline std::vector<Omission> omissions() {
   using L = LeaveOut;
   const preset::Preset ball = ball_scene();
   preset::Preset no_floor = ball, no_glass = ball, close_light = ball, straight = ball;

@@ -9,8 +9,7 @@
 namespace nephroid::test {
 
 /// A unit sphere about the origin of 2 columns (rows - 1) triangles, closed.
-inline scene::Mesh sphere_mesh(std::uint32_t columns, std::uint32_t rows)
-{
+inline scene::Mesh sphere_mesh(std::uint32_t columns, std::uint32_t rows) {
   scene::Mesh mesh;
   mesh.positions.emplace_back(0, 1, 0);
   for (std::uint32_t row = 1; row < rows; ++row)
@@ -19,7 +18,9 @@ inline scene::Mesh sphere_mesh(std::uint32_t columns, std::uint32_t rows)
       mesh.positions.emplace_back(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
     }
   mesh.positions.emplace_back(0, -1, 0);
-  const auto vertex = [&](std::uint32_t row, std::uint32_t column) { return 1 + (row - 1) * columns + column % columns; };
+  const auto vertex = [&](std::uint32_t row, std::uint32_t column) {
+    return 1 + (row - 1) * columns + column % columns;
+  };
   const auto south = static_cast<std::uint32_t>(mesh.positions.size() - 1);
   for (std::uint32_t column = 0; column < columns; ++column) {
     mesh.triangles.emplace_back(0, vertex(1, column + 1), vertex(1, column));
@@ -33,8 +34,7 @@ inline scene::Mesh sphere_mesh(std::uint32_t columns, std::uint32_t rows)
 }
 
 /// The cube [-1, 1]^3 of 12 triangles, closed.
-inline scene::Mesh box_mesh()
-{
+inline scene::Mesh box_mesh() {
   scene::Mesh mesh;
   for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
   const glm::uvec4 faces[] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
@@ -46,8 +46,7 @@ inline scene::Mesh box_mesh()
 }
 
 /// The mesh about the origin with its farthest vertex at 1, then scaled and moved.
-inline scene::Mesh placed(scene::Mesh mesh, float scale, const glm::vec3& centre)
-{
+inline scene::Mesh placed(scene::Mesh mesh, float scale, const glm::vec3& centre) {
   glm::vec3 low = mesh.positions.front(), high = low;
   for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
   const glm::vec3 middle = 0.5f * (low + high);
@@ -58,8 +57,7 @@ inline scene::Mesh placed(scene::Mesh mesh, float scale, const glm::vec3& centre
 }
 
 /// Uniform on the unit sphere (Marsaglia 1972).
-inline glm::vec3 random_direction(std::mt19937& random)
-{
+inline glm::vec3 random_direction(std::mt19937& random) {
   std::uniform_real_distribution<float> uniform(-1, 1);
   while (true) {
     const glm::vec2 p(uniform(random), uniform(random));
@@ -69,13 +67,13 @@ inline glm::vec3 random_direction(std::mt19937& random)
 }
 
 /// As data URIs of glTF have it.
-inline std::string base64(const std::string& bytes)
-{
+inline std::string base64(const std::string& bytes) {
   constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t group = 0;
-    for (std::size_t j = 0; j < 3; ++j) group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+    for (std::size_t j = 0; j < 3; ++j)
+      group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
     for (std::size_t j = 0; j < 4; ++j) text += i + j <= bytes.size() ? digits[group >> (18 - 6 * j) & 63] : '=';
   }
   return text;

@@ -8,8 +8,7 @@ namespace nephroid::test {
 /// An environment variable, set or (nullopt) unset.
 class Variable {
 public:
-  Variable(std::string name, const std::optional<std::string>& value) : name_(std::move(name))
-  {
+  Variable(std::string name, const std::optional<std::string>& value) : name_(std::move(name)) {
     if (const char* const before = std::getenv(name_.c_str())) before_ = before;
     set(value);
   }
@@ -18,8 +17,7 @@ public:
   Variable& operator=(const Variable&) = delete;
 
 private:
-  void set(const std::optional<std::string>& value) const
-  {
+  void set(const std::optional<std::string>& value) const {
     value ? ::setenv(name_.c_str(), value->c_str(), 1) : ::unsetenv(name_.c_str());
   }
 
@@ -40,8 +38,7 @@ private:
 };
 
 /// Where PoCL keeps compiled kernels for all tests: a test that compiles them anew takes seconds more.
-inline std::string kernel_cache()
-{
+inline std::string kernel_cache() {
   if (const char* const folder = std::getenv("POCL_CACHE_DIR")) return folder;
   if (const char* const folder = std::getenv("XDG_CACHE_HOME")) return std::string(folder) + "/pocl/kcache";
   const char* const home = std::getenv("HOME");

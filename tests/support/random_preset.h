@@ -12,8 +12,7 @@ class Randomizer {
 public:
   explicit Randomizer(std::uint64_t seed) : random_(seed) {}
 
-  void fill_object(const preset::Value& object)
-  {
+  void fill_object(const preset::Value& object) {
     std::vector<preset::Member> members = object.members();
     for (std::size_t i = 0; i < members.size(); ++i) {
       const preset::Member member = members[i];
@@ -26,8 +25,7 @@ public:
 
 private:
   /// Spread over the whole range with all bits of the mantissa in use, sometimes at an end.
-  double number(const preset::Bounds& bounds)
-  {
+  double number(const preset::Bounds& bounds) {
     const double low = std::max(bounds.low, -1e12), high = std::min(bounds.high, 1e12);
     if (random_() % 8 == 0 && !bounds.without_low) return low;
     if (random_() % 8 == 0 && !bounds.without_high) return high;
@@ -36,39 +34,28 @@ private:
     return bounds.contain(small) ? small : bounds.contain(x) ? x : 0.5 * (low + high);
   }
 
-  std::string text()
-  {
+  std::string text() {
     static const char* parts[] = {"glass", "\"", "\\", "/", "~", " ", "ü", "光", "1.5", "."};
     std::string value;
     for (std::size_t i = 0; i < 1 + random_() % 5; ++i) value += parts[random_() % std::size(parts)];
     return value;
   }
 
-  void fill(const preset::Field& f, const preset::Value& value)
-  {
+  void fill(const preset::Field& f, const preset::Value& value) {
     using preset::Kind;
     switch (value.kind()) {
-    case Kind::boolean:
-      value.as<bool>() = random_() % 2;
-      break;
+    case Kind::boolean: value.as<bool>() = random_() % 2; break;
     case Kind::integer:
       if (value.is<int>())
-        value.as<int>() = std::uniform_int_distribution<int>(static_cast<int>(f.bounds.low), static_cast<int>(f.bounds.high))(random_);
+        value.as<int>() = std::uniform_int_distribution<int>(static_cast<int>(f.bounds.low),
+                                                             static_cast<int>(f.bounds.high))(random_);
       else
         value.as<std::uint64_t>() = random_();
       break;
-    case Kind::number:
-      value.as<double>() = number(f.bounds);
-      break;
-    case Kind::text:
-      value.as<std::string>() = text();
-      break;
-    case Kind::word:
-      value.choose(random_() % value.type().words.size());
-      break;
-    case Kind::object:
-      fill_object(value);
-      break;
+    case Kind::number: value.as<double>() = number(f.bounds); break;
+    case Kind::text: value.as<std::string>() = text(); break;
+    case Kind::word: value.choose(random_() % value.type().words.size()); break;
+    case Kind::object: fill_object(value); break;
     case Kind::map:
       value.resize(0);
       for (std::size_t i = 0; i < 2 + random_() % 3; ++i) fill_object(value.add(text()));
@@ -87,8 +74,7 @@ private:
 };
 
 /// What several fields must agree on is put right, the rest is random.
-inline preset::Preset random_preset(std::uint64_t seed)
-{
+inline preset::Preset random_preset(std::uint64_t seed) {
   using namespace preset;
   Preset p;
   Randomizer randomizer(seed);
@@ -106,7 +92,8 @@ inline preset::Preset random_preset(std::uint64_t seed)
     for (double& s : o.transform.scale) s = std::abs(s) < 1e-6 ? 1 : s;
   }
   for (Light& l : p.scene.lights) {
-    for (std::size_t i = 0; i < l.spectrum.table.size(); ++i) l.spectrum.table[i] = {500.0 + static_cast<double>(i), 0.1};
+    for (std::size_t i = 0; i < l.spectrum.table.size(); ++i)
+      l.spectrum.table[i] = {500.0 + static_cast<double>(i), 0.1};
     if (l.type == Light::Type::area) l.direction = {0.1, -1, 1.0 / 3}, l.up = {0, 0.2, 1};
     if (l.type != Light::Type::point) l.direction[1] += l.direction == Vec3{0, 0, 0} ? 1 : 0;
   }
@@ -128,7 +115,8 @@ inline preset::Preset random_preset(std::uint64_t seed)
   if (p.reference && p.reference->type == Reference::Type::file) p.animation.reset(); // a picture is of one frame
   if (p.animation) {                                                                  // fields are those of frame 0
     p.animation->tracks.clear();
-    p.animation->tracks.push_back({"scene.camera.fov_deg", Track::Interpolation::smooth, {{3, {p.scene.camera.fov_deg}}, {7, {50.0 / 3}}}});
+    p.animation->tracks.push_back(
+        {"scene.camera.fov_deg", Track::Interpolation::smooth, {{3, {p.scene.camera.fov_deg}}, {7, {50.0 / 3}}}});
   }
   p.scene.camera.target = {0, 0.1, 1.0 / 3};
   p.scene.camera.position = {3, 2, 1e-5};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An independent photon tracer: Embree finds the hits, everything else is double precision and written from the laws themselves, with
-// random numbers of its own. Slow and plain: what kernels/photons/photons.cl is judged by.
+// An independent photon tracer: Embree finds the hits, everything else is double precision and written from the laws
+// themselves, with random numbers of its own. Slow and plain: what kernels/photons/photons.cl is judged by.
 #pragma once
 #include "optics/fresnel.h"
 #include "photons/tables/run_tables.h"
@@ -18,29 +18,31 @@ struct ReferenceFilm {
 class ReferencePhotons {
 public:
   ReferencePhotons(const scene::Scene& scene, const photons::RunTables& tables, unsigned seed)
-      : scene_(scene), tables_(tables), tracer_(scene.geometry, RTC_SCENE_FLAG_ROBUST), random_(seed)
-  {
+      : scene_(scene), tables_(tables), tracer_(scene.geometry, RTC_SCENE_FLAG_ROBUST), random_(seed) {
     for (const shared::DeviceTarget& target : tables.targets) {
-      const glm::dvec3 way = glm::dvec3(target.centre_radius.x, target.centre_radius.y, target.centre_radius.z) - light();
+      const glm::dvec3 way =
+          glm::dvec3(target.centre_radius.x, target.centre_radius.y, target.centre_radius.z) - light();
       axis_ += glm::normalize(way);
     }
     axis_ = glm::normalize(axis_);
     for (const shared::DeviceTarget& target : tables.targets) {
-      const glm::dvec3 way = glm::dvec3(target.centre_radius.x, target.centre_radius.y, target.centre_radius.z) - light();
+      const glm::dvec3 way =
+          glm::dvec3(target.centre_radius.x, target.centre_radius.y, target.centre_radius.z) - light();
       const double off_axis = std::acos(glm::dot(glm::normalize(way), axis_));
       half_angle_ = std::max(half_angle_, off_axis + std::asin(target.centre_radius.w / glm::length(way)));
     }
   }
 
-  /// `count` photons; sums are of single photons' contributions to a pixel, for the light's whole power shared among `count`.
-  ReferenceFilm trace(int count)
-  {
+  /// `count` photons; sums are of single photons' contributions to a pixel, for the light's whole power shared among
+  /// `count`.
+  ReferenceFilm trace(int count) {
     const auto pixels = static_cast<std::size_t>(scene_.camera.width) * static_cast<std::size_t>(scene_.camera.height);
     ReferenceFilm film{std::vector<glm::dvec3>(pixels, glm::dvec3(0)), std::vector<glm::dvec3>(pixels, glm::dvec3(0))};
     const double cone_share = (1 - std::cos(half_angle_)) / 2;
     for (int i = 0; i < count; ++i) {
       const int cluster = static_cast<int>(uniform() * static_cast<double>(tables_.wavelengths.clusters.size()));
-      const double watts = scene_.lights[0].power_w * cone_share * static_cast<double>(tables_.wavelengths.clusters.size()) / count;
+      const double watts =
+          scene_.lights[0].power_w * cone_share * static_cast<double>(tables_.wavelengths.clusters.size()) / count;
       trace_one(cluster, watts, film);
     }
     return film;
@@ -60,14 +62,13 @@ private:
 
   glm::dvec3 light() const { return scene_.lights[0].position; }
   double uniform() { return uniform_(random_); }
-  const scene::Material& material(int object) const
-  {
+  const scene::Material& material(int object) const {
     return scene_.materials[static_cast<std::size_t>(scene_.objects[static_cast<std::size_t>(object)].material)];
   }
 
-  bool meet(const glm::dvec3& from, const glm::dvec3& direction, double t_max, Contact& contact) const
-  {
-    const Hit hit = tracer_.closest({.origin = glm::vec3(from), .t_max = static_cast<float>(t_max), .direction = glm::vec3(direction)});
+  bool meet(const glm::dvec3& from, const glm::dvec3& direction, double t_max, Contact& contact) const {
+    const Hit hit = tracer_.closest(
+        {.origin = glm::vec3(from), .t_max = static_cast<float>(t_max), .direction = glm::vec3(direction)});
     const scene::Mesh& mesh = scene_.geometry;
     double nearest = hit.primitive == no_primitive ? t_max : double(hit.t);
     bool found = false;
@@ -83,7 +84,8 @@ private:
     }
     if (found || hit.primitive == no_primitive) return found;
     const glm::uvec3 c = mesh.triangles[hit.primitive];
-    const glm::dvec3 a = mesh.positions[c.x], ab = glm::dvec3(mesh.positions[c.y]) - a, ac = glm::dvec3(mesh.positions[c.z]) - a;
+    const glm::dvec3 a = mesh.positions[c.x], ab = glm::dvec3(mesh.positions[c.y]) - a,
+                     ac = glm::dvec3(mesh.positions[c.z]) - a;
     const double u = hit.u, v = hit.v;
     contact.position = a + u * ab + v * ac;
     contact.geometric = contact.shading = glm::normalize(glm::cross(ab, ac));
@@ -96,8 +98,7 @@ private:
   }
 
   /// Reflects or refracts about `normal`, which is on the near side. True: went through.
-  bool bend(glm::dvec3& direction, const glm::dvec3& normal, double n_i, double n_t, bool mirror)
-  {
+  bool bend(glm::dvec3& direction, const glm::dvec3& normal, double n_i, double n_t, bool mirror) {
     const double cos_i = -glm::dot(direction, normal);
     if (mirror || uniform() < optics::fresnel_reflectance(cos_i, n_i, n_t)) {
       direction = glm::normalize(direction + 2 * cos_i * normal);
@@ -108,11 +109,13 @@ private:
     return true;
   }
 
-  void trace_one(int cluster, double watts, ReferenceFilm& film)
-  {
-    const double cosine = 1 - uniform() * (1 - std::cos(half_angle_)), phi = 2 * M_PI * uniform(), sine = std::sqrt(1 - cosine * cosine);
-    const glm::dvec3 x = glm::normalize(glm::cross(axis_, std::abs(axis_.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
-    glm::dvec3 direction = cosine * axis_ + sine * (std::cos(phi) * x + std::sin(phi) * glm::cross(axis_, x)), from = light();
+  void trace_one(int cluster, double watts, ReferenceFilm& film) {
+    const double cosine = 1 - uniform() * (1 - std::cos(half_angle_)), phi = 2 * M_PI * uniform(),
+                 sine = std::sqrt(1 - cosine * cosine);
+    const glm::dvec3 x =
+        glm::normalize(glm::cross(axis_, std::abs(axis_.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    glm::dvec3 direction = cosine * axis_ + sine * (std::cos(phi) * x + std::sin(phi) * glm::cross(axis_, x)),
+               from = light();
     std::vector<int> inside; // the dielectric objects around it, in the order in which it entered them
     Losses losses{std::vector<double>(scene_.materials.size(), 0.0), std::vector<double>(scene_.materials.size(), 0.0)};
     for (int surface = 0; surface <= 32; ++surface) {
@@ -138,11 +141,11 @@ private:
   }
 
   /// Bends about the shading normal, unless that sends light to the wrong side of the triangle. True: went through.
-  bool bend_at(glm::dvec3& direction, const Contact& contact, double side, double n_i, double n_t, bool mirror)
-  {
+  bool bend_at(glm::dvec3& direction, const Contact& contact, double side, double n_i, double n_t, bool mirror) {
     glm::dvec3 next = direction;
     bool through =
-        bend(next, side * (glm::dot(direction, side * contact.shading) < 0 ? contact.shading : contact.geometric), n_i, n_t, mirror);
+        bend(next, side * (glm::dot(direction, side * contact.shading) < 0 ? contact.shading : contact.geometric), n_i,
+             n_t, mirror);
     if ((glm::dot(next, side * contact.geometric) < 0) != through) {
       next = direction;
       through = bend(next, side * contact.geometric, n_i, n_t, mirror);
@@ -151,33 +154,30 @@ private:
     return through;
   }
 
-  std::size_t material_number(int object) const
-  {
+  std::size_t material_number(int object) const {
     return static_cast<std::size_t>(scene_.objects[static_cast<std::size_t>(object)].material);
   }
 
   /// Of nested objects the one whose material is there: the highest priority, of equals the one entered last; -1: air.
-  int medium_of(const std::vector<int>& objects) const
-  {
+  int medium_of(const std::vector<int>& objects) const {
     int medium = -1;
     for (const int object : objects)
-      if (medium < 0 ||
-          scene_.objects[static_cast<std::size_t>(object)].priority >= scene_.objects[static_cast<std::size_t>(medium)].priority)
+      if (medium < 0 || scene_.objects[static_cast<std::size_t>(object)].priority >=
+                            scene_.objects[static_cast<std::size_t>(medium)].priority)
         medium = object;
     return medium;
   }
 
-  double index_in(const std::vector<int>& objects, int cluster) const
-  {
+  double index_in(const std::vector<int>& objects, int cluster) const {
     const int medium = medium_of(objects);
-    return medium < 0 ? 1
-                      : tables_.wavelengths
-                            .index_of_cluster[static_cast<std::size_t>(cluster) * scene_.materials.size() + material_number(medium)];
+    return medium < 0
+               ? 1
+               : tables_.wavelengths.index_of_cluster[static_cast<std::size_t>(cluster) * scene_.materials.size() +
+                                                      material_number(medium)];
   }
 
   /// The objects around what has crossed a surface of one of them.
-  static std::vector<int> across(std::vector<int> objects, int object, bool enters)
-  {
+  static std::vector<int> across(std::vector<int> objects, int object, bool enters) {
     if (enters)
       objects.push_back(object);
     else if (const auto last = std::find(objects.rbegin(), objects.rend(), object); last != objects.rend())
@@ -186,20 +186,20 @@ private:
   }
 
   /// What is left of a wavelength: Beer and Lambert in glass, the reflectance of each mirror.
-  double left(const Losses& losses, int wavelength) const
-  {
+  double left(const Losses& losses, int wavelength) const {
     const auto w = static_cast<std::size_t>(wavelength);
     double share = 1;
     for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
       const scene::Material& one = scene_.materials[m];
-      if (losses.metres[m] > 0) share *= std::exp(-4 * M_PI * one.k[w] * losses.metres[m] / ((380 + wavelength) * 1e-9));
+      if (losses.metres[m] > 0)
+        share *= std::exp(-4 * M_PI * one.k[w] * losses.metres[m] / ((380 + wavelength) * 1e-9));
       if (losses.reflections[m] > 0) share *= std::pow(one.reflectance[w], losses.reflections[m]);
     }
     return share;
   }
 
-  void deposit(const Contact& contact, const glm::dvec3& arriving, int cluster, double watts, const Losses& losses, ReferenceFilm& film)
-  {
+  void deposit(const Contact& contact, const glm::dvec3& arriving, int cluster, double watts, const Losses& losses,
+               ReferenceFilm& film) {
     const scene::Camera& camera = scene_.camera;
     const glm::dvec3 way = glm::dvec3(camera.position) - contact.position;
     const double distance = glm::length(way), cos_camera = glm::dot(way, contact.geometric) / distance;
@@ -213,8 +213,10 @@ private:
     Contact between;
     const glm::dvec3 start = contact.position + 1e-5 * (cos_camera > 0 ? 1.0 : -1.0) * contact.geometric;
     if (meet(start, way / distance, distance, between)) return;
-    // The pixel sees the solid angle dA cos / distance^2 of the deposit's surface; on the plane at distance 1 that is larger by 1 / cos^3.
-    const double cos_axis = z / distance, pixel_area = 4 * camera.tan_x * camera.tan_y / (double(camera.width) * camera.height);
+    // The pixel sees the solid angle dA cos / distance^2 of the deposit's surface; on the plane at distance 1 that is
+    // larger by 1 / cos^3.
+    const double cos_axis = z / distance,
+                 pixel_area = 4 * camera.tan_x * camera.tan_y / (double(camera.width) * camera.height);
     const double metres = distance * scene_.metres_per_unit;
     const double weight = std::abs(cos_camera) / (metres * metres * std::pow(cos_axis, 3) * pixel_area);
     const auto& diffuse = material(contact.object).reflectance;

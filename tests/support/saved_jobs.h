@@ -9,8 +9,7 @@ namespace nephroid::test {
 
 /// saver: a job, or a part of one with a state of its own (tracing::State).
 template <class Writer = ByteSink, class Saver>
-std::vector<std::byte> saved(Saver& saver)
-{
+std::vector<std::byte> saved(Saver& saver) {
   ByteStore store;
   if constexpr (std::is_same_v<Writer, ByteSink>)
     saver.save(store);
@@ -23,8 +22,7 @@ std::vector<std::byte> saved(Saver& saver)
 
 /// True where all of the bytes were read.
 template <class Reader = ByteSource, class Loader>
-bool load(Loader& loader, std::span<const std::byte> bytes)
-{
+bool load(Loader& loader, std::span<const std::byte> bytes) {
   StoredBytes stored(bytes, "checkpoint");
   if constexpr (std::is_same_v<Reader, ByteSource>)
     loader.load(stored);

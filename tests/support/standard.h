@@ -46,8 +46,7 @@ namespace fs = std::filesystem;
 namespace nephroid::test {
 
 /// Of this process, or of another clock: other work of the machine does not count.
-inline double processor_seconds(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID)
-{
+inline double processor_seconds(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID) {
   timespec now{};
   clock_gettime(clock, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rendering's mean and variance, stored, and the test that a fresh rendering has that mean and that variance: every block of pixels of
-// six sizes, from one pixel to the whole picture, is compared with what the stored variances allow.
+// A rendering's mean and variance, stored, and the test that a fresh rendering has that mean and that variance: every
+// block of pixels of six sizes, from one pixel to the whole picture, is compared with what the stored variances allow.
 #pragma once
 #include "image/image.h"
 #include "tests/support/statistics.h"
 
 namespace nephroid::test {
 
-/// Pictures are square, of this many pixels a side, in XYZ: those values are never negative and no photon weighs much more than another.
+/// Pictures are square, of this many pixels a side, in XYZ: those values are never negative and no photon weighs much
+/// more than another.
 inline constexpr int stored_size = 48;
 /// Edges of the blocks, in pixels; each divides the picture.
 inline constexpr std::array<int, 6> block_edges{1, 2, 4, 8, 16, 48};
@@ -15,8 +16,7 @@ inline constexpr std::array<int, 6> block_edges{1, 2, 4, 8, 16, 48};
 using XyzPicture = std::vector<double>; ///< 3 a pixel, row 0 at the top
 
 /// Means over the blocks of one edge, 3 a block, row by row.
-inline std::vector<double> block_means(const XyzPicture& picture, int edge)
-{
+inline std::vector<double> block_means(const XyzPicture& picture, int edge) {
   const int blocks = stored_size / edge;
   std::vector<double> means(3 * static_cast<std::size_t>(blocks * blocks), 0.0);
   for (int y = 0; y < stored_size; ++y)
@@ -33,15 +33,16 @@ struct StoredStatistics {
   };
   std::array<Level, block_edges.size()> levels;
   int renders = 0;
-  std::array<double, 3> largest{};               ///< what one photon or one path of a render adds to a pixel, at most
-  double mean_z2 = 1, standard_deviation_z2 = 0; ///< of clipped_mean_z2 over renders that had no part in the mean and variance
+  std::array<double, 3> largest{}; ///< what one photon or one path of a render adds to a pixel, at most
+  double mean_z2 = 1,
+         standard_deviation_z2 = 0; ///< of clipped_mean_z2 over renders that had no part in the mean and variance
 };
 
-/// Mean of min(z^2, 9) over the values whose noise is below a fifth of them, so that z is nearly normal and a rare outlier cannot rule it.
-/// z2(i): of value i of a picture. A bias that is everywhere and too small for a single pixel raises it, as does a larger variance.
+/// Mean of min(z^2, 9) over the values whose noise is below a fifth of them, so that z is nearly normal and a rare
+/// outlier cannot rule it. z2(i): of value i of a picture. A bias that is everywhere and too small for a single pixel
+/// raises it, as does a larger variance.
 template <class Z2>
-double clipped_mean_z2(const StoredStatistics::Level& pixels, Z2 z2)
-{
+double clipped_mean_z2(const StoredStatistics::Level& pixels, Z2 z2) {
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < pixels.mean.size(); ++i) {
@@ -53,8 +54,7 @@ double clipped_mean_z2(const StoredStatistics::Level& pixels, Z2 z2)
 }
 
 /// Mean and variance of independent renders. largest: see StoredStatistics.
-inline StoredStatistics make_statistics(const std::vector<XyzPicture>& renders, const std::array<double, 3>& largest)
-{
+inline StoredStatistics make_statistics(const std::vector<XyzPicture>& renders, const std::array<double, 3>& largest) {
   StoredStatistics stored;
   const double n = static_cast<double>(renders.size());
   stored.renders = static_cast<int>(renders.size());
@@ -68,7 +68,8 @@ inline StoredStatistics make_statistics(const std::vector<XyzPicture>& renders, 
     for (const std::vector<double>& block : blocks)
       for (std::size_t i = 0; i < block.size(); ++i) level.mean[i] += block[i] / n;
     for (const std::vector<double>& block : blocks)
-      for (std::size_t i = 0; i < block.size(); ++i) level.variance[i] += (block[i] - level.mean[i]) * (block[i] - level.mean[i]) / (n - 1);
+      for (std::size_t i = 0; i < block.size(); ++i)
+        level.variance[i] += (block[i] - level.mean[i]) * (block[i] - level.mean[i]) / (n - 1);
   }
   // Each render against the mean and variance of the others, which follow from those of all by taking it out again.
   const StoredStatistics::Level& pixels = stored.levels[0];
@@ -92,8 +93,7 @@ namespace stored_image {
 inline const std::vector<std::string> channels{"mean.X", "mean.Y", "mean.Z", "variance.X", "variance.Y", "variance.Z"};
 
 /// The levels stand below one another, each at the left edge.
-inline int height()
-{
+inline int height() {
   int rows = 0;
   for (const int edge : block_edges) rows += stored_size / edge;
   return rows;
@@ -101,22 +101,21 @@ inline int height()
 
 /// Calls visit(level, value of that level, first of the six channels' values) for every block.
 template <class Image, class Visit>
-void for_each_block(Image& image, Visit visit)
-{
+void for_each_block(Image& image, Visit visit) {
   int top = 0;
   for (std::size_t l = 0; l < block_edges.size(); ++l) {
     const int blocks = stored_size / block_edges[l];
     for (int y = 0; y < blocks; ++y)
       for (int x = 0; x < blocks; ++x)
-        visit(l, static_cast<std::size_t>(3 * (y * blocks + x)), &image.data[static_cast<std::size_t>(6 * ((top + y) * stored_size + x))]);
+        visit(l, static_cast<std::size_t>(3 * (y * blocks + x)),
+              &image.data[static_cast<std::size_t>(6 * ((top + y) * stored_size + x))]);
     top += blocks;
   }
 }
 
 } // namespace stored_image
 
-inline void write_statistics(const fs::path& file, const StoredStatistics& stored)
-{
+inline void write_statistics(const fs::path& file, const StoredStatistics& stored) {
   image::Image image{.width = stored_size, .height = stored_image::height(), .channels = stored_image::channels};
   image.data.assign(static_cast<std::size_t>(6 * image.width * image.height), 0.0f);
   stored_image::for_each_block(image, [&](std::size_t level, std::size_t i, float* values) {
@@ -131,8 +130,7 @@ inline void write_statistics(const fs::path& file, const StoredStatistics& store
   image::write_exr(file, image);
 }
 
-inline StoredStatistics read_statistics(const fs::path& file)
-{
+inline StoredStatistics read_statistics(const fs::path& file) {
   image::Image image = image::read_image(file);
   if (image.width != stored_size || image.height != stored_image::height() || image.channels != stored_image::channels)
     throw std::runtime_error(file.string() + " does not hold stored statistics");
@@ -162,8 +160,7 @@ struct Comparison {
   std::vector<float> z;    ///< z of every pixel and channel, 0 where nothing varies
 };
 
-inline Comparison compare(const XyzPicture& picture, const StoredStatistics& stored)
-{
+inline Comparison compare(const XyzPicture& picture, const StoredStatistics& stored) {
   const double n = stored.renders;
   Comparison result;
   double smallest_p = 1;
@@ -182,8 +179,10 @@ inline Comparison compare(const XyzPicture& picture, const StoredStatistics& sto
       if (p >= smallest) continue;
       smallest = p;
       const auto block = static_cast<int>(i / 3);
-      where = fmt::format("{} of the {} x {} pixels at column {}, row {}: {:.6g}, stored {:.6g}, standard deviation {:.3g}", "XYZ"[i % 3],
-                          edge, edge, block % blocks * edge, block / blocks * edge, means[i], level.mean[i], std::sqrt(variance));
+      where =
+          fmt::format("{} of the {} x {} pixels at column {}, row {}: {:.6g}, stored {:.6g}, standard deviation {:.3g}",
+                      "XYZ"[i % 3], edge, edge, block % blocks * edge, block / blocks * edge, means[i], level.mean[i],
+                      std::sqrt(variance));
     }
     const double size_p = sidak(smallest, static_cast<double>(means.size()));
     if (size_p >= smallest_p) continue;
@@ -193,8 +192,9 @@ inline Comparison compare(const XyzPicture& picture, const StoredStatistics& sto
   result.block_p = sidak(smallest_p, block_edges.size());
   const StoredStatistics::Level& pixels = stored.levels[0];
   for (std::size_t i = 0; i < picture.size(); ++i)
-    result.z.push_back(
-        pixels.variance[i] > 0 ? static_cast<float>((picture[i] - pixels.mean[i]) / std::sqrt(pixels.variance[i] * (1 + 1 / n))) : 0.0f);
+    result.z.push_back(pixels.variance[i] > 0 ? static_cast<float>((picture[i] - pixels.mean[i]) /
+                                                                   std::sqrt(pixels.variance[i] * (1 + 1 / n)))
+                                              : 0.0f);
   result.z2 = clipped_mean_z2(pixels, [&](std::size_t i) { return static_cast<double>(result.z[i] * result.z[i]); });
   const double variance_z2 = stored.standard_deviation_z2 * stored.standard_deviation_z2;
   if (variance_z2 > 0) result.z2_p = bernstein(result.z2 - stored.mean_z2, variance_z2 * (1 + 1 / n), 0, n - 1);

@@ -20,24 +20,23 @@ using check::Ray;
 /// Embree's own tracer over the same mesh.
 class EmbreeTracer {
 public:
-  EmbreeTracer(const scene::Mesh& mesh, RTCSceneFlags flags) : device_(rtcNewDevice(settings)), scene_(rtcNewScene(device_))
-  {
+  EmbreeTracer(const scene::Mesh& mesh, RTCSceneFlags flags)
+      : device_(rtcNewDevice(settings)), scene_(rtcNewScene(device_)) {
     rtcSetSceneFlags(scene_, flags);
     rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* vertices =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), mesh.positions.size());
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
+                                             mesh.positions.size());
     std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<glm::vec3*>(vertices));
-    void* triangles =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), mesh.triangles.size());
+    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
+                                              mesh.triangles.size());
     std::copy(mesh.triangles.begin(), mesh.triangles.end(), static_cast<glm::uvec3*>(triangles));
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene_);
   }
-  ~EmbreeTracer()
-  {
+  ~EmbreeTracer() {
     rtcReleaseScene(scene_);
     rtcReleaseDevice(device_);
   }
@@ -45,10 +44,20 @@ public:
   EmbreeTracer& operator=(const EmbreeTracer&) = delete;
 
   /// Safe from several threads.
-  Hit closest(const Ray& ray) const
-  {
+  Hit closest(const Ray& ray) const {
     RTCRayHit query = {};
-    query.ray = {ray.origin.x, ray.origin.y, ray.origin.z, 0, ray.direction.x, ray.direction.y, ray.direction.z, 0, ray.t_max, ~0u, 0, 0};
+    query.ray = {ray.origin.x,
+                 ray.origin.y,
+                 ray.origin.z,
+                 0,
+                 ray.direction.x,
+                 ray.direction.y,
+                 ray.direction.z,
+                 0,
+                 ray.t_max,
+                 ~0u,
+                 0,
+                 0};
     query.hit.geomID = query.hit.primID = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4
     rtcIntersect1(scene_, &query);

@@ -5,24 +5,24 @@
 
 namespace nephroid::test {
 
-inline bool there_is(const std::string& command) { return std::system(("command -v " + command + " > /dev/null 2>&1").c_str()) == 0; }
+inline bool there_is(const std::string& command) {
+  return std::system(("command -v " + command + " > /dev/null 2>&1").c_str()) == 0;
+}
 
 /// Needs Xvfb.
 class XDisplay {
 public:
-  XDisplay()
-  {
-    // The server takes a number that is free, however many start at once, prints it and a line's end when it can be used, and stays when
-    // the last window has gone.
+  XDisplay() {
+    // The server takes a number that is free, however many start at once, prints it and a line's end when it can be
+    // used, and stays when the last window has gone.
     if (!server_.until([&] { return server_.out().ends_with('\n'); })) throw std::runtime_error("Xvfb does not start");
     const std::string number = server_.out();
     name_ = fmt::format(":{}", number.substr(0, number.size() - 1));
   }
 
-  /// Of a program that is to open its windows here. The OpenGL driver unloads itself at the end, so LeakSanitizer cannot tell whose its
-  /// memory was; the headless tests look for our leaks.
-  Environment environment() const
-  {
+  /// Of a program that is to open its windows here. The OpenGL driver unloads itself at the end, so LeakSanitizer
+  /// cannot tell whose its memory was; the headless tests look for our leaks.
+  Environment environment() const {
     const char* sanitizer = std::getenv("ASAN_OPTIONS");
     return {{"DISPLAY", name_},
             {"WAYLAND_DISPLAY", std::nullopt},
@@ -30,14 +30,12 @@ public:
   }
 
   /// Runs a program that knows the display to its end.
-  Ended run(const std::string& program, const std::vector<std::string>& arguments) const
-  {
+  Ended run(const std::string& program, const std::vector<std::string>& arguments) const {
     return Child(arguments, logs_.path(), logs_.path(), environment(), program).wait();
   }
 
 private:
-  static fs::path made(const fs::path& folder)
-  {
+  static fs::path made(const fs::path& folder) {
     fs::create_directory(folder);
     return folder;
   }

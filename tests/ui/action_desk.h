@@ -8,8 +8,7 @@ namespace nephroid::test {
 
 class Desk : public HeadlessWindow<SceneRuns> {
 public:
-  Desk()
-  {
+  Desk() {
     resize({1300, 900});
     runs.steps = 1000000;
     runs.step_ms = 1;
@@ -25,27 +24,23 @@ public:
   const ui::RunInHand& run() const { return workbench.run(); }
   const auto& comparing() const { return workbench.comparing(); }
   std::string file() const { return (folder.path() / "test.json").string(); }
-  void apply(ui::Command command)
-  {
+  void apply(ui::Command command) {
     workbench.apply({std::move(command)});
     frames(4);
   }
   /// Another camera, as one edit.
-  void edit(double z = 3)
-  {
+  void edit(double z = 3) {
     HeadlessWindow::edit([&](preset::Preset& p) { p.scene.camera.position = {0, 0, z}; });
     frames(4);
   }
   void look(ui::ViewSettings view_settings) { apply(ui::command::SetViewSettings{view_settings}); }
-  static std::string clipboard()
-  {
+  static std::string clipboard() {
     const char* text = ImGui::GetClipboardText();
     return text ? text : "";
   }
 
   /// Remembers what there is, for what is looked at after a press.
-  void remember()
-  {
+  void remember() {
     ImGui::SetClipboardText("nothing was copied");
     before = {preset(), workbench.view_state(), workbench.setup().settings(), workbench.run().status().generation};
   }
@@ -57,14 +52,12 @@ public:
   } before;
 
   /// Draws frames until it holds.
-  bool comes_to(const std::function<bool(Desk&)>& condition)
-  {
+  bool comes_to(const std::function<bool(Desk&)>& condition) {
     return until([&] { return condition(*this); });
   }
 
   /// The palette, its name, Enter. False, and nothing is done, where the palette has another action first.
-  bool by_palette(const ui::Action& action)
-  {
+  bool by_palette(const ui::Action& action) {
     apply(ui::command::Ask{ui::Question::command});
     ImGui::GetIO().AddInputCharactersUTF8(action.name.c_str());
     frames(2);
@@ -76,19 +69,16 @@ public:
     return true;
   }
   /// The keys stay down until lift().
-  void hold(int chord)
-  {
+  void hold(int chord) {
     keys(chord, true);
     frame();
   }
-  void lift(int chord)
-  {
+  void lift(int chord) {
     keys(chord, false);
     frames(2);
   }
   /// The menu's title, then the entry. False where the menu has no such entry.
-  bool by_menu(const ui::Action& action)
-  {
+  bool by_menu(const ui::Action& action) {
     click(workspace.place_of("menu:" + action.menu).value());
     frames(2);
     const auto entry = workspace.place_of("menu:" + action.menu + "/" + action.name);
@@ -97,8 +87,7 @@ public:
   }
 
 private:
-  void keys(int chord, bool down)
-  {
+  void keys(int chord, bool down) {
     for (const ImGuiKey modifier : {ImGuiMod_Ctrl, ImGuiMod_Shift})
       if (chord & modifier) imgui.key(modifier, down);
     imgui.key(static_cast<ImGuiKey>(chord & ~ImGuiMod_Mask_), down);

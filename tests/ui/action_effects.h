@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each action of the table shall do, by its name: what has to be there before, and what is so afterwards and was not before.
+// What each action of the table shall do, by its name: what has to be there before, and what is so afterwards and was
+// not before.
 #pragma once
 #include "action_desk.h"
 
@@ -18,30 +19,27 @@ namespace effects {
 using namespace nephroid::ui;
 
 inline constexpr Selection lamp{Selection::Kind::light, 0};
-inline auto applies(Command command)
-{
+inline auto applies(Command command) {
   return [command](Desk& d) { d.apply(command); };
 }
 inline const auto select_lamp = applies(command::Select{lamp}), pin = applies(command::PinRun{}),
                   inspect_pixel = applies(command::InspectPixel{std::array{20, 20}}),
                   give_sweep = applies(command::SetSweep{"sweep", {{"seed", {"1", "2"}}}});
 
-inline auto asks(Question question)
-{
+inline auto asks(Question question) {
   return [question](Desk& d) { return d.workbench.questions().question() == question; };
 }
 /// A new scene of an engine, in no file.
-inline auto begins(const char* engine)
-{
-  return [engine](Desk& d) { return d.preset().source.empty() && d.preset().settings.engine() == std::string_view(engine); };
+inline auto begins(const char* engine) {
+  return [engine](Desk& d) {
+    return d.preset().source.empty() && d.preset().settings.engine() == std::string_view(engine);
+  };
 }
-inline auto copies(const char* text)
-{
+inline auto copies(const char* text) {
   return [text](Desk& d) { return d.clipboard().find(text) != std::string::npos; };
 }
 
-inline void add_file_and_edit(Effects& all)
-{
+inline void add_file_and_edit(Effects& all) {
   all["New scene"] = {{}, begins("spectral")};
   all["New scene: environment"] = {{}, begins("environment")};
   all["New scene: inverse"] = {{}, begins("inverse")};
@@ -51,9 +49,11 @@ inline void add_file_and_edit(Effects& all)
   all["Open map..."] = {{}, asks(Question::open_map)};
   all["Reopen the last session"] = {[](Desk& d) { d.workbench.offer_earlier(true); },
                                     [](Desk& d) { return d.workbench.questions().take_reopen(); }};
-  all["Save preset"] = {
-      [](Desk& d) { d.edit(2.5); },
-      [](Desk& d) { return preset::read_preset(d.file()).scene.camera.position[2] == 2.5 && !d.workbench.edits()->modified(); }};
+  all["Save preset"] = {[](Desk& d) { d.edit(2.5); },
+                        [](Desk& d) {
+                          return preset::read_preset(d.file()).scene.camera.position[2] == 2.5 &&
+                                 !d.workbench.edits()->modified();
+                        }};
   all["Take the preset from its file"] = {[](Desk& d) {
                                             d.edit();
                                             preset::Preset other = d.preset();
@@ -66,10 +66,13 @@ inline void add_file_and_edit(Effects& all)
   all["Quit"] = {{}, [](Desk& d) { return d.workbench.questions().quitting(); }};
 
   all["Undo"] = {[](Desk& d) { d.edit(); }, [](Desk& d) { return d.scene().camera.position[2] == 4; }};
-  all["Redo"] = {[](Desk& d) { d.edit(), d.apply(command::Undo{}); }, [](Desk& d) { return d.scene().camera.position[2] == 3; }};
-  all["Reset camera"] = {
-      [](Desk& d) { d.edit(); },
-      [](Desk& d) { return d.scene().camera.position[2] == 4 && d.workbench.edits()->undo_label() == "reset the camera"; }};
+  all["Redo"] = {[](Desk& d) { d.edit(), d.apply(command::Undo{}); },
+                 [](Desk& d) { return d.scene().camera.position[2] == 3; }};
+  all["Reset camera"] = {[](Desk& d) { d.edit(); },
+                         [](Desk& d) {
+                           return d.scene().camera.position[2] == 4 &&
+                                  d.workbench.edits()->undo_label() == "reset the camera";
+                         }};
   all["Copy as command line"] = {[](Desk& d) { d.edit(); }, copies("nephroid run ")};
   all["Copy history as CSV"] = {{}, copies("estimated_lab_mean")};
   all["Copy plot as CSV"] = {{}, copies("run,line,seconds,error")};
@@ -79,15 +82,13 @@ inline void add_file_and_edit(Effects& all)
 }
 
 /// Nudges the lamp: by how much along an axis, in sign.
-inline Effect nudges(std::size_t axis, int sign)
-{
+inline Effect nudges(std::size_t axis, int sign) {
   return {select_lamp, [axis, sign](Desk& d) {
             const double moved = d.scene().lights[0].position[axis] - d.before.preset.scene.lights[0].position[axis];
             return sign * moved > 1e-6;
           }};
 }
-inline Effect uses(Handles::Tool tool)
-{
+inline Effect uses(Handles::Tool tool) {
   return {[tool](Desk& d) {
             Handles handles = d.view_state().handles;
             handles.tool = tool == Handles::Tool::turn ? Handles::Tool::move : Handles::Tool::turn;
@@ -95,18 +96,17 @@ inline Effect uses(Handles::Tool tool)
           },
           [tool](Desk& d) { return d.view_state().handles.tool == tool; }};
 }
-inline Effect toggles(bool Handles::*member)
-{
+inline Effect toggles(bool Handles::*member) {
   return {{}, [member](Desk& d) { return d.view_state().handles.*member != d.before.chosen.handles.*member; }};
 }
 
-inline void add_select_and_camera(Effects& all)
-{
+inline void add_select_and_camera(Effects& all) {
   const auto selects_last = [](Desk& d) { return d.view_state().selection == selectable(d.preset()).back(); };
   all["Select the next"] = {{}, [](Desk& d) { return d.view_state().selection == selectable(d.preset()).front(); }};
   all["Select the one before"] = {{}, selects_last};
   all["Deselect"] = {select_lamp, [](Desk& d) { return d.view_state().selection == Selection{}; }};
-  all["Look at the selected"] = {select_lamp, [](Desk& d) { return d.scene().camera.target == d.scene().lights[0].position; }};
+  all["Look at the selected"] = {select_lamp,
+                                 [](Desk& d) { return d.scene().camera.target == d.scene().lights[0].position; }};
   all["Move"] = uses(Handles::Tool::move);
   all["Turn"] = uses(Handles::Tool::turn);
   all["Scale"] = uses(Handles::Tool::scale);
@@ -121,35 +121,34 @@ inline void add_select_and_camera(Effects& all)
   all["Nudge away"] = nudges(2, -1);
   all["Nudge nearer"] = nudges(2, 1);
 
-  all["Bookmark this camera"] = {{}, [](Desk& d) { return d.view_state().bookmarks.size() == d.before.chosen.bookmarks.size() + 1; }};
+  all["Bookmark this camera"] = {
+      {}, [](Desk& d) { return d.view_state().bookmarks.size() == d.before.chosen.bookmarks.size() + 1; }};
   const auto bookmark_nine = [](Desk& d) {
     std::vector<Bookmark> bookmarks;
-    for (int bookmark = 1; bookmark <= 9; ++bookmark) d.edit(10 + bookmark), bookmarks.push_back({"", d.scene().camera});
+    for (int bookmark = 1; bookmark <= 9; ++bookmark)
+      d.edit(10 + bookmark), bookmarks.push_back({"", d.scene().camera});
     d.apply(command::SetBookmarks{bookmarks});
     d.edit();
   };
   for (int i = 1; i <= 9; ++i)
-    all[fmt::format("Go to camera {}", i)] = {bookmark_nine, [i](Desk& d) { return d.scene().camera.position[2] == 10 + i; }};
+    all[fmt::format("Go to camera {}", i)] = {bookmark_nine,
+                                              [i](Desk& d) { return d.scene().camera.position[2] == 10 + i; }};
 }
 
-inline Effect moves_pixel(int x, int y)
-{
+inline Effect moves_pixel(int x, int y) {
   return {inspect_pixel, [x, y](Desk& d) { return d.view_state().pixel == std::optional(std::array{20 + x, 20 + y}); }};
 }
-inline Effect sets_tone(ToneCurve tone)
-{
+inline Effect sets_tone(ToneCurve tone) {
   return {[tone](Desk& d) { d.look({.tone = tone == ToneCurve::filmic ? ToneCurve::standard : ToneCurve::filmic}); },
           [tone](Desk& d) { return d.view_state().view_settings.tone == tone; }};
 }
 /// Pinned, so that there is something to compare with.
-inline void compare_with_pin(Desk& d)
-{
+inline void compare_with_pin(Desk& d) {
   pin(d);
   d.apply(command::CompareWith{d.comparing().pinned().all().front().id});
 }
 
-inline void add_run_and_view(Effects& all)
-{
+inline void add_run_and_view(Effects& all) {
   const auto is = [](job::State state) { return [state](Desk& d) { return d.run().status().state == state; }; };
   all["Start again"] = {{}, [](Desk& d) { return d.run().status().generation > d.before.run; }};
   all["Pause"] = {{}, is(job::State::paused)};
@@ -162,8 +161,10 @@ inline void add_run_and_view(Effects& all)
   all["Show as glass"] = {
       [](Desk& d) {
         d.apply(command::Cancel{});
-        EXPECT_TRUE(d.comes_to([](Desk& desk) { return desk.workbench.run().status().state == job::State::cancelled; }));
-        d.runs.files = {{"view.json", [text = ball_text()](ByteSink& file) { file.write(std::as_bytes(std::span(text))); }}};
+        EXPECT_TRUE(
+            d.comes_to([](Desk& desk) { return desk.workbench.run().status().state == job::State::cancelled; }));
+        d.runs.files = {
+            {"view.json", [text = ball_text()](ByteSink& file) { file.write(std::as_bytes(std::span(text))); }}};
         d.apply(command::Restart{});
         EXPECT_TRUE(d.comes_to([](Desk& desk) { return desk.workbench.run().snapshot_is_current(); }));
       },
@@ -172,7 +173,8 @@ inline void add_run_and_view(Effects& all)
   all["Flip"] = {compare_with_pin, [](Desk& d) { return d.comparing().comparison().flip; }};
   all["Difference"] = {compare_with_pin, [](Desk& d) { return d.comparing().comparison().difference; }};
   const auto arranges = [](Arrangement arrangement) {
-    return Effect{compare_with_pin, [arrangement](Desk& d) { return d.comparing().comparison().arrangement == arrangement; }};
+    return Effect{compare_with_pin,
+                  [arrangement](Desk& d) { return d.comparing().comparison().arrangement == arrangement; }};
   };
   all["Split"] = arranges(Arrangement::split);
   all["Side by side"] = arranges(Arrangement::side_by_side);
@@ -182,24 +184,31 @@ inline void add_run_and_view(Effects& all)
                            EXPECT_TRUE(d.comes_to([](Desk& desk) { return desk.comparing().metrics() != nullptr; }));
                          },
                          copies("rel_l2")};
-  all["Picture before"] = all["Picture after"] = {pin, [](Desk& d) { return d.comparing().comparison().shown != 0; }}; // two, round again
+  all["Picture before"] =
+      all["Picture after"] = {pin, [](Desk& d) { return d.comparing().comparison().shown != 0; }}; // two, round again
   const auto pin_eight = [](Desk& d) {
     for (int i = 0; i < 8; ++i) pin(d);
   };
   const auto pin_id = [](Desk& d, std::size_t number) { return d.comparing().pinned().all()[number - 2].id; };
   for (std::size_t i = 2; i <= 9; ++i) {
-    all[fmt::format("Picture {}", i)] = {pin_eight, [=](Desk& d) { return d.comparing().comparison().shown == pin_id(d, i); }};
-    all[fmt::format("Compare with picture {}", i)] = {pin_eight, [=](Desk& d) { return d.comparing().comparison().pin == pin_id(d, i); }};
+    all[fmt::format("Picture {}", i)] = {pin_eight,
+                                         [=](Desk& d) { return d.comparing().comparison().shown == pin_id(d, i); }};
+    all[fmt::format("Compare with picture {}", i)] = {
+        pin_eight, [=](Desk& d) { return d.comparing().comparison().pin == pin_id(d, i); }};
   }
   all["Picture 1"] = {[](Desk& d) { pin(d), d.apply(command::ShowPicture{d.comparing().pinned().all().front().id}); },
                       [](Desk& d) { return d.comparing().comparison().shown == 0; }};
-  all["Compare with picture 1"] = {{}, [](Desk& d) { return d.comparing().comparison().pin == Comparison::run_in_hand; }};
+  all["Compare with picture 1"] = {{},
+                                   [](Desk& d) { return d.comparing().comparison().pin == Comparison::run_in_hand; }};
   all["Compare with the next"] = {pin, [](Desk& d) { return d.comparing().comparison().pin != 0; }};
-  all["Fit"] = {[](Desk& d) { d.look({.fit = false, .zoom = 2}); }, [](Desk& d) { return d.view_state().view_settings.fit; }};
-  all["Actual size"] = {{}, [](Desk& d) { return !d.view_state().view_settings.fit && d.view_state().view_settings.zoom == 1; }};
+  all["Fit"] = {[](Desk& d) { d.look({.fit = false, .zoom = 2}); },
+                [](Desk& d) { return d.view_state().view_settings.fit; }};
+  all["Actual size"] = {
+      {}, [](Desk& d) { return !d.view_state().view_settings.fit && d.view_state().view_settings.zoom == 1; }};
   all["Brighter"] = {{}, [](Desk& d) { return d.view_state().view_settings.exposure_stops == 0.5; }};
   all["Darker"] = {{}, [](Desk& d) { return d.view_state().view_settings.exposure_stops == -0.5; }};
-  all["Exposure 0"] = {[](Desk& d) { d.look({.exposure_stops = 3}); }, [](Desk& d) { return d.view_state().view_settings.exposure_stops == 0; }};
+  all["Exposure 0"] = {[](Desk& d) { d.look({.exposure_stops = 3}); },
+                       [](Desk& d) { return d.view_state().view_settings.exposure_stops == 0; }};
   const auto shows_direct = [](Desk& d) { return d.comparing().comparison().layer == "direct"; };
   all["Next layer"] = {{}, shows_direct};
   all["Previous layer"] = {{}, shows_direct}; // there is one, so that both ways lead to it
@@ -213,19 +222,20 @@ inline void add_run_and_view(Effects& all)
   all["Pixel above"] = moves_pixel(0, -1);
   all["Pixel below"] = moves_pixel(0, 1);
   all["Copy pixel"] = {inspect_pixel, copies("20")};
-  all["Statistics of the picture"] = {{}, [](Desk& d) { return d.view_state().region == std::optional(PixelRegion{{0, 0}, {64, 48}}); }};
+  all["Statistics of the picture"] = {{}, [](Desk& d) {
+                                        return d.view_state().region == std::optional(PixelRegion{{0, 0}, {64, 48}});
+                                      }};
 }
 
 /// Whether it is the panel that was brought to the front last.
-inline bool in_front(const char* title)
-{
+inline bool in_front(const char* title) {
   const ImGuiWindow* window = ImGui::FindWindowByName(title);
-  return window && ImGui::GetCurrentContext()->NavWindow == window && (!window->DockNode || window->DockNode->VisibleWindow == window);
+  return window && ImGui::GetCurrentContext()->NavWindow == window &&
+         (!window->DockNode || window->DockNode->VisibleWindow == window);
 }
 
 /// What can be closed is closed; the picture comes to the front.
-inline Effect of_panel(const PanelEntry& entry)
-{
+inline Effect of_panel(const PanelEntry& entry) {
   const auto prepare = [entry](Desk& d) {
     for (const engine::Engine* engine : engine::engines())
       if (!serves(entry, d.preset())) d.apply(command::New{engine->introduction.new_scene.preset});
@@ -242,8 +252,7 @@ inline Effect of_panel(const PanelEntry& entry)
           }};
 }
 
-inline void add_window_and_help(Effects& all)
-{
+inline void add_window_and_help(Effects& all) {
   for (const PanelEntry& entry : panel_table()) all[fmt::format("Panel: {}", entry.title)] = of_panel(entry);
   all["Find a preset"] = {applies(command::ShowPanel{"plan", true}), [](Desk&) { return in_front("Presets"); }};
   all["Reset layout"] = {applies(command::ShowPanel{"plan", false}),
@@ -259,8 +268,7 @@ inline void add_window_and_help(Effects& all)
 
 } // namespace effects
 
-inline Effects action_effects()
-{
+inline Effects action_effects() {
   Effects all;
   effects::add_file_and_edit(all);
   effects::add_select_and_camera(all);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every action of the table: what it does, which is in action_effects.h, and the ways to it: found by its name in the command palette, by
-// its keys, in its menu, on the toolbar. And docs/keys.md, which says what the table does: with the folder docs in NEPHROID_PICTURES it is
-// written there.
+// Every action of the table: what it does, which is in action_effects.h, and the ways to it: found by its name in the
+// command palette, by its keys, in its menu, on the toolbar. And docs/keys.md, which says what the table does: with the
+// folder docs in NEPHROID_PICTURES it is written there.
 #include "action_effects.h"
 
 namespace nephroid::ui::actions_test {
@@ -9,8 +9,7 @@ namespace nephroid::ui::actions_test {
 /// While it is there, the one action of the table that is possible is `only`, and what is run is noted instead.
 class NotedActions {
 public:
-  NotedActions() : before_(actions().begin(), actions().end())
-  {
+  NotedActions() : before_(actions().begin(), actions().end()) {
     for (const Action& entry : actions()) {
       Action& action = const_cast<Action&>(entry); // of a vector, whose elements are no constants
       action.enabled = [this, &action](const Context&) { return &action == only; };
@@ -30,22 +29,23 @@ private:
   std::vector<Action> before_;
 };
 
-TEST(Actions, HaveNamesKeysAndEffectsOfTheirOwn)
-{
+TEST(Actions, HaveNamesKeysAndEffectsOfTheirOwn) {
   // What is selected goes first, and only then these mean something else (run_shortcuts).
-  const std::set<int> shared{ImGuiKey_Escape, ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow};
+  const std::set<int> shared{ImGuiKey_Escape, ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow,
+                             ImGuiKey_DownArrow};
   std::set<int> shortcuts;
   for (const Action& action : actions())
-    EXPECT_TRUE(!action.shortcut || shared.contains(action.shortcut) || shortcuts.insert(action.shortcut).second) << action.name;
+    EXPECT_TRUE(!action.shortcut || shared.contains(action.shortcut) || shortcuts.insert(action.shortcut).second)
+        << action.name;
   std::set<std::string> names;
-  for (const Action& action : actions()) EXPECT_TRUE(names.insert(action.name).second) << action.name << " is there twice";
+  for (const Action& action : actions())
+    EXPECT_TRUE(names.insert(action.name).second) << action.name << " is there twice";
   for (const auto& [name, effect] : action_effects()) EXPECT_TRUE(names.contains(name)) << name << " is no action";
   EXPECT_THROW(action("Fly"), Error);
 }
 
 // Each in a new window in which it is possible.
-TEST(Actions, EachDoesWhatItShall)
-{
+TEST(Actions, EachDoesWhatItShall) {
   const std::map<std::string, Effect> effects = action_effects();
   for (const Action& action : actions()) {
     SCOPED_TRACE(action.menu + ": " + action.name);
@@ -67,8 +67,7 @@ TEST(Actions, EachDoesWhatItShall)
   }
 }
 
-TEST(Actions, EachIsReachedInEveryWay)
-{
+TEST(Actions, EachIsReachedInEveryWay) {
   Desk desk;
   NotedActions noted;
   int on_toolbar = 0, with_keys = 0;
@@ -104,17 +103,17 @@ TEST(Actions, EachIsReachedInEveryWay)
              on_toolbar); // docs/notebook/window.md
 }
 
-std::string keys_page()
-{
-  std::string page =
-      "# Mouse and keys of the window\n\n"
-      "This page is made of the program's own table of actions, from which menus and F1 are made too. Ctrl+Shift+P lists all actions.\n\n"
-      "|mouse|what it does|\n|---|---|\n";
+std::string keys_page() {
+  std::string page = "# Mouse and keys of the window\n\n"
+                     "This page is made of the program's own table of actions, from which menus and F1 are made too. "
+                     "Ctrl+Shift+P lists all actions.\n\n"
+                     "|mouse|what it does|\n|---|---|\n";
   for (const MouseHabit& habit : mouse_habits()) page += fmt::format("|{}|{}|\n", habit.how, habit.what);
   std::string menu;
   const std::span<const Action> table = actions();
   for (std::size_t i = 0; i < table.size();) {
-    if (table[i].menu != menu) page += fmt::format("\n## {}\n\n|action|keys|what it does|\n|---|---|---|\n", table[i].menu);
+    if (table[i].menu != menu)
+      page += fmt::format("\n## {}\n\n|action|keys|what it does|\n|---|---|---|\n", table[i].menu);
     menu = table[i].menu;
     std::string names = table[i].name, keys = keys_of(table[i]);
     const std::string& help = table[i].help;
@@ -127,8 +126,7 @@ std::string keys_page()
   return page;
 }
 
-TEST(KeysPage, IsTheTableOfActions)
-{
+TEST(KeysPage, IsTheTableOfActions) {
   ImGui::CreateContext(); // it names the keys
   const std::string page = keys_page();
   ImGui::DestroyContext();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Annealing" on real runs of engine 3: what it plots, which pictures it shows, and where a facet's light goes.
+// The panel "Annealing" on real runs of engine 3: what it plots, which pictures it shows, and where a facet's light
+// goes.
 #include "scenes.h"
 #include "ui/inverse/annealing/panel.h"
 #include "window_fixture.h"
@@ -12,28 +13,24 @@ protected:
   const AnnealingPanel& panel() const { return workspace.panel<AnnealingPanel>(); }
   void click_widget(const std::string& widget) { click_in(panel(), widget, 0); }
   /// On a facet of the map "slopes".
-  void click_facet(int x, int y, int facets)
-  {
+  void click_facet(int x, int y, int facets) {
     const auto& [left, top, width, height] = panel().area_of("slopes");
     ASSERT_GT(width, 0);
     click({left + (x + 0.5) * width / facets, top + (y + 0.5) * height / facets});
   }
   /// Where the light of a facet of 100 mm / facets hits a receiver, in mm about its middle.
-  glm::dvec2 spot(int x, int y, int facets, double distance) const
-  {
+  glm::dvec2 spot(int x, int y, int facets, double distance) const {
     const float* const slope = picture("slopes").rgb.data() + 3 * (static_cast<std::ptrdiff_t>(y) * facets + x);
     return {(x + 0.5) * 100 / facets - 50 + slope[0] * distance, 50 - (y + 0.5) * 100 / facets + slope[1] * distance};
   }
-  const job::Picture& picture(const std::string& name) const
-  {
+  const job::Picture& picture(const std::string& name) const {
     for (const job::NamedPicture& named : workbench.run().snapshot()->pictures)
       if (named.name == name) return *named.picture;
     throw std::out_of_range(name);
   }
 };
 
-TEST_F(AnnealingPanelTest, EveryCurveOfTheRunIsPlottedLogOrLinear)
-{
+TEST_F(AnnealingPanelTest, EveryCurveOfTheRunIsPlottedLogOrLinear) {
   frames(3); // nothing is open
   run_through(test::inverse_text(3));
   ASSERT_THAT(panel().histories(), SizeIs(1));
@@ -53,9 +50,9 @@ TEST_F(AnnealingPanelTest, EveryCurveOfTheRunIsPlottedLogOrLinear)
 }
 
 // A log axis has no 0 and nothing has a place that is not a number; a curve without seconds stays over its own count.
-TEST(HistoryLines, LeaveOutWhatHasNoPlace)
-{
-  const job::Curve curve{"annealing_1", {"move", "temperature", "refused"}, {{0, 8, 0}, {10, 4, 3}, {20, std::nan(""), 7}}};
+TEST(HistoryLines, LeaveOutWhatHasNoPlace) {
+  const job::Curve curve{
+      "annealing_1", {"move", "temperature", "refused"}, {{0, 8, 0}, {10, 4, 3}, {20, std::nan(""), 7}}};
   const HistoryLines log = history_lines(curve, {true, true}), linear = history_lines(curve, {false, false});
   EXPECT_EQ(log.x, "move");
   EXPECT_THAT(log.lines[0].y, ElementsAre(8, 4));
@@ -64,8 +61,7 @@ TEST(HistoryLines, LeaveOutWhatHasNoPlace)
 }
 
 // A value of 1e-14, which is rounding, does not press all others to the plot's upper edge.
-TEST_F(AnnealingPanelTest, ALogAxisHasFourDecadesAtMost)
-{
+TEST_F(AnnealingPanelTest, ALogAxisHasFourDecadesAtMost) {
   HistoryPlot plot;
   const HistoryLines lines{"cost", "sweep", {{"cost", {0, 1}, {0.5, 0.1}}, {"missed", {0, 1}, {1e-14, 1e-13}}}};
   for (int i = 0; i < 3; ++i) {
@@ -79,19 +75,17 @@ TEST_F(AnnealingPanelTest, ALogAxisHasFourDecadesAtMost)
   EXPECT_GT(plot.area().y[1], 0.5);
 }
 
-TEST_F(AnnealingPanelTest, EveryReceiverHasItsPictures)
-{
+TEST_F(AnnealingPanelTest, EveryReceiverHasItsPictures) {
   run_through(test::inverse_text(2));
-  for (const char* name :
-       {"target_1", "best_1", "receiver_1", "difference_1", "target_2", "best_2", "receiver_2", "difference_2", "slopes", "conflict"})
+  for (const char* name : {"target_1", "best_1", "receiver_1", "difference_1", "target_2", "best_2", "receiver_2",
+                           "difference_2", "slopes", "conflict"})
     EXPECT_GT(panel().area_of(name)[2], 50) << name;
   EXPECT_LT(panel().area_of("target_1")[1], panel().area_of("receiver_1")[1]);
   EXPECT_LT(panel().area_of("target_1")[0], panel().area_of("target_2")[0]);
 }
 
 // The View has the object; held against something, the sheet of pictures. A drag turns it, and the run goes on.
-TEST_F(AnnealingPanelTest, TheViewShowsTheObjectAndTurnsIt)
-{
+TEST_F(AnnealingPanelTest, TheViewShowsTheObjectAndTurnsIt) {
   run_through(test::inverse_text(1));
   const auto before = workbench.run().snapshot();
   EXPECT_EQ(workbench.comparing().source(), before->in_view);
@@ -107,8 +101,7 @@ TEST_F(AnnealingPanelTest, TheViewShowsTheObjectAndTurnsIt)
 }
 
 // By hand: the light of a facet at p with slope s is at p + s d, in cells from the receiver's top left corner.
-TEST_F(AnnealingPanelTest, AClickedFacetShowsItsBeamOnEveryReceiver)
-{
+TEST_F(AnnealingPanelTest, AClickedFacetShowsItsBeamOnEveryReceiver) {
   constexpr int facets = 24;
   run_through(test::inverse_text(3, facets));
   EXPECT_FALSE(panel().beam());
@@ -175,8 +168,7 @@ TEST_F(AnnealingPanelTest, AClickedFacetShowsItsBeamOnEveryReceiver)
   EXPECT_GT(std::accumulate(wanted.rgb.begin(), wanted.rgb.end(), 0.0), 0);
 }
 
-TEST_F(AnnealingPanelTest, ADraggedDistanceOrWeightGoesOnInTheSameRun)
-{
+TEST_F(AnnealingPanelTest, ADraggedDistanceOrWeightGoesOnInTheSameRun) {
   run_through(test::inverse_text(2));
   const auto settings = [&]() -> const inverse::Settings& { return inverse::settings(*workbench.preset()); };
   const auto steps = [&] { return workbench.run().snapshot()->progress.step; };
@@ -209,19 +201,19 @@ TEST_F(AnnealingPanelTest, ADraggedDistanceOrWeightGoesOnInTheSameRun)
 }
 
 // The preset of the finished object is of another engine: the View turns it, and this panel is gone.
-TEST_F(AnnealingPanelTest, TheFinishedObjectIsShownAsGlass)
-{
+TEST_F(AnnealingPanelTest, TheFinishedObjectIsShownAsGlass) {
   run_through(test::inverse_text(1));
   click_widget("show as glass");
   ASSERT_TRUE(until([&] { return workbench.preset()->settings.engine() == "spectral"; }));
   EXPECT_TRUE(fs::is_regular_file(folder.path() / "test-object" / "object.obj"));
-  EXPECT_EQ(fs::weakly_canonical(workbench.preset()->source), fs::weakly_canonical(folder.path() / "test-object" / "view.json"));
+  EXPECT_EQ(fs::weakly_canonical(workbench.preset()->source),
+            fs::weakly_canonical(folder.path() / "test-object" / "view.json"));
   EXPECT_EQ(workbench.preset()->scene.objects.size(), 5u) << "the ground, and twice the object and its receiver";
-  EXPECT_EQ(free_name(folder.path() / "test-object"), folder.path() / "test-object-2") << "what is there may be edited by now";
+  EXPECT_EQ(free_name(folder.path() / "test-object"), folder.path() / "test-object-2")
+      << "what is there may be edited by now";
 }
 
-TEST_F(AnnealingPanelTest, AFacetIsOfTheMapsSizeOrNoBeam)
-{
+TEST_F(AnnealingPanelTest, AFacetIsOfTheMapsSizeOrNoBeam) {
   inverse::Layout layout{.facets = {2, 1}, .distances = {100}};
   job::Picture slopes{2, 1, {0, 0, 1, 5, 0, 0.5f}, {}, {}};
   EXPECT_FALSE(facet_beam(slopes, layout, {2, 0}));

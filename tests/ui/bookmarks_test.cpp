@@ -9,15 +9,13 @@ class Bookmarks : public test::WindowFixture {
 protected:
   const std::vector<Bookmark>& all() const { return workbench.view_state().bookmarks; }
   void bookmark() { press(ImGuiKey_B, ImGuiMod_Ctrl); }
-  void show_list()
-  {
+  void show_list() {
     click(*view().place_of("cameras"));
     frames(2);
   }
 };
 
-TEST_F(Bookmarks, KeepACameraToComeBackTo)
-{
+TEST_F(Bookmarks, KeepACameraToComeBackTo) {
   open();
   const preset::Camera first = camera();
   bookmark();
@@ -38,8 +36,7 @@ TEST_F(Bookmarks, KeepACameraToComeBackTo)
   EXPECT_EQ(camera(), second) << "there is no third";
 }
 
-TEST_F(Bookmarks, KeepThePicturesSize)
-{
+TEST_F(Bookmarks, KeepThePicturesSize) {
   open();
   bookmark();
   edit([&](preset::Preset& p) { p.scene.camera.position = {1, 1, 4}, p.scene.camera.resolution = {32, 24}; });
@@ -48,8 +45,7 @@ TEST_F(Bookmarks, KeepThePicturesSize)
   EXPECT_EQ(camera().resolution, (std::array{32, 24}));
 }
 
-TEST_F(Bookmarks, AreInAList)
-{
+TEST_F(Bookmarks, AreInAList) {
   open();
   show_list();
   click(*view().place_of("bookmark"));
@@ -72,8 +68,7 @@ TEST_F(Bookmarks, AreInAList)
   EXPECT_TRUE(all().empty());
 }
 
-TEST_F(Bookmarks, StayWhenAnotherPresetIsOpened)
-{
+TEST_F(Bookmarks, StayWhenAnotherPresetIsOpened) {
   open();
   bookmark();
   ASSERT_TRUE(workbench.open("spectral/prism"));

@@ -1,33 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// The View's geometry: the mouse's camera moves against where a pinhole camera must then be, and see, by hand; where the picture lies;
-// which object is under the mouse, also after objects were moved.
+// The View's geometry: the mouse's camera moves against where a pinhole camera must then be, and see, by hand; where
+// the picture lies; which object is under the mouse, also after objects were moved.
 #include "scenes.h"
 #include "tests/support/loaded_scenes.h"
-#include "ui/view/placement.h"
 #include "ui/view/pinhole.h"
+#include "ui/view/placement.h"
 #include <glm/glm.hpp>
 
 namespace nephroid::ui::camera_moves_test {
 
 constexpr double tolerance = 1e-9;
 
-preset::Camera at(double x, double y, double z)
-{
+preset::Camera at(double x, double y, double z) {
   return {.position = {x, y, z}, .target = {0, 0, 0}, .fov_deg = 90, .resolution = {200, 100}};
 }
 
 glm::dvec3 vector(const preset::Vec3& v) { return {v[0], v[1], v[2]}; }
 
-void expect_near(const preset::Vec3& v, double x, double y, double z)
-{
+void expect_near(const preset::Vec3& v, double x, double y, double z) {
   EXPECT_NEAR(v[0], x, tolerance);
   EXPECT_NEAR(v[1], y, tolerance);
   EXPECT_NEAR(v[2], z, tolerance);
 }
 
-/// Where a point is in the picture, right and down from its middle, in parts of its height (the convention of scene::Camera).
-std::array<double, 2> seen(const preset::Camera& camera, const glm::dvec3& point)
-{
+/// Where a point is in the picture, right and down from its middle, in parts of its height (the convention of
+/// scene::Camera).
+std::array<double, 2> seen(const preset::Camera& camera, const glm::dvec3& point) {
   const glm::dvec3 forward = glm::normalize(vector(camera.target) - vector(camera.position));
   const glm::dvec3 right = glm::normalize(glm::cross(forward, vector(camera.up)));
   const glm::dvec3 up = glm::cross(right, forward);
@@ -36,28 +34,25 @@ std::array<double, 2> seen(const preset::Camera& camera, const glm::dvec3& point
   return {glm::dot(to, right) / height, -glm::dot(to, up) / height};
 }
 
-TEST(CameraMoves, OrbitGoesRoundTheTarget)
-{
+TEST(CameraMoves, OrbitGoesRoundTheTarget) {
   expect_near(orbit(at(0, 0, 4), 90, 0).position, 4, 0, 0); // from +z, looking along -z, right is +x
   expect_near(orbit(at(0, 0, 4), -90, 0).position, -4, 0, 0);
   expect_near(orbit(at(0, 0, 4), 0, 30).position, 0, 2, 4 * std::cos(glm::radians(30.0)));
   expect_near(orbit(at(0, 0, 4), 180, 0).position, 0, 0, -4);
 }
 
-TEST(CameraMoves, OrbitKeepsDistanceTargetAndWayBack)
-{
+TEST(CameraMoves, OrbitKeepsDistanceTargetAndWayBack) {
   preset::Camera camera = at(1, 2, 3);
   camera.target = {0.5, -1, 0.25};
   const preset::Camera moved = orbit(camera, 33, -21);
   EXPECT_EQ(moved.target, camera.target);
-  EXPECT_NEAR(glm::distance(vector(moved.position), vector(moved.target)), glm::distance(vector(camera.position), vector(camera.target)),
-              tolerance);
+  EXPECT_NEAR(glm::distance(vector(moved.position), vector(moved.target)),
+              glm::distance(vector(camera.position), vector(camera.target)), tolerance);
   const preset::Camera back = orbit(orbit(moved, 0, 21), -33, 0);
   expect_near(back.position, 1, 2, 3);
 }
 
-TEST(CameraMoves, OrbitStopsShortOfThePoles)
-{
+TEST(CameraMoves, OrbitStopsShortOfThePoles) {
   const preset::Camera top = orbit(at(0, 0, 4), 0, 1000);
   EXPECT_NEAR(top.position[1], 4 * std::cos(glm::radians(1.0)), tolerance);
   EXPECT_GT(top.position[2], 0); // not flipped to the other side
@@ -65,33 +60,29 @@ TEST(CameraMoves, OrbitStopsShortOfThePoles)
   EXPECT_NEAR(bottom.position[1], -4 * std::cos(glm::radians(1.0)), tolerance);
 }
 
-TEST(CameraMoves, OrbitFromAPoleAndWithoutADistanceStaysFinite)
-{
+TEST(CameraMoves, OrbitFromAPoleAndWithoutADistanceStaysFinite) {
   for (const preset::Camera& camera : {at(0, 3, 0), at(0, 0, 0)})
     for (double c : orbit(camera, 20, 10).position) EXPECT_TRUE(std::isfinite(c));
 }
 
-TEST(CameraMoves, DollyScalesTheDistance)
-{
+TEST(CameraMoves, DollyScalesTheDistance) {
   preset::Camera camera = at(1, 2, 3);
   camera.target = {1, 1, 1};
   expect_near(dolly(camera, 0.5).position, 1, 1.5, 2);
   expect_near(dolly(dolly(camera, 0.8), 1 / 0.8).position, 1, 2, 3);
 }
 
-TEST(CameraMoves, PanMovesTheTargetsPictureByWhatWasAsked)
-{
+TEST(CameraMoves, PanMovesTheTargetsPictureByWhatWasAsked) {
   const preset::Camera camera = at(1, 2, 3);
   const preset::Camera moved = pan(camera, 0.25, 0.125);
   const auto where = seen(moved, vector(camera.target));
   EXPECT_NEAR(where[0], 0.25, tolerance);
   EXPECT_NEAR(where[1], 0.125, tolerance);
-  EXPECT_NEAR(glm::distance(vector(moved.position), vector(moved.target)), glm::distance(vector(camera.position), vector(camera.target)),
-              tolerance);
+  EXPECT_NEAR(glm::distance(vector(moved.position), vector(moved.target)),
+              glm::distance(vector(camera.position), vector(camera.target)), tolerance);
 }
 
-TEST(CameraMoves, OrbitToTheLeftTurnsTheSceneToTheRight)
-{
+TEST(CameraMoves, OrbitToTheLeftTurnsTheSceneToTheRight) {
   // What is in front of the target comes to the right when the camera goes to the left: the scene follows the mouse.
   EXPECT_GT(seen(orbit(at(0, 0, 4), -10, 0), {0, 0, 1})[0], 0);
   EXPECT_GT(seen(orbit(at(0, 0, 4), 0, 10), {0, 0, 1})[1], 0);
@@ -100,16 +91,14 @@ TEST(CameraMoves, OrbitToTheLeftTurnsTheSceneToTheRight)
 const Canvas canvas{{100, 50}, {800, 600}};
 const std::array<int, 2> picture{400, 200};
 
-TEST(Placement, FitShowsTheWholePictureInTheMiddle)
-{
+TEST(Placement, FitShowsTheWholePictureInTheMiddle) {
   const Placement p = place(ViewSettings{}, canvas, picture);
   EXPECT_DOUBLE_EQ(p.scale, 2);
   EXPECT_EQ(p.to_screen({0, 0}), (Point{100, 150}));
   EXPECT_EQ(p.to_screen({400, 200}), (Point{900, 550}));
 }
 
-TEST(Placement, ZoomKeepsThePointUnderTheCursor)
-{
+TEST(Placement, ZoomKeepsThePointUnderTheCursor) {
   const Point cursor{333, 222};
   ViewSettings view_settings;
   const Point before = place(view_settings, canvas, picture).to_picture(cursor);
@@ -117,14 +106,14 @@ TEST(Placement, ZoomKeepsThePointUnderTheCursor)
     view_settings = zoomed(view_settings, canvas, picture, cursor, factor);
     const Placement p = place(view_settings, canvas, picture);
     const Point after = p.to_picture(cursor);
-    for (int axis = 0; axis < 2; ++axis) EXPECT_NEAR(after[axis], before[axis], 0.51 / p.scale); // whole pixels of the screen
+    for (int axis = 0; axis < 2; ++axis)
+      EXPECT_NEAR(after[axis], before[axis], 0.51 / p.scale); // whole pixels of the screen
   }
   EXPECT_NEAR(view_settings.zoom, 2 * 1.3 * 1.3 * 2.0 * 0.5 * 0.1, 1e-12);
   EXPECT_FALSE(view_settings.fit);
 }
 
-TEST(Placement, ZoomIsBounded)
-{
+TEST(Placement, ZoomIsBounded) {
   ViewSettings view_settings;
   for (int i = 0; i < 100; ++i) view_settings = zoomed(view_settings, canvas, picture, {400, 300}, 10);
   EXPECT_EQ(view_settings.zoom, 256);
@@ -132,15 +121,13 @@ TEST(Placement, ZoomIsBounded)
   EXPECT_EQ(view_settings.zoom, 1.0 / 64);
 }
 
-TEST(Placement, DraggingMovesThePictureWithTheMouse)
-{
+TEST(Placement, DraggingMovesThePictureWithTheMouse) {
   const ViewSettings view_settings = dragged(ViewSettings{}, canvas, picture, {30, -12});
   const Point moved = place(view_settings, canvas, picture).to_screen({0, 0});
   EXPECT_EQ(moved, (Point{130, 138}));
 }
 
-TEST(Placement, PixelsAreFoundByTheirSquares)
-{
+TEST(Placement, PixelsAreFoundByTheirSquares) {
   const Placement p = place(ViewSettings{}, canvas, picture);
   EXPECT_EQ(pixel_at(p, picture, {100, 150}), (std::array<int, 2>{0, 0}));
   EXPECT_EQ(pixel_at(p, picture, {101.9, 151.9}), (std::array<int, 2>{0, 0}));
@@ -150,8 +137,7 @@ TEST(Placement, PixelsAreFoundByTheirSquares)
   EXPECT_EQ(pixel_at(p, picture, {900, 150}), std::nullopt);
 }
 
-preset::Preset picked_preset()
-{
+preset::Preset picked_preset() {
   preset::Preset preset = test::ball_over_floor(); // 0: a ball of radius 0.5, 1: the floor at y = -1
   preset.scene.objects.push_back(test::shape_object("box", preset::Shape::Type::box, "wall"));
   preset.scene.objects[2].transform = {{0.5, 2, 0.4}, {10, 20, 30}, {1.2, 0, -0.3}};
@@ -159,11 +145,12 @@ preset::Preset picked_preset()
   return preset;
 }
 
-Pinhole pinhole_of(const preset::Preset& preset) { return *make_pinhole(preset.scene.camera, {}, preset.scene.camera.resolution); }
+Pinhole pinhole_of(const preset::Preset& preset) {
+  return *make_pinhole(preset.scene.camera, {}, preset.scene.camera.resolution);
+}
 
 /// The object at each pixel's centre.
-std::vector<std::optional<std::size_t>> objects_in(const ViewedScene& seen, const preset::Preset& preset)
-{
+std::vector<std::optional<std::size_t>> objects_in(const ViewedScene& seen, const preset::Preset& preset) {
   std::vector<std::optional<std::size_t>> all;
   const Pinhole s = pinhole_of(preset);
   for (int y = 0; y < 48; ++y)
@@ -171,8 +158,7 @@ std::vector<std::optional<std::size_t>> objects_in(const ViewedScene& seen, cons
   return all;
 }
 
-TEST(Picking, FindsABallWhereItIs)
-{
+TEST(Picking, FindsABallWhereItIs) {
   const preset::Preset preset = picked_preset();
   const auto seen = test::seen_scene(preset);
   const Pinhole s = pinhole_of(preset);
@@ -181,7 +167,8 @@ TEST(Picking, FindsABallWhereItIs)
     for (int x = 0; x < 64; ++x) {
       const Ray ray = s.ray({x + 0.5, y + 0.5});
       const glm::dvec3 way = glm::normalize(ray.direction);
-      const double passes = glm::length(ray.origin - glm::dot(ray.origin, way) * way); // by the ball's middle, the origin
+      const double passes =
+          glm::length(ray.origin - glm::dot(ray.origin, way) * way); // by the ball's middle, the origin
       const auto object = object_at(*seen, preset, ray);
       if (std::abs(passes - 0.5) < 1e-3) continue;  // on its rim
       const bool hidden = object == std::size_t{2}; // by the box
@@ -192,8 +179,7 @@ TEST(Picking, FindsABallWhereItIs)
   EXPECT_EQ(object_at(*seen, preset, {{0, 3, 3}, {0, 1, 0}}), std::nullopt) << "up into the sky";
 }
 
-TEST(Picking, FindsWhatMovedWithoutLoading)
-{
+TEST(Picking, FindsWhatMovedWithoutLoading) {
   const preset::Preset before = picked_preset();
   preset::Preset now = before;
   now.scene.objects[0].transform = {{1.3, 0.7, 1}, {0, 0, 40}, {-0.6, 0.4, 0.5}};
@@ -209,8 +195,7 @@ TEST(Picking, FindsWhatMovedWithoutLoading)
   EXPECT_GT(moved, 200) << "the test looks at something";
 }
 
-TEST(Picking, DoesNotFindWhatIsNotLoaded)
-{
+TEST(Picking, DoesNotFindWhatIsNotLoaded) {
   const preset::Preset before = picked_preset();
   const auto seen = test::seen_scene(before);
   const Ray at_ball{{0, 0, 4}, {0, 0, -1}};
@@ -222,8 +207,7 @@ TEST(Picking, DoesNotFindWhatIsNotLoaded)
   EXPECT_EQ(object_at(*seen, now, at_ball), std::nullopt);
 }
 
-TEST(Picking, KnowsTheBoxAboutAnObject)
-{
+TEST(Picking, KnowsTheBoxAboutAnObject) {
   const preset::Preset preset = picked_preset();
   const auto seen = test::seen_scene(preset);
   const auto ball = local_box(seen.get(), preset, 0), box = local_box(seen.get(), preset, 2);

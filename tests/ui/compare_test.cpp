@@ -8,8 +8,7 @@ namespace nephroid::ui::compare_test {
 class CompareTest : public test::WindowFixture {
 protected:
   /// A reference of the pictures' size, all of one colour.
-  void give_reference(std::array<float, 3> rgb, int width = 64, int height = 48)
-  {
+  void give_reference(std::array<float, 3> rgb, int width = 64, int height = 48) {
     auto reference = std::make_shared<measure::Reference>();
     reference->width = width;
     reference->height = height;
@@ -17,19 +16,16 @@ protected:
     reference->origin = "reference.exr";
     runs.reference = reference;
   }
-  void change_camera(double z)
-  {
+  void change_camera(double z) {
     edit([&](preset::Preset& p) { p.scene.camera.position[2] = z; }, "camera");
   }
-  std::array<int, 3> first_texel() const
-  {
+  std::array<int, 3> first_texel() const {
     const auto pixels = view().texture().pixels();
     return {pixels[0], pixels[1], pixels[2]};
   }
 };
 
-TEST_F(CompareTest, APinnedRunStaysWhenThePresetIsEdited)
-{
+TEST_F(CompareTest, APinnedRunStaysWhenThePresetIsEdited) {
   run_measured();
   press(ImGuiKey_P);
   ASSERT_THAT(workbench.comparing().pinned().all(), SizeIs(1));
@@ -61,8 +57,7 @@ TEST_F(CompareTest, APinnedRunStaysWhenThePresetIsEdited)
   EXPECT_THAT(workbench.comparing().pinned().all(), SizeIs(1)) << "another preset may be compared with it";
 }
 
-TEST_F(CompareTest, FoldersAndTablesThatAreDroppedArePinned)
-{
+TEST_F(CompareTest, FoldersAndTablesThatAreDroppedArePinned) {
   run_measured();
   folder.write("history.csv", measure::to_csv(*falling_history(7)));
   workbench.apply({command::Open{folder.path().string()}});
@@ -78,8 +73,7 @@ TEST_F(CompareTest, FoldersAndTablesThatAreDroppedArePinned)
   EXPECT_THAT(workbench.comparing().pinned().all(), SizeIs(1));
 }
 
-TEST_F(CompareTest, PinsStandInTheOrderInWhichTheyWereNamed)
-{
+TEST_F(CompareTest, PinsStandInTheOrderInWhichTheyWereNamed) {
   measured();
   open();
   const std::string longer = folder.write("longer.csv", measure::to_csv(*falling_history(20000))),
@@ -91,8 +85,7 @@ TEST_F(CompareTest, PinsStandInTheOrderInWhichTheyWereNamed)
   EXPECT_EQ(pins.all()[1].name, "shorter");
 }
 
-TEST_F(CompareTest, HoldingTheKeyFlipsToTheReference)
-{
+TEST_F(CompareTest, HoldingTheKeyFlipsToTheReference) {
   give_reference({1, 0, 0});
   run_through();
   EXPECT_EQ(first_texel(), (std::array{0, 0, 255})) << "the camera at (0, 0, 4)";
@@ -110,8 +103,7 @@ TEST_F(CompareTest, HoldingTheKeyFlipsToTheReference)
   EXPECT_EQ(runs.made, 1) << "no new run";
 }
 
-TEST_F(CompareTest, KeysOfOneFrameDoNotUndoEachOther)
-{
+TEST_F(CompareTest, KeysOfOneFrameDoNotUndoEachOther) {
   give_reference({1, 0, 0});
   run_through();
   imgui.key(ImGuiKey_R, true);
@@ -125,8 +117,7 @@ TEST_F(CompareTest, KeysOfOneFrameDoNotUndoEachOther)
   EXPECT_TRUE(workbench.comparing().comparison().difference);
 }
 
-TEST_F(CompareTest, AWindowThatLosesTheKeyboardFlipsBack)
-{
+TEST_F(CompareTest, AWindowThatLosesTheKeyboardFlipsBack) {
   give_reference({1, 0, 0});
   run_through();
   imgui.key(ImGuiKey_R, true);
@@ -137,8 +128,7 @@ TEST_F(CompareTest, AWindowThatLosesTheKeyboardFlipsBack)
   EXPECT_FALSE(workbench.comparing().comparison().flip);
 }
 
-TEST_F(CompareTest, FlipsToTheChosenPinnedRun)
-{
+TEST_F(CompareTest, FlipsToTheChosenPinnedRun) {
   run_through();
   press(ImGuiKey_P);
   change_camera(-1);
@@ -157,8 +147,7 @@ TEST_F(CompareTest, FlipsToTheChosenPinnedRun)
   EXPECT_EQ(workbench.comparing().comparison().pin, 0u) << "round again";
 }
 
-TEST_F(CompareTest, WithoutAReferenceTheActionsSayWhy)
-{
+TEST_F(CompareTest, WithoutAReferenceTheActionsSayWhy) {
   run_through();
   EXPECT_FALSE(action("Flip").enabled(context()));
   EXPECT_FALSE(action("Difference").enabled(context()));
@@ -170,8 +159,7 @@ TEST_F(CompareTest, WithoutAReferenceTheActionsSayWhy)
   EXPECT_FALSE(workbench.comparing().comparison().flip);
 }
 
-TEST_F(CompareTest, ShowsTheDifferenceInFalseColour)
-{
+TEST_F(CompareTest, ShowsTheDifferenceInFalseColour) {
   give_reference({0, 0, 3});
   run_through();
   press(ImGuiKey_D);
@@ -200,22 +188,21 @@ TEST_F(CompareTest, ShowsTheDifferenceInFalseColour)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(CompareTest, EveryMetricHasADifference)
-{
+TEST_F(CompareTest, EveryMetricHasADifference) {
   give_reference({0, 0, 3});
   run_through();
   for (std::size_t i = 0; i < measure::difference_names.size(); ++i) {
     const auto metric = static_cast<measure::DifferenceMetric>(i);
     workbench.apply({command::ShowDifference{true, metric}});
-    ASSERT_TRUE(until([&] { return workbench.comparing().difference() && workbench.comparing().difference()->of.metric == metric; }));
+    ASSERT_TRUE(until(
+        [&] { return workbench.comparing().difference() && workbench.comparing().difference()->of.metric == metric; }));
     frame();
     EXPECT_EQ(workbench.comparing().difference()->error, "");
     EXPECT_EQ(view().shown().hint, "");
   }
 }
 
-TEST_F(CompareTest, PicturesOfOtherSizesAreSaidNotCompared)
-{
+TEST_F(CompareTest, PicturesOfOtherSizesAreSaidNotCompared) {
   give_reference({1, 0, 0}, 32, 32);
   run_through();
   EXPECT_THAT(workbench.comparing().why_not(), HasSubstr("32 x 32, the picture 64 x 48"));
@@ -228,8 +215,7 @@ TEST_F(CompareTest, PicturesOfOtherSizesAreSaidNotCompared)
   EXPECT_TRUE(action("Difference").why_not(context()).size() > 10);
 }
 
-TEST_F(CompareTest, APictureThatIsNotFiniteHasNoDifferenceAndSaysSo)
-{
+TEST_F(CompareTest, APictureThatIsNotFiniteHasNoDifferenceAndSaysSo) {
   give_reference({0, std::numeric_limits<float>::quiet_NaN(), 0});
   run_through();
   workbench.apply({command::ShowDifference{}});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window's runs on a real device: with kernels from a folder, where a changed one is built and shown and a broken one is a message; and
-// the scenes to begin with, each of which has a picture at once.
+// The window's runs on a real device: with kernels from a folder, where a changed one is built and shown and a broken
+// one is a message; and the scenes to begin with, each of which has a picture at once.
 #include "fake_job.h"
 #include "ui/state/device_runs.h"
 
@@ -15,24 +15,23 @@ protected:
   compute::DeviceOptions options() const { return {.selector = "", .kernels = kernels}; }
   std::string source() const { return read_file(kernels / "photons/direct.cl"); }
   /// In one step: a temporary file beside the kernels would be a change of its own.
-  void write(const std::string& text) const
-  {
+  void write(const std::string& text) const {
     write_file_whole(folder.path() / "new.cl", text);
     fs::rename(folder.path() / "new.cl", kernels / "photons/direct.cl");
   }
 };
 
 /// Brightness of a snapshot's picture; 0 where there is none.
-double sum(const std::shared_ptr<const job::Snapshot>& snapshot)
-{
+double sum(const std::shared_ptr<const job::Snapshot>& snapshot) {
   return snapshot ? std::accumulate(snapshot->picture->rgb.begin(), snapshot->picture->rgb.end(), 0.0) : 0;
 }
 
-TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture)
-{
+TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture) {
   DeviceRuns engine(options());
   Workbench workbench(engine);
-  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done); };
+  const auto until = [&](const std::function<bool()>& done) {
+    return test::eventually([&] { workbench.update(); }, done);
+  };
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=2"}));
   ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::finished; }));
   const double bright = sum(workbench.run().snapshot());
@@ -52,7 +51,8 @@ TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture)
   ASSERT_NE(dark.find(adding), std::string::npos);
   dark.replace(dark.find(adding), adding.size(), "(int)pixel, 0.0f * xyz,");
   write(dark);
-  ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::finished && workbench.run().snapshot_is_current(); }));
+  ASSERT_TRUE(until(
+      [&] { return workbench.run().status().state == job::State::finished && workbench.run().snapshot_is_current(); }));
   EXPECT_EQ(sum(workbench.run().snapshot()), 0);
   EXPECT_TRUE(workbench.messages().empty());
 
@@ -61,11 +61,12 @@ TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture)
   EXPECT_EQ(workbench.run().status().generation, first_run + 3) << "a change is one run";
 }
 
-TEST_F(EngineTest, ChangesWhileARunGoesOnReplaceIt)
-{
+TEST_F(EngineTest, ChangesWhileARunGoesOnReplaceIt) {
   DeviceRuns engine(options());
   Workbench workbench(engine);
-  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done); };
+  const auto until = [&](const std::function<bool()>& done) {
+    return test::eventually([&] { workbench.update(); }, done);
+  };
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=null", "stop.seconds=3600"}));
   ASSERT_TRUE(until([&] { return workbench.run().snapshot() != nullptr; }));
   write(source() + "\n");
@@ -73,8 +74,7 @@ TEST_F(EngineTest, ChangesWhileARunGoesOnReplaceIt)
   ASSERT_TRUE(until([&] { return workbench.run().snapshot_is_current(); }));
 }
 
-TEST_F(EngineTest, WithoutAFolderNothingChanges)
-{
+TEST_F(EngineTest, WithoutAFolderNothingChanges) {
   DeviceRuns engine({});
   const preset::Preset preset = preset::parse_preset(test::preset_text, "test");
   NewRun run = engine.make(preset, {});
@@ -82,11 +82,12 @@ TEST_F(EngineTest, WithoutAFolderNothingChanges)
   EXPECT_FALSE(engine.take_changed());
 }
 
-TEST_F(EngineTest, ALightIsChangedInAFinishedRunThatKeepsLayers)
-{
+TEST_F(EngineTest, ALightIsChangedInAFinishedRunThatKeepsLayers) {
   DeviceRuns engine(options());
   Workbench workbench(engine);
-  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done); };
+  const auto until = [&](const std::function<bool()>& done) {
+    return test::eventually([&] { workbench.update(); }, done);
+  };
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=2", "spectral.relight=true"}));
   ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::finished; }));
   const double bright = sum(workbench.run().snapshot());
@@ -102,13 +103,13 @@ TEST_F(EngineTest, ALightIsChangedInAFinishedRunThatKeepsLayers)
   EXPECT_EQ(workbench.run().status().generation, run);
 }
 
-TEST(NewScenesTest, EachIsDrawn)
-{
+TEST(NewScenesTest, EachIsDrawn) {
   for (const engine::Engine* engine : engine::engines()) {
     DeviceRuns runs({});
     Workbench workbench(runs);
     workbench.apply({command::New{engine->introduction.new_scene.preset}});
-    EXPECT_TRUE(test::eventually([&] { workbench.update(); }, [&] { return sum(workbench.run().snapshot()) > 0; })) << name_of(*engine);
+    EXPECT_TRUE(test::eventually([&] { workbench.update(); }, [&] { return sum(workbench.run().snapshot()) > 0; }))
+        << name_of(*engine);
     EXPECT_TRUE(workbench.messages().empty()) << workbench.messages().front().line;
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Dispersion" under an injected mouse: points are dragged, added and removed, clusters follow, what is
-// wrong becomes a message. Rows that come or go while one is dragged: the drag ends, and no other row goes where the mouse goes.
+// wrong becomes a message. Rows that come or go while one is dragged: the drag ends, and no other row goes where the
+// mouse goes.
 #include "dispersion_fixture.h"
 #include "optics/dispersion_file.h"
 #include "spectral/settings.h"
@@ -11,15 +12,13 @@ using photons::ClusterMethod;
 
 class DispersionPanelTest : public test::DispersionFixture {};
 
-TEST_F(DispersionPanelTest, WithoutGlassItSaysSo)
-{
+TEST_F(DispersionPanelTest, WithoutGlassItSaysSo) {
   frames(3);
   open();
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(DispersionPanelTest, ADragIsOneEntryAndClustersFollow)
-{
+TEST_F(DispersionPanelTest, ADragIsOneEntryAndClustersFollow) {
   open_glass({{"glass", from_points(five)}});
   expect_true_counts();
   const std::size_t before = shown_count(ClusterMethod::optimal);
@@ -47,8 +46,7 @@ TEST_F(DispersionPanelTest, ADragIsOneEntryAndClustersFollow)
   expect_true_counts();
 }
 
-TEST_F(DispersionPanelTest, TwoDragsAreTwoEntries)
-{
+TEST_F(DispersionPanelTest, TwoDragsAreTwoEntries) {
   open_glass({{"glass", from_points(five)}});
   drag_point(five[2], {560, 1.57});
   const std::vector<ControlPoint> once = points();
@@ -60,8 +58,7 @@ TEST_F(DispersionPanelTest, TwoDragsAreTwoEntries)
   EXPECT_EQ(points(), five);
 }
 
-TEST_F(DispersionPanelTest, PointsAreAddedAndRemoved)
-{
+TEST_F(DispersionPanelTest, PointsAreAddedAndRemoved) {
   open_glass({{"glass", from_points(five)}});
   const auto place = panel().plot().to_screen({500, 1.6});
   for (int i = 0; i < 2; ++i) press_at(place), let_go();
@@ -85,8 +82,7 @@ TEST_F(DispersionPanelTest, PointsAreAddedAndRemoved)
   EXPECT_FALSE(workbench.messages().back().error);
 }
 
-TEST_F(DispersionPanelTest, SnappedPointsLieOnTheGrid)
-{
+TEST_F(DispersionPanelTest, SnappedPointsLieOnTheGrid) {
   open_glass({{"glass", from_points(five)}});
   click("Snap");
   const double step = panel().plot().grid()[1];
@@ -96,8 +92,7 @@ TEST_F(DispersionPanelTest, SnappedPointsLieOnTheGrid)
   EXPECT_NEAR(points()[2][1] / step, std::round(points()[2][1] / step), 1e-6);
 }
 
-TEST_F(DispersionPanelTest, CountsOfAShippedGlass)
-{
+TEST_F(DispersionPanelTest, CountsOfAShippedGlass) {
   open_glass({{"glass", from_file(shipped("N-SF66"))}});
   EXPECT_EQ(shown_count(ClusterMethod::optimal), 32u);
   EXPECT_EQ(shown_count(ClusterMethod::thesis), 41u);
@@ -113,24 +108,25 @@ TEST_F(DispersionPanelTest, CountsOfAShippedGlass)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(DispersionPanelTest, SeveralGlassesAreClusteredTogether)
-{
+TEST_F(DispersionPanelTest, SeveralGlassesAreClusteredTogether) {
   const preset::Dispersion flint = from_file(shipped("N-SF66")), crown = from_file(shipped("N-BK7"));
   open_glass({{"glass", flint}, {"other", crown}});
   std::vector<photons::Clustering> both;
   for (const char* name : {"N-SF66", "N-BK7"})
-    both.push_back(photons::cluster_wavelengths(optics::sample_n(optics::load_dispersion(shipped(name)), optics::Extrapolation::automatic), 0.05,
-                                                ClusterMethod::optimal));
+    both.push_back(photons::cluster_wavelengths(
+        optics::sample_n(optics::load_dispersion(shipped(name)), optics::Extrapolation::automatic), 0.05,
+        ClusterMethod::optimal));
   EXPECT_EQ(panel().model().clusters_of_run(), photons::common_refinement(both).size());
-  edit([](preset::Preset& p) { spectral::settings(p).method = ClusterMethod::brute_force, spectral::settings(p).step_nm = 4; });
+  edit([](preset::Preset& p) {
+    spectral::settings(p).method = ClusterMethod::brute_force, spectral::settings(p).step_nm = 4;
+  });
   frames(2);
   EXPECT_EQ(panel().model().clusters_of_run(), 101u);
   open_glass({{"glass", flint}});
   EXPECT_EQ(panel().model().clusters_of_run(), panel().model().chosen().clustering.clusters.size());
 }
 
-TEST_F(DispersionPanelTest, IdleFramesRecomputeNothing)
-{
+TEST_F(DispersionPanelTest, IdleFramesRecomputeNothing) {
   open_glass({{"glass", from_points(five)}, {"other", from_file(shipped("N-BK7"))}});
   const int curves = panel().model().curves_made(), clusterings = panel().model().clusterings_made();
   frames(10);
@@ -144,8 +140,7 @@ TEST_F(DispersionPanelTest, IdleFramesRecomputeNothing)
   EXPECT_EQ(panel().model().clusterings_made(), clusterings + 1);
 }
 
-TEST_F(DispersionPanelTest, TheWavelengthsAreZoomedByTheWheel)
-{
+TEST_F(DispersionPanelTest, TheWavelengthsAreZoomedByTheWheel) {
   open_glass({{"glass", from_points(five)}});
   const double before = panel().plot().to_screen({780, 1.55})[0] - panel().plot().to_screen({380, 1.55})[0];
   move(panel().plot().to_screen({580, 1.6}));
@@ -158,18 +153,17 @@ TEST_F(DispersionPanelTest, TheWavelengthsAreZoomedByTheWheel)
 }
 
 /// Twelve points that meet every n between 1.5 and 1.9 many times.
-std::vector<ControlPoint> wild()
-{
+std::vector<ControlPoint> wild() {
   std::vector<ControlPoint> points;
   for (int i = 0; i < 12; ++i) points.push_back({380 + 400.0 * i / 11, i % 2 == 0 ? 1.9 - 0.005 * i : 1.5 + 0.01 * i});
   return points;
 }
 
-// A step of a drag is two frames of the whole window: the one that sees the mouse and edits the preset, and the one that shows the new
-// curve, both clusterings, bands and figures. Processor time of this thread, so that other work of the machine does not count; the
-// bound of a display's frame at 60 Hz holds with a margin of several times where the compiler optimises.
-TEST_F(DispersionPanelTest, AStepOfADragTakesLessThanAFrame)
-{
+// A step of a drag is two frames of the whole window: the one that sees the mouse and edits the preset, and the one
+// that shows the new curve, both clusterings, bands and figures. Processor time of this thread, so that other work of
+// the machine does not count; the bound of a display's frame at 60 Hz holds with a margin of several times where the
+// compiler optimises.
+TEST_F(DispersionPanelTest, AStepOfADragTakesLessThanAFrame) {
   constexpr int steps = 200;
   runs.steps = 1;
   for (const auto& [name, glass] : std::map<std::string, preset::Dispersion>{
@@ -205,26 +199,22 @@ TEST_F(DispersionPanelTest, AStepOfADragTakesLessThanAFrame)
 class RowDragsTest : public test::DispersionFixture {
 protected:
   /// A point is in the middle of its drag.
-  void begin()
-  {
+  void begin() {
     open_glass({{"glass", from_points(five)}});
     take(five[2]);
     drag_by(6, -6);
   }
   /// The mouse holds the point; it was not moved yet.
-  void take(const ControlPoint& point)
-  {
+  void take(const ControlPoint& point) {
     held_at_ = panel().plot().to_screen(point);
     press_at(held_at_);
   }
   /// By so many pixels from where it was taken, until the edit is drawn.
-  void drag_by(double x, double y)
-  {
+  void drag_by(double x, double y) {
     move({held_at_[0] + x, held_at_[1] + y});
     frame();
   }
-  static std::vector<ControlPoint> without(std::vector<ControlPoint> points, std::size_t index)
-  {
+  static std::vector<ControlPoint> without(std::vector<ControlPoint> points, std::size_t index) {
     points.erase(points.begin() + static_cast<std::ptrdiff_t>(index));
     return points;
   }
@@ -233,8 +223,7 @@ private:
   ui::Point held_at_{};
 };
 
-TEST_F(RowDragsTest, ARightClickOnTheRowThatIsDraggedDoesNothing)
-{
+TEST_F(RowDragsTest, ARightClickOnTheRowThatIsDraggedDoesNothing) {
   begin();
   const std::vector<ControlPoint> before = points();
   ASSERT_NE(before, five);
@@ -252,8 +241,7 @@ TEST_F(RowDragsTest, ARightClickOnTheRowThatIsDraggedDoesNothing)
   EXPECT_EQ(points(), five) << "one entry";
 }
 
-TEST_F(RowDragsTest, DeleteEndsTheDrag)
-{
+TEST_F(RowDragsTest, DeleteEndsTheDrag) {
   begin();
   imgui.key(ImGuiKey_Delete, true);
   frame();
@@ -272,8 +260,7 @@ TEST_F(RowDragsTest, DeleteEndsTheDrag)
   EXPECT_THAT(workbench.messages(), IsEmpty());
 }
 
-TEST_F(RowDragsTest, DeleteWhileTheMouseMovesRemovesToo)
-{
+TEST_F(RowDragsTest, DeleteWhileTheMouseMovesRemovesToo) {
   begin();
   imgui.key(ImGuiKey_Delete, true);
   drag_by(8, -8); // in the same frame
@@ -285,8 +272,7 @@ TEST_F(RowDragsTest, DeleteWhileTheMouseMovesRemovesToo)
   EXPECT_EQ(points(), without(five, 2));
 }
 
-TEST_F(RowDragsTest, UndoOfAnAdditionEndsTheDrag)
-{
+TEST_F(RowDragsTest, UndoOfAnAdditionEndsTheDrag) {
   open_glass({{"glass", from_points(five)}});
   const auto place = panel().plot().to_screen({500, 1.6});
   for (int i = 0; i < 2; ++i) press_at(place), let_go();

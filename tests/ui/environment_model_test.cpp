@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the panel "Environment" shows, without a window: what is made anew when, held against the engine's own functions; maps that are not
-// there or not maps; the map as a flat picture: places of directions, lines between regions; figures of its lights; drags.
+// What the panel "Environment" shows, without a window: what is made anew when, held against the engine's own
+// functions; maps that are not there or not maps; the map as a flat picture: places of directions, lines between
+// regions; figures of its lights; drags.
 #include "environment/segment/irradiance.h"
 #include "environment/settings.h"
 #include "image/image.h"
@@ -14,27 +15,23 @@ using environment::SegmentMethod;
 
 class EnvironmentModelTest : public testing::Test {
 protected:
-  EnvironmentModelTest()
-  {
+  EnvironmentModelTest() {
     for (const auto& [name, map] : test::synthetic_maps(128))
       image::write_exr(folder.path() / (name + ".exr"), {map.width, map.height, {"R", "G", "B"}, map.rgb, {}});
-    preset =
-        preset::parse_preset(R"({"engine": "environment", "scene": {"environment": "noon.exr"}})", (folder.path() / "test.json").string());
+    preset = preset::parse_preset(R"({"engine": "environment", "scene": {"environment": "noon.exr"}})",
+                                  (folder.path() / "test.json").string());
   }
-  ShownMap shown_of(const preset::Preset& wanted, const MapPictureSize& size = {MapLayout::latitude_longitude, 64})
-  {
+  ShownMap shown_of(const preset::Preset& wanted, const MapPictureSize& size = {MapLayout::latitude_longitude, 64}) {
     want(wanted, size);
     EXPECT_TRUE(test::eventually([&] { want(wanted, size); }, [&] { return model.rests(); }));
     return model.shown();
   }
   /// As a frame does.
-  void want(const preset::Preset& wanted, const MapPictureSize& size = {MapLayout::latitude_longitude, 64})
-  {
+  void want(const preset::Preset& wanted, const MapPictureSize& size = {MapLayout::latitude_longitude, 64}) {
     tasks.collect(messages);
     model.want(wanted_map(wanted, size), tasks);
   }
-  ShownMap edited(const std::function<void(preset::Preset&)>& change)
-  {
+  ShownMap edited(const std::function<void(preset::Preset&)>& change) {
     change(preset);
     return shown_of(preset);
   }
@@ -46,8 +43,7 @@ protected:
   preset::Preset preset;
 };
 
-TEST_F(EnvironmentModelTest, HasWhatTheEngineHas)
-{
+TEST_F(EnvironmentModelTest, HasWhatTheEngineHas) {
   const ShownMap shown = shown_of(preset);
   ASSERT_TRUE(shown.map && shown.cut && shown.picture && shown.cut_error);
   EXPECT_EQ(shown.error, "");
@@ -68,8 +64,7 @@ TEST_F(EnvironmentModelTest, HasWhatTheEngineHas)
   EXPECT_EQ(shown.picture->rgba.size(), 4u * 64 * 32);
 }
 
-TEST_F(EnvironmentModelTest, MakesAnewWhatAnEditChanges)
-{
+TEST_F(EnvironmentModelTest, MakesAnewWhatAnEditChanges) {
   shown_of(preset);
   EXPECT_EQ(model.maps_read(), 1);
   EXPECT_EQ(model.cuts_made(), 1);
@@ -101,13 +96,12 @@ TEST_F(EnvironmentModelTest, MakesAnewWhatAnEditChanges)
 }
 
 // Another map while the quality of the first is in the making: nothing of the first is left.
-TEST_F(EnvironmentModelTest, AnotherMapEndsWhatIsInTheMaking)
-{
+TEST_F(EnvironmentModelTest, AnotherMapEndsWhatIsInTheMaking) {
   const ShownMap alone = shown_of(preset);
   for (const char* file : {"room.exr", "night.exr", "overcast.exr", "noon.exr"}) {
     preset.scene.environment->file = file;
-    ASSERT_TRUE(
-        test::eventually([&] { want(preset); }, [&] { return model.shown().source && model.shown().source->environment.file == file; }));
+    ASSERT_TRUE(test::eventually(
+        [&] { want(preset); }, [&] { return model.shown().source && model.shown().source->environment.file == file; }));
   }
   const ShownMap shown = shown_of(preset);
   EXPECT_EQ(shown.quality, alone.quality);
@@ -115,17 +109,16 @@ TEST_F(EnvironmentModelTest, AnotherMapEndsWhatIsInTheMaking)
   EXPECT_EQ(shown.picture->rgba, alone.picture->rgba);
 }
 
-TEST_F(EnvironmentModelTest, OtherEnginesHaveAMapAndNoLights)
-{
-  const std::string text = R"({"engine": "spectral", "scene": {"environment": {"type": "file", "file": "noon.exr", "rotate_deg": 20}}})";
+TEST_F(EnvironmentModelTest, OtherEnginesHaveAMapAndNoLights) {
+  const std::string text =
+      R"({"engine": "spectral", "scene": {"environment": {"type": "file", "file": "noon.exr", "rotate_deg": 20}}})";
   const ShownMap shown = shown_of(preset::parse_preset(text, (folder.path() / "test.json").string()));
   EXPECT_TRUE(shown.map && shown.picture);
   EXPECT_FALSE(shown.cut || shown.cut_error);
   EXPECT_THAT(shown.quality[0], IsEmpty());
 }
 
-TEST_F(EnvironmentModelTest, AColourIsAMapToo)
-{
+TEST_F(EnvironmentModelTest, AColourIsAMapToo) {
   const ShownMap shown = edited([](preset::Preset& p) {
     p.scene.environment = preset::Environment{};
     p.scene.environment->type = preset::Environment::Type::constant;
@@ -136,8 +129,7 @@ TEST_F(EnvironmentModelTest, AColourIsAMapToo)
   EXPECT_THAT(shown.cut->segmentation.lights, SizeIs(24));
 }
 
-TEST_F(EnvironmentModelTest, WhatIsNoMapIsOneLine)
-{
+TEST_F(EnvironmentModelTest, WhatIsNoMapIsOneLine) {
   const auto expect_error = [&](const std::string& file, const std::string& what) {
     const ShownMap shown = edited([&](preset::Preset& p) { p.scene.environment->file = file; });
     EXPECT_THAT(shown.error, AllOf(HasSubstr(what), Not(HasSubstr("\n")))) << file;
@@ -156,8 +148,7 @@ TEST_F(EnvironmentModelTest, WhatIsNoMapIsOneLine)
   EXPECT_TRUE(mended.map && mended.cut);
 }
 
-TEST_F(EnvironmentModelTest, AnOddShapeIsSaid)
-{
+TEST_F(EnvironmentModelTest, AnOddShapeIsSaid) {
   image::write_exr(folder.path() / "square.exr", {2, 2, {"R", "G", "B"}, std::vector<float>(12, 1), {}});
   const ShownMap shown = edited([](preset::Preset& p) { p.scene.environment->file = "square.exr"; });
   ASSERT_TRUE(shown.map && shown.cut);
@@ -165,8 +156,7 @@ TEST_F(EnvironmentModelTest, AnOddShapeIsSaid)
 }
 
 // A black map has no lights; nothing is wrong with it.
-TEST_F(EnvironmentModelTest, ABlackMapHasNoLights)
-{
+TEST_F(EnvironmentModelTest, ABlackMapHasNoLights) {
   image::write_exr(folder.path() / "black.exr", {2, 1, {"R", "G", "B"}, std::vector<float>(6, 0), {}});
   const ShownMap shown = edited([](preset::Preset& p) { p.scene.environment->file = "black.exr"; });
   ASSERT_TRUE(shown.cut);
@@ -176,13 +166,11 @@ TEST_F(EnvironmentModelTest, ABlackMapHasNoLights)
 
 constexpr MapLayout layouts[] = {MapLayout::latitude_longitude, MapLayout::cube};
 
-glm::dvec3 direction_at(MapLayout layout, const glm::dvec2& at)
-{
+glm::dvec3 direction_at(MapLayout layout, const glm::dvec2& at) {
   return glm::normalize(environment::position(cube_point(layout, at).value()));
 }
 
-TEST(MapPlaces, OfAxesAreKnown)
-{
+TEST(MapPlaces, OfAxesAreKnown) {
   const auto expect_at = [](MapLayout layout, const glm::dvec3& direction, double x, double y) {
     const glm::dvec2 at = place_of(layout, direction);
     EXPECT_NEAR(at.x, x, 1e-12);
@@ -202,8 +190,7 @@ TEST(MapPlaces, OfAxesAreKnown)
   expect_at(cross, {0.5, 0.5, -1}, 1.75 / 4, 1.25 / 3); // to the right and up as seen from inside
 }
 
-TEST(MapPlaces, GoThereAndBack)
-{
+TEST(MapPlaces, GoThereAndBack) {
   for (const MapLayout layout : layouts)
     for (int i = 0; i < 500; ++i) {
       const glm::dvec3 direction = direction_of(std::fmod(37.3 * i, 179.0) - 89.5, std::fmod(101.7 * i, 359.0) - 179.5);
@@ -215,32 +202,35 @@ TEST(MapPlaces, GoThereAndBack)
 }
 
 // Faces that touch in the cross touch in the cube, with the same side up.
-TEST(MapPlaces, OfTheCrossAreContinuousAcrossFaces)
-{
+TEST(MapPlaces, OfTheCrossAreContinuousAcrossFaces) {
   constexpr double step = 1e-6;
   for (double along = 0.05; along < 1; along += 0.1) {
     for (const double x : {0.25, 0.5, 0.75}) {
       const double y = (1 + along) / 3;
-      EXPECT_LT(glm::distance(direction_at(MapLayout::cube, {x - step, y}), direction_at(MapLayout::cube, {x + step, y})), 1e-4);
+      EXPECT_LT(
+          glm::distance(direction_at(MapLayout::cube, {x - step, y}), direction_at(MapLayout::cube, {x + step, y})),
+          1e-4);
     }
     for (const double y : {1.0 / 3, 2.0 / 3}) {
       const double x = (1 + along) / 4;
-      EXPECT_LT(glm::distance(direction_at(MapLayout::cube, {x, y - step}), direction_at(MapLayout::cube, {x, y + step})), 1e-4);
+      EXPECT_LT(
+          glm::distance(direction_at(MapLayout::cube, {x, y - step}), direction_at(MapLayout::cube, {x, y + step})),
+          1e-4);
     }
     const double y = (1 + along) / 3; // the right edge goes on at the left
-    EXPECT_LT(glm::distance(direction_at(MapLayout::cube, {step, y}), direction_at(MapLayout::cube, {1 - step, y})), 1e-4);
+    EXPECT_LT(glm::distance(direction_at(MapLayout::cube, {step, y}), direction_at(MapLayout::cube, {1 - step, y})),
+              1e-4);
   }
 }
 
-scene::Environment lamp(double elevation_deg, double azimuth_deg, double radius_deg)
-{
+scene::Environment lamp(double elevation_deg, double azimuth_deg, double radius_deg) {
   return test::made_map(256, 128, [&](const glm::dvec3& d) {
-    return test::sky_with_lamps(d, glm::dvec3(0.2), glm::dvec3(0.1), {{elevation_deg, azimuth_deg, radius_deg, {900, 900, 900}}});
+    return test::sky_with_lamps(d, glm::dvec3(0.2), glm::dvec3(0.1),
+                                {{elevation_deg, azimuth_deg, radius_deg, {900, 900, 900}}});
   });
 }
 
-TEST(MapPicture, ShowsALampWhereItIs)
-{
+TEST(MapPicture, ShowsALampWhereItIs) {
   const environment::SegmentPicture map = environment::shown_map(lamp(30, 70, 1));
   for (const MapLayout layout : layouts) {
     const MapPictureSize size{layout, 120}; // a pixel is three degrees wide
@@ -264,9 +254,9 @@ TEST(MapPicture, ShowsALampWhereItIs)
   }
 }
 
-// Two regions a face, cut in the middle: a line is where two neighbouring pixels lie in different regions, and nowhere else.
-TEST(MapPicture, LinesAreBetweenRegions)
-{
+// Two regions a face, cut in the middle: a line is where two neighbouring pixels lie in different regions, and nowhere
+// else.
+TEST(MapPicture, LinesAreBetweenRegions) {
   const scene::Environment map = test::uniform_map(256, 128);
   const environment::CubeMap cube = environment::make_cube_map(map);
   const environment::Segmentation cut = environment::segment(cube, {.lights = 12});
@@ -275,9 +265,10 @@ TEST(MapPicture, LinesAreBetweenRegions)
   const std::vector<Colour> colours = colours_under(size, environment::shown_map(map));
   const auto with = drawn(size, colours, texels, regions), without = drawn(size, colours, texels, {});
   int lines = 0;
-  for (std::size_t i = 0; i < texels.size(); ++i) lines += with[4 * i] != without[4 * i] || with[4 * i + 1] != without[4 * i + 1];
-  // 40 pixels a side of a face: one line through each of six faces, and the six edges where faces touch in the cross, 40 pixels each, less
-  // where two lines meet.
+  for (std::size_t i = 0; i < texels.size(); ++i)
+    lines += with[4 * i] != without[4 * i] || with[4 * i + 1] != without[4 * i + 1];
+  // 40 pixels a side of a face: one line through each of six faces, and the six edges where faces touch in the cross,
+  // 40 pixels each, less where two lines meet.
   EXPECT_LE(lines, 12 * 40);
   EXPECT_GT(lines, 12 * 40 - 12);
   std::vector<int> texels_of_light(12);
@@ -285,10 +276,10 @@ TEST(MapPicture, LinesAreBetweenRegions)
   for (const int texels_of_one : texels_of_light) EXPECT_EQ(texels_of_one, cube.size * cube.size / 2);
 }
 
-TEST(LightFigures, AreTheMapsInTheScene)
-{
+TEST(LightFigures, AreTheMapsInTheScene) {
   const scene::Environment map = test::made_map(256, 128, [&](const glm::dvec3& d) {
-    return test::sky_with_lamps(d, glm::dvec3(0), glm::dvec3(0), {{30, 70, 4, {900, 600, 300}}, {-20, 170, 4, {0, 0, 500}}});
+    return test::sky_with_lamps(d, glm::dvec3(0), glm::dvec3(0),
+                                {{30, 70, 4, {900, 600, 300}}, {-20, 170, 4, {0, 0, 500}}});
   });
   const environment::Segmentation cut = environment::segment(environment::make_cube_map(map), {.lights = 8});
   const std::vector<RegionFigures> figures = figures_of(cut, 2.5, 40, {});
@@ -306,18 +297,19 @@ TEST(LightFigures, AreTheMapsInTheScene)
   EXPECT_NEAR(flux, 2.5 * environment::luminance(test::flux_of_texels(map)), 1e-9 * flux);
   EXPECT_NEAR(share, 1, 1e-12);
   EXPECT_NEAR(sr, 4 * test::pi, 1e-9);
-  // Counterclockwise as seen from above is towards the left: smaller azimuths. The lamp has a part of two regions at most.
+  // Counterclockwise as seen from above is towards the left: smaller azimuths. The lamp has a part of two regions at
+  // most.
   EXPECT_NEAR(figures[brightest].azimuth_deg, 70 - 40, 4);
   EXPECT_NEAR(figures[brightest].elevation_deg, 30, 4);
   EXPECT_EQ(figures[brightest].colour[0], 255);
   EXPECT_GT(figures[brightest].colour[1], figures[brightest].colour[2]);
-  const auto behind = std::find_if(figures.begin(), figures.end(), [](const RegionFigures& f) { return f.colour[2] == 255; });
+  const auto behind =
+      std::find_if(figures.begin(), figures.end(), [](const RegionFigures& f) { return f.colour[2] == 255; });
   ASSERT_NE(behind, figures.end());
   EXPECT_NEAR(behind->azimuth_deg, 170 - 40, 4);
 }
 
-TEST(LightFigures, OfABlackMapAreNothing)
-{
+TEST(LightFigures, OfABlackMapAreNothing) {
   const auto cube = environment::make_cube_map(test::uniform_map(4, 2, glm::dvec3(0)));
   const std::vector<RegionFigures> figures = figures_of(environment::segment(cube, {}), 1, 0, {});
   ASSERT_THAT(figures, SizeIs(6)) << "six dropped faces";
@@ -328,8 +320,7 @@ TEST(LightFigures, OfABlackMapAreNothing)
   }
 }
 
-TEST(LightFigures, TakeWhatIsHiddenFromTheRun)
-{
+TEST(LightFigures, TakeWhatIsHiddenFromTheRun) {
   job::Snapshot snapshot;
   EXPECT_THAT(visible_shares(snapshot, 2), IsEmpty());
   snapshot.curves = {{"cost", {"step", "visible"}, {{0, 0.1}, {1, 0.1}}},
@@ -342,7 +333,8 @@ TEST(LightFigures, TakeWhatIsHiddenFromTheRun)
   }
   snapshot.curves[1].columns[2] = "seen";
   EXPECT_THAT(visible_shares(snapshot, 2), IsEmpty());
-  const environment::Segmentation cut = environment::segment(environment::make_cube_map(lamp(30, 70, 4)), {.lights = 6});
+  const environment::Segmentation cut =
+      environment::segment(environment::make_cube_map(lamp(30, 70, 4)), {.lights = 6});
   std::vector<double> visible(cut.lights.size(), 1);
   visible[1] = 0.25;
   const std::vector<RegionFigures> figures = figures_of(cut, 1, 0, visible);
@@ -350,8 +342,7 @@ TEST(LightFigures, TakeWhatIsHiddenFromTheRun)
   EXPECT_EQ(figures[1].occluded, 0.75);
 }
 
-TEST(MapDrags, TurnTheWayOfTheMouse)
-{
+TEST(MapDrags, TurnTheWayOfTheMouse) {
   const MapLayout flat = MapLayout::latitude_longitude;
   EXPECT_EQ(dragged_rotation(0, 0.25, flat), -90) << "to the right: clockwise as seen from above";
   EXPECT_EQ(dragged_rotation(10, -0.1, flat), 46);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Environment" under an injected mouse: the map is turned, the number of lights slid, a method chosen; what a run says of the
-// lights; presets without an environment, or without one that can be read.
+// The panel "Environment" under an injected mouse: the map is turned, the number of lights slid, a method chosen; what
+// a run says of the lights; presets without an environment, or without one that can be read.
 #include "environment/settings.h"
 #include "tests/environment/maps.h"
 #include "ui/environment/panel.h"
@@ -12,11 +12,8 @@ namespace nephroid::ui::environment_panel_test {
 class LitJob : public test::FakeJob {
 public:
   LitJob(const preset::Preset& preset, test::FakeSettings& runs, int lights, bool bakes)
-      : FakeJob(preset, runs), lights_(lights), bakes_(bakes)
-  {
-  }
-  job::Snapshot snapshot() override
-  {
+      : FakeJob(preset, runs), lights_(lights), bakes_(bakes) {}
+  job::Snapshot snapshot() override {
     job::Snapshot made = FakeJob::snapshot();
     job::Curve curve{"lights", {"light", "azimuth_deg", "elevation_deg", "red", "green", "blue", "visible"}, {}};
     for (int i = 0; i < lights_; ++i) curve.rows.push_back({double(i + 1), 0, 0, 1, 1, 1, i % 2 == 0 ? 1 : 0.75});
@@ -37,8 +34,7 @@ private:
 
 class LitRuns : public test::FakeRuns {
 public:
-  NewRun make(const preset::Preset& preset, const Watch& watch) override
-  {
+  NewRun make(const preset::Preset& preset, const Watch& watch) override {
     NewRun run = FakeRuns::make(preset, watch);
     if (lights > 0 || bakes) run.job = std::make_unique<LitJob>(preset, *this, lights.load(), bakes.load());
     return run;
@@ -49,8 +45,7 @@ public:
 
 class EnvironmentPanelTest : public test::WindowFixtureOf<LitRuns> {
 protected:
-  EnvironmentPanelTest() : WindowFixtureOf("environment")
-  {
+  EnvironmentPanelTest() : WindowFixtureOf("environment") {
     ImGui::GetIO().DisplaySize = {1300, 950};
     for (const auto& [name, map] : test::synthetic_maps(128))
       image::write_exr(folder.path() / (name + ".exr"), {map.width, map.height, {"R", "G", "B"}, map.rgb, {}});
@@ -58,42 +53,39 @@ protected:
   const EnvironmentPanel& panel() const { return workspace.panel<EnvironmentPanel>(); }
   const environment::Settings& settings() const { return environment::settings(*workbench.preset()); }
   double rotation() const { return workbench.preset()->scene.environment->rotate_deg; }
-  static std::string text(const std::string& environment, const std::string& engine = "environment")
-  {
-    return R"({"name": "Test", "engine": ")" + engine + R"(", "scene": {"camera": {"resolution": [64, 48]})" + environment + "}}";
+  static std::string text(const std::string& environment, const std::string& engine = "environment") {
+    return R"({"name": "Test", "engine": ")" + engine + R"(", "scene": {"camera": {"resolution": [64, 48]})" +
+           environment + "}}";
   }
-  void open_map(const std::string& environment = R"({"type": "file", "file": "noon.exr"})", const std::string& engine = "environment")
-  {
+  void open_map(const std::string& environment = R"({"type": "file", "file": "noon.exr"})",
+                const std::string& engine = "environment") {
     open(text(R"(, "environment": )" + environment, engine));
     rest();
   }
   /// Until the panel shows all that the preset wants.
-  void rest()
-  {
+  void rest() {
     frames(2);
     ASSERT_TRUE(until([&] { return panel().model().rests(); }));
     frames(2);
   }
-  Point place(const std::string& widget) const
-  {
+  Point place(const std::string& widget) const {
     const auto at = panel().place_of(widget);
     EXPECT_TRUE(at) << widget;
     return at.value_or(Point{});
   }
   /// From its middle to the left by a quarter of its width.
-  void drag_map()
-  {
+  void drag_map() {
     const auto& [x, y, width, height] = panel().map().area();
     drag_by({x + width / 2, y + height / 2}, -width / 4);
   }
   /// Where a direction of the map is drawn.
   Point seen(const glm::dvec3& direction) const { return panel().place_on_map(direction); }
-  /// What is drawn as text in this frame has glyphs that no test reads; the panel's own words are read where they come from.
+  /// What is drawn as text in this frame has glyphs that no test reads; the panel's own words are read where they come
+  /// from.
   bool has(const std::string& widget) const { return panel().place_of(widget).has_value(); }
 };
 
-TEST_F(EnvironmentPanelTest, WithoutAnEnvironmentItSaysSo)
-{
+TEST_F(EnvironmentPanelTest, WithoutAnEnvironmentItSaysSo) {
   frames(3);
   open(text(""));
   EXPECT_FALSE(has("lights"));
@@ -104,8 +96,7 @@ TEST_F(EnvironmentPanelTest, WithoutAnEnvironmentItSaysSo)
   EXPECT_EQ(workbench.questions().question(), Question::open_map);
 }
 
-TEST_F(EnvironmentPanelTest, OnlyPicturesOfABakeAreSaidToBeOfOne)
-{
+TEST_F(EnvironmentPanelTest, OnlyPicturesOfABakeAreSaidToBeOfOne) {
   const auto label = [&] { return view().shown().label; };
   run_through(text(""));
   frames(2);
@@ -115,16 +106,16 @@ TEST_F(EnvironmentPanelTest, OnlyPicturesOfABakeAreSaidToBeOfOne)
   EXPECT_TRUE(until([&] { return label().find("baked") != std::string::npos; }));
 }
 
-TEST_F(EnvironmentPanelTest, IsForPresetsThatHaveAnEnvironment)
-{
-  const auto is_for = [&](const std::string& text) { return EnvironmentPanel::serves(preset::parse_preset(text, "test.json")); };
+TEST_F(EnvironmentPanelTest, IsForPresetsThatHaveAnEnvironment) {
+  const auto is_for = [&](const std::string& text) {
+    return EnvironmentPanel::serves(preset::parse_preset(text, "test.json"));
+  };
   EXPECT_TRUE(is_for(text("")));
   EXPECT_TRUE(is_for(text(R"(, "environment": "a.exr")", "spectral")));
   EXPECT_FALSE(is_for(text("", "spectral")));
 }
 
-TEST_F(EnvironmentPanelTest, OtherEnginesTurnTheMapAndHaveNoLights)
-{
+TEST_F(EnvironmentPanelTest, OtherEnginesTurnTheMapAndHaveNoLights) {
   open_map(R"({"type": "file", "file": "noon.exr"})", "spectral");
   EXPECT_FALSE(has("lights") || has("method") || has("threshold"));
   ASSERT_TRUE(has("rotation") && has("radiance"));
@@ -133,8 +124,7 @@ TEST_F(EnvironmentPanelTest, OtherEnginesTurnTheMapAndHaveNoLights)
   EXPECT_NEAR(rotation(), 90, 1);
 }
 
-TEST_F(EnvironmentPanelTest, ADragTurnsTheMapWithTheMouseAsOneEntry)
-{
+TEST_F(EnvironmentPanelTest, ADragTurnsTheMapWithTheMouseAsOneEntry) {
   open_map(R"({"type": "file", "file": "noon.exr", "rotate_deg": 30})");
   const glm::dvec3 grasped = direction_of(20, 55);
   const Point from = seen(grasped), to{from[0] + 100, from[1] - 20};
@@ -164,17 +154,16 @@ TEST_F(EnvironmentPanelTest, ADragTurnsTheMapWithTheMouseAsOneEntry)
   EXPECT_EQ(panel().model().cuts_made(), 1) << "the lights turn with it";
 }
 
-TEST_F(EnvironmentPanelTest, AClickChangesNothing)
-{
+TEST_F(EnvironmentPanelTest, AClickChangesNothing) {
   open_map();
   click(seen(direction_of(0, 40)));
   EXPECT_FALSE(workbench.edits()->modified());
   EXPECT_EQ(workbench.edits()->undo_label(), "");
 }
 
-// As a light of the scene: the sun of the map "noon" is at 63 degrees of elevation and 40 of azimuth, and the picture's middle is in front.
-TEST_F(EnvironmentPanelTest, LightsTurnCounterclockwise)
-{
+// As a light of the scene: the sun of the map "noon" is at 63 degrees of elevation and 40 of azimuth, and the picture's
+// middle is in front.
+TEST_F(EnvironmentPanelTest, LightsTurnCounterclockwise) {
   open_map();
   const auto brightest = [&] {
     return *std::max_element(panel().figures().begin(), panel().figures().end(),
@@ -191,8 +180,7 @@ TEST_F(EnvironmentPanelTest, LightsTurnCounterclockwise)
   EXPECT_NEAR(seen(in_front)[0], x + width / 2, 1e-6);
 }
 
-TEST_F(EnvironmentPanelTest, CausticsAreSwitched)
-{
+TEST_F(EnvironmentPanelTest, CausticsAreSwitched) {
   open_map();
   click(place("on surfaces"));
   EXPECT_FALSE(settings().cast);
@@ -211,8 +199,7 @@ TEST_F(EnvironmentPanelTest, CausticsAreSwitched)
   EXPECT_TRUE(settings().cast);
 }
 
-TEST_F(EnvironmentPanelTest, InTheCubeTheFrontFollowsTheMouse)
-{
+TEST_F(EnvironmentPanelTest, InTheCubeTheFrontFollowsTheMouse) {
   open_map();
   click(place("cube"));
   rest();
@@ -229,16 +216,14 @@ TEST_F(EnvironmentPanelTest, InTheCubeTheFrontFollowsTheMouse)
   EXPECT_EQ(seen(direction_of(63, 40)), lamp) << "the faces lie still";
 }
 
-TEST_F(EnvironmentPanelTest, AColourIsNotTurned)
-{
+TEST_F(EnvironmentPanelTest, AColourIsNotTurned) {
   open_map(R"({"type": "constant", "colour": [1, 0.5, 0.2]})");
   drag_map();
   drag_by(place("rotation"), 50);
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
-TEST_F(EnvironmentPanelTest, TheNumberOfLightsIsSlidAsOneEntry)
-{
+TEST_F(EnvironmentPanelTest, TheNumberOfLightsIsSlidAsOneEntry) {
   open_map();
   EXPECT_THAT(panel().shown().cut->segmentation.lights, SizeIs(24));
   const Point at = place("lights");
@@ -256,14 +241,14 @@ TEST_F(EnvironmentPanelTest, TheNumberOfLightsIsSlidAsOneEntry)
   for (const auto& [by, end] : {std::pair(-2000.0, 6), std::pair(2000.0, 4096)}) {
     drag_between(at, {at[0] + by, at[1]});
     EXPECT_EQ(settings().lights, end);
-    EXPECT_NO_THROW(preset::parse_preset(preset::to_json(*workbench.preset()), "slid.json")) << "the ends are what a preset may have";
+    EXPECT_NO_THROW(preset::parse_preset(preset::to_json(*workbench.preset()), "slid.json"))
+        << "the ends are what a preset may have";
   }
   rest();
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(EnvironmentPanelTest, AMethodIsChosen)
-{
+TEST_F(EnvironmentPanelTest, AMethodIsChosen) {
   open_map();
   const auto before = panel().shown().cut;
   click(place("method"));
@@ -277,8 +262,7 @@ TEST_F(EnvironmentPanelTest, AMethodIsChosen)
   EXPECT_EQ(settings().segmentation, environment::SegmentMethod::variance);
 }
 
-TEST_F(EnvironmentPanelTest, RadianceAndThresholdAreEdited)
-{
+TEST_F(EnvironmentPanelTest, RadianceAndThresholdAreEdited) {
   open_map();
   const double flux = panel().figures().front().flux;
   drag_by(place("radiance"), 80);
@@ -298,8 +282,7 @@ TEST_F(EnvironmentPanelTest, RadianceAndThresholdAreEdited)
   EXPECT_EQ(workbench.preset()->scene.environment->radiance, radiance);
 }
 
-TEST_F(EnvironmentPanelTest, TheRegionUnderTheMouseIsFound)
-{
+TEST_F(EnvironmentPanelTest, TheRegionUnderTheMouseIsFound) {
   open_map(R"({"type": "file", "file": "noon.exr", "rotate_deg": 200})");
   for (const char* layout : {"latitude, longitude", "cube"}) {
     click(place(layout));
@@ -307,9 +290,9 @@ TEST_F(EnvironmentPanelTest, TheRegionUnderTheMouseIsFound)
     const environment::Segmentation& cut = panel().shown().cut->segmentation;
     for (std::size_t i = 0; i < cut.lights.size(); ++i) {
       const environment::Rect& r = cut.lights[i].rect; // its middle, since its light may be at its edge
-      const environment::CubePoint middle{cut.lights[i].face,
-                                          (environment::border(r.x0, cut.cube_size) + environment::border(r.x1, cut.cube_size)) / 2,
-                                          (environment::border(r.y0, cut.cube_size) + environment::border(r.y1, cut.cube_size)) / 2};
+      const environment::CubePoint middle{
+          cut.lights[i].face, (environment::border(r.x0, cut.cube_size) + environment::border(r.x1, cut.cube_size)) / 2,
+          (environment::border(r.y0, cut.cube_size) + environment::border(r.y1, cut.cube_size)) / 2};
       if (r.width() < 6 || r.height() < 6) continue; // smaller than a pixel
       move(seen(environment::position(middle)));
       frame();
@@ -318,8 +301,7 @@ TEST_F(EnvironmentPanelTest, TheRegionUnderTheMouseIsFound)
   }
 }
 
-TEST_F(EnvironmentPanelTest, WhatIsHiddenComesFromTheRun)
-{
+TEST_F(EnvironmentPanelTest, WhatIsHiddenComesFromTheRun) {
   runs.lights = 24;
   open_map();
   ASSERT_TRUE(until([&] { return panel().figures().at(0).occluded.has_value(); }));
@@ -331,8 +313,7 @@ TEST_F(EnvironmentPanelTest, WhatIsHiddenComesFromTheRun)
   EXPECT_FALSE(panel().figures().at(0).occluded) << "the run's are of 24 lights";
 }
 
-TEST_F(EnvironmentPanelTest, AMissingMapIsOneLineAndCanBeMended)
-{
+TEST_F(EnvironmentPanelTest, AMissingMapIsOneLineAndCanBeMended) {
   open(text(R"(, "environment": "gone.exr")"));
   rest();
   EXPECT_THAT(panel().shown().error, HasSubstr("gone.exr"));
@@ -344,8 +325,7 @@ TEST_F(EnvironmentPanelTest, AMissingMapIsOneLineAndCanBeMended)
   EXPECT_TRUE(panel().shown().cut);
 }
 
-TEST_F(EnvironmentPanelTest, QualityFallsAndIsPlotted)
-{
+TEST_F(EnvironmentPanelTest, QualityFallsAndIsPlotted) {
   open_map();
   const ShownMap& shown = panel().shown();
   const auto [low, high] = error_range(shown);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Error": what it plots of any history, how its axes follow, what it copies; the lines of a history and pinned runs, without a
-// window.
+// The panel "Error": what it plots of any history, how its axes follow, what it copies; the lines of a history and
+// pinned runs, without a window.
 #include "fake_job.h"
 #include "image/image.h"
 #include "measure/run_curves.h"
@@ -15,15 +15,13 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 class ErrorPanelTest : public test::WindowFixture {
 protected:
   const ErrorPanel& panel() const { return workspace.panel<ErrorPanel>(); }
-  void hover(const std::array<double, 4>& area)
-  {
+  void hover(const std::array<double, 4>& area) {
     imgui.move(area[0] + area[2] / 2, area[1] + area[3] / 2);
     frame();
   }
 };
 
-TEST_F(ErrorPanelTest, ThePlotFollowsTheRunInHand)
-{
+TEST_F(ErrorPanelTest, ThePlotFollowsTheRunInHand) {
   frames(3);
   EXPECT_TRUE(panel().contents().runs.empty()) << "nothing is open";
   run_measured();
@@ -40,8 +38,7 @@ TEST_F(ErrorPanelTest, ThePlotFollowsTheRunInHand)
   EXPECT_EQ(panel().contents().metric, "lab_mean") << "no run has that one";
 }
 
-TEST_F(ErrorPanelTest, HistoriesOfAnyKindAreDrawn)
-{
+TEST_F(ErrorPanelTest, HistoriesOfAnyKindAreDrawn) {
   const auto all_of = [](double error) {
     auto history = falling_history(5);
     for (job::HistoryRow& row : history->rows) row.errors = {error, error, error};
@@ -56,8 +53,8 @@ TEST_F(ErrorPanelTest, HistoriesOfAnyKindAreDrawn)
   floor->noise_floor = {0.02, nan, nan};
   floor->target = 0.03;
   runs.steps = 2;
-  for (const auto& history :
-       {std::make_shared<job::History>(), falling_history(0), falling_history(1), all_of(nan), same, all_of(0), psnr, floor}) {
+  for (const auto& history : {std::make_shared<job::History>(), falling_history(0), falling_history(1), all_of(nan),
+                              same, all_of(0), psnr, floor}) {
     runs.history = [&](int) { return history; };
     run_through();
     apply({command::PinRun{}});
@@ -71,8 +68,7 @@ TEST_F(ErrorPanelTest, HistoriesOfAnyKindAreDrawn)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(ErrorPanelTest, TenThousandRowsAreDrawnWithFewPoints)
-{
+TEST_F(ErrorPanelTest, TenThousandRowsAreDrawnWithFewPoints) {
   const auto history = falling_history(10000);
   runs.steps = 2;
   runs.history = [&](int) { return history; };
@@ -84,8 +80,7 @@ TEST_F(ErrorPanelTest, TenThousandRowsAreDrawnWithFewPoints)
   EXPECT_LT(ImGui::GetDrawData()->TotalVtxCount, 60000);
 }
 
-TEST_F(ErrorPanelTest, TheWheelLetsTheAxesGoAndADoubleClickTakesThemBack)
-{
+TEST_F(ErrorPanelTest, TheWheelLetsTheAxesGoAndADoubleClickTakesThemBack) {
   run_measured();
   const PlotRange before = panel().plot().shown();
   hover(panel().plot().area());
@@ -107,8 +102,7 @@ TEST_F(ErrorPanelTest, TheWheelLetsTheAxesGoAndADoubleClickTakesThemBack)
   EXPECT_NEAR(panel().plot().shown().seconds[0], before.seconds[0], 1e-9);
 }
 
-TEST(ErrorLines, HaveAMetricsErrorItsEstimateAndTheirSlopes)
-{
+TEST(ErrorLines, HaveAMetricsErrorItsEstimateAndTheirSlopes) {
   const auto history = falling_history(100);
   EXPECT_THAT(measure::metric_names(*history), ElementsAre("lab_mean", "rel_mse"));
   const RunLines lab = lines_of(*history, "lab_mean");
@@ -123,26 +117,27 @@ TEST(ErrorLines, HaveAMetricsErrorItsEstimateAndTheirSlopes)
   EXPECT_TRUE(lines_of(*history, "flip").empty());
 }
 
-TEST(ErrorLines, AnEstimateAloneIsWhatARunIsJudgedBy)
-{
+TEST(ErrorLines, AnEstimateAloneIsWhatARunIsJudgedBy) {
   job::History history{.columns = {"estimated_lab_mean"}, .rows = {{1, 1, 1, 10, {0.5}}}};
   EXPECT_THAT(measure::metric_names(history), ElementsAre("lab_mean"));
   EXPECT_THAT(lines_of(history, "lab_mean").judged().curve.errors, ElementsAre(0.5));
 }
 
-TEST(ErrorLines, WhatHasNoLogarithmIsLeftOut)
-{
-  job::History history{
-      .columns = {"psnr_db"},
-      .rows = {{0, 0, 0, 0, {1}}, {1, 1, 1, 10, {nan}}, {2, 2, 2, 20, {0}}, {3, 3, 3, 30, {-4}}, {4, 4, 4, 40, {}}, {5, 5, 5, 50, {7}}}};
+TEST(ErrorLines, WhatHasNoLogarithmIsLeftOut) {
+  job::History history{.columns = {"psnr_db"},
+                       .rows = {{0, 0, 0, 0, {1}},
+                                {1, 1, 1, 10, {nan}},
+                                {2, 2, 2, 20, {0}},
+                                {3, 3, 3, 30, {-4}},
+                                {4, 4, 4, 40, {}},
+                                {5, 5, 5, 50, {7}}}};
   EXPECT_THAT(lines_of(history, "psnr_db").error.curve.seconds, ElementsAre(2, 3, 5)) << "on a linear axis";
   history.columns = {"lab_mean"};
   EXPECT_THAT(lines_of(history, "lab_mean").error.curve.seconds, ElementsAre(5)) << "on a logarithmic one";
   EXPECT_TRUE(lines_of(job::History{}, "").empty());
 }
 
-TEST(ErrorLines, AtTheNoiseFloorNothingIsFitted)
-{
+TEST(ErrorLines, AtTheNoiseFloorNothingIsFitted) {
   // error^2 = 0.01^2 / t + floor^2: below three floors the curve bends, and its slope over all rows is flatter.
   auto history = falling_history(3000, 0.01);
   history->noise_floor = {0.004, nan, nan};
@@ -154,8 +149,7 @@ TEST(ErrorLines, AtTheNoiseFloorNothingIsFitted)
   EXPECT_FALSE(lines_of(*history, "rel_mse").noise_floor) << "its floor is not known";
 }
 
-TEST(ErrorLines, ManyRowsAreThinnedButKeepTheirExtremes)
-{
+TEST(ErrorLines, ManyRowsAreThinnedButKeepTheirExtremes) {
   auto history = falling_history(10000);
   history->rows[5000].errors[0] = 7;
   history->rows[6000].errors[0] = 1e-9;
@@ -167,10 +161,10 @@ TEST(ErrorLines, ManyRowsAreThinnedButKeepTheirExtremes)
   EXPECT_EQ(line.drawn.seconds.back(), line.curve.seconds.back());
 }
 
-TEST(ErrorLines, SpeedUpIsTheRatioOfTimesAtEqualError)
-{
+TEST(ErrorLines, SpeedUpIsTheRatioOfTimesAtEqualError) {
   // Half the error at every time is a quarter of the time to an error: error = level / sqrt(t), t = (level / error)^2.
-  const RunLines slow = lines_of(*falling_history(100, 0.02), "lab_mean"), fast = lines_of(*falling_history(100, 0.01), "lab_mean");
+  const RunLines slow = lines_of(*falling_history(100, 0.02), "lab_mean"),
+                 fast = lines_of(*falling_history(100, 0.01), "lab_mean");
   const auto equal = speed_up(slow, fast);
   ASSERT_TRUE(equal);
   EXPECT_NEAR(equal->speed_up(), 4, 1e-9);
@@ -186,8 +180,7 @@ TEST(ErrorLines, SpeedUpIsTheRatioOfTimesAtEqualError)
   EXPECT_FALSE(speed_up(slow, other));
 }
 
-TEST(ErrorLines, TheNearestRowIsNearestInLogTime)
-{
+TEST(ErrorLines, TheNearestRowIsNearestInLogTime) {
   const measure::Curve curve{{1, 10, 100}, {3, 2, 1}};
   EXPECT_EQ(nearest_point(curve, 0.001)->seconds, 1);
   EXPECT_EQ(nearest_point(curve, 3.1)->seconds, 1);
@@ -196,8 +189,7 @@ TEST(ErrorLines, TheNearestRowIsNearestInLogTime)
   EXPECT_FALSE(nearest_point({}, 1));
 }
 
-TEST(ErrorLines, AxesHoldEveryPointAndTheTarget)
-{
+TEST(ErrorLines, AxesHoldEveryPointAndTheTarget) {
   const RunLines lines = lines_of(*falling_history(100, 0.01), "lab_mean");
   const RunLines* runs[] = {&lines};
   const double levels[] = {1e-4, nan};
@@ -216,19 +208,18 @@ TEST(ErrorLines, AxesHoldEveryPointAndTheTarget)
   EXPECT_GT(about.errors[1], 0.5);
 }
 
-TEST(ErrorLines, CopyAsCsv)
-{
+TEST(ErrorLines, CopyAsCsv) {
   job::History history{.columns = {"lab_mean", "estimated_lab_mean"},
                        .rows = {{1.5, 2, 1, 10, {0.5, nan}}, {3, 4, 2, 20, {0.25, 0.3}}},
                        .noise_floor = {0.125, nan}};
   const NamedLines named[] = {{"a \"b\"", lines_of(history, "lab_mean")}};
-  EXPECT_EQ(plot_csv(named, 0.0625), "run,line,seconds,error\n"
-                                     "\"a \"\"b\"\"\",error,1.5,0.5\n\"a \"\"b\"\"\",error,3,0.25\n\"a \"\"b\"\"\",estimate,3,0.3\n"
-                                     "\"a \"\"b\"\"\",noise floor,,0.125\n,target,,0.0625\n");
+  EXPECT_EQ(plot_csv(named, 0.0625),
+            "run,line,seconds,error\n"
+            "\"a \"\"b\"\"\",error,1.5,0.5\n\"a \"\"b\"\"\",error,3,0.25\n\"a \"\"b\"\"\",estimate,3,0.3\n"
+            "\"a \"\"b\"\"\",noise floor,,0.125\n,target,,0.0625\n");
 }
 
-TEST(PinnedRuns, HaveNamesAndColoursOfTheirOwn)
-{
+TEST(PinnedRuns, HaveNamesAndColoursOfTheirOwn) {
   PinnedRuns runs;
   for (int i = 0; i < 9; ++i) runs.add({0, "glass", 0, true, falling_history(1), nullptr});
   EXPECT_EQ(runs.all()[0].name, "glass");
@@ -248,8 +239,7 @@ TEST(PinnedRuns, HaveNamesAndColoursOfTheirOwn)
   EXPECT_EQ(runs.all().size(), 8u);
 }
 
-TEST(PinnedRuns, AreReadFromAFolderWithItsPicture)
-{
+TEST(PinnedRuns, AreReadFromAFolderWithItsPicture) {
   test::TemporaryFolder folder;
   const auto history = falling_history(3);
   folder.write("history.csv", measure::to_csv(*history));
@@ -268,30 +258,32 @@ TEST(PinnedRuns, AreReadFromAFolderWithItsPicture)
   }
 }
 
-TEST(PinnedRuns, TheNoiseFloorOfARunsFolderIsRead)
-{
+TEST(PinnedRuns, TheNoiseFloorOfARunsFolderIsRead) {
   test::TemporaryFolder folder;
   auto history = falling_history(3000, 0.01);
   for (job::HistoryRow& row : history->rows) row.errors[0] = std::hypot(row.errors[0], 0.004);
   folder.write("history.csv", measure::to_csv(*history));
   EXPECT_TRUE(read_pin(folder.path()).history->noise_floor.empty()) << "there is no run.json";
-  folder.write("run.json", R"({"finished": false, "reference": {"origin": "r.exr", "noise_floor": {"lab_mean": 0.004, "mse": 1}}})");
+  folder.write(
+      "run.json",
+      R"({"finished": false, "reference": {"origin": "r.exr", "noise_floor": {"lab_mean": 0.004, "mse": 1}}})");
   const PinnedRun run = read_pin(folder.path());
   EXPECT_EQ(run.history->noise_floor.at(0), 0.004);
   EXPECT_TRUE(std::isnan(run.history->noise_floor.at(1)) && std::isnan(run.history->noise_floor.at(2)));
   EXPECT_NEAR(lines_of(*run.history, "lab_mean").error.fit->exponent, -0.5, 0.05);
-  EXPECT_GT(lines_of(*history, "lab_mean").error.fit->exponent, -0.43) << "without the floor the curve's bend is fitted";
+  EXPECT_GT(lines_of(*history, "lab_mean").error.fit->exponent, -0.43)
+      << "without the floor the curve's bend is fitted";
   folder.write("run.json", R"({"finished": true})");
   EXPECT_TRUE(read_pin(folder.path()).history->noise_floor.empty()) << "a run without a reference";
 }
 
-TEST(PinnedRuns, WhatIsNoHistoryIsRefusedByName)
-{
+TEST(PinnedRuns, WhatIsNoHistoryIsRefusedByName) {
   test::TemporaryFolder folder;
   const auto refusal = [](const fs::path& path) { return refusal_of([&] { read_pin(path); }); };
   EXPECT_THAT(refusal(folder.path()), HasSubstr("history.csv"));
   EXPECT_THAT(refusal(folder.path() / "none"), HasSubstr("none: there is no such run; expected the folder of a run"));
-  EXPECT_THAT(refusal(folder.write("a.txt", "no run")), HasSubstr("a.txt: is no run's history; expected the folder of a run"));
+  EXPECT_THAT(refusal(folder.write("a.txt", "no run")),
+              HasSubstr("a.txt: is no run's history; expected the folder of a run"));
   EXPECT_THAT(refusal(folder.write("other.json", "{}")), HasSubstr("other.json: is no run's history"));
   EXPECT_THAT(refusal(folder.write("times.csv", "frame,draw_ms\n1,2\n")), HasSubstr("times.csv"));
   EXPECT_THAT(refusal(folder.write("empty.csv", "")), HasSubstr("empty.csv"));

@@ -27,19 +27,20 @@ struct FakeSettings {
   std::atomic<bool> fails{false};
   std::atomic<bool> adopts{true}; ///< another light, where the preset keeps layers
   std::atomic<int> adopted{0};
-  std::function<std::shared_ptr<const job::History>(int step)> history; ///< after so many steps; empty: nothing is measured
+  std::function<std::shared_ptr<const job::History>(int step)>
+      history; ///< after so many steps; empty: nothing is measured
   std::vector<job::ExtraFile> files;
 };
 
 /// lab_mean = level / sqrt(t) against a reference and the run's own estimate, a tenth above it; a row a step of 10 ms.
-inline std::shared_ptr<job::History> falling_history(int rows, double level = 0.01)
-{
+inline std::shared_ptr<job::History> falling_history(int rows, double level = 0.01) {
   auto history = std::make_shared<job::History>();
   history->columns = {"lab_mean", "rel_mse", "estimated_lab_mean"};
   history->error_column = "lab_mean";
   for (int row = 1; row <= rows; ++row) {
     const double seconds = 0.01 * row, error = level / std::sqrt(seconds);
-    history->rows.push_back({seconds, seconds + 0.5, row, 1000u * static_cast<unsigned>(row), {error, error * error, 1.1 * error}});
+    history->rows.push_back(
+        {seconds, seconds + 0.5, row, 1000u * static_cast<unsigned>(row), {error, error * error, 1.1 * error}});
   }
   return history;
 }
@@ -47,15 +48,13 @@ inline std::shared_ptr<job::History> falling_history(int rows, double level = 0.
 class FakeJob : public job::Job {
 public:
   FakeJob(preset::Preset preset, FakeSettings& runs) : preset_(std::move(preset)), runs_(runs) {}
-  void advance() override
-  {
+  void advance() override {
     std::this_thread::sleep_for(std::chrono::milliseconds(runs_.step_ms));
     if (runs_.fails && done_ == 2) throw failed("clEnqueueNDRangeKernel", "the device is gone", "", "start again");
     ++done_;
   }
   bool finished() const override { return done_ >= runs_.steps; }
-  job::Progress progress() const override
-  {
+  job::Progress progress() const override {
     return {.fraction = static_cast<double>(done_) / runs_.steps,
             .step = done_,
             .steps = runs_.steps,
@@ -63,8 +62,7 @@ public:
             .work_seconds = 0.002 * done_,
             .whole = done_ >= runs_.whole_from};
   }
-  job::Snapshot snapshot() override
-  {
+  job::Snapshot snapshot() override {
     auto picture = std::make_shared<job::Picture>();
     picture->width = preset_.scene.camera.resolution[0];
     picture->height = preset_.scene.camera.resolution[1];
@@ -81,8 +79,7 @@ public:
   }
   void save(ByteSink&) override {}
   void load(ByteSource&) override {}
-  bool adopt(const preset::Preset& preset) override
-  {
+  bool adopt(const preset::Preset& preset) override {
     const auto& lights = preset.scene.lights;
     if (!lights.empty() && lights[0].power_w == 13) throw bad_input("lights/0", "is unlucky");
     if (!runs_.adopts || !engine::adoptable(preset_, preset)) return false;
@@ -100,8 +97,7 @@ private:
 /// Gives fake jobs; outlives the workbench.
 class FakeRuns : public ui::RunSource, public FakeSettings {
 public:
-  ui::NewRun make(const preset::Preset& preset, const Watch& watch) override
-  {
+  ui::NewRun make(const preset::Preset& preset, const Watch& watch) override {
     do {
       watch.begin("reading bunny.obj");
       std::this_thread::sleep_for(std::chrono::milliseconds(make_ms));
@@ -111,7 +107,12 @@ public:
     if (broken) throw failed("photons.cl:12", "expected ';' after expression");
     plan::Plan made_plan = plan;
     made_plan.notes = {preset.name + ": n is extrapolated below 390 nm"};
-    return {std::make_unique<FakeJob>(preset, *this), std::make_shared<const plan::Plan>(std::move(made_plan)), reference, {}, {}, white};
+    return {std::make_unique<FakeJob>(preset, *this),
+            std::make_shared<const plan::Plan>(std::move(made_plan)),
+            reference,
+            {},
+            {},
+            white};
   }
   void reread_files() override { ++reread; }
   void reopen_device() override { ++reopened; }
@@ -127,13 +128,11 @@ public:
 };
 
 /// The newest message's line; empty where there is none.
-inline std::string last_message(const ui::Workbench& workbench)
-{
+inline std::string last_message(const ui::Workbench& workbench) {
   return workbench.messages().empty() ? std::string() : workbench.messages().back().line;
 }
 /// The one message's line; where there are more, all of them.
-inline std::string only_message(const ui::Workbench& workbench)
-{
+inline std::string only_message(const ui::Workbench& workbench) {
   std::string lines;
   for (const ui::Message& message : workbench.messages()) lines += (lines.empty() ? "" : " | ") + message.line;
   return lines;
@@ -144,17 +143,14 @@ struct Bench {
   FakeRuns runs;
   ui::Workbench workbench{runs};
 
-  bool until(const std::function<bool()>& done)
-  {
+  bool until(const std::function<bool()>& done) {
     return eventually([&] { workbench.update(); }, done);
   }
-  bool until(job::State state)
-  {
+  bool until(job::State state) {
     return until([&] { return workbench.run().status().state == state; });
   }
   /// As a panel does; gesture and live: as command::Edit has them.
-  void edit(const std::function<void(preset::Preset&)>& change, std::uint64_t gesture = 0, bool live = false)
-  {
+  void edit(const std::function<void(preset::Preset&)>& change, std::uint64_t gesture = 0, bool live = false) {
     preset::Preset edited = *workbench.preset();
     change(edited);
     workbench.apply({ui::command::Edit{"edit", edited, gesture, live}});
@@ -167,8 +163,7 @@ protected:
 
   void open(const std::string& text = preset_text) { ASSERT_TRUE(workbench.open(folder.write("test.json", text))); }
   /// Opens the preset and runs it to its end.
-  void run_through()
-  {
+  void run_through() {
     open();
     ASSERT_TRUE(until(job::State::finished));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that other programs change while the window is open: the preset's own, and those that it names. Where a device was lost, it is
-// opened again.
+// Files that other programs change while the window is open: the preset's own, and those that it names. Where a device
+// was lost, it is opened again.
 #include "fake_job.h"
 #include "ui/state/file_watch.h"
 
@@ -11,16 +11,16 @@ protected:
   std::string file = folder.write("test.json", test::preset_text);
   const fs::path mesh = folder.path() / "a.obj";
   /// The preset's text with another seed.
-  static std::string with_seed(int seed) { return "{\"seed\": " + std::to_string(seed) + ", " + std::string(test::preset_text).substr(1); }
-  void open()
-  {
+  static std::string with_seed(int seed) {
+    return "{\"seed\": " + std::to_string(seed) + ", " + std::string(test::preset_text).substr(1);
+  }
+  void open() {
     runs.steps = 100000;
     ASSERT_TRUE(workbench.open(file));
     ASSERT_TRUE(until(job::State::running));
     rest();
   }
-  void open_mesh()
-  {
+  void open_mesh() {
     write_file_whole(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     open();
     edit([](preset::Preset& preset) {
@@ -30,15 +30,13 @@ protected:
     rest();
   }
   /// As long as the watch takes to see everything.
-  void rest()
-  {
+  void rest() {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(1200);
     (void)until([&] { return std::chrono::steady_clock::now() > end; });
   }
 };
 
-TEST_F(FileWatchTest, AChangedPresetIsTakenOverAndCanBeUndone)
-{
+TEST_F(FileWatchTest, AChangedPresetIsTakenOverAndCanBeUndone) {
   open();
   write_file_whole(file, with_seed(77));
   ASSERT_TRUE(until([&] { return workbench.preset()->seed == 77; }));
@@ -49,9 +47,9 @@ TEST_F(FileWatchTest, AChangedPresetIsTakenOverAndCanBeUndone)
   EXPECT_TRUE(workbench.edits()->modified());
 }
 
-// However late the watch looks for the first time: here it is written ten seconds after it was read, and before that look.
-TEST_F(FileWatchTest, WhatIsWrittenBetweenReadingAndTheFirstLookIsSeen)
-{
+// However late the watch looks for the first time: here it is written ten seconds after it was read, and before that
+// look.
+TEST_F(FileWatchTest, WhatIsWrittenBetweenReadingAndTheFirstLookIsSeen) {
   const auto preset = std::make_shared<const preset::Preset>(preset::read_preset(file));
   fs::last_write_time(file, fs::file_time_type::clock::now() + std::chrono::seconds(10));
   FileWatch watch;
@@ -61,8 +59,7 @@ TEST_F(FileWatchTest, WhatIsWrittenBetweenReadingAndTheFirstLookIsSeen)
   EXPECT_EQ(changed, std::vector<fs::path>{file});
 }
 
-TEST_F(FileWatchTest, EditsThatAreNotSavedAreKept)
-{
+TEST_F(FileWatchTest, EditsThatAreNotSavedAreKept) {
   open();
   edit([](preset::Preset& preset) { preset.seed = 5; });
   write_file_whole(file, with_seed(77));
@@ -75,8 +72,7 @@ TEST_F(FileWatchTest, EditsThatAreNotSavedAreKept)
   EXPECT_EQ(workbench.preset()->seed, 5u);
 }
 
-TEST_F(FileWatchTest, WhatTheWindowSavesItselfIsNoChange)
-{
+TEST_F(FileWatchTest, WhatTheWindowSavesItselfIsNoChange) {
   open();
   edit([](preset::Preset& preset) { preset.seed = 5; });
   workbench.apply({command::SavePreset{file}});
@@ -86,8 +82,7 @@ TEST_F(FileWatchTest, WhatTheWindowSavesItselfIsNoChange)
   EXPECT_LE(runs.made, made + 1) << "the run of the edit";
 }
 
-TEST_F(FileWatchTest, WhatIsOpenedAfterAChangeIsNotSaidToBeChanged)
-{
+TEST_F(FileWatchTest, WhatIsOpenedAfterAChangeIsNotSaidToBeChanged) {
   open();
   write_file_whole(file, with_seed(77));
   ASSERT_TRUE(workbench.open(file));
@@ -97,8 +92,7 @@ TEST_F(FileWatchTest, WhatIsOpenedAfterAChangeIsNotSaidToBeChanged)
   EXPECT_EQ(workbench.preset()->seed, 5u);
 }
 
-TEST_F(FileWatchTest, ABrokenPresetIsSaidAndNothingIsLost)
-{
+TEST_F(FileWatchTest, ABrokenPresetIsSaidAndNothingIsLost) {
   open();
   write_file_whole(file, "{\"scene\": ");
   ASSERT_TRUE(until([&] { return !workbench.messages().empty(); }));
@@ -106,8 +100,7 @@ TEST_F(FileWatchTest, ABrokenPresetIsSaidAndNothingIsLost)
   EXPECT_EQ(workbench.preset()->seed, 1u);
 }
 
-TEST_F(FileWatchTest, AFileThatThePresetNamesStartsTheRunAgain)
-{
+TEST_F(FileWatchTest, AFileThatThePresetNamesStartsTheRunAgain) {
   open_mesh();
   const int made = runs.made, reread = runs.reread;
   write_file_whole(mesh, "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
@@ -119,8 +112,7 @@ TEST_F(FileWatchTest, AFileThatThePresetNamesStartsTheRunAgain)
   EXPECT_EQ(runs.made, before) << "a file that is gone may be on its way back";
 }
 
-TEST_F(FileWatchTest, ABrokenPresetHidesNoOtherFile)
-{
+TEST_F(FileWatchTest, ABrokenPresetHidesNoOtherFile) {
   open_mesh();
   const int reread = runs.reread;
   write_file_whole(file, "{\"scene\": ");
@@ -129,8 +121,7 @@ TEST_F(FileWatchTest, ABrokenPresetHidesNoOtherFile)
   EXPECT_TRUE(until([&] { return said() && runs.reread > reread; }));
 }
 
-TEST_F(FileWatchTest, ADeviceThatWasLostIsOpenedAgain)
-{
+TEST_F(FileWatchTest, ADeviceThatWasLostIsOpenedAgain) {
   runs.fails = true;
   ASSERT_TRUE(workbench.open(file));
   ASSERT_TRUE(until(job::State::failed));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the handles do to a preset, against the scene that is loaded from it: the vertices of an object that was turned are those of the
-// object before, turned.
+// What the handles do to a preset, against the scene that is loaded from it: the vertices of an object that was turned
+// are those of the object before, turned.
 #include "ui/view/gizmo_edits.h"
 
 #include "scene/camera_and_lights.h"
@@ -15,21 +15,18 @@ namespace nephroid::ui::gizmo_edits_test {
 using Kind = Selection::Kind;
 constexpr Selection first_object{Kind::object, 0}, first_light{Kind::light, 0};
 
-glm::dmat3 about(const glm::dvec3& axis, double degrees)
-{
+glm::dmat3 about(const glm::dvec3& axis, double degrees) {
   return glm::dmat3(glm::rotate(glm::dmat4(1), glm::radians(degrees), glm::normalize(axis)));
 }
 
-double difference(const glm::dmat3& a, const glm::dmat3& b)
-{
+double difference(const glm::dmat3& a, const glm::dmat3& b) {
   double most = 0;
   for (int c = 0; c < 3; ++c)
     for (int r = 0; r < 3; ++r) most = std::max(most, std::abs(a[c][r] - b[c][r]));
   return most;
 }
 
-TEST(GizmoEdits, AnglesAreOfThatRotation)
-{
+TEST(GizmoEdits, AnglesAreOfThatRotation) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> angle(-360, 360);
   for (int i = 0; i < 2000; ++i) {
@@ -37,12 +34,12 @@ TEST(GizmoEdits, AnglesAreOfThatRotation)
     const preset::Vec3 angles{angle(random), i % 4 == 0 ? (i % 8 == 0 ? 90.0 : -90.0) : angle(random), angle(random)};
     const glm::dmat3 rotation = scene::rotation(angles);
     const preset::Vec3 near{angle(random), angle(random), angle(random)};
-    EXPECT_LT(difference(scene::rotation(angles_of(rotation, near)), rotation), 1e-8) << angles[0] << ' ' << angles[1] << ' ' << angles[2];
+    EXPECT_LT(difference(scene::rotation(angles_of(rotation, near)), rotation), 1e-8)
+        << angles[0] << ' ' << angles[1] << ' ' << angles[2];
   }
 }
 
-TEST(GizmoEdits, AnglesStayNearThoseBefore)
-{
+TEST(GizmoEdits, AnglesStayNearThoseBefore) {
   const preset::Vec3 before{170, 100, -400};
   const preset::Vec3 after = angles_of(scene::rotation({171, 101, -399}), before);
   EXPECT_NEAR(after[0], 171, 1e-6);
@@ -51,8 +48,7 @@ TEST(GizmoEdits, AnglesStayNearThoseBefore)
 }
 
 /// A box that is scaled, mirrored and turned, and its vertices in the preset's coordinates.
-preset::Preset box()
-{
+preset::Preset box() {
   preset::Preset preset = test::ball_over_floor();
   preset::Object& object = preset.scene.objects[0];
   object.shape->type = preset::Shape::Type::box;
@@ -61,16 +57,14 @@ preset::Preset box()
   return preset;
 }
 
-std::vector<glm::dvec3> vertices(const preset::Preset& preset)
-{
+std::vector<glm::dvec3> vertices(const preset::Preset& preset) {
   const scene::Scene scene = scene::load_scene(preset);
   std::vector<glm::dvec3> all;
   scene::for_each_corner(scene, scene.objects[0], [&](const glm::dvec3& p) { all.push_back(p + scene.origin); });
   return all;
 }
 
-TEST(GizmoEdits, ATurnTurnsTheVertices)
-{
+TEST(GizmoEdits, ATurnTurnsTheVertices) {
   for (const glm::dvec3& pivot : {glm::dvec3(0), glm::dvec3(0.1, -0.2, 0.25)}) {
     preset::Preset preset = box();
     GizmoTarget grip = *grip_of(preset, first_object, nullptr);
@@ -86,8 +80,7 @@ TEST(GizmoEdits, ATurnTurnsTheVertices)
   }
 }
 
-TEST(GizmoEdits, AMoveAndAStretchMoveTheVertices)
-{
+TEST(GizmoEdits, AMoveAndAStretchMoveTheVertices) {
   preset::Preset preset = box();
   const GizmoTarget grip = *grip_of(preset, first_object, nullptr);
   const std::vector<glm::dvec3> before = vertices(preset);
@@ -101,8 +94,7 @@ TEST(GizmoEdits, AMoveAndAStretchMoveTheVertices)
   EXPECT_EQ(preset.scene.objects[0].transform.translate, (preset::Vec3{0.65, 0.3, -0.7})) << "no more digits than that";
 }
 
-TEST(GizmoEdits, LightsAreAimedAndGrow)
-{
+TEST(GizmoEdits, LightsAreAimedAndGrow) {
   preset::Preset preset = test::ball_over_floor();
   preset::Light& light = preset.scene.lights[0];
   light.type = preset::Light::Type::area;
@@ -123,8 +115,7 @@ TEST(GizmoEdits, LightsAreAimedAndGrow)
   EXPECT_FALSE(looking_at(preset, first_light, nullptr)) << "it comes from everywhere";
 }
 
-TEST(GizmoEdits, StepsAreRound)
-{
+TEST(GizmoEdits, StepsAreRound) {
   EXPECT_DOUBLE_EQ(snap_step(4), 0.2);
   EXPECT_DOUBLE_EQ(snap_step(1000), 50);
   EXPECT_DOUBLE_EQ(snap_step(0.023), 0.001);
@@ -132,13 +123,14 @@ TEST(GizmoEdits, StepsAreRound)
   EXPECT_EQ(decimals_for(3e6), -2);
 }
 
-TEST(GizmoEdits, KeysNudgeAsThePictureSaysIt)
-{
+TEST(GizmoEdits, KeysNudgeAsThePictureSaysIt) {
   preset::Preset preset = test::ball_over_floor();
   preset.scene.camera.position = {4, 0.5, 0}; // looks along -x: to the right is -z
   preset.scene.camera.target = {0, 0, 0};
   const auto place = [&](Nudge nudge, bool snap = false) {
-    return nudged(preset, first_object, {Handles::Tool::move, false, snap}, nullptr, nudge)->scene.objects[0].transform.translate;
+    return nudged(preset, first_object, {Handles::Tool::move, false, snap}, nullptr, nudge)
+        ->scene.objects[0]
+        .transform.translate;
   };
   EXPECT_EQ(place(Nudge::right), (preset::Vec3{0, 0, -0.02}));
   EXPECT_EQ(place(Nudge::left), (preset::Vec3{0, 0, 0.02}));
@@ -151,8 +143,7 @@ TEST(GizmoEdits, KeysNudgeAsThePictureSaysIt)
   EXPECT_EQ(grown->scene.objects[0].transform.scale, (preset::Vec3{1.1, 1.1, 1.1}));
 }
 
-TEST(GizmoEdits, TheCameraIsNotAimedAtItself)
-{
+TEST(GizmoEdits, TheCameraIsNotAimedAtItself) {
   preset::Preset preset = test::ball_over_floor();
   preset.scene.objects[0].transform.translate = preset.scene.camera.position;
   EXPECT_FALSE(looking_at(preset, first_object, nullptr));
@@ -165,11 +156,12 @@ struct Shown {
   preset::Camera camera;
   Canvas canvas{{30, 70}, {640, 411}};
   ViewSettings view_settings;
-  Pinhole pinhole() const { return *make_pinhole(camera, place(view_settings, canvas, camera.resolution), camera.resolution); }
+  Pinhole pinhole() const {
+    return *make_pinhole(camera, place(view_settings, canvas, camera.resolution), camera.resolution);
+  }
 };
 
-Shown shown(std::mt19937& random, bool fit)
-{
+Shown shown(std::mt19937& random, bool fit) {
   std::uniform_real_distribution<double> any(-3, 3), fov(5, 150);
   Shown s;
   s.camera = {.position = {any(random), any(random), any(random)},
@@ -182,8 +174,7 @@ Shown shown(std::mt19937& random, bool fit)
   return s;
 }
 
-TEST(Pinhole, IsTheScenesCamera)
-{
+TEST(Pinhole, IsTheScenesCamera) {
   std::mt19937 random(2);
   for (int i = 0; i < 50; ++i) {
     const Shown s = shown(random, i % 2 == 0);
@@ -192,7 +183,8 @@ TEST(Pinhole, IsTheScenesCamera)
     const Pinhole pinhole = s.pinhole();
     const Placement placement = place(s.look, s.canvas, s.camera.resolution);
     for (const auto& [x, y] : {std::array{0, 0}, std::array{319, 7}, std::array{160, 100}, std::array{12, 199}}) {
-      const glm::dvec3 expected = glm::dvec3(camera.forward) + (2 * (x + 0.5) / 320 - 1) * camera.tan_x * glm::dvec3(camera.right) +
+      const glm::dvec3 expected = glm::dvec3(camera.forward) +
+                                  (2 * (x + 0.5) / 320 - 1) * camera.tan_x * glm::dvec3(camera.right) +
                                   (1 - 2 * (y + 0.5) / 200) * camera.tan_y * glm::dvec3(camera.up);
       const Point at = placement.to_screen({x + 0.5, y + 0.5});
       const Ray ray = pinhole.ray(at);
@@ -206,8 +198,7 @@ TEST(Pinhole, IsTheScenesCamera)
   }
 }
 
-TEST(Pinhole, IsNotThereForACameraThatSeesNothing)
-{
+TEST(Pinhole, IsNotThereForACameraThatSeesNothing) {
   preset::Camera camera;
   camera.target = camera.position;
   EXPECT_FALSE(make_pinhole(camera, {}, {1, 1}));
@@ -215,14 +206,14 @@ TEST(Pinhole, IsNotThereForACameraThatSeesNothing)
   EXPECT_FALSE(make_pinhole(camera, {}, {1, 1})) << "along its up";
 }
 
-TEST(GizmoMatrices, ProjectAsTheCameraDoes)
-{
+TEST(GizmoMatrices, ProjectAsTheCameraDoes) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int i = 0; i < 200; ++i) {
     const Shown s = shown(random, i % 2 == 0);
     const Pinhole pinhole = s.pinhole();
-    const GizmoFrame frame{pinhole, pinhole.position + 3.0 * pinhole.forward + glm::dvec3(any(random), any(random), any(random)), 2.5};
+    const GizmoFrame frame{
+        pinhole, pinhole.position + 3.0 * pinhole.forward + glm::dvec3(any(random), any(random), any(random)), 2.5};
     const glm::dvec3 point = frame.base + 0.3 * glm::dvec3(any(random), any(random), any(random));
     const auto expected = pinhole.to_screen(point);
     ASSERT_TRUE(expected);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel Inspector: pixels and rectangles taken by the mouse and by keys, what it says of them, and what it copies. Statistics of
-// rectangles against closed forms.
+// The panel Inspector: pixels and rectangles taken by the mouse and by keys, what it says of them, and what it copies.
+// Statistics of rectangles against closed forms.
 #include "layered_runs.h"
 #include "spectral/settings.h"
 #include "ui/inspector/panel.h"
@@ -17,36 +17,33 @@ protected:
   const InspectorPanel& inspector() { return workspace.panel<InspectorPanel>(); }
   std::optional<Pixel> pixel() { return workbench.view_state().pixel; }
   /// The middle of a pixel on the screen.
-  Point place_of(int x, int y) { return place(workbench.view_state().view_settings, view().canvas(), {64, 48}).to_screen({x + 0.5, y + 0.5}); }
-  void with_alt(const std::function<void()>& what)
-  {
+  Point place_of(int x, int y) {
+    return place(workbench.view_state().view_settings, view().canvas(), {64, 48}).to_screen({x + 0.5, y + 0.5});
+  }
+  void with_alt(const std::function<void()>& what) {
     imgui.key(ImGuiMod_Alt, true);
     what();
     imgui.key(ImGuiMod_Alt, false);
     frames(2);
   }
   void click_on(const std::string& widget) { click_in(inspector(), widget, 2); }
-  PixelRow row(const std::string& name)
-  {
+  PixelRow row(const std::string& name) {
     for (const PixelRow& row : pixel_rows(context(), pixel().value()))
       if (row.name == name) return row;
     ADD_FAILURE() << "no row " << name;
     return {};
   }
   /// With a switch of the engine on.
-  void run_through_with(const std::string& name)
-  {
+  void run_through_with(const std::string& name) {
     std::string text = test::preset_text;
     run_through(text.insert(text.find("\"stop\""), "\"spectral\": {\"" + name + "\": true}, "));
   }
-  bool has_statistics()
-  {
+  bool has_statistics() {
     return until([&] { return inspector().statistics() != nullptr; });
   }
 };
 
-TEST_F(InspectorTest, AltAndAClickTakesAPixelAndArrowsMoveIt)
-{
+TEST_F(InspectorTest, AltAndAClickTakesAPixelAndArrowsMoveIt) {
   run_through();
   const preset::Camera before = camera();
   with_alt([&] { click(place_of(40, 11)); });
@@ -72,8 +69,7 @@ TEST_F(InspectorTest, AltAndAClickTakesAPixelAndArrowsMoveIt)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(InspectorTest, AKeyTakesThePixelInTheMiddleAndLetsItGo)
-{
+TEST_F(InspectorTest, AKeyTakesThePixelInTheMiddleAndLetsItGo) {
   run_through();
   press(ImGuiKey_I);
   EXPECT_THAT(pixel(), Optional(Pixel{32, 24}));
@@ -84,8 +80,7 @@ TEST_F(InspectorTest, AKeyTakesThePixelInTheMiddleAndLetsItGo)
   EXPECT_THAT(pixel(), Optional(Pixel{10, 47}));
 }
 
-TEST_F(InspectorTest, SaysValuesLayersAndTheReference)
-{
+TEST_F(InspectorTest, SaysValuesLayersAndTheReference) {
   runs.reference = test::even_reference({1, 1, 1}, {0.5f, 0, 0});
   std::const_pointer_cast<measure::Reference>(runs.reference)->error_draw.assign(3 * 64 * 48, -0.01f);
   run_through();
@@ -105,12 +100,12 @@ TEST_F(InspectorTest, SaysValuesLayersAndTheReference)
   EXPECT_THAT(row("difference").rgb, ElementsAre(0, 0.25f, 0));
   frames(2);
   click_on("copy pixel");
-  EXPECT_THAT(ImGui::GetClipboardText(), StartsWith("pixel (32, 12)\tR\tG\tB\tY W/m2/sr\tL*\ta*\tb*\nthis run\t0.75\t0.75\t0.125\t0.704"));
+  EXPECT_THAT(ImGui::GetClipboardText(),
+              StartsWith("pixel (32, 12)\tR\tG\tB\tY W/m2/sr\tL*\ta*\tb*\nthis run\t0.75\t0.75\t0.125\t0.704"));
   EXPECT_THAT(ImGui::GetClipboardText(), HasSubstr("\ncaustic\t0.5\t0.25\t0\t"));
 }
 
-TEST_F(InspectorTest, APixelOutsideOfThePictureIsSaidAndComesBack)
-{
+TEST_F(InspectorTest, APixelOutsideOfThePictureIsSaidAndComesBack) {
   run_through();
   apply({command::InspectPixel{Pixel{500, -3}}});
   EXPECT_TRUE(pixel_rows(context(), *pixel()).empty());
@@ -119,8 +114,7 @@ TEST_F(InspectorTest, APixelOutsideOfThePictureIsSaidAndComesBack)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(InspectorTest, TheSpectrumOfThePixelIsShownAndCopied)
-{
+TEST_F(InspectorTest, TheSpectrumOfThePixelIsShownAndCopied) {
   run_through_with("relight");
   workbench.apply({command::InspectPixel{Pixel{3, 4}}});
   ASSERT_TRUE(until([&] { return workbench.run().spectrum() != nullptr; }));
@@ -135,8 +129,7 @@ TEST_F(InspectorTest, TheSpectrumOfThePixelIsShownAndCopied)
   EXPECT_EQ(workbench.run().spectrum(), nullptr);
 }
 
-TEST_F(InspectorTest, AButtonKeepsSpectraAsOneEdit)
-{
+TEST_F(InspectorTest, AButtonKeepsSpectraAsOneEdit) {
   run_through();
   workbench.apply({command::InspectPixel{Pixel{3, 4}}});
   ASSERT_TRUE(until([&] { return workbench.run().spectrum() && inspector().place_of("keep spectra"); }));
@@ -148,8 +141,7 @@ TEST_F(InspectorTest, AButtonKeepsSpectraAsOneEdit)
   EXPECT_FALSE(spectral::settings(*workbench.preset()).relight);
 }
 
-TEST_F(InspectorTest, SpectraThatContradictAnotherFieldAreNotOffered)
-{
+TEST_F(InspectorTest, SpectraThatContradictAnotherFieldAreNotOffered) {
   run_through_with("indirect");
   workbench.apply({command::InspectPixel{Pixel{3, 4}}});
   ASSERT_TRUE(until([&] { return workbench.run().spectrum() && inspector().place_of("keep spectra"); }));
@@ -158,8 +150,7 @@ TEST_F(InspectorTest, SpectraThatContradictAnotherFieldAreNotOffered)
   EXPECT_EQ(workbench.edits()->undo_label(), "");
 }
 
-TEST_F(InspectorTest, AltAndADragTakesARectangle)
-{
+TEST_F(InspectorTest, AltAndADragTakesARectangle) {
   run_through();
   const preset::Camera before = camera();
   with_alt([&] { drag_between(place_of(31, 13), place_of(10, 4)); });
@@ -180,8 +171,7 @@ TEST_F(InspectorTest, AltAndADragTakesARectangle)
   EXPECT_EQ(inspector().statistics(), nullptr);
 }
 
-TEST_F(InspectorTest, AKeyTakesTheWholePictureAndTheReferenceIsHeldAgainst)
-{
+TEST_F(InspectorTest, AKeyTakesTheWholePictureAndTheReferenceIsHeldAgainst) {
   runs.reference = test::even_reference({1, 1, 1}, {0.5f, 0, 0});
   run_through();
   press(ImGuiKey_I, ImGuiMod_Shift);
@@ -197,28 +187,27 @@ TEST_F(InspectorTest, AKeyTakesTheWholePictureAndTheReferenceIsHeldAgainst)
   EXPECT_FALSE(workbench.view_state().region);
 }
 
-TEST_F(InspectorTest, RegionsOutsideOfThePictureDoNoHarm)
-{
+TEST_F(InspectorTest, RegionsOutsideOfThePictureDoNoHarm) {
   run_through();
-  for (const PixelRegion& region : {PixelRegion{{900, 900}, {1000, 1000}}, PixelRegion{{-50, -50}, {5, 5}}, PixelRegion{{5, 5}, {5, 9}}}) {
+  for (const PixelRegion& region :
+       {PixelRegion{{900, 900}, {1000, 1000}}, PixelRegion{{-50, -50}, {5, 5}}, PixelRegion{{5, 5}, {5, 9}}}) {
     apply({command::SelectRegion{region}});
   }
   EXPECT_FALSE(workbench.view_state().region) << "the last one is empty";
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-constexpr float float_nan = std::numeric_limits<float>::quiet_NaN(), float_infinity = std::numeric_limits<float>::infinity();
+constexpr float float_nan = std::numeric_limits<float>::quiet_NaN(),
+                float_infinity = std::numeric_limits<float>::infinity();
 
 /// A picture of greys.
-HeldPicture picture_of(int width, int height, const std::vector<float>& greys)
-{
+HeldPicture picture_of(int width, int height, const std::vector<float>& greys) {
   auto rgb = std::make_shared<std::vector<float>>();
   for (const float grey : greys) rgb->insert(rgb->end(), 3, grey);
   return {rgb, {width, height, *rgb, "greys"}};
 }
 
-TEST(Moments, OfTheFirstNumbers)
-{
+TEST(Moments, OfTheFirstNumbers) {
   // 1 .. n: mean (n + 1) / 2, variance (n^2 - 1) / 12, median as the mean.
   for (const int n : {1, 2, 9, 1000}) {
     std::vector<double> values(static_cast<std::size_t>(n));
@@ -236,8 +225,7 @@ TEST(Moments, OfTheFirstNumbers)
   EXPECT_NEAR(moments({1e9, 1e9 + 2}).deviation, 1, 1e-6);
 }
 
-TEST(Region, TakesItsPixelsOnly)
-{
+TEST(Region, TakesItsPixelsOnly) {
   const HeldPicture picture = picture_of(4, 3, {0, 1, 2, 3, 10, 11, 12, 13, 20, 21, 22, 23});
   const RegionStatistics s = region_statistics({picture, {}, "", {{1, 1}, {3, 3}}, 2});
   ASSERT_THAT(s.pictures, SizeIs(1));
@@ -250,8 +238,7 @@ TEST(Region, TakesItsPixelsOnly)
   EXPECT_FALSE(cut_to({{4, 0}, {9, 3}}, 4, 3));
 }
 
-TEST(Region, CountsWhatIsNotOrdinaryAndLeavesItOut)
-{
+TEST(Region, CountsWhatIsNotOrdinaryAndLeavesItOut) {
   auto rgb = std::make_shared<std::vector<float>>(
       std::vector<float>{1, 1, 1, float_nan, float_infinity, 0, 0, -float_infinity, 0, -1, 2, 0, -1, -1, -1});
   const RegionStatistics s = region_statistics({{rgb, {5, 1, *rgb, "odd"}}, {}, "", {{0, 0}, {5, 1}}, 1});
@@ -265,10 +252,9 @@ TEST(Region, CountsWhatIsNotOrdinaryAndLeavesItOut)
   EXPECT_EQ(p.of[2].most, 2);
 }
 
-TEST(Region, HoldsTwoPicturesAgainstEachOther)
-{
-  const RegionStatistics s =
-      region_statistics({picture_of(2, 2, {1, 2, 3, 4}), picture_of(2, 2, {1, 1, 1, float_nan}), "a \"pin\"", {{0, 0}, {2, 2}}, 1});
+TEST(Region, HoldsTwoPicturesAgainstEachOther) {
+  const RegionStatistics s = region_statistics(
+      {picture_of(2, 2, {1, 2, 3, 4}), picture_of(2, 2, {1, 1, 1, float_nan}), "a \"pin\"", {{0, 0}, {2, 2}}, 1});
   ASSERT_THAT(s.pictures, SizeIs(3));
   EXPECT_EQ(s.pictures[1].nan, 1u);
   EXPECT_EQ(s.pictures[2].name, "difference");
@@ -280,8 +266,7 @@ TEST(Region, HoldsTwoPicturesAgainstEachOther)
   EXPECT_THAT(csv, HasSubstr("\n0,0,2,2,\"a \"\"pin\"\"\",R,linear,1,0,1,1,1,4,1,0,0,0\n"));
 }
 
-TEST(RegionHistogram, CountsEveryPixelAboveZeroOnce)
-{
+TEST(RegionHistogram, CountsEveryPixelAboveZeroOnce) {
   std::vector<float> greys;
   for (int i = 0; i < 100; ++i) greys.push_back(std::pow(10.0f, -2 + 0.04f * static_cast<float>(i))); // .01 to 91
   greys.push_back(0);
@@ -298,8 +283,7 @@ TEST(RegionHistogram, CountsEveryPixelAboveZeroOnce)
   EXPECT_THAT(none.counts[0], Each(0));
 }
 
-TEST(NewestStatistics, AreMadeOnceOfWhatIsWanted)
-{
+TEST(NewestStatistics, AreMadeOnceOfWhatIsWanted) {
   Messages messages;
   TaskQueue tasks;
   NewestResult<RegionStatistics> statistics;

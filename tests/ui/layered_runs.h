@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fake runs whose pictures have two layers and whose pixels have a spectrum, for tests of what the View and the Inspector show.
+// Fake runs whose pictures have two layers and whose pixels have a spectrum, for tests of what the View and the
+// Inspector show.
 #pragma once
 #include "fake_job.h"
 #include "job/job.h"
@@ -12,14 +13,13 @@ namespace nephroid::test {
 class LayeredJob : public FakeJob, public job::SpectrumSource {
 public:
   LayeredJob(const preset::Preset& preset, FakeSettings& runs)
-      : FakeJob(preset, runs), relights_(spectral::settings(preset).relight), size_(preset.scene.camera.resolution)
-  {
+      : FakeJob(preset, runs), relights_(spectral::settings(preset).relight), size_(preset.scene.camera.resolution) {}
+
+  static std::array<float, 3> caustic(int x, int y) {
+    return {static_cast<float>(x) / 64, static_cast<float>(y) / 48, 0};
   }
 
-  static std::array<float, 3> caustic(int x, int y) { return {static_cast<float>(x) / 64, static_cast<float>(y) / 48, 0}; }
-
-  job::Snapshot snapshot() override
-  {
+  job::Snapshot snapshot() override {
     job::Snapshot made = FakeJob::snapshot();
     auto picture = std::make_shared<job::Picture>();
     picture->width = size_[0];
@@ -39,8 +39,7 @@ public:
   }
 
   /// Its radiance is the column in "direct" and the row in "caustic".
-  std::shared_ptr<const job::PixelSpectrum> spectrum(const std::array<int, 2>& pixel) override
-  {
+  std::shared_ptr<const job::PixelSpectrum> spectrum(const std::array<int, 2>& pixel) override {
     auto made = std::make_shared<job::PixelSpectrum>();
     made->pixel = pixel;
     if (!relights_) {
@@ -60,8 +59,7 @@ private:
 
 class LayeredRuns : public FakeRuns {
 public:
-  ui::NewRun make(const preset::Preset& preset, const Watch& watch) override
-  {
+  ui::NewRun make(const preset::Preset& preset, const Watch& watch) override {
     ui::NewRun run = FakeRuns::make(preset, watch);
     run.job = std::make_unique<LayeredJob>(preset, *this);
     return run;
@@ -69,8 +67,7 @@ public:
 };
 
 /// A reference of the fake runs' size and of one colour, with a layer "caustic" of another.
-inline std::shared_ptr<measure::Reference> even_reference(std::array<float, 3> rgb, std::array<float, 3> caustic)
-{
+inline std::shared_ptr<measure::Reference> even_reference(std::array<float, 3> rgb, std::array<float, 3> caustic) {
   auto reference = std::make_shared<measure::Reference>();
   reference->width = 64;
   reference->height = 48;

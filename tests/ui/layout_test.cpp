@@ -10,39 +10,35 @@ namespace nephroid::ui::layout_test {
 class LayoutTest : public test::WindowFixture {
 protected:
   using test::WindowFixture::WindowFixtureOf;
-  void set_ini(const std::string& ini)
-  {
+  void set_ini(const std::string& ini) {
     Settings settings = workbench.setup().settings();
     settings.engines["spectral"].ini = ini;
     workbench.setup().set_settings(settings);
   }
-  void open_palette()
-  {
+  void open_palette() {
     open();
     apply({command::Ask{Question::command}});
   }
   /// Another engine's preset, and back.
-  void leave_and_come_back()
-  {
+  void leave_and_come_back() {
     ASSERT_TRUE(workbench.open("inverse/shapes"));
     frames(6);
     ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
     frames(6);
   }
   /// Whether the panel is seen: drawn, and in front of its tabs.
-  static bool seen(const char* title)
-  {
+  static bool seen(const char* title) {
     const ImGuiWindow* window = ImGui::FindWindowByName(title);
-    return window && window->Active && !window->Hidden && (!window->DockNode || window->DockNode->VisibleWindow == window);
+    return window && window->Active && !window->Hidden &&
+           (!window->DockNode || window->DockNode->VisibleWindow == window);
   }
 };
 
-TEST_F(LayoutTest, AKeptLayoutIsWhereThePanelsAre)
-{
+TEST_F(LayoutTest, AKeptLayoutIsWhereThePanelsAre) {
   open();
   frames(5);
-  const ImGuiID left =
-      ImGui::DockBuilderSplitNode(ImGui::FindWindowByName(ViewPanel::title)->DockId, ImGuiDir_Left, 0.3f, nullptr, nullptr);
+  const ImGuiID left = ImGui::DockBuilderSplitNode(ImGui::FindWindowByName(ViewPanel::title)->DockId, ImGuiDir_Left,
+                                                   0.3f, nullptr, nullptr);
   ImGui::DockBuilderDockWindow(ParametersPanel::title, left);
   ImGui::DockBuilderDockWindow(PlanPanel::title, left);
   ImGui::DockBuilderDockWindow(SpectraPanel::title, 0);
@@ -68,14 +64,14 @@ TEST_F(LayoutTest, AKeptLayoutIsWhereThePanelsAre)
   EXPECT_NEAR(spectra->Pos.y, 140, 2);
 }
 
-TEST_F(LayoutTest, WhatTheMouseMakesOfItIsKeptForThatEngine)
-{
+TEST_F(LayoutTest, WhatTheMouseMakesOfItIsKeptForThatEngine) {
   open();
   frames(5);
   ASSERT_FALSE(workbench.setup().settings().engines.contains("spectral")) << "nobody touched it";
   const ImGuiWindow* view = ImGui::FindWindowByName(ViewPanel::title);
   const float before = view->Size.x;
-  const Point edge{static_cast<double>(view->Pos.x + view->Size.x) + 1, static_cast<double>(view->Pos.y + view->Size.y) / 2};
+  const Point edge{static_cast<double>(view->Pos.x + view->Size.x) + 1,
+                   static_cast<double>(view->Pos.y + view->Size.y) / 2};
   drag_between(edge, {edge[0] - 150, edge[1]});
   frames(3);
   EXPECT_NEAR(ImGui::FindWindowByName(ViewPanel::title)->Size.x, before - 150, 8);
@@ -88,12 +84,12 @@ TEST_F(LayoutTest, WhatTheMouseMakesOfItIsKeptForThatEngine)
   EXPECT_EQ(workbench.setup().settings().engines.at("spectral"), EngineLayout{});
 }
 
-TEST_F(LayoutTest, EachEngineHasItsOwn)
-{
+TEST_F(LayoutTest, EachEngineHasItsOwn) {
   open();
   frames(5);
   EXPECT_TRUE(seen(ErrorPanel::title));
-  const std::string inverse = folder.write("inverse.json", R"({"engine": "inverse", "unit": "mm", "scene": {"camera": {}}, "inverse": {
+  const std::string inverse =
+      folder.write("inverse.json", R"({"engine": "inverse", "unit": "mm", "scene": {"camera": {}}, "inverse": {
     "facets": [8, 8], "receivers": [{"distance_mm": 100, "picture": {"type": "ring"}}]}})");
   ASSERT_TRUE(workbench.open(inverse));
   frames(6);
@@ -106,8 +102,7 @@ TEST_F(LayoutTest, EachEngineHasItsOwn)
   EXPECT_FALSE(seen(ParametersPanel::title)) << "a tab behind the others";
 }
 
-TEST_F(LayoutTest, TitlesOfTabsAreWhole)
-{
+TEST_F(LayoutTest, TitlesOfTabsAreWhole) {
   resize({1600, 1000});
   open();
   frames(6);
@@ -117,8 +112,7 @@ TEST_F(LayoutTest, TitlesOfTabsAreWhole)
     EXPECT_GE(tab.Width, ImGui::TabItemCalcSize(tab.Window->Name, false).x - 2) << tab.Window->Name;
 }
 
-TEST_F(LayoutTest, ASmallWindowHasRoomForThePictureAndEveryMenu)
-{
+TEST_F(LayoutTest, ASmallWindowHasRoomForThePictureAndEveryMenu) {
   resize({320, 240});
   open();
   frames(6);
@@ -138,8 +132,7 @@ protected:
   ParametersInFront() : LayoutTest("parameters") {}
 };
 
-TEST_F(ParametersInFront, AreSoInASmallWindowToo)
-{
+TEST_F(ParametersInFront, AreSoInASmallWindowToo) {
   resize({320, 240});
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   frames(9);
@@ -147,8 +140,7 @@ TEST_F(ParametersInFront, AreSoInASmallWindowToo)
   EXPECT_FALSE(seen(ViewPanel::title));
 }
 
-TEST_F(ParametersInFront, StaysInFrontForAnotherEngine)
-{
+TEST_F(ParametersInFront, StaysInFrontForAnotherEngine) {
   open();
   frames(5);
   EXPECT_TRUE(seen(ParametersPanel::title));
@@ -158,8 +150,7 @@ TEST_F(ParametersInFront, StaysInFrontForAnotherEngine)
   EXPECT_FALSE(seen("Annealing"));
 }
 
-TEST_F(LayoutTest, APanelInFrontStaysThereWhenAnEditChangesTheEngine)
-{
+TEST_F(LayoutTest, APanelInFrontStaysThereWhenAnEditChangesTheEngine) {
   open();
   frames(5);
   apply({command::ShowPanel{"parameters", true}});
@@ -177,8 +168,7 @@ TEST_F(LayoutTest, APanelInFrontStaysThereWhenAnEditChangesTheEngine)
   }
 }
 
-TEST_F(LayoutTest, NamesThatAreNoPanelsAndPanelsThatItDoesNotKnowDoNoHarm)
-{
+TEST_F(LayoutTest, NamesThatAreNoPanelsAndPanelsThatItDoesNotKnowDoNoHarm) {
   open();
   frames(5);
   std::string of_another_version = layout_now();
@@ -188,12 +178,12 @@ TEST_F(LayoutTest, NamesThatAreNoPanelsAndPanelsThatItDoesNotKnowDoNoHarm)
   set_ini(of_another_version);
   leave_and_come_back();
   EXPECT_TRUE(workbench.messages().empty());
-  EXPECT_TRUE(ImGui::FindWindowByName(PlanPanel::title)->DockNode) << "what the layout does not have is docked somewhere";
+  EXPECT_TRUE(ImGui::FindWindowByName(PlanPanel::title)->DockNode)
+      << "what the layout does not have is docked somewhere";
   EXPECT_TRUE(seen(ViewPanel::title));
 }
 
-TEST_F(LayoutTest, EveryPanelIsClosedAndShownByItsAction)
-{
+TEST_F(LayoutTest, EveryPanelIsClosedAndShownByItsAction) {
   open();
   for (const PanelEntry& entry : panel_table()) {
     const Action& toggle = action(fmt::format("Panel: {}", entry.title).c_str());
@@ -221,16 +211,14 @@ TEST_F(LayoutTest, EveryPanelIsClosedAndShownByItsAction)
   }
 }
 
-TEST_F(LayoutTest, AnImpossibleSizeOfTextStaysAtTheEnd)
-{
+TEST_F(LayoutTest, AnImpossibleSizeOfTextStaysAtTheEnd) {
   workbench.apply({command::SetAppearance{Theme::light, 1e9}});
   EXPECT_EQ(workbench.setup().settings().text_size, Settings::largest_text);
   workbench.apply({command::SetAppearance{Theme::dark, -1}});
   EXPECT_EQ(workbench.setup().settings().text_size, Settings::smallest_text);
 }
 
-TEST_F(LayoutTest, ThePaletteRunsWhatIsTyped)
-{
+TEST_F(LayoutTest, ThePaletteRunsWhatIsTyped) {
   open_palette();
   EXPECT_EQ(workspace.palette().matches().size(), actions().size() + preset::shipped_presets().size());
   type("brigh");
@@ -241,8 +229,7 @@ TEST_F(LayoutTest, ThePaletteRunsWhatIsTyped)
   EXPECT_EQ(workbench.questions().question(), Question::none);
 }
 
-TEST_F(LayoutTest, TheArrowsChooseInThePalette)
-{
+TEST_F(LayoutTest, TheArrowsChooseInThePalette) {
   open_palette();
   type("er text");
   ASSERT_EQ(workspace.palette().matches().size(), 2u);
@@ -256,16 +243,14 @@ TEST_F(LayoutTest, TheArrowsChooseInThePalette)
   EXPECT_EQ(workbench.setup().settings().text_size, second == "Larger text" ? 1.1 : 1 / 1.1) << second;
 }
 
-TEST_F(LayoutTest, ThePaletteSaysWhyNot)
-{
+TEST_F(LayoutTest, ThePaletteSaysWhyNot) {
   open_palette();
   type("compare with the next");
   press(ImGuiKey_Enter);
   EXPECT_EQ(only_message(workbench), "Compare with the next: no run is pinned and no picture is open");
 }
 
-TEST_F(LayoutTest, EscapeClosesThePaletteAndNotTheRun)
-{
+TEST_F(LayoutTest, EscapeClosesThePaletteAndNotTheRun) {
   runs.steps = 100000;
   open_palette();
   press(ImGuiKey_Escape);

@@ -10,8 +10,7 @@ namespace nephroid::ui::looks_test {
 class LooksTest : public test::WindowFixtureOf<test::LayeredRuns> {
 protected:
   void SetUp() override { run_through(); }
-  std::array<int, 3> texel(int x, int y)
-  {
+  std::array<int, 3> texel(int x, int y) {
     const auto pixels = view().texture().pixels().subspan(4 * static_cast<std::size_t>(64 * y + x));
     return {pixels[0], pixels[1], pixels[2]};
   }
@@ -19,28 +18,26 @@ protected:
   const std::string& layer() { return workbench.comparing().comparison().layer; }
   const ViewSettings& view_settings() { return workbench.view_state().view_settings; }
   void click_on(const std::string& widget) { click_in(view(), widget, 2); }
-  image::Image saved(const std::string& name)
-  {
+  image::Image saved(const std::string& name) {
     const fs::path file = folder.path() / name;
     workbench.apply({command::SavePicture{file}});
     EXPECT_TRUE(until_files_are_done());
     return image::read_image(file);
   }
   /// The picture's file holds what the texture shows.
-  void expect_saved_as_shown(const std::string& name)
-  {
+  void expect_saved_as_shown(const std::string& name) {
     const image::Image file = saved(name);
     ASSERT_EQ(file.width, 64);
     ASSERT_EQ(file.height, 48);
     const std::size_t channels = file.channels.size();
     for (const auto& [x, y] : {std::array{0, 0}, std::array{40, 11}, std::array{63, 47}})
       for (std::size_t c = 0; c < 3; ++c)
-        EXPECT_EQ(std::lround(255 * file.data[channels * static_cast<std::size_t>(64 * y + x) + c]), texel(x, y)[c]) << name;
+        EXPECT_EQ(std::lround(255 * file.data[channels * static_cast<std::size_t>(64 * y + x) + c]), texel(x, y)[c])
+            << name;
   }
 };
 
-TEST_F(LooksTest, AKeyGoesThroughTheLayers)
-{
+TEST_F(LooksTest, AKeyGoesThroughTheLayers) {
   EXPECT_EQ(texel(32, 12), bytes(0.75f, 0.75f, 0.125f));
   const std::pair<const char*, std::array<int, 3>> layers[] = {
       {"direct", bytes(0.25f, 0.5f, 0.125f)}, {"caustic", bytes(0.5f, 0.25f, 0)}, {"", bytes(0.75f, 0.75f, 0.125f)}};
@@ -57,8 +54,7 @@ TEST_F(LooksTest, AKeyGoesThroughTheLayers)
   EXPECT_EQ(layer(), "") << "another preset, another picture";
 }
 
-TEST_F(LooksTest, TheBoxesChooseLayerAndTone)
-{
+TEST_F(LooksTest, TheBoxesChooseLayerAndTone) {
   click_on("layer");
   click_on("layer:caustic");
   EXPECT_EQ(layer(), "caustic");
@@ -76,8 +72,7 @@ TEST_F(LooksTest, TheBoxesChooseLayerAndTone)
   EXPECT_FALSE(view_settings().false_colour);
 }
 
-TEST_F(LooksTest, ARangeIsTyped)
-{
+TEST_F(LooksTest, ARangeIsTyped) {
   apply({command::SetViewSettings{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.01, 1}}}});
   const auto type = [&](const std::string& field, const char* text) {
     click_on(field);
@@ -93,8 +88,7 @@ TEST_F(LooksTest, ARangeIsTyped)
   EXPECT_THAT(only_message(workbench), HasSubstr("0 < low < high"));
 }
 
-TEST_F(LooksTest, RangesThatAreNoneAreNotTaken)
-{
+TEST_F(LooksTest, RangesThatAreNoneAreNotTaken) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   for (const LuminanceRange& range : {LuminanceRange{nan, 1}, LuminanceRange{1, infinity}, LuminanceRange{0, -1}}) {
     workbench.apply({command::SetViewSettings{{.tone = ToneCurve::false_colour, .false_colour = range}}});
@@ -107,11 +101,11 @@ TEST_F(LooksTest, RangesThatAreNoneAreNotTaken)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(LooksTest, AKeyGoesThroughTheToneCurves)
-{
+TEST_F(LooksTest, AKeyGoesThroughTheToneCurves) {
   press(ImGuiKey_T);
   EXPECT_EQ(view_settings().tone, ToneCurve::filmic);
-  EXPECT_EQ(texel(32, 12), bytes(static_cast<float>(filmic(0.75)), static_cast<float>(filmic(0.75)), static_cast<float>(filmic(0.125))));
+  EXPECT_EQ(texel(32, 12), bytes(static_cast<float>(filmic(0.75)), static_cast<float>(filmic(0.75)),
+                                 static_cast<float>(filmic(0.125))));
   press(ImGuiKey_T);
   EXPECT_EQ(view_settings().tone, ToneCurve::false_colour);
   // (32, 12) is (.75, .75, .125): Y = .2126 .75 + .7152 .75 + .0722 .125 = .7049
@@ -122,8 +116,7 @@ TEST_F(LooksTest, AKeyGoesThroughTheToneCurves)
   EXPECT_EQ(texel(32, 12), bytes(0.75f, 0.75f, 0.125f));
 }
 
-TEST_F(LooksTest, FalseColourIsInWattsWhateverTheExposure)
-{
+TEST_F(LooksTest, FalseColourIsInWattsWhateverTheExposure) {
   apply({command::SetViewSettings{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.1, 10}}}});
   const std::array<int, 3> before = texel(32, 12);
   press(ImGuiKey_E);
@@ -135,8 +128,7 @@ TEST_F(LooksTest, FalseColourIsInWattsWhateverTheExposure)
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(texel(32, 12)[c], wanted[c], 2);
 }
 
-TEST_F(LooksTest, KeysOfOneFrameDoNotUndoEachOther)
-{
+TEST_F(LooksTest, KeysOfOneFrameDoNotUndoEachOther) {
   imgui.key(ImGuiKey_E, true);
   imgui.key(ImGuiKey_T, true);
   imgui.key(ImGuiKey_L, true);
@@ -146,10 +138,10 @@ TEST_F(LooksTest, KeysOfOneFrameDoNotUndoEachOther)
   EXPECT_EQ(layer(), "direct");
 }
 
-TEST_F(LooksTest, PicturesAreSavedAsShown)
-{
+TEST_F(LooksTest, PicturesAreSavedAsShown) {
   expect_saved_as_shown("standard.png");
-  for (const auto& [key, said] : {std::pair(ImGuiKey_E, ""), {ImGuiKey_L, ""}, {ImGuiKey_T, "filmic"}, {ImGuiKey_T, "W/m2/sr"}}) {
+  for (const auto& [key, said] :
+       {std::pair(ImGuiKey_E, ""), {ImGuiKey_L, ""}, {ImGuiKey_T, "filmic"}, {ImGuiKey_T, "W/m2/sr"}}) {
     press(key);
     expect_saved_as_shown("picture.png");
     EXPECT_THAT(last_message(workbench), HasSubstr(said));
@@ -157,8 +149,7 @@ TEST_F(LooksTest, PicturesAreSavedAsShown)
   EXPECT_THAT(saved("linear.exr").channels, SizeIs(9)) << "the whole picture with both layers, whatever is shown";
 }
 
-TEST_F(LooksTest, ALayerThatThePictureDoesNotHaveIsSaid)
-{
+TEST_F(LooksTest, ALayerThatThePictureDoesNotHaveIsSaid) {
   apply({command::ShowLayer{"indirect"}});
   EXPECT_THAT(view().shown().hint, HasSubstr("has no layer \"indirect\", only direct, caustic"));
   workbench.apply({command::SavePicture{folder.path() / "none.png"}});
@@ -169,8 +160,7 @@ TEST_F(LooksTest, ALayerThatThePictureDoesNotHaveIsSaid)
   EXPECT_EQ(layer(), "direct");
 }
 
-TEST_F(LooksTest, PinnedRunsHaveTheirLayers)
-{
+TEST_F(LooksTest, PinnedRunsHaveTheirLayers) {
   press(ImGuiKey_P);
   press(ImGuiKey_N);
   apply({command::ShowLayer{"caustic"}, command::Flip{}});
@@ -180,15 +170,13 @@ TEST_F(LooksTest, PinnedRunsHaveTheirLayers)
 
 class LooksWithReference : public LooksTest {
 protected:
-  void SetUp() override
-  {
+  void SetUp() override {
     runs.reference = test::even_reference({1, 1, 1}, {0.5f, 0, 0});
     LooksTest::SetUp();
   }
 };
 
-TEST_F(LooksWithReference, TheReferenceShowsTheSameLayer)
-{
+TEST_F(LooksWithReference, TheReferenceShowsTheSameLayer) {
   apply({command::ShowLayer{"caustic"}, command::Flip{}});
   EXPECT_EQ(texel(32, 12), bytes(0.5f, 0, 0));
   apply({command::ShowLayer{"direct"}});
@@ -197,8 +185,7 @@ TEST_F(LooksWithReference, TheReferenceShowsTheSameLayer)
   EXPECT_EQ(texel(32, 12), bytes(1, 1, 1));
 }
 
-TEST_F(LooksWithReference, TheDifferenceIsThatOfTheLayer)
-{
+TEST_F(LooksWithReference, TheDifferenceIsThatOfTheLayer) {
   workbench.apply({command::ShowLayer{"caustic"}, command::ShowDifference{true, measure::DifferenceMetric::absolute}});
   const auto at = [&] { return (*workbench.comparing().difference()->values)[64 * 12 + 32]; };
   ASSERT_TRUE(until([&] { return workbench.comparing().difference() != nullptr; }));
@@ -210,8 +197,7 @@ TEST_F(LooksWithReference, TheDifferenceIsThatOfTheLayer)
   EXPECT_NEAR(at(), (0.25 + 0.25 + 0.875) / 3, 1e-6) << "(.75, .75, .125) - (1, 1, 1)";
 }
 
-TEST_F(LooksTest, TheCameraIsCopiedAsTextThatPresetsTake)
-{
+TEST_F(LooksTest, TheCameraIsCopiedAsTextThatPresetsTake) {
   edit([](preset::Preset& p) { p.scene.camera.position = {1.5, -0.25, 3}, p.scene.camera.fov_deg = 31; });
   const auto copied = [&](const char* name) {
     action(name).run(context());
@@ -229,8 +215,7 @@ TEST_F(LooksTest, TheCameraIsCopiedAsTextThatPresetsTake)
   EXPECT_EQ(preset::parse_preset(test::preset_text, "again", overrides).scene.camera, camera());
 }
 
-TEST(LooksOfASession, AreKept)
-{
+TEST(LooksOfASession, AreKept) {
   Session session;
   session.view_state.view_settings.tone = ToneCurve::false_colour;
   session.view_state.view_settings.false_colour = LuminanceRange{0.25, 64};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opening files in the window: what it asks before unsaved changes go, what it says about files that are no preset. What becomes of
-// pictures and meshes that are dropped on it, and that nothing does of what is none.
+// Opening files in the window: what it asks before unsaved changes go, what it says about files that are no preset.
+// What becomes of pictures and meshes that are dropped on it, and that nothing does of what is none.
 #include "inverse/settings.h"
 #include "tests/support/loaded_scenes.h"
 #include "window_fixture.h"
@@ -12,20 +12,17 @@ protected:
   const std::string first = folder.write("first.json", test::preset_text);
   const std::string second = folder.write("second.json", R"({"name": "Second", "parent": "first.json"})");
 
-  void open_and_edit()
-  {
+  void open_and_edit() {
     ASSERT_TRUE(workbench.open(first));
     edit([](preset::Preset& p) { p.scene.camera.position = {0, 0, 2}; });
     ASSERT_TRUE(workbench.edits()->modified());
   }
-  std::string refusal(const std::string& file)
-  {
+  std::string refusal(const std::string& file) {
     return refusal_of([&] { refuse_other_kinds(file); });
   }
 };
 
-TEST_F(OpeningTest, WithoutChangesNothingIsAsked)
-{
+TEST_F(OpeningTest, WithoutChangesNothingIsAsked) {
   ASSERT_TRUE(workbench.open(first));
   workbench.apply({command::Open{second}});
   EXPECT_EQ(workbench.questions().question(), Question::none);
@@ -34,8 +31,7 @@ TEST_F(OpeningTest, WithoutChangesNothingIsAsked)
   EXPECT_TRUE(workbench.questions().quitting());
 }
 
-TEST_F(OpeningTest, QuittingAsksBeforeChangesGo)
-{
+TEST_F(OpeningTest, QuittingAsksBeforeChangesGo) {
   open_and_edit();
   workbench.apply({command::Quit{}});
   EXPECT_FALSE(workbench.questions().quitting());
@@ -45,8 +41,7 @@ TEST_F(OpeningTest, QuittingAsksBeforeChangesGo)
   EXPECT_TRUE(workbench.questions().quitting());
 }
 
-TEST_F(OpeningTest, AnotherPresetAsksBeforeChangesGo)
-{
+TEST_F(OpeningTest, AnotherPresetAsksBeforeChangesGo) {
   open_and_edit();
   workbench.apply({command::Open{second}});
   EXPECT_EQ(workbench.questions().question(), Question::unsaved);
@@ -61,8 +56,7 @@ TEST_F(OpeningTest, AnotherPresetAsksBeforeChangesGo)
   EXPECT_EQ(preset::read_preset(first).scene.camera.position[2], 4) << "not saved";
 }
 
-TEST_F(OpeningTest, OnceTheChangesAreSavedWhatWaitedGoesOn)
-{
+TEST_F(OpeningTest, OnceTheChangesAreSavedWhatWaitedGoesOn) {
   open_and_edit();
   workbench.apply({command::Open{second}});
   workbench.apply({command::SavePreset{folder.path() / "missing" / "first.json"}});
@@ -77,17 +71,16 @@ TEST_F(OpeningTest, OnceTheChangesAreSavedWhatWaitedGoesOn)
   EXPECT_EQ(workbench.questions().question(), Question::none);
 }
 
-TEST_F(OpeningTest, WhatCannotBeOpenedAsksNothing)
-{
+TEST_F(OpeningTest, WhatCannotBeOpenedAsksNothing) {
   open_and_edit();
-  workbench.apply({command::Open{folder.write("broken.json", "{")}, command::Open{folder.write("ball.obj", "v 0 0 0\n")}});
+  workbench.apply(
+      {command::Open{folder.write("broken.json", "{")}, command::Open{folder.write("ball.obj", "v 0 0 0\n")}});
   EXPECT_TRUE(until([&] { return workbench.messages().size() == 2; })) << "a mesh is read in the background";
   EXPECT_EQ(workbench.questions().question(), Question::none);
   EXPECT_TRUE(workbench.edits()->modified());
 }
 
-TEST_F(OpeningTest, TheDialogSavesAndOpens)
-{
+TEST_F(OpeningTest, TheDialogSavesAndOpens) {
   test::HeadlessWindow<> window;
   window.open_file(first);
   window.edit([](preset::Preset& p) { p.scene.camera.position = {0, 0, 2}; });
@@ -102,8 +95,7 @@ TEST_F(OpeningTest, TheDialogSavesAndOpens)
   EXPECT_EQ(window.workbench.questions().question(), Question::none);
 }
 
-TEST_F(OpeningTest, AMapBecomesTheEnvironment)
-{
+TEST_F(OpeningTest, AMapBecomesTheEnvironment) {
   const std::string map = folder.write("hall.hdr", "read by the run"), other = folder.write("sky.EXR", "");
   workbench.apply({command::Open{map}});
   EXPECT_THAT(only_message(workbench), HasSubstr("once a preset is open"));
@@ -113,7 +105,8 @@ TEST_F(OpeningTest, AMapBecomesTheEnvironment)
   EXPECT_EQ(workbench.preset()->scene.environment->file, map);
   EXPECT_EQ(workbench.questions().question(), Question::none);
   EXPECT_EQ(workbench.edits()->undo_label(), "surround with hall.hdr");
-  edit([&](preset::Preset& p) { p.scene.environment = {.file = map, .radiance = 3, .rotate_deg = 40, .lights = true}; });
+  edit(
+      [&](preset::Preset& p) { p.scene.environment = {.file = map, .radiance = 3, .rotate_deg = 40, .lights = true}; });
   workbench.apply({command::Open{other}});
   const preset::Environment expected{.file = other, .radiance = 3, .rotate_deg = 40, .lights = true};
   EXPECT_EQ(workbench.preset()->scene.environment, expected);
@@ -122,8 +115,7 @@ TEST_F(OpeningTest, AMapBecomesTheEnvironment)
 }
 
 // An engine that has no use for surroundings says so, and nothing changes.
-TEST_F(OpeningTest, AMapThatThePresetCannotHaveIsRefused)
-{
+TEST_F(OpeningTest, AMapThatThePresetCannotHaveIsRefused) {
   ASSERT_TRUE(workbench.open(folder.write("inverse.json", R"({"engine": "inverse", "inverse": {"receivers": [
     {"distance_mm": 100, "picture": {"type": "disc", "radius": 0.3}}]}})")));
   workbench.apply({command::Open{folder.write("hall.hdr", "")}});
@@ -132,8 +124,7 @@ TEST_F(OpeningTest, AMapThatThePresetCannotHaveIsRefused)
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
-TEST_F(OpeningTest, FilesDroppedTogetherKeepTheirMessages)
-{
+TEST_F(OpeningTest, FilesDroppedTogetherKeepTheirMessages) {
   workbench.apply({command::Open{folder.write("ball.obj", "v 0 0 0\n")}, command::Open{first}});
   EXPECT_EQ(workbench.preset()->name, "Test");
   EXPECT_THAT(only_message(workbench), HasSubstr("is a mesh"));
@@ -141,12 +132,12 @@ TEST_F(OpeningTest, FilesDroppedTogetherKeepTheirMessages)
   EXPECT_TRUE(workbench.messages().empty()) << "an earlier error is over";
 }
 
-TEST_F(OpeningTest, SaysWhatOtherFilesAreAndWhatCanBeDoneWithThem)
-{
+TEST_F(OpeningTest, SaysWhatOtherFilesAreAndWhatCanBeDoneWithThem) {
   const std::string glass = std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/N-BK7.yml";
   EXPECT_THAT(refusal(glass), StartsWith(glass + ": is dispersion data; the window opens presets; "));
   EXPECT_THAT(refusal(glass), HasSubstr("`nephroid dispersion " + glass + "`"));
-  EXPECT_THAT(refusal(folder.write("BALL.OBJ", "v 0 0 0\n")), HasSubstr("is a mesh; the window opens presets; drop it on the window once"));
+  EXPECT_THAT(refusal(folder.write("BALL.OBJ", "v 0 0 0\n")),
+              HasSubstr("is a mesh; the window opens presets; drop it on the window once"));
   EXPECT_THAT(refusal(folder.write("scene.gltf", "{\"asset\": {}}")),
               HasSubstr("is a scene; the window opens presets; drop it on the window"));
   EXPECT_THAT(refusal(folder.write("sky.exr", "v/1")), HasSubstr("is a picture"));
@@ -155,8 +146,7 @@ TEST_F(OpeningTest, SaysWhatOtherFilesAreAndWhatCanBeDoneWithThem)
   EXPECT_THAT(refusal(folder.write("noise", std::string("\0\1\2", 3))), HasSubstr("is no preset"));
 }
 
-TEST_F(OpeningTest, LeavesPresetsToTheReader)
-{
+TEST_F(OpeningTest, LeavesPresetsToTheReader) {
   EXPECT_NO_THROW(refuse_other_kinds(first));
   EXPECT_NO_THROW(refuse_other_kinds("first-light"));
   EXPECT_NO_THROW(refuse_other_kinds(folder.path().string()));
@@ -168,12 +158,13 @@ TEST_F(OpeningTest, LeavesPresetsToTheReader)
 
 class DroppedPicture : public test::WorkbenchFixture {
 protected:
-  const std::vector<inverse::Receiver>& receivers() const { return workbench.preset()->settings.as<inverse::Settings>().receivers; }
+  const std::vector<inverse::Receiver>& receivers() const {
+    return workbench.preset()->settings.as<inverse::Settings>().receivers;
+  }
   std::string picture = folder.write("face.png", "a run reads it");
 };
 
-TEST_F(DroppedPicture, TakesThePlaceOfTheDrawingsOneAfterTheOther)
-{
+TEST_F(DroppedPicture, TakesThePlaceOfTheDrawingsOneAfterTheOther) {
   ASSERT_TRUE(workbench.open("inverse/shapes"));
   const std::vector<inverse::Receiver> before = receivers();
   ASSERT_EQ(before.size(), 3u);
@@ -190,37 +181,35 @@ TEST_F(DroppedPicture, TakesThePlaceOfTheDrawingsOneAfterTheOther)
   EXPECT_EQ(preset::to_json(*workbench.preset()), opened);
 }
 
-TEST_F(DroppedPicture, ThatIsNotThereChangesNothing)
-{
+TEST_F(DroppedPicture, ThatIsNotThereChangesNothing) {
   ASSERT_TRUE(workbench.open("inverse/shapes"));
   workbench.apply({command::Open{(folder.path() / "gone.png").string()}});
   EXPECT_THAT(last_message(workbench), HasSubstr("there is no such picture"));
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
-TEST_F(DroppedPicture, IsOpenedToBeLookedAtElsewhere)
-{
+TEST_F(DroppedPicture, IsOpenedToBeLookedAtElsewhere) {
   open();
   workbench.apply({command::Open{picture}});
   ASSERT_TRUE(until([&] { return !workbench.works_on_files(); }));
-  EXPECT_THAT(last_message(workbench), HasSubstr("face.png: is no picture that can be read")) << "of which this is none";
+  EXPECT_THAT(last_message(workbench), HasSubstr("face.png: is no picture that can be read"))
+      << "of which this is none";
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
 /// A closed tetrahedron with edges of 10 along the axes, its corner at (100, 0, 0).
-constexpr const char* tetrahedron = "v 100 0 0\nv 110 0 0\nv 100 10 0\nv 100 0 10\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+constexpr const char* tetrahedron =
+    "v 100 0 0\nv 110 0 0\nv 100 10 0\nv 100 0 10\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
 class DroppedMeshTest : public test::WorkbenchFixture {
 protected:
   void SetUp() override { open(); }
-  void drop(const std::string& file)
-  {
+  void drop(const std::string& file) {
     workbench.apply({command::Open{file}});
     ASSERT_TRUE(until([&] { return !workbench.works_on_files(); }));
     workbench.update();
   }
-  std::string only_error() const
-  {
+  std::string only_error() const {
     std::string line;
     for (const Message& message : workbench.messages())
       if (message.error) line += (line.empty() ? "" : " | ") + message.line;
@@ -228,8 +217,7 @@ protected:
   }
 };
 
-TEST_F(DroppedMeshTest, IsAnObjectWhereTheCameraLooks)
-{
+TEST_F(DroppedMeshTest, IsAnObjectWhereTheCameraLooks) {
   drop(folder.write("thing.obj", tetrahedron));
   EXPECT_EQ(only_error(), "");
   const preset::Preset& preset = *workbench.preset();
@@ -251,8 +239,7 @@ TEST_F(DroppedMeshTest, IsAnObjectWhereTheCameraLooks)
   EXPECT_EQ(in_preset(workbench.view_state().selection, workbench.preset()), Selection{});
 }
 
-TEST_F(DroppedMeshTest, IsOfTheFirstGlassAndOfAnotherName)
-{
+TEST_F(DroppedMeshTest, IsOfTheFirstGlassAndOfAnotherName) {
   edit([](preset::Preset& p) {
     p.scene.materials["zircon"].type = preset::Material::Type::dielectric;
     p.scene.objects[0].name = "thing";
@@ -263,24 +250,21 @@ TEST_F(DroppedMeshTest, IsOfTheFirstGlassAndOfAnotherName)
   EXPECT_EQ(workbench.preset()->scene.objects[1].name, "thing 2");
 }
 
-TEST_F(DroppedMeshTest, GetsGlassWhereThereIsNoMaterial)
-{
+TEST_F(DroppedMeshTest, GetsGlassWhereThereIsNoMaterial) {
   edit([](preset::Preset& p) { p.scene.objects.clear(), p.scene.materials.clear(); });
   drop(folder.write("thing.obj", tetrahedron));
   ASSERT_EQ(workbench.preset()->scene.objects.size(), 1U);
   EXPECT_EQ(workbench.preset()->scene.materials.at("glass").type, preset::Material::Type::dielectric);
 }
 
-TEST_F(DroppedMeshTest, CanBeSavedAndOpened)
-{
+TEST_F(DroppedMeshTest, CanBeSavedAndOpened) {
   drop(folder.write("thing.obj", tetrahedron));
   const std::string file = (folder.path() / "saved.json").string();
   workbench.apply({command::SavePreset{file}});
   EXPECT_EQ(preset::read_preset(file).scene, workbench.preset()->scene);
 }
 
-TEST_F(DroppedMeshTest, BrokenOnesChangeNothing)
-{
+TEST_F(DroppedMeshTest, BrokenOnesChangeNothing) {
   const std::string bad[][2] = {{"empty.obj", ""},
                                 {"no-face.obj", "v 0 0 0\nv 1 0 0\n"},
                                 {"flat.obj", "v 0 0 0\nf 1 1 1\n"},
@@ -298,8 +282,7 @@ TEST_F(DroppedMeshTest, BrokenOnesChangeNothing)
   EXPECT_EQ(*workbench.preset(), workbench.edits()->opened());
 }
 
-TEST_F(DroppedMeshTest, OpenOnesAreRefusedWhereThePresetSaysSo)
-{
+TEST_F(DroppedMeshTest, OpenOnesAreRefusedWhereThePresetSaysSo) {
   const std::string file = folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   edit([](preset::Preset& p) { p.scene.materials["glass"].type = preset::Material::Type::dielectric; });
   drop(file);
@@ -312,16 +295,14 @@ TEST_F(DroppedMeshTest, OpenOnesAreRefusedWhereThePresetSaysSo)
   EXPECT_EQ(workbench.preset()->scene.objects.size(), 1U);
 }
 
-TEST_F(DroppedMeshTest, OnAnInversePresetIsRefused)
-{
+TEST_F(DroppedMeshTest, OnAnInversePresetIsRefused) {
   ASSERT_TRUE(workbench.open("inverse/point"));
   workbench.apply({command::Open{folder.write("thing.obj", tetrahedron)}});
   EXPECT_THAT(only_error(), HasSubstr("is a mesh"));
   EXPECT_FALSE(workbench.works_on_files());
 }
 
-TEST_F(DroppedMeshTest, ForAPresetThatIsGoneIsForgotten)
-{
+TEST_F(DroppedMeshTest, ForAPresetThatIsGoneIsForgotten) {
   const std::string file = folder.write("thing.obj", tetrahedron);
   workbench.apply({command::Open{file}});
   ASSERT_TRUE(workbench.open("spectral/prism"));

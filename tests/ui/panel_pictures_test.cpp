@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of docs/window-panels.md, docs/window-pictures.md and docs/window.md: panels beside a picture that follows them, while real
-// X events drag a control point, choose another light, compare two pictures, drag a ball by its arrow. With the folder docs in
-// NEPHROID_PICTURES they are written there. What they are to show is tested all the same. Skipped where there is no Xvfb, no xdotool or no
-// ImageMagick.
+// The pictures of docs/window-panels.md, docs/window-pictures.md and docs/window.md: panels beside a picture that
+// follows them, while real X events drag a control point, choose another light, compare two pictures, drag a ball by
+// its arrow. With the folder docs in NEPHROID_PICTURES they are written there. What they are to show is tested all the
+// same. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
 #include "optics/dispersion.h"
 #include "optics/dispersion_file.h"
 #include "real_window.h"
@@ -16,15 +16,16 @@ constexpr std::array<int, 2> size{1200, 720}, tall{1200, 900};
 
 class PanelPictures : public test::PicturedWindow {
 protected:
-  /// Newton's prism, of N-SF66 as control points, and a board of which one half is painted. It is not over before its pictures are taken.
-  static preset::Preset prism()
-  {
+  /// Newton's prism, of N-SF66 as control points, and a board of which one half is painted. It is not over before its
+  /// pictures are taken.
+  static preset::Preset prism() {
     preset::Preset preset = preset::read_preset(NEPHROID_SOURCE_DIR "/presets/spectral/thesis/newton.json");
     preset::Scene& scene = preset.scene;
-    const optics::Spectrum n =
-        optics::sample_n(optics::load_dispersion(NEPHROID_SOURCE_DIR "/presets/materials/N-SF66.yml"), optics::Extrapolation::automatic);
+    const optics::Spectrum n = optics::sample_n(
+        optics::load_dispersion(NEPHROID_SOURCE_DIR "/presets/materials/N-SF66.yml"), optics::Extrapolation::automatic);
     scene.materials.at("glass").dispersion = with_points({}, fit_points(n, 1e-3).points);
-    // What N-SF66 bends as far as the preset's glass with 60 degrees, turned until what its base reflects misses the board.
+    // What N-SF66 bends as far as the preset's glass with 60 degrees, turned until what its base reflects misses the
+    // board.
     scene.objects.at(0).shape->apex_deg = 53;
     scene.objects.at(0).transform.rotate_deg = {-90, 0, 28};
     preset::Object painted = scene.objects.at(1);
@@ -42,13 +43,11 @@ protected:
     preset.stop.seconds = 600;
     return preset;
   }
-  test::PlayedWindow open(const std::string& file, const std::string& layout) const
-  {
+  test::PlayedWindow open(const std::string& file, const std::string& layout) const {
     return {file, {"--layout", layout, "--size", fmt::format("{}x{}", size[0], size[1])}, folder.path()};
   }
   /// How often a run was begun: what is done of a run falls back to nothing when the next takes its place.
-  static int runs_begun(const test::PlayedWindow& window)
-  {
+  static int runs_begun(const test::PlayedWindow& window) {
     int begun = 0;
     double before = 1;
     for (const auto& state : window.states()) {
@@ -57,11 +56,11 @@ protected:
     }
     return begun;
   }
-  /// A picture of the window as soon as it satisfies a condition. Where pictures are asked for it is taken when the run has had some
-  /// seconds more and is kept.
+  /// A picture of the window as soon as it satisfies a condition. Where pictures are asked for it is taken when the run
+  /// has had some seconds more and is kept.
   template <class Condition>
-  image::Image taken(const test::PlayedWindow& window, const std::string& name, const std::string& what, Condition condition) const
-  {
+  image::Image taken(const test::PlayedWindow& window, const std::string& name, const std::string& what,
+                     Condition condition) const {
     image::Image picture;
     window.until(what, [&] { return condition(picture = window.picture(name)); });
     if (!std::getenv("NEPHROID_PICTURES")) return picture;
@@ -73,16 +72,14 @@ protected:
 };
 
 /// Clicks in a window like the real one; where that was.
-test::Pixel click(const Point& place, test::HeadlessWindow<test::SceneRuns>& like)
-{
+test::Pixel click(const Point& place, test::HeadlessWindow<test::SceneRuns>& like) {
   like.click(place);
   like.frames(3);
   return pixel(place);
 }
 
 /// Colours of the strip of clusters at the foot of the plot, from 380 to 780 nm.
-std::vector<std::array<int, 3>> strip(const image::Image& screen, const DispersionPlot& plot)
-{
+std::vector<std::array<int, 3>> strip(const image::Image& screen, const DispersionPlot& plot) {
   const auto left = plot.to_screen({380, 0}), right = plot.to_screen({780, 0});
   const double y = plot.area()[1] + plot.area()[3] - 4;
   std::vector<std::array<int, 3>> colours;
@@ -90,11 +87,13 @@ std::vector<std::array<int, 3>> strip(const image::Image& screen, const Dispersi
   return colours;
 }
 
-std::size_t count(const std::vector<std::array<int, 3>>& colours) { return std::set(colours.begin(), colours.end()).size(); }
+std::size_t count(const std::vector<std::array<int, 3>>& colours) {
+  return std::set(colours.begin(), colours.end()).size();
+}
 
-/// Of wavelengths that are not neighbours in one colour: how many places of a strip continue a colour that was left before.
-std::size_t returns(const std::vector<std::array<int, 3>>& colours)
-{
+/// Of wavelengths that are not neighbours in one colour: how many places of a strip continue a colour that was left
+/// before.
+std::size_t returns(const std::vector<std::array<int, 3>>& colours) {
   std::set<std::array<int, 3>> left;
   std::size_t found = 0;
   for (std::size_t i = 1; i < colours.size(); ++i) {
@@ -106,23 +105,21 @@ std::size_t returns(const std::vector<std::array<int, 3>>& colours)
 }
 
 /// Of the pixels of the View.
-std::vector<std::array<int, 3>> colours_in(const image::Image& screen, const Canvas& canvas)
-{
+std::vector<std::array<int, 3>> colours_in(const image::Image& screen, const Canvas& canvas) {
   std::vector<std::array<int, 3>> colours;
   for (double y = canvas.corner[1]; y < canvas.corner[1] + canvas.size[1]; ++y)
-    for (double x = canvas.corner[0]; x < canvas.corner[0] + canvas.size[0]; ++x) colours.push_back(test::bytes_at(screen, x, y));
+    for (double x = canvas.corner[0]; x < canvas.corner[0] + canvas.size[0]; ++x)
+      colours.push_back(test::bytes_at(screen, x, y));
   return colours;
 }
 
 /// Of what the View shows before there is a picture, a ground and a line of text, there are a few dozen colours.
-auto picture_in(const Canvas& canvas)
-{
+auto picture_in(const Canvas& canvas) {
   return [&canvas](const image::Image& screen) { return count(colours_in(screen, canvas)) > 200; };
 }
 
 /// Red over blue of what the View shows, without the greys beside the picture.
-double warmth(const image::Image& screen, const Canvas& canvas)
-{
+double warmth(const image::Image& screen, const Canvas& canvas) {
   double red = 0, blue = 0;
   for (const auto& colour : colours_in(screen, canvas)) {
     if (colour[0] == colour[2]) continue;
@@ -132,8 +129,7 @@ double warmth(const image::Image& screen, const Canvas& canvas)
   return red / blue;
 }
 
-TEST_F(PanelPictures, AControlPointIsDragged)
-{
+TEST_F(PanelPictures, AControlPointIsDragged) {
   const preset::Preset preset = prism();
   const std::string file = folder.write("prism.json", preset::to_json(preset));
   const test::HeadlessWindow<> like(size, "dispersion", file);
@@ -158,8 +154,7 @@ TEST_F(PanelPictures, AControlPointIsDragged)
   EXPECT_EQ(window.quit().exit_code, 0);
 }
 
-TEST_F(PanelPictures, AnotherLightIsChosen)
-{
+TEST_F(PanelPictures, AnotherLightIsChosen) {
   preset::Preset preset = prism();
   preset.scene.lights.at(0).spectrum.illuminant = "F10";
   spectral::settings(preset).relight = true;
@@ -167,7 +162,9 @@ TEST_F(PanelPictures, AnotherLightIsChosen)
   const std::string found = "illuminant", field = "/scene/lights/0/spectrum/illuminant";
   test::HeadlessWindow<test::SceneRuns> like(size, "spectra", file);
   const Canvas& canvas = like.view().canvas();
-  const auto field_at = [&](const std::string& widget) { return like.workspace.panel<ParametersPanel>().place_of(widget).value(); };
+  const auto field_at = [&](const std::string& widget) {
+    return like.workspace.panel<ParametersPanel>().place_of(widget).value();
+  };
   const test::Pixel search = click(field_at("search"), like);
   like.type(found);
   like.frame();
@@ -187,13 +184,14 @@ TEST_F(PanelPictures, AnotherLightIsChosen)
   EXPECT_EQ(preset::read_preset(file).scene.lights[0].spectrum.illuminant, "A");
 }
 
-TEST_F(PanelPictures, AnImpossibleFieldIsSaid)
-{
+TEST_F(PanelPictures, AnImpossibleFieldIsSaid) {
   const std::string file = folder.write("prism.json", preset::to_json(prism()));
   const std::string wrong = "200", field = "/scene/camera/fov_deg";
   test::HeadlessWindow<test::SceneRuns> like(size, "parameters", file);
   const Canvas& canvas = like.view().canvas();
-  const auto place_of = [&](const std::string& widget) { return like.workspace.panel<ParametersPanel>().place_of(widget).value(); };
+  const auto place_of = [&](const std::string& widget) {
+    return like.workspace.panel<ParametersPanel>().place_of(widget).value();
+  };
   std::vector<test::Pixel> way;
   for (const std::string& widget : {std::string("/scene:label"), std::string("/scene/camera:label"), field})
     way.push_back(click(place_of(widget), like));
@@ -210,7 +208,8 @@ TEST_F(PanelPictures, AnImpossibleFieldIsSaid)
     int found = 0;
     for (int y = said[1] - 10; y < said[1] + 10; ++y)
       for (int x = said[0] - 80; x < said[0] + 80; ++x) {
-        const auto colour = test::bytes_at(picture, x, y); // the letters' edges are between their red and the ground's grey
+        const auto colour =
+            test::bytes_at(picture, x, y); // the letters' edges are between their red and the ground's grey
         found += colour[0] > colour[1] + 50;
       }
     return found > 50;
@@ -220,21 +219,27 @@ TEST_F(PanelPictures, AnImpossibleFieldIsSaid)
   EXPECT_EQ(preset::read_preset(file).scene.camera.fov_deg, 34);
 }
 
-/// The picture that README.md shows, as if another program had made it, beside the run that begins; then both cut at a line.
-TEST_F(PanelPictures, TwoPicturesAreCompared)
-{
-  const std::string preset = NEPHROID_SOURCE_DIR "/presets/first-light.json", png = NEPHROID_SOURCE_DIR "/docs/first-light.png";
+/// The picture that README.md shows, as if another program had made it, beside the run that begins; then both cut at a
+/// line.
+TEST_F(PanelPictures, TwoPicturesAreCompared) {
+  const std::string preset = NEPHROID_SOURCE_DIR "/presets/first-light.json",
+                    png = NEPHROID_SOURCE_DIR "/docs/first-light.png";
   test::HeadlessWindow<> like(size, "runs", preset);
   like.apply({command::Arrange{Arrangement::split}});
   const Canvas& canvas = like.view().canvas();
   const double half = canvas.size[0] / 2;
-  const Canvas left{canvas.corner, {half - 6, canvas.size[1]}}, right{{canvas.corner[0] + half + 6, canvas.corner[1]}, left.size};
-  test::PlayedWindow window(preset, {png, "--layout", "runs", "--size", fmt::format("{}x{}", size[0], size[1])}, folder.path());
+  const Canvas left{canvas.corner, {half - 6, canvas.size[1]}},
+      right{{canvas.corner[0] + half + 6, canvas.corner[1]}, left.size};
+  test::PlayedWindow window(preset, {png, "--layout", "runs", "--size", fmt::format("{}x{}", size[0], size[1])},
+                            folder.path());
   window.until("a picture of the run", [&] { return picture_in(canvas)(window.picture("before.png")); });
   window.chord({"shift"}, "2");
   window.key("v");
-  const auto both = [&](const image::Image& picture) { return picture_in(left)(picture) && picture_in(right)(picture); };
-  window.move({static_cast<int>(canvas.corner[0] + 0.7 * half), static_cast<int>(canvas.corner[1] + canvas.size[1] / 2)});
+  const auto both = [&](const image::Image& picture) {
+    return picture_in(left)(picture) && picture_in(right)(picture);
+  };
+  window.move(
+      {static_cast<int>(canvas.corner[0] + 0.7 * half), static_cast<int>(canvas.corner[1] + canvas.size[1] / 2)});
   taken(window, "window-compared.png", "both pictures side by side", both);
   window.key("c");
   const Pixel line{static_cast<int>(canvas.corner[0] + half), static_cast<int>(canvas.corner[1] + canvas.size[1] / 3)};
@@ -262,8 +267,7 @@ constexpr const char* scene_text = R"({
 
 class GizmoWindowTest : public test::PicturedWindow {};
 
-TEST_F(GizmoWindowTest, AnArrowMovesABall)
-{
+TEST_F(GizmoWindowTest, AnArrowMovesABall) {
   const std::string file = folder.write("handles.json", scene_text);
   const preset::Preset before = preset::read_preset(file);
   const preset::Vec3 from = before.scene.objects[0].transform.translate;
@@ -271,13 +275,15 @@ TEST_F(GizmoWindowTest, AnArrowMovesABall)
   {
     test::HeadlessWindow<test::SceneRuns> like(tall, "", file);
     const auto& resolution = before.scene.camera.resolution;
-    const Pinhole pinhole = *make_pinhole(before.scene.camera, place(ViewSettings{}, like.view().canvas(), resolution), resolution);
+    const Pinhole pinhole =
+        *make_pinhole(before.scene.camera, place(ViewSettings{}, like.view().canvas(), resolution), resolution);
     const glm::dvec3 middle = to_vector(from);
     const Point at = *pinhole.to_screen(middle);
     like.click(at);
     like.frames(2);
     const Point arrow = like.view().overlay().gizmo().places().value()[1];
-    // The tip stays under the mouse. The arrow is as long on the screen everywhere, so it shortens in the scene as it comes nearer.
+    // The tip stays under the mouse. The arrow is as long on the screen everywhere, so it shortens in the scene as it
+    // comes nearer.
     const Ray ray = pinhole.ray(arrow);
     const double away = (middle.z - ray.origin.z) / ray.direction.z; // in the plane of x and y through the middle
     const glm::dvec3 there = middle + glm::dvec3(right_by, 0, 0);
@@ -292,7 +298,8 @@ TEST_F(GizmoWindowTest, AnArrowMovesABall)
   window.until("the picture follows while the ball is held", [&] {
     const image::Image picture = window.picture("held.png");
     const auto green = [&](const Pixel& at) { return test::bytes_at(picture, at[0], at[1])[1]; };
-    return green({ball[0], ball[1] + 150}) > 40 && green({ball[0] - 20, ball[1] - 55}) < 20; // the floor is lit; where it was it is dark
+    return green({ball[0], ball[1] + 150}) > 40 &&
+           green({ball[0] - 20, ball[1] - 55}) < 20; // the floor is lit; where it was it is dark
   });
   if (std::getenv("NEPHROID_PICTURES")) {
     std::this_thread::sleep_for(std::chrono::seconds(4)); // until it is where the hand is

@@ -7,8 +7,7 @@ namespace nephroid::ui::panels_test {
 
 class PanelsTest : public test::WindowFixture {};
 
-TEST_F(PanelsTest, DrawsWithNothingOpen)
-{
+TEST_F(PanelsTest, DrawsWithNothingOpen) {
   frames(3);
   EXPECT_TRUE(imgui.commands.empty());
   EXPECT_EQ(view().canvas().size[0], 0) << "the start page is there in its place";
@@ -16,8 +15,7 @@ TEST_F(PanelsTest, DrawsWithNothingOpen)
   EXPECT_EQ(workbench.preset(), nullptr);
 }
 
-TEST_F(PanelsTest, ShowsTheJobsPicture)
-{
+TEST_F(PanelsTest, ShowsTheJobsPicture) {
   open();
   // The camera at (0, 0, 4): no red, no green, blue beyond white.
   const auto pixels = view().texture().pixels();
@@ -26,8 +24,7 @@ TEST_F(PanelsTest, ShowsTheJobsPicture)
   EXPECT_EQ(int(pixels[2]), 255);
 }
 
-TEST_F(PanelsTest, LeftDragOrbitsAsOneEntry)
-{
+TEST_F(PanelsTest, LeftDragOrbitsAsOneEntry) {
   open();
   const double height = 48 * place(workbench.view_state().view_settings, view().canvas(), {64, 48}).scale;
   drag(0, height / 2, 0); // half the picture's height: a quarter round; the scene goes right, the camera left
@@ -41,8 +38,7 @@ TEST_F(PanelsTest, LeftDragOrbitsAsOneEntry)
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
-TEST_F(PanelsTest, MiddleDragAndShiftDragPan)
-{
+TEST_F(PanelsTest, MiddleDragAndShiftDragPan) {
   open();
   drag(2, 40, 0);
   EXPECT_LT(camera().target[0], 0) << "the scene follows the mouse: the camera goes the other way";
@@ -55,8 +51,7 @@ TEST_F(PanelsTest, MiddleDragAndShiftDragPan)
   EXPECT_EQ(camera().position, by_middle.position);
 }
 
-TEST_F(PanelsTest, TheWheelMovesTheCameraAndIsOneEntry)
-{
+TEST_F(PanelsTest, TheWheelMovesTheCameraAndIsOneEntry) {
   open();
   imgui.move(middle()[0], middle()[1]);
   frame();
@@ -69,16 +64,14 @@ TEST_F(PanelsTest, TheWheelMovesTheCameraAndIsOneEntry)
   EXPECT_NEAR(distance(), 4, 1e-12);
 }
 
-TEST_F(PanelsTest, RightDragMovesTheCamera)
-{
+TEST_F(PanelsTest, RightDragMovesTheCamera) {
   open();
   drag(1, 0, -60);
   EXPECT_LT(distance(), 4);
   EXPECT_EQ(camera().target, (preset::Vec3{0, 0, 0}));
 }
 
-TEST_F(PanelsTest, WithCtrlThePictureMovesAndNotTheCamera)
-{
+TEST_F(PanelsTest, WithCtrlThePictureMovesAndNotTheCamera) {
   open();
   const int made = runs.made;
   imgui.key(ImGuiMod_Ctrl, true);
@@ -99,8 +92,7 @@ TEST_F(PanelsTest, WithCtrlThePictureMovesAndNotTheCamera)
   EXPECT_TRUE(workbench.view_state().view_settings.fit);
 }
 
-TEST_F(PanelsTest, ExposureKeysChangeTheTextureOnly)
-{
+TEST_F(PanelsTest, ExposureKeysChangeTheTextureOnly) {
   runs.steps = 1;
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"scene.camera.position=[0.1, 0.2, 0.4]"}));
   ASSERT_TRUE(until(job::State::finished));
@@ -115,8 +107,7 @@ TEST_F(PanelsTest, ExposureKeysChangeTheTextureOnly)
   EXPECT_EQ(runs.made, 1);
 }
 
-TEST_F(PanelsTest, TheStatusLineSaysWhatTheRunDoes)
-{
+TEST_F(PanelsTest, TheStatusLineSaysWhatTheRunDoes) {
   runs.steps = 100000;
   EXPECT_EQ(workbench.run().preparation(), "");
   open();
@@ -126,8 +117,7 @@ TEST_F(PanelsTest, TheStatusLineSaysWhatTheRunDoes)
   ASSERT_TRUE(until([&] { return workbench.run().preparation() == "reading bunny.obj"; }));
 }
 
-TEST_F(PanelsTest, WhatIsReadForLongIsNotWaitedFor)
-{
+TEST_F(PanelsTest, WhatIsReadForLongIsNotWaitedFor) {
   runs.steps = 100000;
   runs.make_ms = 1;
   runs.reads_on = true;
@@ -147,12 +137,12 @@ TEST_F(PanelsTest, WhatIsReadForLongIsNotWaitedFor)
   press(ImGuiKey_F5);
   ASSERT_TRUE(until([&] { return workbench.run().preparation() == "reading bunny.obj"; }));
   ASSERT_TRUE(workbench.open(folder.write("other.json", test::preset_text)));
-  ASSERT_TRUE(until([&] { return workbench.run().preparation() == "reading bunny.obj"; })) << "the first is read no more";
+  ASSERT_TRUE(until([&] { return workbench.run().preparation() == "reading bunny.obj"; }))
+      << "the first is read no more";
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(PanelsTest, EscapeClosesTheHelpFirst)
-{
+TEST_F(PanelsTest, EscapeClosesTheHelpFirst) {
   runs.steps = 100000;
   open();
   press(ImGuiKey_F1);
@@ -166,8 +156,7 @@ TEST_F(PanelsTest, EscapeClosesTheHelpFirst)
   EXPECT_EQ(workbench.run().status().state, job::State::running);
 }
 
-TEST_F(PanelsTest, ANoteMovesNothing)
-{
+TEST_F(PanelsTest, ANoteMovesNothing) {
   open();
   frames(2);
   const double height = view().canvas().size[1];
@@ -176,8 +165,7 @@ TEST_F(PanelsTest, ANoteMovesNothing)
   EXPECT_EQ(view().canvas().size[1], height);
 }
 
-TEST_F(PanelsTest, AnErrorTakesAStripThatGoesWhenItIsDismissed)
-{
+TEST_F(PanelsTest, AnErrorTakesAStripThatGoesWhenItIsDismissed) {
   open();
   frames(2);
   const double height = view().canvas().size[1];
@@ -192,8 +180,7 @@ TEST_F(PanelsTest, AnErrorTakesAStripThatGoesWhenItIsDismissed)
 /// A panel that fails with windows, groups and identifiers open.
 class FailingPanel : public Panel {
 public:
-  void draw(const Context&) override
-  {
+  void draw(const Context&) override {
     ImGui::PushID("deep");
     ImGui::BeginGroup();
     ImGui::BeginChild("inside");
@@ -201,8 +188,7 @@ public:
   }
 };
 
-TEST_F(PanelsTest, APanelThatThrowsBecomesOneMessage)
-{
+TEST_F(PanelsTest, APanelThatThrowsBecomesOneMessage) {
   open();
   workspace.add({"failing", "Failing", "", nullptr}, std::make_unique<FailingPanel>());
   frames(5);
@@ -220,8 +206,7 @@ private:
   int& drawn_;
 };
 
-TEST_F(PanelsTest, APanelIsThereForThePresetsOfItsEngineOnly)
-{
+TEST_F(PanelsTest, APanelIsThereForThePresetsOfItsEngineOnly) {
   int of_this = 0, of_another = 0, of_all = 0;
   workspace.add({"this", "This", "spectral", nullptr}, std::make_unique<CountingPanel>(of_this));
   workspace.add({"another", "Another", "anagram", nullptr}, std::make_unique<CountingPanel>(of_another));
@@ -235,15 +220,14 @@ TEST_F(PanelsTest, APanelIsThereForThePresetsOfItsEngineOnly)
   EXPECT_EQ(of_all, 4);
 }
 
-TEST(Layouts, AreNamedAfterThePanelInFront)
-{
-  for (const char* name : {"", "error", "dispersion", "spectra", "plan", "parameters"}) EXPECT_NO_THROW(check_layout(name)) << name;
+TEST(Layouts, AreNamedAfterThePanelInFront) {
+  for (const char* name : {"", "error", "dispersion", "spectra", "plan", "parameters"})
+    EXPECT_NO_THROW(check_layout(name)) << name;
   EXPECT_THROW(check_layout("view"), Error) << "it has a side of its own";
   for (const PanelEntry& entry : panel_table().subspan(1)) EXPECT_NO_THROW(check_layout(std::string(entry.name)));
 }
 
-TEST_F(PanelsTest, KeysBelongToADialogWhileItIsOpen)
-{
+TEST_F(PanelsTest, KeysBelongToADialogWhileItIsOpen) {
   runs.steps = 100000;
   open();
   press(ImGuiKey_S, ImGuiMod_Ctrl);
@@ -257,8 +241,7 @@ TEST_F(PanelsTest, KeysBelongToADialogWhileItIsOpen)
   EXPECT_NE(workbench.run().status().state, job::State::cancelled);
 }
 
-TEST_F(PanelsTest, AnotherResolutionGetsAnotherTexture)
-{
+TEST_F(PanelsTest, AnotherResolutionGetsAnotherTexture) {
   open();
   for (int size : {32, 80, 16}) {
     edit([&](preset::Preset& p) { p.scene.camera.resolution = {size, size}; });
@@ -268,8 +251,7 @@ TEST_F(PanelsTest, AnotherResolutionGetsAnotherTexture)
   }
 }
 
-TEST_F(PanelsTest, APictureBeyondTheRenderersTexturesIsSaidNotDrawn)
-{
+TEST_F(PanelsTest, APictureBeyondTheRenderersTexturesIsSaidNotDrawn) {
   runs.steps = 100000;
   open();
   const PictureTexture& texture = view().texture();
@@ -291,8 +273,7 @@ TEST_F(PanelsTest, APictureBeyondTheRenderersTexturesIsSaidNotDrawn)
   EXPECT_EQ(drawn_pictures(), 1);
 }
 
-TEST(StatusLine, SaysRatesAndTimesAsAPersonWould)
-{
+TEST(StatusLine, SaysRatesAndTimesAsAPersonWould) {
   EXPECT_EQ(duration_text(9.6), "10 s");
   EXPECT_EQ(duration_text(185), "3 min 05 s");
   EXPECT_EQ(duration_text(7800), "2 h 10 min");

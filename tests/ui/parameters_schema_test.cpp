@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every field of the schema is edited through the panel "Parameters" by an injected mouse and keys: each type of each object, each word of
-// each choice. An edit changes its own field and nothing else; undo gives the same bytes.
+// Every field of the schema is edited through the panel "Parameters" by an injected mouse and keys: each type of each
+// object, each word of each choice. An edit changes its own field and nothing else; undo gives the same bytes.
 #include "parameters_fixture.h"
 #include "preset/schema.h"
 
@@ -12,7 +12,9 @@ const std::map<std::string, std::vector<std::string>> names{
 /// What a property may be besides null.
 const Json& given(const Json& node) { return node.contains("anyOf") ? node["anyOf"][0] : node; }
 
-bool is_optional(const Json& node) { return node.contains("anyOf") && node["anyOf"].back().value("type", "") == "null"; }
+bool is_optional(const Json& node) {
+  return node.contains("anyOf") && node["anyOf"].back().value("type", "") == "null";
+}
 
 class ParametersSchemaTest : public test::ParametersFixture {
 protected:
@@ -23,17 +25,16 @@ protected:
   std::set<std::string> visited; ///< structs with their types
 
   /// The name of the struct that a property is, or has items of; empty for a leaf.
-  static std::string struct_of(const Json& property)
-  {
+  static std::string struct_of(const Json& property) {
     const Json& node = given(property);
     if (node.contains("$ref")) return node["$ref"].get<std::string>().substr(8);
     for (const char* inner : {"items", "additionalProperties"})
-      if (node.contains(inner) && node[inner].is_object() && (node[inner].contains("$ref") || node[inner].contains("anyOf")))
+      if (node.contains(inner) && node[inner].is_object() &&
+          (node[inner].contains("$ref") || node[inner].contains("anyOf")))
         return struct_of(node[inner]);
     return {};
   }
-  std::set<std::string> leaves() const
-  {
+  std::set<std::string> leaves() const {
     std::set<std::string> all;
     const auto add = [&](const std::string& owner, const Json& properties) {
       for (const auto& [name, property] : properties.items())
@@ -48,31 +49,30 @@ protected:
     }
     return all;
   }
-  static std::vector<Json> types(const Json& definition)
-  {
+  static std::vector<Json> types(const Json& definition) {
     std::vector<Json> all;
     for (const Json& one : definition.value("oneOf", definition.value("anyOf", Json::array())))
-      if (one.contains("properties") && one["properties"].contains("type") && one["properties"]["type"].contains("const"))
+      if (one.contains("properties") && one["properties"].contains("type") &&
+          one["properties"]["type"].contains("const"))
         all.push_back(one);
     return all;
   }
 
   /// Nothing waits, and the preset is what it was.
-  void restore(const std::string& before)
-  {
+  void restore(const std::string& before) {
     while (!problems().empty() && !HasFatalFailure()) click(problems().begin()->first + ":drop");
     for (int i = 0; i < 100 && text() != before; ++i) undo();
     ASSERT_EQ(text(), before);
   }
-  bool is_engine(const std::string& name) const
-  {
+  bool is_engine(const std::string& name) const {
     const Json& words = schema["properties"]["engine"]["oneOf"];
     return std::any_of(words.begin(), words.end(), [&](const Json& word) { return word["const"] == name; });
   }
   /// null where there is none: settings that are not given.
-  Json drafted(const std::string& pointer) const { return panel().draft().value().value(Json::json_pointer(pointer), Json()); }
-  static std::set<std::string> differences(const std::string& before, const std::string& after)
-  {
+  Json drafted(const std::string& pointer) const {
+    return panel().draft().value().value(Json::json_pointer(pointer), Json());
+  }
+  static std::set<std::string> differences(const std::string& before, const std::string& after) {
     const Json a = Json::parse(before).flatten(), b = Json::parse(after).flatten();
     std::set<std::string> found;
     for (const auto& [key, value] : a.items())
@@ -83,8 +83,7 @@ protected:
   }
 
   /// Other values that a plain field may be given, as they are typed or chosen; of a box that is clicked, nothing.
-  std::vector<std::string> candidates(const Json& node, const std::string& pointer, const std::string& owner) const
-  {
+  std::vector<std::string> candidates(const Json& node, const std::string& pointer, const std::string& owner) const {
     const Json now = drafted(pointer);
     std::vector<std::string> all;
     if (node.contains("oneOf"))
@@ -92,7 +91,8 @@ protected:
     else if (const auto named = names.find(pointer.substr(pointer.rfind('/') + 1)); named != names.end())
       all = named->second;
     else if (node.value("minLength", 0) > 0)
-      all = owner.starts_with("Dispersion") ? std::vector<std::string>{"N-BK7", "N-SF66"} : std::vector<std::string>{"a.exr", "b.exr"};
+      all = owner.starts_with("Dispersion") ? std::vector<std::string>{"N-BK7", "N-SF66"}
+                                            : std::vector<std::string>{"a.exr", "b.exr"};
     else if (pointer == "/environment/directions")
       all = {"98", "386"};
     else if (pointer == "/animation/tracks/0/path")
@@ -109,8 +109,7 @@ protected:
     std::erase_if(all, [&](const std::string& candidate) { return now == candidate; });
     return all;
   }
-  void set(const Json& node, const std::string& pointer, const std::string& to)
-  {
+  void set(const Json& node, const std::string& pointer, const std::string& to) {
     const bool named = names.contains(pointer.substr(pointer.rfind('/') + 1));
     search(dotted(pointer));
     if (node.value("type", "") == "boolean")
@@ -121,12 +120,12 @@ protected:
       enter(pointer, to);
   }
   /// One plain value is edited, and the edit taken back.
-  void edit_plain(const Json& node, const std::string& pointer, const std::string& owner)
-  {
+  void edit_plain(const Json& node, const std::string& pointer, const std::string& owner) {
     SCOPED_TRACE(pointer);
     const std::string before = text();
     ASSERT_TRUE(problems().empty()) << problems().begin()->second.text;
-    std::vector<std::string> to = node.value("type", "") == "boolean" ? std::vector<std::string>{""} : candidates(node, pointer, owner);
+    std::vector<std::string> to =
+        node.value("type", "") == "boolean" ? std::vector<std::string>{""} : candidates(node, pointer, owner);
     bool once = false;
     for (const std::string& candidate : to) {
       if (once && !node.contains("oneOf")) break; // of a choice every word
@@ -147,8 +146,7 @@ protected:
     EXPECT_TRUE(once) << "none of its other values was taken";
   }
   /// A plain value, or each of the numbers in a list or table, which is given items first.
-  void edit_leaf(const Json& node, const std::string& pointer, const std::string& owner)
-  {
+  void edit_leaf(const Json& node, const std::string& pointer, const std::string& owner) {
     if (node.value("type", "") != "array") return edit_plain(node, pointer, owner);
     if (pointer == "/environment/objects") { // none is what it has without
       search(dotted(pointer));
@@ -160,14 +158,14 @@ protected:
     for (std::size_t i = 0; i < now.size(); ++i)
       if (now[i].is_array())
         for (std::size_t c = 0; c < 2; ++c)
-          edit_plain(node["items"]["prefixItems"][c], child_of(child_of(pointer, std::to_string(i)), std::to_string(c)), owner);
+          edit_plain(node["items"]["prefixItems"][c], child_of(child_of(pointer, std::to_string(i)), std::to_string(c)),
+                     owner);
       else
         edit_plain(node["items"], child_of(pointer, std::to_string(i)), owner);
     EXPECT_FALSE(now.empty()) << pointer;
   }
   /// Of an object that was given a type or given at all: what it cannot do without.
-  void fill(const Json& properties, const std::string& pointer, const std::string& owner)
-  {
+  void fill(const Json& properties, const std::string& pointer, const std::string& owner) {
     for (const auto& [name, node] : properties.items()) {
       const std::string at = child_of(pointer, name);
       if (problems().empty() || node.contains("const") || !struct_of(node).empty() || is_optional(node)) continue;
@@ -183,8 +181,7 @@ protected:
     ASSERT_TRUE(problems().empty()) << pointer << ": " << problems().begin()->second.text;
   }
 
-  void visit_properties(const Json& properties, const std::string& pointer, const std::string& owner)
-  {
+  void visit_properties(const Json& properties, const std::string& pointer, const std::string& owner) {
     for (const auto& [name, property] : properties.items()) {
       if (HasFatalFailure()) return;
       if (pointer.empty() && !panel().draft().value().contains(name)) continue; // of the file, not of the preset
@@ -193,11 +190,11 @@ protected:
       visit(property, child_of(pointer, name), owner, owner + "." + name);
     }
   }
-  void visit(const Json& property, const std::string& pointer, const std::string& owner, const std::string& leaf)
-  {
+  void visit(const Json& property, const std::string& pointer, const std::string& owner, const std::string& leaf) {
     SCOPED_TRACE(pointer);
     const std::string before = text(), type = struct_of(property);
-    if (property.contains("const") || property.value("oneOf", Json()).size() == 1) { // edited by whoever chose it, or the only one
+    if (property.contains("const") ||
+        property.value("oneOf", Json()).size() == 1) { // edited by whoever chose it, or the only one
       search(dotted(pointer));
       EXPECT_TRUE(panel().place_of(pointer)) << "a choice of types";
     } else {
@@ -209,22 +206,24 @@ protected:
         search(dotted(pointer));
         click(pointer + ":given");
         EXPECT_FALSE(drafted(pointer).is_null());
-        if (type.empty() && drafted(pointer) == "") set(given(property), pointer, candidates(given(property), pointer, owner).front());
+        if (type.empty() && drafted(pointer) == "")
+          set(given(property), pointer, candidates(given(property), pointer, owner).front());
       }
       if (type.empty())
         edit_leaf(given(property), pointer, owner);
       else
         visit_struct(type, given(property).value("type", "") == "array" ? pointer + "/0"
-                           : given(property).contains("$ref")           ? pointer
-                                                                        : child_of(pointer, drafted(pointer).items().begin().key()));
+                           : given(property).contains("$ref")
+                               ? pointer
+                               : child_of(pointer, drafted(pointer).items().begin().key()));
       restore(before);
     }
     if (type.empty()) edited.insert(leaf);
   }
-  void visit_struct(const std::string& name, const std::string& pointer)
-  {
+  void visit_struct(const std::string& name, const std::string& pointer) {
     const Json& definition = schema["$defs"][name];
-    if (definition.contains("properties") && visited.insert(name).second) visit_properties(definition["properties"], pointer, name);
+    if (definition.contains("properties") && visited.insert(name).second)
+      visit_properties(definition["properties"], pointer, name);
     for (const Json& type : types(definition)) {
       const std::string word = type["title"], owner = name + "." + word;
       if (!visited.insert(owner).second) continue;
@@ -244,8 +243,7 @@ protected:
   }
 };
 
-TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes)
-{
+TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes) {
   for (const char* file : {"a.exr", "b.exr"}) folder.write(file, "a file that is there");
   Json preset = Json::parse(test::preset_text);
   preset["scene"]["materials"]["glass"] = {{"type", "dielectric"}, {"dispersion", 1.5}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Parameters": what is impossible is said at its field while the run goes on, a gesture is one entry, lists take and lose items,
-// the search finds. parameters_schema_test.cpp reaches every field.
+// The panel "Parameters": what is impossible is said at its field while the run goes on, a gesture is one entry, lists
+// take and lose items, the search finds. parameters_schema_test.cpp reaches every field.
 #include "parameters_fixture.h"
 
 namespace nephroid::ui::parameters_test {
@@ -10,23 +10,20 @@ const std::string fov = "/scene/camera/fov_deg", white = "/white";
 class ParametersTest : public test::ParametersFixture {
 protected:
   /// Why the edit at this pointer waits; empty where it does not.
-  std::string problem(const std::string& pointer) const
-  {
+  std::string problem(const std::string& pointer) const {
     const auto found = problems().find(pointer);
     return found == problems().end() ? "" : found->second.text;
   }
   int made() const { return runs.made; }
 };
 
-TEST_F(ParametersTest, WithoutAPresetItSaysSo)
-{
+TEST_F(ParametersTest, WithoutAPresetItSaysSo) {
   frames(3);
   EXPECT_FALSE(panel().place_of("search"));
   EXPECT_THAT(workbench.messages(), IsEmpty());
 }
 
-TEST_F(ParametersTest, WhatIsImpossibleIsSaidAtItsFieldAndTheRunGoesOn)
-{
+TEST_F(ParametersTest, WhatIsImpossibleIsSaidAtItsFieldAndTheRunGoesOn) {
   open();
   const std::string before = text();
   const int runs_before = made();
@@ -59,10 +56,10 @@ TEST_F(ParametersTest, WhatIsImpossibleIsSaidAtItsFieldAndTheRunGoesOn)
   EXPECT_EQ(text(), before) << "two entries";
 }
 
-TEST_F(ParametersTest, NumbersAreReadAsPeopleTypeThem)
-{
+TEST_F(ParametersTest, NumbersAreReadAsPeopleTypeThem) {
   open();
-  for (const auto& [typed, number] : std::map<std::string, double>{{".02", .02}, {"+3", 3}, {"1e5", 1e5}, {"7.", 7}, {" 5 ", 5}}) {
+  for (const auto& [typed, number] :
+       std::map<std::string, double>{{".02", .02}, {"+3", 3}, {"1e5", 1e5}, {"7.", 7}, {" 5 ", 5}}) {
     enter(white, typed);
     EXPECT_EQ(at(white), number) << typed;
   }
@@ -72,8 +69,7 @@ TEST_F(ParametersTest, NumbersAreReadAsPeopleTypeThem)
   EXPECT_THAT(problem("/seed"), HasSubstr("expected a whole number"));
 }
 
-TEST_F(ParametersTest, WhileItIsTypedItIsSaidAlready)
-{
+TEST_F(ParametersTest, WhileItIsTypedItIsSaidAlready) {
   open();
   const std::string before = text();
   begin_typing(fov, "0");
@@ -89,8 +85,7 @@ TEST_F(ParametersTest, WhileItIsTypedItIsSaidAlready)
   EXPECT_EQ(at(fov), 61) << "taken where the keyboard goes elsewhere";
 }
 
-TEST_F(ParametersTest, ADragIsOneEntryAndTheRunFollows)
-{
+TEST_F(ParametersTest, ADragIsOneEntryAndTheRunFollows) {
   open();
   const std::string before = text();
   search("scene.camera.fov_deg");
@@ -116,8 +111,7 @@ TEST_F(ParametersTest, ADragIsOneEntryAndTheRunFollows)
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
-TEST_F(ParametersTest, EditsThatNeedEachOtherAreOneEntry)
-{
+TEST_F(ParametersTest, EditsThatNeedEachOtherAreOneEntry) {
   folder.write("ball.obj", "");
   open();
   const std::string before = text(), object = "/scene/objects/0", other = object + "/mesh";
@@ -136,8 +130,7 @@ TEST_F(ParametersTest, EditsThatNeedEachOtherAreOneEntry)
   EXPECT_EQ(text(), before);
 }
 
-TEST_F(ParametersTest, AWhiteThatIsFittedIsANumberAsSoonAsItIsKnown)
-{
+TEST_F(ParametersTest, AWhiteThatIsFittedIsANumberAsSoonAsItIsKnown) {
   runs.white = 2.5;
   open();
   enter(white, "7");
@@ -158,9 +151,9 @@ TEST_F(ParametersTest, AWhiteThatIsFittedIsANumberAsSoonAsItIsKnown)
   EXPECT_THAT(last_message(workbench), HasSubstr("white 2.5 fits the first picture"));
 }
 
-TEST_F(ParametersTest, AnotherEngineIsChosenWhateverTheOldOneHad)
-{
-  open(R"({"engine": "spectral", "white": "auto", "scene": {"camera": {"resolution": [32, 24]}, "lights": [{"type": "point"}]},
+TEST_F(ParametersTest, AnotherEngineIsChosenWhateverTheOldOneHad) {
+  open(
+      R"({"engine": "spectral", "white": "auto", "scene": {"camera": {"resolution": [32, 24]}, "lights": [{"type": "point"}]},
     "spectral": {"threshold_deg": 1}, "reference": {"type": "recipe", "spectral": {"step_nm": 2}}, "stop": {"error": 0.5}})");
   const std::string before = text();
   choose("/engine", "inverse");
@@ -169,14 +162,14 @@ TEST_F(ParametersTest, AnotherEngineIsChosenWhateverTheOldOneHad)
   EXPECT_EQ(at("/scene/camera/resolution"), Json({32, 24}));
   EXPECT_TRUE(at("/scene/lights").empty());
   ASSERT_FALSE(workbench.messages().empty());
-  EXPECT_EQ(workbench.messages().back().line, "left out what the engine 'inverse' does not know: spectral, reference.spectral, "
-                                              "scene.lights, white, reference, stop.error (Undo brings it back)");
+  EXPECT_EQ(workbench.messages().back().line,
+            "left out what the engine 'inverse' does not know: spectral, reference.spectral, "
+            "scene.lights, white, reference, stop.error (Undo brings it back)");
   undo();
   EXPECT_EQ(text(), before);
 }
 
-TEST_F(ParametersTest, WhatWaitsIsTakenBack)
-{
+TEST_F(ParametersTest, WhatWaitsIsTakenBack) {
   open();
   enter(fov, "200");
   enter(white, "-1");
@@ -196,8 +189,7 @@ TEST_F(ParametersTest, WhatWaitsIsTakenBack)
   EXPECT_THAT(problems(), IsEmpty()) << "another preset";
 }
 
-TEST_F(ParametersTest, AFieldIsResetAndWhatIsNotByDefaultIsMarked)
-{
+TEST_F(ParametersTest, AFieldIsResetAndWhatIsNotByDefaultIsMarked) {
   open();
   search("passes");
   EXPECT_TRUE(panel().place_of("/stop/passes"));
@@ -219,8 +211,7 @@ TEST_F(ParametersTest, AFieldIsResetAndWhatIsNotByDefaultIsMarked)
   EXPECT_FALSE(panel().place_of(fov));
 }
 
-TEST_F(ParametersTest, TheSearchFindsNamesUnitsAndHelp)
-{
+TEST_F(ParametersTest, TheSearchFindsNamesUnitsAndHelp) {
   open();
   search("refraction angle");
   EXPECT_TRUE(panel().place_of("/spectral/threshold_deg"));
@@ -235,8 +226,7 @@ TEST_F(ParametersTest, TheSearchFindsNamesUnitsAndHelp)
   EXPECT_FALSE(panel().place_of(fov)) << "closed, as it was before the search";
 }
 
-TEST_F(ParametersTest, ItemsOfAListAreAddedCopiedMovedAndRemoved)
-{
+TEST_F(ParametersTest, ItemsOfAListAreAddedCopiedMovedAndRemoved) {
   open();
   const std::string before = text(), lights = "/scene/lights", objects = "/scene/objects";
   search("scene.lights");
@@ -259,8 +249,7 @@ TEST_F(ParametersTest, ItemsOfAListAreAddedCopiedMovedAndRemoved)
   EXPECT_EQ(text(), before);
 }
 
-TEST_F(ParametersTest, AnObjectThatIsAddedWaitsUntilItIsWhole)
-{
+TEST_F(ParametersTest, AnObjectThatIsAddedWaitsUntilItIsWhole) {
   open();
   const std::string before = text(), added = "/scene/objects/1";
   search("scene.objects");
@@ -276,8 +265,7 @@ TEST_F(ParametersTest, AnObjectThatIsAddedWaitsUntilItIsWhole)
   EXPECT_EQ(text(), before) << "one entry";
 }
 
-TEST_F(ParametersTest, AMaterialIsRenamedWithItsUses)
-{
+TEST_F(ParametersTest, AMaterialIsRenamedWithItsUses) {
   open();
   const std::string before = text(), materials = "/scene/materials";
   search("scene.materials");
@@ -304,8 +292,7 @@ TEST_F(ParametersTest, AMaterialIsRenamedWithItsUses)
   EXPECT_EQ(text(), before);
 }
 
-TEST_F(ParametersTest, RowsOfATableAreAddedSortedAndRemoved)
-{
+TEST_F(ParametersTest, RowsOfATableAreAddedSortedAndRemoved) {
   open();
   const std::string spectrum = "/scene/lights/0/spectrum", table = spectrum + "/table";
   search("scene.lights.0.spectrum");
@@ -326,8 +313,7 @@ TEST_F(ParametersTest, RowsOfATableAreAddedSortedAndRemoved)
   EXPECT_THAT(at(table), SizeIs(2));
 }
 
-TEST_F(ParametersTest, AFileIsChosenFromAList)
-{
+TEST_F(ParametersTest, AFileIsChosenFromAList) {
   folder.write("mask.exr", "");
   open();
   search("measure.mask");
@@ -338,8 +324,7 @@ TEST_F(ParametersTest, AFileIsChosenFromAList)
   EXPECT_EQ(at("/measure/mask"), "mask.exr");
 }
 
-TEST_F(ParametersTest, WhatARunRefusesIsSaidAtItsFieldToo)
-{
+TEST_F(ParametersTest, WhatARunRefusesIsSaidAtItsFieldToo) {
   open();
   runs.refusal = bad_input(Place(workbench.preset()->source, fov), "is not to this run's taste");
   workbench.apply({command::Restart{}});
@@ -348,8 +333,7 @@ TEST_F(ParametersTest, WhatARunRefusesIsSaidAtItsFieldToo)
   EXPECT_TRUE(panel().place_of(fov + ":problem"));
 }
 
-TEST_F(ParametersTest, ATableOfManyRowsIsDrawnInAFrame)
-{
+TEST_F(ParametersTest, ATableOfManyRowsIsDrawnInAFrame) {
   Json preset = Json::parse(test::preset_text);
   Json& table = preset["scene"]["lights"][0]["spectrum"] = {{"type", "table"}};
   for (int i = 0; i < 20000; ++i) table["table"].push_back({300 + 0.005 * i, 1});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of other programs in the window: opened, listed, chosen by keys, beside the run's picture or cut at a line, and measured. The
-// run's picture is (0, 0, 4) everywhere, 64 x 48.
+// Pictures of other programs in the window: opened, listed, chosen by keys, beside the run's picture or cut at a line,
+// and measured. The run's picture is (0, 0, 4) everywhere, 64 x 48.
 #include "base/files.h"
 #include "image/image.h"
 #include "measure/read_picture.h"
@@ -17,8 +17,8 @@ protected:
   PicturesTest() : WindowFixture("runs") {}
 
   /// An EXR file with these channels, each of one value.
-  std::string exr(const std::string& name, const std::vector<std::pair<std::string, float>>& channels, const std::array<int, 2>& of = size)
-  {
+  std::string exr(const std::string& name, const std::vector<std::pair<std::string, float>>& channels,
+                  const std::array<int, 2>& of = size) {
     image::Image picture{of[0], of[1], {}, {}, {}};
     for (const auto& [channel, value] : channels) picture.channels.push_back(channel);
     for (int i = 0; i < of[0] * of[1]; ++i)
@@ -27,16 +27,14 @@ protected:
     image::write_exr(file, picture);
     return file.string();
   }
-  std::string even(const std::string& name, const std::array<float, 3>& rgb, const std::array<int, 2>& of = size)
-  {
+  std::string even(const std::string& name, const std::array<float, 3>& rgb, const std::array<int, 2>& of = size) {
     return exr(name, {{"R", rgb[0]}, {"G", rgb[1]}, {"B", rgb[2]}}, of);
   }
   const std::vector<PinnedRun>& pins() const { return workbench.comparing().pinned().all(); }
   const Comparison& comparison() const { return workbench.comparing().comparison(); }
   const RunsPanel& panel() const { return workspace.panel<RunsPanel>(); }
   /// Its id.
-  std::uint64_t open_picture(const std::string& file)
-  {
+  std::uint64_t open_picture(const std::string& file) {
     const std::size_t before = pins().size();
     workbench.apply({command::PinFile{file, true}});
     EXPECT_TRUE(until([&] { return pins().size() == before + 1; })) << file;
@@ -44,27 +42,26 @@ protected:
     return pins().empty() ? 0 : pins().back().id;
   }
   /// What is said of a file that cannot be opened.
-  std::string refusal(const std::string& file)
-  {
+  std::string refusal(const std::string& file) {
     workbench.apply({command::PinFile{file, true}});
     EXPECT_TRUE(until_files_are_done());
     frame();
     EXPECT_TRUE(pins().empty());
     return test::last_message(workbench);
   }
-  std::array<int, 3> texel(const PictureTexture& texture) const { return {texture.pixels()[0], texture.pixels()[1], texture.pixels()[2]}; }
-  Point on_screen(const Point& pixel) const
-  {
-    return place(workbench.view_state().view_settings, view().canvas(), view().shown().size).to_screen({pixel[0] + 0.5, pixel[1] + 0.5});
+  std::array<int, 3> texel(const PictureTexture& texture) const {
+    return {texture.pixels()[0], texture.pixels()[1], texture.pixels()[2]};
   }
-  bool until_measured()
-  {
+  Point on_screen(const Point& pixel) const {
+    return place(workbench.view_state().view_settings, view().canvas(), view().shown().size)
+        .to_screen({pixel[0] + 0.5, pixel[1] + 0.5});
+  }
+  bool until_measured() {
     return until([&] { return workbench.comparing().metrics() != nullptr; });
   }
 };
 
-TEST_F(PicturesTest, AnOpenedPictureIsListedAndShown)
-{
+TEST_F(PicturesTest, AnOpenedPictureIsListedAndShown) {
   run_through();
   const std::string file = even("mitsuba.exr", {1, 0, 0}, {32, 16});
   const std::uint64_t id = open_picture(file);
@@ -83,10 +80,10 @@ TEST_F(PicturesTest, AnOpenedPictureIsListedAndShown)
   EXPECT_EQ(runs.made, 1) << "no new run";
 }
 
-TEST_F(PicturesTest, KeysChooseWhatIsShownAndWhatItIsComparedWith)
-{
+TEST_F(PicturesTest, KeysChooseWhatIsShownAndWhatItIsComparedWith) {
   run_through();
-  const std::uint64_t red = open_picture(even("red.exr", {1, 0, 0})), green = open_picture(even("green.exr", {0, 1, 0}));
+  const std::uint64_t red = open_picture(even("red.exr", {1, 0, 0})),
+                      green = open_picture(even("green.exr", {0, 1, 0}));
   press(ImGuiKey_2);
   EXPECT_EQ(comparison().shown, red);
   press(ImGuiKey_3);
@@ -118,8 +115,7 @@ TEST_F(PicturesTest, KeysChooseWhatIsShownAndWhatItIsComparedWith)
   EXPECT_EQ(comparison().pin, green);
 }
 
-TEST_F(PicturesTest, AnOpenedPictureIsMovedWithoutACamera)
-{
+TEST_F(PicturesTest, AnOpenedPictureIsMovedWithoutACamera) {
   run_through();
   open_picture(even("red.exr", {1, 0, 0}));
   const preset::Camera before = camera();
@@ -136,8 +132,7 @@ TEST_F(PicturesTest, AnOpenedPictureIsMovedWithoutACamera)
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
-TEST_F(PicturesTest, SplitsTwoPicturesAtALineThatIsDragged)
-{
+TEST_F(PicturesTest, SplitsTwoPicturesAtALineThatIsDragged) {
   run_through();
   const std::uint64_t red = open_picture(even("red.exr", {1, 0, 0}));
   press(ImGuiKey_1);
@@ -171,11 +166,11 @@ TEST_F(PicturesTest, SplitsTwoPicturesAtALineThatIsDragged)
   EXPECT_FALSE(view().place_of("line"));
 }
 
-TEST_F(PicturesTest, TwoSideBySideHaveTheSameZoomAndPixel)
-{
+TEST_F(PicturesTest, TwoSideBySideHaveTheSameZoomAndPixel) {
   run_through();
   image::Image ramp{64, 48, {"R", "G", "B"}, {}, {}};
-  for (int i = 0; i < 64 * 48; ++i) ramp.data.insert(ramp.data.end(), {static_cast<float>(i % 64), static_cast<float>(i / 64), 0});
+  for (int i = 0; i < 64 * 48; ++i)
+    ramp.data.insert(ramp.data.end(), {static_cast<float>(i % 64), static_cast<float>(i / 64), 0});
   image::write_exr(folder.path() / "ramp.exr", ramp);
   const std::uint64_t id = open_picture((folder.path() / "ramp.exr").string());
   apply({command::ShowPicture{}, command::CompareWith{id}});
@@ -203,8 +198,7 @@ TEST_F(PicturesTest, TwoSideBySideHaveTheSameZoomAndPixel)
   EXPECT_EQ(workbench.view_state().pixel, (std::optional(std::array{20, 10}))) << "a pixel is inspected in either";
 }
 
-TEST_F(PicturesTest, MetricsAreOfTheShownAgainstTheCompared)
-{
+TEST_F(PicturesTest, MetricsAreOfTheShownAgainstTheCompared) {
   run_through();
   const std::string file = even("other.exr", {0, 0, 3});
   const std::uint64_t id = open_picture(file);
@@ -231,8 +225,7 @@ TEST_F(PicturesTest, MetricsAreOfTheShownAgainstTheCompared)
   EXPECT_FALSE(view().place_of("metrics"));
 }
 
-TEST_F(PicturesTest, OneOfAnotherSizeIsShownAndSaidNotToBeMeasured)
-{
+TEST_F(PicturesTest, OneOfAnotherSizeIsShownAndSaidNotToBeMeasured) {
   run_through();
   const std::uint64_t id = open_picture(even("small.exr", {1, 0, 0}, {32, 16}));
   apply({command::ShowPicture{}, command::CompareWith{id}, command::Arrange{Arrangement::side_by_side}});
@@ -251,38 +244,40 @@ TEST_F(PicturesTest, OneOfAnotherSizeIsShownAndSaidNotToBeMeasured)
   EXPECT_TRUE(test::last_message(workbench).starts_with("opened"));
 }
 
-TEST_F(PicturesTest, ABrokenPictureIsSaidInOneLine)
-{
+TEST_F(PicturesTest, ABrokenPictureIsSaidInOneLine) {
   run_through();
   const std::string whole = read_file(even("whole.exr", {1, 0, 0}));
-  EXPECT_THAT(refusal(folder.write("cut.exr", whole.substr(0, whole.size() / 2))), HasSubstr("cut.exr: is no picture that can be read"));
+  EXPECT_THAT(refusal(folder.write("cut.exr", whole.substr(0, whole.size() / 2))),
+              HasSubstr("cut.exr: is no picture that can be read"));
   EXPECT_THAT(refusal(folder.write("text.png", "no picture")), HasSubstr("text.png: is no picture that can be read"));
   EXPECT_THAT(refusal((folder.path() / "gone.exr").string()), HasSubstr("gone.exr"));
-  EXPECT_THAT(refusal(exr("depth.exr", {{"Z", 1}})), HasSubstr("depth.exr: has the channels Z; expected R, G, B or Y alone"));
-  for (const Message& message : workbench.messages()) EXPECT_EQ(message.line.find('\n'), std::string::npos) << message.line;
+  EXPECT_THAT(refusal(exr("depth.exr", {{"Z", 1}})),
+              HasSubstr("depth.exr: has the channels Z; expected R, G, B or Y alone"));
+  for (const Message& message : workbench.messages())
+    EXPECT_EQ(message.line.find('\n'), std::string::npos) << message.line;
 }
 
-TEST_F(PicturesTest, OtherChannelsAreReadAsTheyCanBe)
-{
+TEST_F(PicturesTest, OtherChannelsAreReadAsTheyCanBe) {
   run_through();
   open_picture(exr("grey.exr", {{"Y", 1}}));
   EXPECT_EQ(pins().back().read_as, "floats, linear, grey");
   EXPECT_EQ(texel(view().texture()), (std::array{255, 255, 255}));
   open_picture(
-      exr("layers.exr", {{"caustic.R", 0}, {"caustic.G", 1}, {"caustic.B", 0}, {"direct.R", 1}, {"direct.G", 0}, {"direct.B", 0}}));
+      exr("layers.exr",
+          {{"caustic.R", 0}, {"caustic.G", 1}, {"caustic.B", 0}, {"direct.R", 1}, {"direct.G", 0}, {"direct.B", 0}}));
   EXPECT_EQ(pins().back().read_as, "floats, linear, layer caustic");
   EXPECT_EQ(texel(view().texture()), (std::array{0, 255, 0}));
   apply({command::ShowLayer{"direct"}});
   EXPECT_EQ(texel(view().texture()), (std::array{255, 0, 0}));
   apply({command::ShowLayer{}});
   // Mitsuba 3, with the integrator aov: R, G, B, A and what else it was asked for.
-  open_picture(exr("aov.exr", {{"R", 0}, {"G", 1}, {"B", 1}, {"A", 1}, {"dd.y", 3}, {"nn.X", 0}, {"nn.Y", 0}, {"nn.Z", 1}}));
+  open_picture(
+      exr("aov.exr", {{"R", 0}, {"G", 1}, {"B", 1}, {"A", 1}, {"dd.y", 3}, {"nn.X", 0}, {"nn.Y", 0}, {"nn.Z", 1}}));
   EXPECT_EQ(pins().back().read_as, "floats, linear");
   EXPECT_EQ(texel(view().texture()), (std::array{0, 255, 255}));
 }
 
-TEST_F(PicturesTest, IntegersAreDecoded)
-{
+TEST_F(PicturesTest, IntegersAreDecoded) {
   run_through();
   // sRGB .5 of 16 bits, as a display shows it: .2140 linear (IEC 61966-2-1).
   write_file_whole(folder.path() / "half.png", [](ByteSink& to) {
@@ -294,8 +289,7 @@ TEST_F(PicturesTest, IntegersAreDecoded)
   EXPECT_EQ(texel(view().texture()), (std::array{128, 128, 128}));
 }
 
-TEST_F(PicturesTest, ANotANumberIsShownButNotMeasured)
-{
+TEST_F(PicturesTest, ANotANumberIsShownButNotMeasured) {
   run_through();
   image::Image picture{64, 48, {"R", "G", "B"}, std::vector<float>(std::size_t{3} * 64 * 48, 1), {}};
   picture.data[3 * (64 * 2 + 5)] = std::numeric_limits<float>::quiet_NaN();
@@ -303,27 +297,27 @@ TEST_F(PicturesTest, ANotANumberIsShownButNotMeasured)
   open_picture((folder.path() / "hole.exr").string());
   apply({command::CompareWith{Comparison::run_in_hand}});
   ASSERT_TRUE(until_measured());
-  EXPECT_THAT(workbench.comparing().metrics()->error, AllOf(HasSubstr("hole.exr"), HasSubstr("5, 2"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(workbench.comparing().metrics()->error,
+              AllOf(HasSubstr("hole.exr"), HasSubstr("5, 2"), Not(HasSubstr("\n"))));
   EXPECT_THAT(pixel_text(context(), {5, 2}), HasSubstr("R nan"));
   frames(80);
   EXPECT_THAT(test::only_message(workbench), Not(HasSubstr("|"))) << "nothing but that it was opened";
 }
 
-TEST_F(PicturesTest, AWidePictureIsMeasuredThoughNoTextureHoldsIt)
-{
+TEST_F(PicturesTest, AWidePictureIsMeasuredThoughNoTextureHoldsIt) {
   ImGui::GetPlatformIO().Renderer_TextureMaxWidth = ImGui::GetPlatformIO().Renderer_TextureMaxHeight = 16384;
   run_through();
   const std::array<int, 2> wide{30000, 2};
   const std::uint64_t a = open_picture(even("a.exr", {1, 0, 0}, wide));
-  EXPECT_THAT(view().shown().hint, StartsWith("The picture is 30000 x 2; this display's OpenGL shows at most 16384 x 16384."));
+  EXPECT_THAT(view().shown().hint,
+              StartsWith("The picture is 30000 x 2; this display's OpenGL shows at most 16384 x 16384."));
   open_picture(even("b.exr", {2, 0, 0}, wide));
   apply({command::CompareWith{a}});
   ASSERT_TRUE(until_measured());
   EXPECT_NEAR(workbench.comparing().metrics()->metrics.rel_l2, 1, 1e-6);
 }
 
-TEST_F(PicturesTest, AreDroppedOnTheListAndPickedInTheDialog)
-{
+TEST_F(PicturesTest, AreDroppedOnTheListAndPickedInTheDialog) {
   run_through();
   const std::string file = even("sky.exr", {1, 0, 0});
   move(middle());
@@ -349,8 +343,7 @@ TEST_F(PicturesTest, AreDroppedOnTheListAndPickedInTheDialog)
   EXPECT_EQ(workbench.questions().question(), Question::none);
 }
 
-TEST_F(PicturesTest, AreOpenedAgainWithTheSession)
-{
+TEST_F(PicturesTest, AreOpenedAgainWithTheSession) {
   run_through();
   open_picture(even("red.exr", {1, 0, 0}));
   test::FakeRuns other_runs;
@@ -364,8 +357,7 @@ TEST_F(PicturesTest, AreOpenedAgainWithTheSession)
   EXPECT_EQ(other.comparing().comparison().shown, 0u);
 }
 
-TEST_F(PicturesTest, MetricsOfLargePicturesHoldNoFrameUp)
-{
+TEST_F(PicturesTest, MetricsOfLargePicturesHoldNoFrameUp) {
   run_through();
   const std::array<int, 2> large{2048, 2048};
   const std::uint64_t a = open_picture(even("a.exr", {0.5f, 0.2f, 0.1f}, large));

@@ -7,8 +7,7 @@ namespace nephroid::ui::plan_panel_test {
 
 class PlanPanelTest : public test::WindowFixture {
 protected:
-  PlanPanelTest() : test::WindowFixture("plan")
-  {
+  PlanPanelTest() : test::WindowFixture("plan") {
     runs.plan.engine = "spectral";
     runs.plan.passes = {{"direct", true, "1 diffuse object", "/spectral/direct", true},
                         {"mirrors", false, "no object is a mirror", "/leave_out", false},
@@ -19,8 +18,7 @@ protected:
   }
   auto place_of(const std::string& pass) const { return workspace.panel<PlanPanel>().place_of(pass); }
   /// Clicks the box of a pass; the edit that this pushed.
-  std::optional<command::Edit> click(const std::string& pass)
-  {
+  std::optional<command::Edit> click(const std::string& pass) {
     press_at(place_of(pass).value());
     let_go();
     const auto* edit = imgui.pushed<command::Edit>();
@@ -28,8 +26,7 @@ protected:
   }
 };
 
-TEST_F(PlanPanelTest, WhatAFieldDecidesHasABox)
-{
+TEST_F(PlanPanelTest, WhatAFieldDecidesHasABox) {
   frames(3);
   open();
   EXPECT_TRUE(place_of("direct"));
@@ -39,8 +36,7 @@ TEST_F(PlanPanelTest, WhatAFieldDecidesHasABox)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(PlanPanelTest, ABoxEditsThePresetAndCanBeUndone)
-{
+TEST_F(PlanPanelTest, ABoxEditsThePresetAndCanBeUndone) {
   open();
   const auto edit = click("mirrors");
   ASSERT_TRUE(edit);
@@ -64,23 +60,20 @@ TEST_F(PlanPanelTest, ABoxEditsThePresetAndCanBeUndone)
   EXPECT_TRUE(spectral::settings(*workbench.preset()).direct);
 }
 
-TEST_F(PlanPanelTest, AFieldThatThereIsNotIsRefused)
-{
+TEST_F(PlanPanelTest, AFieldThatThereIsNotIsRefused) {
   const preset::Preset preset = preset::parse_preset(test::preset_text, "test");
   EXPECT_FALSE(spectral::settings(with_field(preset, "/spectral/caustic", false)).caustic);
   EXPECT_THROW(with_field(preset, "/spectral/fog", false), Error);
 }
 
-TEST_F(PlanPanelTest, ThePlanIsCopiedAsJson)
-{
+TEST_F(PlanPanelTest, ThePlanIsCopiedAsJson) {
   EXPECT_FALSE(action("Copy plan as JSON").enabled(context()));
   open();
   action("Copy plan as JSON").run(context());
   EXPECT_EQ(std::string(ImGui::GetClipboardText()), plan::to_json(*workbench.run().plan()));
 }
 
-TEST_F(PlanPanelTest, AnotherPresetsPlanIsNotShownForThisOne)
-{
+TEST_F(PlanPanelTest, AnotherPresetsPlanIsNotShownForThisOne) {
   open();
   EXPECT_NE(workbench.run().plan(), nullptr);
   runs.make_ms = 300;

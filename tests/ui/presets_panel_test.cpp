@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Presets" and the start page under an injected mouse and keys: search, filters, what a click says, opening by double click and
-// by Enter, each card and button; the list of recent files, also when its file is damaged; small pictures, also broken ones.
+// The panel "Presets" and the start page under an injected mouse and keys: search, filters, what a click says, opening
+// by double click and by Enter, each card and button; the list of recent files, also when its file is damaged; small
+// pictures, also broken ones.
 #include "preset/differences.h"
 #include "ui/presets/panel.h"
 #include "window_fixture.h"
@@ -11,24 +12,23 @@ namespace nephroid::ui::presets_panel_test {
 
 class PresetsPanelTest : public test::WindowFixture {
 protected:
-  PresetsPanelTest() : test::WindowFixture("presets")
-  {
+  PresetsPanelTest() : test::WindowFixture("presets") {
     ImGui::GetIO().DisplaySize = {1300, 950};
     runs.steps = 1000000;
     workbench.remember({list_file, folder.path() / "thumbnails"});
   }
   const PresetsPanel& panel() const { return workspace.panel<PresetsPanel>(); }
   /// Until everything is read.
-  void rest()
-  {
-    ASSERT_TRUE(until(
-        [&] { return panel().catalogue().readings() > 0 && workbench.tasks().empty() && !panel().thumbnails().busy(workbench.tasks()); }));
+  void rest() {
+    ASSERT_TRUE(until([&] {
+      return panel().catalogue().readings() > 0 && workbench.tasks().empty() &&
+             !panel().thumbnails().busy(workbench.tasks());
+    }));
     frames(2);
   }
   using test::WindowFixture::click;
   void click(const std::string& widget) { click_in(panel(), widget); }
-  const CatalogueEntry& entry(const std::string& name) const
-  {
+  const CatalogueEntry& entry(const std::string& name) const {
     for (const CatalogueEntry& e : panel().catalogue().entries())
       if (e.name == name) return e;
     throw std::runtime_error("no entry " + name);
@@ -37,8 +37,7 @@ protected:
   const fs::path list_file = folder.path() / "state" / "recent.json";
 };
 
-TEST_F(PresetsPanelTest, ListsEveryShippedPresetByName)
-{
+TEST_F(PresetsPanelTest, ListsEveryShippedPresetByName) {
   rest();
   std::vector<std::string> names;
   for (const preset::ShippedPreset& shipped : preset::shipped_presets()) names.push_back(shipped.name);
@@ -55,8 +54,7 @@ TEST_F(PresetsPanelTest, ListsEveryShippedPresetByName)
   EXPECT_THAT(needs, UnorderedElementsAre("materials/N-SF66.yml", "bunny.obj"));
 }
 
-TEST_F(PresetsPanelTest, WordsAndTheEngineNarrowTheList)
-{
+TEST_F(PresetsPanelTest, WordsAndTheEngineNarrowTheList) {
   rest();
   click("search");
   type("BUNNY glass");
@@ -74,8 +72,7 @@ TEST_F(PresetsPanelTest, WordsAndTheEngineNarrowTheList)
   for (const std::string& name : panel().listed()) EXPECT_EQ(entry(name).engine, "inverse");
 }
 
-TEST_F(PresetsPanelTest, AClickTellsAndADoubleClickOpens)
-{
+TEST_F(PresetsPanelTest, AClickTellsAndADoubleClickOpens) {
   rest();
   click("environment/ball");
   EXPECT_EQ(panel().chosen(), entry("environment/ball").file);
@@ -92,8 +89,7 @@ TEST_F(PresetsPanelTest, AClickTellsAndADoubleClickOpens)
   EXPECT_EQ(workbench.preset()->name, "beam");
 }
 
-TEST_F(PresetsPanelTest, TheKeyboardAloneFindsAndOpens)
-{
+TEST_F(PresetsPanelTest, TheKeyboardAloneFindsAndOpens) {
   open();
   rest();
   press(ImGuiKey_P, ImGuiMod_Ctrl);
@@ -109,8 +105,7 @@ TEST_F(PresetsPanelTest, TheKeyboardAloneFindsAndOpens)
   EXPECT_EQ(workbench.preset()->source, entry(listed[0]).file);
 }
 
-TEST_F(PresetsPanelTest, UnsavedChangesAreAskedAbout)
-{
+TEST_F(PresetsPanelTest, UnsavedChangesAreAskedAbout) {
   open();
   rest();
   edit([&](preset::Preset& p) { p.white = 3; });
@@ -120,8 +115,7 @@ TEST_F(PresetsPanelTest, UnsavedChangesAreAskedAbout)
   EXPECT_EQ(workbench.preset()->name, "Test");
 }
 
-TEST_F(PresetsPanelTest, WhatWasOpenedIsListedInTheNextSessionTheNewestFirst)
-{
+TEST_F(PresetsPanelTest, WhatWasOpenedIsListedInTheNextSessionTheNewestFirst) {
   open();
   workbench.open(folder.write("other.json", test::preset_text));
   ASSERT_TRUE(until([&] { return fs::exists(list_file); }));
@@ -136,12 +130,11 @@ TEST_F(PresetsPanelTest, WhatWasOpenedIsListedInTheNextSessionTheNewestFirst)
   EXPECT_EQ(next.all()[1].file, folder.path() / "test.json");
 }
 
-TEST_F(PresetsPanelTest, AFileThatIsGoneOrBrokenIsListedAsSuch)
-{
+TEST_F(PresetsPanelTest, AFileThatIsGoneOrBrokenIsListedAsSuch) {
   open();
   folder.write("broken.json", "{");
-  folder.write("recent.json", R"({"recent":[{"file":")" + (folder.path() / "gone.json").string() + R"(","opened":5},{"file":")" +
-                                  (folder.path() / "broken.json").string() + R"("}]})");
+  folder.write("recent.json", R"({"recent":[{"file":")" + (folder.path() / "gone.json").string() +
+                                  R"(","opened":5},{"file":")" + (folder.path() / "broken.json").string() + R"("}]})");
   workbench.remember({folder.path() / "recent.json", {}});
   frames(2);
   rest();
@@ -150,8 +143,7 @@ TEST_F(PresetsPanelTest, AFileThatIsGoneOrBrokenIsListedAsSuch)
   EXPECT_THAT(panel().listed(), Contains("first-light"));
 }
 
-TEST_F(PresetsPanelTest, ASavedPresetGetsASmallPicture)
-{
+TEST_F(PresetsPanelTest, ASavedPresetGetsASmallPicture) {
   open();
   const fs::path file = folder.path() / "saved.json";
   workbench.apply({command::SavePreset{file}});
@@ -163,8 +155,7 @@ TEST_F(PresetsPanelTest, ASavedPresetGetsASmallPicture)
   EXPECT_TRUE(fs::exists(file));
 }
 
-TEST(RecentFilesTest, ADamagedListIsEmptyWithOneNote)
-{
+TEST(RecentFilesTest, ADamagedListIsEmptyWithOneNote) {
   const test::TemporaryFolder folder;
   for (const char* text : {"", "{", "[]", "{\"recent\":5}", "\xff\xfe", "{\"recent\":[{\"file\":"}) {
     RecentFiles files(folder.write("recent.json", text), {});
@@ -174,8 +165,9 @@ TEST(RecentFilesTest, ADamagedListIsEmptyWithOneNote)
   }
   EXPECT_EQ(RecentFiles(folder.path() / "missing.json", {}).take_note(), "");
   const RecentFiles odd(
-      folder.write("recent.json",
-                   R"({"recent":[5,{"file":7},{"file":"relative.json"},{"file":"/a\nb"},{"file":"/a.json"},{"file":"/a.json"},
+      folder.write(
+          "recent.json",
+          R"({"recent":[5,{"file":7},{"file":"relative.json"},{"file":"/a\nb"},{"file":"/a.json"},{"file":"/a.json"},
     {"file":"/b.json","opened":"late"},{"file":"/c.json","opened":-3}]})"),
       {});
   EXPECT_THAT(odd.all(), ElementsAre(RecentFile{"/a.json", 0}, RecentFile{"/b.json", 0}, RecentFile{"/c.json", 0}));
@@ -183,8 +175,7 @@ TEST(RecentFilesTest, ADamagedListIsEmptyWithOneNote)
   EXPECT_THAT(RecentFiles(folder.path() / "recent.json", {}).take_note(), HasSubstr("bytes long"));
 }
 
-TEST(RecentFilesTest, KeepsThirtyTheNewestFirstAndEachOnce)
-{
+TEST(RecentFilesTest, KeepsThirtyTheNewestFirstAndEachOnce) {
   const test::TemporaryFolder folder;
   const fs::path list = folder.path() / "deep" / "recent.json";
   RecentFiles files(list, {});
@@ -199,8 +190,7 @@ TEST(RecentFilesTest, KeepsThirtyTheNewestFirstAndEachOnce)
   EXPECT_THAT(error_of([&] { nowhere.writer()(); }).line(), HasSubstr("recent files are not remembered"));
 }
 
-TEST(ThumbnailsTest, AreReadInTheBackgroundAndBrokenOnesAreNone)
-{
+TEST(ThumbnailsTest, AreReadInTheBackgroundAndBrokenOnesAreNone) {
   const test::TemporaryFolder folder;
   test::Headless imgui;
   job::Picture picture{.width = 400, .height = 200};
@@ -215,7 +205,8 @@ TEST(ThumbnailsTest, AreReadInTheBackgroundAndBrokenOnesAreNone)
   const auto look = [&] {
     tasks.collect(messages);
     thumbnails.update(tasks);
-    for (const char* name : {"broken.png", "large.png", "missing.png"}) EXPECT_EQ(thumbnails.of(folder.path() / name), nullptr) << name;
+    for (const char* name : {"broken.png", "large.png", "missing.png"})
+      EXPECT_EQ(thumbnails.of(folder.path() / name), nullptr) << name;
     return thumbnails.of(folder.path() / "new" / "good.png");
   };
   EXPECT_EQ(look(), nullptr) << "it is read away from here";
@@ -229,8 +220,7 @@ TEST(ThumbnailsTest, AreReadInTheBackgroundAndBrokenOnesAreNone)
 
 class StartPageTest : public test::WindowFixture {
 protected:
-  StartPageTest()
-  {
+  StartPageTest() {
     ImGui::GetIO().DisplaySize = {1300, 900};
     ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     runs.steps = 1000000;
@@ -239,15 +229,13 @@ protected:
   const PresetsPanel& presets() const { return workspace.panel<PresetsPanel>(); }
   void click(const std::string& widget) { click_in(workspace.start_page(), widget, 3); }
   std::string engine() const { return workbench.preset() ? std::string(workbench.preset()->settings.engine()) : ""; }
-  void listed()
-  {
+  void listed() {
     ASSERT_TRUE(until([&] { return presets().catalogue().readings() > 0 && workbench.tasks().empty(); }));
     frames(2);
   }
 };
 
-TEST(StartPageCards, OpenTheirExamples)
-{
+TEST(StartPageCards, OpenTheirExamples) {
   for (const char* card : {"first-light", "environment/ball", "inverse/shapes"}) {
     test::HeadlessWindow<> window;
     window.runs.steps = 1000000;
@@ -260,8 +248,7 @@ TEST(StartPageCards, OpenTheirExamples)
   }
 }
 
-TEST_F(StartPageTest, EachButtonDoesWhatItSays)
-{
+TEST_F(StartPageTest, EachButtonDoesWhatItSays) {
   click("Open...");
   EXPECT_EQ(workbench.questions().question(), Question::open);
   apply({command::Ask{Question::none}});
@@ -275,8 +262,7 @@ TEST_F(StartPageTest, EachButtonDoesWhatItSays)
   EXPECT_FALSE(workbench.preset()->scene.objects.empty());
 }
 
-TEST_F(StartPageTest, AnEarlierSessionIsOfferedWhereThereIsOne)
-{
+TEST_F(StartPageTest, AnEarlierSessionIsOfferedWhereThereIsOne) {
   click("Reopen the last session");
   EXPECT_FALSE(workbench.questions().take_reopen()) << "there is none, and the button is grey";
   workbench.offer_earlier(true);
@@ -285,8 +271,7 @@ TEST_F(StartPageTest, AnEarlierSessionIsOfferedWhereThereIsOne)
   EXPECT_TRUE(workbench.questions().take_reopen());
 }
 
-TEST_F(StartPageTest, TypingFindsAPresetWithoutAMouse)
-{
+TEST_F(StartPageTest, TypingFindsAPresetWithoutAMouse) {
   listed();
   type("environment/ball"); // the field has the keyboard from the start
   ASSERT_EQ(presets().listed().size(), 1u);
@@ -295,8 +280,7 @@ TEST_F(StartPageTest, TypingFindsAPresetWithoutAMouse)
   EXPECT_EQ(workbench.preset()->name, "ball");
 }
 
-TEST_F(StartPageTest, ItsSearchLeavesKeysWithCtrlToTheirActions)
-{
+TEST_F(StartPageTest, ItsSearchLeavesKeysWithCtrlToTheirActions) {
   frames(3);
   ASSERT_TRUE(ImGui::GetIO().WantTextInput);
   press(ImGuiKey_O, ImGuiMod_Ctrl);
@@ -307,8 +291,7 @@ TEST_F(StartPageTest, ItsSearchLeavesKeysWithCtrlToTheirActions)
   EXPECT_NE(workbench.preset(), nullptr);
 }
 
-TEST_F(StartPageTest, AMessageThatComesTakesTheKeyboardFromNobody)
-{
+TEST_F(StartPageTest, AMessageThatComesTakesTheKeyboardFromNobody) {
   listed();
   type("environment/");
   apply({command::Report{"something went wrong"}});
@@ -317,16 +300,16 @@ TEST_F(StartPageTest, AMessageThatComesTakesTheKeyboardFromNobody)
 }
 
 // Tab goes from widget to widget, Space presses what is marked: the cards are reached, too.
-TEST_F(StartPageTest, TabAndSpaceOpenAnExample)
-{
+TEST_F(StartPageTest, TabAndSpaceOpenAnExample) {
   listed();
   for (int tabs = 0; tabs < 40 && !workbench.preset(); ++tabs) {
     press(ImGuiKey_Tab);
     const auto card = workspace.start_page().place_of("inverse/shapes");
-    const ImRect marked = ImGui::GetCurrentContext()->NavWindow
-                              ? ImGui::WindowRectRelToAbs(ImGui::GetCurrentContext()->NavWindow,
-                                                          ImGui::GetCurrentContext()->NavWindow->NavRectRel[ImGuiNavLayer_Main])
-                              : ImRect();
+    const ImRect marked =
+        ImGui::GetCurrentContext()->NavWindow
+            ? ImGui::WindowRectRelToAbs(ImGui::GetCurrentContext()->NavWindow,
+                                        ImGui::GetCurrentContext()->NavWindow->NavRectRel[ImGuiNavLayer_Main])
+            : ImRect();
     if (!card || !marked.Contains(ImVec2(static_cast<float>((*card)[0]), static_cast<float>((*card)[1])))) continue;
     press(ImGuiKey_Space);
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever a hand does to mouse and keyboard, the window stays: random clicks, drags, keys, values out of range and dropped files, in
-// presets of all engines, on fake jobs. NEPHROID_RANDOM_SECONDS=600 plays for ten minutes what was not played before; under ./test.sh asan
-// it looks for what nobody sees. And keys and clicks with modifiers that all arrive between two frames.
+// Whatever a hand does to mouse and keyboard, the window stays: random clicks, drags, keys, values out of range and
+// dropped files, in presets of all engines, on fake jobs. NEPHROID_RANDOM_SECONDS=600 plays for ten minutes what was
+// not played before; under ./test.sh asan it looks for what nobody sees. And keys and clicks with modifiers that all
+// arrive between two frames.
 #include "tests/support/process_state.h"
 #include "ui/shell/glfw_window.h"
 #include "window_fixture.h"
@@ -12,31 +13,29 @@ namespace nephroid::ui::random_input_test {
 
 class RandomInput : public test::WindowFixture {
 protected:
-  RandomInput()
-  {
+  RandomInput() {
     for (const char* name : {"first-light", "spectral/prism", "environment/ball", "inverse/shapes"}) copy_preset(name);
-    for (const auto& [name, text] :
-         std::map<std::string, std::string>{{"cut.json", R"({"scene": {)"},
-                                            {"nothing.exr", "v/1"},
-                                            {"picture.png", "\x89PNG\r\n"},
-                                            {"triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
-                                            {"bad.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\n"},
-                                            {"scene.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"children": [0]}]})"},
-                                            {"glass.yml", "DATA:\n  - type: formula 1\n    coefficients: 0 1 0.1\n"}})
+    for (const auto& [name, text] : std::map<std::string, std::string>{
+             {"cut.json", R"({"scene": {)"},
+             {"nothing.exr", "v/1"},
+             {"picture.png", "\x89PNG\r\n"},
+             {"triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+             {"bad.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\n"},
+             {"scene.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"children": [0]}]})"},
+             {"glass.yml", "DATA:\n  - type: formula 1\n    coefficients: 0 1 0.1\n"}})
       files_.push_back(folder.write(name, text));
     files_.push_back((folder.path() / "gone.json").string());
   }
 
   /// A shipped preset, beside the materials that it names, to be saved over.
-  void copy_preset(const std::string& name)
-  {
-    files_.push_back(folder.write(fs::path(name).filename().string() + ".json", preset::to_json(preset::read_preset(name), folder.path())));
+  void copy_preset(const std::string& name) {
+    files_.push_back(folder.write(fs::path(name).filename().string() + ".json",
+                                  preset::to_json(preset::read_preset(name), folder.path())));
   }
 
   double draw(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
 
-  void some_text()
-  {
+  void some_text() {
     std::istringstream texts(
         "nan|-1|1e999|inf|0|1e-320|999999999999999999999|\xc3\xa9\xe2\x82\xac|%s%n%d|../../x|a||.5|-0|0x10|glass|first|"
         "\t|\xff\xfe");
@@ -44,10 +43,9 @@ protected:
     for (auto skip = random_() % 19; std::getline(texts, text, '|') && skip > 0;) --skip;
     ImGui::GetIO().AddInputCharactersUTF8(text.c_str());
   }
-  void some_key()
-  {
-    const auto key =
-        static_cast<ImGuiKey>(ImGuiKey_NamedKey_BEGIN + static_cast<int>(random_() % (ImGuiKey_GamepadStart - ImGuiKey_NamedKey_BEGIN)));
+  void some_key() {
+    const auto key = static_cast<ImGuiKey>(
+        ImGuiKey_NamedKey_BEGIN + static_cast<int>(random_() % (ImGuiKey_GamepadStart - ImGuiKey_NamedKey_BEGIN)));
     if (key >= ImGuiKey_MouseLeft && key <= ImGuiKey_MouseWheelY) return;
     constexpr ImGuiKey modifiers[] = {ImGuiMod_Ctrl, ImGuiMod_Shift, ImGuiMod_Alt};
     const ImGuiKey modifier = random_() % 2 ? modifiers[random_() % 3] : ImGuiKey_None;
@@ -57,8 +55,7 @@ protected:
     imgui.key(key, false);
     if (modifier) imgui.key(modifier, false);
   }
-  void some_event()
-  {
+  void some_event() {
     const auto kind = random_() % 16;
     if (kind < 4)
       imgui.move(draw(-20, 1020), draw(-20, 720));
@@ -88,19 +85,18 @@ protected:
     ++events_;
   }
 
-  void play()
-  {
+  void play() {
     ImGui::GetIO().DisplaySize = {1000, 700};
     for (int i = 0; i < 200; ++i) {
       some_event();
       frame();
-      if (workbench.questions().question() != Question::none && random_() % 20 == 0) workbench.apply({command::Ask{Question::none}});
+      if (workbench.questions().question() != Question::none && random_() % 20 == 0)
+        workbench.apply({command::Ask{Question::none}});
     }
   }
 
   /// What the window has is a preset, whatever was done to it.
-  static void is_whole(const preset::Preset& preset)
-  {
+  static void is_whole(const preset::Preset& preset) {
     const std::string text = preset::to_json(preset);
     EXPECT_EQ(preset::to_json(preset::parse_preset(text, preset.source)), text);
   }
@@ -111,8 +107,7 @@ protected:
   test::CurrentFolder here_{folder.path()}; // where a name without a folder is saved
 };
 
-TEST_F(RandomInput, TheWindowStays)
-{
+TEST_F(RandomInput, TheWindowStays) {
   runs.steps = 30;
   measured();
   ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
@@ -140,15 +135,13 @@ TEST_F(RandomInput, TheWindowStays)
 class InputEventsTest : public testing::Test {
 protected:
   InputEventsTest() { ImGui::GetIO().ConfigInputTrickleEventQueue = true; } // as in the window
-  void key(ImGuiKey which, ImGuiKey modifier, bool down)
-  {
+  void key(ImGuiKey which, ImGuiKey modifier, bool down) {
     imgui_.key(modifier, down);
     imgui_.key(which, down);
   }
   void ctrl(bool down) { key(ImGuiKey_LeftCtrl, static_cast<ImGuiKey>(ImGuiMod_Ctrl), down); }
   /// In how many frames of some more it was so.
-  static int frames_with(const std::function<bool()>& condition)
-  {
+  static int frames_with(const std::function<bool()>& condition) {
     int found = 0;
     for (int i = 0; i < 6; ++i) {
       new_frame();
@@ -160,8 +153,7 @@ protected:
   test::Headless imgui_;
 };
 
-TEST_F(InputEventsTest, AChordIsSeenThoughItsModifierWasLetGoFirst)
-{
+TEST_F(InputEventsTest, AChordIsSeenThoughItsModifierWasLetGoFirst) {
   for (const bool in_one_frame : {true, false}) {
     ctrl(true);
     if (!in_one_frame) frames_with([] { return false; });
@@ -174,8 +166,7 @@ TEST_F(InputEventsTest, AChordIsSeenThoughItsModifierWasLetGoFirst)
   }
 }
 
-TEST_F(InputEventsTest, AModifierThatIsPressedAgainAtOnceStaysPressed)
-{
+TEST_F(InputEventsTest, AModifierThatIsPressedAgainAtOnceStaysPressed) {
   ctrl(true);
   frames_with([] { return false; });
   imgui_.key(ImGuiKey_Z, true);
@@ -187,8 +178,7 @@ TEST_F(InputEventsTest, AModifierThatIsPressedAgainAtOnceStaysPressed)
   EXPECT_EQ(ImGui::GetIO().KeyMods, ImGuiMod_Ctrl);
 }
 
-TEST_F(InputEventsTest, ATurnOfTheWheelHasTheModifierThatWasHeld)
-{
+TEST_F(InputEventsTest, ATurnOfTheWheelHasTheModifierThatWasHeld) {
   ctrl(true);
   frames_with([] { return false; });
   imgui_.wheel(1);
@@ -196,8 +186,7 @@ TEST_F(InputEventsTest, ATurnOfTheWheelHasTheModifierThatWasHeld)
   EXPECT_EQ(frames_with([] { return ImGui::GetIO().MouseWheel != 0 && ImGui::GetIO().KeyCtrl; }), 1);
 }
 
-TEST_F(InputEventsTest, AClickHasTheModifierThatWasHeld)
-{
+TEST_F(InputEventsTest, AClickHasTheModifierThatWasHeld) {
   ctrl(true);
   frames_with([] { return false; });
   imgui_.button(0, true);
@@ -206,8 +195,7 @@ TEST_F(InputEventsTest, AClickHasTheModifierThatWasHeld)
   EXPECT_EQ(frames_with([] { return ImGui::IsMouseClicked(0) && ImGui::GetIO().KeyCtrl; }), 1);
 }
 
-TEST_F(InputEventsTest, ATabHearsAClickThatCameWithTheMouseWithinOneFrame)
-{
+TEST_F(InputEventsTest, ATabHearsAClickThatCameWithTheMouseWithinOneFrame) {
   std::array<bool, 2> shown{};
   std::array<ImVec2, 2> tabs{};
   const auto frame = [&] {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recorded session with each engine, in a real window, from the start page to what is saved. Skipped where there is no Xvfb, no xdotool
-// or no ImageMagick.
+// A recorded session with each engine, in a real window, from the start page to what is saved. Skipped where there is
+// no Xvfb, no xdotool or no ImageMagick.
 #include "environment/settings.h"
 #include "recorded_session.h"
 #include "scenes.h"
@@ -13,21 +13,20 @@ class SpectralSession : public test::PicturedWindow {};
 class EnvironmentSession : public test::PicturedWindow {};
 class InverseSession : public test::PicturedWindow {};
 
-void expect_picture(const fs::path& file, const std::array<int, 2>& size)
-{
+void expect_picture(const fs::path& file, const std::array<int, 2>& size) {
   const image::Image picture = image::read_image(file);
   EXPECT_EQ((std::array{picture.width, picture.height}), size);
-  EXPECT_GT(std::accumulate(picture.data.begin(), picture.data.end(), 0.0) / static_cast<double>(picture.data.size()), 0.02)
+  EXPECT_GT(std::accumulate(picture.data.begin(), picture.data.end(), 0.0) / static_cast<double>(picture.data.size()),
+            0.02)
       << "the picture is not black";
 }
 
-double distance(const preset::Camera& camera)
-{
-  return std::hypot(camera.position[0] - camera.target[0], camera.position[1] - camera.target[1], camera.position[2] - camera.target[2]);
+double distance(const preset::Camera& camera) {
+  return std::hypot(camera.position[0] - camera.target[0], camera.position[1] - camera.target[1],
+                    camera.position[2] - camera.target[2]);
 }
 
-TEST_F(SpectralSession, FromTheStartPageToASavedPicture)
-{
+TEST_F(SpectralSession, FromTheStartPageToASavedPicture) {
   test::RecordedSession<> session("spectral", folder.path());
   session.shot("The start page");
   session.click(session.workspace().start_page().place_of("first-light").value());
@@ -37,7 +36,9 @@ TEST_F(SpectralSession, FromTheStartPageToASavedPicture)
 
   session.click(session.tab<DispersionPanel>());
   session.click(session.panel<DispersionPanel>().place_of("Make editable").value());
-  const auto glass = [&](const preset::Preset& preset) { return sorted_points(preset.scene.materials.at("glass").dispersion); };
+  const auto glass = [&](const preset::Preset& preset) {
+    return sorted_points(preset.scene.materials.at("glass").dispersion);
+  };
   const std::vector<ControlPoint> fitted = glass(*session.workbench().preset());
   ASSERT_GT(fitted.size(), 5u) << "the glass has points";
   session.shot("Dispersion: the glass becomes points");
@@ -87,8 +88,7 @@ TEST_F(SpectralSession, FromTheStartPageToASavedPicture)
 
 /// Pixels of a part of the screen whose bytes are so.
 template <class Condition>
-int pixels_with(const image::Image& screen, const std::array<double, 4>& area, Condition condition)
-{
+int pixels_with(const image::Image& screen, const std::array<double, 4>& area, Condition condition) {
   int count = 0;
   for (double y = area[1]; y < area[1] + area[3]; ++y)
     for (double x = area[0]; x < area[0] + area[2]; ++x) count += condition(test::bytes_at(screen, x, y));
@@ -96,19 +96,17 @@ int pixels_with(const image::Image& screen, const std::array<double, 4>& area, C
 }
 
 /// In the colour of lines between regions.
-int line_pixels(const image::Image& screen, const std::array<double, 4>& area)
-{
+int line_pixels(const image::Image& screen, const std::array<double, 4>& area) {
   return pixels_with(screen, area, [](const std::array<int, 3>& c) { return c[1] > c[0] + 60 && c[1] > c[2] + 60; });
 }
 
 /// In the colour of a beam's frame.
-int beam_pixels(const image::Image& screen, const std::array<double, 4>& area)
-{
-  return pixels_with(screen, area, [](const std::array<int, 3>& c) { return c[0] > 200 && c[1] > 130 && c[1] < 200 && c[2] < 80; });
+int beam_pixels(const image::Image& screen, const std::array<double, 4>& area) {
+  return pixels_with(screen, area,
+                     [](const std::array<int, 3>& c) { return c[0] > 200 && c[1] > 130 && c[1] < 200 && c[2] < 80; });
 }
 
-TEST_F(EnvironmentSession, FromTheStartPageToASavedPicture)
-{
+TEST_F(EnvironmentSession, FromTheStartPageToASavedPicture) {
   test::RecordedSession<> session("environment", folder.path(),
                                   test::lamps_text("[512, 384]", R"("photons": 8192, "spheres": 4, "resolution": 64)"));
   const preset::Preset before = preset::read_preset(session.file().string());
@@ -160,17 +158,16 @@ TEST_F(EnvironmentSession, FromTheStartPageToASavedPicture)
   EXPECT_EQ(left.edits->saved, left.edits->index);
 }
 
-const preset::Object& object(const preset::Preset& preset, const std::string& name)
-{
+const preset::Object& object(const preset::Preset& preset, const std::string& name) {
   for (const preset::Object& one : preset.scene.objects)
     if (one.name == name) return one;
   throw std::runtime_error("no object " + name);
 }
 
-TEST_F(InverseSession, FromTheStartPageToASavedMesh)
-{
+TEST_F(InverseSession, FromTheStartPageToASavedMesh) {
   // The shipped shapes, of fewer facets.
-  test::RecordedSession<test::InverseRuns> session("inverse", folder.path(), R"({"parent": "inverse/shapes", "name": "Small shapes",
+  test::RecordedSession<test::InverseRuns> session("inverse", folder.path(),
+                                                   R"({"parent": "inverse/shapes", "name": "Small shapes",
     "description": "Few facets", "inverse": {"facets": [40, 40], "cells": [24, 24]}, "stop": {"passes": 6}})");
   const preset::Preset before = preset::read_preset(session.file().string());
   session.open_listed("small shapes few facets", "Small shapes");
@@ -190,7 +187,8 @@ TEST_F(InverseSession, FromTheStartPageToASavedMesh)
   session.shot("Ctrl+S saves the preset");
   session.click(panel.place_of("show as glass").value());
   session.until_there("inverse-object/view.json");
-  session.window().until("the glass is shown", [&] { return session.window().title().find("view") != std::string::npos; });
+  session.window().until("the glass is shown",
+                         [&] { return session.window().title().find("view") != std::string::npos; });
   session.until_passed(0.12);
   session.shot("Show as glass: the meshes are saved, and light falls through them");
   session.quit();

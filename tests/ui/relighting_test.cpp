@@ -9,27 +9,25 @@ using namespace std::chrono_literals;
 
 class RelightingTest : public test::WorkbenchFixture {
 protected:
-  void open(int steps, const std::string& setting = "spectral.relight=true")
-  {
+  void open(int steps, const std::string& setting = "spectral.relight=true") {
     runs.steps = steps;
     runs.reference = std::make_shared<measure::Reference>();
     ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {setting}));
-    ASSERT_TRUE(until(
-        [&] { return workbench.run().snapshot() && workbench.run().plan() && workbench.run().status().state != job::State::preparing; }));
+    ASSERT_TRUE(until([&] {
+      return workbench.run().snapshot() && workbench.run().plan() &&
+             workbench.run().status().state != job::State::preparing;
+    }));
   }
-  void edit_power(double watts, bool live = false)
-  {
+  void edit_power(double watts, bool live = false) {
     edit([&](preset::Preset& p) { p.scene.lights[0].power_w = watts; }, 1, live);
   }
   double shown_power() const { return photons::energy_of(*workbench.run().snapshot()).emitted_w; }
-  bool shows(double watts)
-  {
+  bool shows(double watts) {
     return until([&] { return workbench.run().snapshot_is_current() && shown_power() == watts; });
   }
 };
 
-TEST_F(RelightingTest, AnotherSpectrumPowerOrWhiteGoesToTheRunInHand)
-{
+TEST_F(RelightingTest, AnotherSpectrumPowerOrWhiteGoesToTheRunInHand) {
   open(100000);
   edit([](preset::Preset& p) {
     p.scene.lights[0].spectrum.illuminant = "F10";
@@ -47,8 +45,7 @@ TEST_F(RelightingTest, AnotherSpectrumPowerOrWhiteGoesToTheRunInHand)
   EXPECT_EQ(runs.made, 1);
 }
 
-TEST_F(RelightingTest, AnotherSceneOrCameraStartsANewRun)
-{
+TEST_F(RelightingTest, AnotherSceneOrCameraStartsANewRun) {
   open(100000);
   edit([](preset::Preset& p) { p.scene.lights[0].position[0] = 0.25; });
   ASSERT_TRUE(until([&] { return runs.made == 2; }));
@@ -59,16 +56,14 @@ TEST_F(RelightingTest, AnotherSceneOrCameraStartsANewRun)
   EXPECT_EQ(runs.adopted, 0);
 }
 
-TEST_F(RelightingTest, WithoutLayersEveryEditStartsANewRun)
-{
+TEST_F(RelightingTest, WithoutLayersEveryEditStartsANewRun) {
   open(100000, "seed=1");
   edit_power(20);
   ASSERT_TRUE(until([&] { return runs.made == 2; }));
   EXPECT_EQ(runs.adopted, 0);
 }
 
-TEST_F(RelightingTest, ARunThatIsFinishedIsRelit)
-{
+TEST_F(RelightingTest, ARunThatIsFinishedIsRelit) {
   open(3);
   ASSERT_TRUE(until(job::State::finished));
   edit_power(30);
@@ -77,8 +72,7 @@ TEST_F(RelightingTest, ARunThatIsFinishedIsRelit)
   EXPECT_EQ(runs.made, 1);
 }
 
-TEST_F(RelightingTest, ARunThatIsPausedIsRelitAndStaysPaused)
-{
+TEST_F(RelightingTest, ARunThatIsPausedIsRelitAndStaysPaused) {
   open(100000);
   workbench.apply({command::Pause{true}});
   ASSERT_TRUE(until(job::State::paused));
@@ -87,8 +81,7 @@ TEST_F(RelightingTest, ARunThatIsPausedIsRelitAndStaysPaused)
   EXPECT_EQ(workbench.run().status().state, job::State::paused);
 }
 
-TEST_F(RelightingTest, AfterACancelAndWhereTheJobDoesNotAdoptAnEditStartsANewRun)
-{
+TEST_F(RelightingTest, AfterACancelAndWhereTheJobDoesNotAdoptAnEditStartsANewRun) {
   open(100000);
   workbench.apply({command::Cancel{}});
   ASSERT_TRUE(until(job::State::cancelled));
@@ -101,8 +94,7 @@ TEST_F(RelightingTest, AfterACancelAndWhereTheJobDoesNotAdoptAnEditStartsANewRun
   EXPECT_EQ(runs.made, 3);
 }
 
-TEST_F(RelightingTest, ALightThatCannotBeUsedIsOneMessageAndTheNextOneGoesOn)
-{
+TEST_F(RelightingTest, ALightThatCannotBeUsedIsOneMessageAndTheNextOneGoesOn) {
   open(100000);
   edit_power(13);
   ASSERT_TRUE(until([&] { return workbench.messages().size() == 1; }));
@@ -113,8 +105,7 @@ TEST_F(RelightingTest, ALightThatCannotBeUsedIsOneMessageAndTheNextOneGoesOn)
   EXPECT_EQ(runs.made, 1) << "what was computed is not thrown away";
 }
 
-TEST_F(RelightingTest, TheReferenceIsOfTheOldLight)
-{
+TEST_F(RelightingTest, TheReferenceIsOfTheOldLight) {
   open(100000);
   workbench.apply({command::CompareWith{}});
   EXPECT_THAT(workbench.comparing().why_not(), Not(HasSubstr("no reference")));
@@ -123,8 +114,7 @@ TEST_F(RelightingTest, TheReferenceIsOfTheOldLight)
   EXPECT_NE(workbench.comparing().why_not(), "");
 }
 
-TEST_F(RelightingTest, ALightThatIsDraggedIsShownWhileTheMouseMoves)
-{
+TEST_F(RelightingTest, ALightThatIsDraggedIsShownWhileTheMouseMoves) {
   open(100000);
   const int made = runs.made;
   int pictures = 0;

@@ -13,8 +13,7 @@ protected:
 
   const RunsPanel& panel() const { return workspace.panel<RunsPanel>(); }
   void click_on(const std::string& widget) { click_in(panel(), widget); }
-  void edit(const std::function<void(preset::Preset&)>& change)
-  {
+  void edit(const std::function<void(preset::Preset&)>& change) {
     WindowFixture::edit(change);
     ASSERT_TRUE(until_current());
     finish();
@@ -22,16 +21,14 @@ protected:
   std::string difference(const RunRow& row) { return PresetDifferences().of(row, context()).in_short; }
   std::vector<PinnedRun> pins() const { return workbench.comparing().pinned().all(); }
   /// Until the report is written or refused: the newest message.
-  std::string report(const std::string& file)
-  {
+  std::string report(const std::string& file) {
     workbench.apply({command::WriteReport{file}});
     EXPECT_TRUE(until_files_are_done());
     return workbench.messages().empty() ? "" : workbench.messages().back().line;
   }
 };
 
-TEST_F(RunsPanelTest, ListsTheRunInHandAndThePinnedOnes)
-{
+TEST_F(RunsPanelTest, ListsTheRunInHandAndThePinnedOnes) {
   run_measured();
   press(ImGuiKey_P);
   edit([](preset::Preset& p) {
@@ -54,8 +51,7 @@ TEST_F(RunsPanelTest, ListsTheRunInHandAndThePinnedOnes)
   EXPECT_EQ(difference(pin), "scene.camera.fov_deg: 30.0 -> 40.0, 1 more");
 }
 
-TEST_F(RunsPanelTest, WhatARunDoesNotKnowIsADash)
-{
+TEST_F(RunsPanelTest, WhatARunDoesNotKnowIsADash) {
   run_through();
   frame();
   ASSERT_THAT(panel().rows(), SizeIs(1));
@@ -75,8 +71,7 @@ TEST_F(RunsPanelTest, WhatARunDoesNotKnowIsADash)
   EXPECT_FALSE(workbench.edits()->modified()) << "the button is grey";
 }
 
-TEST_F(RunsPanelTest, AnEstimateIsCalledOne)
-{
+TEST_F(RunsPanelTest, AnEstimateIsCalledOne) {
   runs.history = [](int steps) {
     auto history = falling_history(steps);
     history->error_column = "estimated_lab_mean";
@@ -88,8 +83,7 @@ TEST_F(RunsPanelTest, AnEstimateIsCalledOne)
   EXPECT_EQ(panel().rows()[0].error_kind, "estimate");
 }
 
-TEST_F(RunsPanelTest, ShowsARunInTheView)
-{
+TEST_F(RunsPanelTest, ShowsARunInTheView) {
   run_through();
   press(ImGuiKey_P);
   edit([](preset::Preset& p) { p.scene.camera.position[2] = 0; });
@@ -105,8 +99,7 @@ TEST_F(RunsPanelTest, ShowsARunInTheView)
   EXPECT_EQ(workbench.comparing().comparison().shown, 0u) << "pressed again, back";
 }
 
-TEST_F(RunsPanelTest, TakesTheTakenPresetAsOneEdit)
-{
+TEST_F(RunsPanelTest, TakesTheTakenPresetAsOneEdit) {
   run_through();
   press(ImGuiKey_P);
   edit([](preset::Preset& p) {
@@ -121,8 +114,7 @@ TEST_F(RunsPanelTest, TakesTheTakenPresetAsOneEdit)
   EXPECT_EQ(workbench.preset()->scene.lights[0].power_w, 20);
 }
 
-TEST_F(RunsPanelTest, PinsAndUnpins)
-{
+TEST_F(RunsPanelTest, PinsAndUnpins) {
   run_through();
   click_on("pin");
   ASSERT_THAT(pins(), SizeIs(1));
@@ -132,8 +124,7 @@ TEST_F(RunsPanelTest, PinsAndUnpins)
   EXPECT_THAT(panel().rows(), SizeIs(1));
 }
 
-TEST_F(RunsPanelTest, TheReportIsOverAllFinishedRuns)
-{
+TEST_F(RunsPanelTest, TheReportIsOverAllFinishedRuns) {
   run_measured();
   press(ImGuiKey_P);
   edit([](preset::Preset& p) { p.scene.lights[0].power_w = 20; });
@@ -144,15 +135,17 @@ TEST_F(RunsPanelTest, TheReportIsOverAllFinishedRuns)
   const auto first = folder.path() / "page-runs" / "01-Test";
   EXPECT_TRUE(is_there(first / "image.png"));
   EXPECT_EQ(preset::read_preset((first / "preset.json").string()).scene.lights[0].power_w, 10);
-  EXPECT_EQ(preset::read_preset((folder.path() / "page-runs" / "02-Test--edit" / "preset.json").string()).scene.lights[0].power_w, 20);
+  EXPECT_EQ(preset::read_preset((folder.path() / "page-runs" / "02-Test--edit" / "preset.json").string())
+                .scene.lights[0]
+                .power_w,
+            20);
   // Once more: nothing is written over, and a run that is pinned as it stands is in the page once.
   press(ImGuiKey_P);
   EXPECT_THAT(report((folder.path() / "page.html").string()), HasSubstr("a report over 2 runs"));
   EXPECT_TRUE(is_there(folder.path() / "page-runs-2" / "02-Test--edit" / "run.json"));
 }
 
-TEST_F(RunsPanelTest, ADialogAsksForTheReportsName)
-{
+TEST_F(RunsPanelTest, ADialogAsksForTheReportsName) {
   run_measured();
   click_on("report");
   ASSERT_EQ(workbench.questions().question(), Question::save_report);
@@ -163,8 +156,7 @@ TEST_F(RunsPanelTest, ADialogAsksForTheReportsName)
   EXPECT_TRUE(until([&] { return is_there(folder.path() / "asked.html"); }));
 }
 
-TEST_F(RunsPanelTest, AReportSaysWhatItLeavesOutAndWhy)
-{
+TEST_F(RunsPanelTest, AReportSaysWhatItLeavesOutAndWhy) {
   run_measured();
   press(ImGuiKey_P);
   folder.write("old.csv", measure::to_csv(*falling_history(3)));
@@ -175,8 +167,7 @@ TEST_F(RunsPanelTest, AReportSaysWhatItLeavesOutAndWhy)
   EXPECT_THAT(note, HasSubstr("left out: \"old\": only its history was read"));
 }
 
-TEST_F(RunsPanelTest, WithoutAFinishedRunThereIsNoReport)
-{
+TEST_F(RunsPanelTest, WithoutAFinishedRunThereIsNoReport) {
   runs.steps = 1000000;
   open();
   const std::string line = report((folder.path() / "page.html").string());
@@ -186,8 +177,7 @@ TEST_F(RunsPanelTest, WithoutAFinishedRunThereIsNoReport)
   EXPECT_FALSE(is_there(folder.path() / "page-runs"));
 }
 
-TEST_F(RunsPanelTest, AReportThatCannotBeWrittenLeavesNothing)
-{
+TEST_F(RunsPanelTest, AReportThatCannotBeWrittenLeavesNothing) {
   run_measured();
   EXPECT_THAT(report((folder.path() / "page.txt").string()), HasSubstr("expected a name that ends in .html"));
   folder.write("file", "no folder");
@@ -204,8 +194,7 @@ TEST_F(RunsPanelTest, AReportThatCannotBeWrittenLeavesNothing)
   EXPECT_FALSE(is_there(folder.path() / "page-runs-2"));
 }
 
-TEST_F(RunsPanelTest, AFolderThatWasReadIsTakenAsItIs)
-{
+TEST_F(RunsPanelTest, AFolderThatWasReadIsTakenAsItIs) {
   run_measured();
   write_run_folder(folder.path() / "before", run_now(workbench.run()), "before", true);
   workbench.apply({command::PinFile{folder.path() / "before"}});
@@ -226,8 +215,7 @@ TEST_F(RunsPanelTest, AFolderThatWasReadIsTakenAsItIs)
   EXPECT_TRUE(is_there(folder.path() / "page-runs-2" / "01-before" / "image.exr"));
 }
 
-TEST_F(RunsPanelTest, ASessionKeepsWhatIsKnownOfAPin)
-{
+TEST_F(RunsPanelTest, ASessionKeepsWhatIsKnownOfAPin) {
   run_measured();
   press(ImGuiKey_P);
   test::Bench next;
@@ -244,8 +232,7 @@ TEST_F(RunsPanelTest, ASessionKeepsWhatIsKnownOfAPin)
   EXPECT_THAT(write_report(folder.path() / "later.html", std::span(&pin, 1)), HasSubstr("over 1 run"));
 }
 
-TEST_F(RunsPanelTest, ADamagedFolderIsSaidOnce)
-{
+TEST_F(RunsPanelTest, ADamagedFolderIsSaidOnce) {
   open();
   const auto bad = folder.path() / "bad";
   fs::create_directories(bad);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What leaves the window and what comes in from nothing: the command line on the clipboard, saving with the parent kept, new scenes, a glTF
-// file that is dropped.
+// What leaves the window and what comes in from nothing: the command line on the clipboard, saving with the parent
+// kept, new scenes, a glTF file that is dropped.
 #include "preset/differences.h"
 #include "window_fixture.h"
 
@@ -13,13 +13,11 @@ protected:
   const std::string parent = folder.write("parent.json", test::preset_text);
   const std::string child = folder.write("child.json", R"({"parent": "parent.json", "seed": 5})");
 
-  void set_white(double white)
-  {
+  void set_white(double white) {
     edit([&](preset::Preset& p) { p.white = white; });
   }
   static Json read(const fs::path& file) { return Json::parse(read_file(file)); }
-  void press_with_shift(ImGuiKey key)
-  {
+  void press_with_shift(ImGuiKey key) {
     imgui.key(ImGuiMod_Shift, true);
     press(key, ImGuiMod_Ctrl);
     imgui.key(ImGuiMod_Shift, false);
@@ -27,8 +25,7 @@ protected:
   }
 };
 
-TEST_F(SavingTest, TheCommandLineIsOnTheClipboard)
-{
+TEST_F(SavingTest, TheCommandLineIsOnTheClipboard) {
   open_file(child);
   set_white(2.5);
   press_with_shift(ImGuiKey_C);
@@ -36,8 +33,7 @@ TEST_F(SavingTest, TheCommandLineIsOnTheClipboard)
   EXPECT_EQ(last_message(workbench), "copied the command line");
 }
 
-TEST_F(SavingTest, WithoutAFileTheCommandLineSaysToSaveFirst)
-{
+TEST_F(SavingTest, WithoutAFileTheCommandLineSaysToSaveFirst) {
   apply({command::New{engine::engines().front()->introduction.new_scene.preset}});
   ImGui::SetClipboardText("before");
   press_with_shift(ImGuiKey_C);
@@ -45,8 +41,7 @@ TEST_F(SavingTest, WithoutAFileTheCommandLineSaysToSaveFirst)
   EXPECT_THAT(last_message(workbench), HasSubstr("save the preset first"));
 }
 
-TEST_F(SavingTest, SaveKeepsTheParent)
-{
+TEST_F(SavingTest, SaveKeepsTheParent) {
   open_file(child);
   set_white(2.5);
   press(ImGuiKey_S, ImGuiMod_Ctrl);
@@ -55,8 +50,7 @@ TEST_F(SavingTest, SaveKeepsTheParent)
   EXPECT_TRUE(preset::read_preset(child) == *workbench.preset());
 }
 
-TEST_F(SavingTest, SaveAsOffersTheParentAndNamesItFromTheNewFolder)
-{
+TEST_F(SavingTest, SaveAsOffersTheParentAndNamesItFromTheNewFolder) {
   fs::create_directories(folder.path() / "deep");
   open_file(child);
   press_with_shift(ImGuiKey_S);
@@ -64,12 +58,12 @@ TEST_F(SavingTest, SaveAsOffersTheParentAndNamesItFromTheNewFolder)
   ASSERT_TRUE(workspace.dialogs().place_of("keep the parent"));
   retype(folder.path() / "deep/saved.json");
   press(ImGuiKey_Enter);
-  EXPECT_EQ(read(folder.path() / "deep/saved.json"), Json::parse(R"({"parent":"../parent.json","name":"child","seed":5})"));
+  EXPECT_EQ(read(folder.path() / "deep/saved.json"),
+            Json::parse(R"({"parent":"../parent.json","name":"child","seed":5})"));
   EXPECT_EQ(workbench.preset()->source, folder.path() / "deep/saved.json");
 }
 
-TEST_F(SavingTest, WithoutTheCheckTheParentIsNotKept)
-{
+TEST_F(SavingTest, WithoutTheCheckTheParentIsNotKept) {
   open_file(child);
   press_with_shift(ImGuiKey_S);
   frames(3);
@@ -82,8 +76,7 @@ TEST_F(SavingTest, WithoutTheCheckTheParentIsNotKept)
   EXPECT_EQ(saved["seed"], 5);
 }
 
-TEST_F(SavingTest, AShippedPresetIsSavedWholeUnlessItsParentIsKept)
-{
+TEST_F(SavingTest, AShippedPresetIsSavedWholeUnlessItsParentIsKept) {
   open_file("spectral/prism");
   workbench.apply({command::SavePreset{folder.path() / "whole.json", false}});
   EXPECT_FALSE(read(folder.path() / "whole.json").contains("parent"));
@@ -97,8 +90,7 @@ TEST_F(SavingTest, AShippedPresetIsSavedWholeUnlessItsParentIsKept)
   EXPECT_TRUE(preset::read_preset((folder.path() / "over.json").string()) == *workbench.preset());
 }
 
-TEST_F(SavingTest, WhereTheParentCannotBeKeptTheFileIsWholeAndANoteSaysWhy)
-{
+TEST_F(SavingTest, WhereTheParentCannotBeKeptTheFileIsWholeAndANoteSaysWhy) {
   open_file(child);
   fs::remove(parent);
   set_white(3);
@@ -110,19 +102,19 @@ TEST_F(SavingTest, WhereTheParentCannotBeKeptTheFileIsWholeAndANoteSaysWhy)
   EXPECT_FALSE(workbench.messages().back().error);
 }
 
-TEST_F(SavingTest, AfterSavingElsewhereFilesAreFoundAsBefore)
-{
+TEST_F(SavingTest, AfterSavingElsewhereFilesAreFoundAsBefore) {
   fs::create_directories(folder.path() / "other");
   folder.write("own.yml", "");
-  open_file(
-      folder.write("glass.json", R"({"engine":"spectral","scene":{"materials":{"g":{"type":"dielectric","dispersion":"own.yml"}}}})"));
+  open_file(folder.write(
+      "glass.json",
+      R"({"engine":"spectral","scene":{"materials":{"g":{"type":"dielectric","dispersion":"own.yml"}}}})"));
   workbench.apply({command::SavePreset{folder.path() / "other/glass.json"}});
-  EXPECT_EQ(workbench.preset()->scene.materials.at("g").dispersion.file, fs::canonical(folder.path() / "own.yml").string());
+  EXPECT_EQ(workbench.preset()->scene.materials.at("g").dispersion.file,
+            fs::canonical(folder.path() / "own.yml").string());
   EXPECT_TRUE(preset::read_preset((folder.path() / "other/glass.json").string()) == *workbench.preset());
 }
 
-TEST_F(SavingTest, NewScenesAreInNoFileAndAskBeforeChangesGo)
-{
+TEST_F(SavingTest, NewScenesAreInNoFileAndAskBeforeChangesGo) {
   open_file(child);
   press(ImGuiKey_N, ImGuiMod_Ctrl);
   EXPECT_EQ(workbench.preset()->name, "untitled");
@@ -144,8 +136,7 @@ TEST_F(SavingTest, NewScenesAreInNoFileAndAskBeforeChangesGo)
   }
 }
 
-TEST_F(SavingTest, ADroppedSceneBecomesAPresetInAFolderOfItsOwn)
-{
+TEST_F(SavingTest, ADroppedSceneBecomesAPresetInAFolderOfItsOwn) {
   // A triangle with corners (0, 0, 0), (1, 0, 0), (0, 1, 0), without indices.
   const std::string text = R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
     "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
@@ -159,7 +150,8 @@ TEST_F(SavingTest, ADroppedSceneBecomesAPresetInAFolderOfItsOwn)
   EXPECT_EQ(workbench.preset()->scene.objects.size(), 1u);
   workbench.apply({command::Open{file}});
   ASSERT_TRUE(until_files_are_done());
-  EXPECT_EQ(workbench.preset()->source, folder.path() / "tri-scene-2/tri.json") << "the first may have been edited since";
+  EXPECT_EQ(workbench.preset()->source, folder.path() / "tri-scene-2/tri.json")
+      << "the first may have been edited since";
   workbench.apply({command::Open{folder.write("cut.glb", "glTF")}});
   ASSERT_TRUE(until_files_are_done());
   EXPECT_THAT(last_message(workbench), HasSubstr("cut.glb: is cut"));

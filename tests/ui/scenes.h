@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Presets for tests of the window: what is selected and moved, what light does in glass, a sky, two pictures for engine 3. And fake runs
-// whose scene is loaded, so that a click finds something and panels know what the glass sees.
+// Presets for tests of the window: what is selected and moved, what light does in glass, a sky, two pictures for
+// engine 3. And fake runs whose scene is loaded, so that a click finds something and panels know what the glass sees.
 #pragma once
 #include "fake_job.h"
 #include "inverse/job.h"
@@ -11,8 +11,7 @@
 namespace nephroid::test {
 
 /// From (0, 0, 4) to the origin, 40 degrees high. The ball is at the left, the light at the upper right.
-inline std::string ball_text(const std::string& engine = "spectral")
-{
+inline std::string ball_text(const std::string& engine = "spectral") {
   return R"({
   "name": "Ball", "engine": ")" +
          engine + R"(", "unit": "m",
@@ -31,8 +30,7 @@ inline std::string ball_text(const std::string& engine = "spectral")
 }
 
 /// A glass ball in a room of two colours. spectrum, effort: JSON.
-inline std::string room_text(const std::string& spectrum, const std::string& effort = "importance")
-{
+inline std::string room_text(const std::string& spectrum, const std::string& effort = "importance") {
   return R"({
   "name": "Room", "engine": "spectral", "unit": "m",
   "scene": {
@@ -57,9 +55,9 @@ inline std::string room_text(const std::string& spectrum, const std::string& eff
 })";
 }
 
-/// A glass ball on a floor under a shipped sky of three lamps. resolution, settings: JSON, of the camera and of the engine.
-inline std::string lamps_text(const std::string& resolution, const std::string& settings)
-{
+/// A glass ball on a floor under a shipped sky of three lamps. resolution, settings: JSON, of the camera and of the
+/// engine.
+inline std::string lamps_text(const std::string& resolution, const std::string& settings) {
   return R"({
   "name": "Three lamps", "description": "A glass ball under three lamps", "engine": "environment", "unit": "cm", "white": 10,
   "stop": {"passes": 4},
@@ -76,8 +74,7 @@ inline std::string lamps_text(const std::string& resolution, const std::string& 
 }
 
 /// Two pictures, small enough for a test.
-inline std::string inverse_text(int sweeps, int facets = 24)
-{
+inline std::string inverse_text(int sweeps, int facets = 24) {
   return R"({
   "name": "Small", "engine": "inverse", "unit": "mm", "scene": {"camera": {"resolution": [96, 96]}},
   "inverse": {
@@ -92,24 +89,21 @@ inline std::string inverse_text(int sweeps, int facets = 24)
          std::to_string(sweeps) + "}\n}";
 }
 
-inline std::shared_ptr<const run::LoadedScene> loaded_scene(const preset::Preset& preset)
-{
+inline std::shared_ptr<const run::LoadedScene> loaded_scene(const preset::Preset& preset) {
   auto loaded = std::make_shared<run::LoadedScene>();
   loaded->scene = scene::load_scene(preset);
   loaded->bvh = std::make_shared<scene::Bvh>(scene::build_bvh(loaded->scene.geometry));
   return loaded;
 }
 
-inline std::shared_ptr<const ui::ViewedScene> seen_scene(const preset::Preset& preset)
-{
+inline std::shared_ptr<const ui::ViewedScene> seen_scene(const preset::Preset& preset) {
   return ui::take_facts(preset, loaded_scene(preset)).view;
 }
 
 /// Fake jobs, but what there is to see in the scene is looked at as the program does.
 class SceneRuns : public FakeRuns {
 public:
-  ui::NewRun make(const preset::Preset& preset, const Watch& watch) override
-  {
+  ui::NewRun make(const preset::Preset& preset, const Watch& watch) override {
     ui::NewRun run = FakeRuns::make(preset, watch);
     run.scene_facts = ui::take_facts(preset, loaded_scene(preset));
     return run;
@@ -121,8 +115,7 @@ class InverseRuns : public FakeRuns {
 public:
   InverseRuns() { shared_context(); } // before there are threads: it may look at and change the environment
 
-  ui::NewRun make(const preset::Preset& preset, const Watch&) override
-  {
+  ui::NewRun make(const preset::Preset& preset, const Watch&) override {
     ++made;
     auto made_plan = std::make_shared<const inverse::InversePlan>(inverse::make_plan(preset));
     return {inverse::make_job(preset, *made_plan, shared_context()), made_plan, nullptr};

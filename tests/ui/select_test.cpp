@@ -1,32 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selecting and moving in the whole window, by injected mouse and keys on fake runs with a loaded scene: clicks, the list, the handles, the
-// keys. What a person gets is looked at in the preset.
+// Selecting and moving in the whole window, by injected mouse and keys on fake runs with a loaded scene: clicks, the
+// list, the handles, the keys. What a person gets is looked at in the preset.
 #include "scenes.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::select_test {
 
 using Kind = Selection::Kind;
-constexpr Selection nothing{}, ball{Kind::object, 0}, floor_quad{Kind::object, 1}, lamp{Kind::light, 0}, spot{Kind::light, 1},
-    camera_target{Kind::camera, 0};
+constexpr Selection nothing{}, ball{Kind::object, 0}, floor_quad{Kind::object, 1}, lamp{Kind::light, 0},
+    spot{Kind::light, 1}, camera_target{Kind::camera, 0};
 
 class Select : public test::WindowFixtureOf<test::SceneRuns> {
 protected:
-  explicit Select(const std::string& layout = {}) : WindowFixtureOf(layout)
-  {
+  explicit Select(const std::string& layout = {}) : WindowFixtureOf(layout) {
     runs.steps = 1000000;
     runs.step_ms = 1;
   }
-  void open(const std::string& text = test::ball_text())
-  {
+  void open(const std::string& text = test::ball_text()) {
     WindowFixtureOf::open(text);
     ASSERT_TRUE(until([&] { return workbench.run().scene_facts().view != nullptr; }));
   }
   const preset::Scene& scene() const { return workbench.preset()->scene; }
-  Pinhole pinhole() const
-  {
+  Pinhole pinhole() const {
     const ViewSettings& view_settings = workbench.view_state().view_settings;
-    return *make_pinhole(scene().camera, place(view_settings, view().canvas(), view().shown().size), view().shown().size);
+    return *make_pinhole(scene().camera, place(view_settings, view().canvas(), view().shown().size),
+                         view().shown().size);
   }
   Point at(double x, double y, double z) const { return *pinhole().to_screen({x, y, z}); }
   Selection selected() const { return workbench.view_state().selection; }
@@ -36,8 +34,7 @@ protected:
   std::string undo() const { return workbench.edits()->undo_label(); }
 };
 
-TEST_F(Select, AClickSelectsWhatIsThere)
-{
+TEST_F(Select, AClickSelectsWhatIsThere) {
   open();
   click(at(-0.5, 0, 0));
   EXPECT_EQ(selected(), ball);
@@ -50,16 +47,14 @@ TEST_F(Select, AClickSelectsWhatIsThere)
   EXPECT_EQ(undo(), "") << "a click is no edit";
 }
 
-TEST_F(Select, ADragOrbitsAndSelectsNothing)
-{
+TEST_F(Select, ADragOrbitsAndSelectsNothing) {
   open();
   drag_by(at(-0.5, 0, 0), 40);
   EXPECT_EQ(selected(), nothing);
   EXPECT_EQ(undo(), "orbit");
 }
 
-TEST_F(Select, AHandThatTremblesClicks)
-{
+TEST_F(Select, AHandThatTremblesClicks) {
   open();
   const Point from = at(-0.5, 0, 0);
   press_at(from);
@@ -69,8 +64,7 @@ TEST_F(Select, AHandThatTremblesClicks)
   EXPECT_EQ(undo(), "");
 }
 
-TEST_F(Select, TheListSelectsByName)
-{
+TEST_F(Select, TheListSelectsByName) {
   open();
   click(*view().place_of("selected"));
   frame();
@@ -78,8 +72,7 @@ TEST_F(Select, TheListSelectsByName)
   EXPECT_EQ(selected(), spot);
 }
 
-TEST_F(Select, KeysGoThroughEverything)
-{
+TEST_F(Select, KeysGoThroughEverything) {
   open();
   for (const Selection& expected : {ball, floor_quad, lamp, spot, camera_target, ball}) {
     press(ImGuiKey_Period);
@@ -89,8 +82,7 @@ TEST_F(Select, KeysGoThroughEverything)
   EXPECT_EQ(selected(), camera_target);
 }
 
-TEST_F(Select, EscapeDeselectsBeforeItCancels)
-{
+TEST_F(Select, EscapeDeselectsBeforeItCancels) {
   open();
   select(ball);
   press(ImGuiKey_Escape);
@@ -101,8 +93,7 @@ TEST_F(Select, EscapeDeselectsBeforeItCancels)
   EXPECT_TRUE(until(job::State::cancelled));
 }
 
-TEST_F(Select, ASelectionThatIsGoneIsNone)
-{
+TEST_F(Select, ASelectionThatIsGoneIsNone) {
   open();
   select(spot);
   edit([&](preset::Preset& p) { p.scene.lights.clear(); });
@@ -111,8 +102,7 @@ TEST_F(Select, ASelectionThatIsGoneIsNone)
   EXPECT_FALSE(view().overlay().gizmo().places());
 }
 
-TEST_F(Select, AnArrowMovesTheBall)
-{
+TEST_F(Select, AnArrowMovesTheBall) {
   open();
   const double x = scene().objects[0].transform.translate[0];
   click(at(x, 0, 0));
@@ -139,8 +129,7 @@ TEST_F(Select, AnArrowMovesTheBall)
   EXPECT_EQ(selected(), ball);
 }
 
-TEST_F(Select, CtrlSnapsADrag)
-{
+TEST_F(Select, CtrlSnapsADrag) {
   open();
   select(ball);
   const Point tip = handle(2);
@@ -153,8 +142,7 @@ TEST_F(Select, CtrlSnapsADrag)
   EXPECT_NEAR(steps, std::round(steps), 1e-9) << "a fifth of a metre at 4 m";
 }
 
-TEST_F(Select, ADragThatLeavesTheViewGoesOn)
-{
+TEST_F(Select, ADragThatLeavesTheViewGoesOn) {
   open();
   select(ball);
   press(ImGuiKey_S);
@@ -173,8 +161,7 @@ TEST_F(Select, ADragThatLeavesTheViewGoesOn)
   EXPECT_EQ(scene().objects[0].transform.scale[0], far) << "it was let go there";
 }
 
-TEST_F(Select, ACircleTurnsTheFloor)
-{
+TEST_F(Select, ACircleTurnsTheFloor) {
   open();
   select(floor_quad);
   press(ImGuiKey_U);
@@ -193,8 +180,7 @@ TEST_F(Select, ACircleTurnsTheFloor)
   EXPECT_EQ(undo(), "turn floor");
 }
 
-TEST_F(Select, ALightIsMovedAndAimed)
-{
+TEST_F(Select, ALightIsMovedAndAimed) {
   open();
   select(spot);
   drag_by(handle(1), 30);
@@ -205,8 +191,7 @@ TEST_F(Select, ALightIsMovedAndAimed)
   EXPECT_NE(scene().lights[1].direction, (preset::Vec3{0, -1, 0}));
 }
 
-TEST_F(Select, TheCamerasTargetIsMoved)
-{
+TEST_F(Select, TheCamerasTargetIsMoved) {
   open();
   select(camera_target);
   const Point tip = handle(2);
@@ -216,8 +201,7 @@ TEST_F(Select, TheCamerasTargetIsMoved)
   EXPECT_EQ(scene().camera.position, (preset::Vec3{0, 0, 4}));
 }
 
-TEST_F(Select, ArrowKeysNudge)
-{
+TEST_F(Select, ArrowKeysNudge) {
   open();
   select(ball);
   for (int i = 0; i < 3; ++i) press(ImGuiKey_RightArrow);
@@ -238,8 +222,7 @@ TEST_F(Select, ArrowKeysNudge)
   EXPECT_NEAR(scene().objects[0].transform.translate[0], -0.48, 1e-9) << "and so it is of another thing";
 }
 
-TEST_F(Select, ButtonsChooseTheTool)
-{
+TEST_F(Select, ButtonsChooseTheTool) {
   open();
   const auto handles = [&] { return workbench.view_state().handles; };
   click(*view().place_of("Turn"));
@@ -251,8 +234,7 @@ TEST_F(Select, ButtonsChooseTheTool)
   EXPECT_TRUE(handles().own_axes && handles().snap);
 }
 
-TEST_F(Select, OwnAxesAreThoseOfTheObject)
-{
+TEST_F(Select, OwnAxesAreThoseOfTheObject) {
   open();
   select(floor_quad);
   edit([&](preset::Preset& p) { p.scene.objects[1].transform.rotate_deg = {0, 0, 90}; });
@@ -263,8 +245,7 @@ TEST_F(Select, OwnAxesAreThoseOfTheObject)
   EXPECT_EQ(scene().objects[1].transform.translate[0], 0);
 }
 
-TEST_F(Select, HiddenIconsAreNotInTheWay)
-{
+TEST_F(Select, HiddenIconsAreNotInTheWay) {
   open();
   select(ball);
   press(ImGuiKey_H);
@@ -275,8 +256,7 @@ TEST_F(Select, HiddenIconsAreNotInTheWay)
   EXPECT_TRUE(view().overlay().gizmo().places());
 }
 
-TEST_F(Select, AMoveIsAdoptedByTheEnvironmentsRun)
-{
+TEST_F(Select, AMoveIsAdoptedByTheEnvironmentsRun) {
   open(test::ball_text("environment"));
   select(ball);
   const int made = runs.made;
@@ -299,18 +279,18 @@ protected:
   SelectInParameters() : Select("parameters") {}
 };
 
-TEST_F(SelectInParameters, ItsFieldsAreBroughtIntoSight)
-{
+TEST_F(SelectInParameters, ItsFieldsAreBroughtIntoSight) {
   open();
-  const auto shown = [&] { return workspace.panel<ParametersPanel>().place_of("/scene/lights/1/position/0").has_value(); };
+  const auto shown = [&] {
+    return workspace.panel<ParametersPanel>().place_of("/scene/lights/1/position/0").has_value();
+  };
   frames(3);
   EXPECT_FALSE(shown());
   select(spot);
   EXPECT_TRUE(shown());
 }
 
-TEST_F(Select, OfAnInversePresetNothingIs)
-{
+TEST_F(Select, OfAnInversePresetNothingIs) {
   ASSERT_TRUE(workbench.open("inverse/point"));
   frames(5);
   EXPECT_FALSE(view().place_of("selected"));

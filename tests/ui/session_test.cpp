@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sessions: what is kept is what was there; a window that was killed is opened again with it; what cannot be read loses nothing.
+// Sessions: what is kept is what was there; a window that was killed is opened again with it; what cannot be read loses
+// nothing.
 #include "fake_job.h"
 #include "ui/state/session_keeper.h"
 
@@ -7,13 +8,11 @@ namespace nephroid::ui::session_test {
 
 /// A window without a display: a workbench with its keeper.
 struct Window : test::Bench {
-  explicit Window(const fs::path& state, const std::string& preset = {}) : keeper(state)
-  {
+  explicit Window(const fs::path& state, const std::string& preset = {}) : keeper(state) {
     EXPECT_TRUE(preset.empty() || workbench.open(preset));
   }
   /// Until everything is in the files.
-  void settle()
-  {
+  void settle() {
     for (int i = 0; i < 3; ++i) { // what a write ends may have to be kept as well
       ASSERT_TRUE(until([&] { return workbench.tasks().empty(); }));
       keeper.update(workbench, later += std::chrono::seconds(20));
@@ -22,7 +21,8 @@ struct Window : test::Bench {
   }
 
   SessionKeeper keeper;
-  SessionKeeper::Clock::time_point later = SessionKeeper::Clock::now(); ///< of the keeper, which writes at most once a second
+  SessionKeeper::Clock::time_point later =
+      SessionKeeper::Clock::now(); ///< of the keeper, which writes at most once a second
 };
 
 class SessionTest : public testing::Test {
@@ -30,23 +30,20 @@ protected:
   TemporaryFolder folder;
   fs::path state() const { return folder.path() / "state"; }
   std::string preset_file() const { return folder.write("test.json", test::preset_text); }
-  std::string text_of(const Workbench& workbench) const
-  {
+  std::string text_of(const Workbench& workbench) const {
     Session session{.edits = workbench.edits()->state(), .view_state = workbench.view_state()};
     return SessionText().of(session);
   }
 };
 
-std::string replaced(std::string text, const std::string& from, const std::string& to)
-{
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);
 }
 
 /// An edit of some field, of list or map, at random.
-void change_something(preset::Preset& preset, std::mt19937& random)
-{
+void change_something(preset::Preset& preset, std::mt19937& random) {
   const auto draw = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   auto& scene = preset.scene;
   const std::function<void()> changes[] = {
@@ -73,8 +70,7 @@ void change_something(preset::Preset& preset, std::mt19937& random)
   changes[random() % std::size(changes)]();
 }
 
-TEST_F(SessionTest, AHundredEditsUndoneGiveTheSameBytes)
-{
+TEST_F(SessionTest, AHundredEditsUndoneGiveTheSameBytes) {
   Window window(state(), preset_file());
   std::mt19937 random(7);
   std::vector<std::string> states{preset::to_json(*window.workbench.preset())};
@@ -92,8 +88,7 @@ TEST_F(SessionTest, AHundredEditsUndoneGiveTheSameBytes)
   }
 }
 
-TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas)
-{
+TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas) {
   std::mt19937 random(3);
   std::vector<std::string> states;
   {
@@ -132,8 +127,7 @@ TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas)
   EXPECT_EQ(std::distance(fs::directory_iterator(state() / "sessions"), {}), 1) << "the old one is not needed any more";
 }
 
-TEST_F(SessionTest, PinnedRunsComeBackWithTheirPictures)
-{
+TEST_F(SessionTest, PinnedRunsComeBackWithTheirPictures) {
   {
     Window window(state());
     window.runs.history = [](int steps) { return test::falling_history(steps); };
@@ -155,8 +149,7 @@ TEST_F(SessionTest, PinnedRunsComeBackWithTheirPictures)
   EXPECT_EQ(pin.picture->rgb[2], 4) << "the camera's z, which the fake picture has as its blue";
 }
 
-TEST_F(SessionTest, AClosedWindowIsOfferedButNotOpened)
-{
+TEST_F(SessionTest, AClosedWindowIsOfferedButNotOpened) {
   {
     Window window(state(), preset_file());
     window.keeper.close(window.workbench);
@@ -171,8 +164,7 @@ TEST_F(SessionTest, AClosedWindowIsOfferedButNotOpened)
   EXPECT_FALSE(window.keeper.has_earlier());
 }
 
-TEST_F(SessionTest, AReopenedSessionIsGoneWhenTheNextIsKept)
-{
+TEST_F(SessionTest, AReopenedSessionIsGoneWhenTheNextIsKept) {
   Window(state(), preset_file()).settle(); // killed
   {
     Window closed(state());
@@ -185,8 +177,7 @@ TEST_F(SessionTest, AReopenedSessionIsGoneWhenTheNextIsKept)
   EXPECT_TRUE(window.keeper.has_earlier());
 }
 
-TEST_F(SessionTest, OnlyOneWindowReopensASession)
-{
+TEST_F(SessionTest, OnlyOneWindowReopensASession) {
   Window(state(), preset_file()).settle(); // killed
   Window first(state()), second(state());
   EXPECT_FALSE(first.keeper.killed_session().empty());
@@ -201,8 +192,7 @@ TEST_F(SessionTest, OnlyOneWindowReopensASession)
   EXPECT_TRUE(Window(state()).keeper.killed_session().empty());
 }
 
-TEST_F(SessionTest, AWindowThatIsOpenKeepsItsOwn)
-{
+TEST_F(SessionTest, AWindowThatIsOpenKeepsItsOwn) {
   Window first(state(), preset_file());
   first.settle();
   Window second(state());
@@ -210,16 +200,14 @@ TEST_F(SessionTest, AWindowThatIsOpenKeepsItsOwn)
   EXPECT_FALSE(second.keeper.has_earlier());
 }
 
-TEST_F(SessionTest, AWindowThatOpenedNothingLeavesNothing)
-{
+TEST_F(SessionTest, AWindowThatOpenedNothingLeavesNothing) {
   Window(state()).settle(); // killed on its start page
   Window window(state());
   EXPECT_TRUE(window.keeper.killed_session().empty());
   EXPECT_FALSE(window.keeper.has_earlier());
 }
 
-TEST_F(SessionTest, WhatIsCutIsRefusedInOneLine)
-{
+TEST_F(SessionTest, WhatIsCutIsRefusedInOneLine) {
   Window window(state(), preset_file());
   window.edit([](preset::Preset& preset) { preset.seed = 5; });
   const std::string whole = text_of(window.workbench);
@@ -230,8 +218,7 @@ TEST_F(SessionTest, WhatIsCutIsRefusedInOneLine)
   }
 }
 
-TEST_F(SessionTest, WrongValuesAreRefused)
-{
+TEST_F(SessionTest, WrongValuesAreRefused) {
   Window window(state(), preset_file());
   const std::string whole = text_of(window.workbench);
   const auto with = [&](const std::string& from, const std::string& to) { return replaced(whole, from, to); };
@@ -247,8 +234,7 @@ TEST_F(SessionTest, WrongValuesAreRefused)
   EXPECT_THROW(parse_session("null", ""), Error);
 }
 
-TEST_F(SessionTest, AnUnreadableSessionIsKeptUnderAnotherName)
-{
+TEST_F(SessionTest, AnUnreadableSessionIsKeptUnderAnotherName) {
   Window(state(), preset_file()).settle();
   const fs::path session = fs::directory_iterator(state() / "sessions")->path();
   write_file_whole(session / "session.json", "{\"version\": 1, \"closed\": false, ");
@@ -262,8 +248,7 @@ TEST_F(SessionTest, AnUnreadableSessionIsKeptUnderAnotherName)
   EXPECT_FALSE(window.keeper.has_earlier());
 }
 
-TEST_F(SessionTest, WhereNothingCanBeKeptItIsSaidOnceAndTheWindowGoesOn)
-{
+TEST_F(SessionTest, WhereNothingCanBeKeptItIsSaidOnceAndTheWindowGoesOn) {
   Window window(state(), preset_file());
   const fs::path own = fs::directory_iterator(state() / "sessions")->path();
   fs::remove_all(own);
@@ -275,8 +260,7 @@ TEST_F(SessionTest, WhereNothingCanBeKeptItIsSaidOnceAndTheWindowGoesOn)
   EXPECT_EQ(window.workbench.preset()->seed, 9u);
 }
 
-TEST_F(SessionTest, SettingsAreThoseOfTheLastWindow)
-{
+TEST_F(SessionTest, SettingsAreThoseOfTheLastWindow) {
   {
     Window window(state(), preset_file());
     window.workbench.apply({command::SetAppearance{Theme::light, 1.21}, command::ShowPanel{"plan", false},
@@ -291,8 +275,7 @@ TEST_F(SessionTest, SettingsAreThoseOfTheLastWindow)
   EXPECT_EQ(window.workbench.setup().settings().engines.at("inverse").ini, "[Window][Plan]\nPos=1,2\n");
 }
 
-TEST(Settings, WhatCannotBeIsRefused)
-{
+TEST(Settings, WhatCannotBeIsRefused) {
   Settings settings;
   settings.engines["spectral"] = {"[Docking][Data]\nDockNode ID=0x00000003\n", {"plan"}};
   const std::string text = to_json(settings);
@@ -301,7 +284,8 @@ TEST(Settings, WhatCannotBeIsRefused)
   EXPECT_THROW(parse_settings(with("0x00000003", "0x00000004"), ""), Error) << "Dear ImGui trusts what it reads";
   EXPECT_THROW(parse_settings(with("\"version\": 2", "\"version\": 1"), ""), Error);
   EXPECT_THROW(parse_settings(with("\"text_size\": 1.0", "\"text_size\": 1e9"), ""), Error);
-  for (std::size_t length = 0; length < text.size(); length += 3) EXPECT_THROW(parse_settings(text.substr(0, length), ""), Error) << length;
+  for (std::size_t length = 0; length < text.size(); length += 3)
+    EXPECT_THROW(parse_settings(text.substr(0, length), ""), Error) << length;
   Settings crowded;
   for (int i = 0; i < 100; ++i) crowded.engines["spectral"].closed.insert(std::to_string(i));
   EXPECT_THROW(parse_settings(to_json(crowded), ""), Error);

@@ -19,8 +19,7 @@ class SpectraPanelTest : public test::WindowFixtureOf<test::SceneRuns> {
 protected:
   SpectraPanelTest() : WindowFixtureOf("spectra") {}
 
-  void open_room(const std::string& spectrum, const std::string& effort = "importance")
-  {
+  void open_room(const std::string& spectrum, const std::string& effort = "importance") {
     runs.steps = 100000;
     open(room_text(spectrum, effort));
     ASSERT_TRUE(until([&] { return workbench.run().scene_facts().spectra != nullptr; }));
@@ -33,8 +32,7 @@ protected:
   void click(const std::string& widget) { click_in(panel(), widget, 0); }
 };
 
-TEST_F(SpectraPanelTest, AnIlluminantBecomesRowsToDrag)
-{
+TEST_F(SpectraPanelTest, AnIlluminantBecomesRowsToDrag) {
   open_room(R"("D65")");
   click("make editable");
   EXPECT_THAT(light().table, SizeIs(21)) << "a row every 20 nm";
@@ -45,22 +43,21 @@ TEST_F(SpectraPanelTest, AnIlluminantBecomesRowsToDrag)
   EXPECT_FALSE(workbench.edits()->modified()) << "two entries";
 }
 
-TEST_F(SpectraPanelTest, ARowThatIsDraggedFollowsTheMouseAndIsOneEntry)
-{
+TEST_F(SpectraPanelTest, ARowThatIsDraggedFollowsTheMouseAndIsOneEntry) {
   open_room(table);
   drag_between(panel().plot().place(600, 0.5), panel().plot().place(640, 0.9));
   const preset::LightSpectrum dragged = light();
   ASSERT_THAT(dragged.table, SizeIs(4));
   EXPECT_NEAR(dragged.table[2][0], 640, 2);
   EXPECT_NEAR(dragged.table[2][1], 0.9, 0.02);
-  EXPECT_EQ(spectra().lights[0].spectrum, scene::make_light_spectrum(dragged, "test")) << "the curve shown is of the preset as it is";
+  EXPECT_EQ(spectra().lights[0].spectrum, scene::make_light_spectrum(dragged, "test"))
+      << "the curve shown is of the preset as it is";
   press(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(light().table[2], (PowerRow{600, 0.5}));
   EXPECT_FALSE(workbench.edits()->modified()) << "one entry";
 }
 
-TEST_F(SpectraPanelTest, ARowStopsAtItsNeighboursAndTheOthersStayWhereTheyAre)
-{
+TEST_F(SpectraPanelTest, ARowStopsAtItsNeighboursAndTheOthersStayWhereTheyAre) {
   open_room(table);
   drag_between(panel().plot().place(500, 1), panel().plot().place(650, 0.25));
   EXPECT_NEAR(light().table[1][0], 599.9, 1e-9);
@@ -69,8 +66,7 @@ TEST_F(SpectraPanelTest, ARowStopsAtItsNeighboursAndTheOthersStayWhereTheyAre)
   EXPECT_EQ(light().table[2], (PowerRow{600, 0.5}));
 }
 
-TEST_F(SpectraPanelTest, GesturesOfTwoPanelsAreTwoEntries)
-{
+TEST_F(SpectraPanelTest, GesturesOfTwoPanelsAreTwoEntries) {
   open_room(table);
   drag(0, 40, 0); // the View's first gesture, then the panel's first
   drag_between(panel().plot().place(600, 0.5), panel().plot().place(640, 0.9));
@@ -79,8 +75,7 @@ TEST_F(SpectraPanelTest, GesturesOfTwoPanelsAreTwoEntries)
   EXPECT_NE(camera().position[0], 0);
 }
 
-TEST_F(SpectraPanelTest, RowsAreAddedAndRemoved)
-{
+TEST_F(SpectraPanelTest, RowsAreAddedAndRemoved) {
   open_room(table);
   const auto place = panel().plot().place(550, 0.4);
   click(place);
@@ -107,8 +102,7 @@ TEST_F(SpectraPanelTest, RowsAreAddedAndRemoved)
 }
 
 // dispersion_panel_test.cpp has the other ways in which rows go while one is dragged.
-TEST_F(SpectraPanelTest, DeleteWhileARowIsDraggedMovesNoOther)
-{
+TEST_F(SpectraPanelTest, DeleteWhileARowIsDraggedMovesNoOther) {
   open_room(table);
   const auto held = panel().plot().place(600, 0.5);
   press_at(held);
@@ -124,16 +118,14 @@ TEST_F(SpectraPanelTest, DeleteWhileARowIsDraggedMovesNoOther)
   EXPECT_THAT(light().table, SizeIs(3));
 }
 
-TEST_F(SpectraPanelTest, LinesAreDragged)
-{
+TEST_F(SpectraPanelTest, LinesAreDragged) {
   open_room(R"({"type": "lines", "table": [[450, 2], [546.1, 4]]})");
   drag_between(panel().plot().place(450, 0.5), panel().plot().place(480, 0.25));
   EXPECT_NEAR(light().table[0][0], 480, 2);
   EXPECT_NEAR(light().table[0][1], 1, 0.08) << "of 4";
 }
 
-TEST_F(SpectraPanelTest, ItsNumbersAreTheEngines)
-{
+TEST_F(SpectraPanelTest, ItsNumbersAreTheEngines) {
   open_room(R"("F10")");
   preset::Preset preset = *workbench.preset();
   const scene::Scene scene = scene::load_scene(preset);
@@ -150,7 +142,8 @@ TEST_F(SpectraPanelTest, ItsNumbersAreTheEngines)
         ASSERT_TRUE(until([&] { return runs.made > made && workbench.run().snapshot_is_current(); }));
         frames(2);
         ASSERT_EQ(spectra().why_no_u, "");
-        const photons::WavelengthImportance expected = photons::wavelength_importance(spectral::settings(preset), scene, bvh);
+        const photons::WavelengthImportance expected =
+            photons::wavelength_importance(spectral::settings(preset), scene, bvh);
         EXPECT_EQ(spectra().importance.u, expected.u);
         ASSERT_EQ(spectra().importance.surroundings.size(), expected.surroundings.size());
         for (std::size_t i = 0; i < expected.surroundings.size(); ++i)
@@ -169,8 +162,7 @@ TEST_F(SpectraPanelTest, ItsNumbersAreTheEngines)
       }
 }
 
-TEST_F(SpectraPanelTest, WhatDealsOutTheWorkIsFollowed)
-{
+TEST_F(SpectraPanelTest, WhatDealsOutTheWorkIsFollowed) {
   open_room(R"("D65")");
   const std::int64_t before = spectra().iterations();
   edit([&](preset::Preset& p) { spectral::settings(p).importance.cluster = photons::Importance::Cluster::mean; });
@@ -178,8 +170,7 @@ TEST_F(SpectraPanelTest, WhatDealsOutTheWorkIsFollowed)
   EXPECT_LT(spectra().iterations(), before) << "without waiting for a run";
 }
 
-TEST_F(SpectraPanelTest, IdleFramesMakeNothingAnew)
-{
+TEST_F(SpectraPanelTest, IdleFramesMakeNothingAnew) {
   open_room(table);
   const std::uint64_t made = panel().maker().updates();
   frames(20);
@@ -202,8 +193,7 @@ TEST_F(SpectraPanelTest, IdleFramesMakeNothingAnew)
   EXPECT_EQ(panel().maker().updates(), dragged) << "the new run's glass sees what the old one's saw";
 }
 
-TEST_F(SpectraPanelTest, WhatIsWrongIsASentence)
-{
+TEST_F(SpectraPanelTest, WhatIsWrongIsASentence) {
   open_room(table);
   const auto with_light = [&](const preset::LightSpectrum& spectrum) {
     edit([&](preset::Preset& p) { p.scene.lights.at(0).spectrum = spectrum; });
@@ -217,14 +207,15 @@ TEST_F(SpectraPanelTest, WhatIsWrongIsASentence)
   EXPECT_THAT(spectra().lights[0].error, HasSubstr("D65"));
   edit([](preset::Preset& p) { p.scene.lights.clear(); });
   frames(3);
-  edit([](preset::Preset& p) { p.scene.lights = {preset::Light{}}, p.scene.materials["glass"].dispersion.coefficients = {-1}; });
+  edit([](preset::Preset& p) {
+    p.scene.lights = {preset::Light{}}, p.scene.materials["glass"].dispersion.coefficients = {-1};
+  });
   frames(3);
   EXPECT_NE(spectra().why_no_u, "");
   for (const Message& message : workbench.messages()) EXPECT_THAT(message.line, Not(HasSubstr(SpectraPanel::title)));
 }
 
-TEST_F(SpectraPanelTest, NothingThatMattersIsASentence)
-{
+TEST_F(SpectraPanelTest, NothingThatMattersIsASentence) {
   open_room(table);
   edit([](preset::Preset& p) {
     for (const char* name : {"red", "floor"}) p.scene.materials[name].reflectance = {.value = 0};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sweep of a preset in the window: opened, edited, saved, undone; its runs in a queue, each pinned; the report over them.
+// The sweep of a preset in the window: opened, edited, saved, undone; its runs in a queue, each pinned; the report over
+// them.
 #include "ui/runs/panel.h"
 #include "ui/runs/sweep_section.h"
 #include "ui/state/run_record.h"
@@ -13,34 +14,29 @@ class SweepTest : public test::WindowFixture {
 protected:
   SweepTest() : WindowFixture("runs") {}
 
-  static std::string swept(const std::string& sweep)
-  {
+  static std::string swept(const std::string& sweep) {
     std::string text = test::preset_text;
     return text.insert(text.rfind('}'), ", \"sweep\": " + sweep);
   }
   const RunsPanel& panel() const { return workspace.panel<RunsPanel>(); }
   void click_on(const std::string& widget) { click_in(panel(), widget); }
-  void fill(const std::string& widget, const std::string& text)
-  {
+  void fill(const std::string& widget, const std::string& text) {
     click_on(widget);
     retype(text);
   }
-  void choose(const std::string& key)
-  {
+  void choose(const std::string& key) {
     click_on("sweep field");
     frames(2);
     retype(key);
     press(ImGuiKey_Enter);
   }
   /// Until no run of the sweep is to come.
-  void work_off()
-  {
+  void work_off() {
     workbench.apply({command::StartSweep{}});
     ASSERT_TRUE(until([&] { return !workbench.sweep().active(); }));
     frame();
   }
-  std::vector<Queue> states() const
-  {
+  std::vector<Queue> states() const {
     std::vector<Queue> all;
     for (const SweepQueue::QueuedRun& run : workbench.sweep().runs()) all.push_back(run.state);
     return all;
@@ -52,32 +48,31 @@ protected:
 const NumberField power{"scene.lights.0.power_w", false, preset::within(0, 100), "", "a number from 0 to 100", 10};
 const NumberField passes{"stop.passes", true, preset::within(1, 1000), "", "a whole number from 1 to 1000", 20};
 
-std::string refused_range(const NumberField& field, const SweepRange& range)
-{
+std::string refused_range(const NumberField& field, const SweepRange& range) {
   return refusal_of([&] { range_values(field, range); });
 }
 
-std::string refused_list(const NumberField& field, const std::string& text)
-{
+std::string refused_list(const NumberField& field, const std::string& text) {
   return refusal_of([&] { typed_values(field, text); });
 }
 
-TEST(SweepValues, ARangeHasItsEndsAndEqualSteps)
-{
+TEST(SweepValues, ARangeHasItsEndsAndEqualSteps) {
   EXPECT_THAT(range_values(power, {0, 1, 5, false}), ElementsAre("0.0", "0.25", "0.5", "0.75", "1.0"));
-  EXPECT_THAT(range_values(power, {0.1, 0.5, 5, false}), ElementsAre("0.1", "0.2", "0.3", "0.4", "0.5")) << "and no 0.30000000000000004";
+  EXPECT_THAT(range_values(power, {0.1, 0.5, 5, false}), ElementsAre("0.1", "0.2", "0.3", "0.4", "0.5"))
+      << "and no 0.30000000000000004";
   EXPECT_THAT(range_values(power, {0.01, 100, 5, true}), ElementsAre("0.01", "0.1", "1.0", "10.0", "100.0"));
   EXPECT_THAT(range_values(power, {3, 1, 3, false}), ElementsAre("3.0", "2.0", "1.0"));
   EXPECT_THAT(range_values(power, {3, 7, 1, false}), ElementsAre("3.0"));
   EXPECT_THAT(range_values(passes, {1, 100, 3, true}), ElementsAre("1", "10", "100"));
 }
 
-TEST(SweepValues, ARangeThatCannotBeIsRefused)
-{
-  EXPECT_THAT(refused_range(power, {0, 1, 0, false}), HasSubstr("scene.lights.0.power_w: 0 values; expected 1 to 10000"));
+TEST(SweepValues, ARangeThatCannotBeIsRefused) {
+  EXPECT_THAT(refused_range(power, {0, 1, 0, false}),
+              HasSubstr("scene.lights.0.power_w: 0 values; expected 1 to 10000"));
   EXPECT_THAT(refused_range(power, {0, 1, 1000000, false}), HasSubstr("1000000 values"));
   EXPECT_THAT(refused_range(power, {0, 1, -3, false}), HasSubstr("-3 values"));
-  EXPECT_THAT(refused_range(power, {0, 101, 3, false}), HasSubstr("101 is out of its range; expected a number from 0 to 100"));
+  EXPECT_THAT(refused_range(power, {0, 101, 3, false}),
+              HasSubstr("101 is out of its range; expected a number from 0 to 100"));
   EXPECT_THAT(refused_range(power, {0, std::nan(""), 3, false}), HasSubstr("nan is out of its range"));
   EXPECT_THAT(refused_range(power, {0, 1, 3, true}), HasSubstr("a logarithmic range has both ends above 0"));
   EXPECT_THAT(refused_range(power, {1, 1, 3, false}), HasSubstr("the value 1.0 is there twice")) << "an empty range";
@@ -85,8 +80,7 @@ TEST(SweepValues, ARangeThatCannotBeIsRefused)
   EXPECT_THAT(refused_range(passes, {1.5, 3, 2, false}), HasSubstr("1.5 is out of its range"));
 }
 
-TEST(SweepValues, AListIsTypedAsPeopleDo)
-{
+TEST(SweepValues, AListIsTypedAsPeopleDo) {
   EXPECT_THAT(typed_values(power, " .5, +3 1e1;2\n"), ElementsAre("0.5", "3.0", "10.0", "2.0"));
   const NumberField seed{"seed", true, preset::within(0, 18446744073709551615.0), "", "", 1};
   EXPECT_THAT(typed_values(seed, "18446744073709551615, 1e3"), ElementsAre("18446744073709551615", "1000"));
@@ -100,18 +94,17 @@ TEST(SweepValues, AListIsTypedAsPeopleDo)
   EXPECT_THAT(refused_list({"x", true, preset::within(0, 1e9), "", "", 0}, many), HasSubstr("too many values"));
 }
 
-TEST_F(SweepTest, FieldsAreThoseOfThePresetThatHoldANumber)
-{
+TEST_F(SweepTest, FieldsAreThoseOfThePresetThatHoldANumber) {
   open();
   std::vector<std::string> keys;
   for (const NumberField& field : number_fields(*workbench.preset())) keys.push_back(field.key);
-  EXPECT_THAT(keys, IsSupersetOf({"seed", "white", "scene.camera.fov_deg", "scene.lights.0.power_w", "spectral.threshold_deg",
-                                  "stop.passes", "stop.seconds", "scene.materials.wall.reflectance.value"}));
+  EXPECT_THAT(keys,
+              IsSupersetOf({"seed", "white", "scene.camera.fov_deg", "scene.lights.0.power_w", "spectral.threshold_deg",
+                            "stop.passes", "stop.seconds", "scene.materials.wall.reflectance.value"}));
   EXPECT_THAT(keys, Not(Contains(HasSubstr("inverse"))));
 }
 
-TEST_F(SweepTest, APresetWithASweepIsOpenedAndSavedWithIt)
-{
+TEST_F(SweepTest, APresetWithASweepIsOpenedAndSavedWithIt) {
   open(swept(R"({"spectral.threshold_deg": [0.5, 0.1], "seed": [1, 2, 3]})"));
   ASSERT_THAT(sweep(), SizeIs(2));
   EXPECT_EQ(sweep()[0], (preset::SweptField{"spectral.threshold_deg", {"0.5", "0.1"}}));
@@ -126,8 +119,7 @@ TEST_F(SweepTest, APresetWithASweepIsOpenedAndSavedWithIt)
   EXPECT_EQ(runs_of_file[5].scene.camera.fov_deg, 30);
 }
 
-TEST_F(SweepTest, WhereTheFieldsAloneAreNoPresetTheFirstRunIsShown)
-{
+TEST_F(SweepTest, WhereTheFieldsAloneAreNoPresetTheFirstRunIsShown) {
   std::string text = swept(R"({"engine": ["spectral"]})");
   text.erase(text.find("\"engine\": \"spectral\", "), 22);
   open(text);
@@ -135,8 +127,7 @@ TEST_F(SweepTest, WhereTheFieldsAloneAreNoPresetTheFirstRunIsShown)
   EXPECT_THAT(sweep(), SizeIs(1));
 }
 
-TEST_F(SweepTest, AChildKeepsItsParentAndItsSweep)
-{
+TEST_F(SweepTest, AChildKeepsItsParentAndItsSweep) {
   folder.write("parent.json", swept(R"({"seed": [1, 2]})"));
   ASSERT_TRUE(workbench.open(folder.write("child.json", R"({"parent": "parent"})")));
   EXPECT_THAT(sweep(), SizeIs(1));
@@ -156,14 +147,12 @@ TEST_F(SweepTest, AChildKeepsItsParentAndItsSweep)
   EXPECT_THAT(read_file(child), Not(HasSubstr("\"parent\"")));
 }
 
-TEST_F(SweepTest, ASweepThatCannotBeIsRefusedWithThePreset)
-{
+TEST_F(SweepTest, ASweepThatCannotBeIsRefusedWithThePreset) {
   EXPECT_FALSE(workbench.open(folder.write("bad.json", swept(R"({"seed": []})"))));
   EXPECT_THAT(only_message(workbench), HasSubstr("bad.json#/sweep/seed"));
 }
 
-TEST_F(SweepTest, AFieldIsSweptByARangeAndUndone)
-{
+TEST_F(SweepTest, AFieldIsSweptByARangeAndUndone) {
   run_through();
   const int made = runs.made;
   click_on("sweep");
@@ -190,8 +179,7 @@ TEST_F(SweepTest, AFieldIsSweptByARangeAndUndone)
   EXPECT_THAT(sweep(), SizeIs(0));
 }
 
-TEST_F(SweepTest, AListIsTypedAndEdited)
-{
+TEST_F(SweepTest, AListIsTypedAndEdited) {
   open();
   click_on("sweep");
   choose("seed");
@@ -210,8 +198,7 @@ TEST_F(SweepTest, AListIsTypedAndEdited)
   EXPECT_THAT(sweep()[0].values, SizeIs(3)) << "nothing changes";
 }
 
-TEST_F(SweepTest, EachRunBecomesAPin)
-{
+TEST_F(SweepTest, EachRunBecomesAPin) {
   run_measured(swept(R"({"scene.lights.0.power_w": [5, 15], "seed": [1, 2]})"));
   click_on("sweep run");
   EXPECT_TRUE(workbench.sweep().active());
@@ -232,12 +219,13 @@ TEST_F(SweepTest, EachRunBecomesAPin)
   workbench.apply({command::WriteReport{folder.path() / "sweep.html"}});
   ASSERT_TRUE(until_files_are_done());
   EXPECT_THAT(last_message(workbench), HasSubstr("a report over 5 runs"));
-  EXPECT_EQ(preset::read_preset((folder.path() / "sweep-runs" / "04-Test,power_w=15,seed=2" / "preset.json").string()).seed, 2u)
+  EXPECT_EQ(
+      preset::read_preset((folder.path() / "sweep-runs" / "04-Test,power_w=15,seed=2" / "preset.json").string()).seed,
+      2u)
       << "a run, not the sweep";
 }
 
-TEST_F(SweepTest, WhatIsRefusedFailsAloneAndSaysWhy)
-{
+TEST_F(SweepTest, WhatIsRefusedFailsAloneAndSaysWhy) {
   open(swept(R"({"stop.passes": [5, -1, 10]})"));
   work_off();
   EXPECT_THAT(states(), ElementsAre(Queue::done, Queue::failed, Queue::done));
@@ -247,8 +235,7 @@ TEST_F(SweepTest, WhatIsRefusedFailsAloneAndSaysWhy)
   EXPECT_THAT(pins(), SizeIs(2));
 }
 
-TEST_F(SweepTest, ARunThatFailsDoesNotEndTheSweep)
-{
+TEST_F(SweepTest, ARunThatFailsDoesNotEndTheSweep) {
   run_through(swept(R"({"seed": [1, 2]})"));
   runs.fails = true;
   work_off();
@@ -257,16 +244,14 @@ TEST_F(SweepTest, ARunThatFailsDoesNotEndTheSweep)
   EXPECT_THAT(pins(), SizeIs(0));
 }
 
-TEST_F(SweepTest, AFieldThatIsNoneIsSaidAndNothingRuns)
-{
+TEST_F(SweepTest, AFieldThatIsNoneIsSaidAndNothingRuns) {
   run_through();
   workbench.apply({command::SetSweep{"sweep", {{"scene.lights.7.power_w", {"1", "2"}}}}, command::StartSweep{}});
   EXPECT_FALSE(workbench.sweep().active());
   EXPECT_THAT(only_message(workbench), HasSubstr("has no item '7'"));
 }
 
-TEST_F(SweepTest, MoreRunsThanTheWindowKeepsAreRefused)
-{
+TEST_F(SweepTest, MoreRunsThanTheWindowKeepsAreRefused) {
   open();
   std::vector<std::string> values;
   for (int i = 1; i <= 65; ++i) values.push_back(std::to_string(i));
@@ -278,8 +263,7 @@ TEST_F(SweepTest, MoreRunsThanTheWindowKeepsAreRefused)
   EXPECT_THAT(preset::read_presets((folder.path() / "many.json").string()), SizeIs(65));
 }
 
-TEST_F(SweepTest, AStopKeepsWhatIsDone)
-{
+TEST_F(SweepTest, AStopKeepsWhatIsDone) {
   open(swept(R"({"seed": [1, 2, 3]})"));
   workbench.apply({command::StartSweep{}});
   ASSERT_TRUE(until([&] { return pins().size() == 1; }));
@@ -291,11 +275,12 @@ TEST_F(SweepTest, AStopKeepsWhatIsDone)
   EXPECT_EQ(workbench.run().snapshot_name(), "Test") << "the preset in hand";
 }
 
-TEST_F(SweepTest, TheButtonAndEscapeStopTheSweep)
-{
+TEST_F(SweepTest, TheButtonAndEscapeStopTheSweep) {
   runs.steps = 1000000;
   open(swept(R"({"seed": [1, 2]})"));
-  const auto running = [&] { return workbench.sweep().active() && workbench.run().status().state == job::State::running; };
+  const auto running = [&] {
+    return workbench.sweep().active() && workbench.run().status().state == job::State::running;
+  };
   click_on("sweep run");
   ASSERT_TRUE(until(running));
   click_on("sweep run");
@@ -309,8 +294,7 @@ TEST_F(SweepTest, TheButtonAndEscapeStopTheSweep)
   EXPECT_NE(workbench.run().status().state, job::State::cancelled) << "the preset's own run goes on";
 }
 
-TEST_F(SweepTest, EditsWaitForTheEndOfTheSweep)
-{
+TEST_F(SweepTest, EditsWaitForTheEndOfTheSweep) {
   runs.step_ms = 4;
   open(swept(R"({"seed": [1, 2]})"));
   workbench.apply({command::StartSweep{}});
@@ -324,8 +308,7 @@ TEST_F(SweepTest, EditsWaitForTheEndOfTheSweep)
   EXPECT_EQ(workbench.run().snapshot_origin().preset->scene.lights[0].power_w, 20);
 }
 
-TEST_F(SweepTest, AnotherPresetEndsTheSweep)
-{
+TEST_F(SweepTest, AnotherPresetEndsTheSweep) {
   runs.step_ms = 5;
   open(swept(R"({"seed": [1, 2, 3]})"));
   workbench.apply({command::StartSweep{}});
@@ -337,10 +320,10 @@ TEST_F(SweepTest, AnotherPresetEndsTheSweep)
   EXPECT_THAT(pins(), SizeIs(0));
 }
 
-TEST_F(SweepTest, ASessionKeepsTheSweep)
-{
+TEST_F(SweepTest, ASessionKeepsTheSweep) {
   open();
-  workbench.apply({command::SetSweep{"sweep", {{"seed", {"1", "2"}}}}, command::SetSweep{"sweep", {{"white", {"1.0", "2.0"}}}}});
+  workbench.apply(
+      {command::SetSweep{"sweep", {{"seed", {"1", "2"}}}}, command::SetSweep{"sweep", {{"white", {"1.0", "2.0"}}}}});
   test::Bench next;
   reopen_in(next.workbench);
   const Workbench& other = next.workbench;
@@ -351,8 +334,7 @@ TEST_F(SweepTest, ASessionKeepsTheSweep)
   EXPECT_EQ(other.edits()->sweep()[0].key, "seed");
 }
 
-TEST_F(SweepTest, AFileThatGetsASweepIsTakenOver)
-{
+TEST_F(SweepTest, AFileThatGetsASweepIsTakenOver) {
   run_through();
   const int made = runs.made;
   folder.write("test.json", swept(R"({"seed": [1, 2]})"));
@@ -363,8 +345,7 @@ TEST_F(SweepTest, AFileThatGetsASweepIsTakenOver)
   EXPECT_EQ(runs.made, made);
 }
 
-TEST_F(SweepTest, TheActionsSayWhyNot)
-{
+TEST_F(SweepTest, TheActionsSayWhyNot) {
   open();
   EXPECT_FALSE(action("Start the sweep").enabled(context()));
   EXPECT_THAT(action("Start the sweep").why_not(context()), HasSubstr("the preset has no sweep"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The queue of what takes longer than a frame: order, newest wins, cancelling, what is thrown, owners that are gone, and the end.
+// The queue of what takes longer than a frame: order, newest wins, cancelling, what is thrown, owners that are gone,
+// and the end.
 #include "tests/support/test.h"
 #include "ui/state/tasks.h"
 
@@ -10,13 +11,11 @@ namespace nephroid::ui::tasks_test {
 class TasksTest : public testing::Test {
 protected:
   /// Until nothing runs or waits.
-  void settle()
-  {
+  void settle() {
     ASSERT_TRUE(test::eventually([&] { tasks.collect(messages); }, [&] { return tasks.empty(); }));
   }
   /// A task that waits for `gate`, and then is `number`.
-  void start(const TaskKey& task_key, int number, TaskAbout about = {"waiting"})
-  {
+  void start(const TaskKey& task_key, int number, TaskAbout about = {"waiting"}) {
     tasks.start(
         task_key, std::move(about), [number, open = open] { return open.wait(), number; },
         [this](int result) { delivered.push_back(result); });
@@ -30,8 +29,7 @@ protected:
   TaskQueue tasks;
 };
 
-TEST_F(TasksTest, ThoseOfOneKeyRunInTheirOrderAndOthersBesideThem)
-{
+TEST_F(TasksTest, ThoseOfOneKeyRunInTheirOrderAndOthersBesideThem) {
   TaskKey other;
   for (int i = 0; i < 5; ++i) start(key, i);
   EXPECT_EQ(tasks.running().size(), 1u);
@@ -49,16 +47,14 @@ TEST_F(TasksTest, ThoseOfOneKeyRunInTheirOrderAndOthersBesideThem)
   EXPECT_THAT(delivered, ElementsAre(-1, 0, 1, 2, 3, 4));
 }
 
-TEST_F(TasksTest, TheNewestReplacesThoseThatHaveNotBegun)
-{
+TEST_F(TasksTest, TheNewestReplacesThoseThatHaveNotBegun) {
   for (int i = 0; i < 5; ++i) start(key, i, {.name = "list", .kind = TaskKind::write, .replaces = true});
   gate.set_value();
   settle();
   EXPECT_THAT(delivered, ElementsAre(0, 4));
 }
 
-TEST_F(TasksTest, WhatIsThrownThereOrInTheDeliveryIsAMessage)
-{
+TEST_F(TasksTest, WhatIsThrownThereOrInTheDeliveryIsAMessage) {
   gate.set_value();
   tasks.start(
       key, {"work"}, [] { throw bad_input("a.json", "is broken"); }, [] {});
@@ -71,8 +67,7 @@ TEST_F(TasksTest, WhatIsThrownThereOrInTheDeliveryIsAMessage)
   EXPECT_EQ(messages.all()[1].line, "no room");
 }
 
-TEST_F(TasksTest, ACancelledOneSaysNothingAndKeepsNobodyWaiting)
-{
+TEST_F(TasksTest, ACancelledOneSaysNothingAndKeepsNobodyWaiting) {
   start(key, 1, {"reading", TaskKind::request});
   start(key, 2, {"reading", TaskKind::request});
   start(key, 3, {"keeping", TaskKind::write});
@@ -92,8 +87,7 @@ TEST_F(TasksTest, ACancelledOneSaysNothingAndKeepsNobodyWaiting)
   EXPECT_THAT(messages.all(), IsEmpty());
 }
 
-TEST_F(TasksTest, TheWorkSaysHowFarItIsAndSeesThatItIsCancelled)
-{
+TEST_F(TasksTest, TheWorkSaysHowFarItIsAndSeesThatItIsCancelled) {
   std::atomic<bool> seen{false};
   tasks.start(
       key, {"counting", TaskKind::request},
@@ -110,8 +104,7 @@ TEST_F(TasksTest, TheWorkSaysHowFarItIsAndSeesThatItIsCancelled)
   EXPECT_TRUE(seen);
 }
 
-TEST_F(TasksTest, NothingIsDeliveredToAnOwnerThatIsGone)
-{
+TEST_F(TasksTest, NothingIsDeliveredToAnOwnerThatIsGone) {
   {
     const TaskKey of_owner;
     start(of_owner, 1);
@@ -122,8 +115,7 @@ TEST_F(TasksTest, NothingIsDeliveredToAnOwnerThatIsGone)
   EXPECT_THAT(delivered, IsEmpty());
 }
 
-TEST_F(TasksTest, WaitingForAKeyDeliversItAndLeavesTheOthers)
-{
+TEST_F(TasksTest, WaitingForAKeyDeliversItAndLeavesTheOthers) {
   TaskKey other;
   start(other, 1);
   tasks.start(
@@ -137,8 +129,7 @@ TEST_F(TasksTest, WaitingForAKeyDeliversItAndLeavesTheOthers)
   settle();
 }
 
-TEST_F(TasksTest, TheEndWaitsForWhatIsWrittenAndDeliversNothing)
-{
+TEST_F(TasksTest, TheEndWaitsForWhatIsWrittenAndDeliversNothing) {
   std::atomic<int> written{0};
   gate.set_value();
   for (int i = 0; i < 3; ++i)

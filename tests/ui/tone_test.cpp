@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes of the shown picture: tone curves and false colour against closed forms, the window's fast bytes against image::shown, which files
-// are written with.
+// Bytes of the shown picture: tone curves and false colour against closed forms, the window's fast bytes against
+// image::shown, which files are written with.
 #include "image/image.h"
 #include "measure/difference.h"
 #include "tests/support/test.h"
@@ -9,19 +9,19 @@
 namespace nephroid::ui::tone_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr float float_nan = std::numeric_limits<float>::quiet_NaN(), float_infinity = std::numeric_limits<float>::infinity();
+constexpr float float_nan = std::numeric_limits<float>::quiet_NaN(),
+                float_infinity = std::numeric_limits<float>::infinity();
 
-Rgb8 toned(const std::vector<float>& rgb, const Tone& tone)
-{
+Rgb8 toned(const std::vector<float>& rgb, const Tone& tone) {
   std::vector<unsigned char> bytes(4);
   toned_pixels(rgb, tone, bytes);
   EXPECT_EQ(bytes[3], 255);
   return {bytes[0], bytes[1], bytes[2]};
 }
 
-TEST(Filmic, IsHablesCurve)
-{
-  // f(2 x) / f(11.2) with the constants of the talk, worked out by hand: f(2) = .704 / 1.66 - 1 / 15 = .357430, f(11.2) = 19.38 / 24.476
+TEST(Filmic, IsHablesCurve) {
+  // f(2 x) / f(11.2) with the constants of the talk, worked out by hand: f(2) = .704 / 1.66 - 1 / 15 = .357430, f(11.2)
+  // = 19.38 / 24.476
   // - 1 / 15 = .725130.
   EXPECT_NEAR(filmic(1), (0.704 / 1.66 - 1.0 / 15) / (19.38 / 24.476 - 1.0 / 15), 1e-12);
   EXPECT_NEAR(filmic(1), 0.4929185, 1e-6);
@@ -34,30 +34,29 @@ TEST(Filmic, IsHablesCurve)
   EXPECT_EQ(filmic(nan), 0);
 }
 
-TEST(Filmic, PixelsAreTheCurveThenSrgb)
-{
+TEST(Filmic, PixelsAreTheCurveThenSrgb) {
   const Tone tone{ToneCurve::filmic, -1, {}, 1};
   std::mt19937 random(2);
   std::uniform_real_distribution<float> exponent(-20, 6);
   for (int i = 0; i < 20000; ++i) {
     const float value = std::exp2(exponent(random));
-    ASSERT_EQ(int(toned({value, 0, 0}, tone)[0]), int(image::shown(static_cast<float>(filmic(static_cast<double>(value) / 2)), 1)))
+    ASSERT_EQ(int(toned({value, 0, 0}, tone)[0]),
+              int(image::shown(static_cast<float>(filmic(static_cast<double>(value) / 2)), 1)))
         << value;
   }
   EXPECT_EQ(toned({float_infinity, float_nan, -1}, tone), (Rgb8{255, 0, 0}));
 }
 
-TEST(StandardTone, IsTheBytesOfImagePng)
-{
+TEST(StandardTone, IsTheBytesOfImagePng) {
   std::vector<float> rgb;
   for (int i = 0; i < 300; ++i) rgb.push_back(static_cast<float>(i) / 200);
   std::vector<unsigned char> toned(400);
   toned_pixels(rgb, {ToneCurve::standard, 0.5, {}, 1}, toned);
-  for (std::size_t i = 0; i < rgb.size(); ++i) EXPECT_EQ(toned[i / 3 * 4 + i % 3], image::shown(rgb[i], std::exp2(0.5f))) << rgb[i];
+  for (std::size_t i = 0; i < rgb.size(); ++i)
+    EXPECT_EQ(toned[i / 3 * 4 + i % 3], image::shown(rgb[i], std::exp2(0.5f))) << rgb[i];
 }
 
-TEST(FalseColour, IsTheMapOverTheLogarithm)
-{
+TEST(FalseColour, IsTheMapOverTheLogarithm) {
   const LuminanceRange range{0.01, 100};
   EXPECT_EQ(luminance_colour(0.01, range), measure::map_colour(0));
   EXPECT_EQ(luminance_colour(1, range), measure::map_colour(0.5)) << "two of four decades";
@@ -66,8 +65,7 @@ TEST(FalseColour, IsTheMapOverTheLogarithm)
   EXPECT_EQ(luminance_colour(0, range), measure::map_colour(0));
 }
 
-TEST(FalseColour, OfPixelsIsThatOfTheirLuminance)
-{
+TEST(FalseColour, OfPixelsIsThatOfTheirLuminance) {
   const Tone tone{ToneCurve::false_colour, 0, {0.001, 1000}, 2};
   std::mt19937 random(3);
   std::uniform_real_distribution<float> exponent(-12, 12);
@@ -81,14 +79,14 @@ TEST(FalseColour, OfPixelsIsThatOfTheirLuminance)
   }
 }
 
-TEST(FalseColour, MarksWhatIsNoLuminance)
-{
+TEST(FalseColour, MarksWhatIsNoLuminance) {
   const Tone tone{ToneCurve::false_colour, 0, {0.01, 1}, 1};
   EXPECT_EQ(toned({0.5f, float_nan, 0.5f}, tone), nan_colour);
   EXPECT_EQ(toned({float_infinity, float_nan, 0}, tone), nan_colour) << "NaN goes first";
   EXPECT_EQ(toned({0, 0, float_infinity}, tone), infinite_colour);
   EXPECT_EQ(toned({0, 0, -float_infinity}, tone), infinite_colour);
-  EXPECT_EQ(toned({float_infinity, -float_infinity, 0}, tone), infinite_colour) << "their luminance is NaN, they are not";
+  EXPECT_EQ(toned({float_infinity, -float_infinity, 0}, tone), infinite_colour)
+      << "their luminance is NaN, they are not";
   EXPECT_EQ(toned({0, -0.1f, 0}, tone), negative_colour);
   EXPECT_EQ(toned({-0.1f, 0.5f, 0}, tone), luminance_colour(0.7152 * 0.5 - 0.2126 * 0.1, tone.range))
       << "a colour outside of sRGB is light";
@@ -102,8 +100,7 @@ TEST(FalseColour, MarksWhatIsNoLuminance)
     }
 }
 
-TEST(AutomaticRange, IsRoundAndHoldsNearlyAll)
-{
+TEST(AutomaticRange, IsRoundAndHoldsNearlyAll) {
   // A thousand greys from 0.003 up to 7: 1 % are below .0107, 99.9 % below 6.993.
   std::vector<float> rgb;
   for (int i = 0; i < 1000; ++i)
@@ -115,10 +112,10 @@ TEST(AutomaticRange, IsRoundAndHoldsNearlyAll)
   EXPECT_NEAR(brighter.high, 10000, 1e-6);
 }
 
-TEST(AutomaticRange, OfOddPictures)
-{
+TEST(AutomaticRange, OfOddPictures) {
   EXPECT_EQ(automatic_range(std::vector<float>{}, 1), (LuminanceRange{0.01, 1}));
-  EXPECT_EQ(automatic_range(std::vector<float>{float_nan, 0, 0, -1, -1, -1, 0, 0, 0, float_infinity, 0, 0}, 1), (LuminanceRange{0.01, 1}));
+  EXPECT_EQ(automatic_range(std::vector<float>{float_nan, 0, 0, -1, -1, -1, 0, 0, 0, float_infinity, 0, 0}, 1),
+            (LuminanceRange{0.01, 1}));
   const LuminanceRange even = automatic_range(std::vector<float>{3, 3, 3}, 1);
   EXPECT_GE(even.high / even.low, 10) << "a decade at least";
   EXPECT_LE(even.low, 3);
@@ -129,8 +126,7 @@ TEST(AutomaticRange, OfOddPictures)
   EXPECT_GE(widest.high, 1e20);
 }
 
-TEST(ValidRange, IsMadeOfWhatIsTyped)
-{
+TEST(ValidRange, IsMadeOfWhatIsTyped) {
   EXPECT_EQ(valid_range({0.5, 2}), (LuminanceRange{0.5, 2}));
   EXPECT_FALSE(valid_range({nan, 1}));
   EXPECT_FALSE(valid_range({1, std::numeric_limits<double>::infinity()}));
@@ -144,8 +140,7 @@ TEST(ValidRange, IsMadeOfWhatIsTyped)
   EXPECT_LT(tiny->low, tiny->high);
 }
 
-TEST(ShownPixels, AreTheBytesOfImageShown)
-{
+TEST(ShownPixels, AreTheBytesOfImageShown) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> exponent(-20, 4);
   for (int i = 0; i < 200000; ++i) {
@@ -154,21 +149,21 @@ TEST(ShownPixels, AreTheBytesOfImageShown)
   }
 }
 
-TEST(ShownPixels, AreRightOnEitherSideOfEveryStep)
-{
+TEST(ShownPixels, AreRightOnEitherSideOfEveryStep) {
   for (int byte = 1; byte < 256; ++byte) {
     // The value that encodes to byte - 0.5 (IEC 61966-2-1), where rounding goes from one byte to the next.
     const double encoded = (byte - 0.5) / 255;
-    const float value = static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+    const float value =
+        static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
     EXPECT_EQ(int(shown_byte(value * 1.0005f)), byte);
     EXPECT_EQ(int(shown_byte(value * 0.9995f)), byte - 1);
     float near = value * 0.99999f; // and float by float, where the two have to step at the same one
-    for (int i = 0; i < 400; ++i, near = std::nextafter(near, 2.0f)) ASSERT_EQ(int(shown_byte(near)), int(image::shown(near, 1))) << near;
+    for (int i = 0; i < 400; ++i, near = std::nextafter(near, 2.0f))
+      ASSERT_EQ(int(shown_byte(near)), int(image::shown(near, 1))) << near;
   }
 }
 
-TEST(ShownPixels, TakeWhateverAFloatCanBe)
-{
+TEST(ShownPixels, TakeWhateverAFloatCanBe) {
   const float infinity = std::numeric_limits<float>::infinity();
   EXPECT_EQ(shown_byte(infinity), 255);
   EXPECT_EQ(shown_byte(-infinity), 0);
@@ -178,8 +173,7 @@ TEST(ShownPixels, TakeWhateverAFloatCanBe)
   EXPECT_EQ(shown_byte(std::numeric_limits<float>::max()), 255);
 }
 
-TEST(ShownPixels, ExposureIsInStops)
-{
+TEST(ShownPixels, ExposureIsInStops) {
   const std::vector<float> rgb{0.1f, 0.2f, 0.4f, 0.8f, 0, 1};
   std::vector<unsigned char> bytes(8), brighter(8);
   toned_pixels(rgb, {}, bytes);

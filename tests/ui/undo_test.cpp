@@ -6,8 +6,7 @@ namespace nephroid::ui::undo_test {
 
 preset::Preset with_seed(std::uint64_t seed) { return {.seed = seed}; }
 
-TEST(UndoStack, GoesBackAndForth)
-{
+TEST(UndoStack, GoesBackAndForth) {
   UndoStack history(with_seed(1));
   EXPECT_FALSE(history.undo());
   EXPECT_FALSE(history.redo());
@@ -23,8 +22,7 @@ TEST(UndoStack, GoesBackAndForth)
   EXPECT_EQ(history.opened().seed, 1u);
 }
 
-TEST(UndoStack, AnEditAfterUndoDropsWhatCouldBeRedone)
-{
+TEST(UndoStack, AnEditAfterUndoDropsWhatCouldBeRedone) {
   UndoStack history(with_seed(1));
   history.push("two", with_seed(2));
   history.undo();
@@ -34,8 +32,7 @@ TEST(UndoStack, AnEditAfterUndoDropsWhatCouldBeRedone)
   EXPECT_EQ(history.current().seed, 1u);
 }
 
-TEST(UndoStack, AGestureIsOneEntry)
-{
+TEST(UndoStack, AGestureIsOneEntry) {
   UndoStack history(with_seed(1));
   for (std::uint64_t seed = 2; seed < 10; ++seed) history.push("drag", with_seed(seed), 7);
   history.push("drag", with_seed(20), 8);
@@ -46,8 +43,7 @@ TEST(UndoStack, AGestureIsOneEntry)
   EXPECT_FALSE(history.undo());
 }
 
-TEST(UndoStack, AGestureThatGoesOnAfterUndoDoesNotOverwriteWhatItFinds)
-{
+TEST(UndoStack, AGestureThatGoesOnAfterUndoDoesNotOverwriteWhatItFinds) {
   UndoStack history(with_seed(1));
   history.push("drag", with_seed(2), 7);
   history.push("other", with_seed(3));
@@ -57,8 +53,7 @@ TEST(UndoStack, AGestureThatGoesOnAfterUndoDoesNotOverwriteWhatItFinds)
   EXPECT_EQ(history.current().seed, 2u);
 }
 
-TEST(UndoStack, KnowsWhetherTheStateIsSaved)
-{
+TEST(UndoStack, KnowsWhetherTheStateIsSaved) {
   UndoStack history(with_seed(1));
   EXPECT_FALSE(history.modified());
   history.push("two", with_seed(2), 5);
@@ -78,8 +73,7 @@ TEST(UndoStack, KnowsWhetherTheStateIsSaved)
   EXPECT_TRUE(history.modified());
 }
 
-TEST(UndoStack, ASavedStateThatAGestureGoesOnToChangeIsNotSaved)
-{
+TEST(UndoStack, ASavedStateThatAGestureGoesOnToChangeIsNotSaved) {
   UndoStack history(with_seed(1));
   history.push("drag", with_seed(2), 5);
   history.mark_saved("there.json");
@@ -87,8 +81,7 @@ TEST(UndoStack, ASavedStateThatAGestureGoesOnToChangeIsNotSaved)
   EXPECT_TRUE(history.modified());
 }
 
-TEST(UndoStack, IsBounded)
-{
+TEST(UndoStack, IsBounded) {
   UndoStack history(with_seed(0));
   for (std::uint64_t seed = 1; seed <= 1500; ++seed) history.push("edit", with_seed(seed));
   int undone = 0;

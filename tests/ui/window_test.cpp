@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real program in a real window on a virtual display: what it shows against what `nephroid run` writes, real X events, and what it says
-// where there is no display. A window that is killed in the middle of edits comes back with them: what its session had kept is there;
-// NEPHROID_KILLS=20 kills twenty. Skipped where there is no Xvfb or no xdotool.
+// The real program in a real window on a virtual display: what it shows against what `nephroid run` writes, real X
+// events, and what it says where there is no display. A window that is killed in the middle of edits comes back with
+// them: what its session had kept is there; NEPHROID_KILLS=20 kills twenty. Skipped where there is no Xvfb or no
+// xdotool.
 #include "real_window.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::window_test {
 
 /// Where a window of this size draws the picture of a preset.
-Placement placement_in_window(int width, int height, const std::string& preset, const std::array<int, 2>& picture)
-{
+Placement placement_in_window(int width, int height, const std::string& preset, const std::array<int, 2>& picture) {
   const test::HeadlessWindow<> like({width, height}, "", preset);
   return place(ViewSettings{}, like.view().canvas(), picture);
 }
@@ -17,15 +17,13 @@ Placement placement_in_window(int width, int height, const std::string& preset, 
 /// Without a display.
 class NoWindow : public testing::Test {
 protected:
-  test::Ended run(const std::vector<std::string>& arguments) const
-  {
+  test::Ended run(const std::vector<std::string>& arguments) const {
     return test::nephroid(arguments, folder.path(), folder.path(), {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}});
   }
   test::TemporaryFolder folder;
 };
 
-TEST_F(NoWindow, SaysWhatToDoButFirstWhatIsNotThere)
-{
+TEST_F(NoWindow, SaysWhatToDoButFirstWhatIsNotThere) {
   const test::Ended ended = run({"--frames", "1"});
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_THAT(ended.err, StartsWith("nephroid: window: no display ("));
@@ -39,14 +37,12 @@ TEST_F(NoWindow, SaysWhatToDoButFirstWhatIsNotThere)
 
 class WindowTest : public test::RealWindow {
 protected:
-  void SetUp() override
-  {
+  void SetUp() override {
     RealWindow::SetUp();
     if (!IsSkipped()) display_.emplace();
   }
   /// Runs the program with a window to its end.
-  test::Ended run(const std::vector<std::string>& arguments) const
-  {
+  test::Ended run(const std::vector<std::string>& arguments) const {
     return test::nephroid(arguments, folder.path(), folder.path(), display_->environment());
   }
 
@@ -54,21 +50,20 @@ private:
   std::optional<test::XDisplay> display_;
 };
 
-TEST_F(WindowTest, ShowsThePixelsThatARunWrites)
-{
+TEST_F(WindowTest, ShowsThePixelsThatARunWrites) {
   const std::string file = folder.write("test.json", test::preset_text);
   const test::Ended batch = run({"run", file, "-o", "out"});
   ASSERT_EQ(batch.exit_code, 0) << batch.err;
-  const test::Ended ended =
-      run({file, "--size", "900x700", "--frames", "5", "--until", "1", "--screenshot", "screen.png", "--frame-times", "times.csv"});
+  const test::Ended ended = run({file, "--size", "900x700", "--frames", "5", "--until", "1", "--screenshot",
+                                 "screen.png", "--frame-times", "times.csv"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   const image::Image picture = screen(), written = image::read_image(folder.path() / "out/image.png");
   ASSERT_EQ(picture.width, 900);
   ASSERT_EQ(picture.height, 700);
   const Placement p = placement_in_window(900, 700, file, {written.width, written.height});
   const preset::Preset preset = preset::parse_preset(test::preset_text, "test");
-  const Point icon =
-      *make_pinhole(preset.scene.camera, p, {written.width, written.height})->to_screen(to_vector(preset.scene.lights[0].position));
+  const Point icon = *make_pinhole(preset.scene.camera, p, {written.width, written.height})
+                          ->to_screen(to_vector(preset.scene.lights[0].position));
   ASSERT_GT(p.scale, 3) << "pixels are squares";
   int different = 0, brightest = 0;
   // The mouse rests over the picture: the value under it is shown over the lower left corner.
@@ -82,11 +77,11 @@ TEST_F(WindowTest, ShowsThePixelsThatARunWrites)
     }
   EXPECT_GT(brightest, 50) << "the picture is not black";
   EXPECT_EQ(different, 0);
-  EXPECT_THAT(read_file(folder.path() / "times.csv"), StartsWith("frame,draw_ms,own_ms,own_cpu_ms,period_ms,edits,run,state,fraction\n0,"));
+  EXPECT_THAT(read_file(folder.path() / "times.csv"),
+              StartsWith("frame,draw_ms,own_ms,own_cpu_ms,period_ms,edits,run,state,fraction\n0,"));
 }
 
-TEST_F(WindowTest, AScreenshotOfAnErrorIsWrittenAndHasTheErrorsExitCode)
-{
+TEST_F(WindowTest, AScreenshotOfAnErrorIsWrittenAndHasTheErrorsExitCode) {
   const auto with_screenshot = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--frames", "3", "--until", "1", "--screenshot", "screen.png"});
     return run(arguments);
@@ -102,31 +97,32 @@ TEST_F(WindowTest, AScreenshotOfAnErrorIsWrittenAndHasTheErrorsExitCode)
   EXPECT_EQ(screen().width, 1280);
 }
 
-TEST_F(WindowTest, FrameTimesThatCannotBeWrittenAreRefusedAtOnce)
-{
-  const test::Ended ended = run({folder.write("test.json", test::preset_text), "--frame-times", "nosuchfolder/times.csv"});
+TEST_F(WindowTest, FrameTimesThatCannotBeWrittenAreRefusedAtOnce) {
+  const test::Ended ended =
+      run({folder.write("test.json", test::preset_text), "--frame-times", "nosuchfolder/times.csv"});
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_THAT(ended.err, HasSubstr("nephroid: nosuchfolder/times.csv: cannot be written"));
 }
 
-TEST_F(WindowTest, WhatCannotBePinnedIsSaid)
-{
+TEST_F(WindowTest, WhatCannotBePinnedIsSaid) {
   const std::string preset = folder.write("test.json", test::preset_text), wrong = folder.write("a.png", "no picture");
   const test::Ended ended = run({preset, wrong, "--frames", "1", "--screenshot", "screen.png"});
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_THAT(ended.err, HasSubstr("\nnephroid: " + wrong + ": "));
-  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 2) << "the frames' times, then one line: " << ended.err;
+  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 2)
+      << "the frames' times, then one line: " << ended.err;
 }
 
 class WindowEvents : public test::RealWindow {};
 
-TEST_F(WindowEvents, AreFollowed)
-{
+TEST_F(WindowEvents, AreFollowed) {
   // A run that does not end by itself; an orbit, a resize, a cancel, save, quit.
   preset::Preset endless = preset::parse_preset(test::preset_text, "test");
   endless.scene.materials["glass"].type = preset::Material::Type::dielectric;
-  endless.scene.objects.push_back(
-      {.name = "ball", .shape = preset::Shape{.radius = 0.3}, .material = "glass", .transform = {.translate = {0, 0, 0.5}}});
+  endless.scene.objects.push_back({.name = "ball",
+                                   .shape = preset::Shape{.radius = 0.3},
+                                   .material = "glass",
+                                   .transform = {.translate = {0, 0, 0.5}}});
   endless.stop.passes.reset();
   endless.stop.seconds = 3600;
   const std::string file = folder.write("test.json", preset::to_json(endless));
@@ -135,7 +131,9 @@ TEST_F(WindowEvents, AreFollowed)
   EXPECT_THAT(window.title(), StartsWith("* Test")) << "the preset is edited";
   window.resize({1000, 800});
   window.save();
-  const auto comes_to = [&](const std::string& state) { window.until(state, [&] { return window.states().back().name == state; }); };
+  const auto comes_to = [&](const std::string& state) {
+    window.until(state, [&] { return window.states().back().name == state; });
+  };
   comes_to("running");
   window.key("Escape");
   comes_to("cancelled");
@@ -151,12 +149,12 @@ TEST_F(WindowEvents, AreFollowed)
 class KilledWindow : public test::RealWindow {
 protected:
   /// Edits that the newest session has kept; -1 while there is none.
-  int kept() const
-  {
+  int kept() const {
     int edits = -1;
     fs::file_time_type newest = fs::file_time_type::min();
     std::error_code ignored;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder.path() / "state/nephroid/sessions", ignored)) {
+    for (const fs::directory_entry& entry :
+         fs::directory_iterator(folder.path() / "state/nephroid/sessions", ignored)) {
       const fs::path file = entry.path() / "session.json";
       const auto written = fs::last_write_time(file, ignored);
       if (ignored || written < newest) continue;
@@ -168,8 +166,7 @@ protected:
   }
 };
 
-TEST_F(KilledWindow, ComesBackWithItsEdits)
-{
+TEST_F(KilledWindow, ComesBackWithItsEdits) {
   const char* asked = std::getenv("NEPHROID_KILLS");
   const int kills = asked ? std::atoi(asked) : 2;
   std::mt19937 random(1);
@@ -180,10 +177,12 @@ TEST_F(KilledWindow, ComesBackWithItsEdits)
   for (int i = 0; i < kills; ++i) {
     test::PlayedWindow window(arguments, folder.path(), folder.path());
     // As it was before: the first has its file, the others begin with nothing but the session.
-    window.until("the session is kept", [&] { return kept() >= kept_before && window.title().find("Test") != std::string::npos; });
+    window.until("the session is kept",
+                 [&] { return kept() >= kept_before && window.title().find("Test") != std::string::npos; });
     const int edits = 1 + static_cast<int>(random() % 3);
     window.move({300, 400});
-    for (int edit = 0; edit < edits; ++edit) { // the camera is a notch further away; turns within 0.6 s would be one edit
+    for (int edit = 0; edit < edits;
+         ++edit) { // the camera is a notch further away; turns within 0.6 s would be one edit
       window.turn_wheel();
       std::this_thread::sleep_for(std::chrono::milliseconds(700));
     }

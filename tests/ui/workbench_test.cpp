@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The workbench with a job of the test's own and the program's real worker thread: commands in, preset, picture and messages out.
+// The workbench with a job of the test's own and the program's real worker thread: commands in, preset, picture and
+// messages out.
 #include "fake_job.h"
 
 namespace nephroid::ui::workbench_test {
@@ -8,26 +9,22 @@ using namespace std::chrono_literals;
 
 class WorkbenchTest : public test::WorkbenchFixture {
 protected:
-  void edit_z(double z, std::uint64_t gesture = 0, bool live = false)
-  {
+  void edit_z(double z, std::uint64_t gesture = 0, bool live = false) {
     edit([&](preset::Preset& p) { p.scene.camera.position = {0, 0, z}; }, gesture, live);
   }
   /// A run that does not end, until it shows a picture.
-  void open_endless()
-  {
+  void open_endless() {
     runs.steps = 100000;
     open();
     ASSERT_TRUE(until([&] { return workbench.run().snapshot() != nullptr; }));
   }
-  bool shows_z(float z)
-  {
+  bool shows_z(float z) {
     return until([&] { return picture_z() == z; });
   }
   float picture_z() const { return workbench.run().snapshot() ? workbench.run().snapshot()->picture->rgb[2] : -1; }
 };
 
-TEST_F(WorkbenchTest, OpensRunsAndFinishes)
-{
+TEST_F(WorkbenchTest, OpensRunsAndFinishes) {
   EXPECT_EQ(workbench.preset(), nullptr);
   open();
   EXPECT_EQ(workbench.preset()->name, "Test");
@@ -39,8 +36,7 @@ TEST_F(WorkbenchTest, OpensRunsAndFinishes)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(WorkbenchTest, OverridesApplyToWhatIsOpened)
-{
+TEST_F(WorkbenchTest, OverridesApplyToWhatIsOpened) {
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"seed=42"}));
   EXPECT_EQ(workbench.preset()->seed, 42u);
   EXPECT_TRUE(workbench.preset()->provenance.origins);
@@ -48,8 +44,7 @@ TEST_F(WorkbenchTest, OverridesApplyToWhatIsOpened)
   EXPECT_FALSE(workbench.preset()->provenance.origins) << "what an edit breaks is not the override's fault";
 }
 
-TEST_F(WorkbenchTest, AnEditStartsANewRunAndKeepsTheOldPictureUntilThen)
-{
+TEST_F(WorkbenchTest, AnEditStartsANewRunAndKeepsTheOldPictureUntilThen) {
   run_through();
   runs.make_ms = 50;
   edit_z(2);
@@ -65,8 +60,7 @@ TEST_F(WorkbenchTest, AnEditStartsANewRunAndKeepsTheOldPictureUntilThen)
 }
 
 // The wheel turned for too long, "nan" typed into a field: the preset could be neither saved nor opened again.
-TEST_F(WorkbenchTest, AnEditOutOfRangeIsRefusedInOneMessage)
-{
+TEST_F(WorkbenchTest, AnEditOutOfRangeIsRefusedInOneMessage) {
   run_through();
   for (const double z : {1e8, 2e8, std::nan("")}) edit_z(z, 1, true);
   workbench.update();
@@ -79,8 +73,7 @@ TEST_F(WorkbenchTest, AnEditOutOfRangeIsRefusedInOneMessage)
   EXPECT_EQ(workbench.preset()->scene.camera.position[2], 2);
 }
 
-TEST_F(WorkbenchTest, PartsOfAPictureHideAWholeOneOnlyWhereTheRunIsSlow)
-{
+TEST_F(WorkbenchTest, PartsOfAPictureHideAWholeOneOnlyWhereTheRunIsSlow) {
   runs.whole_from = runs.steps = 100000;
   open();
   ASSERT_TRUE(shows_z(4));
@@ -96,15 +89,13 @@ TEST_F(WorkbenchTest, PartsOfAPictureHideAWholeOneOnlyWhereTheRunIsSlow)
   EXPECT_FALSE(workbench.run().snapshot()->progress.whole) << "what there is of it after a second";
 }
 
-TEST_F(WorkbenchTest, AnEditReplacesARunningJob)
-{
+TEST_F(WorkbenchTest, AnEditReplacesARunningJob) {
   open_endless();
   edit_z(3);
   ASSERT_TRUE(until([&] { return runs.made == 2; })) << "the old job's steps would go on for hours";
 }
 
-TEST_F(WorkbenchTest, DuringAGestureEveryRunShowsAPictureBeforeTheNextReplacesIt)
-{
+TEST_F(WorkbenchTest, DuringAGestureEveryRunShowsAPictureBeforeTheNextReplacesIt) {
   open_endless();
   runs.make_ms = 20; // slower than the mouse moves
   int pictures = 0;
@@ -124,8 +115,7 @@ TEST_F(WorkbenchTest, DuringAGestureEveryRunShowsAPictureBeforeTheNextReplacesIt
   EXPECT_EQ(workbench.preset()->scene.camera.position[2], 4) << "the gesture is one entry";
 }
 
-TEST_F(WorkbenchTest, UndoAndRedoRunAgain)
-{
+TEST_F(WorkbenchTest, UndoAndRedoRunAgain) {
   open();
   edit_z(2);
   ASSERT_TRUE(shows_z(2));
@@ -135,8 +125,7 @@ TEST_F(WorkbenchTest, UndoAndRedoRunAgain)
   ASSERT_TRUE(shows_z(2));
 }
 
-TEST_F(WorkbenchTest, CancelAndPauseHoldTheRun)
-{
+TEST_F(WorkbenchTest, CancelAndPauseHoldTheRun) {
   runs.steps = 100000;
   open();
   ASSERT_TRUE(until(job::State::running));
@@ -152,8 +141,7 @@ TEST_F(WorkbenchTest, CancelAndPauseHoldTheRun)
   EXPECT_EQ(runs.made, 2);
 }
 
-TEST_F(WorkbenchTest, AFailureIsOneMessageUntilTheNextRun)
-{
+TEST_F(WorkbenchTest, AFailureIsOneMessageUntilTheNextRun) {
   runs.fails = true;
   open();
   ASSERT_TRUE(until(job::State::failed));
@@ -166,8 +154,7 @@ TEST_F(WorkbenchTest, AFailureIsOneMessageUntilTheNextRun)
   ASSERT_TRUE(until(job::State::finished));
 }
 
-TEST_F(WorkbenchTest, ChangedKernelsStartTheRunAgainAndKeepThePictureWhereTheyDoNotCompile)
-{
+TEST_F(WorkbenchTest, ChangedKernelsStartTheRunAgainAndKeepThePictureWhereTheyDoNotCompile) {
   run_through();
   runs.broken = runs.changed = true;
   ASSERT_TRUE(until(job::State::failed));
@@ -184,8 +171,7 @@ TEST_F(WorkbenchTest, ChangedKernelsStartTheRunAgainAndKeepThePictureWhereTheyDo
   EXPECT_EQ(runs.made, 3);
 }
 
-TEST_F(WorkbenchTest, NotesAreTheProgramsAndThoseOfThePlan)
-{
+TEST_F(WorkbenchTest, NotesAreTheProgramsAndThoseOfThePlan) {
   workbench.add_note("kernels are kept elsewhere");
   EXPECT_THAT(workbench.notes(), ElementsAre("kernels are kept elsewhere"));
   run_through();
@@ -196,8 +182,7 @@ TEST_F(WorkbenchTest, NotesAreTheProgramsAndThoseOfThePlan)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(WorkbenchTest, AFileThatCannotBeOpenedLeavesWhatIsThereAlone)
-{
+TEST_F(WorkbenchTest, AFileThatCannotBeOpenedLeavesWhatIsThereAlone) {
   open();
   const std::string broken = folder.write("broken.json", R"({"engine": "spectral", "sceen": {}})");
   workbench.apply({command::Open{broken}});
@@ -207,8 +192,7 @@ TEST_F(WorkbenchTest, AFileThatCannotBeOpenedLeavesWhatIsThereAlone)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(WorkbenchTest, ASavedPresetReadsBackAsWhatWasOnTheScreen)
-{
+TEST_F(WorkbenchTest, ASavedPresetReadsBackAsWhatWasOnTheScreen) {
   open();
   edit_z(2.5);
   EXPECT_TRUE(workbench.edits()->modified());
@@ -221,8 +205,7 @@ TEST_F(WorkbenchTest, ASavedPresetReadsBackAsWhatWasOnTheScreen)
   EXPECT_EQ(save_target(workbench.preset()), folder.path() / "other.json");
 }
 
-TEST_F(WorkbenchTest, ThePictureIsWrittenInTheBackground)
-{
+TEST_F(WorkbenchTest, ThePictureIsWrittenInTheBackground) {
   run_through();
   workbench.apply({command::SavePicture{folder.path() / "a.png"}, command::SavePicture{folder.path() / "a.gif"}});
   ASSERT_TRUE(until([&] { return workbench.messages().size() == 2; }));
@@ -233,17 +216,16 @@ TEST_F(WorkbenchTest, ThePictureIsWrittenInTheBackground)
   EXPECT_EQ(workbench.messages().size(), 1u) << "notes go by themselves, errors stay";
 }
 
-TEST_F(WorkbenchTest, WhatIsBeingWrittenAtTheEndIsWaitedFor)
-{
+TEST_F(WorkbenchTest, WhatIsBeingWrittenAtTheEndIsWaitedFor) {
   run_through();
-  workbench.apply({command::SavePicture{folder.path() / "a.PNG"}, command::SavePicture{folder.path() / "missing" / "b.png"}});
+  workbench.apply(
+      {command::SavePicture{folder.path() / "a.PNG"}, command::SavePicture{folder.path() / "missing" / "b.png"}});
   workbench.finish_files();
   EXPECT_TRUE(fs::exists(folder.path() / "a.PNG"));
   EXPECT_EQ(std::ranges::count_if(workbench.messages(), &Message::error), 1) << "the folder is missing";
 }
 
-TEST_F(WorkbenchTest, WhatWaitsForAnAnswerGoesWithItsQuestion)
-{
+TEST_F(WorkbenchTest, WhatWaitsForAnAnswerGoesWithItsQuestion) {
   open();
   edit_z(2);
   workbench.apply({command::Quit{}});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavelength clusters: the figures for N-SF66 and N-BK7, exact integrals, and what must hold for any curve. The two designed dispersion
-// curves: sorting the wavelengths by n saves the clusters that it saves in the thesis (section 4.1.1: 202 and 204 sorted, 247 not sorted).
+// Wavelength clusters: the figures for N-SF66 and N-BK7, exact integrals, and what must hold for any curve. The two
+// designed dispersion curves: sorting the wavelengths by n saves the clusters that it saves in the thesis
+// (section 4.1.1: 202 and 204 sorted, 247 not sorted).
 #include "optics/dispersion.h"
 #include "optics/dispersion_file.h"
 #include "photons/clusters/clusters.h"
@@ -13,30 +14,29 @@ using optics::Spectrum;
 
 constexpr double radian = std::numbers::pi / 180;
 
-Spectrum glass(const std::string& name)
-{
-  return optics::sample_n(optics::load_dispersion(std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"),
-                          optics::Extrapolation::automatic);
+Spectrum glass(const std::string& name) {
+  return optics::sample_n(
+      optics::load_dispersion(std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"),
+      optics::Extrapolation::automatic);
 }
 
-Spectrum made(const std::function<double(double nm)>& n)
-{
+Spectrum made(const std::function<double(double nm)>& n) {
   Spectrum result{};
   for (int i = 0; i < optics::wavelength_count; ++i) result[static_cast<std::size_t>(i)] = n(optics::wavelength_nm(i));
   return result;
 }
 
-std::size_t count(const Spectrum& n, double threshold_deg, ClusterMethod method)
-{
+std::size_t count(const Spectrum& n, double threshold_deg, ClusterMethod method) {
   return cluster_wavelengths(n, threshold_deg, method).clusters.size();
 }
 
 /// theta2 in degrees; 90 beyond the critical angle.
-double theta2(double theta1_deg, double n) { return std::asin(std::min(1.0, std::sin(theta1_deg * radian) / n)) / radian; }
+double theta2(double theta1_deg, double n) {
+  return std::asin(std::min(1.0, std::sin(theta1_deg * radian) / n)) / radian;
+}
 
 /// Midpoint rule with many points: slow, and independent of the quadrature under test.
-double integral_deg2(double n)
-{
+double integral_deg2(double n) {
   constexpr int steps = 200000;
   double sum = 0;
   for (int i = 0; i < steps; ++i) sum += theta2((i + 0.5) * last_angle_deg / steps, n);
@@ -44,8 +44,7 @@ double integral_deg2(double n)
 }
 
 /// What must hold for every clustering: each wavelength once, sorted by falling n, the bound, the sums.
-void expect_sound(const Spectrum& n, const Clustering& clustering)
-{
+void expect_sound(const Spectrum& n, const Clustering& clustering) {
   std::vector<int> all;
   double total = 0, previous = INFINITY;
   for (const Cluster& cluster : clustering.clusters) {
@@ -72,15 +71,13 @@ void expect_sound(const Spectrum& n, const Clustering& clustering)
   EXPECT_EQ(all, each);
 }
 
-TEST(Clusters, TotalOfNsf66)
-{
+TEST(Clusters, TotalOfNsf66) {
   const Spectrum n = glass("N-SF66");
   for (ClusterMethod method : {ClusterMethod::optimal, ClusterMethod::thesis, ClusterMethod::brute_force})
     EXPECT_NEAR(cluster_wavelengths(n, 0.05, method).total_theta_deg2, 130.936, 0.001);
 }
 
-TEST(Clusters, CountsOfNsf66AndNbk7)
-{
+TEST(Clusters, CountsOfNsf66AndNbk7) {
   const Spectrum flint = glass("N-SF66"), crown = glass("N-BK7");
   EXPECT_EQ(count(flint, 0.05, ClusterMethod::optimal), 32u);
   EXPECT_EQ(count(flint, 0.1, ClusterMethod::optimal), 16u);
@@ -95,28 +92,27 @@ TEST(Clusters, CountsOfNsf66AndNbk7)
   EXPECT_EQ(count(flint, 0.05, ClusterMethod::brute_force), 401u);
 }
 
-TEST(Clusters, PatchesAgreeWithTheExactIntegral)
-{
+TEST(Clusters, PatchesAgreeWithTheExactIntegral) {
   const Spectrum n = glass("N-SF66"); // falls everywhere: already sorted
   const std::vector<double> exact = theta_exact(n), patches = theta_patches(n);
   double worst = 0;
   for (std::size_t i = 0; i < exact.size(); ++i) worst = std::max(worst, std::fabs(patches[i] / exact[i] - 1));
   EXPECT_LT(worst, 0.0034);
-  const double sum = std::accumulate(exact.begin(), exact.end(), 0.0), patch_sum = std::accumulate(patches.begin(), patches.end(), 0.0);
+  const double sum = std::accumulate(exact.begin(), exact.end(), 0.0),
+               patch_sum = std::accumulate(patches.begin(), patches.end(), 0.0);
   EXPECT_LT(std::fabs(patch_sum / sum - 1), 5e-6);
 }
 
-TEST(Clusters, RefractionIntegralAboveAtAndBelowOne)
-{
+TEST(Clusters, RefractionIntegralAboveAtAndBelowOne) {
   EXPECT_NEAR(refraction_integral_deg2(1), 89 * 89 / 2.0, 1e-9); // theta2 = theta1
-  for (double n : {0.2, 0.9, 0.9995, 0.9999, 1.00001, 1.3, 1.9, 4.0}) EXPECT_NEAR(refraction_integral_deg2(n), integral_deg2(n), 1e-4) << n;
+  for (double n : {0.2, 0.9, 0.9995, 0.9999, 1.00001, 1.3, 1.9, 4.0})
+    EXPECT_NEAR(refraction_integral_deg2(n), integral_deg2(n), 1e-4) << n;
   EXPECT_NEAR(refraction_integral_deg2(1e-9), 90 * 89, 1e-4); // reflected from the start
   EXPECT_NEAR(refraction_integral_deg2(1e9), 0, 1e-3);
 }
 
 // (A.3) as derived in clusters.cpp, against differences of (4.3) along a curve n(lambda) with known n' and n''.
-TEST(Clusters, MixedDerivativeOfAppendixA)
-{
+TEST(Clusters, MixedDerivativeOfAppendixA) {
   const auto n = [](double l) { return 1.9 - 0.2 * std::sin(l); };
   const auto psi = [&](double l, double theta) {
     const double s = std::sin(theta), value = n(l), slope = -0.2 * std::cos(l);
@@ -125,16 +121,18 @@ TEST(Clusters, MixedDerivativeOfAppendixA)
   for (double l : {0.3, 1.0, 2.0})
     for (double theta : {0.2, 0.8, 1.4}) {
       const double h = 1e-4;
-      const double measured = (psi(l + h, theta + h) - psi(l + h, theta - h) - psi(l - h, theta + h) + psi(l - h, theta - h)) / (4 * h * h);
-      const double v = n(l), d = -0.2 * std::cos(l), dd = 0.2 * std::sin(l), s2 = std::sin(theta) * std::sin(theta), c = std::cos(theta);
-      const double derived = -c * (v * v * v * dd - s2 * v * dd - s2 * d * d - 2 * v * v * d * d) / std::pow(v * v - s2, 2.5);
+      const double measured =
+          (psi(l + h, theta + h) - psi(l + h, theta - h) - psi(l - h, theta + h) + psi(l - h, theta - h)) / (4 * h * h);
+      const double v = n(l), d = -0.2 * std::cos(l), dd = 0.2 * std::sin(l), s2 = std::sin(theta) * std::sin(theta),
+                   c = std::cos(theta);
+      const double derived =
+          -c * (v * v * v * dd - s2 * v * dd - s2 * d * d - 2 * v * v * d * d) / std::pow(v * v - s2, 2.5);
       EXPECT_NEAR(measured, derived, 1e-6) << l << " " << theta;
     }
 }
 
 /// The fewest contiguous groups by dynamic programming over all divisions.
-std::size_t fewest(const std::vector<double>& theta, double h)
-{
+std::size_t fewest(const std::vector<double>& theta, double h) {
   std::vector<std::size_t> best(theta.size() + 1, 0);
   for (std::size_t end = 1; end <= theta.size(); ++end) {
     best[end] = best[end - 1] + 1;
@@ -148,8 +146,7 @@ std::size_t fewest(const std::vector<double>& theta, double h)
   return best.back();
 }
 
-TEST(Clusters, RandomCurvesAreSoundAndTheOptimalOnesHaveTheFewest)
-{
+TEST(Clusters, RandomCurvesAreSoundAndTheOptimalOnesHaveTheFewest) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(0, 1);
   for (int round = 0; round < 20; ++round) {
@@ -167,8 +164,7 @@ TEST(Clusters, RandomCurvesAreSoundAndTheOptimalOnesHaveTheFewest)
   }
 }
 
-TEST(Clusters, FlatCurveIsOneClusterWithoutChange)
-{
+TEST(Clusters, FlatCurveIsOneClusterWithoutChange) {
   for (double value : {0.8, 1.0, 1.5}) {
     const Spectrum n = made([=](double) { return value; });
     for (ClusterMethod method : {ClusterMethod::optimal, ClusterMethod::thesis}) {
@@ -180,10 +176,9 @@ TEST(Clusters, FlatCurveIsOneClusterWithoutChange)
   }
 }
 
-// n = 1.6 up to 580 nm and 1.5 beyond. The wavelength before the jump has the whole change and stands alone; so do, with the
-// patches' central differences, its neighbours.
-TEST(Clusters, StaircasePutsTheJumpInItsOwnCluster)
-{
+// n = 1.6 up to 580 nm and 1.5 beyond. The wavelength before the jump has the whole change and stands alone; so do,
+// with the patches' central differences, its neighbours.
+TEST(Clusters, StaircasePutsTheJumpInItsOwnCluster) {
   const Spectrum n = made([](double nm) { return nm <= 580 ? 1.6 : 1.5; });
   const Clustering optimal = cluster_wavelengths(n, 0.05, ClusterMethod::optimal);
   expect_sound(n, optimal);
@@ -200,17 +195,16 @@ TEST(Clusters, StaircasePutsTheJumpInItsOwnCluster)
   }
 }
 
-TEST(Clusters, AJumpAtTheVeryEndSeparatesTheLastWavelength)
-{
+TEST(Clusters, AJumpAtTheVeryEndSeparatesTheLastWavelength) {
   const Spectrum n = made([](double nm) { return nm < 780 ? 1.6 : 1.5; });
   const Clustering clustering = cluster_wavelengths(n, 0.05, ClusterMethod::optimal);
   EXPECT_EQ(clustering.clusters.back().wavelengths, (std::vector<int>{400}));
   EXPECT_EQ(clustering.clusters.back().theta_deg2, 0);
 }
 
-// A curve that meets every n several times: sorted, far fewer clusters are needed than wavelengths between two threshold steps.
-TEST(Clusters, NeighboursInIndexAreClusteredNotNeighboursInWavelength)
-{
+// A curve that meets every n several times: sorted, far fewer clusters are needed than wavelengths between two
+// threshold steps.
+TEST(Clusters, NeighboursInIndexAreClusteredNotNeighboursInWavelength) {
   const Spectrum wave = made([](double nm) { return 2 + 0.05 * std::sin(2 * std::numbers::pi * (nm - 380) / 80); });
   const Clustering sorted = cluster_wavelengths(wave, 0.1, ClusterMethod::optimal);
   expect_sound(wave, sorted);
@@ -221,13 +215,13 @@ TEST(Clusters, NeighboursInIndexAreClusteredNotNeighboursInWavelength)
   EXPECT_GT(*last - *first, 300); // from the first crest to the last
 }
 
-TEST(Clusters, BelowOneTheAngleEndsAtNinetyDegreesAndNothingIsNan)
-{
+TEST(Clusters, BelowOneTheAngleEndsAtNinetyDegreesAndNothingIsNan) {
   const Spectrum across = made([](double nm) { return 1.02 - 0.04 * (nm - 380) / 400; }); // 1.02 down to .98
   for (ClusterMethod method : {ClusterMethod::optimal, ClusterMethod::thesis}) {
     const Clustering clustering = cluster_wavelengths(across, 0.05, method);
     expect_sound(across, clustering);
-    EXPECT_NEAR(clustering.total_theta_deg2, integral_deg2(0.98) - integral_deg2(1.02), method == ClusterMethod::optimal ? 1e-4 : 0.5);
+    EXPECT_NEAR(clustering.total_theta_deg2, integral_deg2(0.98) - integral_deg2(1.02),
+                method == ClusterMethod::optimal ? 1e-4 : 0.5);
   }
   for (double scale : {1e-6, 1e6}) { // far outside glass: still finite
     const Spectrum extreme = made([=](double nm) { return scale * (2 - nm / 1000); });
@@ -236,8 +230,7 @@ TEST(Clusters, BelowOneTheAngleEndsAtNinetyDegreesAndNothingIsNan)
   }
 }
 
-TEST(Clusters, BadInputIsRefused)
-{
+TEST(Clusters, BadInputIsRefused) {
   const auto error_of = [](const Spectrum& n, double threshold) {
     return test::refusal_of([&] { cluster_wavelengths(n, threshold, ClusterMethod::optimal); });
   };
@@ -251,8 +244,7 @@ TEST(Clusters, BadInputIsRefused)
   }
 }
 
-TEST(Clusters, CommonRefinementKeepsTogetherWhatIsTogetherEverywhere)
-{
+TEST(Clusters, CommonRefinementKeepsTogetherWhatIsTogetherEverywhere) {
   const Spectrum flint = glass("N-SF66"), dye = glass("rhodamine-6G-Seckin");
   const std::vector<Clustering> both{cluster_wavelengths(flint, 0.1, ClusterMethod::optimal),
                                      cluster_wavelengths(dye, 0.1, ClusterMethod::optimal)};
@@ -273,11 +265,11 @@ TEST(Clusters, CommonRefinementKeepsTogetherWhatIsTogetherEverywhere)
     for (int index : groups[g]) group_of[static_cast<std::size_t>(index)] = g;
   }
   for (std::size_t i = 0; i < group_of.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) ASSERT_EQ(group_of[i] == group_of[j], a[i] == a[j] && b[i] == b[j]) << i << " " << j;
+    for (std::size_t j = 0; j < i; ++j)
+      ASSERT_EQ(group_of[i] == group_of[j], a[i] == a[j] && b[i] == b[j]) << i << " " << j;
 }
 
-TEST(Clusters, CommonRefinementOfNothingOneAndItself)
-{
+TEST(Clusters, CommonRefinementOfNothingOneAndItself) {
   const std::vector<std::vector<int>> none = common_refinement({});
   ASSERT_EQ(none.size(), 1u);
   EXPECT_EQ(none[0].size(), 401u);
@@ -286,35 +278,41 @@ TEST(Clusters, CommonRefinementOfNothingOneAndItself)
   EXPECT_EQ(common_refinement(std::vector{one, one}), common_refinement(std::vector{one}));
 }
 
-Spectrum material(const std::string& name)
-{
-  return optics::sample_n(optics::load_dispersion(std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"),
-                          optics::Extrapolation::refuse);
+Spectrum material(const std::string& name) {
+  return optics::sample_n(
+      optics::load_dispersion(std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"),
+      optics::Extrapolation::refuse);
 }
 
-double bump(double nm, double centre_nm, double width_nm) { return std::exp(-std::pow((nm - centre_nm) / width_nm, 2)); }
+double bump(double nm, double centre_nm, double width_nm) {
+  return std::exp(-std::pow((nm - centre_nm) / width_nm, 2));
+}
 
-double arbitrary_1(double nm) { return 2.1 - 0.35 * (nm - 380) / 400 - 0.65 * bump(nm, 440, 20) + 0.7 * bump(nm, 595, 30); }
-double arbitrary_2(double nm) { return 2 - 0.2 * (nm - 380) / 400 - 0.35 * bump(nm, 550, 40) + 0.75 * bump(nm, 640, 30); }
+double arbitrary_1(double nm) {
+  return 2.1 - 0.35 * (nm - 380) / 400 - 0.65 * bump(nm, 440, 20) + 0.7 * bump(nm, 595, 30);
+}
+double arbitrary_2(double nm) {
+  return 2 - 0.2 * (nm - 380) / 400 - 0.35 * bump(nm, 550, 40) + 0.75 * bump(nm, 640, 30);
+}
 
-std::size_t crossings(const Spectrum& n, double level)
-{
+std::size_t crossings(const Spectrum& n, double level) {
   std::size_t found = 0;
   for (std::size_t i = 0; i + 1 < n.size(); ++i) found += (n[i] - level) * (n[i + 1] - level) < 0;
   return found;
 }
 
-/// Algorithm 4.1 over neighbours in wavelength, which is what the thesis compares sorting with: Theta is the size of the change to the
-/// next wavelength, up or down. The last wavelength decides by the change of the one before it, as in clusters.h.
-std::size_t clusters_without_sorting(const Spectrum& n, double threshold_deg)
-{
+/// Algorithm 4.1 over neighbours in wavelength, which is what the thesis compares sorting with: Theta is the size of
+/// the change to the next wavelength, up or down. The last wavelength decides by the change of the one before it, as in
+/// clusters.h.
+std::size_t clusters_without_sorting(const Spectrum& n, double threshold_deg) {
   const double h = threshold_deg * last_angle_deg;
   std::vector<double> theta;
   for (std::size_t i = 0; i + 1 < n.size(); ++i)
     theta.push_back(std::fabs(refraction_integral_deg2(n[i + 1]) - refraction_integral_deg2(n[i])));
   theta.push_back(theta.back());
 
-  // A final cluster's Theta is at least h, so no sum with it is below h; only a neighbour of exactly 0 could make one that equals h.
+  // A final cluster's Theta is at least h, so no sum with it is below h; only a neighbour of exactly 0 could make one
+  // that equals h.
   while (theta.size() > 1) {
     std::vector<double> sums;
     std::transform(theta.begin(), theta.end() - 1, theta.begin() + 1, std::back_inserter(sums), std::plus<>());
@@ -327,13 +325,11 @@ std::size_t clusters_without_sorting(const Spectrum& n, double threshold_deg)
   return theta.size();
 }
 
-std::size_t clusters_sorted(const Spectrum& n, double threshold_deg)
-{
+std::size_t clusters_sorted(const Spectrum& n, double threshold_deg) {
   return cluster_wavelengths(n, threshold_deg, ClusterMethod::thesis).clusters.size();
 }
 
-TEST(DesignedCurves, FilesHoldTheirFormulas)
-{
+TEST(DesignedCurves, FilesHoldTheirFormulas) {
   const Spectrum one = material("arbitrary-1"), two = material("arbitrary-2");
   for (int i = 0; i < optics::wavelength_count; ++i) {
     const double nm = optics::wavelength_nm(i);
@@ -345,15 +341,15 @@ TEST(DesignedCurves, FilesHoldTheirFormulas)
 TEST(DesignedCurves, TheFirstMeetsTwoFiveTimes) { EXPECT_EQ(crossings(material("arbitrary-1"), 2), 5u); }
 
 // A glass whose n falls everywhere is sorted as it is: there both ways must agree, which checks the helper above.
-TEST(DesignedCurves, SortingChangesNothingWhereNFalls)
-{
-  const Spectrum glass = optics::sample_n(optics::load_dispersion(std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/N-SF66.yml"),
-                                          optics::Extrapolation::automatic);
-  for (double threshold : {0.5, 0.1, 0.05, 0.01}) EXPECT_EQ(clusters_without_sorting(glass, threshold), clusters_sorted(glass, threshold));
+TEST(DesignedCurves, SortingChangesNothingWhereNFalls) {
+  const Spectrum glass =
+      optics::sample_n(optics::load_dispersion(std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/N-SF66.yml"),
+                       optics::Extrapolation::automatic);
+  for (double threshold : {0.5, 0.1, 0.05, 0.01})
+    EXPECT_EQ(clusters_without_sorting(glass, threshold), clusters_sorted(glass, threshold));
 }
 
-TEST(DesignedCurves, SortedTheyNeedTheThesisNumbersOfClusters)
-{
+TEST(DesignedCurves, SortedTheyNeedTheThesisNumbersOfClusters) {
   EXPECT_EQ(clusters_sorted(material("arbitrary-1"), 0.05), 202u);
   EXPECT_EQ(clusters_sorted(material("arbitrary-2"), 0.05), 204u);
   EXPECT_EQ(clusters_without_sorting(material("arbitrary-1"), 0.05), 247u);

@@ -12,16 +12,14 @@ using testing::ElementsAre;
 using testing::FloatEq;
 using testing::IsEmpty;
 
-TEST(Coarse, FirstPicturesHaveFewBlocks)
-{
+TEST(Coarse, FirstPicturesHaveFewBlocks) {
   EXPECT_THAT(photons::preview_edges(512, 512), ElementsAre(16, 8, 4));
   EXPECT_THAT(photons::preview_edges(128, 128), ElementsAre(4, 2));
   EXPECT_THAT(photons::preview_edges(64, 64), IsEmpty()) << "that is few pixels as it is";
   EXPECT_THAT(photons::preview_edges(8192, 8192), ElementsAre(256, 128, 64));
 }
 
-TEST(Coarse, ABlockIsTheMeanOfItsPixelsAlsoWhereItIsCut)
-{
+TEST(Coarse, ABlockIsTheMeanOfItsPixelsAlsoWhereItIsCut) {
   std::vector<float> rgb; // 3 x 2 pixels: 0 1 2 / 3 4 5 in R, ten times that in G, 7 in B
   for (int i = 0; i < 6; ++i) rgb.insert(rgb.end(), {static_cast<float>(i), 10.0f * static_cast<float>(i), 7});
   const Blocks blocks{3, 2, 2};
@@ -31,8 +29,7 @@ TEST(Coarse, ABlockIsTheMeanOfItsPixelsAlsoWhereItIsCut)
   EXPECT_THAT(photons::mean_of_blocks(blocks, rgb), ElementsAre(2, 20, 7, 3.5, 35, 7));
 }
 
-TEST(Coarse, BetweenBlocksValuesChangeEvenly)
-{
+TEST(Coarse, BetweenBlocksValuesChangeEvenly) {
   const Blocks blocks{12, 4, 4};
   EXPECT_THAT(photons::between_blocks(blocks, std::vector<float>(9, 0.25f)), Each(FloatEq(0.25f)));
   const std::vector<float> ramp = photons::between_blocks(blocks, std::vector<float>{0, 0, 0, 4, 4, 4, 8, 8, 8});

@@ -21,19 +21,18 @@ private:
 Communicator rank_of(int rank, int size) { return Communicator(std::make_shared<Alone>(rank, size)); }
 
 /// How many ranks work on each of the items when all of them go through the parts first .. first + step - 1, ...
-std::vector<int> workers(int ranks, std::int64_t items, std::int64_t step)
-{
+std::vector<int> workers(int ranks, std::int64_t items, std::int64_t step) {
   std::vector<int> count(static_cast<std::size_t>(items));
   for (int rank = 0; rank < ranks; ++rank)
     for (std::int64_t first = 0; first < items; first += step)
-      Partition(rank_of(rank, ranks), items).for_own(first, std::min(step, items - first), [&](std::int64_t begin, std::int64_t own) {
-        for (std::int64_t i = begin; i < begin + own; ++i) ++count[static_cast<std::size_t>(i)];
-      });
+      Partition(rank_of(rank, ranks), items)
+          .for_own(first, std::min(step, items - first), [&](std::int64_t begin, std::int64_t own) {
+            for (std::int64_t i = begin; i < begin + own; ++i) ++count[static_cast<std::size_t>(i)];
+          });
   return count;
 }
 
-TEST(Partition, GiveEachItemToOneRank)
-{
+TEST(Partition, GiveEachItemToOneRank) {
   for (const int ranks : {1, 2, 3, 7, 64})
     for (const std::int64_t items : {1, 5, 64, 1000, 1009})
       for (const std::int64_t step : {std::int64_t{1}, std::int64_t{13}, items})
@@ -41,22 +40,21 @@ TEST(Partition, GiveEachItemToOneRank)
             << ranks << " " << items << " " << step;
 }
 
-TEST(Partition, AreTheSameHoweverPartsAreCut)
-{
+TEST(Partition, AreTheSameHoweverPartsAreCut) {
   const auto of_rank = [](std::int64_t step) {
     std::set<std::int64_t> own;
     for (std::int64_t first = 0; first < 1000; first += step)
-      Partition(rank_of(1, 3), 1000).for_own(first, std::min(step, 1000 - first), [&](std::int64_t begin, std::int64_t count) {
-        for (std::int64_t i = begin; i < begin + count; ++i) own.insert(i);
-      });
+      Partition(rank_of(1, 3), 1000)
+          .for_own(first, std::min(step, 1000 - first), [&](std::int64_t begin, std::int64_t count) {
+            for (std::int64_t i = begin; i < begin + count; ++i) own.insert(i);
+          });
     return own;
   };
   EXPECT_EQ(of_rank(1000), of_rank(7));
   EXPECT_NEAR(static_cast<double>(of_rank(7).size()), 1000.0 / 3, 8);
 }
 
-TEST(Partition, KeepsWhatOneRankOwns)
-{
+TEST(Partition, KeepsWhatOneRankOwns) {
   std::vector<int> sum(2 * 3 * 100); // two rounds of 100 items of 3 values
   for (int rank = 0; rank < 4; ++rank) {
     std::vector<int> own(sum.size(), 1);
@@ -64,14 +62,15 @@ TEST(Partition, KeepsWhatOneRankOwns)
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own[i];
     EXPECT_EQ(std::vector<int>(own.begin(), own.begin() + 300), std::vector<int>(own.begin() + 300, own.end()));
     int first = 0;
-    Partition(rank_of(rank, 4), 100).for_own(0, 100, [&](std::int64_t begin, std::int64_t) { first += own[static_cast<std::size_t>(3 * begin)]; });
+    Partition(rank_of(rank, 4), 100).for_own(0, 100, [&](std::int64_t begin, std::int64_t) {
+      first += own[static_cast<std::size_t>(3 * begin)];
+    });
     EXPECT_GT(first, 0);
   }
   EXPECT_EQ(sum, std::vector<int>(sum.size(), 1));
 }
 
-TEST(Communicator, KeepsEverySoManyethItem)
-{
+TEST(Communicator, KeepsEverySoManyethItem) {
   std::vector<int> items{0, 1, 2, 3, 4, 5, 6};
   rank_of(2, 3).keep_own_share(items);
   EXPECT_THAT(items, testing::ElementsAre(2, 5));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dispersion against published figures, hand-computed values of every formula, and the oddities of the refractiveindex.info database.
-// Malformed files: each answers with one line that names the file, the line where it can, and what is expected.
+// Dispersion against published figures, hand-computed values of every formula, and the oddities of the
+// refractiveindex.info database. Malformed files: each answers with one line that names the file, the line where it
+// can, and what is expected.
 #include "optics/dispersion.h"
 #include "optics/dispersion_file.h"
 #include "tests/support/test.h"
@@ -17,8 +18,7 @@ const fs::path more = fs::path(NEPHROID_SOURCE_DIR) / "tests/data/dispersion";
 
 constexpr double line_F = 486.1327, line_d = 587.5618, line_C = 656.2725;
 
-double n_at(const DispersionCurve& curve, double nm, Extrapolation outside = Extrapolation::automatic)
-{
+double n_at(const DispersionCurve& curve, double nm, Extrapolation outside = Extrapolation::automatic) {
   return curve.sample(nm, outside).n.value_or(std::nan(""));
 }
 
@@ -30,19 +30,18 @@ struct Glass {
 };
 
 // Schott's catalogue (2017): n_d and V_d.
-TEST(Dispersion, SchottGlassesHaveTheirCatalogueFigures)
-{
-  for (const Glass& glass :
-       {Glass{"N-BK7", 1.51680, 64.17}, Glass{"N-SF66", 1.92286, 20.88}, Glass{"N-SF11", 1.78472, 25.68}, Glass{"SF66", 1.92286, 20.88}}) {
+TEST(Dispersion, SchottGlassesHaveTheirCatalogueFigures) {
+  for (const Glass& glass : {Glass{"N-BK7", 1.51680, 64.17}, Glass{"N-SF66", 1.92286, 20.88},
+                             Glass{"N-SF11", 1.78472, 25.68}, Glass{"SF66", 1.92286, 20.88}}) {
     const DispersionCurve curve = load_dispersion(materials / (std::string(glass.file) + ".yml"));
     EXPECT_EQ(curve.name, glass.file);
     EXPECT_NEAR(n_at(curve, line_d), glass.n_d, 1e-5) << glass.file;
-    EXPECT_NEAR((n_at(curve, line_d) - 1) / (n_at(curve, line_F) - n_at(curve, line_C)), glass.abbe, 0.01) << glass.file;
+    EXPECT_NEAR((n_at(curve, line_d) - 1) / (n_at(curve, line_F) - n_at(curve, line_C)), glass.abbe, 0.01)
+        << glass.file;
   }
 }
 
-TEST(Dispersion, OtherMaterialsHaveTheirPublishedFigures)
-{
+TEST(Dispersion, OtherMaterialsHaveTheirPublishedFigures) {
   const auto n = [](const char* file, double nm) { return n_at(load_dispersion(materials / file), nm); };
   EXPECT_NEAR(n("fused-silica-Malitson.yml", 587.6), 1.45846, 1e-5);
   // Daimon and Masumura measured against vacuum; tables of water say 1.33299 at 20 C, against air of n = 1.00027.
@@ -52,35 +51,34 @@ TEST(Dispersion, OtherMaterialsHaveTheirPublishedFigures)
   EXPECT_NEAR(n("PMMA-Szczurowski.yml", 589.3), 1.490, 2e-3);
 }
 
-// The database's only files with formulas 7 and 9, and one of 8, against handbook values of the materials (CRC Handbook of
-// Chemistry and Physics, Handbook of Optics): silicon 3.42 in the far infrared, silver bromide 2.253 and urea 1.602
+// The database's only files with formulas 7 and 9, and one of 8, against handbook values of the materials (CRC Handbook
+// of Chemistry and Physics, Handbook of Optics): silicon 3.42 in the far infrared, silver bromide 2.253 and urea 1.602
 // (extraordinary) for yellow light. The tolerance is the spread between authors; the arithmetic is tested below.
-TEST(Dispersion, FilesWithTheRareFormulas)
-{
+TEST(Dispersion, FilesWithTheRareFormulas) {
   EXPECT_NEAR(n_at(load_dispersion(more / "formula7-silicon-Edwards.yml"), 10000), 3.42, 3e-3);
   EXPECT_NEAR(n_at(load_dispersion(more / "formula8-silver-bromide-Schroter.yml"), 587.6), 2.253, 6e-3);
   EXPECT_NEAR(n_at(load_dispersion(more / "formula9-urea-e-Rosker.yml"), 587.6), 1.602, 6e-3);
 }
 
 // By hand, with l = 0.5 um (l^2 = 1/4) or l = 2 um (l^2 = 4) so that every term is a short fraction.
-TEST(Dispersion, EveryFormulaByHand)
-{
+TEST(Dispersion, EveryFormulaByHand) {
   const auto n = [](int formula, std::vector<double> c, double um) { return index_by_formula(formula, c, um); };
   EXPECT_NEAR(n(1, {0.25, 3, 1}, 2), std::sqrt(1 + 0.25 + 3 * 4.0 / 3), 1e-15);
   EXPECT_NEAR(n(2, {0.25, 3, 1, 1, 2}, 2), std::sqrt(1 + 0.25 + 3 * 4.0 / 3 + 1 * 4.0 / 2), 1e-15);
   EXPECT_NEAR(n(3, {2, 1, 2, 8, -2}, 2), std::sqrt(2 + 4 + 2.0), 1e-15);
-  EXPECT_NEAR(n(4, {1, 3, 2, 2, 1, 6, 0, 1, 2, 0.5, 2, 1, -1}, 2), std::sqrt(1 + 3 * 4.0 / (4 - 2) + 6.0 / (4 - 1) + 2 + 0.5), 1e-15);
+  EXPECT_NEAR(n(4, {1, 3, 2, 2, 1, 6, 0, 1, 2, 0.5, 2, 1, -1}, 2),
+              std::sqrt(1 + 3 * 4.0 / (4 - 2) + 6.0 / (4 - 1) + 2 + 0.5), 1e-15);
   EXPECT_NEAR(n(5, {1.5, 0.02, -2, 0.01, 1}, 0.5), 1.5 + 0.08 + 0.005, 1e-15);
   EXPECT_NEAR(n(6, {0.1, 0.5, 6}, 0.5), 1 + 0.1 + 0.5 / (6 - 4), 1e-15);
   const double pole = 1 / (4 - 0.028);
-  EXPECT_NEAR(n(7, {3, 0.1, 0.2, 0.01, 0.001, 0.0001}, 2), 3 + 0.1 * pole + 0.2 * pole * pole + 0.04 + 0.016 + 0.0064, 1e-15);
+  EXPECT_NEAR(n(7, {3, 0.1, 0.2, 0.01, 0.001, 0.0001}, 2), 3 + 0.1 * pole + 0.2 * pole * pole + 0.04 + 0.016 + 0.0064,
+              1e-15);
   const double r = 0.2 + 0.1 * 4 / (4 - 2) - 0.01 * 4;
   EXPECT_NEAR(n(8, {0.2, 0.1, 2, -0.01}, 2), std::sqrt((1 + 2 * r) / (1 - r)), 1e-15);
   EXPECT_NEAR(n(9, {2, 0.5, 3, 0.3, 1.5, 0.05}, 2), std::sqrt(2 + 0.5 / (4 - 3) + 0.3 * 0.5 / (0.25 + 0.05)), 1e-15);
 }
 
-TEST(Dispersion, MissingCoefficientsAreZeroAndZeroTermsAreLeftOut)
-{
+TEST(Dispersion, MissingCoefficientsAreZeroAndZeroTermsAreLeftOut) {
   const auto n = [](int formula, std::vector<double> c, double um) { return index_by_formula(formula, c, um); };
   EXPECT_NEAR(n(2, {0.5, 1, 2, 0.75}, 2), std::sqrt(1 + 0.5 + 2 + 0.75), 1e-15); // four: the last pole is at 0
   EXPECT_NEAR(n(7, {3, 0, 0, 0.5, 0}, 2), 5, 1e-15);
@@ -93,30 +91,32 @@ TEST(Dispersion, MissingCoefficientsAreZeroAndZeroTermsAreLeftOut)
   EXPECT_TRUE(std::isnan(n(3, {-1}, 0.5)));
 }
 
-TEST(Dispersion, AFormulaWithoutAFiniteValueAnswersNothing)
-{
-  const DispersionCurve curve = from_yaml("  - type: formula 1\n    wavelength_range: 0.5 1\n    coefficients: 0 1.2 0.45\n");
+TEST(Dispersion, AFormulaWithoutAFiniteValueAnswersNothing) {
+  const DispersionCurve curve =
+      from_yaml("  - type: formula 1\n    wavelength_range: 0.5 1\n    coefficients: 0 1.2 0.45\n");
   EXPECT_TRUE(curve.sample(500).n);
   const IndexSample below = curve.sample(445); // just below the pole at 450 nm: n^2 is far below 0
   EXPECT_FALSE(below.n);
   EXPECT_TRUE(below.extrapolated);
-  EXPECT_THAT(refusal_of([&] { sample_n(curve, Extrapolation::automatic); }), AllOf(HasSubstr("gives no number at"), HasSubstr("500..1000 nm")));
+  EXPECT_THAT(refusal_of([&] { sample_n(curve, Extrapolation::automatic); }),
+              AllOf(HasSubstr("gives no number at"), HasSubstr("500..1000 nm")));
   EXPECT_NEAR(sample_n(curve, Extrapolation::hold)[0], n_at(curve, 500), 1e-15);
 }
 
-TEST(Dispersion, RangeEndsCountAsInside)
-{
-  const DispersionCurve curve = from_yaml("  - type: formula 5\n    wavelength_range: 0.4861 0.5893\n    coefficients: 1.5\n");
-  for (double nm : {486.1, 589.3, 486.1 * (1 - 5e-7), 589.3 * (1 + 5e-7)}) EXPECT_FALSE(curve.sample(nm).extrapolated) << nm;
+TEST(Dispersion, RangeEndsCountAsInside) {
+  const DispersionCurve curve =
+      from_yaml("  - type: formula 5\n    wavelength_range: 0.4861 0.5893\n    coefficients: 1.5\n");
+  for (double nm : {486.1, 589.3, 486.1 * (1 - 5e-7), 589.3 * (1 + 5e-7)})
+    EXPECT_FALSE(curve.sample(nm).extrapolated) << nm;
   for (double nm : {486.0, 589.31}) EXPECT_TRUE(curve.sample(nm).extrapolated) << nm;
   EXPECT_NO_THROW(curve.sample(589.3, Extrapolation::refuse));
   EXPECT_THAT(refusal_of([&] { curve.sample(600, Extrapolation::refuse); }),
               HasSubstr("test.yml: test has no n at 600 nm; expected a wavelength in its range 486.1..589.3 nm"));
 }
 
-TEST(Dispersion, OutsideHoldsExtrapolatesOrRefuses)
-{
-  const DispersionCurve glass = load_dispersion(materials / "N-SF66.yml"); // n by formula and k by table, both from 390 nm
+TEST(Dispersion, OutsideHoldsExtrapolatesOrRefuses) {
+  const DispersionCurve glass =
+      load_dispersion(materials / "N-SF66.yml"); // n by formula and k by table, both from 390 nm
   const double at_390 = n_at(glass, 390);
   EXPECT_GT(n_at(glass, 380), at_390 + 0.001);
   EXPECT_EQ(n_at(glass, 380, Extrapolation::extrapolate), n_at(glass, 380));
@@ -126,7 +126,8 @@ TEST(Dispersion, OutsideHoldsExtrapolatesOrRefuses)
   EXPECT_FALSE(glass.sample(390).extrapolated);
   EXPECT_NEAR(*glass.sample(380).k, 4.8564e-6, 1e-12);
   EXPECT_NEAR(*glass.sample(395).k, (4.8564e-6 + 2.1833e-6) / 2, 1e-12);
-  EXPECT_EQ(outside_note(glass, Extrapolation::automatic), "N-SF66: n is extrapolated below 390 nm (data: 390..2500 nm)");
+  EXPECT_EQ(outside_note(glass, Extrapolation::automatic),
+            "N-SF66: n is extrapolated below 390 nm (data: 390..2500 nm)");
   EXPECT_EQ(outside_note(glass, Extrapolation::hold), "N-SF66: n is held below 390 nm (data: 390..2500 nm)");
   EXPECT_EQ(outside_note(load_dispersion(materials / "N-BK7.yml"), Extrapolation::automatic), "");
   EXPECT_THAT(refusal_of([&] { sample_n(glass, Extrapolation::refuse); }), HasSubstr("no n at 380 nm"));
@@ -137,13 +138,14 @@ TEST(Dispersion, OutsideHoldsExtrapolatesOrRefuses)
     EXPECT_EQ(n_at(table, 400, outside), 1.6);
     EXPECT_EQ(n_at(table, 700, outside), 1.5);
   }
-  EXPECT_EQ(outside_note(table, Extrapolation::automatic), "table: n is held below 500 nm and above 600 nm (data: 500..600 nm)");
+  EXPECT_EQ(outside_note(table, Extrapolation::automatic),
+            "table: n is held below 500 nm and above 600 nm (data: 500..600 nm)");
 }
 
-TEST(Dispersion, DatabaseTablesAreReadAsTheyAre)
-{
-  const DispersionCurve odd = from_yaml("  - type: tabulated nk\n    data: |\n        0.70 1.2 -0.01\n        0.50 1.6 0.03\n\n"
-                                        "        0.60 -1.4 0.02\n        0.60 -1.0 0.02\n");
+TEST(Dispersion, DatabaseTablesAreReadAsTheyAre) {
+  const DispersionCurve odd =
+      from_yaml("  - type: tabulated nk\n    data: |\n        0.70 1.2 -0.01\n        0.50 1.6 0.03\n\n"
+                "        0.60 -1.4 0.02\n        0.60 -1.0 0.02\n");
   EXPECT_EQ(odd.range_nm(), (std::array{500.0, 700.0}));
   EXPECT_NEAR(n_at(odd, 600), -1.2, 1e-15); // given twice: the mean; negative n stays
   EXPECT_NEAR(n_at(odd, 550), 0.2, 1e-12);
@@ -158,15 +160,16 @@ TEST(Dispersion, DatabaseTablesAreReadAsTheyAre)
   EXPECT_TRUE(single.sample(400).extrapolated);
 }
 
-TEST(Dispersion, FilesWithOneOfNAndKOrWithBothApart)
-{
+TEST(Dispersion, FilesWithOneOfNAndKOrWithBothApart) {
   const DispersionCurve k_only = from_yaml("  - type: tabulated k\n    data: |\n        0.4 0.1\n        0.6 0.3\n");
   EXPECT_FALSE(k_only.sample(500).n);
   EXPECT_NEAR(*k_only.sample(500).k, 0.2, 1e-15);
   EXPECT_EQ(k_only.range_nm(), (std::array{400.0, 600.0}));
-  EXPECT_THAT(refusal_of([&] { sample_n(k_only, Extrapolation::automatic); }), HasSubstr("no index of refraction n, only k"));
+  EXPECT_THAT(refusal_of([&] { sample_n(k_only, Extrapolation::automatic); }),
+              HasSubstr("no index of refraction n, only k"));
 
-  const DispersionCurve both = from_yaml("  - type: tabulated k\n    data: |\n        0.4 0.1\n  - type: constant\n    value: 1.7\n");
+  const DispersionCurve both =
+      from_yaml("  - type: tabulated k\n    data: |\n        0.4 0.1\n  - type: constant\n    value: 1.7\n");
   EXPECT_EQ(n_at(both, 500), 1.7);
   EXPECT_EQ(both.sample(500).k, 0.1);
   EXPECT_FALSE(both.sample(5).extrapolated);
@@ -177,8 +180,7 @@ TEST(Dispersion, FilesWithOneOfNAndKOrWithBothApart)
   EXPECT_EQ(first.sample(500).k, 0.1);
 }
 
-TEST(Dispersion, AnomalousTablesAreReadWithTheirAbsorption)
-{
+TEST(Dispersion, AnomalousTablesAreReadWithTheirAbsorption) {
   for (const char* file : {"rhodamine-6G-Seckin.yml", "F8BT-e-Kamptner.yml"}) {
     const DispersionCurve curve = load_dispersion(materials / file);
     const Spectrum n = sample_n(curve, Extrapolation::automatic), k = sample_k(curve, Extrapolation::automatic);
@@ -187,13 +189,12 @@ TEST(Dispersion, AnomalousTablesAreReadWithTheirAbsorption)
   }
 }
 
-TEST(Dispersion, PathsMayHoldAnyCharacters)
-{
-  EXPECT_EQ(parse_dispersion("DATA:\n  - type: constant\n    value: 2\n", "a (b), c/Gauß 1.5 μm.yml").name, "Gauß 1.5 μm");
+TEST(Dispersion, PathsMayHoldAnyCharacters) {
+  EXPECT_EQ(parse_dispersion("DATA:\n  - type: constant\n    value: 2\n", "a (b), c/Gauß 1.5 μm.yml").name,
+            "Gauß 1.5 μm");
 }
 
-TEST(Dispersion, SellmeierAndCauchyOnTheirOwn)
-{
+TEST(Dispersion, SellmeierAndCauchyOnTheirOwn) {
   const double b[] = {1.03961212, 0.231792344, 1.01046945}, c[] = {0.00600069867, 0.0200179144, 103.560653};
   EXPECT_NEAR(n_at(sellmeier(b, c), line_d), 1.51680, 1e-5);
   EXPECT_EQ(sellmeier(b, c, 300, 2500).range_nm(), (std::array{300.0, 2500.0}));
@@ -203,8 +204,7 @@ TEST(Dispersion, SellmeierAndCauchyOnTheirOwn)
   EXPECT_FALSE(constant_index(1.25).sample(1).extrapolated);
 }
 
-TEST(Dispersion, ControlPointsAreMetAndNeverOvershot)
-{
+TEST(Dispersion, ControlPointsAreMetAndNeverOvershot) {
   const Rows points{{380, 1.5}, {450, 1.5}, {460, 2.0}, {470, 2.0}, {600, 1.2}, {610, 1.7}, {780, 1.71}};
   const DispersionCurve curve = control_points(points);
   for (const auto& [nm, n] : points) EXPECT_NEAR(n_at(curve, nm), n, 1e-12) << nm;
@@ -226,22 +226,22 @@ TEST(Dispersion, ControlPointsAreMetAndNeverOvershot)
 }
 
 // The slope is continuous at the control points: a straight table would have corners there.
-TEST(Dispersion, ControlPointsAreJoinedSmoothly)
-{
+TEST(Dispersion, ControlPointsAreJoinedSmoothly) {
   const DispersionCurve curve = control_points(Rows{{400, 1.9}, {450, 1.7}, {600, 1.6}, {700, 1.58}});
   for (double nm : {450.0, 600.0}) {
-    const double step = 1e-3, left = n_at(curve, nm) - n_at(curve, nm - step), right = n_at(curve, nm + step) - n_at(curve, nm);
+    const double step = 1e-3, left = n_at(curve, nm) - n_at(curve, nm - step),
+                 right = n_at(curve, nm + step) - n_at(curve, nm);
     EXPECT_NEAR(left / step, right / step, 1e-6) << nm;
   }
 }
 
-TEST(Dispersion, BadCurvesAreRefused)
-{
+TEST(Dispersion, BadCurvesAreRefused) {
   // n^2 = 1 + l^2 / (l^2 - 0.36): negative from 424 nm to the resonance at 600 nm, inside the range.
   const std::array<double, 1> strength{1}, resonance{0.36};
   for (const Extrapolation outside : {Extrapolation::automatic, Extrapolation::hold})
-    EXPECT_THAT(refusal_of([&] { sample_n(sellmeier(strength, resonance), outside); }),
-                AllOf(HasSubstr("gives no number at 425 nm: n^2 is negative or infinite there"), Not(HasSubstr("hold"))));
+    EXPECT_THAT(
+        refusal_of([&] { sample_n(sellmeier(strength, resonance), outside); }),
+        AllOf(HasSubstr("gives no number at 425 nm: n^2 is negative or infinite there"), Not(HasSubstr("hold"))));
   const double two[] = {1, 2}, one[] = {1}, bad[] = {1, NAN};
   EXPECT_THAT(refusal_of([&] { sellmeier(two, one); }), HasSubstr("2 values of b and 1 of c"));
   EXPECT_THAT(refusal_of([&] { sellmeier({}, {}); }), HasSubstr("no coefficients"));
@@ -270,31 +270,28 @@ void PrintTo(const Malformed& file, std::ostream* out) { *out << file.name; }
 
 class MalformedFile : public testing::TestWithParam<Malformed> {};
 
-TEST_P(MalformedFile, IsRefusedWithOneLine)
-{
+TEST_P(MalformedFile, IsRefusedWithOneLine) {
   EXPECT_EQ(refusal_of([] { parse_dispersion(GetParam().yaml, "f.yml"); }), GetParam().line);
 }
 
 constexpr const char* no_map = "f.yml: this is no refractiveindex.info file; expected a YAML map with a DATA list";
 constexpr const char* no_list = "f.yml:1: DATA is not a list with entries; expected a list of \"- type: ...\" entries";
 
-std::string formula(int number, const std::string& range, const std::string& coefficients)
-{
-  return fmt::format("DATA:\n  - type: formula {}\n    wavelength_range: {}\n    coefficients: {}\n", number, range, coefficients);
+std::string formula(int number, const std::string& range, const std::string& coefficients) {
+  return fmt::format("DATA:\n  - type: formula {}\n    wavelength_range: {}\n    coefficients: {}\n", number, range,
+                     coefficients);
 }
 
-std::string no_number(int line, const std::string& text)
-{
+std::string no_number(int line, const std::string& text) {
   return fmt::format("f.yml:{}: \"{}\" is no number; expected a finite number such as 1.5168 or 2.86E-06", line, text);
 }
 
-std::string no_range(const std::string& text)
-{
-  return "f.yml:3: the wavelength range is \"" + text + "\"; expected two numbers in micrometres, the lower first, above 0";
+std::string no_range(const std::string& text) {
+  return "f.yml:3: the wavelength range is \"" + text +
+         "\"; expected two numbers in micrometres, the lower first, above 0";
 }
 
-std::string no_type(const std::string& text)
-{
+std::string no_type(const std::string& text) {
   return "f.yml:2: the type is \"" + text + "\"; expected formula 1 to 9, tabulated n, nk or k, or constant";
 }
 
@@ -304,7 +301,8 @@ const Malformed cases[] = {
     {"Text", "just words", no_map},
     {"List", "- 1\n- 2\n", no_map},
     {"NoData", "COMMENTS: none\n", "f.yml: there is no DATA; expected a DATA list with formulas or tables"},
-    {"LowerCaseData", "data:\n  - type: constant\n", "f.yml: there is no DATA; expected a DATA list with formulas or tables"},
+    {"LowerCaseData", "data:\n  - type: constant\n",
+     "f.yml: there is no DATA; expected a DATA list with formulas or tables"},
     {"DataIsText", "DATA: 1.5\n", no_list},
     {"DataIsEmpty", "DATA: []\n", no_list},
     {"DataIsNull", "DATA:\n", "f.yml:2: DATA is not a list with entries; expected a list of \"- type: ...\" entries"},
@@ -315,7 +313,8 @@ const Malformed cases[] = {
     {"FormulaZero", "DATA:\n  - type: formula 0\n", no_type("formula 0") + "; did you mean \"formula 1\"?"},
     {"FormulaTen", "DATA:\n  - type: formula 10\n", no_type("formula 10") + "; did you mean \"formula 1\"?"},
     {"Nonlinear", "DATA:\n  - type: tabulated n2\n", no_type("tabulated n2") + "; did you mean \"tabulated nk\"?"},
-    {"FormulaWithoutRange", "DATA:\n  - type: formula 1\n    coefficients: 0 1 1\n", "f.yml:2: the entry has no \"wavelength_range\""},
+    {"FormulaWithoutRange", "DATA:\n  - type: formula 1\n    coefficients: 0 1 1\n",
+     "f.yml:2: the entry has no \"wavelength_range\""},
     {"FormulaWithoutCoefficients", "DATA:\n  - type: formula 1\n    wavelength_range: 0.3 2.5\n",
      "f.yml:2: the entry has no \"coefficients\""},
     {"RangeOfOne", formula(1, "0.3", "0"), no_range("0.3")},
@@ -326,13 +325,15 @@ const Malformed cases[] = {
     {"CoefficientIsNoNumber", formula(1, "0.3 2.5", "0 1,5 0.1"), no_number(4, "1,5")},
     {"CoefficientIsNan", formula(1, "0.3 2.5", "0 nan"), no_number(4, "nan")},
     {"CoefficientOverflows", formula(1, "0.3 2.5", "0 1e999"), no_number(4, "1e999")},
-    {"TooManyCoefficients", formula(8, "0.3 2.5", "1 2 3 4 5"), "f.yml:4: formula 8 has 5 coefficients; expected at most 4"},
+    {"TooManyCoefficients", formula(8, "0.3 2.5", "1 2 3 4 5"),
+     "f.yml:4: formula 8 has 5 coefficients; expected at most 4"},
     {"TableWithoutData", "DATA:\n  - type: tabulated n\n", "f.yml:2: the entry has no \"data\""},
     {"TypeOfManyLetters", "DATA:\n  - type: fffffffffffffffffffffffffffffffffffffffffffffffffffffffffffff\n",
      no_type("ffffffffffffffffffffffffffffffffffffffff")},
     {"RangeOfManyNumbers", formula(1, "1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9", "1"),
      no_range("1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9 1 2 ")},
-    {"TableIsEmpty", "DATA:\n  - type: tabulated n\n    data: \"\"\n", "f.yml:3: the table is empty; expected at least one row of numbers"},
+    {"TableIsEmpty", "DATA:\n  - type: tabulated n\n    data: \"\"\n",
+     "f.yml:3: the table is empty; expected at least one row of numbers"},
     {"TableOfBlanks", "DATA:\n  - type: tabulated n\n    data: |\n\n\n",
      "f.yml:3: the table is empty; expected at least one row of numbers"},
     {"TableIsList", "DATA:\n  - type: tabulated n\n    data: [0.5, 1.5]\n",
@@ -341,13 +342,15 @@ const Malformed cases[] = {
      "f.yml:5: the row has 2 numbers; expected 3: the wavelength in micrometres, n and k"},
     {"RowTooLong", "DATA:\n  - type: tabulated n\n    data: |\n        0.5 1.5 0.1\n",
      "f.yml:4: the row has 3 numbers; expected 2: the wavelength in micrometres and the value"},
-    {"RowAfterABlankOne", "DATA:\n  - type: tabulated k\n    data: |\n        0.5 1.5\n\n        0.6 x\n", no_number(6, "x")},
+    {"RowAfterABlankOne", "DATA:\n  - type: tabulated k\n    data: |\n        0.5 1.5\n\n        0.6 x\n",
+     no_number(6, "x")},
     {"RowWithUnit", "DATA:\n  - type: tabulated n\n    data: |\n        500nm 1.5\n", no_number(4, "500nm")},
     {"RowIsInfinite", "DATA:\n  - type: tabulated n\n    data: |\n        0.5 inf\n", no_number(4, "inf")},
     {"NegativeWavelength", "DATA:\n  - type: tabulated n\n    data: |\n        -0.5 1.5\n",
      "f.yml:4: the wavelength is -0.5 um; expected a wavelength above 0"},
     {"ConstantWithoutValue", "DATA:\n  - type: constant\n", "f.yml:2: the entry has no \"value\""},
-    {"SecondEntryBroken", "DATA:\n  - type: constant\n    value: 1.5\n  - type: tabulated k\n    data: |\n        0.5\n",
+    {"SecondEntryBroken",
+     "DATA:\n  - type: constant\n    value: 1.5\n  - type: tabulated k\n    data: |\n        0.5\n",
      "f.yml:6: the row has 1 numbers; expected 2: the wavelength in micrometres and the value"},
     {"BrokenYaml", "DATA:\n  - type: [\n",
      "f.yml:3: broken YAML: end of sequence flow not found; expected a file of the refractiveindex.info database"},

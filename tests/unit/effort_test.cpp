@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the photons of a pass are allocated to lights and clusters: after spectral.effort, by measured variance, and as numbered emitters.
+// How the photons of a pass are allocated to lights and clusters: after spectral.effort, by measured variance, and as
+// numbered emitters.
 #include "photons/effort/emitters.h"
 #include "spectral/settings.h"
 #include "tests/support/plans.h"
@@ -14,8 +15,7 @@ using photons::NeymanAllocation;
 constexpr unsigned photons = 1 << 16;
 
 /// A dispersive ball over a floor under daylight and, three times as strong, a candle.
-preset::Preset lit_ball(Effort effort)
-{
+preset::Preset lit_ball(Effort effort) {
   preset::Preset p = empty_preset();
   p.source = "p.json";
   spectral::settings(p).effort = effort;
@@ -33,30 +33,27 @@ preset::Preset lit_ball(Effort effort)
 }
 
 /// [light][cluster] photons of a round.
-std::vector<std::vector<double>> allocated(const RunTables& tables)
-{
-  std::vector<std::vector<double>> counts(tables.lights.size(), std::vector<double>(tables.wavelengths.clusters.size(), 0));
+std::vector<std::vector<double>> allocated(const RunTables& tables) {
+  std::vector<std::vector<double>> counts(tables.lights.size(),
+                                          std::vector<double>(tables.wavelengths.clusters.size(), 0));
   for (const shared::DeviceEmitter& e : tables.emitters)
     counts[static_cast<std::size_t>(e.light)][static_cast<std::size_t>(e.cluster)] = e.photon_count;
   return counts;
 }
 
 /// What of a cluster's watts the second light has: both stand in one place, so only power and spectrum count.
-double candle_part(const RunTables& tables, std::size_t cluster)
-{
+double candle_part(const RunTables& tables, std::size_t cluster) {
   const auto& share = tables.wavelengths.share;
   return 3 * share[1][cluster] / (share[0][cluster] + 3 * share[1][cluster]);
 }
 
 /// Photons of an emitter: one for each, and of the rest its part of all weights, rounded (allocate_photons).
-double photons_for(double part, const RunTables& tables)
-{
+double photons_for(double part, const RunTables& tables) {
   const auto emitters = static_cast<double>(tables.emitters.size());
   return 1 + (tables.photons_per_batch - emitters) * part;
 }
 
-void expect_clusters_in_proportion(const RunTables& tables, const std::vector<double>& importance)
-{
+void expect_clusters_in_proportion(const RunTables& tables, const std::vector<double>& importance) {
   const auto counts = allocated(tables);
   const double total = std::accumulate(importance.begin(), importance.end(), 0.0);
   for (std::size_t c = 0; c < importance.size(); ++c) {
@@ -67,16 +64,14 @@ void expect_clusters_in_proportion(const RunTables& tables, const std::vector<do
   EXPECT_EQ(tables.photons_per_pass(), photons);
 }
 
-TEST(AllocatedEffort, EqualGivesEveryClusterTheSame)
-{
+TEST(AllocatedEffort, EqualGivesEveryClusterTheSame) {
   const RunTables tables = tables_of(lit_ball(Effort::equal));
   ASSERT_GT(tables.wavelengths.clusters.size(), 5u);
   EXPECT_THAT(tables.importance, Each(1));
   expect_clusters_in_proportion(tables, tables.importance);
 }
 
-TEST(AllocatedEffort, FollowsTheImportanceOfClusters)
-{
+TEST(AllocatedEffort, FollowsTheImportanceOfClusters) {
   for (const Effort effort : {Effort::importance, Effort::radziszewski})
     for (const auto which : {photons::Importance::Cluster::maximum, photons::Importance::Cluster::mean}) {
       preset::Preset p = lit_ball(effort);
@@ -88,14 +83,14 @@ TEST(AllocatedEffort, FollowsTheImportanceOfClusters)
     }
 }
 
-TEST(AllocatedEffort, OfPowerIsWhatTheEyeMakesOfIt)
-{
+TEST(AllocatedEffort, OfPowerIsWhatTheEyeMakesOfIt) {
   for (const Effort effort : {Effort::automatic, Effort::power, Effort::variance}) {
     const RunTables tables = tables_of(lit_ball(effort));
     const auto& w = tables.wavelengths;
     std::vector<double> weights;
     for (std::size_t l = 0; l < 2; ++l)
-      for (std::size_t c = 0; c < w.clusters.size(); ++c) weights.push_back((l == 1 ? 3 : 1) * (w.seen[l][c] + 0.05 * w.share[l][c]));
+      for (std::size_t c = 0; c < w.clusters.size(); ++c)
+        weights.push_back((l == 1 ? 3 : 1) * (w.seen[l][c] + 0.05 * w.share[l][c]));
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     const auto counts = allocated(tables);
     for (std::size_t i = 0; i < weights.size(); ++i)
@@ -107,9 +102,9 @@ TEST(AllocatedEffort, OfPowerIsWhatTheEyeMakesOfIt)
   }
 }
 
-// Importance is 0 where the floor reflects nothing, but light is there, and the nine points need not see all: no cluster is dropped.
-TEST(AllocatedEffort, LeavesNoClusterWithLightOut)
-{
+// Importance is 0 where the floor reflects nothing, but light is there, and the nine points need not see all: no
+// cluster is dropped.
+TEST(AllocatedEffort, LeavesNoClusterWithLightOut) {
   preset::Preset p = lit_ball(Effort::importance);
   preset::Reflectance& floor = p.scene.materials["floor"].reflectance;
   floor.type = preset::Reflectance::Type::table;
@@ -120,8 +115,7 @@ TEST(AllocatedEffort, LeavesNoClusterWithLightOut)
 }
 
 // Where no caustic can be, nothing is asked of the surroundings; the plan leaves the photons out.
-TEST(AllocatedEffort, IsNotAskedForWhereThereIsNoCaustic)
-{
+TEST(AllocatedEffort, IsNotAskedForWhereThereIsNoCaustic) {
   preset::Preset p = lit_ball(Effort::importance);
   p.scene.objects.pop_back(); // the floor
   EXPECT_THAT(tables_of(p).importance, Each(1));
@@ -130,11 +124,11 @@ TEST(AllocatedEffort, IsNotAskedForWhereThereIsNoCaustic)
   EXPECT_THAT(tables_of(p).importance, Each(1));
   p = lit_ball(Effort::importance);
   p.scene.materials["floor"].reflectance.value = 0;
-  EXPECT_THAT(refusal_of([&] { tables_of(p); }), StartsWith("p.json#/spectral/effort: the importance (4.15) is 0 at every"));
+  EXPECT_THAT(refusal_of([&] { tables_of(p); }),
+              StartsWith("p.json#/spectral/effort: the importance (4.15) is 0 at every"));
 }
 
-TEST(AllocatedEffort, IsInThePlan)
-{
+TEST(AllocatedEffort, IsInThePlan) {
   const auto reason_of = [](Effort effort, bool runs) {
     const plan::Plan plan = plan_of(lit_ball(effort));
     for (const plan::Pass& pass : plan.passes)
@@ -144,7 +138,8 @@ TEST(AllocatedEffort, IsInThePlan)
       }
     return std::string();
   };
-  EXPECT_THAT(reason_of(Effort::importance, true), testing::MatchesRegex(".*surroundings \\(4.15\\): [0-9]+ % of the iterations.*"));
+  EXPECT_THAT(reason_of(Effort::importance, true),
+              testing::MatchesRegex(".*surroundings \\(4.15\\): [0-9]+ % of the iterations.*"));
   EXPECT_THAT(reason_of(Effort::radziszewski, true), HasSubstr("cosh"));
   EXPECT_THAT(reason_of(Effort::equal, false), HasSubstr("spectral.effort is equal"));
   EXPECT_THAT(reason_of(Effort::power, false), HasSubstr("what the eye makes of each cluster's light"));
@@ -152,9 +147,9 @@ TEST(AllocatedEffort, IsInThePlan)
   EXPECT_THAT(reason_of(Effort::variance, false), HasSubstr("variance that is measured"));
 }
 
-TEST(AllocatePhotons, GivesEveryEmitterItsShareAndNoneToTheDark)
-{
-  EXPECT_THAT(photons::allocate_photons({1, 1, 2}, 8), ElementsAre(2, 3, 3)); // 1 each; then 5 by rounding the running sums 1.25, 2.5, 5
+TEST(AllocatePhotons, GivesEveryEmitterItsShareAndNoneToTheDark) {
+  EXPECT_THAT(photons::allocate_photons({1, 1, 2}, 8),
+              ElementsAre(2, 3, 3)); // 1 each; then 5 by rounding the running sums 1.25, 2.5, 5
   EXPECT_THAT(photons::allocate_photons({1, 0, 1e-9}, 100), ElementsAre(99, 0, 1));
   EXPECT_THAT(photons::allocate_photons({1, 1, 1}, 1), ElementsAre(1, 1, 1));
   EXPECT_THAT(photons::allocate_photons({0, 0}, 10), ElementsAre(0, 0));
@@ -165,10 +160,9 @@ TEST(AllocatePhotons, GivesEveryEmitterItsShareAndNoneToTheDark)
 }
 
 // Two lights, three clusters; the second light has nothing in the middle one.
-TEST(Emitters, AreNumberedAndThoseOfALightTogether)
-{
-  const std::vector<shared::DeviceEmitter> emitters =
-      photons::make_emitters({{1, 0, 0, 0.5}, {1, 0, 1, 0.25}, {2, 0, 2, 0.25}, {3, 1, 0, 0.75}, {0, 1, 1, 0}, {3, 1, 2, 0.25}}, 1005);
+TEST(Emitters, AreNumberedAndThoseOfALightTogether) {
+  const std::vector<shared::DeviceEmitter> emitters = photons::make_emitters(
+      {{1, 0, 0, 0.5}, {1, 0, 1, 0.25}, {2, 0, 2, 0.25}, {3, 1, 0, 0.75}, {0, 1, 1, 0}, {3, 1, 2, 0.25}}, 1005);
   ASSERT_EQ(emitters.size(), 5u);
   EXPECT_EQ(photons::count_photons(emitters), 1005u);
   const unsigned counts[] = {101, 101, 201, 301, 301}; // 1 each, and 1000 as 1 : 1 : 2 : 3 : 3
@@ -187,15 +181,13 @@ TEST(Emitters, AreNumberedAndThoseOfALightTogether)
   }
 }
 
-TEST(Emitters, AreNoneInTheDark)
-{
+TEST(Emitters, AreNoneInTheDark) {
   EXPECT_TRUE(photons::make_emitters({{0, 0, 0, 0}, {0, 1, 0, 0}}, 100).empty());
   EXPECT_TRUE(photons::make_emitters({}, 100).empty());
   EXPECT_EQ(photons::count_photons({}), 0u);
 }
 
-TEST(Emitters, SequencesAreLongerThan32Bits)
-{
+TEST(Emitters, SequencesAreLongerThan32Bits) {
   shared::DeviceEmitter emitter{.sequence_start = 0xfffffff0u};
   photons::advance_sequence(emitter, 0x20);
   EXPECT_EQ(emitter.sequence_start, 0x10u);
@@ -205,8 +197,7 @@ TEST(Emitters, SequencesAreLongerThan32Bits)
   EXPECT_EQ(emitter.sequence_start_high, 6u);
 }
 
-std::vector<shared::DeviceEmitter> emitters(const std::vector<unsigned>& counts)
-{
+std::vector<shared::DeviceEmitter> emitters(const std::vector<unsigned>& counts) {
   std::vector<shared::DeviceEmitter> all;
   for (const unsigned count : counts) {
     shared::DeviceEmitter emitter{.photon_count = count};
@@ -216,8 +207,7 @@ std::vector<shared::DeviceEmitter> emitters(const std::vector<unsigned>& counts)
   return all;
 }
 
-TEST(NeymanAllocation, IsDueBeforePassesThatArePowersOfTwo)
-{
+TEST(NeymanAllocation, IsDueBeforePassesThatArePowersOfTwo) {
   NeymanAllocation allocation(emitters({10, 10}));
   std::vector<int> due;
   for (int pass = 0; pass < 70; ++pass) {
@@ -228,10 +218,10 @@ TEST(NeymanAllocation, IsDueBeforePassesThatArePowersOfTwo)
   EXPECT_EQ(due, (std::vector<int>{2, 4, 8, 16, 32, 64}));
 }
 
-// Two emitters with n = 100 photons each; a photon of the first adds v with v^2 = 9, of the second v^2 = 1. V_e = n * sum of v^2 a pass
-// stand as 9 to 1, their roots as 3 to 1: 150 and 50 of the 200 photons; nine tenths of that and one of the first allocation, 145 and 55.
-TEST(NeymanAllocation, GoesByTheRootOfTheVariance)
-{
+// Two emitters with n = 100 photons each; a photon of the first adds v with v^2 = 9, of the second v^2 = 1. V_e = n *
+// sum of v^2 a pass stand as 9 to 1, their roots as 3 to 1: 150 and 50 of the 200 photons; nine tenths of that and one
+// of the first allocation, 145 and 55.
+TEST(NeymanAllocation, GoesByTheRootOfTheVariance) {
   NeymanAllocation allocation(emitters({100, 100}));
   allocation.reallocate(2, std::vector<std::int64_t>{2 * 100 * 9, 2 * 100 * 1}, 2);
   EXPECT_NEAR(allocation.emitters()[0].photon_count, 145, 1);
@@ -239,12 +229,12 @@ TEST(NeymanAllocation, GoesByTheRootOfTheVariance)
   EXPECT_EQ(allocation.emitters()[1].first_photon, allocation.emitters()[0].photon_count);
   // What it measures from then on has other counts and the same variances: v goes as 1 / n. The allocation stays.
   const double a = allocation.emitters()[0].photon_count, b = allocation.emitters()[1].photon_count;
-  allocation.reallocate(4, std::vector<std::int64_t>{std::llround(2 * a * 9 * 1e4 / (a * a)), std::llround(2 * b * 1e4 / (b * b))}, 2);
+  allocation.reallocate(
+      4, std::vector<std::int64_t>{std::llround(2 * a * 9 * 1e4 / (a * a)), std::llround(2 * b * 1e4 / (b * b))}, 2);
   EXPECT_NEAR(allocation.emitters()[0].photon_count, 145, 1);
 }
 
-TEST(NeymanAllocation, NobodyGoesWithoutAndNothingIsLost)
-{
+TEST(NeymanAllocation, NobodyGoesWithoutAndNothingIsLost) {
   NeymanAllocation allocation(emitters({1, 1000, 7, 1}));
   allocation.reallocate(2, std::vector<std::int64_t>{0, std::int64_t{1} << 60, 0, 0}, 1);
   unsigned all = 0;
@@ -259,9 +249,9 @@ TEST(NeymanAllocation, NobodyGoesWithoutAndNothingIsLost)
   EXPECT_EQ(dark.emitters()[0].photon_count, 30u);
 }
 
-// A light has one sequence for each half of the film: after 2 passes of 100 photons it has used 100 of each, after 4 200.
-TEST(NeymanAllocation, SequencesGoOnWhereTheyWere)
-{
+// A light has one sequence for each half of the film: after 2 passes of 100 photons it has used 100 of each, after 4
+// 200.
+TEST(NeymanAllocation, SequencesGoOnWhereTheyWere) {
   NeymanAllocation allocation(emitters({40, 60}));
   allocation.reallocate(2, std::vector<std::int64_t>{1, 1}, 2);
   for (const shared::DeviceEmitter& e : allocation.emitters()) EXPECT_EQ(e.sequence_start, 100u);
@@ -273,8 +263,7 @@ TEST(NeymanAllocation, SequencesGoOnWhereTheyWere)
 }
 
 // Sums of v^2 of two passes each: 2 * 900 as allocated first, then 2 * 300, then 2 * 450.
-TEST(NeymanAllocation, KnowsWhatItHasGained)
-{
+TEST(NeymanAllocation, KnowsWhatItHasGained) {
   NeymanAllocation allocation(emitters({40, 60}));
   EXPECT_EQ(allocation.gain(), 1);
   allocation.reallocate(2, std::vector<std::int64_t>{1000, 800}, 2);
@@ -285,8 +274,7 @@ TEST(NeymanAllocation, KnowsWhatItHasGained)
   EXPECT_DOUBLE_EQ(allocation.gain(), 2);
 }
 
-TEST(NeymanAllocation, CanGoBackToTheFirst)
-{
+TEST(NeymanAllocation, CanGoBackToTheFirst) {
   NeymanAllocation allocation(emitters({40, 60}));
   allocation.reallocate(2, std::vector<std::int64_t>{1, 900}, 2);
   EXPECT_NE(allocation.emitters()[0].photon_count, 40u);
@@ -297,8 +285,7 @@ TEST(NeymanAllocation, CanGoBackToTheFirst)
   for (const shared::DeviceEmitter& e : allocation.emitters()) EXPECT_EQ(e.sequence_start, 200u);
 }
 
-TEST(NeymanAllocation, IsSavedWhole)
-{
+TEST(NeymanAllocation, IsSavedWhole) {
   NeymanAllocation allocation(emitters({40, 60}));
   allocation.reallocate(2, std::vector<std::int64_t>{5, 700}, 2);
   const std::vector<std::byte> bytes = test::saved<tracing::State>(allocation);
@@ -306,7 +293,8 @@ TEST(NeymanAllocation, IsSavedWhole)
   EXPECT_TRUE(test::load<tracing::State>(other, bytes));
   allocation.reallocate(4, std::vector<std::int64_t>{100, 3}, 2);
   other.reallocate(4, std::vector<std::int64_t>{100, 3}, 2);
-  for (std::size_t e = 0; e < 2; ++e) EXPECT_EQ(other.emitters()[e].photon_count, allocation.emitters()[e].photon_count);
+  for (std::size_t e = 0; e < 2; ++e)
+    EXPECT_EQ(other.emitters()[e].photon_count, allocation.emitters()[e].photon_count);
   EXPECT_EQ(other.gain(), allocation.gain());
 }
 

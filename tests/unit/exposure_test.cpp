@@ -6,15 +6,13 @@
 namespace nephroid::exposure_test {
 
 /// Grey; the first so many pixels of 100 differ.
-std::vector<float> grey(float value, float first = 0, std::size_t count = 0)
-{
+std::vector<float> grey(float value, float first = 0, std::size_t count = 0) {
   std::vector<float> rgb(300, value);
   std::fill_n(rgb.begin(), 3 * count, first);
   return rgb;
 }
 
-TEST(WhiteFor, HalfOfTheLitPictureIsBelowHalf)
-{
+TEST(WhiteFor, HalfOfTheLitPictureIsBelowHalf) {
   EXPECT_EQ(run::white_for({10, 10, grey(0.3f)}), 0.6);
   EXPECT_EQ(run::white_for({10, 10, grey(0, 7, 2)}), 14) << "a spot on black";
   EXPECT_EQ(run::white_for({10, 10, grey(0.3f, 30, 3)}), 0.6) << "a small bright one on a floor";
@@ -25,9 +23,10 @@ TEST(WhiteFor, HalfOfTheLitPictureIsBelowHalf)
   EXPECT_EQ(run::white_for({10, 10, grey(0.3f, std::numeric_limits<float>::infinity(), 30)}), 0.6);
 }
 
-TEST(WhiteFor, CausticsCountWhereTheyAreTheLight)
-{
-  const auto with = [](float floor) { return job::Picture{10, 10, grey(floor + 2), {{"direct", grey(floor)}, {"caustic", grey(2)}}}; };
+TEST(WhiteFor, CausticsCountWhereTheyAreTheLight) {
+  const auto with = [](float floor) {
+    return job::Picture{10, 10, grey(floor + 2), {{"direct", grey(floor)}, {"caustic", grey(2)}}};
+  };
   EXPECT_EQ(run::white_for(with(1)), 2);
   EXPECT_EQ(run::white_for(with(0.1f)), 4.2);
   EXPECT_EQ(run::white_for(with(0)), 4);

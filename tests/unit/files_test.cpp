@@ -15,16 +15,14 @@ protected:
   nephroid::test::TemporaryFolder temporary;
   fs::path folder = temporary.path();
 
-  std::vector<std::string> names() const
-  {
+  std::vector<std::string> names() const {
     std::vector<std::string> found;
     for (const auto& entry : fs::directory_iterator(folder)) found.push_back(entry.path().filename());
     return found;
   }
 };
 
-TEST(PieceHash, IsOfTheBytesAndNotOfThePieces)
-{
+TEST(PieceHash, IsOfTheBytesAndNotOfThePieces) {
   std::vector<std::byte> bytes;
   for (std::size_t i = 0; i < 100; ++i) bytes.push_back(static_cast<std::byte>((i * 7) % 251));
   const auto hash = [&](std::size_t first) {
@@ -43,8 +41,7 @@ TEST(PieceHash, IsOfTheBytesAndNotOfThePieces)
 }
 
 // Pieces below, at and above what waits in a buffer before it is written or after it was read.
-TEST_F(Files, PiecesAreWrittenAndReadInOrder)
-{
+TEST_F(Files, PiecesAreWrittenAndReadInOrder) {
   const std::vector<std::size_t> sizes{1, 3, 65535, 65536, 0, 65537, 8, 200000, 7};
   std::vector<std::byte> all;
   write_file_whole(folder / "pieces", [&](ByteSink& file) {
@@ -68,11 +65,11 @@ TEST_F(Files, PiecesAreWrittenAndReadInOrder)
   }
   EXPECT_EQ(read, all);
   EXPECT_EQ(file->left(), 0u);
-  EXPECT_THAT(error_of([&] { file->read(std::span(read).first(1)); }).line(), HasSubstr("pieces: cannot be read: it ends early"));
+  EXPECT_THAT(error_of([&] { file->read(std::span(read).first(1)); }).line(),
+              HasSubstr("pieces: cannot be read: it ends early"));
 }
 
-TEST_F(Files, WhatFailsWhileItIsWrittenLeavesNothing)
-{
+TEST_F(Files, WhatFailsWhileItIsWrittenLeavesNothing) {
   EXPECT_EQ(error_of([&] {
               write_file_whole(folder / "half", [](ByteSink& file) {
                 file.value(1);
@@ -83,8 +80,7 @@ TEST_F(Files, WhatFailsWhileItIsWrittenLeavesNothing)
   EXPECT_THAT(names(), ElementsAre());
 }
 
-TEST_F(Files, ALinkLeadsOnAndTheModeStays)
-{
+TEST_F(Files, ALinkLeadsOnAndTheModeStays) {
   write_file_whole(folder / "own", "old");
   fs::permissions(folder / "own", fs::perms::owner_read | fs::perms::owner_write);
   fs::create_symlink("own", folder / "link");
@@ -94,8 +90,7 @@ TEST_F(Files, ALinkLeadsOnAndTheModeStays)
   EXPECT_EQ(fs::status(folder / "own").permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
-TEST_F(Files, APipeIsNotReplaced)
-{
+TEST_F(Files, APipeIsNotReplaced) {
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   EXPECT_THAT(error_of([&] { write_file_whole(folder / "pipe", "text"); }).line(),
               HasSubstr("pipe: cannot be written: it is not a regular file"));
@@ -103,8 +98,7 @@ TEST_F(Files, APipeIsNotReplaced)
   EXPECT_THAT(names(), ElementsAre("pipe"));
 }
 
-TEST_F(Files, BytesSurviveWritingAndReading)
-{
+TEST_F(Files, BytesSurviveWritingAndReading) {
   std::string bytes(300'000, '\0');
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 2654435761u >> 13);
   write_file_whole(folder / "a.bin", bytes);
@@ -116,16 +110,14 @@ TEST_F(Files, BytesSurviveWritingAndReading)
 
 TEST_F(Files, FilesWithoutASizeAreReadToo) { EXPECT_THAT(read_file("/proc/self/status"), HasSubstr("Name:")); }
 
-TEST_F(Files, WhatCannotBeReadIsBadInputWithItsName)
-{
+TEST_F(Files, WhatCannotBeReadIsBadInputWithItsName) {
   const Error missing = error_of([&] { read_file(folder / "none"); });
   EXPECT_EQ(missing.exit_code(), 2);
   EXPECT_THAT(missing.line(), HasSubstr((folder / "none").string() + ": cannot be read: No such file"));
   EXPECT_THAT(error_of([&] { read_file(folder); }).line(), HasSubstr("it is a folder"));
 }
 
-TEST_F(Files, DevicesAndPipesAreRefusedAndNotWaitedFor)
-{
+TEST_F(Files, DevicesAndPipesAreRefusedAndNotWaitedFor) {
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   for (const fs::path& path : {fs::path("/dev/zero"), folder / "pipe"}) {
     EXPECT_THAT(error_of([&] { read_file(path); }).line(), HasSubstr("it is not a regular file")) << path;
@@ -135,8 +127,7 @@ TEST_F(Files, DevicesAndPipesAreRefusedAndNotWaitedFor)
   EXPECT_THAT(error_of([&] { FileFinder(folder).find("pipe", "x"); }).line(), HasSubstr("is not a regular file"));
 }
 
-TEST_F(Files, AMissingFolderAndAFolderInTheWayAreSaid)
-{
+TEST_F(Files, AMissingFolderAndAFolderInTheWayAreSaid) {
   const Error missing = error_of([&] { write_file_whole(folder / "no/such/a.txt", "x"); });
   EXPECT_EQ(missing.exit_code(), 1);
   EXPECT_THAT(missing.line(), HasSubstr("make the folder first"));
@@ -145,8 +136,7 @@ TEST_F(Files, AMissingFolderAndAFolderInTheWayAreSaid)
   EXPECT_THAT(names(), ElementsAre("taken"));
 }
 
-TEST_F(Files, AFullDiskIsSaidAndTheOldFileStays)
-{
+TEST_F(Files, AFullDiskIsSaidAndTheOldFileStays) {
   const fs::path disk = folder / "disk";
   fs::create_directory(disk);
   if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64k") != 0) GTEST_SKIP() << "mounting a small disk needs root";
@@ -158,35 +148,34 @@ TEST_F(Files, AFullDiskIsSaidAndTheOldFileStays)
   ::umount(disk.c_str());
 }
 
-TEST_F(Files, AFolderWithoutPermissionIsSaid)
-{
+TEST_F(Files, AFolderWithoutPermissionIsSaid) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   ::chmod(folder.c_str(), 0500);
-  EXPECT_THAT(error_of([&] { write_file_whole(folder / "a", "x"); }).line(), HasSubstr("choose a folder that you may write to"));
+  EXPECT_THAT(error_of([&] { write_file_whole(folder / "a", "x"); }).line(),
+              HasSubstr("choose a folder that you may write to"));
   ::chmod(folder.c_str(), 0700);
 }
 
 // By them a run finds what a killed writer left, and must take nothing else for it.
-TEST_F(Files, KnowsItsOwnTemporaryNames)
-{
-  for (const char* name : {".image.17-0.tmp.exr", ".checkpoint.4194304-12.tmp.bin", ".a.1-1.tmp", "folder/.run.1-2.tmp.json"})
+TEST_F(Files, KnowsItsOwnTemporaryNames) {
+  for (const char* name :
+       {".image.17-0.tmp.exr", ".checkpoint.4194304-12.tmp.bin", ".a.1-1.tmp", "folder/.run.1-2.tmp.json"})
     EXPECT_TRUE(is_temporary_name(name)) << name;
-  for (const char* name : {"image.exr", ".image.exr", ".notes.tmp", "image.17-0.tmp.exr", ".tmp", ".image.17-0.tmp.exr/mine", ""})
+  for (const char* name :
+       {"image.exr", ".image.exr", ".notes.tmp", "image.17-0.tmp.exr", ".tmp", ".image.17-0.tmp.exr/mine", ""})
     EXPECT_FALSE(is_temporary_name(name)) << name;
 }
 
 class Finder : public Files {
 protected:
-  void SetUp() override
-  {
+  void SetUp() override {
     for (const char* name : {"beside", "presets", "data/glmark2/models"}) fs::create_directories(folder / name);
   }
 
   test::Variable presets{"NEPHROID_PRESETS", folder / "presets"}, data{"XDG_DATA_DIRS", folder / "data"};
 };
 
-TEST_F(Finder, LooksBesideThenInPresetsThenInTheSystemsModels)
-{
+TEST_F(Finder, LooksBesideThenInPresetsThenInTheSystemsModels) {
   const FileFinder finder(folder / "beside");
   for (const char* place : {"data/glmark2/models", "presets", "beside"}) { // each goes before the one before
     write_file_whole(folder / place / "bunny.obj", place);
@@ -194,18 +183,18 @@ TEST_F(Finder, LooksBesideThenInPresetsThenInTheSystemsModels)
   }
 }
 
-TEST_F(Finder, SaysWhereItLookedAndForWhom)
-{
+TEST_F(Finder, SaysWhereItLookedAndForWhom) {
   const Error error = error_of([&] { FileFinder(folder / "beside").find("none.obj", "p.json#/scene/objects/0/mesh"); });
   EXPECT_EQ(error.exit_code(), 2);
   EXPECT_THAT(error.line(), StartsWith("p.json#/scene/objects/0/mesh: 'none.obj' not found; looked in "));
-  for (const char* place : {"beside", "presets", "data/glmark2/models"}) EXPECT_THAT(error.line(), HasSubstr((folder / place).string()));
-  EXPECT_THAT(error_of([&] { FileFinder().find("/no/such/file", "x"); }).line(), HasSubstr("there is no file '/no/such/file'"));
+  for (const char* place : {"beside", "presets", "data/glmark2/models"})
+    EXPECT_THAT(error.line(), HasSubstr((folder / place).string()));
+  EXPECT_THAT(error_of([&] { FileFinder().find("/no/such/file", "x"); }).line(),
+              HasSubstr("there is no file '/no/such/file'"));
   EXPECT_THAT(error_of([&] { FileFinder().find("", "x"); }).line(), HasSubstr("empty"));
 }
 
-TEST_F(Finder, FoldersAreSaidToBeFoldersUnlessAFileIsFoundLater)
-{
+TEST_F(Finder, FoldersAreSaidToBeFoldersUnlessAFileIsFoundLater) {
   const FileFinder finder(folder / "beside");
   fs::create_directory(folder / "beside/bunny.obj");
   EXPECT_EQ(error_of([&] { finder.find("bunny.obj", "x"); }).line(),
@@ -214,29 +203,25 @@ TEST_F(Finder, FoldersAreSaidToBeFoldersUnlessAFileIsFoundLater)
   EXPECT_EQ(finder.find("bunny.obj", "x"), folder / "presets/bunny.obj");
 }
 
-TEST_F(Finder, PresetsFolderOfTheEnvironmentMustBeThere)
-{
+TEST_F(Finder, PresetsFolderOfTheEnvironmentMustBeThere) {
   EXPECT_EQ(presets_folder(), folder / "presets");
   const test::Variable nowhere("NEPHROID_PRESETS", "/no/such/folder");
   EXPECT_THAT(error_of([] { presets_folder(); }).line(), HasSubstr("NEPHROID_PRESETS: '/no/such/folder' is no folder"));
 }
 
-TEST(Presets, AreFoundFromTheBuildFolder)
-{
+TEST(Presets, AreFoundFromTheBuildFolder) {
   const test::Variable unset("NEPHROID_PRESETS", std::nullopt);
   EXPECT_TRUE(fs::equivalent(presets_folder(), fs::path(NEPHROID_SOURCE_DIR) / "presets"));
 }
 
-TEST(Nearest, DistancesOfTheLiterature)
-{
+TEST(Nearest, DistancesOfTheLiterature) {
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3); // Levenshtein's own example
-  EXPECT_EQ(edit_distance("ca", "abc"), 3);         // 3 in optimal string alignment, 2 in Damerau's unrestricted distance
+  EXPECT_EQ(edit_distance("ca", "abc"), 3); // 3 in optimal string alignment, 2 in Damerau's unrestricted distance
   EXPECT_EQ(edit_distance("rnu", "run"), 1);
   EXPECT_EQ(edit_distance("", "abc"), 3);
 }
 
-TEST(Nearest, OnlyNearWordsAreOffered)
-{
+TEST(Nearest, OnlyNearWordsAreOffered) {
   const std::vector<std::string> verbs{"run", "plan", "presets", "dispersion"};
   EXPECT_EQ(nearest("rnu", verbs), "run");
   EXPECT_EQ(nearest("preset", verbs), "presets");
@@ -245,8 +230,7 @@ TEST(Nearest, OnlyNearWordsAreOffered)
   EXPECT_EQ(nearest("", verbs), "");
 }
 
-TEST(Interrupts, TheFirstSignalSetsTheTokenAndTheSecondKills)
-{
+TEST(Interrupts, TheFirstSignalSetsTheTokenAndTheSecondKills) {
   const auto twice = [] {
     const Interrupts interrupts;
     ::kill(::getpid(), SIGTERM);

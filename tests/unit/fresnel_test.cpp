@@ -9,8 +9,7 @@ using namespace nephroid::optics;
 
 constexpr double radian = std::numbers::pi / 180;
 
-TEST(Fresnel, NormalIncidenceReflectsTheSquareOfTheQuotient)
-{
+TEST(Fresnel, NormalIncidenceReflectsTheSquareOfTheQuotient) {
   for (double n : {1.0, 1.33, 1.5168, 1.92286, 2.417, 4.0}) {
     const double r = (n - 1) / (n + 1);
     EXPECT_NEAR(fresnel_reflectance(1, 1, n), r * r, 1e-15) << n;
@@ -18,8 +17,7 @@ TEST(Fresnel, NormalIncidenceReflectsTheSquareOfTheQuotient)
   }
 }
 
-TEST(Fresnel, SnellsLawHolds)
-{
+TEST(Fresnel, SnellsLawHolds) {
   for (double degrees = 0; degrees < 90; degrees += 7.5) {
     const std::optional<double> cos_t = refracted_cosine(std::cos(degrees * radian), 1, 1.5);
     ASSERT_TRUE(cos_t);
@@ -27,10 +25,9 @@ TEST(Fresnel, SnellsLawHolds)
   }
 }
 
-// At Brewster's angle the two rays are at right angles, light polarised in the plane of incidence is not reflected at all, and
-// what is left is half of r_s^2 with r_s = (1 - m^2) / (1 + m^2), m = n_t / n_i.
-TEST(Fresnel, BrewstersAngleLeavesOnePolarisation)
-{
+// At Brewster's angle the two rays are at right angles, light polarised in the plane of incidence is not reflected at
+// all, and what is left is half of r_s^2 with r_s = (1 - m^2) / (1 + m^2), m = n_t / n_i.
+TEST(Fresnel, BrewstersAngleLeavesOnePolarisation) {
   for (double m : {1.2, 1.5, 1.92286, 1 / 1.5}) {
     const double angle = std::atan(m);
     const double r_s = (1 - m * m) / (1 + m * m);
@@ -41,8 +38,7 @@ TEST(Fresnel, BrewstersAngleLeavesOnePolarisation)
   }
 }
 
-TEST(Fresnel, TotalReflectionBeginsAtTheCriticalAngle)
-{
+TEST(Fresnel, TotalReflectionBeginsAtTheCriticalAngle) {
   const double critical = std::asin(1 / 1.5) / radian;
   EXPECT_LT(fresnel_reflectance(std::cos((critical - 1e-4) * radian), 1.5, 1), 1);
   EXPECT_EQ(fresnel_reflectance(std::cos((critical + 1e-4) * radian), 1.5, 1), 1);
@@ -50,8 +46,7 @@ TEST(Fresnel, TotalReflectionBeginsAtTheCriticalAngle)
 }
 
 // The same share is reflected from either side along the same pair of rays: light can go back the way it came.
-TEST(Fresnel, ReflectanceIsTheSameBothWays)
-{
+TEST(Fresnel, ReflectanceIsTheSameBothWays) {
   for (double n : {1.1, 1.33, 1.9, 2.4})
     for (double degrees = 0; degrees < 90; degrees += 3) {
       const double cos_i = std::cos(degrees * radian);
@@ -61,8 +56,7 @@ TEST(Fresnel, ReflectanceIsTheSameBothWays)
     }
 }
 
-TEST(Fresnel, StaysBetweenNothingAndEverything)
-{
+TEST(Fresnel, StaysBetweenNothingAndEverything) {
   EXPECT_EQ(fresnel_reflectance(0, 1, 1.5), 1);
   EXPECT_EQ(fresnel_reflectance(0, 1.5, 1.5), 0);
   for (double ratio : {1e-6, 0.5, 1.0, 2.0, 1e6})

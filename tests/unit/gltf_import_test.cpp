@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Importing glTF: small files written here, and what becomes of them against values worked out in comments; and files that are cut, missing
-// their data, or lie about it.
+// Importing glTF: small files written here, and what becomes of them against values worked out in comments; and files
+// that are cut, missing their data, or lie about it.
 #include "formats/import/gltf_scene.h"
 #include "formats/import/import.h"
 #include "optics/dispersion.h"
@@ -18,8 +18,7 @@ using preset::Material;
 using Json = nlohmann::json;
 
 /// A triangle with corners (0, 0, 0), (1, 0, 0), (0, 1, 0) and three indices.
-std::string triangle_bytes()
-{
+std::string triangle_bytes() {
   const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const std::uint16_t indices[] = {0, 1, 2};
   std::string bytes(sizeof positions + sizeof indices, '\0');
@@ -28,8 +27,7 @@ std::string triangle_bytes()
   return bytes;
 }
 
-Json triangle()
-{
+Json triangle() {
   return Json::parse(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"name":"tri"}],
     "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
     "materials":[{"name":"wall","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1],"metallicFactor":0}}],
@@ -43,8 +41,7 @@ Json triangle()
 std::string word(std::uint32_t value) { return {reinterpret_cast<const char*>(&value), sizeof value}; }
 
 /// With its buffer in the binary chunk.
-std::string glb(Json json)
-{
+std::string glb(Json json) {
   json["buffers"][0].erase("uri");
   std::string text = json.dump(), bin = triangle_bytes();
   text.resize((text.size() + 3) / 4 * 4, ' ');
@@ -56,29 +53,27 @@ std::string glb(Json json)
 
 class GltfImport : public testing::Test {
 protected:
-  formats::Imported import(const std::string& bytes, const std::string& name = "in.gltf")
-  {
+  formats::Imported import(const std::string& bytes, const std::string& name = "in.gltf") {
     return formats::import_gltf(folder.write(name, bytes), folder.path() / "out.json");
   }
-  preset::Preset imported(const Json& json)
-  {
+  preset::Preset imported(const Json& json) {
     made = import(json.dump());
     return preset::read_preset(made.preset.string());
   }
   /// What the import says; it has to leave nothing behind.
-  std::string refusal(const Json& json)
-  {
+  std::string refusal(const Json& json) {
     const std::string line = test::refusal_of([&] { import(json.dump()); });
     EXPECT_FALSE(fs::exists(folder.path() / "out.json"));
-    return line.starts_with((folder.path() / "in.gltf").string()) ? line.substr((folder.path() / "in.gltf").string().size()) : line;
+    return line.starts_with((folder.path() / "in.gltf").string())
+               ? line.substr((folder.path() / "in.gltf").string().size())
+               : line;
   }
 
   test::TemporaryFolder folder;
   formats::Imported made;
 };
 
-TEST_F(GltfImport, ATriangleBecomesAnObjectWithAMeshOfItsOwn)
-{
+TEST_F(GltfImport, ATriangleBecomesAnObjectWithAMeshOfItsOwn) {
   const preset::Preset p = imported(triangle());
   ASSERT_EQ(p.scene.objects.size(), 1u);
   const preset::Object& object = p.scene.objects[0];
@@ -94,8 +89,7 @@ TEST_F(GltfImport, ATriangleBecomesAnObjectWithAMeshOfItsOwn)
   EXPECT_THAT(made.summary(), HasSubstr("1 object, 1 mesh, 1 light; the file has no camera"));
 }
 
-TEST_F(GltfImport, BinaryFilesAndBuffersBesideTheFileAreRead)
-{
+TEST_F(GltfImport, BinaryFilesAndBuffersBesideTheFileAreRead) {
   import(glb(triangle()), "in.glb");
   EXPECT_EQ(scene::load_mesh(folder.path() / "out-meshes/tri.ply").triangles.size(), 1u);
   fs::remove_all(folder.path() / "out-meshes");
@@ -106,12 +100,12 @@ TEST_F(GltfImport, BinaryFilesAndBuffersBesideTheFileAreRead)
   EXPECT_EQ(scene::load_mesh(folder.path() / "out-meshes/tri.ply").triangles.size(), 1u);
 }
 
-TEST_F(GltfImport, NodesPlaceTheirMeshesWhichAreWrittenOnce)
-{
+TEST_F(GltfImport, NodesPlaceTheirMeshesWhichAreWrittenOnce) {
   Json json = triangle();
-  // The outer node turns by 90 degrees about z and is at (5, 0, 0); the inner one is at (1, 2, 3) in it and twice as large: the inner
-  // origin (1, 2, 3) turns to (-2, 1, 3) and moves to (3, 1, 3).
-  json["nodes"] = Json::parse(R"([{"translation":[5,0,0],"rotation":[0,0,0.7071067811865476,0.7071067811865476],"children":[1,2]},
+  // The outer node turns by 90 degrees about z and is at (5, 0, 0); the inner one is at (1, 2, 3) in it and twice as
+  // large: the inner origin (1, 2, 3) turns to (-2, 1, 3) and moves to (3, 1, 3).
+  json["nodes"] =
+      Json::parse(R"([{"translation":[5,0,0],"rotation":[0,0,0.7071067811865476,0.7071067811865476],"children":[1,2]},
     {"mesh":0,"name":"a","translation":[1,2,3],"scale":[2,2,2]},{"mesh":0,"name":"a"}])");
   const preset::Preset p = imported(json);
   ASSERT_EQ(p.scene.objects.size(), 2u);
@@ -124,15 +118,16 @@ TEST_F(GltfImport, NodesPlaceTheirMeshesWhichAreWrittenOnce)
   EXPECT_THAT(t.scale, ElementsAre(DoubleNear(2, 1e-12), DoubleNear(2, 1e-12), DoubleNear(2, 1e-12)));
 }
 
-TEST_F(GltfImport, EveryTurnIsSaidByThreeAngles)
-{
+TEST_F(GltfImport, EveryTurnIsSaidByThreeAngles) {
   for (const double x : {-170.0, -90.0, 0.0, 33.0, 90.0})
     for (const double y : {-90.0, -45.0, 0.0, 60.0, 90.0})
       for (const double z : {-120.0, 0.0, 77.0})
         for (const double mirror : {1.0, -1.0}) {
           const glm::dmat3 turn = scene::rotation({x, y, z});
-          const glm::dmat4 matrix{
-              glm::dvec4(turn[0] * mirror * 3.0, 0), glm::dvec4(turn[1] * 2.0, 0), glm::dvec4(turn[2], 0), {1, 2, 3, 1}};
+          const glm::dmat4 matrix{glm::dvec4(turn[0] * mirror * 3.0, 0),
+                                  glm::dvec4(turn[1] * 2.0, 0),
+                                  glm::dvec4(turn[2], 0),
+                                  {1, 2, 3, 1}};
           const auto t = formats::transform_of(matrix);
           ASSERT_TRUE(t);
           const glm::dmat3 again = scene::rotation(t->rotate_deg);
@@ -141,12 +136,12 @@ TEST_F(GltfImport, EveryTurnIsSaidByThreeAngles)
               EXPECT_NEAR(again[column][row] * t->scale[static_cast<std::size_t>(column)], matrix[column][row], 1e-9)
                   << x << " " << y << " " << z;
         }
-  EXPECT_FALSE(formats::transform_of(glm::dmat4{{1, 0, 0, 0}, {0.5, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}})) << "a shear";
+  EXPECT_FALSE(formats::transform_of(glm::dmat4{{1, 0, 0, 0}, {0.5, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}))
+      << "a shear";
   EXPECT_FALSE(formats::transform_of(glm::dmat4{{1, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}})) << "flat";
 }
 
-TEST_F(GltfImport, AShearedMeshIsWrittenAsItStands)
-{
+TEST_F(GltfImport, AShearedMeshIsWrittenAsItStands) {
   Json json = triangle();
   json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 7, 1}; // (x, y, z) -> (x + y / 2, y, z + 7)
   const preset::Preset p = imported(json);
@@ -155,8 +150,7 @@ TEST_F(GltfImport, AShearedMeshIsWrittenAsItStands)
               UnorderedElementsAre(glm::vec3(0, 0, 7), glm::vec3(1, 0, 7), glm::vec3(0.5f, 1, 7)));
 }
 
-TEST_F(GltfImport, TheCameraLooksAlongMinusZ)
-{
+TEST_F(GltfImport, TheCameraLooksAlongMinusZ) {
   Json json = triangle();
   json["cameras"] = Json::parse(R"([{"type":"perspective","perspective":{"yfov":0.5,"aspectRatio":1.5,"znear":0.1}}])");
   json["nodes"].push_back({{"camera", 0}, {"translation", {0, 1, 5}}});
@@ -169,10 +163,9 @@ TEST_F(GltfImport, TheCameraLooksAlongMinusZ)
   EXPECT_THAT(camera.up, ElementsAre(0, 1, 0));
 }
 
-TEST_F(GltfImport, CandelaAndLuxBecomeWatts)
-{
-  // The sum of the CIE 1931 ybar over 380..780 nm in steps of 1 nm is 106.86, so equal power has 683 * 106.86 / 401 = 182.0 lm/W. A
-  // line at 555 nm has 683.
+TEST_F(GltfImport, CandelaAndLuxBecomeWatts) {
+  // The sum of the CIE 1931 ybar over 380..780 nm in steps of 1 nm is 106.86, so equal power has 683 * 106.86 / 401 =
+  // 182.0 lm/W. A line at 555 nm has 683.
   optics::Spectrum equal{}, line{};
   equal.fill(1);
   line[555 - 380] = 2;
@@ -186,7 +179,8 @@ TEST_F(GltfImport, CandelaAndLuxBecomeWatts)
     {"type":"spot","intensity":100,"spot":{"innerConeAngle":0.5235987755982988,"outerConeAngle":0.5235987755982988}},
     {"type":"directional","intensity":1000,"color":[1,0.1,0.1]}])");
   for (const int light : {0, 1, 2}) {
-    json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}, {"translation", {0, 4, 0}}});
+    json["nodes"].push_back(
+        {{"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}, {"translation", {0, 4, 0}}});
     json["scenes"][0]["nodes"].push_back(1 + light);
   }
   json["nodes"][2]["rotation"] = {-0.7071067811865476, 0, 0, 0.7071067811865476}; // -z turns to -y
@@ -208,8 +202,7 @@ TEST_F(GltfImport, CandelaAndLuxBecomeWatts)
   EXPECT_NEAR(683 * formats::luminous_irradiance(lights[0], {0, 2, 0}), 25, 1e-6); // 100 cd at 2 m
 }
 
-TEST_F(GltfImport, GlassBendsAsItsAbbeNumberSays)
-{
+TEST_F(GltfImport, GlassBendsAsItsAbbeNumberSays) {
   // N-BK7: n_d = 1.5168, V_d = 64.17, so n_F - n_C = 0.5168 / 64.17 = 0.0080536.
   const preset::Dispersion d = formats::dispersion_of(1.5168, 20 / 64.17);
   ASSERT_EQ(d.type, preset::Dispersion::Type::cauchy);
@@ -228,10 +221,10 @@ TEST_F(GltfImport, GlassBendsAsItsAbbeNumberSays)
   EXPECT_THAT(made.notes, Not(Contains(HasSubstr("thin film"))));
 }
 
-TEST_F(GltfImport, WhatMayBeMeantAsGlassHasANoteThatSaysHowToMakeItGlass)
-{
-  const auto advice = Contains(AllOf(HasSubstr("may be meant as glass"),
-                                     HasSubstr(R"(={"type": "dielectric", "dispersion": 1.5}')"))); // the default of KHR_materials_ior
+TEST_F(GltfImport, WhatMayBeMeantAsGlassHasANoteThatSaysHowToMakeItGlass) {
+  const auto advice =
+      Contains(AllOf(HasSubstr("may be meant as glass"),
+                     HasSubstr(R"(={"type": "dielectric", "dispersion": 1.5}')"))); // the default of KHR_materials_ior
   imported(triangle());
   EXPECT_THAT(made.notes, Not(advice));
   Json named = triangle(), blended = triangle(), transmits = triangle(), nearly_opaque = triangle();
@@ -252,13 +245,12 @@ TEST_F(GltfImport, WhatMayBeMeantAsGlassHasANoteThatSaysHowToMakeItGlass)
 
   // The advice is a --set that the preset takes.
   const std::string name = imported(named).scene.materials.begin()->first;
-  const preset::Preset glass =
-      preset::read_preset(made.preset.string(), {"scene.materials." + name + R"(={"type": "dielectric", "dispersion": 1.5})"});
+  const preset::Preset glass = preset::read_preset(
+      made.preset.string(), {"scene.materials." + name + R"(={"type": "dielectric", "dispersion": 1.5})"});
   EXPECT_EQ(glass.scene.materials.at(name).type, Material::Type::dielectric);
 }
 
-TEST_F(GltfImport, GlassAbsorbsAsItsVolumeSays)
-{
+TEST_F(GltfImport, GlassAbsorbsAsItsVolumeSays) {
   Json json = triangle();
   json["materials"][0]["extensions"] =
       Json::parse(R"({"KHR_materials_transmission":{"transmissionFactor":1},"KHR_materials_ior":{"ior":1.7},
@@ -285,10 +277,10 @@ TEST_F(GltfImport, GlassAbsorbsAsItsVolumeSays)
   EXPECT_NEAR(curve_of().sample(500).n.value(), clear.coefficients[0] + clear.coefficients[1] / 0.25, 1e-12);
 }
 
-TEST_F(GltfImport, MetalIsAMirrorAndColoursAreReflectances)
-{
+TEST_F(GltfImport, MetalIsAMirrorAndColoursAreReflectances) {
   Json json = triangle();
-  json["materials"][0]["pbrMetallicRoughness"] = {{"metallicFactor", 1}, {"roughnessFactor", 0}, {"baseColorFactor", {1, 0, 0, 1}}};
+  json["materials"][0]["pbrMetallicRoughness"] = {
+      {"metallicFactor", 1}, {"roughnessFactor", 0}, {"baseColorFactor", {1, 0, 0, 1}}};
   const Material mirror = imported(json).scene.materials.at("wall");
   EXPECT_EQ(mirror.type, Material::Type::mirror);
   ASSERT_EQ(mirror.reflectance.type, preset::Reflectance::Type::table);
@@ -301,25 +293,28 @@ TEST_F(GltfImport, MetalIsAMirrorAndColoursAreReflectances)
   EXPECT_TRUE(imported(json).scene.materials.contains("plain"));
 }
 
-TEST_F(GltfImport, WhatIsWrongIsSaidAtItsPlace)
-{
+TEST_F(GltfImport, WhatIsWrongIsSaidAtItsPlace) {
   const auto with = [&](const char* pointer, const Json& value) {
     Json json = triangle();
     json[Json::json_pointer(pointer)] = value;
     return refusal(json);
   };
-  EXPECT_THAT(with("/nodes/0/children", Json{0}), HasSubstr("#/nodes/0: the node has two parents, or nodes go round in a circle"));
+  EXPECT_THAT(with("/nodes/0/children", Json{0}),
+              HasSubstr("#/nodes/0: the node has two parents, or nodes go round in a circle"));
   EXPECT_THAT(with("/nodes/0/mesh", 7), HasSubstr("#/nodes/0/mesh: is 7, and there are 1 meshes"));
   EXPECT_THAT(with("/nodes/0/mesh", -1), HasSubstr("#/nodes/0/mesh: is of a wrong kind"));
   EXPECT_THAT(with("/nodes/0/translation", "up"), HasSubstr("#/nodes/0/translation"));
   EXPECT_THAT(with("/accessors/0/count", 1000000000),
               HasSubstr("#/accessors/0: its 1000000000 items end at byte 12000000000 of a buffer view of 36"));
   EXPECT_THAT(with("/accessors/0/count", 1e18), HasSubstr("#/accessors/0/count: is of a wrong kind"));
-  EXPECT_THAT(with("/bufferViews/0/byteLength", 4000000000u), HasSubstr("#/bufferViews/0: ends at byte 4000000000 of a buffer of 42"));
+  EXPECT_THAT(with("/bufferViews/0/byteLength", 4000000000u),
+              HasSubstr("#/bufferViews/0: ends at byte 4000000000 of a buffer of 42"));
   EXPECT_THAT(with("/buffers/0/uri", "gone.bin"), HasSubstr("#/buffers/0/uri: there is no file"));
-  EXPECT_THAT(with("/buffers/0/uri", "in.gltf"), HasSubstr("the mesh cannot be read")) << "the file itself is no buffer of triangles";
+  EXPECT_THAT(with("/buffers/0/uri", "in.gltf"), HasSubstr("the mesh cannot be read"))
+      << "the file itself is no buffer of triangles";
   EXPECT_THAT(with("/asset/version", "1.0"), HasSubstr("#/asset/version: is \"1.0\""));
-  EXPECT_THAT(with("/extensionsRequired", Json{"KHR_draco_mesh_compression"}), HasSubstr("requires KHR_draco_mesh_compression"));
+  EXPECT_THAT(with("/extensionsRequired", Json{"KHR_draco_mesh_compression"}),
+              HasSubstr("requires KHR_draco_mesh_compression"));
   EXPECT_THAT(with("/meshes/0/primitives/0/mode", 0), HasSubstr("has no triangles in its scene"));
   EXPECT_THAT(with("/scenes", Json::array()), HasSubstr("has no scene"));
   EXPECT_THAT(with("/scene", 3), HasSubstr("#/scene: is 3, and there are 1 scenes"));
@@ -330,8 +325,7 @@ TEST_F(GltfImport, WhatIsWrongIsSaidAtItsPlace)
   EXPECT_THAT(with("/buffers/0/uri", "short.bin"), HasSubstr("#/buffers/0/byteLength: is 42, and there are 3 bytes"));
 }
 
-TEST_F(GltfImport, ACutFileIsOneError)
-{
+TEST_F(GltfImport, ACutFileIsOneError) {
   const std::string text = triangle().dump(), binary = glb(triangle());
   for (std::size_t length = 0; length < text.size(); length += 29) {
     const Error error = test::error_of([&] { import(text.substr(0, length)); });
@@ -341,7 +335,8 @@ TEST_F(GltfImport, ACutFileIsOneError)
     const Error error = test::error_of([&] { import(binary.substr(0, length), "in.glb"); });
     EXPECT_EQ(error.kind(), ErrorKind::bad_input) << length;
   }
-  EXPECT_THAT(test::error_of([&] { import(std::string(100000, '[')); }).line(), HasSubstr("is nested deeper than 64 levels"));
+  EXPECT_THAT(test::error_of([&] { import(std::string(100000, '[')); }).line(),
+              HasSubstr("is nested deeper than 64 levels"));
   EXPECT_FALSE(fs::exists(folder.path() / "out.json"));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The importance of wavelengths (4.15) in scenes whose surroundings have a closed form: one material all round, and rectangles whose
-// solid angles are known.
+// The importance of wavelengths (4.15) in scenes whose surroundings have a closed form: one material all round, and
+// rectangles whose solid angles are known.
 #include "optics/spectrum.h"
 #include "spectral/settings.h"
 #include "tests/support/plans.h"
@@ -12,31 +12,27 @@ using Effort = photons::Settings::Effort;
 using optics::Spectrum;
 using std::numbers::pi;
 
-preset::Material patch(const std::string& name)
-{
+preset::Material patch(const std::string& name) {
   preset::Material m;
   m.reflectance.type = preset::Reflectance::Type::patch;
   m.reflectance.patch = name;
   return m;
 }
 
-preset::Shape room(double x, double y, double z)
-{
+preset::Shape room(double x, double y, double z) {
   preset::Shape s = box(x, y, z);
   s.inwards = true;
   return s;
 }
 
-preset::Light lamp(const preset::LightSpectrum& spectrum, double power_w = 1)
-{
+preset::Light lamp(const preset::LightSpectrum& spectrum, double power_w = 1) {
   return {.spectrum = spectrum, .power_w = power_w, .position = {0.3, 1.5, 0.2}};
 }
 
 preset::LightSpectrum illuminant(const std::string& name) { return {.illuminant = name}; }
 
 /// A glass ball of radius 0.5 about the origin in a room of 6 x 4 x 5 of `wall`, under one lamp F2.
-preset::Preset ball_in_a_room(const preset::Material& wall)
-{
+preset::Preset ball_in_a_room(const preset::Material& wall) {
   preset::Preset p = empty_preset();
   p.source = "p.json";
   spectral::settings(p).effort = Effort::importance;
@@ -48,8 +44,7 @@ preset::Preset ball_in_a_room(const preset::Material& wall)
 
 /// The product of spectra divided by its largest value.
 template <class... Spectra>
-Spectrum normalised_product(const Spectra&... factors)
-{
+Spectrum normalised_product(const Spectra&... factors) {
   Spectrum product;
   for (std::size_t w = 0; w < product.size(); ++w) product[w] = (factors[w] * ...);
   const double largest = *std::max_element(product.begin(), product.end());
@@ -57,15 +52,13 @@ Spectrum normalised_product(const Spectra&... factors)
   return product;
 }
 
-void expect_near(const Spectrum& u, const Spectrum& expected, double tolerance)
-{
+void expect_near(const Spectrum& u, const Spectrum& expected, double tolerance) {
   for (std::size_t w = 0; w < u.size(); ++w)
     ASSERT_NEAR(u[w], expected[w], tolerance) << optics::wavelength_nm(static_cast<int>(w)) << " nm";
 }
 
 /// L* of a reflectance under a light.
-double lightness_under(const Spectrum& light, const Spectrum& reflectance)
-{
+double lightness_under(const Spectrum& light, const Spectrum& reflectance) {
   double reflected = 0, white = 0;
   for (std::size_t w = 0; w < light.size(); ++w) {
     reflected += light[w] * optics::cie_1931().y[w] * reflectance[w];
@@ -75,8 +68,7 @@ double lightness_under(const Spectrum& light, const Spectrum& reflectance)
 }
 
 // One material all round: ghat = 1 and L is the same at every wavelength, so u = l ybar m but for a factor.
-TEST(Importance, InARoomOfOneMaterialIsLightTimesEyeTimesReflectance)
-{
+TEST(Importance, InARoomOfOneMaterialIsLightTimesEyeTimesReflectance) {
   const WavelengthImportance result = importance_of(ball_in_a_room(patch("orange")));
   const Spectrum light = optics::illuminant("F2"), orange = optics::colorchecker_patch("orange");
   expect_near(result.u, normalised_product(light, optics::cie_1931().y, orange), 1e-12);
@@ -86,18 +78,17 @@ TEST(Importance, InARoomOfOneMaterialIsLightTimesEyeTimesReflectance)
   EXPECT_NEAR(result.surroundings[0].lightness, lightness_under(light, orange), 1e-9);
 }
 
-/// Solid angle of the rectangle [x0, x1] x [z0, z1] at height 0 seen from (px, h, pz): the corner at (x, z) from the foot of the
-/// perpendicular adds +- atan(x z / (h sqrt(x^2 + z^2 + h^2))).
-double rectangle_solid_angle(double x0, double x1, double z0, double z1, const glm::dvec3& p)
-{
+/// Solid angle of the rectangle [x0, x1] x [z0, z1] at height 0 seen from (px, h, pz): the corner at (x, z) from the
+/// foot of the perpendicular adds +- atan(x z / (h sqrt(x^2 + z^2 + h^2))).
+double rectangle_solid_angle(double x0, double x1, double z0, double z1, const glm::dvec3& p) {
   const auto corner = [&](double x, double z) { return std::atan2(x * z, p.y * std::sqrt(x * x + z * z + p.y * p.y)); };
   const double a = x0 - p.x, b = x1 - p.x, c = z0 - p.z, d = z1 - p.z;
   return std::abs(corner(b, d) - corner(a, d) - corner(b, c) + corner(a, c));
 }
 
-/// The share that the sheet of the test below fills, as the mean over the nine points of a box; its corners are drawn in by a thousandth.
-double sheet_share(const glm::dvec3& centre, const glm::dvec3& half)
-{
+/// The share that the sheet of the test below fills, as the mean over the nine points of a box; its corners are drawn
+/// in by a thousandth.
+double sheet_share(const glm::dvec3& centre, const glm::dvec3& half) {
   double sum = 0;
   for (int i = 0; i < 9; ++i) {
     const double to_corner = i == 8 ? 0 : 0.999;
@@ -107,8 +98,7 @@ double sheet_share(const glm::dvec3& centre, const glm::dvec3& half)
   return sum / 9;
 }
 
-TEST(Importance, RectanglesFillASphereAroundAPoint)
-{
+TEST(Importance, RectanglesFillASphereAroundAPoint) {
   double sum = 0; // the six sides of a cube of edge 2 seen from a point inside, turned to lie below it
   const glm::dvec3 p(0.3, -0.2, 0.5);
   for (int axis = 0; axis < 3; ++axis)
@@ -122,9 +112,9 @@ TEST(Importance, RectanglesFillASphereAroundAPoint)
 /// Of 9 x 2048 directions; the shares below are off by 2e-4, as many random directions would be by 2e-3.
 constexpr double share_tolerance = 1e-3;
 
-// A sheet just above the floor hides the floor from everywhere else; glass before it is looked through, and so is the ball itself.
-TEST(Importance, OfTwoMaterialsGoesByTheirSolidAngles)
-{
+// A sheet just above the floor hides the floor from everywhere else; glass before it is looked through, and so is the
+// ball itself.
+TEST(Importance, OfTwoMaterialsGoesByTheirSolidAngles) {
   preset::Preset p = ball_in_a_room(patch("cyan"));
   p.scene.materials["sheet"] = patch("red");
   p.scene.objects.push_back(object("sheet", quad(3, 2), "sheet", at({0.5, -1.9, -0.4})));
@@ -135,7 +125,8 @@ TEST(Importance, OfTwoMaterialsGoesByTheirSolidAngles)
   EXPECT_NEAR(result.surroundings[0].share, share, share_tolerance);
   EXPECT_NEAR(result.surroundings[1].share, 1 - share, share_tolerance);
 
-  const Spectrum light = optics::illuminant("F2"), red = optics::colorchecker_patch("red"), cyan = optics::colorchecker_patch("cyan");
+  const Spectrum light = optics::illuminant("F2"), red = optics::colorchecker_patch("red"),
+                 cyan = optics::colorchecker_patch("cyan");
   Spectrum mixed;
   for (std::size_t w = 0; w < mixed.size(); ++w)
     mixed[w] = red[w] * lightness_under(light, red) * share + cyan[w] * lightness_under(light, cyan) * (1 - share);
@@ -149,21 +140,21 @@ TEST(Importance, OfTwoMaterialsGoesByTheirSolidAngles)
 }
 
 // A small ball in a closet of its own and a large one in a hall count alike.
-TEST(Importance, EveryCausticObjectCountsAlike)
-{
+TEST(Importance, EveryCausticObjectCountsAlike) {
   preset::Preset p = ball_in_a_room(patch("blue"));
   p.scene.materials["closet"] = patch("yellow");
   p.scene.objects.push_back(object("bead", check::ball(0.05), "glass", at({2, 0, 0})));
   p.scene.objects.push_back(object("closet", room(0.2, 0.2, 0.2), "closet", at({2, 0, 0})));
   const WavelengthImportance result = importance_of(p);
   ASSERT_EQ(result.surroundings.size(), 2u);
-  // The closet fills half; of the ball's rays it takes what it hides of the wall: a cube of edge 0.2 at 2, at most 0.3 % of the sphere.
+  // The closet fills half; of the ball's rays it takes what it hides of the wall: a cube of edge 0.2 at 2, at most 0.3
+  // % of the sphere.
   EXPECT_NEAR(result.surroundings[0].share, 0.5, 0.003);
 }
 
-// (4.15) has m_i(lambda): a gold wall takes u from blue and leaves it to red, just as a diffuse one of its reflectance does.
-TEST(Importance, OfAMirrorGoesByItsReflectanceAtEachWavelength)
-{
+// (4.15) has m_i(lambda): a gold wall takes u from blue and leaves it to red, just as a diffuse one of its reflectance
+// does.
+TEST(Importance, OfAMirrorGoesByItsReflectanceAtEachWavelength) {
   preset::Material gold = check::mirror(0);
   gold.reflectance.type = preset::Reflectance::Type::table;
   gold.reflectance.table = {{380, 0.38}, {480, 0.38}, {560, 0.82}, {780, 0.97}};
@@ -181,37 +172,38 @@ TEST(Importance, OfAMirrorGoesByItsReflectanceAtEachWavelength)
 }
 
 // Where mirrors throw the caustics, what they see around them counts and not they themselves.
-TEST(Importance, OfMirrorsAloneGoesByWhatIsAroundThem)
-{
+TEST(Importance, OfMirrorsAloneGoesByWhatIsAroundThem) {
   preset::Preset p = ball_in_a_room(patch("green"));
   p.scene.materials["glass"] = check::mirror(0.9);
   const WavelengthImportance result = importance_of(p);
   ASSERT_EQ(result.surroundings.size(), 1u);
   EXPECT_EQ(result.surroundings[0].material, 1);
-  expect_near(result.u, normalised_product(optics::illuminant("F2"), optics::cie_1931().y, optics::colorchecker_patch("green")), 1e-12);
+  expect_near(result.u,
+              normalised_product(optics::illuminant("F2"), optics::cie_1931().y, optics::colorchecker_patch("green")),
+              1e-12);
 }
 
-TEST(Importance, WithoutGeometryCountsEveryMaterialInUseAlike)
-{
+TEST(Importance, WithoutGeometryCountsEveryMaterialInUseAlike) {
   preset::Preset p = ball_in_a_room(patch("cyan"));
   p.scene.materials["hidden"] = patch("red");
   p.scene.materials["unused"] = patch("green");
   p.scene.objects.push_back(object("outside", quad(1, 1), "hidden", at({0, 9, 0})));
   spectral::settings(p).importance.geometry = false;
   const WavelengthImportance result = importance_of(p);
-  const Spectrum light = optics::illuminant("F2"), red = optics::colorchecker_patch("red"), cyan = optics::colorchecker_patch("cyan");
+  const Spectrum light = optics::illuminant("F2"), red = optics::colorchecker_patch("red"),
+                 cyan = optics::colorchecker_patch("cyan");
   ASSERT_EQ(result.surroundings.size(), 2u);
   EXPECT_EQ(result.surroundings[0].share, 1);
   Spectrum mixed;
-  for (std::size_t w = 0; w < mixed.size(); ++w) mixed[w] = red[w] * lightness_under(light, red) + cyan[w] * lightness_under(light, cyan);
+  for (std::size_t w = 0; w < mixed.size(); ++w)
+    mixed[w] = red[w] * lightness_under(light, red) + cyan[w] * lightness_under(light, cyan);
   expect_near(result.u, normalised_product(light, optics::cie_1931().y, mixed), 1e-12);
   spectral::settings(p).importance.geometry = true;
   EXPECT_EQ(importance_of(p).surroundings.size(), 1u);
 }
 
 // Two lines at equal distances in a white room: u at each is ybar times the watts that go towards the ball.
-TEST(Importance, AddsLightsByThePowerTheySendTowardsTheGlass)
-{
+TEST(Importance, AddsLightsByThePowerTheySendTowardsTheGlass) {
   preset::Preset p = ball_in_a_room(white());
   p.scene.lights = {lamp(line(500), 3), lamp(line(600), 1), lamp(line(450), 0)};
   const Spectrum& eye = optics::cie_1931().y;
@@ -229,8 +221,7 @@ TEST(Importance, AddsLightsByThePowerTheySendTowardsTheGlass)
 }
 
 // Radziszewski, Boryczko and Alda 2009, as the thesis gives it: cosh(0.0072 x 158) = 1.71993.
-TEST(Importance, OfRadziszewskiIsFixed)
-{
+TEST(Importance, OfRadziszewskiIsFixed) {
   preset::Preset p = ball_in_a_room(patch("blue"));
   spectral::settings(p).effort = Effort::radziszewski;
   const WavelengthImportance result = importance_of(p);
@@ -243,8 +234,7 @@ TEST(Importance, OfRadziszewskiIsFixed)
     EXPECT_NEAR(result.u[static_cast<std::size_t>(158 - d)], result.u[static_cast<std::size_t>(158 + d)], 1e-12);
 }
 
-TEST(Importance, OfOtherEffortsNeedsNoSurroundings)
-{
+TEST(Importance, OfOtherEffortsNeedsNoSurroundings) {
   preset::Preset p = ball_in_a_room(white(0));
   const Spectrum light = optics::illuminant("F2");
   const optics::ColourMatching& eye = optics::cie_1931();
@@ -260,16 +250,16 @@ TEST(Importance, OfOtherEffortsNeedsNoSurroundings)
   }
 }
 
-std::string refusal_of_importance(const preset::Preset& p)
-{
+std::string refusal_of_importance(const preset::Preset& p) {
   return refusal_of([&] { importance_of(p); });
 }
 
-TEST(Importance, ThatIsZeroEverywhereIsRefusedWithTheReason)
-{
+TEST(Importance, ThatIsZeroEverywhereIsRefusedWithTheReason) {
   preset::Preset p = ball_in_a_room(white(0));
-  EXPECT_THAT(refusal_of_importance(p), StartsWith("p.json#/spectral/effort: the importance (4.15) is 0 at every wavelength: "));
-  EXPECT_THAT(refusal_of_importance(p), HasSubstr("nothing around the caustic objects reflects a wavelength that the lights have"));
+  EXPECT_THAT(refusal_of_importance(p),
+              StartsWith("p.json#/spectral/effort: the importance (4.15) is 0 at every wavelength: "));
+  EXPECT_THAT(refusal_of_importance(p),
+              HasSubstr("nothing around the caustic objects reflects a wavelength that the lights have"));
   p = ball_in_a_room(white());
   p.scene.lights[0].power_w = 0;
   EXPECT_THAT(refusal_of_importance(p), HasSubstr("no light sends power towards the caustic objects"));
@@ -292,8 +282,7 @@ TEST(Importance, ThatIsZeroEverywhereIsRefusedWithTheReason)
   EXPECT_THAT(refusal_of_importance(p), HasSubstr("reflects a wavelength that the lights have"));
 }
 
-TEST(Importance, OfAClusterIsTheLargestOrTheMean)
-{
+TEST(Importance, OfAClusterIsTheLargestOrTheMean) {
   Spectrum u{};
   u[3] = 0.25, u[4] = 1, u[5] = 0.5;
   const std::vector<std::vector<int>> clusters{{3, 4, 5, 6}, {0}, {5, 3}};
@@ -303,8 +292,7 @@ TEST(Importance, OfAClusterIsTheLargestOrTheMean)
 }
 
 // ceil(u N), and never two turns in one pass, so that sppm can take them as the passes go by.
-TEST(Iterations, GrowByAtMostOneAPass)
-{
+TEST(Iterations, GrowByAtMostOneAPass) {
   EXPECT_EQ(photons::iterations(0, 1000), 0);
   EXPECT_EQ(photons::iterations(1e-9, 1), 1);
   EXPECT_EQ(photons::iterations(0.5, 3), 2);

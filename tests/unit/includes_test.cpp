@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dependencies point one way: every #include of app/, ui/ and kernels/ is held against the folder table of ARCHITECTURE.md, and
-// every library's headers stay in the one folder that knows the library.
+// Dependencies point one way: every #include of app/, ui/ and kernels/ is held against the folder table of
+// ARCHITECTURE.md, and every library's headers stay in the one folder that knows the library.
 
 #include "tests/support/test.h"
 
@@ -13,8 +13,7 @@ using FolderTable = std::map<std::string, Folders>;
 
 /// The third cell of a table row as the folders it allows. `above` are the folders of the rows before.
 /// Throws std::runtime_error on a name that is no row so far, so that a typing error in the table is seen.
-Folders allowed_folders(const std::string& cell, const Folders& above)
-{
+Folders allowed_folders(const std::string& cell, const Folders& above) {
   if (cell == "nothing") return {};
   if (cell == "all of the above") return above;
   std::smatch match;
@@ -33,8 +32,7 @@ Folders allowed_folders(const std::string& cell, const Folders& above)
 }
 
 /// Rows "| `app/NAME` | what | includes |" of a Markdown text; a folder may always include itself.
-FolderTable read_table(std::istream& markdown)
-{
+FolderTable read_table(std::istream& markdown) {
   const std::regex row(R"(\| `(?:app/)?([a-z]+)` \|.*\| ([^|]+) \|)");
   FolderTable table;
   Folders above;
@@ -72,8 +70,7 @@ const std::vector<LibraryRule> library_rules{{"CL/", "compute"},
                                              {"ImGuizmo", "ui"}};
 
 /// What is wrong with one include of a file of `folder`; empty where nothing is.
-std::string break_of(const std::string& folder, const std::string& included, const FolderTable& table)
-{
+std::string break_of(const std::string& folder, const std::string& included, const FolderTable& table) {
   for (const LibraryRule& rule : library_rules) {
     if (included.starts_with(rule.prefix) && (", " + rule.folders + ",").find(" " + folder + ",") == std::string::npos)
       return "only " + rule.folders + " may know this library";
@@ -81,25 +78,26 @@ std::string break_of(const std::string& folder, const std::string& included, con
   if (included.find("../") != std::string::npos) return "include from the root of app/, not by a relative path";
   const std::string into = included.substr(0, included.find('/'));
   if (into == included || !table.contains(into)) return "";
-  if (into == "kernels" && included.ends_with("_types.h") && folder != "base") return ""; // structs shared with the device
+  if (into == "kernels" && included.ends_with("_types.h") && folder != "base")
+    return ""; // structs shared with the device
   if (!table.at(folder).contains(into)) return folder + " may not include " + into;
   return "";
 }
 
-/// The same between the folders of ui/: what panels share knows no panel, and panels not each other. An engine's list of panels
+/// The same between the folders of ui/: what panels share knows no panel, and panels not each other. An engine's list
+/// of panels
 /// ("spectral") knows those below ("spectral/dispersion").
-std::string break_in_ui(const std::string& folder, const std::string& included)
-{
+std::string break_in_ui(const std::string& folder, const std::string& included) {
   if (!included.starts_with("ui/")) return "";
   const std::string into = fs::path(included).parent_path().string().substr(3);
-  if (into == folder || into.starts_with(folder + "/") || folder == "shell" || folder == "actions" || into == "state") return "";
+  if (into == folder || into.starts_with(folder + "/") || folder == "shell" || folder == "actions" || into == "state")
+    return "";
   if (into == "widgets" && folder != "state") return "";
   return "ui/" + folder + " may not include ui/" + into;
 }
 
 /// The engines by their folders: app/engines.cpp includes them.
-Folders engine_folders()
-{
+Folders engine_folders() {
   std::ifstream list(fs::path(NEPHROID_SOURCE_DIR) / "app/engines.cpp");
   const std::regex include(R"re(#include "([a-z]+)/engine.h")re");
   Folders engines;
@@ -109,31 +107,29 @@ Folders engine_folders()
   return engines;
 }
 
-/// The engine in whose folder a file is (app/spectral, app/cli/spectral, ui/spectral/spectra, kernels/environment); empty: in none.
-std::string engine_of(const fs::path& file, const Folders& engines)
-{
+/// The engine in whose folder a file is (app/spectral, app/cli/spectral, ui/spectral/spectra, kernels/environment);
+/// empty: in none.
+std::string engine_of(const fs::path& file, const Folders& engines) {
   for (const fs::path& part : file.parent_path())
     if (engines.contains(part.string())) return part.string();
   return "";
 }
 
 /// Nobody includes what is an engine's own but the engine itself.
-std::string break_of_engines(const fs::path& file, const std::string& included, const Folders& engines)
-{
+std::string break_of_engines(const fs::path& file, const std::string& included, const Folders& engines) {
   const std::string of = engine_of(included, engines);
   return of.empty() || of == engine_of(file, engines) ? "" : "this is of the engine " + of + " alone";
 }
 
 /// The folder of the table that a file belongs to; empty for app/main.cpp, which may include all.
-std::string folder_of(const fs::path& relative)
-{
+std::string folder_of(const fs::path& relative) {
   auto part = relative.begin();
   if (*part == "app") ++part;
   return std::next(part) == relative.end() ? "" : part->string();
 }
 
-std::vector<std::string> breaks_of_file(const fs::path& file, const fs::path& relative, const FolderTable& table, const Folders& engines)
-{
+std::vector<std::string> breaks_of_file(const fs::path& file, const fs::path& relative, const FolderTable& table,
+                                        const Folders& engines) {
   const std::regex include(R"re(\s*#\s*include\s*["<]([^">]+)[">].*)re");
   const std::string folder = folder_of(relative);
   std::vector<std::string> breaks;
@@ -148,19 +144,18 @@ std::vector<std::string> breaks_of_file(const fs::path& file, const fs::path& re
     std::string wrong = break_of(folder, match.str(1), table);
     if (folder == "ui" && wrong.empty()) wrong = break_in_ui(relative.parent_path().string().substr(3), match.str(1));
     if (wrong.empty()) wrong = break_of_engines(relative, match.str(1), engines);
-    if (!wrong.empty()) breaks.push_back(relative.string() + ":" + std::to_string(number) + ": " + match.str(1) + ": " + wrong);
+    if (!wrong.empty())
+      breaks.push_back(relative.string() + ":" + std::to_string(number) + ": " + match.str(1) + ": " + wrong);
   }
   return breaks;
 }
 
-FolderTable project_table()
-{
+FolderTable project_table() {
   std::ifstream markdown(fs::path(NEPHROID_SOURCE_DIR) / "ARCHITECTURE.md");
   return read_table(markdown);
 }
 
-TEST(Includes, point_one_way)
-{
+TEST(Includes, point_one_way) {
   const fs::path root = NEPHROID_SOURCE_DIR;
   const FolderTable table = project_table();
   const Folders engines = engine_folders();
@@ -182,8 +177,7 @@ TEST(Includes, point_one_way)
 }
 
 // An engine is known by its line in app/engines.cpp, and by the declaration and the call of its panels.
-TEST(Includes, engines_are_named_where_they_are_listed)
-{
+TEST(Includes, engines_are_named_where_they_are_listed) {
   const std::string script = (fs::path(NEPHROID_SOURCE_DIR) / "tests/unit/engine_names.sh").string();
   std::FILE* lines = popen(("'" + script + "'").c_str(), "r");
   ASSERT_TRUE(lines);
@@ -194,8 +188,7 @@ TEST(Includes, engines_are_named_where_they_are_listed)
   EXPECT_THAT(places, HasSubstr("app/engines.cpp")) << "the script sees nothing";
 }
 
-TEST(Includes, every_row_of_the_table_is_a_folder)
-{
+TEST(Includes, every_row_of_the_table_is_a_folder) {
   for (const auto& [folder, allowed] : project_table()) {
     EXPECT_TRUE(fs::is_directory(fs::path(NEPHROID_SOURCE_DIR) / "app" / folder) ||
                 fs::is_directory(fs::path(NEPHROID_SOURCE_DIR) / folder))
@@ -204,15 +197,15 @@ TEST(Includes, every_row_of_the_table_is_a_folder)
 }
 
 // The engines must not know each other, and what knows no OpenCL must stay so, whatever the table is changed to.
-TEST(Includes, the_table_keeps_the_promises_of_the_design)
-{
+TEST(Includes, the_table_keeps_the_promises_of_the_design) {
   const FolderTable table = project_table();
   for (const char* folder : {"base", "optics", "preset", "scene", "plan", "job", "image"}) {
     EXPECT_FALSE(table.at(folder).contains("compute")) << folder;
   }
   for (const auto& [folder, allowed] : table) {
     for (const std::string& other : allowed) {
-      EXPECT_TRUE(other == folder || !table.at(other).contains(folder)) << folder << " and " << other << " include each other";
+      EXPECT_TRUE(other == folder || !table.at(other).contains(folder))
+          << folder << " and " << other << " include each other";
     }
     EXPECT_TRUE(folder == "ui" || !allowed.contains("ui")) << folder;
   }
@@ -225,8 +218,7 @@ struct Source {
   std::vector<std::string> ours;  ///< "base/error.h"
 };
 
-Source read_source(const fs::path& file)
-{
+Source read_source(const fs::path& file) {
   static const std::regex include(R"re(\s*#\s*include\s*["<]([^">]+)[">].*)re");
   Source source;
   std::ifstream in(file);
@@ -243,8 +235,7 @@ Source read_source(const fs::path& file)
 }
 
 // Then every header is compiled once with nothing before it.
-TEST(Includes, a_file_begins_with_its_own_header)
-{
+TEST(Includes, a_file_begins_with_its_own_header) {
   const fs::path root = NEPHROID_SOURCE_DIR;
   int files = 0;
   for (const auto& [top, seen_from] : std::map<std::string, std::string>{{"app", "app"}, {"ui", ""}, {"python", ""}})
@@ -258,9 +249,10 @@ TEST(Includes, a_file_begins_with_its_own_header)
   EXPECT_GT(files, 100);
 }
 
-/// The standard headers that a file includes itself or by the project's own, which are named from the root, from app/ or from beside it.
-std::set<std::string> standard_headers(const std::map<std::string, Source>& sources, const fs::path& file, std::set<fs::path>& seen)
-{
+/// The standard headers that a file includes itself or by the project's own, which are named from the root, from app/
+/// or from beside it.
+std::set<std::string> standard_headers(const std::map<std::string, Source>& sources, const fs::path& file,
+                                       std::set<fs::path>& seen) {
   const auto source = sources.find(file.string());
   if (source == sources.end() || !seen.insert(file).second) return {};
   std::set<std::string> headers = source->second.standard;
@@ -270,10 +262,9 @@ std::set<std::string> standard_headers(const std::map<std::string, Source>& sour
   return headers;
 }
 
-/// Of a file of the program: what it includes itself or by the first of its includes, which is the header that it is of. Functions are
-/// in nobody's interface, so a header that others include may lose theirs.
-std::set<std::string> own_standard_headers(const std::map<std::string, Source>& sources, const fs::path& file)
-{
+/// Of a file of the program: what it includes itself or by the first of its includes, which is the header that it is
+/// of. Functions are in nobody's interface, so a header that others include may lose theirs.
+std::set<std::string> own_standard_headers(const std::map<std::string, Source>& sources, const fs::path& file) {
   const Source& source = sources.at(file.string());
   std::set<std::string> headers = source.standard;
   if (file.extension() != ".cpp" || source.ours.empty()) return headers;
@@ -284,18 +275,22 @@ std::set<std::string> own_standard_headers(const std::map<std::string, Source>& 
   return headers;
 }
 
-const std::set<std::string> headers_of_functions{"algorithm", "cmath", "cstdlib", "cstring", "limits", "numeric", "sstream"};
+const std::set<std::string> headers_of_functions{"algorithm", "cmath",   "cstdlib", "cstring",
+                                                 "limits",    "numeric", "sstream"};
 
 /// Words that only one standard header promises.
 const std::map<std::string, std::vector<std::string>> standard_words{
-    {"algorithm", {"all_of(",      "any_of(",    "binary_search(", "clamp(",       "copy(",        "copy_if(",    "copy_n(",   "count(",
-                   "count_if(",    "equal(",     "fill(",          "fill_n(",      "find(",        "find_if(",    "for_each(", "generate(",
-                   "is_sorted(",   "max(",       "max_element(",   "min(",         "min_element(", "minmax(",     "mismatch(", "none_of(",
-                   "nth_element(", "remove(",    "remove_if(",     "replace(",     "reverse(",     "rotate(",     "search(",   "shuffle(",
-                   "sort(",        "transform(", "unique(",        "stable_sort(", "upper_bound(", "lower_bound("}},
+    {"algorithm",
+     {"all_of(",      "any_of(",      "binary_search(", "clamp(",       "copy(",        "copy_if(",   "copy_n(",
+      "count(",       "count_if(",    "equal(",         "fill(",        "fill_n(",      "find(",      "find_if(",
+      "for_each(",    "generate(",    "is_sorted(",     "max(",         "max_element(", "min(",       "min_element(",
+      "minmax(",      "mismatch(",    "none_of(",       "nth_element(", "remove(",      "remove_if(", "replace(",
+      "reverse(",     "rotate(",      "search(",        "shuffle(",     "sort(",        "transform(", "unique(",
+      "stable_sort(", "upper_bound(", "lower_bound("}},
     {"array", {"array<"}},
     {"chrono", {"chrono::"}},
-    {"cmath", {"abs(", "exp(", "floor(", "hypot(", "isfinite(", "isnan(", "log(", "nextafter(", "pow(", "round(", "sqrt("}},
+    {"cmath",
+     {"abs(", "exp(", "floor(", "hypot(", "isfinite(", "isnan(", "log(", "nextafter(", "pow(", "round(", "sqrt("}},
     {"cstdint", {"int32_t", "int64_t", "uint16_t", "uint32_t", "uint64_t", "uint8_t", "uintmax_t"}},
     {"cstdlib", {"getenv(", "strtod(", "strtoul(", "strtoull(", "system("}},
     {"cstring", {"memcmp(", "memcpy(", "strcmp(", "strerror(", "strlen("}},
@@ -306,8 +301,7 @@ const std::map<std::string, std::vector<std::string>> standard_words{
     {"thread", {"this_thread", "jthread", "thread("}},
 };
 
-TEST(Includes, files_include_what_they_use_of_the_standard_library)
-{
+TEST(Includes, files_include_what_they_use_of_the_standard_library) {
   const fs::path root = NEPHROID_SOURCE_DIR;
   std::map<std::string, Source> sources;
   for (const char* top : {"app", "ui", "python", "kernels", "tests"})
@@ -323,17 +317,18 @@ TEST(Includes, files_include_what_they_use_of_the_standard_library)
     for (const auto& [header, words] : standard_words)
       if (!(headers_of_functions.contains(header) ? own : all).contains(header))
         for (const std::string& word : words)
-          if (source.text.find("std::" + word) != std::string::npos) missing.push_back(file + ": std::" + word + " lacks <" + header + ">");
+          if (source.text.find("std::" + word) != std::string::npos)
+            missing.push_back(file + ": std::" + word + " lacks <" + header + ">");
   }
   EXPECT_THAT(missing, IsEmpty());
 }
 
 // The check itself, on breaks made up for it.
-TEST(Includes, breaks_are_seen)
-{
-  std::istringstream markdown("| folder | what | includes |\n|---|---|---|\n"
-                              "| `app/base` | x | nothing |\n| `app/optics` | x | base |\n| `app/compute` | x | base |\n"
-                              "| `app/cli` | x | all of the above |\n| `ui` | x | all but cli |\n| `kernels` | x | nothing |\n");
+TEST(Includes, breaks_are_seen) {
+  std::istringstream markdown(
+      "| folder | what | includes |\n|---|---|---|\n"
+      "| `app/base` | x | nothing |\n| `app/optics` | x | base |\n| `app/compute` | x | base |\n"
+      "| `app/cli` | x | all of the above |\n| `ui` | x | all but cli |\n| `kernels` | x | nothing |\n");
   const FolderTable table = read_table(markdown);
   EXPECT_EQ(break_of("optics", "base/error.h", table), "");
   EXPECT_EQ(break_of("optics", "optics/wavelength.h", table), "");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A job that measures itself, on a job whose error is known: n steps give a picture whose noise has the deviation sigma / sqrt(n).
+// A job that measures itself, on a job whose error is known: n steps give a picture whose noise has the deviation sigma
+// / sqrt(n).
 #include "measure/measured_job.h"
 
 #include "measure/run_files.h"
@@ -16,31 +17,30 @@ constexpr double grey = 0.5, sigma = 0.2;
 /// that no machine is too slow to afford measuring.
 class NoisyJob final : public job::Job {
 public:
-  NoisyJob(int steps, unsigned seed, bool halves = true) : steps_(steps), random_(seed), halves_(halves), sums_{zeros(), zeros()} {}
+  NoisyJob(int steps, unsigned seed, bool halves = true)
+      : steps_(steps), random_(seed), halves_(halves), sums_{zeros(), zeros()} {}
 
-  void advance() override
-  {
+  void advance() override {
     std::normal_distribution<double> noise(0, sigma);
     for (double& sum : sums_[done_ % 2]) sum += grey + noise(random_);
     ++done_;
   }
   bool finished() const override { return done_ >= steps_; }
-  job::Progress progress() const override
-  {
+  job::Progress progress() const override {
     return {.fraction = static_cast<double>(done_) / steps_,
             .step = done_,
             .steps = steps_,
             .work = static_cast<std::uint64_t>(done_) * 1000,
             .work_seconds = 10.0 * done_};
   }
-  job::Snapshot snapshot() override
-  {
+  job::Snapshot snapshot() override {
     auto picture = std::make_shared<job::Picture>();
     picture->width = picture->height = size;
     const double n = std::max(done_, 1), a = (done_ + 1) / 2, b = done_ / 2;
     for (std::size_t i = 0; i < sums_[0].size(); ++i) {
       picture->rgb.push_back(static_cast<float>((sums_[0][i] + sums_[1][i]) / n));
-      if (halves_ && b > 0) picture->error_draw.push_back(static_cast<float>((sums_[0][i] / a - sums_[1][i] / b) * std::sqrt(a * b) / n));
+      if (halves_ && b > 0)
+        picture->error_draw.push_back(static_cast<float>((sums_[0][i] / a - sums_[1][i] / b) * std::sqrt(a * b) / n));
     }
     return {.picture = std::move(picture), .progress = progress()};
   }
@@ -56,8 +56,7 @@ private:
   std::vector<double> sums_[2];
 };
 
-std::shared_ptr<const measure::Reference> truth()
-{
+std::shared_ptr<const measure::Reference> truth() {
   auto reference = std::make_shared<measure::Reference>();
   reference->width = reference->height = size;
   reference->rgb.assign(static_cast<std::size_t>(3 * size * size), static_cast<float>(grey));
@@ -67,33 +66,30 @@ std::shared_ptr<const measure::Reference> truth()
   return reference;
 }
 
-preset::Preset settings()
-{
+preset::Preset settings() {
   preset::Preset p = test::empty_preset(size);
   p.stop = {};
   p.source = "p.json";
   return p;
 }
 
-std::unique_ptr<job::Job> noisy(const preset::Preset& preset, std::shared_ptr<const measure::Reference> reference, int steps = 200,
-                                unsigned seed = 1)
-{
+std::unique_ptr<job::Job> noisy(const preset::Preset& preset, std::shared_ptr<const measure::Reference> reference,
+                                int steps = 200, unsigned seed = 1) {
   return measure::measured(std::make_unique<NoisyJob>(steps, seed), preset, std::move(reference));
 }
 
-job::History run(job::Job& job)
-{
+job::History run(job::Job& job) {
   while (!job.finished()) job.advance();
   return *job.snapshot().history;
 }
 
-TEST(MeasuredJob, ErrorsFallAsTheNoiseDoes)
-{
+TEST(MeasuredJob, ErrorsFallAsTheNoiseDoes) {
   const auto job = noisy(settings(), truth());
   const job::History history = run(*job);
   ASSERT_GT(history.rows.size(), 10u);
   for (const job::HistoryRow& row : history.rows) {
-    // mse is a mean over 12288 squares of normal deviates: its relative deviation is sqrt(2 / 12288) = 1.3 %; six of them.
+    // mse is a mean over 12288 squares of normal deviates: its relative deviation is sqrt(2 / 12288) = 1.3 %; six of
+    // them.
     const double expected = sigma * sigma / static_cast<double>(row.step);
     EXPECT_NEAR(job::error_in(history, row, "mse") / expected, 1, 0.077) << row.step;
     EXPECT_EQ(row.work, static_cast<std::uint64_t>(row.step) * 1000);
@@ -103,23 +99,21 @@ TEST(MeasuredJob, ErrorsFallAsTheNoiseDoes)
   EXPECT_EQ(history.error_column, "lab_mean");
 }
 
-TEST(MeasuredJob, TheEstimateIsTheErrorWithoutAReference)
-{
+TEST(MeasuredJob, TheEstimateIsTheErrorWithoutAReference) {
   const auto job = noisy(settings(), truth());
   const job::History history = run(*job);
   for (const job::HistoryRow& row : history.rows) {
     if (row.step < 4) continue;
     for (const std::string metric : {"mse", "rel_l2", "lab_mean", "lab_rms"}) {
-      // Both are of 12288 normal deviates and independent: 1.9 % apart at most once in three, and Lab takes its small curvature at the
-      // noisy picture instead of the truth.
+      // Both are of 12288 normal deviates and independent: 1.9 % apart at most once in three, and Lab takes its small
+      // curvature at the noisy picture instead of the truth.
       const double ratio = job::error_in(history, row, "estimated_" + metric) / job::error_in(history, row, metric);
       EXPECT_NEAR(ratio, 1, row.step < 20 ? 0.16 : 0.11) << metric << " after " << row.step;
     }
   }
 }
 
-TEST(MeasuredJob, WithoutAReferenceTheEstimateIsWhatThereIs)
-{
+TEST(MeasuredJob, WithoutAReferenceTheEstimateIsWhatThereIs) {
   const auto job = noisy(settings(), nullptr);
   const job::History history = run(*job);
   EXPECT_EQ(history.error_column, "estimated_lab_mean");
@@ -127,8 +121,7 @@ TEST(MeasuredJob, WithoutAReferenceTheEstimateIsWhatThereIs)
   EXPECT_GE(history.rows.front().step, 2) << "it needs both halves";
 }
 
-TEST(MeasuredJob, NothingToMeasureIsNoHistory)
-{
+TEST(MeasuredJob, NothingToMeasureIsNoHistory) {
   preset::Preset preset = settings();
   preset.measure.estimate = false;
   const auto job = noisy(preset, nullptr, 20);
@@ -138,8 +131,7 @@ TEST(MeasuredJob, NothingToMeasureIsNoHistory)
   EXPECT_EQ(job->progress().step, 20);
 }
 
-TEST(MeasuredJob, StopsAtTheErrorItWasGiven)
-{
+TEST(MeasuredJob, StopsAtTheErrorItWasGiven) {
   for (const bool with_reference : {true, false}) {
     preset::Preset preset = settings();
     preset.stop.metric = preset::Stop::Metric::mse;
@@ -154,8 +146,7 @@ TEST(MeasuredJob, StopsAtTheErrorItWasGiven)
   }
 }
 
-TEST(MeasuredJob, ProgressLooksAheadToTheError)
-{
+TEST(MeasuredJob, ProgressLooksAheadToTheError) {
   preset::Preset preset = settings();
   preset.stop.metric = preset::Stop::Metric::mse;
   preset.stop.error = sigma * sigma / 100;
@@ -164,8 +155,7 @@ TEST(MeasuredJob, ProgressLooksAheadToTheError)
   EXPECT_NEAR(job->progress().fraction, 0.5, 0.06);
 }
 
-TEST(MeasuredJob, ASavedJobGoesOnWithItsHistory)
-{
+TEST(MeasuredJob, ASavedJobGoesOnWithItsHistory) {
   const auto whole = noisy(settings(), truth());
   while (whole->progress().step < 100) whole->advance();
   const std::vector<std::byte> saved = test::saved(*whole);
@@ -185,8 +175,7 @@ TEST(MeasuredJob, ASavedJobGoesOnWithItsHistory)
         << cut;
 }
 
-TEST(MeasuredJob, AResumedRunMayHaveGotAReference)
-{
+TEST(MeasuredJob, AResumedRunMayHaveGotAReference) {
   const auto without = noisy(settings(), nullptr);
   while (without->progress().step < 100) without->advance();
   const auto with = noisy(settings(), truth());
@@ -198,8 +187,7 @@ TEST(MeasuredJob, AResumedRunMayHaveGotAReference)
             job::error_in(*without->history(), without->history()->rows.front(), "estimated_mse"));
 }
 
-TEST(MeasuredJob, TheReferencesOwnErrorIsBesideIt)
-{
+TEST(MeasuredJob, TheReferencesOwnErrorIsBesideIt) {
   const auto job = noisy(settings(), truth(), 10);
   const job::History history = run(*job);
   ASSERT_EQ(history.noise_floor.size(), history.columns.size());
@@ -207,19 +195,18 @@ TEST(MeasuredJob, TheReferencesOwnErrorIsBesideIt)
   EXPECT_TRUE(std::isnan(history.noise_floor.back())) << "an estimate has none";
 }
 
-TEST(MeasuredJob, AMaskIsMeasuredOnItsOwn)
-{
+TEST(MeasuredJob, AMaskIsMeasuredOnItsOwn) {
   auto reference = std::make_shared<measure::Reference>(*truth());
   reference->mask.assign(size * size, 0);
   reference->mask[5] = 1;
   const auto job = noisy(settings(), reference, 10);
   const job::History history = run(*job);
   EXPECT_THAT(history.columns, Contains("masked_lab_mean"));
-  EXPECT_NE(job::error_in(history, history.rows.back(), "masked_mse"), job::error_in(history, history.rows.back(), "mse"));
+  EXPECT_NE(job::error_in(history, history.rows.back(), "masked_mse"),
+            job::error_in(history, history.rows.back(), "mse"));
 }
 
-TEST(MeasuredJob, AnotherLightBeginsAHistoryWithoutTheReference)
-{
+TEST(MeasuredJob, AnotherLightBeginsAHistoryWithoutTheReference) {
   preset::Preset p = settings();
   spectral::settings(p).relight = true;
   const auto job = noisy(p, truth());
@@ -236,8 +223,7 @@ TEST(MeasuredJob, AnotherLightBeginsAHistoryWithoutTheReference)
   EXPECT_EQ(run(*job).rows.size(), 1u) << "and nothing has changed";
 }
 
-TEST(MeasuredJob, ARunThatStopsByItsReferenceStartsAgainUnderAnotherLight)
-{
+TEST(MeasuredJob, ARunThatStopsByItsReferenceStartsAgainUnderAnotherLight) {
   preset::Preset p = settings();
   spectral::settings(p).relight = true;
   p.stop.error = 1;
@@ -245,17 +231,18 @@ TEST(MeasuredJob, ARunThatStopsByItsReferenceStartsAgainUnderAnotherLight)
   EXPECT_TRUE(noisy(p, nullptr)->adopt(p)) << "its estimate needs none";
 }
 
-TEST(MeasuredJob, RefusesWhatCannotBeMeasured)
-{
+TEST(MeasuredJob, RefusesWhatCannotBeMeasured) {
   preset::Preset preset = settings();
   preset.stop.error = 1;
   preset.measure.estimate = false;
   EXPECT_EQ(error_of([&] { noisy(preset, nullptr); }).line(),
-            "p.json#/stop/error: nothing measures the error of this run in lab_mean; expected a 'reference', or 'measure.estimate' true");
+            "p.json#/stop/error: nothing measures the error of this run in lab_mean; expected a 'reference', or "
+            "'measure.estimate' true");
   preset = settings();
   preset.stop.error = 1;
   preset.stop.metric = preset::Stop::Metric::rel_mse;
-  EXPECT_THAT(error_of([&] { noisy(preset, nullptr); }).line(), HasSubstr("in rel_mse; expected a 'reference', or a 'stop.metric'"));
+  EXPECT_THAT(error_of([&] { noisy(preset, nullptr); }).line(),
+              HasSubstr("in rel_mse; expected a 'reference', or a 'stop.metric'"));
   preset.stop.error.reset();
   EXPECT_EQ(noisy(preset, nullptr)->history()->error_column, "estimated_lab_mean");
 }

@@ -11,8 +11,7 @@ constexpr std::array<std::array<int, 4>, 6> cube_faces{
     {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
 glm::vec3 cube_corner(int i) { return {2 * (i & 1), 2 * (i >> 1 & 1), 2 * (i >> 2 & 1)}; }
 
-Mesh cube(glm::vec3 offset = {0, 0, 0}, float scale = 1)
-{
+Mesh cube(glm::vec3 offset = {0, 0, 0}, float scale = 1) {
   Mesh mesh;
   for (int i = 0; i < 8; ++i) mesh.positions.push_back(scale * cube_corner(i) + offset);
   for (const auto& f : cube_faces) {
@@ -23,24 +22,22 @@ Mesh cube(glm::vec3 offset = {0, 0, 0}, float scale = 1)
 }
 
 template <class T>
-void put(std::string& bytes, T value)
-{
+void put(std::string& bytes, T value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-std::string cube_obj()
-{
+std::string cube_obj() {
   std::string text = "# a cube of six quadrilaterals, a line and a point\n";
   for (int i = 0; i < 8; ++i) text += fmt::format("v {} {} {}\n", cube_corner(i).x, cube_corner(i).y, cube_corner(i).z);
   for (const auto& f : cube_faces) text += fmt::format("f {} {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1, f[3] + 1);
   return text + "l 1 2\np 3\n";
 }
 
-std::string cube_ply(bool binary)
-{
-  std::string bytes = fmt::format("ply\nformat {} 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
-                                  "element face 6\nproperty list uchar int vertex_indices\nend_header\n",
-                                  binary ? "binary_little_endian" : "ascii");
+std::string cube_ply(bool binary) {
+  std::string bytes =
+      fmt::format("ply\nformat {} 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+                  "element face 6\nproperty list uchar int vertex_indices\nend_header\n",
+                  binary ? "binary_little_endian" : "ascii");
   for (int i = 0; i < 8; ++i) {
     const glm::vec3 p = cube_corner(i);
     if (!binary) bytes += fmt::format("{} {} {}\n", p.x, p.y, p.z);
@@ -53,8 +50,7 @@ std::string cube_ply(bool binary)
   return bytes;
 }
 
-std::string cube_stl(bool binary)
-{
+std::string cube_stl(bool binary) {
   const Mesh mesh = cube();
   std::string bytes = binary ? std::string(80, ' ') : "solid cube\n";
   if (binary) put(bytes, std::uint32_t(mesh.triangles.size()));
@@ -75,12 +71,12 @@ std::string cube_stl(bool binary)
 }
 
 /// The cube under two nodes: one mirrored at x = 0, one moved by 10 along y inside a parent that doubles sizes.
-std::string cube_gltf()
-{
+std::string cube_gltf() {
   const Mesh mesh = cube();
   std::string bytes;
   for (const glm::vec3& p : mesh.positions) put(bytes, std::array{p.x, p.y, p.z});
-  for (const glm::uvec3& t : mesh.triangles) put(bytes, std::array{std::uint16_t(t.x), std::uint16_t(t.y), std::uint16_t(t.z)});
+  for (const glm::uvec3& t : mesh.triangles)
+    put(bytes, std::array{std::uint16_t(t.x), std::uint16_t(t.y), std::uint16_t(t.z)});
   return fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,1]}}],
     "nodes":[{{"mesh":0,"scale":[-1,1,1]}},{{"scale":[2,2,2],"children":[2]}},{{"mesh":0,"translation":[0,10,0]}}],
     "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],
@@ -99,8 +95,7 @@ private:
   test::TemporaryFolder folder_;
 };
 
-void expect_cube(const Mesh& mesh)
-{
+void expect_cube(const Mesh& mesh) {
   EXPECT_EQ(mesh.positions.size(), 8u); // joined
   EXPECT_EQ(mesh.triangles.size(), 12u);
   EXPECT_TRUE(inspect(mesh).closed());
@@ -112,16 +107,14 @@ TEST_F(MeshFiles, PlyText) { expect_cube(load_mesh(write("cube.ply", cube_ply(fa
 TEST_F(MeshFiles, PlyBinary) { expect_cube(load_mesh(write("cube.ply", cube_ply(true)))); }
 TEST_F(MeshFiles, StlText) { expect_cube(load_mesh(write("cube.stl", cube_stl(false)))); }
 
-TEST_F(MeshFiles, StlBinaryWithoutItsFacetNormals)
-{
+TEST_F(MeshFiles, StlBinaryWithoutItsFacetNormals) {
   const Mesh mesh = load_mesh(write("cube.stl", cube_stl(true)));
   expect_cube(mesh);
   EXPECT_TRUE(mesh.normals.empty());
 }
 
 // Mirrored once (its triangles must be turned back) and, eight times as large, moved by 2 * 10.
-TEST_F(MeshFiles, GltfWithNodeTransforms)
-{
+TEST_F(MeshFiles, GltfWithNodeTransforms) {
   const Mesh mesh = load_mesh(write("cubes.gltf", cube_gltf()));
   const MeshReport report = inspect(mesh);
   EXPECT_TRUE(report.closed());
@@ -132,9 +125,9 @@ TEST_F(MeshFiles, GltfWithNodeTransforms)
   EXPECT_EQ(high, glm::vec3(4, 24, 4));
 }
 
-TEST_F(MeshFiles, KeepsNormalsAndCreases)
-{
-  // Two triangles that share an edge: with equal normals there they share its vertices, with different ones they do not.
+TEST_F(MeshFiles, KeepsNormalsAndCreases) {
+  // Two triangles that share an edge: with equal normals there they share its vertices, with different ones they do
+  // not.
   const std::string two = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 1\nvn 0 0.6 0.8\n";
   EXPECT_EQ(load_mesh(write("flat.obj", two + "f 1//1 2//1 3//1\nf 2//1 4//1 3//1\n")).positions.size(), 4u);
   const Mesh creased = load_mesh(write("creased.obj", two + "f 1//1 2//1 3//1\nf 2//2 4//2 3//2\n"));
@@ -143,16 +136,15 @@ TEST_F(MeshFiles, KeepsNormalsAndCreases)
   EXPECT_FLOAT_EQ(creased.normals[3].y, 0.6f);
 }
 
-TEST_F(MeshFiles, MendsNormalsOnTheWrongSide)
-{
-  const Mesh mesh = load_mesh(write("wrong.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nvn 0 0 0\nvn 0 3 4\nf 1//1 2//2 3//3\n"));
+TEST_F(MeshFiles, MendsNormalsOnTheWrongSide) {
+  const Mesh mesh =
+      load_mesh(write("wrong.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nvn 0 0 0\nvn 0 3 4\nf 1//1 2//2 3//3\n"));
   EXPECT_EQ(mesh.normals[0], glm::vec3(0, 0, 1));
   EXPECT_EQ(mesh.normals[1], glm::vec3(0, 0, 1));
   EXPECT_NEAR(glm::distance(mesh.normals[2], glm::vec3(0, 0.6, 0.8)), 0, 1e-6);
 }
 
-TEST_F(MeshFiles, IsReadNoFurtherWhereNobodyWaits)
-{
+TEST_F(MeshFiles, IsReadNoFurtherWhereNobodyWaits) {
   std::stop_source stop;
   stop.request_stop();
   try {
@@ -163,8 +155,7 @@ TEST_F(MeshFiles, IsReadNoFurtherWhereNobodyWaits)
   }
 }
 
-TEST_F(MeshFiles, BunnyIsQuickAndClosed)
-{
+TEST_F(MeshFiles, BunnyIsQuickAndClosed) {
   const fs::path bunny = "/usr/share/glmark2/models/bunny.obj";
   if (!fs::exists(bunny)) GTEST_SKIP() << "glmark2-data is not installed";
   const Mesh mesh = load_mesh(bunny);
@@ -174,8 +165,7 @@ TEST_F(MeshFiles, BunnyIsQuickAndClosed)
   EXPECT_GT(inspect(mesh).signed_volume, 1);
 }
 
-TEST(Inspect, CountsWhatIsWrong)
-{
+TEST(Inspect, CountsWhatIsWrong) {
   Mesh mesh = cube();
   mesh.triangles.pop_back();
   EXPECT_EQ(inspect(mesh).open_edges, 3u);
@@ -204,10 +194,9 @@ TEST(Inspect, CountsWhatIsWrong)
   EXPECT_TRUE(inspect(Mesh{}).closed());
 }
 
-// A sliver across the middle of an edge closes the surface between triangles of different fineness: dropping it must not make
-// the mesh open.
-TEST(Inspect, SliversCloseTheSurface)
-{
+// A sliver across the middle of an edge closes the surface between triangles of different fineness: dropping it must
+// not make the mesh open.
+TEST(Inspect, SliversCloseTheSurface) {
   Mesh mesh{.positions = {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 0, 1}},
             .triangles = {{0, 3, 2}, {2, 3, 1}, {0, 2, 1}, {0, 1, 4}, {0, 4, 3}, {1, 3, 4}}};
   const MeshReport report = inspect(mesh);
@@ -216,8 +205,7 @@ TEST(Inspect, SliversCloseTheSurface)
   EXPECT_NEAR(std::abs(report.signed_volume), 1.0 / 3, 1e-12);
 }
 
-TEST(Inspect, NeedlesAreKeptAtAnyScale)
-{
+TEST(Inspect, NeedlesAreKeptAtAnyScale) {
   for (float scale : {1e-6f, 1.0f, 1e6f}) {
     Mesh mesh{.positions = {{0, 0, 0}, {scale, 0, 0}, {scale / 2, scale * 1e-6f, 0}}, .triangles = {{0, 1, 2}}};
     EXPECT_EQ(inspect(mesh).degenerate, 0u) << scale;
@@ -228,8 +216,7 @@ TEST(Inspect, NeedlesAreKeptAtAnyScale)
 
 TEST(Inspect, VolumeHoldsFarFromTheOrigin) { EXPECT_DOUBLE_EQ(inspect(cube({1e6f, -2e6f, 1e6f})).signed_volume, 8); }
 
-TEST(Inspect, TurnRoundChangesTheSign)
-{
+TEST(Inspect, TurnRoundChangesTheSign) {
   Mesh mesh = cube();
   compute_smooth_normals(mesh);
   const std::vector<glm::vec3> before = mesh.normals;
@@ -240,16 +227,14 @@ TEST(Inspect, TurnRoundChangesTheSign)
 }
 
 // At a cube's corner three squares meet at equal angles, however they are cut into triangles: the mean is the diagonal.
-TEST(SmoothNormals, DoNotDependOnTheCut)
-{
+TEST(SmoothNormals, DoNotDependOnTheCut) {
   Mesh mesh = cube();
   compute_smooth_normals(mesh);
   for (std::size_t i = 0; i < 8; ++i)
     EXPECT_LT(glm::distance(mesh.normals[i], glm::normalize(mesh.positions[i] - glm::vec3(1))), 1e-6f) << i;
 }
 
-TEST(SmoothNormals, AreUnitEvenWhereNothingSaysSo)
-{
+TEST(SmoothNormals, AreUnitEvenWhereNothingSaysSo) {
   Mesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 1}}; // back to back, and a vertex that nobody uses
   compute_smooth_normals(mesh);
@@ -257,8 +242,7 @@ TEST(SmoothNormals, AreUnitEvenWhereNothingSaysSo)
   EXPECT_EQ(std::abs(mesh.normals[0].z), 1);
 }
 
-TEST(WindingNumber, InsideOutsideAndOnTheSurface)
-{
+TEST(WindingNumber, InsideOutsideAndOnTheSurface) {
   const Mesh mesh = cube();
   EXPECT_NEAR(winding_number(mesh, 0, 12, {1, 1, 1}), 1, 1e-12);
   EXPECT_NEAR(winding_number(mesh, 0, 12, {1e-6, 1.3, 1.9}), 1, 1e-9);
@@ -267,8 +251,7 @@ TEST(WindingNumber, InsideOutsideAndOnTheSurface)
   EXPECT_NEAR(winding_number(mesh, 0, 2, {1, 1, 1}), 1.0 / 6, 1e-12); // one of six equal faces
 }
 
-TEST(WindingNumber, CountsNestedSurfaces)
-{
+TEST(WindingNumber, CountsNestedSurfaces) {
   Mesh mesh = cube();
   const Mesh inner = cube({0.5f, 0.5f, 0.5f}, 0.5f);
   for (const glm::vec3& p : inner.positions) mesh.positions.push_back(p);

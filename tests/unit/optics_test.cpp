@@ -11,14 +11,12 @@ using namespace nephroid::optics;
 using Rows = std::vector<std::array<double, 2>>;
 using Second = std::array<double, wavelength_count - 2>;
 
-void expect_near(const Colour& got, const Colour& wanted, double tolerance)
-{
+void expect_near(const Colour& got, const Colour& wanted, double tolerance) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], tolerance) << i;
 }
 
 // CIE 1931 2-degree: ybar peaks with 1 at 555 nm; rows 450, 555 and 600 nm of the printed table.
-TEST(Colour, ColourMatchingFunctionsAreTheCieTable)
-{
+TEST(Colour, ColourMatchingFunctionsAreTheCieTable) {
   const ColourMatching& cie = cie_1931();
   EXPECT_NEAR(cie.y[555 - first_nm], 1.0, 1e-12);
   EXPECT_NEAR(cie.x[450 - first_nm], 0.3362, 1e-12);
@@ -28,14 +26,12 @@ TEST(Colour, ColourMatchingFunctionsAreTheCieTable)
 }
 
 // The functions have equal areas, 106.86 nm over 380..780 nm.
-TEST(Colour, EqualEnergyIsNeutral)
-{
+TEST(Colour, EqualEnergyIsNeutral) {
   const Colour xyz = to_xyz(constant_spectrum(1));
   expect_near(xyz, {106.86, 106.86, 106.86}, 0.03);
 }
 
-TEST(Colour, PrimariesOfSrgbHaveTheirChromaticities)
-{
+TEST(Colour, PrimariesOfSrgbHaveTheirChromaticities) {
   const double wanted[3][2] = {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}};
   for (std::size_t i = 0; i < 3; ++i) {
     Colour rgb{};
@@ -48,8 +44,7 @@ TEST(Colour, PrimariesOfSrgbHaveTheirChromaticities)
   expect_near(linear_srgb_to_xyz({1, 1, 1}), {0.9505, 1.0, 1.0890}, 1e-12);
 }
 
-TEST(Colour, SrgbThereAndBackIsTheIdentityOutsideTheGamutToo)
-{
+TEST(Colour, SrgbThereAndBackIsTheIdentityOutsideTheGamutToo) {
   for (const Colour& xyz : {Colour{0.2, 0.3, 0.4}, Colour{1, 0, 0}, Colour{-0.1, 2, 30}})
     expect_near(linear_srgb_to_xyz(xyz_to_linear_srgb(xyz)), xyz, 1e-13);
   // The inverse that IEC 61966-2-1 prints, to its four digits.
@@ -57,8 +52,7 @@ TEST(Colour, SrgbThereAndBackIsTheIdentityOutsideTheGamutToo)
   EXPECT_LT(xyz_to_linear_srgb({0.05, 0.3, 0.3})[0], 0); // a spectral cyan: not clipped
 }
 
-TEST(Colour, SrgbEncoding)
-{
+TEST(Colour, SrgbEncoding) {
   EXPECT_EQ(srgb_encode(0), 0);
   EXPECT_NEAR(srgb_encode(1), 1, 1e-15);
   EXPECT_NEAR(srgb_encode(0.002), 0.02584, 1e-15);
@@ -66,8 +60,7 @@ TEST(Colour, SrgbEncoding)
   EXPECT_NEAR(srgb_encode(-0.214041140482), -0.5, 1e-9);
 }
 
-TEST(Colour, LightnessOfKnownLuminances)
-{
+TEST(Colour, LightnessOfKnownLuminances) {
   EXPECT_NEAR(lightness(1), 100, 1e-12);
   EXPECT_NEAR(lightness(0.184186518), 50, 1e-6); // ((50 + 16) / 116)^3
   EXPECT_NEAR(lightness(0.001), 0.9033, 1e-4);   // 903.3 Y below .008856
@@ -84,10 +77,9 @@ struct WhitePoint {
 
 class Illuminant : public testing::TestWithParam<WhitePoint> {};
 
-// CIE 015 table of chromaticities (2-degree). Linear interpolation of the 5 nm tables moves the lines of the fluorescent lamps
-// by a few units of the fourth digit.
-TEST_P(Illuminant, HasItsWhitePoint)
-{
+// CIE 015 table of chromaticities (2-degree). Linear interpolation of the 5 nm tables moves the lines of the
+// fluorescent lamps by a few units of the fourth digit.
+TEST_P(Illuminant, HasItsWhitePoint) {
   const Spectrum light = illuminant(GetParam().name);
   EXPECT_NEAR(sum(light), 1, 1e-14);
   const Colour xyz = to_xyz(light);
@@ -107,29 +99,28 @@ INSTANTIATE_TEST_SUITE_P(Cie, Illuminant,
                                          WhitePoint{"F11", 0.3805, 0.3769}, WhitePoint{"F12", 0.4370, 0.4042}),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(Spectrum, EveryIlluminantIsNamedAndAnUnknownOneIsRefused)
-{
+TEST(Spectrum, EveryIlluminantIsNamedAndAnUnknownOneIsRefused) {
   EXPECT_EQ(illuminant_names().size(), 16u);
   for (const std::string& name : illuminant_names()) EXPECT_NEAR(sum(illuminant(name)), 1, 1e-14) << name;
   const std::string line = refusal_of([] { illuminant("D66"); });
   EXPECT_THAT(line, AllOf(HasSubstr("no illuminant is called \"D66\""), HasSubstr("A, D50, D65")));
 }
 
-TEST(Spectrum, TablesAreInterpolatedLinearly)
-{
+TEST(Spectrum, TablesAreInterpolatedLinearly) {
   // D65 at 560 nm is 100 by definition; 560 and 565 nm are rows, and the nanometres between lie on the line.
   const Spectrum d65 = illuminant("D65");
   EXPECT_NEAR(at(d65, 562) / at(d65, 560), 1 + 2.0 / 5 * (at(d65, 565) / at(d65, 560) - 1), 1e-12);
 }
 
 // The peak of Planck's law per wavelength is at 2897.772 um K / T (Wien), and the ratio of two wavelengths is known.
-TEST(Spectrum, BlackBodyFollowsPlanck)
-{
+TEST(Spectrum, BlackBodyFollowsPlanck) {
   const Spectrum light = blackbody(5000);
   EXPECT_NEAR(sum(light), 1, 1e-14);
   const auto peak = std::max_element(light.begin(), light.end()) - light.begin();
   EXPECT_NEAR(first_nm + static_cast<double>(peak), 2897771.955 / 5000, 1);
-  const auto planck = [](double nm, double kelvin) { return std::pow(nm, -5) / std::expm1(1.438776877e7 / (nm * kelvin)); };
+  const auto planck = [](double nm, double kelvin) {
+    return std::pow(nm, -5) / std::expm1(1.438776877e7 / (nm * kelvin));
+  };
   for (double kelvin : {1000.0, 2856.0, 5000.0, 20000.0}) {
     const Spectrum s = blackbody(kelvin);
     for (int nm : {380, 450, 640, 780})
@@ -140,16 +131,14 @@ TEST(Spectrum, BlackBodyFollowsPlanck)
   for (int nm = first_nm; nm <= last_nm; nm += 5) EXPECT_NEAR(at(a, nm) / at(black, nm), 1, 2e-4) << nm;
 }
 
-TEST(Spectrum, BlackBodyStaysFiniteAtExtremes)
-{
+TEST(Spectrum, BlackBodyStaysFiniteAtExtremes) {
   for (double kelvin : {1e-3, 1.0, 1e9, 1e300}) EXPECT_NEAR(sum(blackbody(kelvin)), 1, 1e-12) << kelvin;
   EXPECT_THAT(refusal_of([] { blackbody(0); }), HasSubstr("a black body of 0 K"));
   EXPECT_THAT(refusal_of([] { blackbody(-1); }), HasSubstr("above 0 K"));
   EXPECT_THAT(refusal_of([] { blackbody(std::nan("")); }), HasSubstr("above 0 K"));
 }
 
-TEST(Spectrum, LightTableIsZeroOutsideAndSumsToOne)
-{
+TEST(Spectrum, LightTableIsZeroOutsideAndSumsToOne) {
   const Spectrum light = light_table(Rows{{560, 2}, {550, 0}, {570, 0}}); // a triangle, rows in any order
   EXPECT_NEAR(sum(light), 1, 1e-14);
   EXPECT_NEAR(at(light, 560), 0.1, 1e-14); // height 2 over an area of 20
@@ -158,8 +147,7 @@ TEST(Spectrum, LightTableIsZeroOutsideAndSumsToOne)
   EXPECT_EQ(at(light, 571), 0);
 }
 
-TEST(Spectrum, LinesGoToTheirTwoNearestWavelengths)
-{
+TEST(Spectrum, LinesGoToTheirTwoNearestWavelengths) {
   const Spectrum light = light_lines(Rows{{546.074, 3}, {780, 1}, {365.0, 5}}); // 365 nm lies outside and gives nothing
   EXPECT_NEAR(at(light, 546), 0.75 * 0.926, 1e-12);
   EXPECT_NEAR(at(light, 547), 0.75 * 0.074, 1e-12);
@@ -167,8 +155,7 @@ TEST(Spectrum, LinesGoToTheirTwoNearestWavelengths)
   EXPECT_NEAR(sum(light), 1, 1e-14);
 }
 
-TEST(Spectrum, BadLightsAreRefused)
-{
+TEST(Spectrum, BadLightsAreRefused) {
   EXPECT_THAT(refusal_of([] { light_table(Rows{}); }), HasSubstr("the table is empty"));
   EXPECT_THAT(refusal_of([] { light_table(Rows{{900, 1}, {1000, 1}}); }), HasSubstr("no power in 380..780 nm"));
   EXPECT_THAT(refusal_of([] { light_table(Rows{{500, 0}, {600, 0}}); }), HasSubstr("no power"));
@@ -180,9 +167,9 @@ TEST(Spectrum, BadLightsAreRefused)
   EXPECT_THAT(refusal_of([] { light_lines(Rows{{500, INFINITY}}); }), HasSubstr("not finite"));
 }
 
-// Under its design light C the patches have published xyY; under D65 Y of the greys is close to their nominal 9.5 .. 2 values.
-TEST(Spectrum, ColorCheckerGreysFallFromWhiteToBlack)
-{
+// Under its design light C the patches have published xyY; under D65 Y of the greys is close to their nominal 9.5 .. 2
+// values.
+TEST(Spectrum, ColorCheckerGreysFallFromWhiteToBlack) {
   ASSERT_EQ(colorchecker_names().size(), 24u);
   const Spectrum d65 = illuminant("D65");
   const double white = to_xyz(d65)[1];
@@ -198,8 +185,7 @@ TEST(Spectrum, ColorCheckerGreysFallFromWhiteToBlack)
   EXPECT_THAT(refusal_of([] { colorchecker_patch("blue skye"); }), HasSubstr("did you mean \"blue sky\"?"));
 }
 
-TEST(Spectrum, ReflectancesHoldTheirEndsAndStayInRange)
-{
+TEST(Spectrum, ReflectancesHoldTheirEndsAndStayInRange) {
   const Spectrum r = reflectance_table(Rows{{500, 0.2}, {600, 0.4}});
   EXPECT_EQ(at(r, 380), 0.2);
   EXPECT_NEAR(at(r, 550), 0.3, 1e-15);
@@ -209,23 +195,21 @@ TEST(Spectrum, ReflectancesHoldTheirEndsAndStayInRange)
   EXPECT_EQ(constant_spectrum(0.5)[200], 0.5);
 }
 
-Second second_differences(const Spectrum& s)
-{
+Second second_differences(const Spectrum& s) {
   Second d{};
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = s[i] - 2 * s[i + 1] + s[i + 2];
   return d;
 }
 
-double inner(const auto& a, const auto& b)
-{
+double inner(const auto& a, const auto& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
 }
 
-/// What is left of a spectrum without its part along the colour-matching functions (Gram-Schmidt): it is black to the eye.
-Spectrum without_colour(Spectrum s)
-{
+/// What is left of a spectrum without its part along the colour-matching functions (Gram-Schmidt): it is black to the
+/// eye.
+Spectrum without_colour(Spectrum s) {
   const ColourMatching& eye = cie_1931();
   std::vector<Spectrum> basis;
   for (const Spectrum* function : {&eye.x, &eye.y, &eye.z}) {
@@ -246,8 +230,7 @@ Spectrum without_colour(Spectrum s)
   return s;
 }
 
-TEST(PrimarySpectra, HaveTheColoursOfThePrimaries)
-{
+TEST(PrimarySpectra, HaveTheColoursOfThePrimaries) {
   for (std::size_t primary = 0; primary < 3; ++primary) {
     const Colour rgb = xyz_to_linear_srgb(to_xyz(primary_spectra()[primary]));
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(rgb[c], c == primary ? 1 : 0, 1e-12) << primary;
@@ -255,8 +238,7 @@ TEST(PrimarySpectra, HaveTheColoursOfThePrimaries)
 }
 
 // To a colour and back, for colours inside the gamut, outside of it and far brighter than white.
-TEST(PrimarySpectra, AreThereAndBack)
-{
+TEST(PrimarySpectra, AreThereAndBack) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> value(-2, 100);
   for (int i = 0; i < 100; ++i) {
@@ -269,10 +251,9 @@ TEST(PrimarySpectra, AreThereAndBack)
   }
 }
 
-// A convex function is smallest where it does not change to first order in any direction that keeps the colour: |D (s + e v)|^2 has the
-// slope 2 (D s).(D v) in e. Directions: each wavelength by itself, and random ones.
-TEST(PrimarySpectra, NothingSmootherHasTheirColour)
-{
+// A convex function is smallest where it does not change to first order in any direction that keeps the colour: |D (s +
+// e v)|^2 has the slope 2 (D s).(D v) in e. Directions: each wavelength by itself, and random ones.
+TEST(PrimarySpectra, NothingSmootherHasTheirColour) {
   std::mt19937 random(2);
   std::normal_distribution<double> normal;
   std::vector<Spectrum> directions;
@@ -290,9 +271,9 @@ TEST(PrimarySpectra, NothingSmootherHasTheirColour)
   }
 }
 
-// Grey light has power at every wavelength, so nothing that absorbs can make it negative, and it falls off towards red as daylight does.
-TEST(PrimarySpectra, GreyHasPowerEverywhere)
-{
+// Grey light has power at every wavelength, so nothing that absorbs can make it negative, and it falls off towards red
+// as daylight does.
+TEST(PrimarySpectra, GreyHasPowerEverywhere) {
   double sum_of_y = 0;
   for (const double y : cie_1931().y) sum_of_y += y;
   for (std::size_t w = 0; w < wavelength_count; ++w) {

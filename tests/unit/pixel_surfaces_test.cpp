@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera's frame and pixel rays by hand, the corners of objects and the box about them, host rays through the tree against every
-// triangle on its own, and where a look through a pixel ends, against Snell's law by hand.
+// The camera's frame and pixel rays by hand, the corners of objects and the box about them, host rays through the tree
+// against every triangle on its own, and where a look through a pixel ends, against Snell's law by hand.
 #include "photons/clusters/scene_clusters.h"
 #include "photons/pixel_surfaces.h"
 #include "scene/camera_and_lights.h"
@@ -15,17 +15,16 @@ using glm::dvec3;
 
 Scene empty_scene(const glm::dvec3& origin = {0, 0, 0}) { return {.source = "p.json", .origin = origin}; }
 
-/// The direction through the picture at (x, y) pixels from its top left corner: pixel (i, j) has its centre at (i + .5, j + .5).
-glm::dvec3 direction(const Camera& c, double x, double y)
-{
+/// The direction through the picture at (x, y) pixels from its top left corner: pixel (i, j) has its centre at (i + .5,
+/// j + .5).
+glm::dvec3 direction(const Camera& c, double x, double y) {
   return glm::dvec3(c.forward) + (2 * x / c.width - 1) * c.tan_x * glm::dvec3(c.right) +
          (1 - 2 * y / c.height) * c.tan_y * glm::dvec3(c.up);
 }
 
-// From (0, 0, 5) to the origin, 90 degrees high, 400 x 200 pixels: the plane z = 4, at distance 1, is seen from x = -2 to 2 and
-// from y = -1 to 1. Row 0 is the top, column 0 the left.
-TEST(Camera, CornersOfThePicture)
-{
+// From (0, 0, 5) to the origin, 90 degrees high, 400 x 200 pixels: the plane z = 4, at distance 1, is seen from x = -2
+// to 2 and from y = -1 to 1. Row 0 is the top, column 0 the left.
+TEST(Camera, CornersOfThePicture) {
   preset::Camera preset{.position = {0, 0, 5}, .fov_deg = 90, .resolution = {400, 200}};
   const Camera camera = make_camera(preset, empty_scene());
   expect_near(direction(camera, 0, 0), {-2, 1, -1});
@@ -37,8 +36,7 @@ TEST(Camera, CornersOfThePicture)
 }
 
 // Straight down with up = +x: the picture's right is forward x up = (-y) x (+x) = +z.
-TEST(Camera, LooksDown)
-{
+TEST(Camera, LooksDown) {
   preset::Camera preset{.position = {1, 10, 2}, .target = {1, 3, 2}};
   preset.up = {5, 0.5, 0}; // only its part across the view counts
   const Camera camera = make_camera(preset, empty_scene());
@@ -49,29 +47,28 @@ TEST(Camera, LooksDown)
   EXPECT_DOUBLE_EQ(camera.tan_x, camera.tan_y);
 }
 
-TEST(Camera, KeepsItsPlaceFarAway)
-{
+TEST(Camera, KeepsItsPlaceFarAway) {
   preset::Camera preset{.position = {1e6 + 0.001, 1e6, 1e6 + 0.002}, .target = {1e6, 1e6, 1e6}};
   const Camera camera = make_camera(preset, empty_scene({1e6, 1e6, 1e6}));
   expect_near(camera.position, {0.001, 0, 0.002}, 1e-9);
   expect_near(camera.forward, {-1 / std::sqrt(5), 0, -2 / std::sqrt(5)}, 1e-6);
 }
 
-TEST(Camera, RefusesWhatIsNoView)
-{
+TEST(Camera, RefusesWhatIsNoView) {
   const preset::Vec3 place = preset::Camera{}.position;
-  const std::pair<const char*, preset::Camera> cases[] = {{"target", {.target = place}},
-                                                          {"up", {.up = {0, -1, -4}}}, // from (0, 1, 4) to the origin: along the view
-                                                          {"up", {.up = {0, 0, 0}}},
-                                                          {"position", {.position = {0, 1e12, 4}}},
-                                                          {"target", {.target = {0, std::nan(""), 0}}}};
+  const std::pair<const char*, preset::Camera> cases[] = {
+      {"target", {.target = place}},
+      {"up", {.up = {0, -1, -4}}}, // from (0, 1, 4) to the origin: along the view
+      {"up", {.up = {0, 0, 0}}},
+      {"position", {.position = {0, 1e12, 4}}},
+      {"target", {.target = {0, std::nan(""), 0}}}};
   for (const auto& [field, camera] : cases)
-    EXPECT_THAT(refusal_of([&] { make_camera(camera, empty_scene()); }), StartsWith(std::string("p.json#/scene/camera/") + field + ": "));
+    EXPECT_THAT(refusal_of([&] { make_camera(camera, empty_scene()); }),
+                StartsWith(std::string("p.json#/scene/camera/") + field + ": "));
 }
 
 /// A box about the origin and a quad beside it.
-Scene box_and_quad()
-{
+Scene box_and_quad() {
   preset::Preset p = test::empty_preset(4);
   p.scene.materials["glass"] = test::glass(1.5);
   p.scene.materials["white"] = test::white();
@@ -80,8 +77,7 @@ Scene box_and_quad()
   return load_scene(p);
 }
 
-TEST(Corners, AreThoseOfTheObjectAlone)
-{
+TEST(Corners, AreThoseOfTheObjectAlone) {
   const Scene scene = box_and_quad();
   const Bounds box = bounds_of(scene, scene.objects[0]), floor = bounds_of(scene, scene.objects[1]);
   EXPECT_EQ(scene.origin + box.low, glm::dvec3(-1, -2, -3));
@@ -94,11 +90,11 @@ TEST(Corners, AreThoseOfTheObjectAlone)
     EXPECT_EQ(glm::abs(scene.origin + corner), glm::dvec3(1, 2, 3));
   });
   EXPECT_EQ(corners, 3 * 12);
-  for_each_corner_index(scene, scene.objects[1], [&](std::uint32_t vertex) { EXPECT_LT(vertex, scene.geometry.positions.size()); });
+  for_each_corner_index(scene, scene.objects[1],
+                        [&](std::uint32_t vertex) { EXPECT_LT(vertex, scene.geometry.positions.size()); });
 }
 
-TEST(Corners, WithoutTrianglesThereIsNoBox)
-{
+TEST(Corners, WithoutTrianglesThereIsNoBox) {
   Object nothing;
   const Bounds bounds = bounds_of(box_and_quad(), nothing);
   EXPECT_GT(bounds.low.x, bounds.high.x);
@@ -106,8 +102,7 @@ TEST(Corners, WithoutTrianglesThereIsNoBox)
 }
 
 // Panels have scenes of materials and objects alone.
-TEST(Corners, TrianglesThatTheSceneDoesNotHoldAreRefused)
-{
+TEST(Corners, TrianglesThatTheSceneDoesNotHoldAreRefused) {
   Scene outline = box_and_quad();
   const std::vector<Object> objects = outline.objects;
   for (const auto& [first, count] : {std::pair{13u, 2u}, {14u, 1u}, {15u, 0u}, {~0u, 2u}, {2u, ~0u}}) {
@@ -125,8 +120,7 @@ TEST(Corners, TrianglesThatTheSceneDoesNotHoldAreRefused)
 }
 
 /// Möller and Trumbore 1997; infinity: not hit. Nothing in common with ray.cpp.
-double distance_to(const scene::Mesh& mesh, std::uint32_t triangle, const dvec3& origin, const dvec3& direction)
-{
+double distance_to(const scene::Mesh& mesh, std::uint32_t triangle, const dvec3& origin, const dvec3& direction) {
   const glm::uvec3 t = mesh.triangles[triangle];
   const dvec3 a = mesh.positions[t.x], ab = dvec3(mesh.positions[t.y]) - a, ac = dvec3(mesh.positions[t.z]) - a;
   const dvec3 p = glm::cross(direction, ac), q = glm::cross(origin - a, ab);
@@ -135,35 +129,33 @@ double distance_to(const scene::Mesh& mesh, std::uint32_t triangle, const dvec3&
   return u >= 0 && v >= 0 && u + v <= 1 && distance > 0 ? distance : INFINITY;
 }
 
-double closest_of_all(const scene::Mesh& mesh, const dvec3& origin, const dvec3& direction, const scene::CountsPrimitive& counts)
-{
+double closest_of_all(const scene::Mesh& mesh, const dvec3& origin, const dvec3& direction,
+                      const scene::CountsPrimitive& counts) {
   double closest = INFINITY;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     if (counts(t)) closest = std::min(closest, distance_to(mesh, t, origin, direction));
   return closest;
 }
 
-void append(scene::Mesh& mesh, const scene::Mesh& more)
-{
+void append(scene::Mesh& mesh, const scene::Mesh& more) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
   for (const glm::uvec3& t : more.triangles) mesh.triangles.push_back(t + first);
 }
 
 /// A ball, a small one beside it, and a room about both.
-scene::Mesh balls_in_a_room()
-{
+scene::Mesh balls_in_a_room() {
   scene::Mesh mesh = sphere_mesh(24, 12);
   append(mesh, placed(sphere_mesh(24, 12), 0.05f, {2, 1, -1}));
   append(mesh, placed(box_mesh(), 10, {1, 2, 3}));
   return mesh;
 }
 
-TEST(HostRays, HitWhatEveryTriangleOnItsOwnSays)
-{
+TEST(HostRays, HitWhatEveryTriangleOnItsOwnSays) {
   const scene::Mesh mesh = balls_in_a_room();
   const scene::Bvh bvh = scene::build_bvh(mesh);
-  const scene::CountsPrimitive some = [](std::uint32_t t) { return t % 3 != 0; }, all = [](std::uint32_t) { return true; };
+  const scene::CountsPrimitive some = [](std::uint32_t t) { return t % 3 != 0; },
+                               all = [](std::uint32_t) { return true; };
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-3, 3);
   int hits = 0;
@@ -188,10 +180,9 @@ TEST(HostRays, HitWhatEveryTriangleOnItsOwnSays)
   EXPECT_GT(hits, 3000);
 }
 
-// From inside, no ray may leave a closed ball, wherever it is aimed: at vertices and at the middles of edges, in which two and more
-// triangles meet.
-TEST(HostRays, LeaveNoGapAtEdges)
-{
+// From inside, no ray may leave a closed ball, wherever it is aimed: at vertices and at the middles of edges, in which
+// two and more triangles meet.
+TEST(HostRays, LeaveNoGapAtEdges) {
   const scene::Mesh mesh = sphere_mesh(32, 16);
   const scene::Bvh bvh = scene::build_bvh(mesh);
   for (const dvec3& origin : {dvec3(0), dvec3(0.1, 0.2, -0.3)})
@@ -208,10 +199,9 @@ TEST(HostRays, LeaveNoGapAtEdges)
 
 TEST(HostRays, AnEmptyMeshIsNeverHit) { EXPECT_FALSE(scene::closest_hit(scene::build_bvh({}), dvec3(0), {0, 0, 1})); }
 
-// Of functions that are 1 on a cap of the sphere, the mean over the directions is the cap's share (1 - cos) / 2; as near as a lattice of
-// so many points can be, whichever way the cap lies.
-TEST(EvenDirections, MeasureSolidAngles)
-{
+// Of functions that are 1 on a cap of the sphere, the mean over the directions is the cap's share (1 - cos) / 2; as
+// near as a lattice of so many points can be, whichever way the cap lies.
+TEST(EvenDirections, MeasureSolidAngles) {
   constexpr int count = 2048;
   for (const dvec3& axis : {dvec3(0, 0, 1), dvec3(1, 0, 0), glm::normalize(dvec3(1, -2, 0.5))})
     for (const double cosine : {0.9, 0.3, -0.6}) {
@@ -228,8 +218,7 @@ TEST(EvenDirections, MeasureSolidAngles)
 constexpr double n = 1.5, degree = std::numbers::pi / 180;
 
 /// A camera of one pixel at the origin; glass of n = 1.5, a mirror, a wall.
-preset::Preset one_pixel(preset::Vec3 target)
-{
+preset::Preset one_pixel(preset::Vec3 target) {
   preset::Preset p;
   p.source = "p.json";
   p.scene.materials["glass"] = test::glass(n);
@@ -239,9 +228,8 @@ preset::Preset one_pixel(preset::Vec3 target)
   return p;
 }
 
-preset::Object& add(preset::Preset& p, const char* name, preset::Shape::Type type, const char* material, preset::Vec3 scale,
-                    preset::Vec3 at)
-{
+preset::Object& add(preset::Preset& p, const char* name, preset::Shape::Type type, const char* material,
+                    preset::Vec3 scale, preset::Vec3 at) {
   return p.scene.objects.emplace_back(shape_object(name, type, material, {.scale = scale, .translate = at}));
 }
 
@@ -251,23 +239,23 @@ struct Seen {
   std::string first, last;
 };
 
-Seen see(const preset::Preset& p)
-{
+Seen see(const preset::Preset& p) {
   const scene::Scene scene = scene::load_scene(p);
-  const photons::PixelSurfaces surfaces = photons::surfaces_of_pixel(scene, scene::build_bvh(scene.geometry), scene.camera, 0, 0);
+  const photons::PixelSurfaces surfaces =
+      photons::surfaces_of_pixel(scene, scene::build_bvh(scene.geometry), scene.camera, 0, 0);
   const auto name = [&](int object) { return object < 0 ? "" : scene.objects[static_cast<std::size_t>(object)].name; };
-  return {surfaces, scene.origin + glm::dvec3(surfaces.last.position), name(surfaces.first.object), name(surfaces.last.object)};
+  return {surfaces, scene.origin + glm::dvec3(surfaces.last.position), name(surfaces.first.object),
+          name(surfaces.last.object)};
 }
 
-void expect_seen(const Seen& seen, const char* first, const char* last)
-{
+void expect_seen(const Seen& seen, const char* first, const char* last) {
   EXPECT_EQ(seen.first, first);
   EXPECT_EQ(seen.last, last);
 }
 
-TEST(PixelSurfaces, a_pane_displaces_what_is_behind_it)
-{
-  // Straight down through a pane of thickness t that leans by a: t sin(a - b) / cos b to the side, with sin a = n sin b.
+TEST(PixelSurfaces, a_pane_displaces_what_is_behind_it) {
+  // Straight down through a pane of thickness t that leans by a: t sin(a - b) / cos b to the side, with sin a = n sin
+  // b.
   constexpr double lean = 40 * degree, thickness = 0.5;
   preset::Preset p = one_pixel({0, -1, 0});
   p.scene.camera.up = {0, 0, 1};
@@ -284,9 +272,9 @@ TEST(PixelSurfaces, a_pane_displaces_what_is_behind_it)
   EXPECT_NEAR(seen.surfaces.spacing, 8 * 2 * std::tan(0.5 * degree), 0.01 * seen.surfaces.spacing);
 }
 
-TEST(PixelSurfaces, total_reflection_is_followed)
-{
-  // From within a block: 60 degrees onto its side is beyond the critical angle of 41.8, then 30 onto its top, where the look leaves it.
+TEST(PixelSurfaces, total_reflection_is_followed) {
+  // From within a block: 60 degrees onto its side is beyond the critical angle of 41.8, then 30 onto its top, where the
+  // look leaves it.
   preset::Preset p = one_pixel({std::cos(60 * degree), std::sin(60 * degree), 0});
   add(p, "block", preset::Shape::Type::box, "glass", {1, 4, 4}, {0, 0, 0});
   add(p, "wall", preset::Shape::Type::quad, "wall", {40, 1, 40}, {0, 5, 0}).transform.rotate_deg = {180, 0, 0};
@@ -298,8 +286,7 @@ TEST(PixelSurfaces, total_reflection_is_followed)
   EXPECT_NEAR(seen.place.y, 5, 1e-5);
 }
 
-TEST(PixelSurfaces, a_mirror_is_followed_and_an_empty_one_shows_itself)
-{
+TEST(PixelSurfaces, a_mirror_is_followed_and_an_empty_one_shows_itself) {
   preset::Preset p = one_pixel({1, -1, 0});
   add(p, "mirror", preset::Shape::Type::quad, "mirror", {4, 1, 4}, {1, -1, 0});
   expect_seen(see(p), "mirror", "mirror");
@@ -309,8 +296,7 @@ TEST(PixelSurfaces, a_mirror_is_followed_and_an_empty_one_shows_itself)
   test::expect_near(seen.place, {5, 3, 0}, 1e-5);
 }
 
-TEST(PixelSurfaces, glass_that_bends_nothing_is_not_seen)
-{
+TEST(PixelSurfaces, glass_that_bends_nothing_is_not_seen) {
   // A box of air, and one of the same glass inside a pane: neither shows, alone or before what does.
   preset::Preset p = one_pixel({0, 0, -1});
   p.scene.materials["air"] = test::glass(1);
@@ -323,17 +309,15 @@ TEST(PixelSurfaces, glass_that_bends_nothing_is_not_seen)
   expect_seen(see(p), "pane", "wall");
 }
 
-TEST(PixelSurfaces, nothing_is_seen_where_nothing_is)
-{
+TEST(PixelSurfaces, nothing_is_seen_where_nothing_is) {
   const Seen seen = see(one_pixel({0, 0, -1}));
   EXPECT_EQ(seen.surfaces.first.object, -1);
   EXPECT_EQ(seen.surfaces.last.object, -1);
 }
 
-TEST(PixelSurfaces, a_ball_bends_about_its_normals)
-{
-  // A ball of n = 1.5 and radius 1: a look that meets it h off its axis leaves it turned towards the axis by 2 (a - b), sin a = h, sin b =
-  // h / n.
+TEST(PixelSurfaces, a_ball_bends_about_its_normals) {
+  // A ball of n = 1.5 and radius 1: a look that meets it h off its axis leaves it turned towards the axis by 2 (a - b),
+  // sin a = h, sin b = h / n.
   constexpr double h = 0.4;
   preset::Preset p = one_pixel({h, 0, -1});
   p.scene.camera.position = {h, 0, 0};

@@ -16,8 +16,7 @@ using nephroid::plan::Plan;
 using Json = nlohmann::json;
 using Estimator = photons::Settings::Estimator;
 
-Plan example()
-{
+Plan example() {
   Plan plan;
   plan.engine = "spectral";
   plan.passes = {{"photons", true, "one light reaches 1 dielectric"}, {"absorption", false, "k is 0 everywhere"}};
@@ -28,8 +27,7 @@ Plan example()
   return plan;
 }
 
-TEST(Plan, JsonIsTheContract)
-{
+TEST(Plan, JsonIsTheContract) {
   const auto json = Json::parse(to_json(example()));
   EXPECT_EQ(json["engine"], "spectral");
   EXPECT_EQ(json["passes"], Json::parse(R"([{"name":"photons","runs":true,"reason":"one light reaches 1 dielectric"},
@@ -42,8 +40,7 @@ TEST(Plan, JsonIsTheContract)
 }
 
 // Lines of a sweep are told apart by their names.
-TEST(Plan, AJsonLineHasTheNameToo)
-{
+TEST(Plan, AJsonLineHasTheNameToo) {
   const std::string line = to_json_line(example(), "a,seed=2");
   EXPECT_THAT(line, Not(HasSubstr("\n")));
   EXPECT_TRUE(line.starts_with(R"({"name":"a,seed=2","engine":"spectral",)")) << line;
@@ -53,8 +50,7 @@ TEST(Plan, AJsonLineHasTheNameToo)
 }
 
 // What a panel draws its check box from, and what a person types.
-TEST(Plan, APassNamesTheFieldThatTurnsItBackOn)
-{
+TEST(Plan, APassNamesTheFieldThatTurnsItBackOn) {
   Plan plan = example();
   plan.passes[1].field = "/leave_out";
   const auto json = Json::parse(to_json(plan));
@@ -66,15 +62,13 @@ TEST(Plan, APassNamesTheFieldThatTurnsItBackOn)
   EXPECT_THAT(to_text(plan), HasSubstr("k is 0 everywhere\n"));
 }
 
-TEST(Plan, EmptyListsAreListsAndObjects)
-{
+TEST(Plan, EmptyListsAreListsAndObjects) {
   const auto json = Json::parse(to_json(Plan{}));
   EXPECT_TRUE(json["passes"].is_array() && json["buffers"].is_array() && json["notes"].is_array());
   EXPECT_TRUE(json["defines"].is_object());
 }
 
-TEST(Plan, TextSaysWhatIsLeftOutAndWhyAndAddsUpTheMemory)
-{
+TEST(Plan, TextSaysWhatIsLeftOutAndWhyAndAddsUpTheMemory) {
   const std::string text = to_text(example());
   EXPECT_THAT(text, HasSubstr("absorption  left out  k is 0 everywhere"));
   EXPECT_THAT(text, HasSubstr("3.00 MiB"));
@@ -84,8 +78,7 @@ TEST(Plan, TextSaysWhatIsLeftOutAndWhyAndAddsUpTheMemory)
 }
 
 /// Nothing where presets may not have these values together.
-std::optional<preset::Preset> with_field(const preset::Preset& p, const std::string& pointer, bool value)
-{
+std::optional<preset::Preset> with_field(const preset::Preset& p, const std::string& pointer, bool value) {
   Json fields = Json::parse(preset::to_json(p));
   fields[Json::json_pointer(pointer)] = value;
   try {
@@ -96,17 +89,16 @@ std::optional<preset::Preset> with_field(const preset::Preset& p, const std::str
 }
 
 /// JSON pointers of the preset's booleans that are no part of its scene.
-std::vector<std::string> switches(const preset::Preset& p)
-{
+std::vector<std::string> switches(const preset::Preset& p) {
   std::vector<std::string> pointers;
   const Json fields = Json::parse(preset::to_json(p)).flatten();
   for (const auto& [pointer, value] : fields.items())
-    if (value.is_boolean() && (pointer.starts_with("/spectral/") || pointer == "/measure/estimate")) pointers.push_back(pointer);
+    if (value.is_boolean() && (pointer.starts_with("/spectral/") || pointer == "/measure/estimate"))
+      pointers.push_back(pointer);
   return pointers;
 }
 
-preset::Preset named(const std::string& name)
-{
+preset::Preset named(const std::string& name) {
   preset::Preset p = name == "ball"          ? ball_scene()
                      : name == "lines"       ? line_light_scene()
                      : name == "dark lights" ? dark_lights_scene()
@@ -127,14 +119,13 @@ protected:
   std::set<std::string> found_; ///< the fields of all passes
 
   /// Of a preset with this scene.
-  plan::Pass pass_of(const preset::Preset& p, const std::string& name) const
-  {
+  plan::Pass pass_of(const preset::Preset& p, const std::string& name) const {
     const std::vector<plan::Pass> passes = spectral::make_plan(p, scene_, bvh_).passes;
-    const auto found = std::find_if(passes.begin(), passes.end(), [&](const plan::Pass& pass) { return pass.name == name; });
+    const auto found =
+        std::find_if(passes.begin(), passes.end(), [&](const plan::Pass& pass) { return pass.name == name; });
     return found == passes.end() ? plan::Pass{name, false, "there is no such pass"} : *found;
   }
-  void expect_true_fields(const preset::Preset& p, const std::string& what)
-  {
+  void expect_true_fields(const preset::Preset& p, const std::string& what) {
     const Json fields = Json::parse(preset::to_json(p));
     for (const plan::Pass& pass : spectral::make_plan(p, scene_, bvh_).passes) {
       if (pass.field.empty()) continue;
@@ -153,8 +144,7 @@ protected:
       }
     }
   }
-  void expect_true_fields_whatever_is_switched(const preset::Preset& p, const std::string& what)
-  {
+  void expect_true_fields_whatever_is_switched(const preset::Preset& p, const std::string& what) {
     expect_true_fields(p, what);
     const Json fields = Json::parse(preset::to_json(p));
     for (const std::string& pointer : switches(p))
@@ -163,9 +153,9 @@ protected:
   }
 };
 
-// Every switch is turned, one at a time, where nothing is left out: then few passes have a field to try, and there are few plans to make.
-TEST_P(PlanFields, AreTrueWhateverIsSwitched)
-{
+// Every switch is turned, one at a time, where nothing is left out: then few passes have a field to try, and there are
+// few plans to make.
+TEST_P(PlanFields, AreTrueWhateverIsSwitched) {
   expect_true_fields(preset_, "as it is");
   preset::Preset p = preset_;
   p.leave_out = false;
@@ -182,9 +172,9 @@ TEST_P(PlanFields, AreTrueWhateverIsSwitched)
     EXPECT_TRUE(found_.contains(field)) << field;
 }
 
-// These passes run where their switch says so and nowhere else: the scenes have caustics, and no scene every type of light.
-TEST_P(PlanFields, TurnTheirPassesOnAndOff)
-{
+// These passes run where their switch says so and nowhere else: the scenes have caustics, and no scene every type of
+// light.
+TEST_P(PlanFields, TurnTheirPassesOnAndOff) {
   for (const char* name : {"low discrepancy", "error estimate", "light types"}) {
     const plan::Pass pass = pass_of(preset_, name);
     SCOPED_TRACE(std::string(name) + ": " + pass.reason);
@@ -194,7 +184,8 @@ TEST_P(PlanFields, TurnTheirPassesOnAndOff)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, PlanFields, testing::Values("ball", "lines", "dark lights", "spectral/prism", "spectral/F8BT-absorption"),
+INSTANTIATE_TEST_SUITE_P(Scenes, PlanFields,
+                         testing::Values("ball", "lines", "dark lights", "spectral/prism", "spectral/F8BT-absorption"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            std::replace_if(

@@ -6,8 +6,7 @@
 
 namespace nephroid::prepare_test {
 
-TEST(Prepare, LendsTheTreeWhereTheTrianglesAreTheSame)
-{
+TEST(Prepare, LendsTheTreeWhereTheTrianglesAreTheSame) {
   using run::prepare;
   const auto preset = preset::read_preset("spectral/plate");
   const auto first = prepare(preset);
@@ -23,7 +22,8 @@ TEST(Prepare, LendsTheTreeWhereTheTrianglesAreTheSame)
   auto brighter = preset;
   brighter.scene.lights[0].irradiance_w_m2 *= 2;
   EXPECT_EQ(prepare(brighter, &first).loaded->bvh, first.loaded->bvh);
-  EXPECT_EQ(prepare(brighter, &first).loaded->scene.lights[0].irradiance_w_m2, brighter.scene.lights[0].irradiance_w_m2);
+  EXPECT_EQ(prepare(brighter, &first).loaded->scene.lights[0].irradiance_w_m2,
+            brighter.scene.lights[0].irradiance_w_m2);
 
   auto turned = preset;
   turned.scene.objects[0].transform.rotate_deg = {0, 10, 0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What differs from a file, as a command line and as a file with a parent: read back, it is the preset, over random edits of every shipped
-// preset.
+// What differs from a file, as a command line and as a file with a parent: read back, it is the preset, over random
+// edits of every shipped preset.
 #include "preset/differences.h"
 #include "tests/support/child.h"
 
@@ -13,8 +13,7 @@ using Json = nlohmann::ordered_json;
 
 Json json_of(const Preset& preset) { return Json::parse(preset::to_json(preset)); }
 
-bool same(Preset a, const Preset& b)
-{
+bool same(Preset a, const Preset& b) {
   a.source = b.source;
   return a == b;
 }
@@ -25,8 +24,7 @@ public:
   explicit Edits(std::uint64_t seed) : random_(seed) {}
 
   /// The preset after some edits; nothing where they made none that is possible.
-  std::optional<Preset> edited(const Preset& preset, const Preset& other)
-  {
+  std::optional<Preset> edited(const Preset& preset, const Preset& other) {
     Json json = json_of(preset);
     const Json from = json_of(other);
     for (std::size_t i = 0; i < 1 + random_() % 4; ++i) {
@@ -45,8 +43,7 @@ public:
   }
 
 private:
-  void edit(Json& json, const Json& from)
-  {
+  void edit(Json& json, const Json& from) {
     const Json leaves = json.flatten();
     auto leaf = leaves.begin();
     std::advance(leaf, static_cast<std::ptrdiff_t>(random_() % leaves.size()));
@@ -74,13 +71,13 @@ private:
       value = nullptr; // of an optional one, and of a material that nothing uses
   }
 
-  static constexpr const char* odd_names[] = {"a.b", "x=1", "it's", "1.5", "[0]", "{", "true", "glass 2", "\"q\"", "$HOME `x`", "grün"};
+  static constexpr const char* odd_names[] = {"a.b",  "x=1",     "it's",  "1.5",       "[0]", "{",
+                                              "true", "glass 2", "\"q\"", "$HOME `x`", "grün"};
   std::mt19937_64 random_;
 };
 
 /// The words as the shell hands them to a program.
-std::vector<std::string> shell_words(const std::string& line)
-{
+std::vector<std::string> shell_words(const std::string& line) {
   const test::TemporaryFolder folder;
   const std::string file = folder.write("words.sh", "printf '%s\\0' " + line);
   const test::Ended result = test::Child({file}, folder.path(), folder.path(), {}, "/bin/sh").wait();
@@ -94,26 +91,25 @@ std::vector<std::string> shell_words(const std::string& line)
   return words;
 }
 
-std::string refusal(const Preset& preset)
-{
+std::string refusal(const Preset& preset) {
   return test::refusal_of([&] { preset::command_line(preset); });
 }
 
 /// Calls check(name, edited) for shipped presets after random edits.
-void for_edited_presets(std::uint64_t seed, const std::function<void(const std::string& name, const Preset& edited)>& check)
-{
+void for_edited_presets(std::uint64_t seed,
+                        const std::function<void(const std::string& name, const Preset& edited)>& check) {
   const auto shipped = preset::shipped_presets();
   Edits edits(seed);
   for (std::size_t i = 0; i < 2 * shipped.size(); ++i) {
     const std::string& name = shipped[i % shipped.size()].name;
     const Preset opened = preset::read_presets(name, {"sweep=null"}).front();
-    const Preset other = preset::read_presets(shipped[(i + 7 * (i / shipped.size()) + 1) % shipped.size()].name).front();
+    const Preset other =
+        preset::read_presets(shipped[(i + 7 * (i / shipped.size()) + 1) % shipped.size()].name).front();
     if (const auto edited = edits.edited(opened, other)) check(name, *edited);
   }
 }
 
-TEST(PresetDifferences, TheCommandLineMakesTheEditedPreset)
-{
+TEST(PresetDifferences, TheCommandLineMakesTheEditedPreset) {
   int said = 0, refused = 0;
   for_edited_presets(1, [&](const std::string& name, const Preset& wanted) {
     try {
@@ -130,11 +126,10 @@ TEST(PresetDifferences, TheCommandLineMakesTheEditedPreset)
   EXPECT_LT(refused, said / 20) << "only another engine cannot be said";
 }
 
-TEST(PresetDifferences, EachChangedFieldIsOneOverride)
-{
+TEST(PresetDifferences, EachChangedFieldIsOneOverride) {
   const test::TemporaryFolder folder;
-  const std::string file =
-      folder.write("a.json", R"({"engine":"spectral","scene":{"materials":{"glass":{"type":"dielectric","dispersion":1.5}},
+  const std::string file = folder.write(
+      "a.json", R"({"engine":"spectral","scene":{"materials":{"glass":{"type":"dielectric","dispersion":1.5}},
     "lights":[{"type":"point","spectrum":"D65"}],"objects":[{"name":"ball","shape":{"type":"sphere"},"material":"glass"}]}})");
   Preset p = preset::read_preset(file);
   EXPECT_THAT(preset::recipe_of(p).overrides, IsEmpty());
@@ -147,7 +142,8 @@ TEST(PresetDifferences, EachChangedFieldIsOneOverride)
   EXPECT_THAT(preset::recipe_of(p).overrides,
               UnorderedElementsAre("scene.lights.0.power_w=2.5", "scene.camera.position=[0.0,1.0,9.0]", "stop.passes=8",
                                    R"(scene.materials.glass.dispersion={"type":"constant","n":1.6})",
-                                   R"(scene.lights.0.spectrum={"type":"illuminant","illuminant":"A"})", "scene.objects.0.name=it's 1"));
+                                   R"(scene.lights.0.spectrum={"type":"illuminant","illuminant":"A"})",
+                                   "scene.objects.0.name=it's 1"));
   const std::vector<std::string> words = shell_words(preset::command_line(p));
   ASSERT_GT(words.size(), 4u);
   EXPECT_EQ(words[0] + " " + words[1] + " " + words[2], "nephroid run " + file);
@@ -159,8 +155,7 @@ TEST(PresetDifferences, EachChangedFieldIsOneOverride)
   EXPECT_TRUE(same(preset::read_preset(words[2], overrides), p));
 }
 
-TEST(PresetDifferences, WhatNoCommandLineCanSayIsRefusedWithTheWayOn)
-{
+TEST(PresetDifferences, WhatNoCommandLineCanSayIsRefusedWithTheWayOn) {
   const test::TemporaryFolder folder;
   Preset p = preset::parse_preset(R"({"engine":"spectral"})", "untitled");
   EXPECT_EQ(refusal(p), "untitled: the preset is in no file; save the preset first, then copy the command line");
@@ -174,8 +169,7 @@ TEST(PresetDifferences, WhatNoCommandLineCanSayIsRefusedWithTheWayOn)
   EXPECT_THAT(refusal(p), HasSubstr("the preset is in no file"));
 }
 
-TEST(PresetDifferences, AChildFileReadsBackEqualOverRandomEdits)
-{
+TEST(PresetDifferences, AChildFileReadsBackEqualOverRandomEdits) {
   const test::TemporaryFolder folder;
   int children = 0, whole = 0;
   for_edited_presets(2, [&](const std::string& name, const Preset& wanted) {
@@ -196,8 +190,7 @@ TEST(PresetDifferences, AChildFileReadsBackEqualOverRandomEdits)
   EXPECT_LT(whole, children / 20) << "only another engine cannot be said";
 }
 
-TEST(PresetDifferences, AChildHoldsOnlyWhatDiffers)
-{
+TEST(PresetDifferences, AChildHoldsOnlyWhatDiffers) {
   const test::TemporaryFolder folder;
   Preset p = preset::read_preset("first-light");
   p.seed = 7;
@@ -205,11 +198,11 @@ TEST(PresetDifferences, AChildHoldsOnlyWhatDiffers)
   p.name = "mine";
   p.description.clear();
   const preset::FileText text = preset::file_text(p, "first-light", folder.path() / "mine.json");
-  EXPECT_EQ(Json::parse(text.json), Json::parse(R"({"parent":"first-light","seed":7,"scene":{"camera":{"fov_deg":30.0}}})"));
+  EXPECT_EQ(Json::parse(text.json),
+            Json::parse(R"({"parent":"first-light","seed":7,"scene":{"camera":{"fov_deg":30.0}}})"));
 }
 
-TEST(PresetDifferences, ListsThatTheParentHasOtherwiseAreWrittenWholeAndWhatIsTakenAwayIsNull)
-{
+TEST(PresetDifferences, ListsThatTheParentHasOtherwiseAreWrittenWholeAndWhatIsTakenAwayIsNull) {
   const test::TemporaryFolder folder;
   folder.write("parent.json", R"({"engine":"spectral","stop":{"seconds":5},"sweep":{"seed":[1,2]},
     "scene":{"materials":{"a":{"type":"diffuse"},"b":{"type":"diffuse"}},"lights":[{"type":"point"},{"type":"point","power_w":3}]}})");
@@ -229,8 +222,7 @@ TEST(PresetDifferences, ListsThatTheParentHasOtherwiseAreWrittenWholeAndWhatIsTa
   EXPECT_TRUE(same(preset::parse_preset(text.json, file), p));
 }
 
-TEST(PresetDifferences, TheParentIsNamedAsFromTheNewFolder)
-{
+TEST(PresetDifferences, TheParentIsNamedAsFromTheNewFolder) {
   const test::TemporaryFolder folder;
   fs::create_directories(folder.path() / "a" / "deep");
   fs::create_directories(folder.path() / "b");
@@ -239,21 +231,24 @@ TEST(PresetDifferences, TheParentIsNamedAsFromTheNewFolder)
   Preset p = preset::read_preset(folder.write("a/child.json", R"({"parent":"parent",
     "scene":{"materials":{"own":{"type":"dielectric","dispersion":"own.yml"}}}})"));
   p.seed = 3;
-  const auto saved = [&](const char* name) { return Json::parse(preset::file_text(p, "parent", folder.path() / name).json); };
+  const auto saved = [&](const char* name) {
+    return Json::parse(preset::file_text(p, "parent", folder.path() / name).json);
+  };
   EXPECT_EQ(saved("a/other.json")["parent"], "parent");
   EXPECT_EQ(saved("a/deep/other.json")["parent"], "../parent.json");
   EXPECT_EQ(saved("b/other.json")["parent"], "../a/parent.json");
-  EXPECT_EQ(saved("b/other.json")["scene"]["materials"]["own"]["dispersion"]["file"], fs::canonical(folder.path() / "a/own.yml").string());
+  EXPECT_EQ(saved("b/other.json")["scene"]["materials"]["own"]["dispersion"]["file"],
+            fs::canonical(folder.path() / "a/own.yml").string());
   const preset::FileText over = preset::file_text(p, "parent", folder.path() / "a/parent.json");
   EXPECT_FALSE(over.has_parent);
   EXPECT_THAT(over.note, HasSubstr("parents go round in a circle"));
   EXPECT_TRUE(preset::parse_preset(over.json, "x.json").white == 2);
   fs::remove(folder.path() / "a/parent.json");
-  EXPECT_THAT(preset::file_text(p, "parent", folder.path() / "b/other.json").note, HasSubstr("there is no preset 'parent'"));
+  EXPECT_THAT(preset::file_text(p, "parent", folder.path() / "b/other.json").note,
+              HasSubstr("there is no preset 'parent'"));
 }
 
-TEST(PresetDifferences, NamesAndParentsOfFilesAreRead)
-{
+TEST(PresetDifferences, NamesAndParentsOfFilesAreRead) {
   const test::TemporaryFolder folder;
   EXPECT_EQ(preset::shipped_name(presets_folder() / "spectral/prism.json"), "spectral/prism");
   EXPECT_EQ(preset::shipped_name(folder.path() / "x.json"), "");
@@ -266,8 +261,7 @@ TEST(PresetDifferences, NamesAndParentsOfFilesAreRead)
   EXPECT_EQ(preset::shell_word(""), "''");
 }
 
-TEST(PresetDifferences, AreListedByFieldWithBothValues)
-{
+TEST(PresetDifferences, AreListedByFieldWithBothValues) {
   const std::string text = R"({"engine": "spectral", "stop": {"passes": 5}, "scene": {
     "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}},
     "lights": [{"type": "point", "power_w": 1}, {"type": "point", "power_w": 2}]}})";
@@ -280,7 +274,8 @@ TEST(PresetDifferences, AreListedByFieldWithBothValues)
   after.stop.passes.reset();
   after.stop.seconds = 10;
   EXPECT_THAT(preset::differences(before, after),
-              ElementsAre(preset::Difference{"scene.lights.1.power_w", "2.0", "3.0"}, preset::Difference{"stop.seconds", "null", "10.0"},
+              ElementsAre(preset::Difference{"scene.lights.1.power_w", "2.0", "3.0"},
+                          preset::Difference{"stop.seconds", "null", "10.0"},
                           preset::Difference{"stop.passes", "5", "null"}));
   // Another type, and another number of items, are one difference each.
   after = before;

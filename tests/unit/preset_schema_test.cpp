@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The schema is the committed one, is a valid schema, and agrees with the reader: checked by python3-jsonschema, an independent validator;
-// without it those tests are skipped. docs/presets.md and docs/sweeps.md tell the truth. Every value of the shipped presets replaced by one
-// of a wrong type, and every preset cut off: one Error of bad input at the place. `nephroid presets` and `nephroid schema`.
+// The schema is the committed one, is a valid schema, and agrees with the reader: checked by python3-jsonschema, an
+// independent validator; without it those tests are skipped. docs/presets.md and docs/sweeps.md tell the truth. Every
+// value of the shipped presets replaced by one of a wrong type, and every preset cut off: one Error of bad input at the
+// place. `nephroid presets` and `nephroid schema`.
 #include "preset/read.h"
 #include "preset/schema.h"
 #include "tests/support/random_preset.h"
@@ -30,16 +31,14 @@ class Schema : public testing::Test {
 protected:
   test::TemporaryFolder folder;
 
-  void SetUp() override
-  {
+  void SetUp() override {
     if (std::system("python3 -W ignore -c 'from jsonschema import Draft202012Validator' 2>/dev/null") != 0)
       GTEST_SKIP() << "needs the package python3-jsonschema";
     write_file_whole(folder.path() / "validate.py", validator);
     write_file_whole(folder.path() / "schema.json", preset::schema());
   }
 
-  fs::path add(const std::string& json)
-  {
+  fs::path add(const std::string& json) {
     files_.push_back(folder.path() / (std::to_string(files_.size()) + ".json"));
     write_file_whole(files_.back(), json);
     return files_.back();
@@ -47,10 +46,10 @@ protected:
   void add_file(const fs::path& file) { files_.push_back(file); }
 
   /// A line for each of the added files that does not conform.
-  std::vector<std::string> refused() const
-  {
+  std::vector<std::string> refused() const {
     const fs::path script = folder.path() / "validate.py", out = folder.path() / "out.txt";
-    std::string command = "python3 -W ignore '" + script.string() + "' '" + (folder.path() / "schema.json").string() + "'";
+    std::string command =
+        "python3 -W ignore '" + script.string() + "' '" + (folder.path() / "schema.json").string() + "'";
     for (const fs::path& file : files_) command += " '" + file.string() + "'";
     EXPECT_EQ(std::system((command + " >'" + out.string() + "' 2>&1").c_str()), 0) << read_file(out);
     std::vector<std::string> lines;
@@ -61,14 +60,12 @@ protected:
   std::vector<fs::path> files_;
 };
 
-TEST(PresetSchema, TheCommittedFileIsCurrent)
-{
+TEST(PresetSchema, TheCommittedFileIsCurrent) {
   EXPECT_EQ(read_file(fs::path(NEPHROID_SOURCE_DIR) / "presets/schema.json"), preset::schema() + "\n")
       << "make it anew: nephroid schema > presets/schema.json";
 }
 
-TEST_F(Schema, TakesEveryShippedPresetAndWhateverIsWritten)
-{
+TEST_F(Schema, TakesEveryShippedPresetAndWhateverIsWritten) {
   for (const preset::ShippedPreset& s : preset::shipped_presets()) {
     add_file(s.file);
     for (const preset::Preset& p : preset::read_presets(s.name)) add(preset::to_json(p));
@@ -80,8 +77,7 @@ TEST_F(Schema, TakesEveryShippedPresetAndWhateverIsWritten)
 }
 
 /// What the schema can know, the reader and the schema refuse alike.
-TEST_F(Schema, RefusesWhatTheReaderRefuses)
-{
+TEST_F(Schema, RefusesWhatTheReaderRefuses) {
   const std::vector<std::string> fields = {
       R"("sceen":{})",
       R"("seed":-1)",
@@ -117,8 +113,7 @@ struct Block {
   std::string file, text; ///< file: the name that a comment before the block gives it
 };
 
-std::vector<Block> blocks(const std::string& page, const std::string& language)
-{
+std::vector<Block> blocks(const std::string& page, const std::string& language) {
   const std::regex pattern("(?:<!-- file: (\\S+) -->\n)?```" + language + "\n([^`]*)```");
   std::vector<Block> found;
   for (std::sregex_iterator match(page.begin(), page.end(), pattern), end; match != end; ++match)
@@ -127,8 +122,7 @@ std::vector<Block> blocks(const std::string& page, const std::string& language)
 }
 
 /// The words of a shell line; single quotes hold words together.
-std::vector<std::string> words(const std::string& line)
-{
+std::vector<std::string> words(const std::string& line) {
   std::vector<std::string> all(1);
   bool inside = false;
   for (const char c : line)
@@ -148,21 +142,18 @@ protected:
 
   static std::string of_docs(const char* name) { return read_file(fs::path(NEPHROID_SOURCE_DIR) / "docs" / name); }
 
-  void SetUp() override
-  {
+  void SetUp() override {
     for (const Block& block : blocks(page, "json"))
       if (!block.file.empty()) write_file_whole(folder.path() / block.file, block.text);
   }
 
-  std::vector<preset::Preset> read(const std::string& name, const preset::Overrides& overrides = {}) const
-  {
+  std::vector<preset::Preset> read(const std::string& name, const preset::Overrides& overrides = {}) const {
     const fs::path own = folder.path() / (name + ".json");
     return preset::read_presets(fs::exists(own) ? own.string() : name, overrides);
   }
 };
 
-TEST_F(PresetDocs, EveryPresetIsRead)
-{
+TEST_F(PresetDocs, EveryPresetIsRead) {
   const std::vector<Block> all = blocks(page, "json");
   EXPECT_EQ(all.size(), 7u);
   for (const Block& block : all) {
@@ -172,8 +163,7 @@ TEST_F(PresetDocs, EveryPresetIsRead)
   }
 }
 
-TEST_F(PresetDocs, EveryCommandMeansSomething)
-{
+TEST_F(PresetDocs, EveryCommandMeansSomething) {
   std::vector<std::size_t> runs;
   for (const Block& block : blocks(page, "sh")) {
     std::istringstream lines(block.text);
@@ -189,8 +179,7 @@ TEST_F(PresetDocs, EveryCommandMeansSomething)
   EXPECT_THAT(runs, ElementsAre(1, 1, 1, 1, 1, 3, 1, 4, 1, 1, 1, 1, 1));
 }
 
-TEST_F(PresetDocs, InheritanceIsAsThePageSays)
-{
+TEST_F(PresetDocs, InheritanceIsAsThePageSays) {
   const preset::Preset blue = read("blue").front();
   EXPECT_EQ(blue.name, "blue");
   EXPECT_EQ(blue.scene.materials.at("glass").dispersion.file, "materials/N-BK7.yml");
@@ -204,8 +193,7 @@ TEST_F(PresetDocs, InheritanceIsAsThePageSays)
 }
 
 /// Everything that differs in type from what stands there and from every shorthand of it.
-std::vector<Json> wrong_types(const Json& value)
-{
+std::vector<Json> wrong_types(const Json& value) {
   // null is not among them: it takes optional fields and materials away.
   if (value.is_structured()) return {true, -17.5, value.is_object() ? Json::array({1, "x"}) : Json{{"x", 1}}};
   std::vector<Json> wrong = {Json::array({1, "x"}), Json{{"x", 1}}};
@@ -215,17 +203,16 @@ std::vector<Json> wrong_types(const Json& value)
   return wrong;
 }
 
-/// What describes a value: the way to it without numbers of items and names of materials, its type and that of what it is in.
-std::string field_of(const Json& json, const Json::json_pointer& at)
-{
+/// What describes a value: the way to it without numbers of items and names of materials, its type and that of what it
+/// is in.
+std::string field_of(const Json& json, const Json::json_pointer& at) {
   const Json& around = json.at(at.parent_pointer());
   const std::string way = std::regex_replace(at.to_string(), std::regex("/[0-9]+|(/materials)/[^/]+"), "$1/*");
   return fmt::format("{} {} {} {}", json.at("engine").dump(), way, json.at(at).type_name(),
                      around.is_object() && around.contains("type") ? around.at("type").dump() : "");
 }
 
-TEST(PresetMutation, AnyValueOfAWrongTypeIsRefusedWhereItStands)
-{
+TEST(PresetMutation, AnyValueOfAWrongTypeIsRefusedWhereItStands) {
   int tried = 0;
   std::set<std::string> fields;
   for (const preset::ShippedPreset& shipped : preset::shipped_presets()) {
@@ -238,7 +225,8 @@ TEST(PresetMutation, AnyValueOfAWrongTypeIsRefusedWhereItStands)
         if (before.is_null()) continue; // an optional field is tried where it has a value
         if (!fields.insert(field_of(json, at)).second) continue;
         for (const Json& wrong : wrong_types(before)) {
-          if (wrong.is_number() && before.is_array() && at.back() == "value") continue; // of a key: one number is a list of one
+          if (wrong.is_number() && before.is_array() && at.back() == "value")
+            continue; // of a key: one number is a list of one
           json[at] = wrong;
           ++tried;
           try {
@@ -256,16 +244,14 @@ TEST(PresetMutation, AnyValueOfAWrongTypeIsRefusedWhereItStands)
   EXPECT_GT(tried, 1500);
 }
 
-TEST(PresetMutation, APresetThatIsCutOffIsRefused)
-{
+TEST(PresetMutation, APresetThatIsCutOffIsRefused) {
   const std::string text = read_file(fs::path(NEPHROID_SOURCE_DIR) / "presets/first-light.json");
   const std::size_t end = text.rfind('}');
   for (std::size_t length = 0; length <= end; ++length)
     EXPECT_THROW(preset::parse_preset(text.substr(0, length), "x.json"), Error) << "after " << length << " bytes";
 }
 
-TEST(PresetMutation, AnyByteReplacedGivesAPresetOrAnError)
-{
+TEST(PresetMutation, AnyByteReplacedGivesAPresetOrAnError) {
   const std::string text = preset::to_json(preset::read_preset("spectral/prism"));
   int refused = 0;
   for (std::size_t at = 0; at < text.size(); at += 7)
@@ -281,8 +267,7 @@ TEST(PresetMutation, AnyByteReplacedGivesAPresetOrAnError)
   EXPECT_GT(refused, 500);
 }
 
-std::string output_of(const std::string& arguments)
-{
+std::string output_of(const std::string& arguments) {
   std::FILE* pipe = ::popen((std::string(NEPHROID_PROGRAM) + " " + arguments).c_str(), "r");
   std::string text;
   for (int c; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
@@ -292,8 +277,7 @@ std::string output_of(const std::string& arguments)
 
 TEST(PresetVerbs, SchemaPrintsTheSchema) { EXPECT_EQ(output_of("schema"), preset::schema() + "\n"); }
 
-TEST(PresetVerbs, PresetsListsNameAndDescription)
-{
+TEST(PresetVerbs, PresetsListsNameAndDescription) {
   const std::string text = output_of("presets");
   for (const preset::ShippedPreset& p : preset::shipped_presets()) {
     const std::size_t line = text.find(p.name + " ");
@@ -302,8 +286,7 @@ TEST(PresetVerbs, PresetsListsNameAndDescription)
   }
 }
 
-TEST(PresetVerbs, PresetsAsJson)
-{
+TEST(PresetVerbs, PresetsAsJson) {
   const auto list = nlohmann::json::parse(output_of("presets --json"));
   const auto shipped = preset::shipped_presets();
   ASSERT_EQ(list.size(), shipped.size());

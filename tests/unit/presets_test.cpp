@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading presets: defaults, shorthands, parents, overrides, sweeps, the names of shipped presets. What is written reads back equal.
-// Which edits are another light on the same scene, and which no run takes on.
+// Reading presets: defaults, shorthands, parents, overrides, sweeps, the names of shipped presets. What is written
+// reads back equal. Which edits are another light on the same scene, and which no run takes on.
 #include "preset/read.h"
 #include "preset/settings_type.h"
 #include "spectral/engine.h"
@@ -15,25 +15,23 @@ namespace nephroid::presets_test {
 
 using preset::Preset;
 
-Preset parse(const std::string& fields, const preset::Overrides& overrides = {})
-{
+Preset parse(const std::string& fields, const preset::Overrides& overrides = {}) {
   return preset::parse_preset(R"({"engine":"spectral",)" + fields + "}", "a.json", overrides);
 }
 
-TEST(PresetReading, WhatIsNotGivenHasItsDefault)
-{
+TEST(PresetReading, WhatIsNotGivenHasItsDefault) {
   Preset expected;
   expected.name = "a"; // from the file's name
   expected.source = "a.json";
   EXPECT_TRUE(preset::parse_preset(R"({"engine":"spectral"})", "a.json") == expected);
 }
 
-TEST(PresetReading, AValueReadsAsItsTextDoes)
-{
+TEST(PresetReading, AValueReadsAsItsTextDoes) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     const Preset p = test::random_preset(seed);
     EXPECT_EQ(preset::as_json(p), preset::Json::parse(preset::to_json(p))) << seed;
-    EXPECT_TRUE(preset::read_json(preset::as_json(p), p.source) == preset::parse_preset(preset::to_json(p), p.source)) << seed;
+    EXPECT_TRUE(preset::read_json(preset::as_json(p), p.source) == preset::parse_preset(preset::to_json(p), p.source))
+        << seed;
   }
   Preset endless = parse(R"("name":"endless")");
   endless.scene.camera.position[0] = std::numeric_limits<double>::infinity(); // which no text has
@@ -41,8 +39,7 @@ TEST(PresetReading, AValueReadsAsItsTextDoes)
   EXPECT_EQ(preset::with_overrides(parse(R"("white":3)"), {"white=4"}).white, 4);
 }
 
-TEST(PresetReading, AWordStandsForAWhiteThatIsFitted)
-{
+TEST(PresetReading, AWordStandsForAWhiteThatIsFitted) {
   const Preset p = parse(R"("white":"auto")");
   EXPECT_EQ(p.white, std::nullopt);
   EXPECT_EQ(nlohmann::json::parse(preset::to_json(p))["white"], "auto");
@@ -57,8 +54,7 @@ TEST(PresetReading, AWordStandsForAWhiteThatIsFitted)
   EXPECT_FALSE(engine::adoptable(relit, brighter)) << "it is fitted to a first picture";
 }
 
-TEST(PresetReading, BareValuesStandForObjects)
-{
+TEST(PresetReading, BareValuesStandForObjects) {
   const Preset p = parse(R"("scene":{"materials":{
       "n":{"type":"dielectric","dispersion":1.33},
       "file":{"type":"dielectric","dispersion":"N-BK7.yml"},
@@ -78,19 +74,18 @@ TEST(PresetReading, BareValuesStandForObjects)
 
 TEST(PresetReading, WholeNumbersMayHaveAPoint) { EXPECT_EQ(parse(R"("seed":1e3)").seed, 1000u); }
 
-TEST(PresetReading, UnitsInMetres)
-{
+TEST(PresetReading, UnitsInMetres) {
   EXPECT_EQ(preset::metres(parse(R"("unit":"mm")").unit), 1e-3);
   EXPECT_EQ(preset::metres(parse(R"("unit":"cm")").unit), 1e-2);
   EXPECT_EQ(preset::metres(parse(R"("unit":"m")").unit), 1);
 }
 
-TEST(PresetOverrides, ReachEveryKindOfValue)
-{
-  const Preset p =
-      parse(R"("scene":{"lights":[{"type":"point"},{"type":"point"}],"materials":{"g":{"type":"dielectric","dispersion":1.5}}})",
-            {"scene.lights.1.power_w=2.5", "unit=cm", "stop.passes=3", "scene.materials.g.dispersion=materials/N-BK7.yml", "name=1 and 2",
-             "spectral.direct=false", "scene.camera.position=[1,2,3]", "scene.camera.position.2=4", "seed=1", "seed=9"});
+TEST(PresetOverrides, ReachEveryKindOfValue) {
+  const Preset p = parse(
+      R"("scene":{"lights":[{"type":"point"},{"type":"point"}],"materials":{"g":{"type":"dielectric","dispersion":1.5}}})",
+      {"scene.lights.1.power_w=2.5", "unit=cm", "stop.passes=3", "scene.materials.g.dispersion=materials/N-BK7.yml",
+       "name=1 and 2", "spectral.direct=false", "scene.camera.position=[1,2,3]", "scene.camera.position.2=4", "seed=1",
+       "seed=9"});
   EXPECT_EQ(p.scene.lights[0].power_w, 1);
   EXPECT_EQ(p.scene.lights[1].power_w, 2.5);
   EXPECT_EQ(p.unit, Preset::Unit::cm);
@@ -103,8 +98,7 @@ TEST(PresetOverrides, ReachEveryKindOfValue)
   EXPECT_FALSE(parse(R"("stop":{"seconds":5})", {"stop.seconds=null"}).stop.seconds);
 }
 
-TEST(PresetOverrides, TakeNumbersAsPeopleTypeThem)
-{
+TEST(PresetOverrides, TakeNumbersAsPeopleTypeThem) {
   const std::string some = R"("unit":"cm")";
   const auto white = [&](const std::string& number) { return parse(some, {"white=" + number}).white; };
   EXPECT_EQ(white(".02"), 0.02);
@@ -126,12 +120,13 @@ protected:
   std::string write(const std::string& name, const std::string& text) const { return folder.write(name, text); }
 };
 
-TEST_F(PresetFiles, AChildTakesOverItsParent)
-{
-  write("base/parent.json", R"({"engine":"spectral","name":"P","description":"of the parent","seed":5,"stop":{"seconds":3,"passes":7},
+TEST_F(PresetFiles, AChildTakesOverItsParent) {
+  write("base/parent.json",
+        R"({"engine":"spectral","name":"P","description":"of the parent","seed":5,"stop":{"seconds":3,"passes":7},
       "scene":{"materials":{"a":{"type":"dielectric","dispersion":1.5,"absorption":false},"b":{"type":"diffuse"},"c":{"type":"mirror"}},
                "lights":[{"type":"point"},{"type":"point"}]}})");
-  const Preset p = preset::read_preset(write("child.json", R"({"$schema":"x","parent":"base/parent","stop":{"seconds":null},
+  const Preset p =
+      preset::read_preset(write("child.json", R"({"$schema":"x","parent":"base/parent","stop":{"seconds":null},
       "scene":{"materials":{"a":{"dispersion":1.7},"b":null,"c":{"type":"diffuse","reflectance":0.5}},"lights":[{"type":"spot"}]}})"));
   EXPECT_EQ(p.name, "child");
   EXPECT_EQ(p.description, "");
@@ -147,8 +142,7 @@ TEST_F(PresetFiles, AChildTakesOverItsParent)
   EXPECT_EQ(p.source, (folder.path() / "child.json").string());
 }
 
-TEST_F(PresetFiles, InheritedFileNamesMeanTheSameFile)
-{
+TEST_F(PresetFiles, InheritedFileNamesMeanTheSameFile) {
   const std::string own = write("base/own.yml", "");
   write("base/both.yml", "the parent's");
   write("both.yml", "the child's");
@@ -165,9 +159,9 @@ TEST_F(PresetFiles, InheritedFileNamesMeanTheSameFile)
   EXPECT_EQ(materials.at("mine").dispersion.file, "both.yml");
 }
 
-TEST_F(PresetFiles, AnotherEngineTakesAwayWhatItDoesNotKnow)
-{
-  const std::string parent = write("parent.json", R"({"engine": "spectral", "white": 3, "spectral": {"threshold_deg": 1},
+TEST_F(PresetFiles, AnotherEngineTakesAwayWhatItDoesNotKnow) {
+  const std::string parent =
+      write("parent.json", R"({"engine": "spectral", "white": 3, "spectral": {"threshold_deg": 1},
     "scene": {"camera": {"fov_deg": 30}, "lights": [{"type": "point"}]},
     "reference": {"type": "recipe", "spectral": {"step_nm": 2}, "passes": 9}, "sweep": {"spectral.threshold_deg": [1, 2]},
     "animation": {"frames": 4, "tracks": [{"path": "spectral.threshold_deg", "keys": [{"frame": 0, "value": 1}]},
@@ -181,14 +175,17 @@ TEST_F(PresetFiles, AnotherEngineTakesAwayWhatItDoesNotKnow)
     EXPECT_FALSE(p.reference->settings) << "the run's own";
     ASSERT_EQ(p.animation->tracks.size(), 1u);
     EXPECT_EQ(p.scene.camera.fov_deg, 20);
-    EXPECT_THAT(p.provenance.notes, testing::ElementsAre(note + ": left out what the engine 'environment' does not know: spectral, "
-                                                                "reference.spectral, sweep: spectral.threshold_deg, animation: "
-                                                                "spectral.threshold_deg"));
+    EXPECT_THAT(p.provenance.notes,
+                testing::ElementsAre(note + ": left out what the engine 'environment' does not know: spectral, "
+                                            "reference.spectral, sweep: spectral.threshold_deg, animation: "
+                                            "spectral.threshold_deg"));
   };
   expect_environment(preset::read_preset(parent, {"engine=environment"}), "--set engine=environment");
-  const std::string child = write("child.json", R"({"parent": "parent", "engine": "environment", "environment": {"directions": 98}})");
+  const std::string child =
+      write("child.json", R"({"parent": "parent", "engine": "environment", "environment": {"directions": 98}})");
   expect_environment(preset::read_preset(child), child + "#/engine");
-  EXPECT_TRUE(preset::read_preset(child, {"engine=environment"}).provenance.notes.size() == 1) << "it has that engine already";
+  EXPECT_TRUE(preset::read_preset(child, {"engine=environment"}).provenance.notes.size() == 1)
+      << "it has that engine already";
 
   // What is said for the new engine is not forgiven, and null is nothing.
   EXPECT_THROW(preset::read_preset(parent, {"engine=environment", "spectral.threshold_deg=1"}), Error);
@@ -202,27 +199,25 @@ TEST_F(PresetFiles, AnotherEngineTakesAwayWhatItDoesNotKnow)
   EXPECT_THAT(inverse.provenance.notes, testing::ElementsAre(testing::HasSubstr("scene.lights, white, reference")));
 }
 
-TEST_F(PresetFiles, EveryShippedPresetTakesEveryEngine)
-{
+TEST_F(PresetFiles, EveryShippedPresetTakesEveryEngine) {
   for (const preset::ShippedPreset& shipped : preset::shipped_presets())
     for (const preset::SettingsType* type : preset::settings_types())
       for (const Preset& p : preset::read_presets(shipped.file.string(), {"engine=" + std::string(type->name)}))
         EXPECT_EQ(p.settings.engine(), type->name) << shipped.name;
 }
 
-TEST_F(PresetFiles, AShippedPresetCanBeAParent)
-{
+TEST_F(PresetFiles, AShippedPresetCanBeAParent) {
   const Preset parent = preset::read_preset("spectral/ball-lens.json");
-  Preset child =
-      preset::read_preset(write("mine.json", R"({"parent":"spectral/ball-lens","description":")" + parent.description + R"("})"));
+  Preset child = preset::read_preset(
+      write("mine.json", R"({"parent":"spectral/ball-lens","description":")" + parent.description + R"("})"));
   child.name = parent.name;
   child.source = parent.source;
   EXPECT_TRUE(child == parent);
 }
 
-TEST_F(PresetFiles, SweepsAreNestedLoopsInTheOrderOfTheirKeys)
-{
-  const std::string file = write("s.json", R"({"engine":"spectral","sweep":{"spectral.threshold_deg":[0.5,0.1],"seed":[3,1,2]}})");
+TEST_F(PresetFiles, SweepsAreNestedLoopsInTheOrderOfTheirKeys) {
+  const std::string file =
+      write("s.json", R"({"engine":"spectral","sweep":{"spectral.threshold_deg":[0.5,0.1],"seed":[3,1,2]}})");
   std::vector<std::string> names;
   std::vector<std::pair<double, std::uint64_t>> values;
   for (const Preset& p : preset::read_presets(file)) {
@@ -231,16 +226,17 @@ TEST_F(PresetFiles, SweepsAreNestedLoopsInTheOrderOfTheirKeys)
   }
   using P = std::pair<double, std::uint64_t>;
   EXPECT_THAT(values, ElementsAre(P(.5, 3), P(.5, 1), P(.5, 2), P(.1, 3), P(.1, 1), P(.1, 2)));
-  EXPECT_THAT(names, ElementsAre("s,threshold_deg=0.5,seed=3", "s,threshold_deg=0.5,seed=1", "s,threshold_deg=0.5,seed=2",
-                                 "s,threshold_deg=0.1,seed=3", "s,threshold_deg=0.1,seed=1", "s,threshold_deg=0.1,seed=2"));
+  EXPECT_THAT(names,
+              ElementsAre("s,threshold_deg=0.5,seed=3", "s,threshold_deg=0.5,seed=1", "s,threshold_deg=0.5,seed=2",
+                          "s,threshold_deg=0.1,seed=3", "s,threshold_deg=0.1,seed=1", "s,threshold_deg=0.1,seed=2"));
   EXPECT_EQ(preset::read_presets(file, {"seed=8"}).size(), 2u); // an override fixes what was swept
   EXPECT_EQ(preset::read_presets(file, {"sweep=null"}).size(), 1u);
   EXPECT_EQ(preset::read_presets(file, {R"(sweep={"seed":[1,2,3,4]})"}).size(), 4u);
 }
 
-TEST_F(PresetFiles, NamesOfSweptRunsAreUniqueAndGoodForFolders)
-{
-  const std::string file = write("s.json", R"({"engine":"spectral","scene":{"materials":{"g":{"type":"dielectric","dispersion":1.5}},
+TEST_F(PresetFiles, NamesOfSweptRunsAreUniqueAndGoodForFolders) {
+  const std::string file =
+      write("s.json", R"({"engine":"spectral","scene":{"materials":{"g":{"type":"dielectric","dispersion":1.5}},
       "lights":[{"type":"point"},{"type":"point"}]},
       "sweep":{"scene.materials.g.dispersion":["a/b.yml",{"type":"constant","n":2}],"scene.lights.0.power_w":[1],"scene.lights.1.power_w":[2],
                "stop":[{"passes":1},{"passes":2}],"unit":["m","m"]}})");
@@ -250,14 +246,14 @@ TEST_F(PresetFiles, NamesOfSweptRunsAreUniqueAndGoodForFolders)
     EXPECT_EQ(p.name.find('/'), std::string::npos) << p.name;
   }
   EXPECT_EQ(names.size(), 8u);
-  const std::string glasses = write("g.json", R"({"engine":"spectral","scene":{"materials":{"g":{"type":"dielectric","dispersion":1.5}}},
+  const std::string glasses =
+      write("g.json", R"({"engine":"spectral","scene":{"materials":{"g":{"type":"dielectric","dispersion":1.5}}},
       "sweep":{"scene.materials.g.dispersion":["materials/N-BK7.yml",1.7],"scene.camera.resolution":[[32,16]]}})");
   EXPECT_EQ(preset::read_presets(glasses).front().provenance.varies, "dispersion=N-BK7.yml,resolution=32_16");
   EXPECT_TRUE(names.contains("s,dispersion=0,scene.lights.0.power_w=1,scene.lights.1.power_w=2,stop=1,unit=0"));
 }
 
-TEST(PresetReading, AKeyOfAnotherPlaceIsNamedWithItsPath)
-{
+TEST(PresetReading, AKeyOfAnotherPlaceIsNamedWithItsPath) {
   const auto refusal = [](const std::string& text) {
     return test::refusal_of([&] { parse(R"("scene":{"lights":[{"type":"point"}]})", {text}); });
   };
@@ -266,8 +262,7 @@ TEST(PresetReading, AKeyOfAnotherPlaceIsNamedWithItsPath)
   EXPECT_THAT(refusal("passes=1"), testing::HasSubstr("did you mean 'stop.passes'?"));
 }
 
-TEST(ShippedPresets, AreListedByNameWithALineEach)
-{
+TEST(ShippedPresets, AreListedByNameWithALineEach) {
   std::vector<std::string> names;
   for (const preset::ShippedPreset& s : preset::shipped_presets()) {
     names.push_back(s.name);
@@ -275,11 +270,11 @@ TEST(ShippedPresets, AreListedByNameWithALineEach)
     EXPECT_TRUE(preset::read_presets(s.name) == preset::read_presets(s.file.string())) << s.name;
   }
   EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
-  EXPECT_THAT(names, IsSupersetOf({"first-light", "spectral/ball-lens", "spectral/brilliant", "spectral/plate", "spectral/prism"}));
+  EXPECT_THAT(names, IsSupersetOf({"first-light", "spectral/ball-lens", "spectral/brilliant", "spectral/plate",
+                                   "spectral/prism"}));
 }
 
-TEST(PresetWriting, EveryShippedPresetReadsBackEqual)
-{
+TEST(PresetWriting, EveryShippedPresetReadsBackEqual) {
   const auto shipped = preset::shipped_presets();
   ASSERT_GE(shipped.size(), 5u);
   for (const preset::ShippedPreset& s : shipped)
@@ -289,8 +284,7 @@ TEST(PresetWriting, EveryShippedPresetReadsBackEqual)
     }
 }
 
-TEST(PresetWriting, RandomPresetsReadBackEqual)
-{
+TEST(PresetWriting, RandomPresetsReadBackEqual) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const Preset p = test::random_preset(seed);
     const std::string text = preset::to_json(p);
@@ -300,8 +294,7 @@ TEST(PresetWriting, RandomPresetsReadBackEqual)
   }
 }
 
-TEST(PresetWriting, NumbersKeepTheirLastBit)
-{
+TEST(PresetWriting, NumbersKeepTheirLastBit) {
   Preset p = preset::parse_preset(R"({"engine":"spectral"})", "a.json");
   for (const double white : {0.1, 1.0 / 3, 2.0 / 3, 1e-12, 0x1.fffffffffffffp-5, 123456789.123456789, 1e12})
     EXPECT_EQ(preset::parse_preset(preset::to_json((p.white = white, p)), "a.json").white, white);
@@ -309,24 +302,21 @@ TEST(PresetWriting, NumbersKeepTheirLastBit)
     EXPECT_EQ(preset::parse_preset(preset::to_json((p.seed = seed, p)), "a.json").seed, seed);
 }
 
-TEST(PresetWriting, IsCompleteAndInTheOrderOfTheDescription)
-{
+TEST(PresetWriting, IsCompleteAndInTheOrderOfTheDescription) {
   const auto json = nlohmann::ordered_json::parse(preset::to_json(preset::read_preset("first-light")));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys, ElementsAre("name", "description", "engine", "unit", "seed", "white", "scene", "spectral", "stop", "reference",
-                                "measure", "animation", "leave_out"));
+  EXPECT_THAT(keys, ElementsAre("name", "description", "engine", "unit", "seed", "white", "scene", "spectral", "stop",
+                                "reference", "measure", "animation", "leave_out"));
   EXPECT_TRUE(json["scene"]["objects"][0]["shape"].is_null());
   EXPECT_EQ(json["scene"]["materials"]["glass"]["dispersion"]["outside"], "automatic");
 }
 
-TEST(PresetWriting, ListsOfNumbersStayOnOneLine)
-{
+TEST(PresetWriting, ListsOfNumbersStayOnOneLine) {
   EXPECT_THAT(preset::to_json(preset::read_preset("first-light")), HasSubstr("\"resolution\": [512, 512]\n"));
 }
 
-TEST(PresetWriting, AnotherFolderFindsTheSameFiles)
-{
+TEST(PresetWriting, AnotherFolderFindsTheSameFiles) {
   const test::TemporaryFolder folder;
   fs::create_directories(folder.path() / "out");
   write_file_whole(folder.path() / "own.yml", "");
@@ -336,23 +326,22 @@ TEST(PresetWriting, AnotherFolderFindsTheSameFiles)
       "missing":{"type":"dielectric","dispersion":"missing.yml"}}}})";
   const Preset p = preset::parse_preset(text, (folder.path() / "a.json").string());
   const auto there = nlohmann::json::parse(preset::to_json(p, folder.path() / "out"))["scene"]["materials"];
-  EXPECT_EQ(there["own"]["dispersion"]["file"], fs::canonical(folder.path() / "own.yml").string()); // only beside the preset
-  EXPECT_EQ(there["shipped"]["dispersion"]["file"], "materials/N-BK7.yml");                         // found from anywhere
-  EXPECT_EQ(there["missing"]["dispersion"]["file"], "missing.yml");                                 // the loader's to report
+  EXPECT_EQ(there["own"]["dispersion"]["file"],
+            fs::canonical(folder.path() / "own.yml").string());             // only beside the preset
+  EXPECT_EQ(there["shipped"]["dispersion"]["file"], "materials/N-BK7.yml"); // found from anywhere
+  EXPECT_EQ(there["missing"]["dispersion"]["file"], "missing.yml");         // the loader's to report
   const auto here = nlohmann::json::parse(preset::to_json(p, folder.path()))["scene"]["materials"];
   EXPECT_EQ(here["own"]["dispersion"]["file"], "own.yml");
 }
 
-preset::Preset layered()
-{
+preset::Preset layered() {
   preset::Preset p = test::empty_preset(8);
   spectral::settings(p).relight = true;
   p.scene.lights.resize(2);
   return p;
 }
 
-TEST(OnlyRelit, IsAnotherSpectrumPowerWhiteOrName)
-{
+TEST(OnlyRelit, IsAnotherSpectrumPowerWhiteOrName) {
   const preset::Preset before = layered();
   preset::Preset now = before;
   EXPECT_TRUE(spectral::adoptable(before, now));
@@ -364,8 +353,7 @@ TEST(OnlyRelit, IsAnotherSpectrumPowerWhiteOrName)
   EXPECT_TRUE(spectral::adoptable(before, now));
 }
 
-TEST(OnlyRelit, IsNothingElse)
-{
+TEST(OnlyRelit, IsNothingElse) {
   const preset::Preset before = layered();
   const auto differs = [&](auto change) {
     preset::Preset now = before;
@@ -386,8 +374,7 @@ TEST(OnlyRelit, IsNothingElse)
 }
 
 // A preset is edited into one of another engine while its run goes on: Parameters do so.
-TEST(Adoptable, NoEngineTakesOnAnothersPreset)
-{
+TEST(Adoptable, NoEngineTakesOnAnothersPreset) {
   for (const engine::Engine* own : engine::engines()) {
     preset::Preset before{.settings = preset::Settings(own->settings())};
     for (const engine::Engine* other : engine::engines()) {

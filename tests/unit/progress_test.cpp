@@ -8,36 +8,33 @@ namespace nephroid::progress_test {
 using Json = nlohmann::json;
 using namespace nephroid::cli;
 
-job::Progress at(double fraction, std::int64_t step, std::uint64_t photons, double work_seconds)
-{
+job::Progress at(double fraction, std::int64_t step, std::uint64_t photons, double work_seconds) {
   return {.fraction = fraction, .step = step, .steps = 100, .work = photons, .work_seconds = work_seconds};
 }
 
-TEST(Pace, IsThatOfThisSessionOnly)
-{
+TEST(Pace, IsThatOfThisSessionOnly) {
   // Resumed at half way after 100 s of work on a slow machine; here a quarter took 5 s.
   const job::Pace pace = job::pace_between(at(0.5, 50, 1'000'000, 100), at(0.75, 75, 3'000'000, 105));
   EXPECT_DOUBLE_EQ(pace.work_per_second, 400'000);
   EXPECT_DOUBLE_EQ(pace.seconds_left, 5);
 }
 
-TEST(Pace, IsUnknownAtTheStart)
-{
+TEST(Pace, IsUnknownAtTheStart) {
   const job::Pace pace = job::pace_between(at(0, 0, 0, 0), at(0, 0, 0, 0));
   EXPECT_EQ(pace.work_per_second, 0);
   EXPECT_LT(pace.seconds_left, 0);
 }
 
-TEST(ProgressLine, HasBarPassRateAndTimeLeft)
-{
+TEST(ProgressLine, HasBarPassRateAndTimeLeft) {
   const std::string line = progress_line("prism", at(0.5, 50, 0, 0), {1.214e6, 3661}, 100);
   EXPECT_EQ(line, "prism  [###############---------------]   50 %  pass 51 of 100  1.21 M photons/s  1:01:01 left");
-  EXPECT_THAT(progress_line("prism", at(0.999, 99, 0, 0), {950, 7.4}, 100), HasSubstr(" 99 %  pass 100 of 100  950 photons/s  0:07 left"));
-  EXPECT_THAT(progress_line("prism", at(0, 0, 0, 0), {}, 100), Not(HasSubstr("left"))) << "no figure before there is one";
+  EXPECT_THAT(progress_line("prism", at(0.999, 99, 0, 0), {950, 7.4}, 100),
+              HasSubstr(" 99 %  pass 100 of 100  950 photons/s  0:07 left"));
+  EXPECT_THAT(progress_line("prism", at(0, 0, 0, 0), {}, 100), Not(HasSubstr("left")))
+      << "no figure before there is one";
 }
 
-TEST(ProgressLine, CountsThePassInHand)
-{
+TEST(ProgressLine, CountsThePassInHand) {
   EXPECT_THAT(progress_line("prism", at(0.004, 0, 0, 0), {}, 100), HasSubstr("  0 %  pass 1 of 100"));
   EXPECT_THAT(progress_line("prism", at(1, 100, 0, 0), {}, 100), HasSubstr("100 %  pass 100 of 100"));
   job::Progress by_time = at(0.5, 7, 0, 0);
@@ -45,15 +42,13 @@ TEST(ProgressLine, CountsThePassInHand)
   EXPECT_THAT(progress_line("prism", by_time, {}, 100), EndsWith(" 50 %  pass 8"));
 }
 
-TEST(ProgressLine, NeverIsWiderThanTheTerminal)
-{
+TEST(ProgressLine, NeverIsWiderThanTheTerminal) {
   for (int columns = 0; columns < 200; ++columns)
     EXPECT_LE(progress_line("a-rather-long-name-of-a-preset", at(1, 1'000'000, 0, 0), {1e12, 1e12}, columns).size(),
               static_cast<std::size_t>(std::max(columns, 1)));
 }
 
-TEST(ProgressJson, IsOneLineOfValidJsonWithNullsForTheUnknown)
-{
+TEST(ProgressJson, IsOneLineOfValidJsonWithNullsForTheUnknown) {
   const std::string line = progress_json({"label", "odd \"name\"\n\xff"}, at(0.25, 3, 12, 0.5), {});
   EXPECT_THAT(line, Not(HasSubstr("\n")));
   const auto json = Json::parse(line);
@@ -70,8 +65,7 @@ TEST(ProgressJson, IsOneLineOfValidJsonWithNullsForTheUnknown)
   EXPECT_TRUE(Json::parse(progress_json({}, endless, {}))["steps"].is_null());
 }
 
-TEST(ProgressStyle, IsJsonWhereAskedAndLinesWithoutATerminal)
-{
+TEST(ProgressStyle, IsJsonWhereAskedAndLinesWithoutATerminal) {
   EXPECT_EQ(progress_style(true), ProgressStyle::json);
   const test::Variable terminal("TERM", "dumb");
   EXPECT_EQ(progress_style(false), ProgressStyle::lines);
@@ -79,8 +73,7 @@ TEST(ProgressStyle, IsJsonWhereAskedAndLinesWithoutATerminal)
 
 constexpr ProgressDisplay::Clock::time_point begin{};
 
-TEST(ProgressDisplay, JsonComesEachHalfSecondAndAtTheEnd)
-{
+TEST(ProgressDisplay, JsonComesEachHalfSecondAndAtTheEnd) {
   testing::internal::CaptureStdout();
   {
     ProgressDisplay display(ProgressStyle::json, {}, at(0, 0, 0, 0), begin);
@@ -95,8 +88,7 @@ TEST(ProgressDisplay, JsonComesEachHalfSecondAndAtTheEnd)
   EXPECT_EQ(shown[1]["fraction"], 1.0);
 }
 
-TEST(ProgressDisplay, TheLiveLineIsTakenAway)
-{
+TEST(ProgressDisplay, TheLiveLineIsTakenAway) {
   testing::internal::CaptureStderr();
   {
     ProgressDisplay display(ProgressStyle::live, {"a", ""}, at(0, 0, 0, 0), begin);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report over runs whose slopes, speed-ups and floors are known: its data, and the page that holds them. tests/hostile/report_test.cpp
-// looks at it in a browser.
+// The report over runs whose slopes, speed-ups and floors are known: its data, and the page that holds them.
+// tests/hostile/report_test.cpp looks at it in a browser.
 #include "report/report.h"
 #include "tests/support/made_runs.h"
 
@@ -15,8 +15,7 @@ protected:
   TemporaryFolder temporary;
   fs::path folder = temporary.path();
 
-  std::vector<fs::path> folders(const std::vector<std::string>& names) const
-  {
+  std::vector<fs::path> folders(const std::vector<std::string>& names) const {
     std::vector<fs::path> all;
     for (const std::string& name : names) all.push_back(folder / name);
     return all;
@@ -24,26 +23,25 @@ protected:
   Json data(const std::vector<std::string>& names) const { return report::report_data(folders(names)); }
   /// The metric that comes first.
   Json metric(const std::vector<std::string>& names) const { return data(names).at("metrics").at(0); }
-  void write_history(const std::string& run, const std::vector<MadeColumn>& columns, int rows = 30) const
-  {
+  void write_history(const std::string& run, const std::vector<MadeColumn>& columns, int rows = 30) const {
     write_file_whole(folder / run / "history.csv", measure::to_csv(made_history(columns, rows)));
   }
 };
 
-/// The rows of the speed-up table: "faster < slower at error: seconds, seconds, speed-up", runs from 1 as the page counts them.
-std::vector<std::string> speed_ups(const Json& metric)
-{
+/// The rows of the speed-up table: "faster < slower at error: seconds, seconds, speed-up", runs from 1 as the page
+/// counts them.
+std::vector<std::string> speed_ups(const Json& metric) {
   std::vector<std::string> rows;
   for (const Json& pair : metric.at("pairs"))
     rows.push_back(fmt::format("{} < {} at {:.3g}{}: {:.3g} s, {:.3g} s, {:.3g}", pair["faster"].get<int>() + 1,
-                               pair["slower"].get<int>() + 1, pair["error"].get<double>(), pair["estimate"] ? " (estimate)" : "",
-                               pair["faster_seconds"].get<double>(), pair["slower_seconds"].get<double>(), pair["speed_up"].get<double>()));
+                               pair["slower"].get<int>() + 1, pair["error"].get<double>(),
+                               pair["estimate"] ? " (estimate)" : "", pair["faster_seconds"].get<double>(),
+                               pair["slower_seconds"].get<double>(), pair["speed_up"].get<double>()));
   return rows;
 }
 std::string remark(const Json& metric) { return metric.at("pairs").at(0).at("remark"); }
 
-TEST_F(Report, finds_the_slope_and_the_speed_up_of_known_curves)
-{
+TEST_F(Report, finds_the_slope_and_the_speed_up_of_known_curves) {
   write_measured_run(folder / "slow", "slow", 3);
   write_measured_run(folder / "fast", "fast", 2);
   const Json lab = metric({"slow", "fast"});
@@ -53,13 +51,13 @@ TEST_F(Report, finds_the_slope_and_the_speed_up_of_known_curves)
     EXPECT_NEAR(line.at("slope"), -0.5, 1e-9);
     EXPECT_EQ(line.at("points").size(), 30u);
   }
-  // t = (factor / error)^2: at 0.5 after 16 s and 36 s, a speed-up of (3 / 2)^2. Rows go to 0.5 * 1.25^29 = 323 s, errors of 0.167, 0.111.
-  EXPECT_THAT(speed_ups(lab),
-              ElementsAre("2 < 1 at 1: 4 s, 9 s, 2.25", "2 < 1 at 0.5: 16 s, 36 s, 2.25", "2 < 1 at 0.2: 100 s, 225 s, 2.25"));
+  // t = (factor / error)^2: at 0.5 after 16 s and 36 s, a speed-up of (3 / 2)^2. Rows go to 0.5 * 1.25^29 = 323 s,
+  // errors of 0.167, 0.111.
+  EXPECT_THAT(speed_ups(lab), ElementsAre("2 < 1 at 1: 4 s, 9 s, 2.25", "2 < 1 at 0.5: 16 s, 36 s, 2.25",
+                                          "2 < 1 at 0.2: 100 s, 225 s, 2.25"));
 }
 
-TEST_F(Report, knows_when_each_run_came_to_a_round_error)
-{
+TEST_F(Report, knows_when_each_run_came_to_a_round_error) {
   write_measured_run(folder / "slow", "slow", 3); // from 3 / sqrt(0.5) = 4.24 to 0.167
   write_measured_run(folder / "fast", "fast", 2); // from 2.83 to 0.111
   const Json lab = metric({"slow", "fast"});
@@ -77,21 +75,21 @@ TEST_F(Report, knows_when_each_run_came_to_a_round_error)
 }
 
 /// A browser loads nothing: the policy forbids it, and nothing of ours names an address.
-TEST_F(Report, is_a_page_that_holds_all_it_needs)
-{
+TEST_F(Report, is_a_page_that_holds_all_it_needs) {
   write_measured_run(folder / "a", "a", 3, 0.1);
   const std::string html = report::report_html(folders({"a"}));
   EXPECT_THAT(html, AllOf(StartsWith("<!DOCTYPE html>"), EndsWith("</html>\n"), HasSubstr("Chart.js v"),
-                          HasSubstr("Released under the MIT License"), HasSubstr("content=\"default-src 'none'; img-src data:;"),
-                          Not(HasSubstr("{{"))));
-  EXPECT_FALSE(std::regex_search(html.substr(0, html.find("Chart.js v")), std::regex("<(link|img|iframe)|@import|url\\(|src=|href=")));
+                          HasSubstr("Released under the MIT License"),
+                          HasSubstr("content=\"default-src 'none'; img-src data:;"), Not(HasSubstr("{{"))));
+  EXPECT_FALSE(std::regex_search(html.substr(0, html.find("Chart.js v")),
+                                 std::regex("<(link|img|iframe)|@import|url\\(|src=|href=")));
   for (const report::PageFile& file : report::page_files())
-    EXPECT_THAT(file.name == "chart.min.js" ? "" : file.text, AllOf(Not(HasSubstr("://")), Not(HasSubstr("innerHTML")))) << file.name;
+    EXPECT_THAT(file.name == "chart.min.js" ? "" : file.text, AllOf(Not(HasSubstr("://")), Not(HasSubstr("innerHTML"))))
+        << file.name;
 }
 
 /// What files say cannot end the element that holds the data, and is there as it was.
-TEST_F(Report, holds_what_files_say_as_data)
-{
+TEST_F(Report, holds_what_files_say_as_data) {
   write_measured_run(folder / "a", "x", 3);
   Json run_json = made_run_json("</script><script>alert(1)</script><!-- '\"&\\");
   run_json["device"]["name"] = "<script>alert(2)</script>";
@@ -105,8 +103,7 @@ TEST_F(Report, holds_what_files_say_as_data)
   EXPECT_EQ(embedded.at("runs").at(0).at("run"), run_json);
 }
 
-TEST_F(Report, shows_the_noise_floor_and_does_not_compare_near_it)
-{
+TEST_F(Report, shows_the_noise_floor_and_does_not_compare_near_it) {
   write_measured_run(folder / "slow", "slow", 3, 0.4);
   write_measured_run(folder / "fast", "fast", 2, 0.4);
   const Json lab = metric({"slow", "fast"});
@@ -114,15 +111,15 @@ TEST_F(Report, shows_the_noise_floor_and_does_not_compare_near_it)
   EXPECT_EQ(lab.at("levels"), Json({2.0, 1.0, 0.5}));
   EXPECT_TRUE(lab.at("times").at(0).at("cells").at(2).at("near_floor"));
   EXPECT_FALSE(lab.at("times").at(0).at("cells").at(1).at("near_floor"));
-  // Both come down to 0.4, but below twice that the floor is a good part of the error: 1 is compared, 0.5 is not. error^2 = f^2/t + .16
+  // Both come down to 0.4, but below twice that the floor is a good part of the error: 1 is compared, 0.5 is not.
+  // error^2 = f^2/t + .16
   EXPECT_THAT(speed_ups(lab), ElementsAre("2 < 1 at 2: 1.04 s, 2.34 s, 2.25", "2 < 1 at 1: 4.76 s, 10.7 s, 2.25"));
   // From three floors on the slope of the distance is -1/2 (1 - 1/9) or steeper
   EXPECT_LT(lab.at("lines").at(0).at("slope"), -0.44);
   EXPECT_GE(lab.at("lines").at(0).at("slope"), -0.50);
 }
 
-TEST_F(Report, never_compares_an_error_with_an_estimate)
-{
+TEST_F(Report, never_compares_an_error_with_an_estimate) {
   write_measured_run(folder / "measured", "measured", 3);
   write_made_run(folder / "alone", made_run_json("alone"));
   write_history("alone", {{"estimated_lab_mean", 2}});
@@ -137,15 +134,15 @@ TEST_F(Report, never_compares_an_error_with_an_estimate)
   EXPECT_EQ(speed_ups(metric({"measured", "alone"})).at(0), "2 < 1 at 2 (estimate): 1 s, 4 s, 4");
 }
 
-TEST_F(Report, warns_of_estimates_with_other_settings)
-{
+TEST_F(Report, warns_of_estimates_with_other_settings) {
   const auto write = [&](const char* name, double factor, const Json& spectral) {
     write_made_run(folder / name, made_run_json(name), {{"spectral", spectral}});
     write_history(name, {{"estimated_lab_mean", factor}});
   };
   write("fine", 3, {{"threshold_deg", 0.05}, {"photons_per_pass", 1000}});
   write("coarse", 2, {{"threshold_deg", 0.5}, {"photons_per_pass", 1000}});
-  EXPECT_EQ(remark(metric({"fine", "coarse"})), "estimates do not see the bias of different settings: give both a reference");
+  EXPECT_EQ(remark(metric({"fine", "coarse"})),
+            "estimates do not see the bias of different settings: give both a reference");
   write("coarse", 2, {{"threshold_deg", 0.05}, {"photons_per_pass", 2000}}); // photons a pass are no bias
   EXPECT_EQ(remark(metric({"fine", "coarse"})), "");
   // Against references the bias is part of the error.
@@ -154,17 +151,17 @@ TEST_F(Report, warns_of_estimates_with_other_settings)
   EXPECT_EQ(remark(metric({"fine", "coarse"})), "");
 }
 
-TEST_F(Report, says_which_run_was_better_from_the_start)
-{
+TEST_F(Report, says_which_run_was_better_from_the_start) {
   write_measured_run(folder / "a", "a", 100); // down to 100 / sqrt(323) = 5.6
   write_measured_run(folder / "b", "b", 3);   // from 3 / sqrt(0.5) = 4.2
-  EXPECT_EQ(metric({"a", "b"}).at("not_compared"), Json({"1 and 2 (2 was better at its first measurement than 1 ever was)"}));
-  EXPECT_EQ(metric({"b", "a"}).at("not_compared"), Json({"1 and 2 (1 was better at its first measurement than 2 ever was)"}));
+  EXPECT_EQ(metric({"a", "b"}).at("not_compared"),
+            Json({"1 and 2 (2 was better at its first measurement than 1 ever was)"}));
+  EXPECT_EQ(metric({"b", "a"}).at("not_compared"),
+            Json({"1 and 2 (1 was better at its first measurement than 2 ever was)"}));
 }
 
 /// a goes from 7 to 5.90, b from 9 to 6.44: they have 6.44 .. 7 in common, whose middle is 6.71436.
-TEST_F(Report, compares_at_three_figures_where_no_round_error_is_common)
-{
+TEST_F(Report, compares_at_three_figures_where_no_round_error_is_common) {
   for (const auto& [name, begin] : {std::pair{"a", 7.0}, std::pair{"b", 9.0}}) {
     write_measured_run(folder / name, name, 1);
     const double exponent = name == std::string("a") ? -0.026426 : -0.051712; // over a factor of 1.25^29 in time
@@ -176,8 +173,7 @@ TEST_F(Report, compares_at_three_figures_where_no_round_error_is_common)
 }
 
 /// error^2 = 2^2 / t + bias^2 against an estimate of 2 / sqrt(t): at the end, 323 s, noise is 0.11.
-TEST_F(Report, says_where_noise_does_not_explain_the_error)
-{
+TEST_F(Report, says_where_noise_does_not_explain_the_error) {
   write_measured_run(folder / "a", "a", 2);
   const auto with_bias = [&](double bias) {
     write_history("a", {{"lab_mean", 2, -0.5, bias}, {"estimated_lab_mean", 2}});
@@ -188,8 +184,7 @@ TEST_F(Report, says_where_noise_does_not_explain_the_error)
   EXPECT_EQ(with_bias(0.25), Json({0}));
 }
 
-TEST_F(Report, warns_of_other_scenes_devices_builds_and_references)
-{
+TEST_F(Report, warns_of_other_scenes_devices_builds_and_references) {
   write_measured_run(folder / "a", "a", 3);
   write_measured_run(folder / "b", "b", 2, 0, "another.exr");
   EXPECT_EQ(remark(metric({"a", "b"})), "different references");
@@ -209,9 +204,9 @@ TEST_F(Report, warns_of_other_scenes_devices_builds_and_references)
   }
 }
 
-/// What an engine measures beside errors is a curve as well: no slope, no comparison, values of any sign; unless the run is judged by it.
-TEST_F(Report, shows_curves_of_any_name)
-{
+/// What an engine measures beside errors is a curve as well: no slope, no comparison, values of any sign; unless the
+/// run is judged by it.
+TEST_F(Report, shows_curves_of_any_name) {
   write_measured_run(folder / "a", "a", 3);
   write_history("a", {{"temperature", -7, 0.5}, {"cost", 5, -0.25}, {"psnr_db", 3, 0.1}, {"lab_mean", 3}});
   const Json metrics = data({"a"}).at("metrics");
@@ -234,17 +229,16 @@ TEST_F(Report, shows_curves_of_any_name)
 }
 
 /// job::Curve
-TEST_F(Report, holds_the_curves_that_an_engine_adds)
-{
+TEST_F(Report, holds_the_curves_that_an_engine_adds) {
   write_made_run(folder / "a", made_run_json("a"));
   write_file_whole(folder / "a" / "cooling.csv", "step,temperature,cost\n0,10.5,nan\n1,2e-3,4\n");
   const Json curve = data({"a"}).at("runs").at(0).at("curves").at(0);
-  EXPECT_EQ(curve.dump(), R"({"name":"cooling","columns":["step","temperature","cost"],"rows":[[0.0,10.5,null],[1.0,0.002,4.0]]})");
+  EXPECT_EQ(curve.dump(),
+            R"({"name":"cooling","columns":["step","temperature","cost"],"rows":[[0.0,10.5,null],[1.0,0.002,4.0]]})");
 }
 
 /// The kinds of a group's pictures with their runs: "run 0, run 1, reference 0 1, difference 0".
-std::string kinds(const Json& group)
-{
+std::string kinds(const Json& group) {
   std::string words;
   for (const Json& picture : group.at("pictures")) {
     words += (words.empty() ? "" : ", ") + picture.at("kind").get<std::string>();
@@ -255,8 +249,7 @@ std::string kinds(const Json& group)
 }
 
 /// Two files with one picture are one reference.
-TEST_F(Report, knows_references_by_their_pictures)
-{
+TEST_F(Report, knows_references_by_their_pictures) {
   float value = 0.4f;
   for (const char* name : {"one.exr", "two.exr"})
     image::write_exr(folder / name, {4, 3, {"R", "G", "B"}, std::vector<float>(36, value += 0.1f), {}});
@@ -271,12 +264,12 @@ TEST_F(Report, knows_references_by_their_pictures)
   EXPECT_EQ(remark(metric({"a", "b"})), "different references");
 }
 
-TEST_F(Report, takes_a_sweep_as_its_runs)
-{
+TEST_F(Report, takes_a_sweep_as_its_runs) {
   for (const char* seed : {"1", "2", "3"}) {
     const fs::path run = folder / "sweep" / ("00" + std::string(seed));
     write_measured_run(run, "plate,seed=" + std::string(seed), 3);
-    write_file_whole(run / "preset.json", Json{{"seed", std::stoi(seed)}, {"scene", {{"lights", {{{"power_w", 2}}}}}}}.dump());
+    write_file_whole(run / "preset.json",
+                     Json{{"seed", std::stoi(seed)}, {"scene", {{"lights", {{{"power_w", 2}}}}}}}.dump());
   }
   const Json sweep = data({"sweep"});
   EXPECT_EQ(sweep.at("title"), "plate: 3 runs");
@@ -289,8 +282,7 @@ TEST_F(Report, takes_a_sweep_as_its_runs)
   EXPECT_EQ(data({"sweep"}).at("runs").at(0).at("label"), "seed=3");
 }
 
-TEST_F(Report, says_what_is_not_there)
-{
+TEST_F(Report, says_what_is_not_there) {
   write_made_run(folder / "none", made_run_json("none"));
   EXPECT_EQ(data({"none"}).at("metrics"), Json::array());
   EXPECT_TRUE(data({"none"}).at("runs").at(0).at("measurements").is_null());
@@ -307,8 +299,7 @@ TEST_F(Report, says_what_is_not_there)
   EXPECT_EQ(data({"one"}).at("pictures"), Json::array());
 }
 
-TEST_F(Report, groups_pictures_by_name_and_size)
-{
+TEST_F(Report, groups_pictures_by_name_and_size) {
   write_made_run(folder / "a", made_run_json("a"), {{"seed", 1}}, 4, 3, 0.5f);
   write_made_run(folder / "b", made_run_json("b"), {{"seed", 2}}, 4, 3, 0.25f);
   write_made_run(folder / "c", made_run_json("c"), {{"seed", 1}}, 5, 3);
@@ -325,8 +316,7 @@ TEST_F(Report, groups_pictures_by_name_and_size)
 }
 
 /// By the alphabet of RFC 4648.
-std::string decoded_base64(const std::string& text)
-{
+std::string decoded_base64(const std::string& text) {
   const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
   unsigned bits = 0, count = 0;
@@ -340,8 +330,7 @@ std::string decoded_base64(const std::string& text)
 }
 
 /// The embedded picture is what a display shows of the linear one.
-TEST_F(Report, embeds_pictures_as_shown)
-{
+TEST_F(Report, embeds_pictures_as_shown) {
   write_made_run(folder / "a", made_run_json("a"));
   write_file_whole(folder / "a.png", decoded_base64(data({"a"}).at("pictures").at(0).at("pictures").at(0).at("png")));
   const image::Image picture = image::read_image(folder / "a.png");

@@ -9,13 +9,11 @@ namespace nephroid::run_folder_test {
 
 class RunFolder : public testing::Test {
 protected:
-  void SetUp() override
-  {
+  void SetUp() override {
     write_file_whole(folder / "image.exr", "a picture");
     write_file_whole(folder / "preset.json", preset::to_json(preset, folder) + "\n");
   }
-  std::optional<run::FinishedRun> with_run_json(const std::string& text) const
-  {
+  std::optional<run::FinishedRun> with_run_json(const std::string& text) const {
     write_file_whole(folder / "run.json", text);
     return run::finished_run(folder, preset);
   }
@@ -27,8 +25,7 @@ protected:
 constexpr const char* whole =
     R"({"finished":true,"passes":7,"photons":9000000000,"units":{"steps":"passes","work":"photons"},"work_seconds":1.5})";
 
-TEST_F(RunFolder, AFinishedRunSaysHowFarItCame)
-{
+TEST_F(RunFolder, AFinishedRunSaysHowFarItCame) {
   const auto run = with_run_json(whole);
   ASSERT_TRUE(run);
   EXPECT_EQ(run->progress.fraction, 1);
@@ -37,8 +34,7 @@ TEST_F(RunFolder, AFinishedRunSaysHowFarItCame)
   EXPECT_EQ(run->progress.work_seconds, 1.5);
 }
 
-TEST_F(RunFolder, AFinishedRunCountsAsItsEngineDoes)
-{
+TEST_F(RunFolder, AFinishedRunCountsAsItsEngineDoes) {
   const auto run = with_run_json(
       R"({"finished":true,"sweeps":1,"facets":8,"units":{"step":"sweep","steps":"sweeps","work":"facets"},"work_seconds":1})");
   ASSERT_TRUE(run);
@@ -47,16 +43,14 @@ TEST_F(RunFolder, AFinishedRunCountsAsItsEngineDoes)
   EXPECT_EQ(run->progress.units.works, "facets");
 }
 
-TEST_F(RunFolder, OnlyAFolderThatWasMadeIsNew)
-{
+TEST_F(RunFolder, OnlyAFolderThatWasMadeIsNew) {
   fs::create_directory(folder / "of the user");
   for (const char* name : {"of the user", "new"}) run::ClaimedFolder(folder / name);
   EXPECT_TRUE(fs::exists(folder / "of the user"));
   EXPECT_FALSE(fs::exists(folder / "new"));
 }
 
-TEST_F(RunFolder, IsClaimedOnce)
-{
+TEST_F(RunFolder, IsClaimedOnce) {
   const auto claim = [&](bool alone) { return run::ClaimedFolder(folder / "film", alone); };
   const auto refused = [&](bool alone) {
     EXPECT_THAT([&] { claim(alone); }, ThrowsMessage<Error>(HasSubstr("is written into by another command")));
@@ -73,8 +67,7 @@ TEST_F(RunFolder, IsClaimedOnce)
   claim(true);
 }
 
-TEST_F(RunFolder, AnotherPresetIsAnotherRun)
-{
+TEST_F(RunFolder, AnotherPresetIsAnotherRun) {
   ASSERT_TRUE(with_run_json(whole));
   preset::Preset other = preset;
   other.seed = 2;
@@ -83,10 +76,9 @@ TEST_F(RunFolder, AnotherPresetIsAnotherRun)
   EXPECT_FALSE(run::finished_run(folder, preset));
 }
 
-TEST_F(RunFolder, ADamagedRunJsonIsNoFinishedRun)
-{
-  for (const char* text : {"", "{", "[]", "7", "{}", R"({"finished":false})", R"({"finished":true})", R"({"finished":"yes"})",
-                           R"({"finished":true,"passes":"7","photons":1,"work_seconds":1})",
+TEST_F(RunFolder, ADamagedRunJsonIsNoFinishedRun) {
+  for (const char* text : {"", "{", "[]", "7", "{}", R"({"finished":false})", R"({"finished":true})",
+                           R"({"finished":"yes"})", R"({"finished":true,"passes":"7","photons":1,"work_seconds":1})",
                            R"({"finished":true,"passes":7,"photons":1,"work_seconds":null})", "\xff\xfe"})
     EXPECT_FALSE(with_run_json(text)) << text;
 }

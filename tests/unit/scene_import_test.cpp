@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Importing Mitsuba and PBRT scenes: one scene written in both, and what becomes of it against values worked out in comments; what is left
-// out; files that are broken.
+// Importing Mitsuba and PBRT scenes: one scene written in both, and what becomes of it against values worked out in
+// comments; what is left out; files that are broken.
 #include "formats/import/import.h"
 #include "preset/read.h"
 #include "tests/support/test.h"
@@ -40,13 +40,11 @@ LightSource "point" "point3 from" [ 2 3 1 ] "rgb I" [ 10 10 10 ]
 
 class SceneImport : public testing::Test {
 protected:
-  preset::Preset imported(const std::string& text, const std::string& name)
-  {
+  preset::Preset imported(const std::string& text, const std::string& name) {
     made = formats::import_scene(folder.write(name, text), folder.path() / "out.json");
     return preset::read_preset(made.preset.string());
   }
-  std::string refusal(const std::string& text, const std::string& name)
-  {
+  std::string refusal(const std::string& text, const std::string& name) {
     const std::string line = test::refusal_of([&] { imported(text, name); });
     EXPECT_FALSE(fs::exists(folder.path() / "out.json"));
     return line;
@@ -55,8 +53,7 @@ protected:
   formats::Imported made;
 };
 
-TEST_F(SceneImport, OneSceneInBothFormatsIsOnePreset)
-{
+TEST_F(SceneImport, OneSceneInBothFormatsIsOnePreset) {
   for (const bool from_mitsuba : {true, false}) {
     SCOPED_TRACE(from_mitsuba);
     const preset::Preset p = from_mitsuba ? imported(mitsuba, "in.xml") : imported(pbrt, "in.pbrt");
@@ -77,21 +74,22 @@ TEST_F(SceneImport, OneSceneInBothFormatsIsOnePreset)
   }
 }
 
-TEST_F(SceneImport, WhatIsLeftOutIsSaidWithItsLine)
-{
+TEST_F(SceneImport, WhatIsLeftOutIsSaidWithItsLine) {
   std::string text = mitsuba;
   text.replace(text.find("</scene>"), 8, "<shape type=\"hair\"/>\n</scene>");
   imported(text, "in.xml");
   EXPECT_THAT(made.notes, ElementsAre(HasSubstr("in.xml:11: the shape hair is left out")));
   imported(pbrt + "Shape \"curve\"\nLightSource \"goniometric\"\n", "in.pbrt");
-  EXPECT_THAT(made.notes, ElementsAre(HasSubstr("in.pbrt:13: the shape curve"), HasSubstr("in.pbrt:14: the light goniometric")));
+  EXPECT_THAT(made.notes,
+              ElementsAre(HasSubstr("in.pbrt:13: the shape curve"), HasSubstr("in.pbrt:14: the light goniometric")));
 }
 
-TEST_F(SceneImport, BrokenFilesAreRefusedAtTheirLine)
-{
-  EXPECT_THAT(refusal("<scene>\n<shape type=\"sphere\">\n</scene>", "in.xml"), HasSubstr("in.xml:3: its XML is broken"));
+TEST_F(SceneImport, BrokenFilesAreRefusedAtTheirLine) {
+  EXPECT_THAT(refusal("<scene>\n<shape type=\"sphere\">\n</scene>", "in.xml"),
+              HasSubstr("in.xml:3: its XML is broken"));
   EXPECT_THAT(refusal("<scene>\n<shape type=\"$no\"/></scene>", "in.xml"), HasSubstr("in.xml:2: $no has no value"));
-  EXPECT_THAT(refusal("WorldBegin\nAttributeEnd", "in.pbrt"), HasSubstr("in.pbrt:2: AttributeEnd has no AttributeBegin"));
+  EXPECT_THAT(refusal("WorldBegin\nAttributeEnd", "in.pbrt"),
+              HasSubstr("in.pbrt:2: AttributeEnd has no AttributeBegin"));
   EXPECT_THAT(refusal("Translate 1\n2 x", "in.pbrt"), HasSubstr("in.pbrt:1: \"x\" of \"the transform\" is no number"));
   EXPECT_THAT(refusal("Shape \"sphere", "in.pbrt"), HasSubstr("in.pbrt:1: a string has no end"));
 }

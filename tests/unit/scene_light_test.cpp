@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a loaded scene has on the 401 wavelengths: lights, materials of every kind, environments and what is refused of their pictures, and
-// the tables that photons are drawn by from an environment.
+// What a loaded scene has on the 401 wavelengths: lights, materials of every kind, environments and what is refused of
+// their pictures, and the tables that photons are drawn by from an environment.
 #include "image/image.h"
 #include "scene/materials.h"
 #include "tests/support/loaded_scenes.h"
@@ -8,8 +8,7 @@
 
 namespace nephroid::scene::scene_light_test {
 
-TEST(SceneLight, AreaLightHasItsEdges)
-{
+TEST(SceneLight, AreaLightHasItsEdges) {
   preset::Preset preset = ball_over_floor();
   preset::Light& light = preset.scene.lights[0];
   light.type = preset::Light::Type::area;
@@ -24,11 +23,11 @@ TEST(SceneLight, AreaLightHasItsEdges)
 
   light.size = {3, 100};
   light.position = {0, 0.3, 0}; // in the ball, its corners outside
-  EXPECT_THAT(load_scene(preset).warnings, ElementsAre(HasSubstr("light 0: reaches through the surface of a dielectric")));
+  EXPECT_THAT(load_scene(preset).warnings,
+              ElementsAre(HasSubstr("light 0: reaches through the surface of a dielectric")));
 }
 
-TEST(SceneLight, LightsKeepTheirFigures)
-{
+TEST(SceneLight, LightsKeepTheirFigures) {
   preset::Preset preset = ball_over_floor();
   preset::Light& light = preset.scene.lights[0];
   light.type = preset::Light::Type::spot;
@@ -44,8 +43,7 @@ TEST(SceneLight, LightsKeepTheirFigures)
   EXPECT_EQ(load_scene(preset).lights[0].irradiance_w_m2, 1361);
 }
 
-TEST(SceneLight, MaterialsOnTheWavelengths)
-{
+TEST(SceneLight, MaterialsOnTheWavelengths) {
   preset::Preset preset = ball_over_floor();
   // Schott N-BK7: n_d(587.5618 nm) = 1.5168.
   preset::Dispersion& glass = preset.scene.materials["glass"].dispersion;
@@ -61,10 +59,11 @@ TEST(SceneLight, MaterialsOnTheWavelengths)
   EXPECT_DOUBLE_EQ(scene.materials[2].reflectance[0], 0.25);
 }
 
-TEST(SceneLight, EveryKindOfDispersionSpectrumAndReflectance)
-{
+TEST(SceneLight, EveryKindOfDispersionSpectrumAndReflectance) {
   const FileFinder finder;
-  const auto index_at = [&](const preset::Dispersion& d, double nm) { return *make_curve(d, finder, "w").sample(nm).n; };
+  const auto index_at = [&](const preset::Dispersion& d, double nm) {
+    return *make_curve(d, finder, "w").sample(nm).n;
+  };
   preset::Dispersion d{.n = 1.33};
   EXPECT_DOUBLE_EQ(index_at(d, 500), 1.33);
   d.type = preset::Dispersion::Type::cauchy;
@@ -104,22 +103,20 @@ protected:
   test::TemporaryFolder temporary;
   std::vector<std::string> warnings;
 
-  std::string write_exr(const std::vector<float>& data, int width, std::vector<std::string> channels = {"R", "G", "B"}) const
-  {
+  std::string write_exr(const std::vector<float>& data, int width,
+                        std::vector<std::string> channels = {"R", "G", "B"}) const {
     const int height = static_cast<int>(data.size() / channels.size()) / width;
     const std::string file = (temporary.path() / "sky.exr").string();
     image::write_exr(file, {width, height, std::move(channels), data, {}});
     return file;
   }
-  Environment load(const std::string& file)
-  {
+  Environment load(const std::string& file) {
     preset::Environment environment{.file = file, .radiance = 3, .rotate_deg = 20};
     return make_environment(environment, FileFinder(), Place("p.json", "/scene/environment"), warnings);
   }
 };
 
-TEST_F(SceneEnvironment, FloatsAreTakenAsTheyAre)
-{
+TEST_F(SceneEnvironment, FloatsAreTakenAsTheyAre) {
   const Environment e = load(write_exr({1, 2, 3, 4, 5, 1e6f}, 2));
   EXPECT_EQ(e.width, 2);
   EXPECT_EQ(e.height, 1);
@@ -130,8 +127,7 @@ TEST_F(SceneEnvironment, FloatsAreTakenAsTheyAre)
   EXPECT_THAT(warnings, IsEmpty());
 }
 
-TEST_F(SceneEnvironment, IntegersAreDecodedAndGreyHasThreeChannels)
-{
+TEST_F(SceneEnvironment, IntegersAreDecodedAndGreyHasThreeChannels) {
   const std::string png = (temporary.path() / "sky.png").string();
   image::write_png_bytes(png, 2, 1, {0, 255, 188, 255, 255, 255, 255, 255});
   const Environment e = load(png);
@@ -140,8 +136,7 @@ TEST_F(SceneEnvironment, IntegersAreDecodedAndGreyHasThreeChannels)
   EXPECT_THAT(load(write_exr({0.5f, 0.25f}, 2, {"Y"})).rgb, ElementsAre(0.5f, 0.5f, 0.5f, 0.25f, 0.25f, 0.25f));
 }
 
-TEST_F(SceneEnvironment, AConstantIsOneTexel)
-{
+TEST_F(SceneEnvironment, AConstantIsOneTexel) {
   preset::Environment environment{.type = preset::Environment::Type::constant, .colour = {0.25, 0.5, 0}};
   Environment e = make_environment(environment, FileFinder(), Place("p.json", "/scene/environment"), warnings);
   EXPECT_EQ(e.width * e.height, 1);
@@ -151,45 +146,47 @@ TEST_F(SceneEnvironment, AConstantIsOneTexel)
   EXPECT_TRUE(e.is_black());
 }
 
-TEST_F(SceneEnvironment, ABadTexelIsNamed)
-{
+TEST_F(SceneEnvironment, ABadTexelIsNamed) {
   std::vector<float> sky(3 * 8, 1.0f);
   sky[3 * 6 + 1] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }),
               HasSubstr("sky.exr: green of the texel in row 1, column 2 (from 0) is not a number"));
   sky[3 * 6 + 1] = 1;
   sky[3 * 3] = std::numeric_limits<float>::infinity();
-  EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }), HasSubstr("red of the texel in row 0, column 3 (from 0) is infinite"));
+  EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }),
+              HasSubstr("red of the texel in row 0, column 3 (from 0) is infinite"));
   sky[3 * 3] = 1;
   sky[3 * 7 + 2] = -1;
-  EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }), HasSubstr("blue of the texel in row 1, column 3 (from 0) is negative"));
+  EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }),
+              HasSubstr("blue of the texel in row 1, column 3 (from 0) is negative"));
 }
 
 // As every map of Debian's blender-data has them, which are compressed with loss.
-TEST_F(SceneEnvironment, AFewValuesBelowNothingAreBlackAndSaid)
-{
+TEST_F(SceneEnvironment, AFewValuesBelowNothingAreBlackAndSaid) {
   std::vector<float> sky(3 * 8, 1.0f);
   sky[3 * 7 + 2] = sky[4] = -0.01f; // 0.02 of 22
   const Environment e = load(write_exr(sky, 4));
   EXPECT_EQ(e.rgb[3 * 7 + 2], 0);
   EXPECT_EQ(e.rgb[4], 0);
   EXPECT_EQ(e.rgb[0], 1);
-  EXPECT_THAT(warnings, ElementsAre("environment sky.exr: 2 values are below 0, in sum 0.0009 of all its light; they are taken as 0"));
+  EXPECT_THAT(
+      warnings,
+      ElementsAre("environment sky.exr: 2 values are below 0, in sum 0.0009 of all its light; they are taken as 0"));
   sky[4] = -0.02f;
-  EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }), HasSubstr("green of the texel in row 0, column 1 (from 0) is negative"));
+  EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }),
+              HasSubstr("green of the texel in row 0, column 1 (from 0) is negative"));
 }
 
-TEST_F(SceneEnvironment, WhatIsNoSuchPictureIsRefused)
-{
+TEST_F(SceneEnvironment, WhatIsNoSuchPictureIsRefused) {
   EXPECT_THAT(refusal_of([&] { load(temporary.write("sky.hdr", "not a picture")); }),
-              AllOf(HasSubstr("sky.hdr: is no picture that can be read: "), HasSubstr("; expected a whole EXR, HDR, PNG, JPEG or another"),
+              AllOf(HasSubstr("sky.hdr: is no picture that can be read: "),
+                    HasSubstr("; expected a whole EXR, HDR, PNG, JPEG or another"),
                     EndsWith("; save it anew, or name another file")));
   EXPECT_THAT(refusal_of([&] { load(write_exr({1, 2}, 1, {"R", "G"})); }), HasSubstr("has the channels"));
   EXPECT_THAT(refusal_of([&] { load("no-such-sky.exr"); }), HasSubstr("p.json#/scene/environment/file"));
 }
 
-TEST_F(SceneEnvironment, AnotherShapeIsStretchedAndSaid)
-{
+TEST_F(SceneEnvironment, AnotherShapeIsStretchedAndSaid) {
   const Environment e = load(write_exr(std::vector<float>(3 * 4 * 4, 1.0f), 4));
   EXPECT_EQ(e.height, 4);
   ASSERT_EQ(warnings.size(), 1u);
@@ -197,8 +194,7 @@ TEST_F(SceneEnvironment, AnotherShapeIsStretchedAndSaid)
 }
 
 // The film resolves 2^-20 of the mean. What is 0 is black whatever the film resolves.
-TEST_F(SceneEnvironment, ARangeThatTheFilmCannotHoldIsSaid)
-{
+TEST_F(SceneEnvironment, ARangeThatTheFilmCannotHoldIsSaid) {
   std::vector<float> sky(3 * 8, 1.0f);
   sky[5] = 1e12f;
   load(write_exr(sky, 4));
@@ -217,8 +213,7 @@ TEST_F(SceneEnvironment, ARangeThatTheFilmCannotHoldIsSaid)
   EXPECT_THAT(warnings, IsEmpty());
 }
 
-TEST_F(SceneEnvironment, TheSceneHasIt)
-{
+TEST_F(SceneEnvironment, TheSceneHasIt) {
   preset::Preset preset = test::ball_over_floor();
   EXPECT_FALSE(load_scene(preset).environment);
   preset.scene.environment.emplace();
@@ -228,32 +223,30 @@ TEST_F(SceneEnvironment, TheSceneHasIt)
   EXPECT_EQ(scene.environment->width, 8);
 }
 
-scene::Environment map_of(int width, std::vector<float> rgb)
-{
+scene::Environment map_of(int width, std::vector<float> rgb) {
   return {.width = width, .height = static_cast<int>(rgb.size() / 3) / width, .rgb = std::move(rgb)};
 }
 
 /// Faint and strong, coloured, black.
-scene::Environment uneven()
-{
+scene::Environment uneven() {
   std::vector<float> rgb;
   for (int i = 0; i < 64; ++i)
-    for (int c = 0; c < 3; ++c) rgb.push_back(i % 5 == 4 ? 0.0f : i == 17 ? 3e4f : static_cast<float>(0.1 + (i + c) % 3));
+    for (int c = 0; c < 3; ++c)
+      rgb.push_back(i % 5 == 4 ? 0.0f : i == 17 ? 3e4f : static_cast<float>(0.1 + (i + c) % 3));
   return map_of(8, rgb);
 }
 
-TEST(EnvironmentFlux, TexelsFillTheSphere)
-{
+TEST(EnvironmentFlux, TexelsFillTheSphere) {
   for (const int width : {1, 2, 8, 4096}) {
-    const scene::Environment map = map_of(width, std::vector<float>(static_cast<std::size_t>(3 * width * std::max(1, width / 2)), 1.0f));
+    const scene::Environment map =
+        map_of(width, std::vector<float>(static_cast<std::size_t>(3 * width * std::max(1, width / 2)), 1.0f));
     double sum = 0;
     for (int row = 0; row < map.height; ++row) sum += width * scene::texel_steradians(map, row);
     EXPECT_NEAR(sum / (4 * M_PI), 1, 1e-12) << width;
   }
 }
 
-TEST(EnvironmentFlux, OneColourHasItsSpectrum)
-{
+TEST(EnvironmentFlux, OneColourHasItsSpectrum) {
   scene::Environment map = map_of(2, {0.9f, 0.6f, 0.3f, 0.9f, 0.6f, 0.3f});
   map.radiance = 5;
   const scene::EnvironmentFlux flux = scene::flux_of(map);
@@ -275,15 +268,15 @@ TEST(EnvironmentFlux, OneColourHasItsSpectrum)
 }
 
 // No photon carries much more than another, and each texel is drawn as often as its flux asks for.
-TEST(SkyTables, PhotonsCarryAlike)
-{
+TEST(SkyTables, PhotonsCarryAlike) {
   const scene::Environment map = uneven();
   const tracing::SkyTables tables = tracing::make_sky_tables(map);
   const double all = scene::flux_of(map).grey;
   ASSERT_EQ(tables.texel_cdf.size(), 2 * (8u + 64u)) << "and of the peaks";
   ASSERT_EQ(tables.texel_colour.size(), map.rgb.size());
   const auto chance = [&](std::size_t first, std::size_t i) {
-    return static_cast<double>(tables.texel_cdf[first + i]) - (i > 0 ? static_cast<double>(tables.texel_cdf[first + i - 1]) : 0.0);
+    return static_cast<double>(tables.texel_cdf[first + i]) -
+           (i > 0 ? static_cast<double>(tables.texel_cdf[first + i - 1]) : 0.0);
   };
   for (std::size_t row = 0; row < 8; ++row)
     for (std::size_t column = 0; column < 8; ++column) {
@@ -293,15 +286,15 @@ TEST(SkyTables, PhotonsCarryAlike)
       EXPECT_NEAR(drawn, grey * steradians / all, 16 * 0x1p-24); // a quantum for each of a row, and of the rows
       for (std::size_t c = 0; c < 3; ++c) {
         const double colour = static_cast<double>(tables.texel_colour[3 * texel + c]);
-        EXPECT_NEAR(drawn * colour, static_cast<double>(map.rgb[3 * texel + c]) * steradians / all, 1e-7 * drawn * colour);
+        EXPECT_NEAR(drawn * colour, static_cast<double>(map.rgb[3 * texel + c]) * steradians / all,
+                    1e-7 * drawn * colour);
         EXPECT_LE(colour, 3 * 1.01);
       }
     }
 }
 
 // Half of the light in one texel of 2^40 times the others': these are still drawn, and carry as little as they have.
-TEST(SkyTables, NothingIsLostBesideASun)
-{
+TEST(SkyTables, NothingIsLostBesideASun) {
   std::vector<float> rgb(3 * 32 * 16, 1e-6f);
   rgb[0] = rgb[1] = rgb[2] = 1e12f;
   const scene::Environment map = map_of(32, rgb);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loading a scene: places and orientation of objects, what contains what, warnings about them; meshes and glasses in files; contradictions
-// between fields, refused at the right place.
+// Loading a scene: places and orientation of objects, what contains what, warnings about them; meshes and glasses in
+// files; contradictions between fields, refused at the right place.
 #include "scene/materials.h"
 #include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
@@ -9,8 +9,7 @@ namespace nephroid::scene::scene_test {
 
 using preset::Shape;
 
-TEST(Scene, HoldsWhatThePresetSays)
-{
+TEST(Scene, HoldsWhatThePresetSays) {
   const Scene scene = load_scene(ball_over_floor());
   EXPECT_THAT(scene.warnings, IsEmpty());
   ASSERT_EQ(scene.objects.size(), 2u);
@@ -27,8 +26,7 @@ TEST(Scene, HoldsWhatThePresetSays)
 }
 
 // The ball's middle becomes the origin; everything else keeps its distance from it, to the precision of a float near 0.
-TEST(Scene, MovesToItsOriginAndBack)
-{
+TEST(Scene, MovesToItsOriginAndBack) {
   for (const glm::dvec3& away : {glm::dvec3(0), glm::dvec3(1e6, -2e6, 3e6)}) {
     preset::Preset preset = ball_over_floor();
     const auto move = [&](preset::Vec3& v) { v = {v[0] + away.x, v[1] + away.y, v[2] + away.z}; };
@@ -45,8 +43,7 @@ TEST(Scene, MovesToItsOriginAndBack)
   }
 }
 
-TEST(Scene, OriginWithoutAnythingThatBends)
-{
+TEST(Scene, OriginWithoutAnythingThatBends) {
   preset::Preset preset = ball_over_floor();
   preset.scene.objects.erase(preset.scene.objects.begin());
   expect_near(load_scene(preset).origin, {0, -1, 0}, 1e-12); // the floor's middle
@@ -58,10 +55,9 @@ TEST(Scene, OriginWithoutAnythingThatBends)
   EXPECT_TRUE(empty.geometry.triangles.empty());
 }
 
-// Scale, then rotate about x, y, z, then translate. The box's corner (1, 2, 3)/2 -> scaled (2, 2, 3)/2 -> about x by 90:
-// (x, -z, y) -> about z by 90: (-y, x, z). Extents 2, 2, 3 become 2, 3, 2 and then 3, 2, 2.
-TEST(Scene, TransformsInOrder)
-{
+// Scale, then rotate about x, y, z, then translate. The box's corner (1, 2, 3)/2 -> scaled (2, 2, 3)/2 -> about x by
+// 90: (x, -z, y) -> about z by 90: (-y, x, z). Extents 2, 2, 3 become 2, 3, 2 and then 3, 2, 2.
+TEST(Scene, TransformsInOrder) {
   preset::Preset preset = ball_over_floor();
   preset.scene.objects[0] = shape_object("box", Shape::Type::box, "glass");
   preset.scene.objects[0].shape->size = {1, 2, 3};
@@ -86,8 +82,7 @@ TEST(Scene, TransformsInOrder)
   EXPECT_GT(apex_corners, 0);
 }
 
-TEST(Scene, MirroringKeepsTrianglesOutwards)
-{
+TEST(Scene, MirroringKeepsTrianglesOutwards) {
   preset::Preset preset = ball_over_floor();
   preset.scene.objects[0] = shape_object("stone", Shape::Type::brilliant, "glass");
   const double before = volume(load_scene(preset), 0);
@@ -99,13 +94,13 @@ TEST(Scene, MirroringKeepsTrianglesOutwards)
   for (std::uint32_t t = stone.first_triangle; t < stone.first_triangle + stone.triangle_count; ++t) {
     const glm::uvec3& v = scene.geometry.triangles[t];
     const glm::vec3 a = scene.geometry.positions[v.x];
-    const glm::vec3 n = glm::normalize(glm::cross(scene.geometry.positions[v.y] - a, scene.geometry.positions[v.z] - a));
+    const glm::vec3 n =
+        glm::normalize(glm::cross(scene.geometry.positions[v.y] - a, scene.geometry.positions[v.z] - a));
     EXPECT_GT(glm::dot(n, scene.geometry.normals[v.x]), 0.9999f);
   }
 }
 
-TEST(Scene, HoldsAtAMillimetreAndAKilometre)
-{
+TEST(Scene, HoldsAtAMillimetreAndAKilometre) {
   for (double scale : {1e-3, 1.0, 1e3}) {
     preset::Preset preset = ball_over_floor();
     for (preset::Object& object : preset.scene.objects)
@@ -120,17 +115,16 @@ TEST(Scene, HoldsAtAMillimetreAndAKilometre)
   }
 }
 
-TEST(Scene, WarnsWherePrecisionIsLost)
-{
+TEST(Scene, WarnsWherePrecisionIsLost) {
   preset::Preset preset = ball_over_floor();
   preset.scene.objects.push_back(shape_object("far", Shape::Type::box, "mirror"));
   preset.scene.objects.back().transform.translate = {0, 0, 4e5};
   EXPECT_THAT(load_scene(preset).warnings, Contains(HasSubstr("object 'far': is 1 units across but 200000 away")));
 }
 
-// Nested balls of glass: the light in the middle is inside both, the outer (larger) one first; the camera between them is in one.
-TEST(Scene, KnowsWhatContainsLightAndCamera)
-{
+// Nested balls of glass: the light in the middle is inside both, the outer (larger) one first; the camera between them
+// is in one.
+TEST(Scene, KnowsWhatContainsLightAndCamera) {
   preset::Preset preset = ball_over_floor();
   preset.scene.objects.push_back(shape_object("shell", Shape::Type::sphere, "glass"));
   preset.scene.objects.push_back(shape_object("silvered", Shape::Type::sphere, "mirror"));
@@ -147,8 +141,7 @@ TEST(Scene, KnowsWhatContainsLightAndCamera)
   EXPECT_THAT(dielectrics_around(scene, {0, 0, 5}), IsEmpty());
 }
 
-TEST(Scene, ClosedDielectricsAreTurnedOutwards)
-{
+TEST(Scene, ClosedDielectricsAreTurnedOutwards) {
   preset::Preset preset = ball_over_floor();
   preset.scene.objects[0].shape->inwards = true;
   const Scene turned = load_scene(preset);
@@ -159,10 +152,9 @@ TEST(Scene, ClosedDielectricsAreTurnedOutwards)
   EXPECT_LT(volume(load_scene(preset), 0), 0);
 }
 
-// Turned about any axis and mirrored, a sphere stays the same one; a scale that differs by axis makes an ellipsoid, whose half axes
-// turn with it.
-TEST(Scene, SpheresAndWhatAScaleMakesOfThem)
-{
+// Turned about any axis and mirrored, a sphere stays the same one; a scale that differs by axis makes an ellipsoid,
+// whose half axes turn with it.
+TEST(Scene, SpheresAndWhatAScaleMakesOfThem) {
   preset::Preset preset = ball_over_floor();
   preset.scene.objects[0].transform = {{-3, 3, 3}, {10, 20, 30}, {5, 6, 7}};
   const Scene sphere = load_scene(preset);
@@ -186,8 +178,7 @@ TEST(Scene, SpheresAndWhatAScaleMakesOfThem)
 }
 
 // On a floor a ball meets one point of it, and nothing is moved; two balls in one place are parted.
-TEST(Scene, BallsTouchInAPoint)
-{
+TEST(Scene, BallsTouchInAPoint) {
   preset::Preset preset = ball_over_floor();
   preset.scene.objects[0].transform.translate = {0, -0.5, 0};
   const Scene standing = load_scene(preset);
@@ -200,17 +191,16 @@ TEST(Scene, BallsTouchInAPoint)
   EXPECT_LT(twins.geometry.ellipsoids[0].half_axes[0].x, 0.5f);
 }
 
-TEST(Scene, WarnsOfOpenDielectrics)
-{
+TEST(Scene, WarnsOfOpenDielectrics) {
   preset::Preset preset = ball_over_floor();
   preset.scene.objects[1].material = "glass";
-  EXPECT_THAT(load_scene(preset).warnings, ElementsAre(HasSubstr("object 'floor': dielectric, but not closed: 4 edges")));
+  EXPECT_THAT(load_scene(preset).warnings,
+              ElementsAre(HasSubstr("object 'floor': dielectric, but not closed: 4 edges")));
 }
 
 class SceneFiles : public testing::Test {
 protected:
-  preset::Preset with_mesh(const std::string& obj) const
-  {
+  preset::Preset with_mesh(const std::string& obj) const {
     write_file_whole(folder / "mesh.obj", obj);
     preset::Preset preset = ball_over_floor();
     preset.source = (folder / "p.json").string();
@@ -224,8 +214,7 @@ protected:
 
 constexpr const char* tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
-TEST_F(SceneFiles, MeshBesideThePreset)
-{
+TEST_F(SceneFiles, MeshBesideThePreset) {
   preset::Preset preset = with_mesh(tetrahedron);
   preset.scene.objects.push_back(preset.scene.objects[0]); // the same file twice
   preset.scene.objects[2].name = "twin";
@@ -236,35 +225,35 @@ TEST_F(SceneFiles, MeshBesideThePreset)
   EXPECT_NEAR(volume(scene, 0), 1.0 / 6, 1e-7);
   expect_near(world_bounds(scene, 2).first, {5, 0, 0}, 1e-6);
   expect_near(scene.origin, {3, 0.5, 0.5}, 1e-12);
-  for (const glm::vec3& n : scene.geometry.normals) EXPECT_NEAR(glm::length(n), 1, 1e-6); // made here: the file has none
+  for (const glm::vec3& n : scene.geometry.normals)
+    EXPECT_NEAR(glm::length(n), 1, 1e-6); // made here: the file has none
 }
 
-TEST_F(SceneFiles, DropsAndSaysSo)
-{
+TEST_F(SceneFiles, DropsAndSaysSo) {
   const preset::Preset preset = with_mesh(std::string(tetrahedron) + "f 2 3 4\nf 1 1 2\n");
   const Scene scene = load_scene(preset);
   EXPECT_EQ(scene.objects[0].triangle_count, 4u);
   EXPECT_TRUE(scene.objects[0].closed);
-  EXPECT_THAT(scene.warnings,
-              ElementsAre("object 'ball': 1 triangle without area dropped", "object 'ball': 1 duplicated triangle dropped"));
+  EXPECT_THAT(scene.warnings, ElementsAre("object 'ball': 1 triangle without area dropped",
+                                          "object 'ball': 1 duplicated triangle dropped"));
 }
 
-TEST_F(SceneFiles, ShippedMaterialsHaveShortNamesWhichFilesBesideThePresetGoBefore)
-{
+TEST_F(SceneFiles, ShippedMaterialsHaveShortNamesWhichFilesBesideThePresetGoBefore) {
   preset::Dispersion dispersion{.type = preset::Dispersion::Type::file, .file = "N-BK7"};
   const FileFinder finder(folder);
   const auto n_at_d = [&] { return make_curve(dispersion, finder, "p.json#/n").sample(587.5618).n.value(); };
   EXPECT_NEAR(n_at_d(), 1.5168, 1e-5); // Schott's data sheet
-  write_file_whole(folder / "N-BK7", "DATA:\n  - type: tabulated n\n    data: |\n        0.40 1.25\n        0.70 1.25\n");
+  write_file_whole(folder / "N-BK7",
+                   "DATA:\n  - type: tabulated n\n    data: |\n        0.40 1.25\n        0.70 1.25\n");
   EXPECT_EQ(n_at_d(), 1.25);
   dispersion.file = "N-BK77";
-  EXPECT_THAT(test::refusal_of([&] { n_at_d(); }),
-              AllOf(HasSubstr("p.json#/n: 'N-BK77' not found; looked in "), HasSubstr("the program comes with"), HasSubstr(", N-BK7, ")));
+  EXPECT_THAT(test::refusal_of([&] { n_at_d(); }), AllOf(HasSubstr("p.json#/n: 'N-BK77' not found; looked in "),
+                                                         HasSubstr("the program comes with"), HasSubstr(", N-BK7, ")));
 }
 
-TEST_F(SceneFiles, MaterialFromAFileWithItsRangeAndAbsorption)
-{
-  write_file_whole(folder / "dye.yml", "DATA:\n  - type: tabulated nk\n    data: |\n        0.40 1.6 0.5\n        0.70 1.5 0.0\n");
+TEST_F(SceneFiles, MaterialFromAFileWithItsRangeAndAbsorption) {
+  write_file_whole(folder / "dye.yml",
+                   "DATA:\n  - type: tabulated nk\n    data: |\n        0.40 1.6 0.5\n        0.70 1.5 0.0\n");
   preset::Preset preset = with_mesh(tetrahedron);
   preset::Material& glass = preset.scene.materials["glass"];
   glass.dispersion.type = preset::Dispersion::Type::file;
@@ -280,8 +269,7 @@ TEST_F(SceneFiles, MaterialFromAFileWithItsRangeAndAbsorption)
   EXPECT_THAT(refusal(preset), HasSubstr("p.json#/scene/materials/glass/dispersion: "));
 }
 
-TEST_F(SceneFiles, TheBunnyIsClosedAndWhole)
-{
+TEST_F(SceneFiles, TheBunnyIsClosedAndWhole) {
   if (!fs::exists("/usr/share/glmark2/models/bunny.obj")) GTEST_SKIP() << "glmark2-data is not installed";
   preset::Preset preset = ball_over_floor();
   preset.scene.objects[0].shape.reset();
@@ -292,8 +280,7 @@ TEST_F(SceneFiles, TheBunnyIsClosedAndWhole)
   EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
-TEST(SceneRefusals, PointAtTheRightPlace)
-{
+TEST(SceneRefusals, PointAtTheRightPlace) {
   using S = preset::Scene;
   using L = preset::Light;
   const std::pair<const char*, std::function<void(S&)>> wrongs[] = {
@@ -306,7 +293,8 @@ TEST(SceneRefusals, PointAtTheRightPlace)
       {"lights/0/spectrum: ", [](S& s) { s.lights[0].spectrum.illuminant = "D66"; }},
       {"lights/0/direction: (0, 0, 0) has no direction",
        [](S& s) { s.lights[0].type = L::Type::directional, s.lights[0].direction.fill(0); }},
-      {"lights/0/up: (0, 1, 0) is parallel", [](S& s) { s.lights[0].type = L::Type::area, s.lights[0].up = s.camera.up; }},
+      {"lights/0/up: (0, 1, 0) is parallel",
+       [](S& s) { s.lights[0].type = L::Type::area, s.lights[0].up = s.camera.up; }},
       {"materials/a~1b~0c/dispersion: ",
        [](S& s) { s.materials["a/b~c"] = {.type = preset::Material::Type::dielectric, .dispersion = {.n = -1}}; }},
       {"camera/target: (0, 0, 0) has no direction", [](S& s) { s.camera.target = s.camera.position; }}};

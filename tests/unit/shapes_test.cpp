@@ -11,22 +11,19 @@ namespace nephroid::scene::shapes_test {
 using Type = preset::Shape::Type;
 constexpr double pi = std::numbers::pi;
 
-glm::dvec3 area_vector(const Mesh& mesh, const glm::uvec3& t)
-{
+glm::dvec3 area_vector(const Mesh& mesh, const glm::uvec3& t) {
   const glm::dvec3 a = mesh.positions[t.x];
   return 0.5 * glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a);
 }
 
-double area(const Mesh& mesh)
-{
+double area(const Mesh& mesh) {
   double sum = 0;
   for (const glm::uvec3& t : mesh.triangles) sum += glm::length(area_vector(mesh, t));
   return sum;
 }
 
 /// Closed, clean, and every vertex normal is unit and on the triangle's own side.
-void expect_sound(const Mesh& mesh)
-{
+void expect_sound(const Mesh& mesh) {
   const MeshReport report = inspect(mesh);
   EXPECT_TRUE(report.closed()) << report.open_edges << " open, " << report.crowded_edges << " crowded";
   EXPECT_EQ(report.degenerate, 0u);
@@ -39,16 +36,14 @@ void expect_sound(const Mesh& mesh)
     }
 }
 
-TEST(Shapes, QuadFacesUp)
-{
+TEST(Shapes, QuadFacesUp) {
   const Mesh mesh = make_shape({.type = Type::quad, .size = {2, 99, 3}});
   EXPECT_NEAR(area(mesh), 6, 1e-6);
   for (const glm::uvec3& t : mesh.triangles) EXPECT_GT(area_vector(mesh, t).y, 0);
   EXPECT_EQ(inspect(mesh).open_edges, 4u);
 }
 
-TEST(Shapes, BoxAndPlate)
-{
+TEST(Shapes, BoxAndPlate) {
   for (Type type : {Type::box, Type::plate}) {
     const Mesh mesh = make_shape({.type = type, .size = {2, 3, 4}});
     expect_sound(mesh);
@@ -61,8 +56,7 @@ TEST(Shapes, BoxAndPlate)
   }
 }
 
-TEST(Shapes, ASphereIsOne)
-{
+TEST(Shapes, ASphereIsOne) {
   preset::Shape sphere{.type = Type::sphere, .radius = 2};
   const Mesh mesh = make_shape(sphere);
   EXPECT_TRUE(mesh.triangles.empty());
@@ -76,8 +70,7 @@ TEST(Shapes, ASphereIsOne)
 }
 
 // The inscribed prism over a regular N-gon, exactly: volume N/2 sin(2 pi / N) r^2 h; area twice the base plus N sides.
-TEST(Shapes, CylinderIsTheInscribedPrism)
-{
+TEST(Shapes, CylinderIsTheInscribedPrism) {
   const Mesh mesh = make_shape({.type = Type::cylinder, .radius = 0.5, .height = 3, .segments = 100});
   expect_sound(mesh);
   const double base = 50 * std::sin(2 * pi / 100) * 0.25;
@@ -87,8 +80,7 @@ TEST(Shapes, CylinderIsTheInscribedPrism)
   for (const glm::vec3& n : mesh.normals) EXPECT_TRUE(n.y == 0 || std::abs(n.y) == 1) << n.y;
 }
 
-TEST(Shapes, PrismHasItsApexAtPlusZ)
-{
+TEST(Shapes, PrismHasItsApexAtPlusZ) {
   const Mesh mesh = make_shape({.type = Type::prism, .height = 5, .apex_deg = 40, .side = 2});
   expect_sound(mesh);
   EXPECT_EQ(mesh.triangles.size(), 8u);
@@ -105,8 +97,7 @@ TEST(Shapes, PrismHasItsApexAtPlusZ)
 }
 
 /// Triangles by the plane of their vertex normal: facets have one exact normal each.
-std::map<std::tuple<float, float, float>, std::vector<glm::uvec3>> facets(const Mesh& mesh)
-{
+std::map<std::tuple<float, float, float>, std::vector<glm::uvec3>> facets(const Mesh& mesh) {
   std::map<std::tuple<float, float, float>, std::vector<glm::uvec3>> result;
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::vec3 n = mesh.normals[t.x];
@@ -115,8 +106,7 @@ std::map<std::tuple<float, float, float>, std::vector<glm::uvec3>> facets(const 
   return result;
 }
 
-TEST(Shapes, BrilliantHas57FacetsAndAGirdle)
-{
+TEST(Shapes, BrilliantHas57FacetsAndAGirdle) {
   const Mesh mesh = make_shape({.type = Type::brilliant, .radius = 3});
   expect_sound(mesh);
   EXPECT_GT(inspect(mesh).signed_volume, 0);
@@ -133,8 +123,7 @@ TEST(Shapes, BrilliantHas57FacetsAndAGirdle)
   EXPECT_EQ(tilted(90), 16) << "girdle";
 }
 
-TEST(Shapes, BrilliantIsConvexPlanarAndEightfold)
-{
+TEST(Shapes, BrilliantIsConvexPlanarAndEightfold) {
   const Mesh mesh = make_shape({.type = Type::brilliant}); // girdle radius 0.5
   for (const auto& [normal, triangles] : facets(mesh)) {
     const glm::dvec3 n(std::get<0>(normal), std::get<1>(normal), std::get<2>(normal));
@@ -158,8 +147,7 @@ TEST(Shapes, BrilliantIsConvexPlanarAndEightfold)
 
 // Tolkowsky's stone: the table is 53 % of the diameter; crown height (1 - 0.53) / 2 tan 34.5 = 16.2 %, pavilion depth
 // tan 40.75 / 2 = 43.1 % of it; the girdle adds 3 %.
-TEST(Shapes, BrilliantProportions)
-{
+TEST(Shapes, BrilliantProportions) {
   const Mesh mesh = make_shape({.type = Type::brilliant}); // diameter 1
   float low = 0, high = 0, widest = 0, table = 0;
   for (const glm::vec3& p : mesh.positions) {
@@ -175,8 +163,7 @@ TEST(Shapes, BrilliantProportions)
   EXPECT_NEAR(table, 0.265, 1e-6);
 }
 
-TEST(Shapes, InwardsTurnsEverythingRound)
-{
+TEST(Shapes, InwardsTurnsEverythingRound) {
   for (Type type : {Type::box, Type::cylinder, Type::prism, Type::plate, Type::brilliant}) {
     preset::Shape room{.type = type};
     const double volume = inspect(make_shape(room)).signed_volume;
@@ -188,8 +175,7 @@ TEST(Shapes, InwardsTurnsEverythingRound)
   }
 }
 
-TEST(Shapes, CoarsestCylindersAreClosed)
-{
+TEST(Shapes, CoarsestCylindersAreClosed) {
   for (int segments : {3, 4, 5}) {
     const MeshReport report = inspect(make_shape({.type = Type::cylinder, .segments = segments}));
     EXPECT_TRUE(report.closed());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Smoothed caustics on a floor that fills the lower part of the picture and a wall that fills the upper, from made pictures.
+// Smoothed caustics on a floor that fills the lower part of the picture and a wall that fills the upper, from made
+// pictures.
 #include "photons/block_smoothing.h"
 #include "photons/smoothing.h"
 #include "tests/support/loaded_scenes.h"
@@ -9,8 +10,7 @@ namespace nephroid::smoothing_test {
 constexpr int size = 48;
 
 struct FloorAndWall {
-  FloorAndWall()
-  {
+  FloorAndWall() {
     preset::Preset p;
     p.source = "p.json";
     p.scene.materials["wall"];
@@ -24,15 +24,15 @@ struct FloorAndWall {
   scene::Bvh bvh;
 };
 
-/// What two halves of a film would hold of grey photons, each of worth 1 in the mean of both, `density` of them a pixel.
+/// What two halves of a film would hold of grey photons, each of worth 1 in the mean of both, `density` of them a
+/// pixel.
 struct Photons {
   std::vector<float> rgb, error_draw;
 };
 
 using Density = std::function<double(int x, int y)>;
 
-Photons scatter(const Density& density, unsigned seed)
-{
+Photons scatter(const Density& density, unsigned seed) {
   std::mt19937 random(seed);
   Photons photons;
   for (int y = 0; y < size; ++y)
@@ -50,12 +50,12 @@ Photons scatter(const Density& density, unsigned seed)
 
 double sum(const std::vector<float>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
 
-/// Of the pixels of rows [from, to) that are more than `margin` pixels from the picture's sides: their mean and variance in a channel, R.
+/// Of the pixels of rows [from, to) that are more than `margin` pixels from the picture's sides: their mean and
+/// variance in a channel, R.
 struct Moments {
   double mean = 0, variance = 0;
 };
-Moments moments(const std::vector<float>& rgb, int from, int to, int margin, std::size_t channel = 0)
-{
+Moments moments(const std::vector<float>& rgb, int from, int to, int margin, std::size_t channel = 0) {
   double n = 0, s = 0, s2 = 0;
   for (int y = from; y < to; ++y)
     for (int x = margin; x < size - margin; ++x) {
@@ -65,8 +65,7 @@ Moments moments(const std::vector<float>& rgb, int from, int to, int margin, std
   return {s / n, s2 / n - s * s / (n * n)};
 }
 
-photons::Smoothing smoothing_of(const scene::Scene& scene, const scene::Bvh& bvh, photons::Smoothing::Spread spread)
-{
+photons::Smoothing smoothing_of(const scene::Scene& scene, const scene::Bvh& bvh, photons::Smoothing::Spread spread) {
   return {photons::Smoothing::view_of(scene, bvh), scene.camera.width, scene.camera.height, spread};
 }
 
@@ -75,16 +74,16 @@ protected:
   photons::Smoothing smoothing = smoothing_of(scene, bvh, photons::Smoothing::Spread::everywhere);
 };
 
-TEST_F(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
-{
+TEST_F(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less) {
   Photons photons = scatter([](int, int) { return 2.0; }, 1);
   const double power = sum(photons.rgb);
   const Moments before = moments(photons.rgb, size / 2 + 8, size - 8, 8);
   smoothing.spread(photons.rgb, photons.error_draw);
   EXPECT_NEAR(sum(photons.rgb), power, 1e-5 * power);
-  // 16 photons lie in 8 pixels: the closest kernel of whole rings is of 9. The mean of 9 Poisson numbers of mean 2 has the variance 2 / 9.
-  // Those of neighbours hang together, so it is known to some 20 % only.
-  const Moments after = moments(photons.rgb, size / 2 + 8, size - 8, 8), error = moments(photons.error_draw, size / 2 + 8, size - 8, 8);
+  // 16 photons lie in 8 pixels: the closest kernel of whole rings is of 9. The mean of 9 Poisson numbers of mean 2 has
+  // the variance 2 / 9. Those of neighbours hang together, so it is known to some 20 % only.
+  const Moments after = moments(photons.rgb, size / 2 + 8, size - 8, 8),
+                error = moments(photons.error_draw, size / 2 + 8, size - 8, 8);
   EXPECT_NEAR(before.variance, 2, 0.6);
   EXPECT_LT(after.variance, before.variance / 4);
   EXPECT_NEAR(after.mean, before.mean, 0.1);
@@ -92,16 +91,14 @@ TEST_F(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
   EXPECT_NEAR(error.variance, after.variance, 0.5 * after.variance);
 }
 
-TEST_F(Smoothing, leaves_pixels_that_hold_enough_photons_alone)
-{
+TEST_F(Smoothing, leaves_pixels_that_hold_enough_photons_alone) {
   Photons photons = scatter([](int, int) { return 400.0; }, 2);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
   EXPECT_EQ(photons.rgb, before);
 }
 
-TEST_F(Smoothing, does_not_carry_light_from_one_surface_to_another)
-{
+TEST_F(Smoothing, does_not_carry_light_from_one_surface_to_another) {
   // Where the wall meets the floor: y = 0, z = -2 is the middle row.
   Photons photons = scatter([](int, int y) { return y >= size / 2 ? 1.0 : 0.0; }, 3);
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -112,10 +109,9 @@ TEST_F(Smoothing, does_not_carry_light_from_one_surface_to_another)
   EXPECT_GT(row_sum(size / 2), 0);
 }
 
-TEST_F(Smoothing, leaves_even_light_even_where_kernels_are_cut)
-{
-  // Where the two surfaces meet and at the picture's sides kernels are cut. Were a pixel's light just shared out evenly, the outermost
-  // row would keep some 70 % of its light and the row that is a kernel away have 120 %.
+TEST_F(Smoothing, leaves_even_light_even_where_kernels_are_cut) {
+  // Where the two surfaces meet and at the picture's sides kernels are cut. Were a pixel's light just shared out
+  // evenly, the outermost row would keep some 70 % of its light and the row that is a kernel away have 120 %.
   constexpr double density = 0.25;
   constexpr unsigned pictures = 200;
   std::vector<double> rows(size), columns(size);
@@ -128,15 +124,15 @@ TEST_F(Smoothing, leaves_even_light_even_where_kernels_are_cut)
         columns[x] += photons.rgb[3 * (y * size + x)];
       }
   }
-  // 2400 photons a row, so one in a million of ninety-six is farther off than 6 / sqrt(2400) = .12; light that is spread scatters less.
+  // 2400 photons a row, so one in a million of ninety-six is farther off than 6 / sqrt(2400) = .12; light that is
+  // spread scatters less.
   for (std::size_t i = 0; i < size; ++i) {
     EXPECT_NEAR(rows[i] / (size * density * pictures), 1, 0.12) << "row " << i;
     EXPECT_NEAR(columns[i] / (size * density * pictures), 1, 0.12) << "column " << i;
   }
 }
 
-TEST_F(Smoothing, keeps_the_light_of_an_outline_in_it)
-{
+TEST_F(Smoothing, keeps_the_light_of_an_outline_in_it) {
   // The floor's last row before the wall may hold light of both: it stays in that row.
   Photons photons = scatter([](int, int y) { return y == size / 2 ? 1.0 : 0.0; }, 8);
   const std::vector<float> before = photons.rgb;
@@ -144,21 +140,22 @@ TEST_F(Smoothing, keeps_the_light_of_an_outline_in_it)
   EXPECT_NE(photons.rgb, before);
   for (int y = 0; y < size; ++y) {
     if (y == size / 2) continue;
-    for (int i = 3 * size * y; i < 3 * size * (y + 1); ++i) EXPECT_EQ(photons.rgb[static_cast<std::size_t>(i)], 0) << "row " << y;
+    for (int i = 3 * size * y; i < 3 * size * (y + 1); ++i)
+      EXPECT_EQ(photons.rgb[static_cast<std::size_t>(i)], 0) << "row " << y;
   }
 }
 
-/// A camera that looks down on a mirror or a pane, which shows a wall on the left and another on the right, of two objects that meet where
-/// x = 0.
-scene::Scene two_walls(const preset::Object& between, double wall_height)
-{
+/// A camera that looks down on a mirror or a pane, which shows a wall on the left and another on the right, of two
+/// objects that meet where x = 0.
+scene::Scene two_walls(const preset::Object& between, double wall_height) {
   preset::Preset p;
   p.source = "p.json";
   p.scene.materials["wall"];
   p.scene.materials["mirror"].type = preset::Material::Type::mirror;
   p.scene.materials["glass"].type = preset::Material::Type::dielectric;
   const auto half = [&](const char* name, double x) {
-    return shape_object(name, preset::Shape::Type::quad, "wall", {.scale = {40, 1, 80}, .translate = {x, wall_height, 0}});
+    return shape_object(name, preset::Shape::Type::quad, "wall",
+                        {.scale = {40, 1, 80}, .translate = {x, wall_height, 0}});
   };
   p.scene.objects = {between, half("left", -20), half("right", 20)};
   p.scene.camera = {.position = {0, 5, 0.5}, .target = {0, 0, 0}, .resolution = {size, size}};
@@ -166,34 +163,35 @@ scene::Scene two_walls(const preset::Object& between, double wall_height)
 }
 
 /// Where photons are on the right alone they stay there, and are spread.
-void expect_no_light_on_the_left(const scene::Scene& scene)
-{
-  photons::Smoothing smoothing = smoothing_of(scene, scene::build_bvh(scene.geometry), photons::Smoothing::Spread::everywhere);
+void expect_no_light_on_the_left(const scene::Scene& scene) {
+  photons::Smoothing smoothing =
+      smoothing_of(scene, scene::build_bvh(scene.geometry), photons::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int x, int) { return x >= size / 2 ? 1.0 : 0.0; }, 9);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
   for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size / 2; ++x) EXPECT_EQ(photons.rgb[3 * static_cast<std::size_t>(y * size + x)], 0) << x << ", " << y;
+    for (int x = 0; x < size / 2; ++x)
+      EXPECT_EQ(photons.rgb[3 * static_cast<std::size_t>(y * size + x)], 0) << x << ", " << y;
   EXPECT_NE(photons.rgb, before);
 }
 
-TEST_F(Smoothing, knows_what_a_mirror_shows)
-{
-  expect_no_light_on_the_left(two_walls(shape_object("mirror", preset::Shape::Type::quad, "mirror", {.scale = {20, 1, 20}}), 10));
+TEST_F(Smoothing, knows_what_a_mirror_shows) {
+  expect_no_light_on_the_left(
+      two_walls(shape_object("mirror", preset::Shape::Type::quad, "mirror", {.scale = {20, 1, 20}}), 10));
 }
 
-TEST_F(Smoothing, knows_what_a_window_shows)
-{
+TEST_F(Smoothing, knows_what_a_window_shows) {
   expect_no_light_on_the_left(
       two_walls(shape_object("pane", preset::Shape::Type::box, "glass", {{20, 0.2, 20}, {30, 0, 0}, {0, 2, 0}}), 0));
 }
 
-/// What a ball shows is torn apart: there the ball itself says how far light is spread, as its picture is no more even than that.
-TEST_F(Smoothing, spreads_within_curved_glass)
-{
-  const scene::Scene glass =
-      two_walls(shape_object("ball", preset::Shape::Type::sphere, "glass", {.scale = {8, 8, 8}, .translate = {0, -4, 0}}), -20);
-  photons::Smoothing within = smoothing_of(glass, scene::build_bvh(glass.geometry), photons::Smoothing::Spread::everywhere);
+/// What a ball shows is torn apart: there the ball itself says how far light is spread, as its picture is no more even
+/// than that.
+TEST_F(Smoothing, spreads_within_curved_glass) {
+  const scene::Scene glass = two_walls(
+      shape_object("ball", preset::Shape::Type::sphere, "glass", {.scale = {8, 8, 8}, .translate = {0, -4, 0}}), -20);
+  photons::Smoothing within =
+      smoothing_of(glass, scene::build_bvh(glass.geometry), photons::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int, int) { return 1.0; }, 11);
   const double variance = moments(photons.rgb, 16, size - 16, 16).variance, power = sum(photons.rgb);
   within.spread(photons.rgb, photons.error_draw);
@@ -201,11 +199,10 @@ TEST_F(Smoothing, spreads_within_curved_glass)
   EXPECT_NEAR(sum(photons.rgb), power, 1e-5 * power);
 }
 
-/// Stripes that are narrower than the kernels are washed out: most of the error is that, not noise, and the draw takes it in. It tells a
-/// little too little: kernels follow the noise, which the draw does not know, and what does not stand out from the noise is not counted. A
-/// draw of noise alone would be half the error.
-TEST_F(Smoothing, draws_how_far_light_was_moved)
-{
+/// Stripes that are narrower than the kernels are washed out: most of the error is that, not noise, and the draw takes
+/// it in. It tells a little too little: kernels follow the noise, which the draw does not know, and what does not stand
+/// out from the noise is not counted. A draw of noise alone would be half the error.
+TEST_F(Smoothing, draws_how_far_light_was_moved) {
   const auto stripes = [](int x, int) { return x % 6 < 3 ? 3.0 : 0.0; };
   double drawn = 0, error = 0;
   for (unsigned seed = 100; seed < 132; ++seed) {
@@ -222,18 +219,19 @@ TEST_F(Smoothing, draws_how_far_light_was_moved)
   EXPECT_LT(std::sqrt(drawn / error), 1.1);
 }
 
-/// Mean square error of the floor, away from its borders, over a few pictures: plain, spread everywhere, and where it helps.
+/// Mean square error of the floor, away from its borders, over a few pictures: plain, spread everywhere, and where it
+/// helps.
 struct Errors {
   double plain = 0, everywhere = 0, by_gain = 0;
 };
-Errors errors_of(const Density& density)
-{
+Errors errors_of(const Density& density) {
   const FloorAndWall room;
   photons::Smoothing everywhere = smoothing_of(room.scene, room.bvh, photons::Smoothing::Spread::everywhere),
                      by_gain = smoothing_of(room.scene, room.bvh, photons::Smoothing::Spread::where_it_helps);
   const auto add_error = [&](const std::vector<float>& rgb, double& sum) {
     for (int y = size / 2 + 8; y < size - 8; ++y)
-      for (int x = 8; x < size - 8; ++x) sum += std::pow(rgb[3 * static_cast<std::size_t>(y * size + x)] - density(x, y), 2);
+      for (int x = 8; x < size - 8; ++x)
+        sum += std::pow(rgb[3 * static_cast<std::size_t>(y * size + x)] - density(x, y), 2);
   };
   Errors errors;
   for (unsigned seed = 200; seed < 232; ++seed) {
@@ -249,8 +247,7 @@ Errors errors_of(const Density& density)
   return errors;
 }
 
-TEST_F(Smoothing, goes_by_what_it_gains)
-{
+TEST_F(Smoothing, goes_by_what_it_gains) {
   // Even light is all noise: what is spread everywhere is the best there is.
   const Errors even = errors_of([](int, int) { return 1.0; });
   EXPECT_LT(even.everywhere, 0.2 * even.plain);
@@ -265,8 +262,7 @@ TEST_F(Smoothing, goes_by_what_it_gains)
   EXPECT_LT(both.by_gain, 0.95 * both.plain);
 }
 
-TEST_F(Smoothing, keeps_a_bright_line_sharp_on_a_dim_floor)
-{
+TEST_F(Smoothing, keeps_a_bright_line_sharp_on_a_dim_floor) {
   Photons photons = scatter([](int x, int) { return x == size / 2 ? 1000.0 : 1.0; }, 4);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -278,8 +274,7 @@ TEST_F(Smoothing, keeps_a_bright_line_sharp_on_a_dim_floor)
   EXPECT_NEAR(line, was, 0.02 * was);
 }
 
-TEST_F(Smoothing, leaves_a_picture_of_one_pixel_alone)
-{
+TEST_F(Smoothing, leaves_a_picture_of_one_pixel_alone) {
   preset::Preset p;
   p.source = "p.json";
   p.scene.camera.resolution = {1, 1};
@@ -290,8 +285,7 @@ TEST_F(Smoothing, leaves_a_picture_of_one_pixel_alone)
   EXPECT_EQ(draw, (std::vector<float>{1, 1, 1}));
 }
 
-TEST_F(Smoothing, spreads_coloured_photons_as_far_as_their_noise_asks)
-{
+TEST_F(Smoothing, spreads_coloured_photons_as_far_as_their_noise_asks) {
   const auto spread_of = [&](bool green) {
     Photons photons = scatter([](int, int) { return 2.0; }, 7);
     if (green)
@@ -300,14 +294,14 @@ TEST_F(Smoothing, spreads_coloured_photons_as_far_as_their_noise_asks)
     smoothing.spread(photons.rgb, photons.error_draw);
     return moments(photons.rgb, size / 2 + 8, size - 8, 8, 1).variance;
   };
-  // The mean of R, G and B is a third of G, and the mean variance a third of G's: three times the relative variance, so three times the
-  // pixels.
+  // The mean of R, G and B is a third of G, and the mean variance a third of G's: three times the relative variance, so
+  // three times the pixels.
   EXPECT_LT(spread_of(true), 0.6 * spread_of(false));
 }
 
-// Pixels of 100 photons are not spread for themselves. What is known is as wrong as they are noisy, and only both together tell how much.
-TEST_F(Smoothing, finds_what_is_lacking_in_what_is_known)
-{
+// Pixels of 100 photons are not spread for themselves. What is known is as wrong as they are noisy, and only both
+// together tell how much.
+TEST_F(Smoothing, finds_what_is_lacking_in_what_is_known) {
   photons::Smoothing mixing = smoothing_of(scene, bvh, photons::Smoothing::Spread::where_it_helps);
   constexpr double density = 100;
   Photons photons = scatter([](int, int) { return density; }, 5);
@@ -320,8 +314,7 @@ TEST_F(Smoothing, finds_what_is_lacking_in_what_is_known)
 }
 
 // What hardly is noisy is neither left in the blocks of a preview, nor as noisy as it came where it is even.
-TEST_F(Smoothing, in_blocks_keeps_what_a_pixel_shows_and_evens_what_is_even)
-{
+TEST_F(Smoothing, in_blocks_keeps_what_a_pixel_shows_and_evens_what_is_even) {
   const auto is_glint = [](int x, int y) { return x % 12 == 5 && y % 12 == 5; };
   Photons photons = scatter([&](int x, int y) { return is_glint(x, y) && x < size / 2 ? 40000. : 400.; }, 9);
   photons::BlockSmoothing blocks(scene, bvh, photons::Smoothing::Spread::where_it_helps, 8);
@@ -343,8 +336,7 @@ TEST_F(Smoothing, in_blocks_keeps_what_a_pixel_shows_and_evens_what_is_even)
   EXPECT_LT(noise2, 0.25 * noise2_before);
 }
 
-TEST_F(Smoothing, does_nothing_without_a_draw_or_in_the_dark)
-{
+TEST_F(Smoothing, does_nothing_without_a_draw_or_in_the_dark) {
   Photons photons = scatter([](int, int) { return 1.0; }, 5);
   photons.error_draw.clear();
   const std::vector<float> before = photons.rgb;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The statistical tests of tests/support/statistics.h: published quantiles, their false-alarm rate, and that they find what they are for.
+// The statistical tests of tests/support/statistics.h: published quantiles, their false-alarm rate, and that they find
+// what they are for.
 #include "tests/support/statistics.h"
 
 #include <boost/math/distributions/binomial.hpp>
 
 namespace nephroid::statistics_test {
 
-TEST(Statistics, SurvivalFunctionsGiveThePublishedQuantiles)
-{
-  // NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.4: upper critical values of chi-square; 1.3.6.7.1 of the normal distribution.
+TEST(Statistics, SurvivalFunctionsGiveThePublishedQuantiles) {
+  // NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.4: upper critical values of chi-square; 1.3.6.7.1 of the
+  // normal distribution.
   EXPECT_NEAR(chi_square_survival(3.841, 1), 0.05, 2e-5);
   EXPECT_NEAR(chi_square_survival(18.307, 10), 0.05, 2e-5);
   EXPECT_NEAR(chi_square_survival(29.588, 10), 0.001, 2e-6);
@@ -19,9 +20,9 @@ TEST(Statistics, SurvivalFunctionsGiveThePublishedQuantiles)
   EXPECT_NEAR(sidak(1e-15, 1e5) / 1e-10, 1, 1e-6); // where 1 - p would be 1
 }
 
-// Bernstein's bound must lie above the exact tail of a binomial sum, on both sides, for few and for many expected events.
-TEST(Statistics, BernsteinBoundsExactTails)
-{
+// Bernstein's bound must lie above the exact tail of a binomial sum, on both sides, for few and for many expected
+// events.
+TEST(Statistics, BernsteinBoundsExactTails) {
   for (const double expected : {0.01, 1.0, 30.0, 1000.0}) {
     const double trials = 1e6, p = expected / trials;
     const boost::math::binomial_distribution<double> binomial(trials, p);
@@ -29,7 +30,8 @@ TEST(Statistics, BernsteinBoundsExactTails)
       const double deviation = std::ceil(z * std::sqrt(expected));
       const double above = cdf(complement(binomial, std::ceil(expected + deviation) - 1));
       const double below = expected >= deviation ? cdf(binomial, expected - deviation) : 0;
-      EXPECT_GE(bernstein(deviation, trials * p * (1 - p), 1), above + below) << expected << " expected, " << deviation << " off";
+      EXPECT_GE(bernstein(deviation, trials * p * (1 - p), 1), above + below)
+          << expected << " expected, " << deviation << " off";
     }
   }
   // Far from useless: with a thousand events a deviation of 8 sigma is beyond the false-alarm rate.
@@ -38,18 +40,16 @@ TEST(Statistics, BernsteinBoundsExactTails)
   EXPECT_GT(bernstein(8 * std::sqrt(1000.0), 1000, 1, 20), false_alarm);
 }
 
-std::vector<double> drawn_counts(const std::vector<double>& distribution, int samples, std::mt19937& random)
-{
+std::vector<double> drawn_counts(const std::vector<double>& distribution, int samples, std::mt19937& random) {
   std::discrete_distribution<std::size_t> draw(distribution.begin(), distribution.end());
   std::vector<double> counts(distribution.size(), 0.0);
   for (int i = 0; i < samples; ++i) ++counts[draw(random)];
   return counts;
 }
 
-// Of right counts, a hundredth has p below 0.01: of 1000 tests 10 +- sqrt(9.9), and 5 deviations of room. The last cells are so small
-// that they have to be pooled.
-TEST(Statistics, ChiSquareRaisesAsManyFalseAlarmsAsItSays)
-{
+// Of right counts, a hundredth has p below 0.01: of 1000 tests 10 +- sqrt(9.9), and 5 deviations of room. The last
+// cells are so small that they have to be pooled.
+TEST(Statistics, ChiSquareRaisesAsManyFalseAlarmsAsItSays) {
   std::mt19937 random(11);
   std::vector<double> distribution(50, 1.0);
   for (std::size_t i = 40; i < 50; ++i) distribution[i] = 0.02;
@@ -63,8 +63,7 @@ TEST(Statistics, ChiSquareRaisesAsManyFalseAlarmsAsItSays)
   EXPECT_NEAR(alarms, 10, 5 * std::sqrt(9.9));
 }
 
-TEST(Statistics, ChiSquareFindsAFewPercentAndImpossibleCounts)
-{
+TEST(Statistics, ChiSquareFindsAFewPercentAndImpossibleCounts) {
   std::mt19937 random(12);
   std::vector<double> truth(100, 1.0), wrong = truth;
   for (std::size_t i = 0; i < 100; ++i) wrong[i] = i < 50 ? 1.02 : 0.98;
@@ -77,8 +76,7 @@ TEST(Statistics, ChiSquareFindsAFewPercentAndImpossibleCounts)
   EXPECT_THROW(chi_square_test(std::vector<double>{1, 2}, std::vector<double>{1, 1}), std::invalid_argument);
 }
 
-TEST(Statistics, WeightsTestFindsABiasOfTheTotalAndOfACell)
-{
+TEST(Statistics, WeightsTestFindsABiasOfTheTotalAndOfACell) {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> uniform(0, 1);
   constexpr int samples = 1 << 18;

@@ -13,23 +13,19 @@ using namespace std::chrono_literals;
 /// Counts to `steps`; can be held inside a step. Its picture is one pixel with the count.
 class CountingJob : public Job {
 public:
-  explicit CountingJob(int steps, std::atomic<int>* alive = nullptr) : steps_(steps), alive_(alive)
-  {
+  explicit CountingJob(int steps, std::atomic<int>* alive = nullptr) : steps_(steps), alive_(alive) {
     if (alive_) ++*alive_;
   }
-  ~CountingJob() override
-  {
+  ~CountingJob() override {
     if (alive_) --*alive_;
   }
-  void advance() override
-  {
+  void advance() override {
     ++count_;
     std::this_thread::sleep_for(200us);
   }
   bool finished() const override { return count_ >= steps_; }
   Progress progress() const override { return {.fraction = double(count_) / steps_, .step = count_, .steps = steps_}; }
-  Snapshot snapshot() override
-  {
+  Snapshot snapshot() override {
     auto picture = std::make_shared<job::Picture>();
     picture->width = picture->height = 1;
     picture->rgb = {float(count_), 0, 0};
@@ -45,8 +41,7 @@ protected:
 
 constexpr int endless = 1 << 30;
 
-auto counting(int steps, std::atomic<int>* alive = nullptr)
-{
+auto counting(int steps, std::atomic<int>* alive = nullptr) {
   return [=] { return std::make_unique<CountingJob>(steps, alive); };
 }
 
@@ -54,8 +49,7 @@ auto counting(int steps, std::atomic<int>* alive = nullptr)
 class SpectrumJob : public CountingJob, public SpectrumSource {
 public:
   using CountingJob::CountingJob;
-  std::shared_ptr<const PixelSpectrum> spectrum(const std::array<int, 2>& pixel) override
-  {
+  std::shared_ptr<const PixelSpectrum> spectrum(const std::array<int, 2>& pixel) override {
     if (pixel[0] < 0) return nullptr;
     if (pixel[0] == 13) throw failed("clEnqueueReadBuffer", "the device is gone");
     auto made = std::make_shared<PixelSpectrum>();
@@ -65,28 +59,24 @@ public:
   }
 };
 
-auto with_spectra(int steps)
-{
+auto with_spectra(int steps) {
   return [=] { return std::make_unique<SpectrumJob>(steps); };
 }
 
 /// Whether the worker comes to tell the spectrum of this pixel.
-bool tells(const Worker& worker, std::array<int, 2> pixel)
-{
+bool tells(const Worker& worker, std::array<int, 2> pixel) {
   return eventually([&] { return worker.spectrum() && worker.spectrum()->pixel == pixel; });
 }
 
 /// How the job that is made ends.
 template <class Make>
-job::State end_of(Worker& worker, Make make)
-{
+job::State end_of(Worker& worker, Make make) {
   worker.start(make);
   worker.wait();
   return worker.status().state;
 }
 
-TEST(Worker, IsIdleAtFirst)
-{
+TEST(Worker, IsIdleAtFirst) {
   Worker worker;
   EXPECT_EQ(worker.status().state, job::State::idle);
   EXPECT_EQ(worker.snapshot(), nullptr);
@@ -94,8 +84,7 @@ TEST(Worker, IsIdleAtFirst)
   EXPECT_EQ(end_of(worker, counting(3)), job::State::finished);
 }
 
-TEST(Worker, FinishesWithTheLastSnapshot)
-{
+TEST(Worker, FinishesWithTheLastSnapshot) {
   for (const int steps : {20, 0}) { // a job that is finished at once is never stepped
     Worker worker;
     worker.set_snapshot_interval(1h);
@@ -108,13 +97,11 @@ TEST(Worker, FinishesWithTheLastSnapshot)
   }
 }
 
-TEST(Worker, TellsItsObserverOfEachStepAndOfTheEndHoweverItComes)
-{
+TEST(Worker, TellsItsObserverOfEachStepAndOfTheEndHoweverItComes) {
   struct Counts : Observer {
     void begun(Job&) override { ++beginnings; }
     void stepped(Job&) override { ++steps; }
-    void ended(Job& job) override
-    {
+    void ended(Job& job) override {
       ++ends;
       finished = job.finished();
     }
@@ -135,8 +122,7 @@ TEST(Worker, TellsItsObserverOfEachStepAndOfTheEndHoweverItComes)
   EXPECT_FALSE(counts.finished);
 }
 
-TEST(Worker, SnapshotsComeAtTheirInterval)
-{
+TEST(Worker, SnapshotsComeAtTheirInterval) {
   Worker worker;
   worker.set_snapshot_interval(0ms);
   worker.start(counting(endless));
@@ -157,8 +143,7 @@ public:
     Clock::time_point begin[8], end[8];
   };
   SlowPictureJob(int steps, Times& times) : CountingJob(steps), times_(times) {}
-  Snapshot snapshot() override
-  {
+  Snapshot snapshot() override {
     const auto i = static_cast<std::size_t>(std::min(times_.begun++, 7));
     times_.begin[i] = Clock::now();
     std::this_thread::sleep_for(5ms);
@@ -170,10 +155,9 @@ private:
   Times& times_;
 };
 
-// What the job measures of itself is less than what the worker does, and what lies between two snapshots is more: this holds however busy
-// the machine is.
-TEST(Worker, SlowSnapshotsLeaveANewJobTwoThirdsOfTheTime)
-{
+// What the job measures of itself is less than what the worker does, and what lies between two snapshots is more: this
+// holds however busy the machine is.
+TEST(Worker, SlowSnapshotsLeaveANewJobTwoThirdsOfTheTime) {
   SlowPictureJob::Times times;
   {
     Worker worker;
@@ -181,11 +165,11 @@ TEST(Worker, SlowSnapshotsLeaveANewJobTwoThirdsOfTheTime)
     worker.start([&] { return std::make_unique<SlowPictureJob>(endless, times); });
     ASSERT_TRUE(eventually([&] { return times.begun > 4; }));
   } // joined; the last one may be the one at the end, which does not wait
-  for (std::size_t i = 1; i < 4; ++i) EXPECT_GE(times.begin[i] - times.end[i - 1], 2 * (times.end[i - 1] - times.begin[i - 1])) << i;
+  for (std::size_t i = 1; i < 4; ++i)
+    EXPECT_GE(times.begin[i] - times.end[i - 1], 2 * (times.end[i - 1] - times.begin[i - 1])) << i;
 }
 
-TEST(Worker, TheLastSnapshotDoesNotWait)
-{
+TEST(Worker, TheLastSnapshotDoesNotWait) {
   SlowPictureJob::Times times;
   Worker worker;
   worker.set_snapshot_interval(0ms);
@@ -195,8 +179,7 @@ TEST(Worker, TheLastSnapshotDoesNotWait)
   EXPECT_EQ(worker.snapshot()->picture->rgb[0], 2);
 }
 
-TEST(Worker, CancelLeavesTheLastSnapshot)
-{
+TEST(Worker, CancelLeavesTheLastSnapshot) {
   Worker worker;
   worker.start(counting(endless));
   ASSERT_TRUE(eventually([&] { return worker.status().progress.step > 5; }));
@@ -207,8 +190,7 @@ TEST(Worker, CancelLeavesTheLastSnapshot)
   EXPECT_GT(worker.snapshot()->progress.step, 5);
 }
 
-TEST(Worker, CancelWhilePreparingNeverSteps)
-{
+TEST(Worker, CancelWhilePreparingNeverSteps) {
   Worker worker;
   std::promise<void> entered, leave;
   worker.start([&]() -> std::unique_ptr<Job> {
@@ -225,8 +207,7 @@ TEST(Worker, CancelWhilePreparingNeverSteps)
   EXPECT_EQ(worker.snapshot(), nullptr);
 }
 
-TEST(Worker, TheNewestStartWins)
-{
+TEST(Worker, TheNewestStartWins) {
   Worker worker;
   std::atomic<int> alive{0}, made{0};
   for (int i = 0; i < 50; ++i)
@@ -242,8 +223,7 @@ TEST(Worker, TheNewestStartWins)
   EXPECT_LE(made, 50);
 }
 
-TEST(Worker, AReplacedJobsErrorIsNotTheNewJobs)
-{
+TEST(Worker, AReplacedJobsErrorIsNotTheNewJobs) {
   Worker worker;
   std::promise<void> entered, leave;
   worker.start([&]() -> std::unique_ptr<Job> {
@@ -259,8 +239,7 @@ TEST(Worker, AReplacedJobsErrorIsNotTheNewJobs)
   EXPECT_FALSE(worker.status().error);
 }
 
-TEST(Worker, PausesAndGoesOn)
-{
+TEST(Worker, PausesAndGoesOn) {
   Worker worker;
   worker.start(counting(endless));
   ASSERT_TRUE(eventually([&] { return worker.status().state == job::State::running; }));
@@ -280,31 +259,28 @@ TEST(Worker, PausesAndGoesOn)
 class FailingJob : public CountingJob {
 public:
   FailingJob() : CountingJob(endless) {}
-  void advance() override
-  {
+  void advance() override {
     if (++count_ == 3) throw failed("trace.cl", "out of registers");
   }
 };
 
-TEST(Worker, ErrorsBecomeAStateAndTheWorkerGoesOn)
-{
+TEST(Worker, ErrorsBecomeAStateAndTheWorkerGoesOn) {
   Worker worker;
   EXPECT_EQ(end_of(worker, [] { return std::make_unique<FailingJob>(); }), job::State::failed);
   EXPECT_EQ(worker.status().error->line(), "trace.cl: out of registers");
   EXPECT_EQ(end_of(worker, []() -> std::unique_ptr<Job> { throw std::bad_alloc(); }), job::State::failed);
   EXPECT_EQ(worker.status().error->line(), "out of memory");
-  EXPECT_EQ(end_of(worker, []() -> std::unique_ptr<Job> { return nullptr; }), job::State::cancelled); // there is nothing to do
+  EXPECT_EQ(end_of(worker, []() -> std::unique_ptr<Job> { return nullptr; }),
+            job::State::cancelled); // there is nothing to do
   EXPECT_EQ(end_of(worker, counting(1)), job::State::finished);
 }
 
-TEST(Worker, ReadersNeverWaitForAStep)
-{
+TEST(Worker, ReadersNeverWaitForAStep) {
   /// Its one step lasts until it is let go.
   class HeldJob : public CountingJob {
   public:
     explicit HeldJob(std::future<void> let_go) : CountingJob(1), let_go_(std::move(let_go)) {}
-    void advance() override
-    {
+    void advance() override {
       let_go_.wait();
       ++count_;
     }
@@ -325,8 +301,7 @@ TEST(Worker, ReadersNeverWaitForAStep)
   EXPECT_EQ(worker.status().state, job::State::finished);
 }
 
-TEST(Worker, DestructionMidStepCancelsAndFreesTheJob)
-{
+TEST(Worker, DestructionMidStepCancelsAndFreesTheJob) {
   std::atomic<int> alive{0};
   {
     Worker worker;
@@ -336,8 +311,7 @@ TEST(Worker, DestructionMidStepCancelsAndFreesTheJob)
   EXPECT_EQ(alive, 0);
 }
 
-TEST(Worker, ManyReadersAndCommandsAtOnce)
-{
+TEST(Worker, ManyReadersAndCommandsAtOnce) {
   Worker worker;
   worker.set_snapshot_interval(0ms);
   std::vector<std::jthread> threads;
@@ -358,8 +332,7 @@ TEST(Worker, ManyReadersAndCommandsAtOnce)
   EXPECT_EQ(end_of(worker, counting(2)), job::State::finished);
 }
 
-TEST(Worker, TellsTheSpectrumOfThePixelThatIsWatched)
-{
+TEST(Worker, TellsTheSpectrumOfThePixelThatIsWatched) {
   Worker worker;
   worker.set_snapshot_interval(0ms);
   worker.start(with_spectra(endless));
@@ -368,7 +341,8 @@ TEST(Worker, TellsTheSpectrumOfThePixelThatIsWatched)
   worker.watch_spectrum(std::array{1, 2});
   ASSERT_TRUE(tells(worker, {1, 2}));
   const double first = worker.spectrum()->layers[0].radiance[0];
-  EXPECT_TRUE(eventually([&] { return worker.spectrum()->layers[0].radiance[0] > first; })) << "it goes on with the run";
+  EXPECT_TRUE(eventually([&] { return worker.spectrum()->layers[0].radiance[0] > first; }))
+      << "it goes on with the run";
   worker.watch_spectrum(std::nullopt);
   EXPECT_EQ(worker.spectrum(), nullptr);
   worker.watch_spectrum(std::array{1, 1});
@@ -377,8 +351,7 @@ TEST(Worker, TellsTheSpectrumOfThePixelThatIsWatched)
   EXPECT_EQ(worker.spectrum(), nullptr);
 }
 
-TEST(Worker, APausedAndAFinishedJobTellSpectraWithoutAnotherPicture)
-{
+TEST(Worker, APausedAndAFinishedJobTellSpectraWithoutAnotherPicture) {
   Worker worker;
   worker.set_snapshot_interval(0ms);
   worker.start(with_spectra(endless));
@@ -401,8 +374,7 @@ TEST(Worker, APausedAndAFinishedJobTellSpectraWithoutAnotherPicture)
   EXPECT_EQ(worker.status().state, job::State::finished);
 }
 
-TEST(Worker, ASpectrumThatFailsIsTheState)
-{
+TEST(Worker, ASpectrumThatFailsIsTheState) {
   Worker worker;
   worker.start(with_spectra(5));
   worker.wait();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of actions, a file a menu but for the small ones. shell/menus.cpp and the buttons of panels are made of it. A new action is an
-// entry in one of these files.
+// The table of actions, a file a menu but for the small ones. shell/menus.cpp and the buttons of panels are made of it.
+// A new action is an entry in one of these files.
 #pragma once
 #include "ui/widgets/action.h"
 
@@ -21,28 +21,24 @@ inline bool always(C) { return true; }
 inline bool has_preset(C c) { return c.preset() != nullptr; }
 inline bool has_picture(C c) { return c.run.snapshot() != nullptr; }
 
-inline Action repeating(Action action)
-{
+inline Action repeating(Action action) {
   action.repeats = true;
   return action;
 }
 /// What can be on or off.
-inline Action switching(Action action, std::function<bool(C)> is_on)
-{
+inline Action switching(Action action, std::function<bool(C)> is_on) {
   action.checked = std::move(is_on);
   return action;
 }
 
 /// Pushes a command without arguments.
 template <class Pushed>
-void push(C c)
-{
+void push(C c) {
   c.push(Pushed{});
 }
 
 template <Question question>
-void ask(C c)
-{
+void ask(C c) {
   c.push(command::Ask{question});
 }
 

@@ -12,24 +12,21 @@ namespace nephroid::ui {
 namespace {
 
 template <class Change>
-void change_view(C c, Change change)
-{
+void change_view(C c, Change change) {
   ViewSettings view_settings = c.view_settings();
   change(view_settings);
   c.push(command::SetViewSettings{view_settings});
 }
 
 template <int half_stops>
-void expose(C c)
-{
+void expose(C c) {
   change_view(c, [](ViewSettings& l) { l.exposure_stops += half_stops / 2.0; });
 }
 
 /// There is a picture in the View, the run's or another.
 bool is_shown(C c) { return c.comparing.source() != nullptr; }
 
-void actual_size(C c)
-{
+void actual_size(C c) {
   const job::Picture& picture = *c.comparing.source();
   change_view(c, [&](ViewSettings& l) {
     l.fit = false;
@@ -39,33 +36,30 @@ void actual_size(C c)
 }
 
 bool has_layers(C c) { return c.comparing.source() && !c.comparing.source()->layers.empty(); }
-std::string no_layers(C c)
-{
+std::string no_layers(C c) {
   if (c.comparing.comparison().shown != 0) return c.comparing.name() + " has no layers";
   return has_picture(c) ? "this engine's picture has no layers" : "there is no picture yet";
 }
 
 /// All of the light, then each layer, and round again; back where step is -1.
 template <int step>
-void next_layer(C c)
-{
+void next_layer(C c) {
   const std::vector<job::Layer>& layers = c.comparing.source()->layers;
-  const auto now =
-      std::find_if(layers.begin(), layers.end(), [&](const job::Layer& l) { return l.name == c.comparing.comparison().layer; });
+  const auto now = std::find_if(layers.begin(), layers.end(),
+                                [&](const job::Layer& l) { return l.name == c.comparing.comparison().layer; });
   const auto count = std::ssize(layers) + 1;
   const auto next = ((now == layers.end() ? 0 : now - layers.begin() + 1) + step + count) % count;
   c.push(command::ShowLayer{next == 0 ? "" : layers[static_cast<std::size_t>(next - 1)].name});
 }
 
-Action tone_action(const char* name, const char* help, ToneCurve curve)
-{
+Action tone_action(const char* name, const char* help, ToneCurve curve) {
   return switching({name, 0, help, always, [curve](C c) { change_view(c, [&](ViewSettings& l) { l.tone = curve; }); }},
                    [curve](C c) { return c.view_state.view_settings.tone == curve; });
 }
 
-void next_tone(C c)
-{
-  change_view(c, [](ViewSettings& l) { l.tone = static_cast<ToneCurve>((static_cast<int>(l.tone) + 1) % tone_curves); });
+void next_tone(C c) {
+  change_view(c,
+              [](ViewSettings& l) { l.tone = static_cast<ToneCurve>((static_cast<int>(l.tone) + 1) % tone_curves); });
 }
 
 bool has_pixel(C c) { return c.view_state.pixel.has_value(); }
@@ -73,24 +67,24 @@ bool has_pixel(C c) { return c.view_state.pixel.has_value(); }
 bool can_step(C c) { return has_pixel(c) && c.selection() == Selection{}; }
 
 /// The pixel in the middle of what is shown; none where one was.
-void inspect(C c)
-{
+void inspect(C c) {
   if (c.view_state.pixel) return c.push(command::InspectPixel{});
   const job::Picture& picture = *c.comparing.source();
   const ViewSettings view_settings = c.view_settings();
   const auto middle = [&](std::size_t i, int length) {
-    return std::clamp(view_settings.fit ? length / 2 : static_cast<int>(std::clamp(view_settings.centre[i], 0.0, 1e9)), 0, length - 1);
+    return std::clamp(view_settings.fit ? length / 2 : static_cast<int>(std::clamp(view_settings.centre[i], 0.0, 1e9)),
+                      0, length - 1);
   };
   c.push(command::InspectPixel{std::array{middle(0, picture.width), middle(1, picture.height)}});
 }
 
 template <int dx, int dy>
-void move_pixel(C c)
-{
+void move_pixel(C c) {
   if (!is_shown(c)) return;
   const job::Picture& picture = *c.comparing.source();
   const auto [x, y] = *c.view_state.pixel;
-  c.push(command::InspectPixel{std::array{std::clamp(x + dx, 0, picture.width - 1), std::clamp(y + dy, 0, picture.height - 1)}});
+  c.push(command::InspectPixel{
+      std::array{std::clamp(x + dx, 0, picture.width - 1), std::clamp(y + dy, 0, picture.height - 1)}});
 }
 
 std::string no_pixel(C) { return "no pixel is inspected"; }
@@ -98,37 +92,40 @@ void copy_pixel(C c) { ImGui::SetClipboardText(pixel_as_text(c, *c.view_state.pi
 
 bool has_region(C c) { return c.view_state.region.has_value(); }
 
-void whole_region(C c)
-{
+void whole_region(C c) {
   const job::Picture& picture = *c.comparing.source();
-  c.push(command::SelectRegion{c.view_state.region ? std::nullopt : std::optional(PixelRegion{{0, 0}, {picture.width, picture.height}})});
+  c.push(command::SelectRegion{
+      c.view_state.region ? std::nullopt : std::optional(PixelRegion{{0, 0}, {picture.width, picture.height}})});
 }
 
 } // namespace
 
-std::vector<Action> view_actions()
-{
+std::vector<Action> view_actions() {
   return {
-      {"Fit", ImGuiKey_F, "The whole picture in the panel", is_shown, [](C c) { change_view(c, [](ViewSettings& l) { l.fit = true; }); }},
+      {"Fit", ImGuiKey_F, "The whole picture in the panel", is_shown,
+       [](C c) { change_view(c, [](ViewSettings& l) { l.fit = true; }); }},
       {"Actual size", shift | ImGuiKey_F, "One pixel of the picture is one of the screen", is_shown, actual_size},
       repeating({"Brighter", ImGuiKey_E, "Half a stop more exposure", always, expose<1>}),
       repeating({"Darker", shift | ImGuiKey_E, "Half a stop less exposure", always, expose<-1>}),
-      {"Exposure 0", ImGuiKey_0, "The picture as image.png shows it", always, [](C c) { change_view(c, [](ViewSettings& l) { l.exposure_stops = 0; }); }},
-      {"Next layer", ImGuiKey_L, "All of the light, then each layer of the picture", has_layers, next_layer<1>, no_layers},
+      {"Exposure 0", ImGuiKey_0, "The picture as image.png shows it", always,
+       [](C c) { change_view(c, [](ViewSettings& l) { l.exposure_stops = 0; }); }},
+      {"Next layer", ImGuiKey_L, "All of the light, then each layer of the picture", has_layers, next_layer<1>,
+       no_layers},
       {"Previous layer", shift | ImGuiKey_L, "The same the other way round", has_layers, next_layer<-1>, no_layers},
       {"Next tone curve", ImGuiKey_T, "As image.png, filmic, false colour", always, next_tone},
       tone_action("Tone as image.png", "sRGB, clipped at 1", ToneCurve::standard),
       tone_action("Filmic tone", "A soft shoulder for pictures with a wide range", ToneCurve::filmic),
       tone_action("False colour", "The luminance as a colour, on a logarithmic scale", ToneCurve::false_colour),
-      {"Inspect pixel", ImGuiKey_I, "The pixel in the middle, or none; Alt and a click takes another", is_shown, inspect, nullptr, nullptr,
-       has_pixel},
+      {"Inspect pixel", ImGuiKey_I, "The pixel in the middle, or none; Alt and a click takes another", is_shown,
+       inspect, nullptr, nullptr, has_pixel},
       repeating({"Pixel to the left", ImGuiKey_LeftArrow, "Inspect the pixel beside", can_step, move_pixel<-1, 0>}),
       repeating({"Pixel to the right", ImGuiKey_RightArrow, "Inspect the pixel beside", can_step, move_pixel<1, 0>}),
       repeating({"Pixel above", ImGuiKey_UpArrow, "Inspect the pixel above", can_step, move_pixel<0, -1>}),
       repeating({"Pixel below", ImGuiKey_DownArrow, "Inspect the pixel below", can_step, move_pixel<0, 1>}),
-      {"Copy pixel", 0, "The values of the pixel that is inspected, with tabs between", has_pixel, copy_pixel, no_pixel},
-      {"Statistics of the picture", shift | ImGuiKey_I, "Of all its pixels, or none; Alt and a drag takes a rectangle", is_shown,
-       whole_region, nullptr, nullptr, has_region},
+      {"Copy pixel", 0, "The values of the pixel that is inspected, with tabs between", has_pixel, copy_pixel,
+       no_pixel},
+      {"Statistics of the picture", shift | ImGuiKey_I, "Of all its pixels, or none; Alt and a drag takes a rectangle",
+       is_shown, whole_region, nullptr, nullptr, has_region},
       {"Find a preset", ctrl | ImGuiKey_P, "The panel Presets, to type what is looked for", always,
        [](C c) {
          c.push(command::ShowPanel{"presets", true});

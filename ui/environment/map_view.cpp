@@ -11,16 +11,16 @@
 namespace nephroid::ui {
 namespace {
 
-constexpr double least_radius = 1.5, radius_of_all = 14; ///< of a disc, in pixels at scale 1; its area grows with the flux
-constexpr double least_circle = 2.5;                     ///< a smaller disc is a square: of thousands circles would be slow
-constexpr int outline_points = 16;                       ///< along a side of a region
+constexpr double least_radius = 1.5,
+                 radius_of_all = 14; ///< of a disc, in pixels at scale 1; its area grows with the flux
+constexpr double least_circle = 2.5; ///< a smaller disc is a square: of thousands circles would be slow
+constexpr int outline_points = 16;   ///< along a side of a region
 constexpr ImU32 marked_colour = IM_COL32(255, 255, 255, 255);
 
 /// 0..1.
 double wrapped(double u) { return u - std::floor(u); }
 
-void draw_disc(ImDrawList& list, const ImVec2& at, double radius, ImU32 fill)
-{
+void draw_disc(ImDrawList& list, const ImVec2& at, double radius, ImU32 fill) {
   const auto r = static_cast<float>(radius * scale());
   const float rim = r + std::max(1.0f, scale());
   if (radius < least_circle) {
@@ -34,14 +34,12 @@ void draw_disc(ImDrawList& list, const ImVec2& at, double radius, ImU32 fill)
 
 } // namespace
 
-const environment::Region& region_of(const environment::Segmentation& segmentation, std::size_t index)
-{
+const environment::Region& region_of(const environment::Segmentation& segmentation, std::size_t index) {
   const std::size_t lights = segmentation.lights.size();
   return index < lights ? segmentation.lights[index] : segmentation.dropped.at(index - lights);
 }
 
-MapDrag MapView::draw(const MapContents& contents, float most_height)
-{
+MapDrag MapView::draw(const MapContents& contents, float most_height) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const double free = std::max(16.0f, ImGui::GetContentRegionAvail().x), ratio = aspect(contents.layout);
   const double width = std::floor(std::min(free, most_height * ratio)), height = std::floor(width / ratio);
@@ -73,8 +71,7 @@ MapDrag MapView::draw(const MapContents& contents, float most_height)
   return drag;
 }
 
-void MapView::draw_picture(const MapContents& contents)
-{
+void MapView::draw_picture(const MapContents& contents) {
   const std::shared_ptr<const MapPicture>& picture = contents.shown.picture;
   if (!picture || picture->size.layout != contents.layout) return;
   if (picture != in_texture_) {
@@ -96,28 +93,27 @@ void MapView::draw_picture(const MapContents& contents)
   if (from > 0) list.AddImage(texture_.ref(), {x, top}, {static_cast<float>(right), bottom}, {0, 0}, {u, 1});
 }
 
-std::array<double, 2> MapView::to_screen(const MapContents& contents, const glm::dvec3& direction) const
-{
+std::array<double, 2> MapView::to_screen(const MapContents& contents, const glm::dvec3& direction) const {
   glm::dvec2 at = place_of(contents.layout, direction);
   if (contents.layout == MapLayout::latitude_longitude) at.x = wrapped(at.x - contents.rotate_deg / 360);
   return {area_[0] + at.x * area_[2], area_[1] + at.y * area_[3]};
 }
 
-std::optional<std::size_t> MapView::region_at(const MapContents& contents, const std::array<double, 2>& mouse) const
-{
+std::optional<std::size_t> MapView::region_at(const MapContents& contents, const std::array<double, 2>& mouse) const {
   if (!contents.shown.cut) return std::nullopt;
   glm::dvec2 at{(mouse[0] - area_[0]) / area_[2], (mouse[1] - area_[1]) / area_[3]};
   if (contents.layout == MapLayout::latitude_longitude) at.x = wrapped(at.x + contents.rotate_deg / 360);
   const auto point = cube_point(contents.layout, at);
   if (!point) return std::nullopt;
   const environment::CubeMap cube{contents.shown.cut->segmentation.cube_size, {}};
-  const std::size_t texel = cube.texel(point->face, environment::texel_of(point->s, cube.size), environment::texel_of(point->t, cube.size));
+  const std::size_t texel =
+      cube.texel(point->face, environment::texel_of(point->s, cube.size), environment::texel_of(point->t, cube.size));
   return static_cast<std::size_t>(contents.shown.cut->region_of_texel.at(texel));
 }
 
-/// The brightest first, so that small ones are seen on top. What is hidden of a light is missing from its disc's colour.
-void MapView::draw_lights(const MapContents& contents) const
-{
+/// The brightest first, so that small ones are seen on top. What is hidden of a light is missing from its disc's
+/// colour.
+void MapView::draw_lights(const MapContents& contents) const {
   const std::vector<environment::Region>& lights = contents.shown.cut->segmentation.lights;
   if (contents.figures.size() < lights.size()) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -129,14 +125,14 @@ void MapView::draw_lights(const MapContents& contents) const
     const RegionFigures& figures = contents.figures[i];
     const double shown = 1 - figures.occluded.value_or(0);
     const auto channel = [&](std::size_t c) { return static_cast<int>(std::lround(shown * figures.colour.at(c))); };
-    draw_disc(list, vec(to_screen(contents, lights[i].direction)), least_radius + radius_of_all * std::sqrt(figures.share),
+    draw_disc(list, vec(to_screen(contents, lights[i].direction)),
+              least_radius + radius_of_all * std::sqrt(figures.share),
               IM_COL32(channel(0), channel(1), channel(2), 255));
   }
 }
 
 /// Where the direction -z of the scene is: a cross, and the word.
-void MapView::draw_front(const MapContents& contents) const
-{
+void MapView::draw_front(const MapContents& contents) const {
   const ImVec2 at = vec(to_screen(contents, environment::turned({0, 0, -1}, -contents.rotate_deg)));
   const float arm = 7 * scale();
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -151,12 +147,12 @@ void MapView::draw_front(const MapContents& contents) const
   list.AddText(text, colour::on_dark, word);
 }
 
-void MapView::draw_outline(const MapContents& contents, const environment::Region& region) const
-{
+void MapView::draw_outline(const MapContents& contents, const environment::Region& region) const {
   const int size = contents.shown.cut->segmentation.cube_size;
   // A little inside of the face, whose edges belong to its neighbours too.
   const auto line = [&](int i) { return 0.9999 * environment::border(i, size); };
-  const double s0 = line(region.rect.x0), s1 = line(region.rect.x1), t0 = line(region.rect.y0), t1 = line(region.rect.y1);
+  const double s0 = line(region.rect.x0), s1 = line(region.rect.x1), t0 = line(region.rect.y0),
+               t1 = line(region.rect.y1);
   const std::array<glm::dvec2, 5> corners{{{s0, t0}, {s1, t0}, {s1, t1}, {s0, t1}, {s0, t0}}};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (const auto& [colour, width] : {std::pair{colour::outline, 4.0f}, std::pair{marked_colour, 2.0f}})

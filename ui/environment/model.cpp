@@ -18,8 +18,7 @@ namespace {
 using environment::SegmentMethod;
 using environment::SegmentSettings;
 
-std::shared_ptr<const ReadMap> read(const MapSource& source)
-{
+std::shared_ptr<const ReadMap> read(const MapSource& source) {
   auto read_map = std::make_shared<ReadMap>();
   const Place where = Place(source.preset) / "scene" / "environment";
   const FileFinder finder(std::filesystem::path(source.preset).parent_path());
@@ -31,8 +30,7 @@ std::shared_ptr<const ReadMap> read(const MapSource& source)
   return read_map;
 }
 
-std::shared_ptr<const CutMap> cut(const ReadMap& map, const SegmentSettings& settings)
-{
+std::shared_ptr<const CutMap> cut(const ReadMap& map, const SegmentSettings& settings) {
   auto cut_map = std::make_shared<CutMap>();
   cut_map->settings = settings;
   cut_map->segmentation = environment::segment(map.cube, settings);
@@ -40,8 +38,7 @@ std::shared_ptr<const CutMap> cut(const ReadMap& map, const SegmentSettings& set
   return cut_map;
 }
 
-Colour colour_of(const glm::dvec3& flux)
-{
+Colour colour_of(const glm::dvec3& flux) {
   const double most = std::max({flux.x, flux.y, flux.z});
   if (!(most > 0)) return {};
   const auto byte = [&](double value) { return shown_byte(static_cast<float>(value / most)); };
@@ -50,8 +47,7 @@ Colour colour_of(const glm::dvec3& flux)
 
 } // namespace
 
-WantedMap wanted_map(const preset::Preset& preset, const MapPictureSize& picture)
-{
+WantedMap wanted_map(const preset::Preset& preset, const MapPictureSize& picture) {
   WantedMap wanted{{preset.scene.environment.value(), preset.source}, std::nullopt, picture};
   wanted.source.environment.radiance = 1;
   wanted.source.environment.rotate_deg = 0;
@@ -63,8 +59,7 @@ WantedMap wanted_map(const preset::Preset& preset, const MapPictureSize& picture
   return wanted;
 }
 
-void EnvironmentModel::want(const WantedMap& wanted, TaskQueue& tasks)
-{
+void EnvironmentModel::want(const WantedMap& wanted, TaskQueue& tasks) {
   wanted_ = wanted;
   const Step step = next();
   if (step == Step::none || tasks.busy(steps_)) return;
@@ -78,9 +73,9 @@ void EnvironmentModel::want(const WantedMap& wanted, TaskQueue& tasks)
       });
 }
 
-/// What is seen first comes first. A point of the quality is a step of its own, so that it holds nothing else up for long.
-EnvironmentModel::Step EnvironmentModel::next() const
-{
+/// What is seen first comes first. A point of the quality is a step of its own, so that it holds nothing else up for
+/// long.
+EnvironmentModel::Step EnvironmentModel::next() const {
   if (!wanted_) return Step::none;
   if (refused_ && refused_->source == wanted_->source && refused_->segments == wanted_->segments) return Step::none;
   if (!shown_.map || shown_.source != wanted_->source) return Step::read;
@@ -94,8 +89,7 @@ EnvironmentModel::Step EnvironmentModel::next() const
   return shown_.quality[1].size() < quality_lights.size() ? Step::quality : Step::none;
 }
 
-ShownMap EnvironmentModel::take_step(Step step, const WantedMap& wanted, ShownMap shown)
-{
+ShownMap EnvironmentModel::take_step(Step step, const WantedMap& wanted, ShownMap shown) {
   const auto error_of = [&](const environment::Segmentation& segmentation) {
     return environment::irradiance_error(*shown.truth, segmentation);
   };
@@ -113,8 +107,8 @@ ShownMap EnvironmentModel::take_step(Step step, const WantedMap& wanted, ShownMa
       if (shown.picture && shown.picture->size == wanted.picture)
         picture->under = shown.picture->under;
       else
-        picture->under = std::make_shared<PixelsOfMap>(
-            PixelsOfMap{colours_under(wanted.picture, shown.map->picture), texels_under(wanted.picture, shown.map->cube.size)});
+        picture->under = std::make_shared<PixelsOfMap>(PixelsOfMap{colours_under(wanted.picture, shown.map->picture),
+                                                                   texels_under(wanted.picture, shown.map->cube.size)});
       if (wanted.segments) picture->cut = shown.cut;
       picture->rgba = drawn(wanted.picture, picture->under->colours, picture->under->texels,
                             picture->cut ? picture->cut->region_of_texel : std::vector<int>());
@@ -124,9 +118,11 @@ ShownMap EnvironmentModel::take_step(Step step, const WantedMap& wanted, ShownMa
     } else if (step == Step::error) {
       shown.cut_error = error_of(shown.cut->segmentation);
     } else {
-      const std::size_t method = shown.quality[1].size() < shown.quality[0].size() ? 1 : 0; // the one with fewer points so far
+      const std::size_t method =
+          shown.quality[1].size() < shown.quality[0].size() ? 1 : 0; // the one with fewer points so far
       Quality& points = shown.quality.at(method);
-      const SegmentSettings settings{.lights = quality_lights.at(points.size()), .method = static_cast<SegmentMethod>(method)};
+      const SegmentSettings settings{.lights = quality_lights.at(points.size()),
+                                     .method = static_cast<SegmentMethod>(method)};
       points.push_back(error_of(environment::segment(shown.map->cube, settings)));
     }
   } catch (const std::exception& error) {
@@ -138,8 +134,7 @@ ShownMap EnvironmentModel::take_step(Step step, const WantedMap& wanted, ShownMa
 }
 
 std::vector<RegionFigures> figures_of(const environment::Segmentation& segmentation, double radiance, double rotate_deg,
-                                      const std::vector<double>& visible)
-{
+                                      const std::vector<double>& visible) {
   const double total = environment::luminance(segmentation.total_flux);
   std::vector<RegionFigures> figures;
   for (const auto* regions : {&segmentation.lights, &segmentation.dropped})
@@ -159,8 +154,7 @@ std::vector<RegionFigures> figures_of(const environment::Segmentation& segmentat
   return figures;
 }
 
-std::vector<double> visible_shares(const job::Snapshot& snapshot, std::size_t lights)
-{
+std::vector<double> visible_shares(const job::Snapshot& snapshot, std::size_t lights) {
   for (const job::Curve& curve : snapshot.curves) {
     if (curve.name != "lights" || curve.rows.size() != lights) continue;
     const auto column = std::find(curve.columns.begin(), curve.columns.end(), "visible");
@@ -176,8 +170,7 @@ std::vector<double> visible_shares(const job::Snapshot& snapshot, std::size_t li
   return {};
 }
 
-double dragged_rotation(double start_deg, double across, MapLayout layout)
-{
+double dragged_rotation(double start_deg, double across, MapLayout layout) {
   const double turned_deg = start_deg + (layout == MapLayout::cube ? 360 : -360) * across;
   return std::round(10 * std::remainder(turned_deg, 360.0)) / 10;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the panel "Environment" shows of a preset: its map, read once, as a cube and as a picture; the lights that it is cut into; how well
-// as many lights as one likes would do. Made beside the frames, what is seen first. And what a person reads of the lights. No Dear ImGui.
+// What the panel "Environment" shows of a preset: its map, read once, as a cube and as a picture; the lights that it is
+// cut into; how well as many lights as one likes would do. Made beside the frames, what is seen first. And what a
+// person reads of the lights. No Dear ImGui.
 #pragma once
 #include "environment/segment/picture.h"
 #include "job/job.h"
@@ -10,8 +11,8 @@
 namespace nephroid::ui {
 
 /// The environment as a flat picture, in the map's own frame, not turned by rotate_deg.
-/// latitude_longitude: -z in the middle, +x to the right of it, +y at the top. cube: the same as a cross of 4 x 3 faces seen from inside;
-/// -x, -z, +x, +z from left to right, +y above and -y below -z.
+/// latitude_longitude: -z in the middle, +x to the right of it, +y at the top. cube: the same as a cross of 4 x 3 faces
+/// seen from inside; -x, -z, +x, +z from left to right, +y above and -y below -z.
 enum class MapLayout { latitude_longitude, cube };
 
 /// Width over height.
@@ -31,15 +32,17 @@ glm::dvec2 place_of(MapLayout layout, const glm::dvec3& direction);
 
 using Colour = std::array<unsigned char, 3>;
 
-/// Of each pixel, row 0 at the top; black beside the cross. map: in latitude and longitude, as environment::shown_map makes it.
+/// Of each pixel, row 0 at the top; black beside the cross. map: in latitude and longitude, as environment::shown_map
+/// makes it.
 std::vector<Colour> colours_under(const MapPictureSize& size, const environment::SegmentPicture& map);
 /// The texel of the cube under each pixel's middle; -1 beside the cross. cube_size: as CubeMap::size.
 std::vector<int> texels_under(const MapPictureSize& size, int cube_size);
 /// Of each texel of the cube the index of its region: first the lights, then those that were dropped.
 std::vector<int> regions_of_texels(const environment::Segmentation& segmentation);
-/// 4 bytes a pixel; transparent beside the cross. Of the first two, and with lines between the regions of the third; empty: without.
-std::vector<unsigned char> drawn(const MapPictureSize& size, const std::vector<Colour>& colours, const std::vector<int>& texels,
-                                 const std::vector<int>& regions);
+/// 4 bytes a pixel; transparent beside the cross. Of the first two, and with lines between the regions of the third;
+/// empty: without.
+std::vector<unsigned char> drawn(const MapPictureSize& size, const std::vector<Colour>& colours,
+                                 const std::vector<int>& texels, const std::vector<int>& regions);
 
 /// How many lights the plot of quality has points of.
 inline constexpr std::array quality_lights{6, 8, 12, 16, 24, 32, 48, 64, 128, 256};
@@ -104,8 +107,8 @@ struct ShownMap {
 
 class EnvironmentModel {
 public:
-  /// Once a frame, returns at once: begins what is missing, one thing after the other. What is in the making for something else is finished
-  /// and dropped.
+  /// Once a frame, returns at once: begins what is missing, one thing after the other. What is in the making for
+  /// something else is finished and dropped.
   void want(const WantedMap& wanted, TaskQueue& tasks);
   const ShownMap& shown() const { return shown_; }
   /// Whether nothing of what is wanted is missing, but for what an error says.
@@ -137,17 +140,17 @@ struct RegionFigures {
   std::optional<double> occluded; ///< 0..1, where a run says so
 };
 
-/// One each of the lights, then of the dropped regions, whose flux is counted in a light's. radiance: what the segmentation's flux, of a
-/// map of radiance 1, is multiplied by. visible: as visible_shares gives it.
+/// One each of the lights, then of the dropped regions, whose flux is counted in a light's. radiance: what the
+/// segmentation's flux, of a map of radiance 1, is multiplied by. visible: as visible_shares gives it.
 std::vector<RegionFigures> figures_of(const environment::Segmentation& segmentation, double radiance, double rotate_deg,
                                       const std::vector<double>& visible);
 
-/// Of a run's curve "lights", its column "visible": the part of each light that no occluder hides, 0..1, in the order of the segmentation.
-/// Empty where the snapshot has no such curve of so many lights, or a value is no such part.
+/// Of a run's curve "lights", its column "visible": the part of each light that no occluder hides, 0..1, in the order
+/// of the segmentation. Empty where the snapshot has no such curve of so many lights, or a value is no such part.
 std::vector<double> visible_shares(const job::Snapshot& snapshot, std::size_t lights);
 
-/// rotate_deg, -180..180 and in tenths, after the mouse went `across` widths of the picture to the right. In latitude and longitude the map
-/// goes with the mouse. In the cube, which lies still, the mark of the scene's front does.
+/// rotate_deg, -180..180 and in tenths, after the mouse went `across` widths of the picture to the right. In latitude
+/// and longitude the map goes with the mouse. In the cube, which lies still, the mark of the scene's front does.
 double dragged_rotation(double start_deg, double across, MapLayout layout);
 
 } // namespace nephroid::ui

@@ -23,8 +23,7 @@ namespace {
 constexpr double to_percent = 100;
 constexpr double room = 1.3; ///< beside the outermost points, as a factor
 
-void plot_method(const std::string& name, const Quality& errors)
-{
+void plot_method(const std::string& name, const Quality& errors) {
   std::vector<double> lights, values;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (!(errors[i] > 0)) continue;
@@ -47,11 +46,12 @@ bool is_engine_2(const preset::Preset& preset) { return &preset.settings.type() 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
 /// What is said of the region under the mouse. number: from 0; lights: how many regions are lights.
-std::string text_of(const RegionFigures& f, std::size_t number, std::size_t lights)
-{
-  std::string text = number < lights ? fmt::format("Light {}\n{:.4g} W/m^2, {} of all\n", number + 1, f.flux, percent(f.share))
-                                     : std::string("Too dark to be a light of its own\n");
-  text += fmt::format("azimuth {:.1f}, elevation {:.1f} degrees\n{:.3g} sr", f.azimuth_deg, f.elevation_deg, f.solid_angle_sr);
+std::string text_of(const RegionFigures& f, std::size_t number, std::size_t lights) {
+  std::string text = number < lights
+                         ? fmt::format("Light {}\n{:.4g} W/m^2, {} of all\n", number + 1, f.flux, percent(f.share))
+                         : std::string("Too dark to be a light of its own\n");
+  text += fmt::format("azimuth {:.1f}, elevation {:.1f} degrees\n{:.3g} sr", f.azimuth_deg, f.elevation_deg,
+                      f.solid_angle_sr);
   if (number < lights) text += fmt::format("\ncolour #{:02x}{:02x}{:02x}", f.colour[0], f.colour[1], f.colour[2]);
   if (f.occluded) text += fmt::format("\n{} hidden", percent(*f.occluded));
   return text;
@@ -59,8 +59,7 @@ std::string text_of(const RegionFigures& f, std::size_t number, std::size_t ligh
 
 } // namespace
 
-std::array<double, 2> error_range(const ShownMap& shown)
-{
+std::array<double, 2> error_range(const ShownMap& shown) {
   double least = 0, most = 0;
   const auto widen = [&](double error) {
     if (!(error > 0)) return;
@@ -74,18 +73,18 @@ std::array<double, 2> error_range(const ShownMap& shown)
   return {least / room, most * room};
 }
 
-void QualityPlot::draw(const ShownMap& shown, float height)
-{
+void QualityPlot::draw(const ShownMap& shown, float height) {
   if (!begin_plot("##quality", height)) return;
   ImPlot::SetupAxes("lights", "irradiance error (%)");
   ImPlot::SetupAxisScale(ImAxis_X1, ImPlotScale_Log10);
   ImPlot::SetupAxisScale(ImAxis_Y1, ImPlotScale_Log10);
   const double lights = shown.cut ? shown.cut->settings.lights : quality_lights.front();
   const std::array<double, 2> range = error_range(shown);
-  ImPlot::SetupAxesLimits(quality_lights.front() / room, std::max<double>(quality_lights.back(), lights) * room, range[0], range[1],
-                          ImPlotCond_Always);
+  ImPlot::SetupAxesLimits(quality_lights.front() / room, std::max<double>(quality_lights.back(), lights) * room,
+                          range[0], range[1], ImPlotCond_Always);
   set_up_ticks(ImAxis_X1, {6, 8, 12, 16, 24, 32, 48, 64, 128, 256, 1024, 4096});
-  if (const std::vector<double> ticks = measure::round_levels(range[0], range[1]); ticks.size() > 1) set_up_ticks(ImAxis_Y1, ticks);
+  if (const std::vector<double> ticks = measure::round_levels(range[0], range[1]); ticks.size() > 1)
+    set_up_ticks(ImAxis_Y1, ticks);
   ImPlot::SetupLegend(ImPlotLocation_NorthEast);
   ImPlot::SetupFinish();
   for (const auto& choice : preset::choices<environment::SegmentMethod>)
@@ -106,16 +105,16 @@ void QualityPlot::draw(const ShownMap& shown, float height)
 
 bool EnvironmentPanel::serves(const preset::Preset& preset) { return preset.scene.environment || is_engine_2(preset); }
 
-void EnvironmentPanel::draw(const Context& context)
-{
+void EnvironmentPanel::draw(const Context& context) {
   places_.clear();
   const preset::Preset& preset = *context.preset();
   if (!preset.scene.environment) {
     action_button("Open map...", context);
     places_.note("open map");
-    draw_hint(colour::quiet_text, ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
-              "The preset has no environment: open a latitude-longitude picture (.hdr, .exr), drop one on the window, or add "
-              "scene.environment in Parameters");
+    draw_hint(
+        colour::quiet_text, ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
+        "The preset has no environment: open a latitude-longitude picture (.hdr, .exr), drop one on the window, or add "
+        "scene.environment in Parameters");
     return;
   }
   follow(context);
@@ -123,10 +122,11 @@ void EnvironmentPanel::draw(const Context& context)
   if (cuts_)
     draw_segmentation_row(context);
   else
-    draw_wrapped(colour::quiet_text,
-                 fmt::format("The engine \"{}\" takes the map as it is. How it is cut into lights is for presets of the "
-                             "engine \"environment\".",
-                             preset.settings.engine()));
+    draw_wrapped(
+        colour::quiet_text,
+        fmt::format("The engine \"{}\" takes the map as it is. How it is cut into lights is for presets of the "
+                    "engine \"environment\".",
+                    preset.settings.engine()));
   draw_radiance_row(context);
   if (cuts_) draw_caustics_row(context);
   if (!shown_.error.empty()) draw_wrapped(colour::error, shown_.error);
@@ -140,8 +140,7 @@ void EnvironmentPanel::draw(const Context& context)
 }
 
 /// Takes over what the preset says, and what is there of it so far.
-void EnvironmentPanel::follow(const Context& context)
-{
+void EnvironmentPanel::follow(const Context& context) {
   const preset::Preset& preset = *context.preset();
   environment_ = *preset.scene.environment;
   cuts_ = is_engine_2(preset);
@@ -155,8 +154,7 @@ void EnvironmentPanel::follow(const Context& context)
   make_figures(context);
 }
 
-void EnvironmentPanel::make_figures(const Context& context)
-{
+void EnvironmentPanel::make_figures(const Context& context) {
   FiguresOf of{shown_.cut, environment_.radiance, environment_.rotate_deg, {}};
   if (shown_.cut && context.run.snapshot() && context.run.snapshot_is_current())
     of.visible = visible_shares(*context.run.snapshot(), shown_.cut->segmentation.lights.size());
@@ -168,13 +166,14 @@ void EnvironmentPanel::make_figures(const Context& context)
   figures_ = ui::figures_of(of.cut->segmentation, of.radiance, of.rotate_deg, of.visible);
   by_flux_.resize(of.cut->segmentation.lights.size());
   std::iota(by_flux_.begin(), by_flux_.end(), std::size_t{0});
-  std::stable_sort(by_flux_.begin(), by_flux_.end(), [&](std::size_t a, std::size_t b) { return figures_[a].flux > figures_[b].flux; });
+  std::stable_sort(by_flux_.begin(), by_flux_.end(),
+                   [&](std::size_t a, std::size_t b) { return figures_[a].flux > figures_[b].flux; });
 }
 
-void EnvironmentPanel::draw_toolbar(const Context& context)
-{
-  for (const auto& [layout, name, help] : {std::tuple{MapLayout::latitude_longitude, "latitude, longitude", "As the map's file, turned"},
-                                           std::tuple{MapLayout::cube, "cube", "The six faces that are cut, as they are in the map"}}) {
+void EnvironmentPanel::draw_toolbar(const Context& context) {
+  for (const auto& [layout, name, help] :
+       {std::tuple{MapLayout::latitude_longitude, "latitude, longitude", "As the map's file, turned"},
+        std::tuple{MapLayout::cube, "cube", "The six faces that are cut, as they are in the map"}}) {
     if (ImGui::RadioButton(name, layout_ == layout)) layout_ = layout;
     places_.note(name, help);
     ImGui::SameLine();
@@ -186,14 +185,14 @@ void EnvironmentPanel::draw_toolbar(const Context& context)
   ImGui::SetNextItemWidth(-1);
   draw_dragged(context, gestures_,
                {"rotation", "turn the environment", environment_.rotate_deg, -3600, 3600, 0.5, "turned %.1f deg",
-                "About the vertical, counterclockwise as seen from above. Drag the picture sideways, or this; Ctrl and a click to type."},
+                "About the vertical, counterclockwise as seen from above. Drag the picture sideways, or this; Ctrl and "
+                "a click to type."},
                [](preset::Preset& p, double degrees) { p.scene.environment->rotate_deg = degrees; });
   ImGui::EndDisabled();
 }
 
 /// What engine 2 cuts the map into.
-void EnvironmentPanel::draw_segmentation_row(const Context& context)
-{
+void EnvironmentPanel::draw_segmentation_row(const Context& context) {
   const environment::Settings& settings = environment::settings(*context.preset());
   draw_label("Lights");
   ImGui::SetNextItemWidth(-13 * em());
@@ -209,17 +208,18 @@ void EnvironmentPanel::draw_segmentation_row(const Context& context)
   Combo list("##method", std::string(preset::word(settings.segmentation)), &places_, "method");
   for (const auto& choice : preset::choices<environment::SegmentMethod>)
     if (list.entry(std::string(choice.name), choice.value == settings.segmentation, std::string(choice.sentence)))
-      context.edit("method of segmentation", [&](preset::Preset& p) { environment::settings(p).segmentation = choice.value; });
+      context.edit("method of segmentation",
+                   [&](preset::Preset& p) { environment::settings(p).segmentation = choice.value; });
 }
 
 /// How bright it is, and what is too dark.
-void EnvironmentPanel::draw_radiance_row(const Context& context)
-{
+void EnvironmentPanel::draw_radiance_row(const Context& context) {
   draw_label("Radiance");
   ImGui::SetNextItemWidth(cuts_ ? -13 * em() : -1);
   draw_dragged(context, gestures_,
-               {"radiance", "radiance of the environment", environment_.radiance, 0, 1e9, std::max(1e-3, 0.005 * environment_.radiance),
-                "%.4g W/(m^2 sr)", "Luminance of the map's colour (1, 1, 1): drag it, or type with Ctrl and a click.",
+               {"radiance", "radiance of the environment", environment_.radiance, 0, 1e9,
+                std::max(1e-3, 0.005 * environment_.radiance), "%.4g W/(m^2 sr)",
+                "Luminance of the map's colour (1, 1, 1): drag it, or type with Ctrl and a click.",
                 ImGuiSliderFlags_NoRoundToFormat},
                [](preset::Preset& p, double radiance) { p.scene.environment->radiance = radiance; });
   if (!cuts_) return;
@@ -230,12 +230,12 @@ void EnvironmentPanel::draw_radiance_row(const Context& context)
   ImGui::InputDouble("##threshold", &threshold, 0, 0, "%.3g");
   places_.note("threshold", "A region with no more than this part of the map's light, 0 to 1, is no light of its own.");
   if (ImGui::IsItemDeactivatedAfterEdit() && std::isfinite(threshold))
-    context.edit("threshold of lights", [&](preset::Preset& p) { environment::settings(p).threshold = std::clamp(threshold, 0.0, 1.0); });
+    context.edit("threshold of lights",
+                 [&](preset::Preset& p) { environment::settings(p).threshold = std::clamp(threshold, 0.0, 1.0); });
 }
 
 /// Where engine 2 shows caustics.
-void EnvironmentPanel::draw_caustics_row(const Context& context)
-{
+void EnvironmentPanel::draw_caustics_row(const Context& context) {
   const environment::Settings& settings = environment::settings(*context.preset());
   draw_label("Caustics");
   bool cast = settings.cast;
@@ -243,7 +243,8 @@ void EnvironmentPanel::draw_caustics_row(const Context& context)
     context.edit("caustics on surfaces", [&](preset::Preset& p) { environment::settings(p).cast = cast; });
   ImGui::SameLine();
   bool in_air = settings.extinction > 0;
-  if (places_.checkbox("in the air", &in_air, "in the air", "Whether a thin medium shows them as beams: environment.extinction."))
+  if (places_.checkbox("in the air", &in_air, "in the air",
+                       "Whether a thin medium shows them as beams: environment.extinction."))
     context.edit("caustics in the air", [&](preset::Preset& p) {
       // Such that about a fifth of the light is lost on the way from what is looked at.
       const preset::Vec3 &at = p.scene.camera.position, &to = p.scene.camera.target;
@@ -253,18 +254,20 @@ void EnvironmentPanel::draw_caustics_row(const Context& context)
   ImGui::BeginDisabled(settings.extinction <= 0);
   ImGui::SetNextItemWidth(-1);
   draw_dragged(context, gestures_,
-               {"extinction", "extinction", settings.extinction, 1e-9, 1000, 0.01 * settings.extinction, "extinction %.3g",
-                "How thick that medium is: environment.extinction.", ImGuiSliderFlags_NoRoundToFormat},
+               {"extinction", "extinction", settings.extinction, 1e-9, 1000, 0.01 * settings.extinction,
+                "extinction %.3g", "How thick that medium is: environment.extinction.",
+                ImGuiSliderFlags_NoRoundToFormat},
                [](preset::Preset& p, double extinction) { environment::settings(p).extinction = extinction; });
   ImGui::EndDisabled();
 }
 
 MapContents EnvironmentPanel::contents() const { return {shown_, figures_, layout_, environment_.rotate_deg, row_}; }
 
-std::array<double, 2> EnvironmentPanel::place_on_map(const glm::dvec3& direction) const { return map_.to_screen(contents(), direction); }
+std::array<double, 2> EnvironmentPanel::place_on_map(const glm::dvec3& direction) const {
+  return map_.to_screen(contents(), direction);
+}
 
-void EnvironmentPanel::draw_map(const Context& context)
-{
+void EnvironmentPanel::draw_map(const Context& context) {
   const MapDrag drag = map_.draw(contents(), std::max(10 * em(), 0.42f * ImGui::GetWindowHeight()));
   if (!shown_.map && shown_.error.empty()) {
     const auto& [x, y, width, height] = map_.area();
@@ -280,29 +283,31 @@ void EnvironmentPanel::draw_map(const Context& context)
   if (drag.moved)
     context.edit(
         "turn the environment",
-        [&](preset::Preset& p) { p.scene.environment->rotate_deg = dragged_rotation(taken_deg_, drag.across, layout_); },
+        [&](preset::Preset& p) {
+          p.scene.environment->rotate_deg = dragged_rotation(taken_deg_, drag.across, layout_);
+        },
         gestures_.number(), true);
   if (drag.ended) context.push(command::EndGesture{});
 }
 
-void EnvironmentPanel::draw_summary() const
-{
+void EnvironmentPanel::draw_summary() const {
   const environment::Segmentation& cut = shown_.cut->segmentation;
   std::string text = fmt::format("{}, {:.4g} W/m^2 in all", counted(cut.lights.size(), "light"),
                                  environment_.radiance * environment::luminance(cut.total_flux));
-  if (!cut.dropped.empty()) text += fmt::format("; {} too dark", counted(cut.dropped.size(), "region is", "regions are"));
+  if (!cut.dropped.empty())
+    text += fmt::format("; {} too dark", counted(cut.dropped.size(), "region is", "regions are"));
   if (shown_.cut_error) text += fmt::format("; irradiance is wrong by {:.3g} %", 100 * *shown_.cut_error);
   draw_wrapped(colour::quiet_text, text);
 }
 
-void EnvironmentPanel::draw_table()
-{
+void EnvironmentPanel::draw_table() {
   row_.reset();
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg;
   const float height = std::max(8 * em(), ImGui::GetContentRegionAvail().y);
   if (!ImGui::BeginTable("lights", 7, flags, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  for (const char* name : {"Light", "", "Azimuth", "Elevation", "W/m^2", "Share", "Hidden"}) ImGui::TableSetupColumn(name);
+  for (const char* name : {"Light", "", "Azimuth", "Elevation", "W/m^2", "Share", "Hidden"})
+    ImGui::TableSetupColumn(name);
   ImGui::TableHeadersRow();
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(by_flux_.size()));
@@ -320,7 +325,8 @@ void EnvironmentPanel::draw_table()
       const ImVec2 at = ImGui::GetCursorScreenPos();
       const float side = ImGui::GetTextLineHeight();
       ImGui::Dummy({side, side});
-      ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side}, IM_COL32(f.colour[0], f.colour[1], f.colour[2], 255));
+      ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side},
+                                                IM_COL32(f.colour[0], f.colour[1], f.colour[2], 255));
       cell(fmt::format("{:.1f}", f.azimuth_deg));
       cell(fmt::format("{:.1f}", f.elevation_deg));
       cell(fmt::format("{:.3g}", f.flux));
@@ -330,8 +336,7 @@ void EnvironmentPanel::draw_table()
   ImGui::EndTable();
 }
 
-std::vector<PanelEntry> environment_panels()
-{
+std::vector<PanelEntry> environment_panels() {
   return {{.name = "environment",
            .title = EnvironmentPanel::title,
            .make = make_panel<EnvironmentPanel>,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Environment": the preset's surroundings as a picture that is turned with the mouse; for engine 2 the lights that they are cut
-// into, with their flux and what a run found to be hidden of them, how well as many lights do, and switches for caustics.
+// The panel "Environment": the preset's surroundings as a picture that is turned with the mouse; for engine 2 the
+// lights that they are cut into, with their flux and what a run found to be hidden of them, how well as many lights do,
+// and switches for caustics.
 #pragma once
 #include "ui/environment/model.h"
 #include "ui/widgets/panel.h"
@@ -9,8 +10,8 @@
 
 namespace nephroid::ui {
 
-/// The map on the screen: its picture with regions, the lights' directions as discs, where the scene's front is, and what the mouse does
-/// with it.
+/// The map on the screen: its picture with regions, the lights' directions as discs, where the scene's front is, and
+/// what the mouse does with it.
 struct MapContents {
   const ShownMap& shown;                     ///< whose picture may still be of another layout, which is not drawn
   const std::vector<RegionFigures>& figures; ///< of shown.cut; empty: no lights
@@ -69,8 +70,8 @@ private:
   PlotArea area_;
 };
 
-/// Where something of each error is to be seen on a logarithmic axis: in %, from below the least that is above 0 to above the largest. A
-/// decade below 10 % where there is none.
+/// Where something of each error is to be seen on a logarithmic axis: in %, from below the least that is above 0 to
+/// above the largest. A decade below 10 % where there is none.
 std::array<double, 2> error_range(const ShownMap& shown);
 
 class EnvironmentPanel : public Panel {

@@ -14,23 +14,24 @@
 namespace nephroid::ui {
 namespace {
 
-/// At most four points in each of 500 parts of the log time axis: the first, the lowest, the highest, the last. A plot is about
-/// as many pixels wide.
-measure::Curve thinned(const measure::Curve& curve)
-{
+/// At most four points in each of 500 parts of the log time axis: the first, the lowest, the highest, the last. A plot
+/// is about as many pixels wide.
+measure::Curve thinned(const measure::Curve& curve) {
   constexpr double parts = 500;
   const std::size_t count = curve.seconds.size();
   if (count < 4 * static_cast<std::size_t>(parts)) return curve;
   const double begin = std::log(curve.seconds.front()), width = (std::log(curve.seconds.back()) - begin) / parts;
-  const auto part_of = [&](std::size_t i) { return width > 0 ? std::floor((std::log(curve.seconds[i]) - begin) / width) : 0.0; };
+  const auto part_of = [&](std::size_t i) {
+    return width > 0 ? std::floor((std::log(curve.seconds[i]) - begin) / width) : 0.0;
+  };
   measure::Curve kept;
   for (std::size_t first = 0, end = 0; first < count; first = end) {
     const double part = part_of(first);
     for (end = first + 1; end < count && part_of(end) == part;) ++end;
     const auto at = [&](std::size_t i) { return curve.errors.begin() + static_cast<std::ptrdiff_t>(i); };
     const auto [low, high] = std::minmax_element(at(first), at(end));
-    std::array chosen{first, static_cast<std::size_t>(low - curve.errors.begin()), static_cast<std::size_t>(high - curve.errors.begin()),
-                      end - 1};
+    std::array chosen{first, static_cast<std::size_t>(low - curve.errors.begin()),
+                      static_cast<std::size_t>(high - curve.errors.begin()), end - 1};
     std::sort(chosen.begin(), chosen.end());
     const auto last = std::unique(chosen.begin(), chosen.end());
     for (auto i = chosen.begin(); i != last; ++i) {
@@ -46,17 +47,17 @@ double step_below(double value) { return std::pow(10.0, std::floor(8 * std::log1
 double step_above(double value) { return std::pow(10.0, std::ceil(8 * std::log10(value)) / 8); }
 
 /// The ends of an axis that shows all of values (infinity, 0: none), at least half a decade.
-std::array<double, 2> axis_ends(const std::array<double, 2>& values, double room, const std::array<double, 2>& without)
-{
+std::array<double, 2> axis_ends(const std::array<double, 2>& values, double room,
+                                const std::array<double, 2>& without) {
   if (!(values[1] > 0)) return without;
-  const double low = std::min(values[0] / room, std::sqrt(values[0] * values[1] / 3)), high = std::max(values[1] * room, low * 3);
+  const double low = std::min(values[0] / room, std::sqrt(values[0] * values[1] / 3)),
+               high = std::max(values[1] * room, low * 3);
   return {step_below(low), step_above(high)};
 }
 
 } // namespace
 
-RunLines lines_of(const job::History& history, const std::string& metric)
-{
+RunLines lines_of(const job::History& history, const std::string& metric) {
   const measure::RunCurves curves = measure::run_curves(history, metric, measure::is_error(history, metric));
   RunLines lines;
   lines.falls = curves.falls;
@@ -71,8 +72,7 @@ RunLines lines_of(const job::History& history, const std::string& metric)
   return lines;
 }
 
-std::optional<SpeedUp> speed_up(const RunLines& pinned, const RunLines& run)
-{
+std::optional<SpeedUp> speed_up(const RunLines& pinned, const RunLines& run) {
   if (!pinned.falls || !run.falls) return std::nullopt;
   const bool both_have_errors = !pinned.error.curve.seconds.empty() && !run.error.curve.seconds.empty();
   const measure::Curve& a = both_have_errors ? pinned.error.curve : pinned.estimate.curve;
@@ -84,8 +84,7 @@ std::optional<SpeedUp> speed_up(const RunLines& pinned, const RunLines& run)
   return equal ? std::optional(SpeedUp{*equal, !both_have_errors}) : std::nullopt;
 }
 
-std::optional<CurvePoint> nearest_point(const measure::Curve& curve, double seconds)
-{
+std::optional<CurvePoint> nearest_point(const measure::Curve& curve, double seconds) {
   if (curve.seconds.empty()) return std::nullopt;
   const auto after = std::lower_bound(curve.seconds.begin(), curve.seconds.end(), seconds);
   std::size_t index = std::min(static_cast<std::size_t>(after - curve.seconds.begin()), curve.seconds.size() - 1);
@@ -93,8 +92,7 @@ std::optional<CurvePoint> nearest_point(const measure::Curve& curve, double seco
   return CurvePoint{curve.seconds[index], curve.errors[index]};
 }
 
-PlotRange plot_range(std::span<const RunLines* const> runs, std::span<const double> extra_errors)
-{
+PlotRange plot_range(std::span<const RunLines* const> runs, std::span<const double> extra_errors) {
   constexpr double none = std::numeric_limits<double>::infinity();
   const bool is_linear = std::any_of(runs.begin(), runs.end(), [](const RunLines* run) { return !run->falls; });
   std::array<double, 2> seconds{none, -none}, errors{none, -none};
@@ -118,8 +116,7 @@ PlotRange plot_range(std::span<const RunLines* const> runs, std::span<const doub
   return {axis_ends(seconds, 1.1, empty.seconds), axis_ends(errors, 1.3, empty.errors)};
 }
 
-std::vector<double> axis_ticks(const std::array<double, 2>& ends)
-{
+std::vector<double> axis_ticks(const std::array<double, 2>& ends) {
   constexpr std::size_t most = 9;
   std::vector<double> ticks = measure::round_levels(ends[0], ends[1]);
   if (ticks.size() > most) {
@@ -133,13 +130,13 @@ std::vector<double> axis_ticks(const std::array<double, 2>& ends)
   return ticks;
 }
 
-std::string plot_csv(std::span<const NamedLines> runs, std::optional<double> target)
-{
+std::string plot_csv(std::span<const NamedLines> runs, std::optional<double> target) {
   std::string csv = "run,line,seconds,error\n";
   for (const NamedLines& run : runs) {
     const auto add = [&](const char* line, const measure::Curve& curve) {
       for (std::size_t i = 0; i < curve.seconds.size(); ++i)
-        fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", in_csv(run.name), line, curve.seconds[i], curve.errors[i]);
+        fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", in_csv(run.name), line, curve.seconds[i],
+                       curve.errors[i]);
     };
     add("error", run.lines.error.curve);
     add("estimate", run.lines.estimate.curve);

@@ -33,8 +33,8 @@ RunLines lines_of(const job::History& history, const std::string& metric);
 struct SpeedUp : measure::EqualError {
   bool by_estimate = false;
 };
-/// How much faster `run` came to the lowest error that both came to, well above the noise floor; nothing where there is none. Estimates are
-/// held against estimates, errors against errors.
+/// How much faster `run` came to the lowest error that both came to, well above the noise floor; nothing where there is
+/// none. Estimates are held against estimates, errors against errors.
 std::optional<SpeedUp> speed_up(const RunLines& pinned, const RunLines& run);
 
 /// The point nearest in log time; nothing of an empty curve.
@@ -43,9 +43,9 @@ struct CurvePoint {
 };
 std::optional<CurvePoint> nearest_point(const measure::Curve& curve, double seconds);
 
-/// Ends of the axes (seconds on a log axis, errors on one where they fall): all points of all curves and the extra errors (a floor, a
-/// target) with some room, in steps of an eighth of a decade, so that the axes of a growing curve rest most of the time, and at least half
-/// a decade. One decade each where there is nothing.
+/// Ends of the axes (seconds on a log axis, errors on one where they fall): all points of all curves and the extra
+/// errors (a floor, a target) with some room, in steps of an eighth of a decade, so that the axes of a growing curve
+/// rest most of the time, and at least half a decade. One decade each where there is nothing.
 struct PlotRange {
   std::array<double, 2> seconds{0.1, 1}, errors{0.1, 1};
 };

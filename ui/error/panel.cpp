@@ -18,8 +18,7 @@ constexpr const char* this_run = "this run";
 constexpr const char* nothing_measured = "nothing measured"; ///< in the box of metrics, as wide as any name of one
 
 /// Every metric of the run in hand and of the pinned ones, each once.
-std::vector<std::string> all_metrics(const Context& context)
-{
+std::vector<std::string> all_metrics(const Context& context) {
   std::vector<std::string> all;
   const auto add = [&](const job::History& history) {
     for (std::string& metric : measure::metric_names(history))
@@ -30,16 +29,15 @@ std::vector<std::string> all_metrics(const Context& context)
   return all;
 }
 
-std::string empty_hint(const Context& context)
-{
+std::string empty_hint(const Context& context) {
   if (!context.run.snapshot()) return "Nothing is measured yet";
-  if (!context.run.error_history()) return "This run is not measured: the preset has no reference, and measure.estimate is false";
+  if (!context.run.error_history())
+    return "This run is not measured: the preset has no reference, and measure.estimate is false";
   return "The first measurement is to come";
 }
 
 /// The target where it is about this metric.
-std::optional<double> target_of(const Context& context, const std::string& metric)
-{
+std::optional<double> target_of(const Context& context, const std::string& metric) {
   const auto history = context.run.error_history();
   if (!history || measure::error_column_of(history->error_column).metric != metric) return std::nullopt;
   return history->target;
@@ -47,18 +45,17 @@ std::optional<double> target_of(const Context& context, const std::string& metri
 
 } // namespace
 
-std::string shown_metric(const Context& context)
-{
+std::string shown_metric(const Context& context) {
   const std::vector<std::string> all = all_metrics(context);
   const auto there = [&](const std::string& metric) { return std::find(all.begin(), all.end(), metric) != all.end(); };
   if (there(context.view_state.error_metric)) return context.view_state.error_metric;
-  if (const auto history = context.run.error_history(); history && there(measure::error_column_of(history->error_column).metric))
+  if (const auto history = context.run.error_history();
+      history && there(measure::error_column_of(history->error_column).metric))
     return measure::error_column_of(history->error_column).metric;
   return all.empty() ? std::string() : all.front();
 }
 
-std::string plot_as_csv(const Context& context)
-{
+std::string plot_as_csv(const Context& context) {
   const std::string metric = shown_metric(context);
   std::vector<NamedLines> runs;
   for (const PinnedRun& pin : context.comparing.pinned().runs())
@@ -67,20 +64,19 @@ std::string plot_as_csv(const Context& context)
   return plot_csv(runs, target_of(context, metric));
 }
 
-const RunLines& ErrorPanel::lines(std::uint64_t id, const std::shared_ptr<const job::History>& history)
-{
+const RunLines& ErrorPanel::lines(std::uint64_t id, const std::shared_ptr<const job::History>& history) {
   Known& known = known_[id];
   if (known.history != history || known.metric != contents_.metric)
     known = {history, contents_.metric, history ? lines_of(*history, contents_.metric) : RunLines{}};
   return known.lines;
 }
 
-void ErrorPanel::collect(const Context& context)
-{
+void ErrorPanel::collect(const Context& context) {
   contents_.metric = shown_metric(context);
   contents_.target = target_of(context, contents_.metric);
   contents_.runs.clear();
-  std::erase_if(known_, [&](const auto& entry) { return entry.first != 0 && !context.comparing.pinned().find(entry.first); });
+  std::erase_if(known_,
+                [&](const auto& entry) { return entry.first != 0 && !context.comparing.pinned().find(entry.first); });
   for (const PinnedRun& pin : context.comparing.pinned().runs())
     if (const RunLines& pin_lines = lines(pin.id, pin.history); pin.shown && !pin_lines.empty())
       contents_.runs.push_back({pin.name, pin.colour, 1.5f, &pin_lines});
@@ -88,8 +84,7 @@ void ErrorPanel::collect(const Context& context)
     contents_.runs.push_back({this_run, colour::on_dark, 2, &present});
 }
 
-void ErrorPanel::draw(const Context& context)
-{
+void ErrorPanel::draw(const Context& context) {
   collect(context);
   draw_toolbar(context);
   const float em = ImGui::GetFontSize(), height = ImGui::GetContentRegionAvail().y;
@@ -110,16 +105,17 @@ void ErrorPanel::draw(const Context& context)
   ImGui::EndChild();
 }
 
-void ErrorPanel::draw_toolbar(const Context& context)
-{
+void ErrorPanel::draw_toolbar(const Context& context) {
   const char* const shown = contents_.metric.empty() ? nothing_measured : contents_.metric.c_str();
-  ImGui::SetNextItemWidth(ImGui::CalcTextSize(shown).x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight());
+  ImGui::SetNextItemWidth(ImGui::CalcTextSize(shown).x + 2 * ImGui::GetStyle().FramePadding.x +
+                          ImGui::GetFrameHeight());
   {
     Combo list("##metric", shown);
     for (const std::string& metric : all_metrics(context))
       if (list.entry(metric, metric == contents_.metric)) context.push(command::ChooseMetric{metric});
   }
-  tooltip("The error that is shown; docs/comparing.md defines each. Solid: against the reference; dashed: the run's own estimate.");
+  tooltip("The error that is shown; docs/comparing.md defines each. Solid: against the reference; dashed: the run's "
+          "own estimate.");
   ImGui::SameLine();
   action_button("Pin this run", context);
   ImGui::SameLine();
@@ -135,11 +131,11 @@ void ErrorPanel::draw_toolbar(const Context& context)
   ImGui::BeginDisabled(plot_.follows());
   if (ImGui::Button("All")) plot_.follow();
   ImGui::EndDisabled();
-  tooltip("Axes that show everything and grow with the run; a double click on the plot does the same. Wheel zooms, drag moves.");
+  tooltip("Axes that show everything and grow with the run; a double click on the plot does the same. Wheel zooms, "
+          "drag moves.");
 }
 
-void ErrorPanel::draw_pin(const Context& context, const PinnedRun& pin)
-{
+void ErrorPanel::draw_pin(const Context& context, const PinnedRun& pin) {
   const auto change = [&](const std::string& name, std::uint32_t to_colour, bool shown) {
     context.push(command::ChangePin{pin.id, name, to_colour, shown});
   };
@@ -148,10 +144,11 @@ void ErrorPanel::draw_pin(const Context& context, const PinnedRun& pin)
   tooltip("In the plot");
   ImGui::SameLine();
   ImVec4 edited = ImGui::ColorConvertU32ToFloat4(pin.colour);
-  if (ImGui::ColorEdit3("##colour", &edited.x, ImGuiColorEditFlags_NoInputs)) change({}, ImGui::ColorConvertFloat4ToU32(edited), pin.shown);
+  if (ImGui::ColorEdit3("##colour", &edited.x, ImGuiColorEditFlags_NoInputs))
+    change({}, ImGui::ColorConvertFloat4ToU32(edited), pin.shown);
   ImGui::SameLine();
-  const float buttons = ImGui::CalcTextSize("CompareUnpin").x + 4 * ImGui::GetStyle().FramePadding.x + 3 * ImGui::GetStyle().ItemSpacing.x +
-                        ImGui::GetFrameHeight();
+  const float buttons = ImGui::CalcTextSize("CompareUnpin").x + 4 * ImGui::GetStyle().FramePadding.x +
+                        3 * ImGui::GetStyle().ItemSpacing.x + ImGui::GetFrameHeight();
   ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - buttons, 4 * ImGui::GetFontSize()));
   std::string name = pin.name;
   input_text("##name", "name", name);
@@ -167,16 +164,17 @@ void ErrorPanel::draw_pin(const Context& context, const PinnedRun& pin)
 }
 
 /// The run's slope, and how much faster the run in hand is at equal error: the error and both times belong to it.
-std::string ErrorPanel::findings(const Context& context, const PinnedRun& pin)
-{
+std::string ErrorPanel::findings(const Context& context, const PinnedRun& pin) {
   const RunLines &pin_lines = lines(pin.id, pin.history), &present = lines(0, context.run.error_history());
-  if (pin_lines.empty()) return fmt::format("no {} in its history", contents_.metric.empty() ? "error" : contents_.metric);
+  if (pin_lines.empty())
+    return fmt::format("no {} in its history", contents_.metric.empty() ? "error" : contents_.metric);
   std::string text;
   if (const auto& fit = pin_lines.judged().fit) text = fmt::format("slope {:.2f}; ", fit->exponent);
   const auto equal = speed_up(pin_lines, present);
   if (!equal) return text + "no error yet that both runs came to";
-  return text + fmt::format("at {} {:.3g}{}: {:.3g} s, this run {:.3g} s, {:.3g} times as fast", contents_.metric, equal->error,
-                            equal->by_estimate ? " by both estimates" : "", equal->seconds_a, equal->seconds_b, equal->speed_up());
+  return text + fmt::format("at {} {:.3g}{}: {:.3g} s, this run {:.3g} s, {:.3g} times as fast", contents_.metric,
+                            equal->error, equal->by_estimate ? " by both estimates" : "", equal->seconds_a,
+                            equal->seconds_b, equal->speed_up());
 }
 
 } // namespace nephroid::ui

@@ -40,7 +40,8 @@ private:
   PlotArea area_;
 };
 
-/// The metric that the plot shows: the chosen one where any run has it, else the run's own, else the first there is; else empty.
+/// The metric that the plot shows: the chosen one where any run has it, else the run's own, else the first there is;
+/// else empty.
 std::string shown_metric(const Context& context);
 /// Every number of the plot as CSV (plot_csv); of the run in hand and of the pinned runs that are shown.
 std::string plot_as_csv(const Context& context);

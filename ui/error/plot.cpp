@@ -18,8 +18,7 @@ namespace {
 constexpr float dash = 6, gap = 4; ///< pixels at scale 1
 
 /// A polyline in dashes of equal length on the screen: ImPlot has none. Inside of a plot.
-void plot_dashed(const char* label, const measure::Curve& curve, ImPlotSpec spec)
-{
+void plot_dashed(const char* label, const measure::Curve& curve, ImPlotSpec spec) {
   std::vector<double> x, y; // pairs: begin and end of every dash
   float walked = 0;         // along the line, in pixels
   const float period = (dash + gap) * scale(), on = dash * scale();
@@ -54,14 +53,12 @@ void plot_dashed(const char* label, const measure::Curve& curve, ImPlotSpec spec
 }
 
 /// "run, slope -0.50###1e": what follows ### keeps the item the same while the slope changes.
-std::string label_of(const std::string& name, const ErrorLine& line, std::size_t run, const char* kind)
-{
+std::string label_of(const std::string& name, const ErrorLine& line, std::size_t run, const char* kind) {
   const std::string slope = line.fit ? fmt::format(", slope {:.2f}", line.fit->exponent) : std::string();
   return fmt::format("{}{}###{}{}", name, slope, run, kind);
 }
 
-void plot_line(const std::string& label, const ErrorLine& line, const PlottedRun& run, bool dashed)
-{
+void plot_line(const std::string& label, const ErrorLine& line, const PlottedRun& run, bool dashed) {
   if (line.drawn.seconds.empty()) return;
   ImPlotSpec spec = line_spec(run.colour, dashed ? 0.75f * run.weight : run.weight);
   if (line.drawn.seconds.size() == 1) { // no line yet
@@ -71,11 +68,11 @@ void plot_line(const std::string& label, const ErrorLine& line, const PlottedRun
   if (dashed && line.drawn.seconds.size() > 1)
     plot_dashed(label.c_str(), line.drawn, spec);
   else
-    ImPlot::PlotLine(label.c_str(), line.drawn.seconds.data(), line.drawn.errors.data(), static_cast<int>(line.drawn.seconds.size()), spec);
+    ImPlot::PlotLine(label.c_str(), line.drawn.seconds.data(), line.drawn.errors.data(),
+                     static_cast<int>(line.drawn.seconds.size()), spec);
 }
 
-void plot_level(const std::string& label, double error, std::uint32_t colour, bool dashed)
-{
+void plot_level(const std::string& label, double error, std::uint32_t colour, bool dashed) {
   const ImPlotRange x = ImPlot::GetPlotLimits().X;
   const measure::Curve level{{x.Min, x.Max}, {error, error}};
   if (dashed)
@@ -85,13 +82,13 @@ void plot_level(const std::string& label, double error, std::uint32_t colour, bo
 }
 
 /// The value of every line at the row nearest to the cursor's time.
-void draw_values(const PlotContents& contents)
-{
+void draw_values(const PlotContents& contents) {
   const double seconds = ImPlot::GetPlotMousePos().x;
   if (!ImGui::BeginTooltip()) return;
   ImGui::TextDisabled("%s", fmt::format("{} at {:.3g} s of work", contents.metric, seconds).c_str());
   for (const PlottedRun& run : contents.runs) {
-    const auto error = nearest_point(run.lines->error.curve, seconds), estimate = nearest_point(run.lines->estimate.curve, seconds);
+    const auto error = nearest_point(run.lines->error.curve, seconds),
+               estimate = nearest_point(run.lines->estimate.curve, seconds);
     if (!error && !estimate) continue;
     std::string text = run.name + ":";
     if (error) text += fmt::format("  {:.4g} ({:.3g} s)", error->error, error->seconds);
@@ -106,15 +103,14 @@ void draw_values(const PlotContents& contents)
 }
 
 /// "mean CIELAB distance", with its unit where it says more than its name.
-std::string axis_label(const std::string& metric)
-{
+std::string axis_label(const std::string& metric) {
   const measure::MetricText text = measure::metric_text(metric);
   return text.unit.empty() ? text.label : fmt::format("{} ({})", text.label, text.unit);
 }
 
-void set_up_axes(const PlotContents& contents, const PlotRange& range, bool follows)
-{
-  const bool is_log = std::all_of(contents.runs.begin(), contents.runs.end(), [](const PlottedRun& run) { return run.lines->falls; });
+void set_up_axes(const PlotContents& contents, const PlotRange& range, bool follows) {
+  const bool is_log =
+      std::all_of(contents.runs.begin(), contents.runs.end(), [](const PlottedRun& run) { return run.lines->falls; });
   ImPlot::SetupAxes("seconds of work", contents.metric.empty() ? nullptr : axis_label(contents.metric).c_str());
   ImPlot::SetupAxisScale(ImAxis_X1, ImPlotScale_Log10);
   ImPlot::SetupAxisScale(ImAxis_Y1, is_log ? ImPlotScale_Log10 : ImPlotScale_Linear);
@@ -128,26 +124,28 @@ void set_up_axes(const PlotContents& contents, const PlotRange& range, bool foll
   ImPlot::SetupFinish();
 }
 
-void plot_runs(const PlotContents& contents)
-{
+void plot_runs(const PlotContents& contents) {
   std::optional<double> noise_floor;
   for (std::size_t i = 0; i < contents.runs.size(); ++i) {
     const PlottedRun& run = contents.runs[i];
-    if (run.lines->noise_floor) noise_floor = run.lines->noise_floor; // of the one in front: another's reference is another
-    const bool both = !run.lines->error.drawn.seconds.empty();        // the legend's swatches are squares: words say which line is dashed
+    if (run.lines->noise_floor)
+      noise_floor = run.lines->noise_floor; // of the one in front: another's reference is another
+    const bool both =
+        !run.lines->error.drawn.seconds.empty(); // the legend's swatches are squares: words say which line is dashed
     plot_line(label_of(run.name, run.lines->error, i, "e"), run.lines->error, run, false);
-    plot_line(label_of(run.name + (both ? ", estimate (dashed)" : " (estimate, dashed)"), run.lines->estimate, i, "s"), run.lines->estimate,
-              run, true);
+    plot_line(label_of(run.name + (both ? ", estimate (dashed)" : " (estimate, dashed)"), run.lines->estimate, i, "s"),
+              run.lines->estimate, run, true);
   }
   if (noise_floor)
-    plot_level(fmt::format("noise floor of the reference {:.3g}###floor", *noise_floor), *noise_floor, colour::quiet_on_dark, true);
-  if (contents.target) plot_level(fmt::format("target {:.3g}###target", *contents.target), *contents.target, colour::note_on_dark, false);
+    plot_level(fmt::format("noise floor of the reference {:.3g}###floor", *noise_floor), *noise_floor,
+               colour::quiet_on_dark, true);
+  if (contents.target)
+    plot_level(fmt::format("target {:.3g}###target", *contents.target), *contents.target, colour::note_on_dark, false);
 }
 
 } // namespace
 
-void ErrorPlot::draw(const PlotContents& contents, float height)
-{
+void ErrorPlot::draw(const PlotContents& contents, float height) {
   std::vector<const RunLines*> lines;
   std::vector<double> levels;
   for (const PlottedRun& run : contents.runs) {

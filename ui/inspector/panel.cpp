@@ -17,35 +17,32 @@ namespace {
 
 constexpr int reach = 5; ///< neighbours to each side
 
-std::vector<double> wavelengths()
-{
+std::vector<double> wavelengths() {
   std::vector<double> nm;
   for (int w = 0; w < optics::wavelength_count; ++w) nm.push_back(optics::wavelength_nm(w));
   return nm;
 }
 
 /// The picture that the View shows: a difference has no colours of its own to enlarge.
-HeldPicture enlarged(const Context& context)
-{
+HeldPicture enlarged(const Context& context) {
   const HeldPicture other = context.comparing.comparison().flip ? context.comparing.other_picture() : HeldPicture{};
   return other.owner ? other : context.comparing.picture();
 }
 
-constexpr ImGuiTableFlags table_flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoHostExtendX;
+constexpr ImGuiTableFlags table_flags =
+    ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoHostExtendX;
 
 void number(double value) { cell(std::isnan(value) ? "NaN" : fmt::format("{:.4g}", value)); }
 
-void names(std::initializer_list<const char*> columns)
-{
+void names(std::initializer_list<const char*> columns) {
   for (const char* column : columns) ImGui::TableSetupColumn(column);
   ImGui::TableHeadersRow();
 }
 
-void draw_pixel_table(const std::vector<PixelRow>& rows)
-{
-  if (!ImGui::BeginTable(
-          "pixel", 8, table_flags | ImGuiTableFlags_ScrollX,
-          {0, static_cast<float>(rows.size() + 2) * ImGui::GetTextLineHeightWithSpacing() + ImGui::GetStyle().ScrollbarSize}))
+void draw_pixel_table(const std::vector<PixelRow>& rows) {
+  if (!ImGui::BeginTable("pixel", 8, table_flags | ImGuiTableFlags_ScrollX,
+                         {0, static_cast<float>(rows.size() + 2) * ImGui::GetTextLineHeightWithSpacing() +
+                                 ImGui::GetStyle().ScrollbarSize}))
     return;
   ImGui::TableSetupScrollFreeze(1, 1);
   names({"", "R", "G", "B", "Y W/m2/sr", "L*", "a*", "b*"});
@@ -60,8 +57,7 @@ void draw_pixel_table(const std::vector<PixelRow>& rows)
 }
 
 /// A table a picture, and how many pixels are no ordinary ones.
-void draw_region_tables(const RegionStatistics& statistics)
-{
+void draw_region_tables(const RegionStatistics& statistics) {
   for (const PictureStatistics& picture : statistics.pictures) {
     ImGui::PushID(&picture);
     if (ImGui::BeginTable("statistics", 6, table_flags)) {
@@ -75,18 +71,17 @@ void draw_region_tables(const RegionStatistics& statistics)
       ImGui::EndTable();
     }
     if (picture.nan + picture.infinite > 0)
-      draw_wrapped(colour::error, fmt::format("Of {} pixels {} are NaN and {} infinite; they are left out.", picture.pixels, picture.nan,
-                                              picture.infinite));
+      draw_wrapped(colour::error, fmt::format("Of {} pixels {} are NaN and {} infinite; they are left out.",
+                                              picture.pixels, picture.nan, picture.infinite));
     if (picture.dark + picture.coloured > 0 && picture.name != "difference")
-      draw_wrapped(colour::quiet_text, fmt::format("Of {} pixels {} have a negative luminance, {} a negative channel.", picture.pixels,
-                                                   picture.dark, picture.coloured));
+      draw_wrapped(colour::quiet_text, fmt::format("Of {} pixels {} have a negative luminance, {} a negative channel.",
+                                                   picture.pixels, picture.dark, picture.coloured));
     ImGui::PopID();
   }
 }
 
 /// Pixels over their luminance, both logarithmic.
-void draw_histogram(const RegionStatistics& statistics)
-{
+void draw_histogram(const RegionStatistics& statistics) {
   const Histogram& histogram = statistics.histogram;
   if (!ImPlot::BeginPlot("##histogram", {-1, 11 * ImGui::GetFontSize()}, ImPlotFlags_NoMouseText)) return;
   ImPlot::SetupAxes("W/m2/sr", "pixels", ImPlotAxisFlags_AutoFit, ImPlotAxisFlags_AutoFit);
@@ -99,8 +94,8 @@ void draw_histogram(const RegionStatistics& statistics)
     const std::vector<double>& counts = histogram.counts[i];
     std::vector<double> edges, steps = counts;
     for (std::size_t bin = 0; bin <= counts.size(); ++bin)
-      edges.push_back(std::pow(10, histogram.first +
-                                       (histogram.last - histogram.first) * static_cast<double>(bin) / static_cast<double>(counts.size())));
+      edges.push_back(std::pow(10, histogram.first + (histogram.last - histogram.first) * static_cast<double>(bin) /
+                                                         static_cast<double>(counts.size())));
     steps.push_back(counts.empty() ? 0 : counts.back());
     ImPlot::PlotStairs(statistics.pictures[i].name.c_str(), edges.data(), steps.data(), static_cast<int>(edges.size()));
   }
@@ -109,8 +104,7 @@ void draw_histogram(const RegionStatistics& statistics)
 
 } // namespace
 
-void InspectorPanel::draw(const Context& context)
-{
+void InspectorPanel::draw(const Context& context) {
   places_.clear();
   if (!context.comparing.source()) {
     draw_wrapped(colour::quiet_text, "There is no picture yet.");
@@ -121,17 +115,18 @@ void InspectorPanel::draw(const Context& context)
   draw_region(context);
 }
 
-void InspectorPanel::draw_pixel(const Context& context)
-{
+void InspectorPanel::draw_pixel(const Context& context) {
   const auto& pixel = context.view_state.pixel;
   ImGui::SeparatorText(pixel ? fmt::format("Pixel ({}, {})", (*pixel)[0], (*pixel)[1]).c_str() : "Pixel");
   if (!pixel) {
-    draw_wrapped(colour::quiet_text, "Alt and a click on the picture takes a pixel, or I the one in the middle; the arrow keys move it.");
+    draw_wrapped(colour::quiet_text,
+                 "Alt and a click on the picture takes a pixel, or I the one in the middle; the arrow keys move it.");
     return;
   }
   const std::vector<PixelRow> rows = pixel_rows(context, *pixel);
   if (rows.empty()) {
-    draw_wrapped(colour::note, "It lies outside of the picture, which has another size now. The arrow keys bring it back.");
+    draw_wrapped(colour::note,
+                 "It lies outside of the picture, which has another size now. The arrow keys bring it back.");
     return;
   }
   action_button("Copy pixel", context);
@@ -144,22 +139,24 @@ void InspectorPanel::draw_pixel(const Context& context)
   draw_spectrum(context);
 }
 
-void InspectorPanel::draw_neighbours(const Context& context)
-{
+void InspectorPanel::draw_neighbours(const Context& context) {
   const HeldPicture picture = enlarged(context);
   const ViewSettings& view_settings = context.view_state.view_settings;
   const std::array<int, 2> pixel = *context.view_state.pixel;
   const double white = context.preset() ? context.preset()->white.value_or(1) : 1;
   Neighbours& n = neighbours_;
   constexpr int across = 2 * reach + 1;
-  if (picture.owner && (n.owner != picture.owner || n.pixel != pixel || n.view_settings != view_settings || n.white != white)) {
+  if (picture.owner &&
+      (n.owner != picture.owner || n.pixel != pixel || n.view_settings != view_settings || n.white != white)) {
     n = {picture.owner, pixel, view_settings, white, std::vector<unsigned char>(std::size_t{4} * across * across, 0)};
     const Tone tone = tone_of(view_settings, white, picture.pixels.rgb);
     for (int i = 0; i < across * across; ++i) {
       const int x = pixel[0] - reach + i % across, y = pixel[1] - reach + i / across;
       if (x < 0 || y < 0 || x >= picture.pixels.width || y >= picture.pixels.height) continue;
-      const auto at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.pixels.width) + static_cast<std::size_t>(x));
-      toned_pixels(picture.pixels.rgb.subspan(at, 3), tone, std::span(n.rgba).subspan(4 * static_cast<std::size_t>(i), 4));
+      const auto at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.pixels.width) +
+                           static_cast<std::size_t>(x));
+      toned_pixels(picture.pixels.rgb.subspan(at, 3), tone,
+                   std::span(n.rgba).subspan(4 * static_cast<std::size_t>(i), 4));
     }
   }
   const float cell = std::max(std::floor(ImGui::GetFontSize() * 0.7f), 1.0f), size = across * cell;
@@ -178,8 +175,7 @@ void InspectorPanel::draw_neighbours(const Context& context)
   draw_list->AddRect(own, {own.x + cell, own.y + cell}, colour::on_dark);
 }
 
-void InspectorPanel::draw_spectrum(const Context& context)
-{
+void InspectorPanel::draw_spectrum(const Context& context) {
   const auto& spectrum = context.run.spectrum();
   if (!spectrum || spectrum->pixel != *context.view_state.pixel) return;
   if (!spectrum->why_not.empty()) return offer_spectra(context, *spectrum);
@@ -189,7 +185,8 @@ void InspectorPanel::draw_spectrum(const Context& context)
   const ImVec2 size{-1, 13 * ImGui::GetFontSize()};
   if (ImPlot::BeginPlot("##spectrum", size, ImPlotFlags_NoMouseText)) {
     axis_.set_up();
-    set_up_fixed_axis(ImAxis_Y1, "W/m2/sr/nm", 0, most > 0 ? 1.1 * most : 1, ImPlotAxisFlags_Lock | ImPlotAxisFlags_NoHighlight);
+    set_up_fixed_axis(ImAxis_Y1, "W/m2/sr/nm", 0, most > 0 ? 1.1 * most : 1,
+                      ImPlotAxisFlags_Lock | ImPlotAxisFlags_NoHighlight);
     ImPlot::SetupFinish();
     if (spectrum->layers.size() > 1)
       for (const auto& layer : spectrum->layers)
@@ -206,34 +203,35 @@ void InspectorPanel::draw_spectrum(const Context& context)
 }
 
 /// What the remedy contradicts is said once it is tried.
-void InspectorPanel::offer_spectra(const Context& context, const job::PixelSpectrum& none)
-{
+void InspectorPanel::offer_spectra(const Context& context, const job::PixelSpectrum& none) {
   draw_wrapped(colour::quiet_text, "No spectrum: " + none.why_not + ".");
   if (none.remedy.empty() || !context.preset()) return;
-  if (places_.button("Keep spectra", "keep spectra", "Sets " + none.remedy + ", which starts the run again; one edit to undo"))
+  if (places_.button("Keep spectra", "keep spectra",
+                     "Sets " + none.remedy + ", which starts the run again; one edit to undo"))
     context.push(command::Edit{"keep spectra", preset::with_overrides(*context.preset(), {none.remedy})});
 }
 
-void InspectorPanel::draw_region(const Context& context)
-{
+void InspectorPanel::draw_region(const Context& context) {
   const HeldPicture picture = context.comparing.picture();
   const auto& chosen = context.view_state.region;
-  const auto region = chosen && picture.owner ? cut_to(*chosen, picture.pixels.width, picture.pixels.height) : std::nullopt;
-  ImGui::SeparatorText(region ? fmt::format("Region {} x {} at ({}, {})", region->to[0] - region->from[0], region->to[1] - region->from[1],
-                                            region->from[0], region->from[1])
+  const auto region =
+      chosen && picture.owner ? cut_to(*chosen, picture.pixels.width, picture.pixels.height) : std::nullopt;
+  ImGui::SeparatorText(region ? fmt::format("Region {} x {} at ({}, {})", region->to[0] - region->from[0],
+                                            region->to[1] - region->from[1], region->from[0], region->from[1])
                                     .c_str()
                               : "Region");
   if (!region) {
     statistics_.forget(context.tasks);
-    draw_wrapped(colour::quiet_text, !chosen         ? "Alt and a drag on the picture takes a rectangle, Shift+I the whole picture."
-                                     : picture.owner ? "The rectangle lies outside of the picture, which has another size now."
-                                                     : context.comparing.why_no_picture());
+    draw_wrapped(colour::quiet_text,
+                 !chosen         ? "Alt and a drag on the picture takes a rectangle, Shift+I the whole picture."
+                 : picture.owner ? "The rectangle lies outside of the picture, which has another size now."
+                                 : context.comparing.why_no_picture());
     return;
   }
   const HeldPicture other = context.comparing.other_picture();
   const std::string other_name = context.comparing.comparison().pin == 0 ? "reference" : other.pixels.name;
   request_statistics(statistics_, context.tasks,
-                  {picture, other, other_name, *region, context.preset() ? context.preset()->white.value_or(1) : 1});
+                     {picture, other, other_name, *region, context.preset() ? context.preset()->white.value_or(1) : 1});
   const auto& statistics = statistics_.newest();
   if (!statistics) return draw_wrapped(colour::quiet_text, "The statistics are being made.");
   if (places_.button("Copy as CSV", "copy region")) ImGui::SetClipboardText(to_csv(*statistics).c_str());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel Inspector: one pixel with all its values, its neighbours and its spectrum, and statistics of a rectangle of pixels. Which they
-// are the View's mouse says, and actions (commands InspectPixel and SelectRegion).
+// The panel Inspector: one pixel with all its values, its neighbours and its spectrum, and statistics of a rectangle of
+// pixels. Which they are the View's mouse says, and actions (commands InspectPixel and SelectRegion).
 #pragma once
 #include "ui/inspector/pixels.h"
 #include "ui/state/tone.h"

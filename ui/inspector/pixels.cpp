@@ -17,21 +17,20 @@ namespace {
 using Rgb = std::array<float, 3>;
 
 /// The pixels of a region, row by row.
-std::vector<Rgb> pixels_of(const measure::Pixels& picture, const PixelRegion& region)
-{
+std::vector<Rgb> pixels_of(const measure::Pixels& picture, const PixelRegion& region) {
   std::vector<Rgb> pixels;
-  pixels.reserve(static_cast<std::size_t>(region.to[0] - region.from[0]) * static_cast<std::size_t>(region.to[1] - region.from[1]));
+  pixels.reserve(static_cast<std::size_t>(region.to[0] - region.from[0]) *
+                 static_cast<std::size_t>(region.to[1] - region.from[1]));
   for (int y = region.from[1]; y < region.to[1]; ++y)
     for (int x = region.from[0]; x < region.to[0]; ++x) {
-      const float* rgb =
-          &picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x))];
+      const float* rgb = &picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                                           static_cast<std::size_t>(x))];
       pixels.push_back({rgb[0], rgb[1], rgb[2]});
     }
   return pixels;
 }
 
-PictureStatistics statistics(std::string name, const std::vector<Rgb>& pixels, double white)
-{
+PictureStatistics statistics(std::string name, const std::vector<Rgb>& pixels, double white) {
   PictureStatistics picture;
   picture.name = std::move(name);
   picture.pixels = pixels.size();
@@ -56,8 +55,7 @@ PictureStatistics statistics(std::string name, const std::vector<Rgb>& pixels, d
   return picture;
 }
 
-Histogram histogram(const std::vector<const std::vector<Rgb>*>& pictures, double white)
-{
+Histogram histogram(const std::vector<const std::vector<Rgb>*>& pictures, double white) {
   constexpr double bins_a_decade = 10;
   const auto log_of = [&](const Rgb& rgb) {
     const double y = white * measure::luminance(rgb.data());
@@ -70,7 +68,8 @@ Histogram histogram(const std::vector<const std::vector<Rgb>*>& pictures, double
   Histogram bars;
   if (low > high) low = 0, high = 1;
   bars.last = std::floor(high * bins_a_decade + 1) / bins_a_decade;
-  bars.first = std::max(std::floor(low * bins_a_decade) / bins_a_decade, bars.last - 12); // twelve decades are enough for an eye
+  bars.first =
+      std::max(std::floor(low * bins_a_decade) / bins_a_decade, bars.last - 12); // twelve decades are enough for an eye
   const auto bins = static_cast<std::size_t>(std::lround((bars.last - bars.first) * bins_a_decade));
   for (const auto* pixels : pictures) {
     std::vector<double>& counts = bars.counts.emplace_back(bins, 0.0);
@@ -83,14 +82,14 @@ Histogram histogram(const std::vector<const std::vector<Rgb>*>& pictures, double
 
 } // namespace
 
-std::vector<PixelRow> pixel_rows(const Context& context, const std::array<int, 2>& pixel)
-{
+std::vector<PixelRow> pixel_rows(const Context& context, const std::array<int, 2>& pixel) {
   const auto source = context.comparing.source();
   if (!source || !context.preset()) return {};
   const job::Picture& picture = *source;
   const auto [x, y] = pixel;
   if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) return {};
-  const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
+  const std::size_t at =
+      3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
   const auto value = [&](std::span<const float> rgb) { return std::array{rgb[at], rgb[at + 1], rgb[at + 2]}; };
   std::vector<PixelRow> rows;
   const auto add = [&](std::string name, const std::array<float, 3>& rgb, bool is_colour) {
@@ -118,8 +117,7 @@ std::vector<PixelRow> pixel_rows(const Context& context, const std::array<int, 2
   return rows;
 }
 
-std::string pixel_as_text(const Context& context, const std::array<int, 2>& pixel)
-{
+std::string pixel_as_text(const Context& context, const std::array<int, 2>& pixel) {
   std::string text = fmt::format("pixel ({}, {})\tR\tG\tB\tY W/m2/sr\tL*\ta*\tb*\n", pixel[0], pixel[1]);
   for (const PixelRow& row : pixel_rows(context, pixel)) {
     text += fmt::format("{}\t{}\t{}\t{}\t{}", row.name, row.rgb[0], row.rgb[1], row.rgb[2], row.luminance);
@@ -128,16 +126,14 @@ std::string pixel_as_text(const Context& context, const std::array<int, 2>& pixe
   return text;
 }
 
-std::vector<double> total_radiance(const job::PixelSpectrum& spectrum)
-{
+std::vector<double> total_radiance(const job::PixelSpectrum& spectrum) {
   std::vector<double> total(optics::wavelength_count, 0);
   for (const job::PixelSpectrum::Layer& layer : spectrum.layers)
     for (std::size_t w = 0; w < total.size(); ++w) total[w] += layer.radiance[w];
   return total;
 }
 
-std::string spectrum_as_csv(const job::PixelSpectrum& spectrum)
-{
+std::string spectrum_as_csv(const job::PixelSpectrum& spectrum) {
   std::string csv = "wavelength_nm";
   for (const auto& layer : spectrum.layers) csv += fmt::format(",{}", in_csv(layer.name + " W/m2/sr/nm"));
   csv += ",total W/m2/sr/nm\n";
@@ -150,8 +146,7 @@ std::string spectrum_as_csv(const job::PixelSpectrum& spectrum)
   return csv;
 }
 
-Moments moments(std::vector<double> values)
-{
+Moments moments(std::vector<double> values) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (values.empty()) return {none, none, none, none, none};
   const auto n = static_cast<double>(values.size());
@@ -171,16 +166,14 @@ Moments moments(std::vector<double> values)
   return m;
 }
 
-std::optional<PixelRegion> cut_to(const PixelRegion& region, int width, int height)
-{
+std::optional<PixelRegion> cut_to(const PixelRegion& region, int width, int height) {
   const PixelRegion cut{{std::max(region.from[0], 0), std::max(region.from[1], 0)},
                         {std::min(region.to[0], width), std::min(region.to[1], height)}};
   if (cut.from[0] >= cut.to[0] || cut.from[1] >= cut.to[1]) return std::nullopt;
   return cut;
 }
 
-RegionStatistics region_statistics(RegionRequest request)
-{
+RegionStatistics region_statistics(RegionRequest request) {
   RegionStatistics all;
   request.region = *cut_to(request.region, request.picture.pixels.width, request.picture.pixels.height);
   const std::vector<Rgb> run = pixels_of(request.picture.pixels, request.region);
@@ -199,8 +192,7 @@ RegionStatistics region_statistics(RegionRequest request)
   return all;
 }
 
-void request_statistics(NewestResult<RegionStatistics>& statistics, TaskQueue& tasks, const RegionRequest& request)
-{
+void request_statistics(NewestResult<RegionStatistics>& statistics, TaskQueue& tasks, const RegionRequest& request) {
   const auto is_same_but_picture = [&](const RegionRequest& of) { // whose region is cut to its picture
     return of.region == cut_to(request.region, request.picture.pixels.width, request.picture.pixels.height) &&
            of.other.owner == request.other.owner && of.other_name == request.other_name && of.white == request.white;
@@ -210,21 +202,22 @@ void request_statistics(NewestResult<RegionStatistics>& statistics, TaskQueue& t
                          : newest->of.picture.owner == request.picture.owner ? Request::same
                                                                              : Request::other_picture;
   statistics.want(
-      tasks, "statistics of the region", wanted, [request] { return std::make_shared<RegionStatistics>(region_statistics(request)); },
-      TaskQueue::Clock::now());
+      tasks, "statistics of the region", wanted,
+      [request] { return std::make_shared<RegionStatistics>(region_statistics(request)); }, TaskQueue::Clock::now());
 }
 
-std::string to_csv(const RegionStatistics& statistics)
-{
-  std::string csv = "x0,y0,x1,y1,picture,quantity,unit,mean,standard_deviation,min,max,median,pixels,nan,infinite,negative_luminance,"
-                    "negative_channel\n";
+std::string to_csv(const RegionStatistics& statistics) {
+  std::string csv =
+      "x0,y0,x1,y1,picture,quantity,unit,mean,standard_deviation,min,max,median,pixels,nan,infinite,negative_luminance,"
+      "negative_channel\n";
   const PixelRegion& region = statistics.of.region;
   for (const PictureStatistics& picture : statistics.pictures)
     for (std::size_t q = 0; q < region_quantities.size(); ++q) {
       const Moments& m = picture.of[q];
-      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", region.from[0], region.from[1], region.to[0], region.to[1],
-                         in_csv(picture.name), region_quantities[q], q == 0 ? "W/m2/sr" : "linear", m.mean, m.deviation, m.least, m.most,
-                         m.median, picture.pixels, picture.nan, picture.infinite, picture.dark, picture.coloured);
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", region.from[0], region.from[1],
+                         region.to[0], region.to[1], in_csv(picture.name), region_quantities[q],
+                         q == 0 ? "W/m2/sr" : "linear", m.mean, m.deviation, m.least, m.most, m.median, picture.pixels,
+                         picture.nan, picture.infinite, picture.dark, picture.coloured);
     }
   return csv;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What there is to say of one pixel: its values in the run's picture, in each of its layers, in what it is compared with, and how far off
-// the reference is; and its spectrum as text. And statistics of a rectangle of pixels: of the run's picture, of the one it is compared
-// with, and of their difference.
+// What there is to say of one pixel: its values in the run's picture, in each of its layers, in what it is compared
+// with, and how far off the reference is; and its spectrum as text. And statistics of a rectangle of pixels: of the
+// run's picture, of the one it is compared with, and of their difference.
 #pragma once
 #include "job/job.h"
 #include "ui/state/context.h"
@@ -36,7 +36,8 @@ inline constexpr std::array<const char*, 4> region_quantities{"luminance", "R", 
 
 struct PictureStatistics {
   std::string name;
-  std::array<Moments, 4> of; ///< region_quantities: luminance in W/m^2/sr, channels linear; of the pixels that are finite
+  std::array<Moments, 4>
+      of; ///< region_quantities: luminance in W/m^2/sr, channels linear; of the pixels that are finite
   std::size_t pixels = 0;
   std::size_t nan = 0, infinite = 0; ///< pixels with such a channel; NaN goes first
   std::size_t dark = 0;              ///< pixels whose luminance is negative

@@ -17,11 +17,13 @@ namespace {
 
 using Pointer = Json::json_pointer;
 
-std::string parent_of(const std::string& pointer) { return pointer.substr(0, std::min(pointer.rfind('/'), pointer.size())); }
+std::string parent_of(const std::string& pointer) {
+  return pointer.substr(0, std::min(pointer.rfind('/'), pointer.size()));
+}
 
-/// What a run would refuse of what changed, as far as that is known without it: files that are missing, spectra and curves.
-void check_loads(const preset::Preset& before, const preset::Preset& after)
-{
+/// What a run would refuse of what changed, as far as that is known without it: files that are missing, spectra and
+/// curves.
+void check_loads(const preset::Preset& before, const preset::Preset& after) {
   const Place where{after.source, std::string()};
   const FileFinder finder(std::filesystem::path(after.source).parent_path());
   std::vector<std::string> warnings;
@@ -45,20 +47,17 @@ void check_loads(const preset::Preset& before, const preset::Preset& after)
 
 std::string child_of(const std::string& pointer, std::string_view key) { return pointer + "/" + pointer_key(key); }
 
-std::string dotted(const std::string& pointer)
-{
+std::string dotted(const std::string& pointer) {
   std::string text;
   for (Pointer at(pointer); !at.empty(); at.pop_back()) text.insert(0, text.empty() ? at.back() : at.back() + '.');
   return text;
 }
 
-bool is_inside(const std::string& pointer, const std::string& root)
-{
+bool is_inside(const std::string& pointer, const std::string& root) {
   return pointer.starts_with(root) && (pointer.size() == root.size() || pointer[root.size()] == '/');
 }
 
-void Draft::follow(const preset::Preset& preset)
-{
+void Draft::follow(const preset::Preset& preset) {
   if (!base_.is_null() && preset == preset_) return;
   preset::Preset here = preset; // as it was opened or saved, under whatever name
   here.source = preset_.source;
@@ -72,23 +71,20 @@ void Draft::follow(const preset::Preset& preset)
       problems_[pointer] = std::move(*problem);
 }
 
-void Draft::take(preset::Preset preset)
-{
+void Draft::take(preset::Preset preset) {
   preset_ = std::move(preset);
   preset_.provenance = {};
   base_ = preset::as_json(preset_);
 }
 
-Json Draft::with(const Edits& edits) const
-{
+Json Draft::with(const Edits& edits) const {
   Json edited = base_;
   for (const auto& [pointer, value] : edits) edited[Pointer(pointer)] = value;
   return edited;
 }
 
 /// The preset with these edits, or why the one at `pointer` waits.
-std::variant<preset::Preset, Problem> Draft::read(const Edits& edits, const std::string& pointer) const
-{
+std::variant<preset::Preset, Problem> Draft::read(const Edits& edits, const std::string& pointer) const {
   try {
     preset::Preset edited = preset::read_json(with(edits), preset_.source);
     check_loads(preset_, edited);
@@ -101,16 +97,15 @@ std::variant<preset::Preset, Problem> Draft::read(const Edits& edits, const std:
 }
 
 /// A mesh in place of a shape is an edit with a sibling.
-Draft::Edits Draft::together(const std::string& pointer, Reach reach) const
-{
+Draft::Edits Draft::together(const std::string& pointer, Reach reach) const {
   Edits edits;
   for (const auto& [p, value] : waiting_)
-    if (p == pointer || reach == Reach::all || (reach == Reach::siblings && parent_of(p) == parent_of(pointer))) edits[p] = value;
+    if (p == pointer || reach == Reach::all || (reach == Reach::siblings && parent_of(p) == parent_of(pointer)))
+      edits[p] = value;
   return edits;
 }
 
-std::optional<preset::Preset> Draft::settle(const std::string& pointer)
-{
+std::optional<preset::Preset> Draft::settle(const std::string& pointer) {
   problems_.erase(pointer);
   std::size_t tried = 0;
   for (const Reach reach : {Reach::alone, Reach::siblings, Reach::all}) {
@@ -131,8 +126,7 @@ std::optional<preset::Preset> Draft::settle(const std::string& pointer)
   return std::nullopt;
 }
 
-std::optional<preset::Preset> Draft::edit(const std::string& pointer, Json value)
-{
+std::optional<preset::Preset> Draft::edit(const std::string& pointer, Json value) {
   std::string root = pointer; // an edit inside of one that waits is part of that
   for (const auto& [waiting, _] : waiting_)
     if (is_inside(pointer, waiting)) root = waiting;
@@ -161,8 +155,7 @@ std::optional<preset::Preset> Draft::edit(const std::string& pointer, Json value
   return edited;
 }
 
-std::optional<Problem> Draft::trial(const std::string& pointer, const Json& value) const
-{
+std::optional<Problem> Draft::trial(const std::string& pointer, const Json& value) const {
   Draft tried = *this;
   tried.edit(pointer, value);
   for (const auto& [edit, problem] : tried.problems_)
@@ -170,8 +163,7 @@ std::optional<Problem> Draft::trial(const std::string& pointer, const Json& valu
   return std::nullopt;
 }
 
-void Draft::drop(const std::string& pointer)
-{
+void Draft::drop(const std::string& pointer) {
   waiting_.erase(pointer);
   problems_.erase(pointer);
   value_ = with(waiting_);

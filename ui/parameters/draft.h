@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The preset while it is edited field by field: JSON that also holds what is impossible, until it is mended. What is possible becomes a
-// preset; the rest waits with the line that says why. No Dear ImGui here.
+// The preset while it is edited field by field: JSON that also holds what is impossible, until it is mended. What is
+// possible becomes a preset; the rest waits with the line that says why. No Dear ImGui here.
 #pragma once
 #include "preset/json_text.h"
 #include "preset/preset.h"
@@ -26,7 +26,8 @@ struct Problem {
 
 class Draft {
 public:
-  /// Once a frame. Edits that wait are put over another preset of the same file; those whose place is gone there are dropped.
+  /// Once a frame. Edits that wait are put over another preset of the same file; those whose place is gone there are
+  /// dropped.
   void follow(const preset::Preset& preset);
   /// The preset as JSON, with the edits that wait.
   const Json& value() const { return value_; }
@@ -35,8 +36,8 @@ public:
   /// By the pointer of their edits.
   const std::map<std::string, Problem>& problems() const { return problems_; }
 
-  /// Puts a value at a JSON pointer of the draft. Returns the preset that the reader made of it: with this edit and those that were waiting
-  /// for it. Nothing where it has to wait itself.
+  /// Puts a value at a JSON pointer of the draft. Returns the preset that the reader made of it: with this edit and
+  /// those that were waiting for it. Nothing where it has to wait itself.
   std::optional<preset::Preset> edit(const std::string& pointer, Json value);
   /// Why that edit would wait; changes nothing.
   std::optional<Problem> trial(const std::string& pointer, const Json& value) const;

@@ -12,22 +12,19 @@ namespace nephroid::ui {
 using preset::Outline;
 using Kind = Outline::Kind;
 
-const Json& part(const Json& object, const Outline& o)
-{
+const Json& part(const Json& object, const Outline& o) {
   static const Json none;
   const auto found = object.find(o.field.name);
   return found == object.end() ? none : *found;
 }
 
-bool is_changed(const Outline& o, const Json& value)
-{
+bool is_changed(const Outline& o, const Json& value) {
   if (o.kind != Kind::object || o.optional) return !o.field.required && value != o.standard;
   const auto fields = o.fields(value);
   return std::any_of(fields.begin(), fields.end(), [&](const Outline& f) { return is_changed(f, part(value, f)); });
 }
 
-void Form::push_edits(const Context& context)
-{
+void Form::push_edits(const Context& context) {
   for (PendingEdit& asked : std::exchange(asked_, {})) {
     if (auto edited = draft.edit(asked.pointer, std::move(asked.value)))
       context.push(command::Edit{.label = std::move(asked.label),
@@ -42,10 +39,11 @@ void Form::push_edits(const Context& context)
   if (std::exchange(gesture_ended_, false)) context.push(command::EndGesture{});
 }
 
-const std::string& shown_at(const Problem& problem) { return is_inside(problem.place, problem.pointer) ? problem.place : problem.pointer; }
+const std::string& shown_at(const Problem& problem) {
+  return is_inside(problem.place, problem.pointer) ? problem.place : problem.pointer;
+}
 
-bool Form::wants(const Outline& o, const Json& value, const std::string& pointer) const
-{
+bool Form::wants(const Outline& o, const Json& value, const std::string& pointer) const {
   if (o.is_engine_settings && draft.value()["engine"] != o.field.name) return false;
   if (!searching()) return true;
   if (only_changed && !is_changed(o, value)) return false;
@@ -58,8 +56,7 @@ bool Form::wants(const Outline& o, const Json& value, const std::string& pointer
                      [&](const auto& item) { return wants_any(o, item.value(), child_of(pointer, item.key())); });
 }
 
-bool Form::wants_any(const Outline& o, const Json& object, const std::string& pointer) const
-{
+bool Form::wants_any(const Outline& o, const Json& object, const std::string& pointer) const {
   const auto fields = o.fields(object);
   return std::any_of(fields.begin(), fields.end(),
                      [&](const Outline& f) { return wants(f, part(object, f), child_of(pointer, f.field.name)); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the rows and the widgets of the panel "Parameters" share: the draft that they draw, the edits that they ask for, which fields are
-// looked for, and what a field of the description is to a person.
+// What the rows and the widgets of the panel "Parameters" share: the draft that they draw, the edits that they ask for,
+// which fields are looked for, and what a field of the description is to a person.
 #pragma once
 #include "preset/outline.h"
 #include "ui/parameters/draft.h"
@@ -26,8 +26,7 @@ public:
   Form(const char* panel, WidgetPlaces& places) : gestures(panel), places_(places) {}
 
   /// Asks for a value at a pointer. live: as command::Edit.
-  void ask(std::string label, const std::string& pointer, Json value, bool live = false)
-  {
+  void ask(std::string label, const std::string& pointer, Json value, bool live = false) {
     asked_.push_back({std::move(label), pointer, std::move(value), live});
   }
   void end_gesture() { gesture_ended_ = true; }

@@ -20,8 +20,7 @@ constexpr std::size_t many_rows = 50; ///< rows out of sight are not drawn where
 double clamped(double value, const preset::Bounds& bounds) { return std::clamp(value, bounds.low, bounds.high); }
 
 /// After the last row as far as that is from the one before.
-Json next_row(const Outline& o, const Json& rows)
-{
+Json next_row(const Outline& o, const Json& rows) {
   if (o.kind == Kind::texts) return "";
   if (o.kind == Kind::numbers) return clamped(0, o.field.bounds);
   const preset::Column &first = o.field.columns[0], &second = o.field.columns[1];
@@ -31,8 +30,7 @@ Json next_row(const Outline& o, const Json& rows)
 }
 
 /// Every material that is called `name` where something is made of it.
-void rename_uses(const std::vector<Outline>& fields, Json& object, const std::string& name, const std::string& to)
-{
+void rename_uses(const std::vector<Outline>& fields, Json& object, const std::string& name, const std::string& to) {
   for (const Outline& o : fields) {
     const auto found = object.find(o.field.name);
     if (found == object.end()) continue;
@@ -47,9 +45,9 @@ void rename_uses(const std::vector<Outline>& fields, Json& object, const std::st
 }
 
 /// A copy of an item that has a name of its own.
-Json copy_of(const Json& items, Json item)
-{
-  if (const auto name = item.find("name"); name != item.end() && name->is_string() && !name->get_ref<const std::string&>().empty())
+Json copy_of(const Json& items, Json item) {
+  if (const auto name = item.find("name");
+      name != item.end() && name->is_string() && !name->get_ref<const std::string&>().empty())
     *name = untaken_name(*name, [&](const std::string& n) {
       return std::any_of(items.begin(), items.end(), [&](const Json& other) { return other.value("name", "") == n; });
     });
@@ -58,8 +56,7 @@ Json copy_of(const Json& items, Json item)
 
 } // namespace
 
-void ItemRows::draw_add(const Outline& o, const Json& value, const std::string& pointer)
-{
+void ItemRows::draw_add(const Outline& o, const Json& value, const std::string& pointer) {
   ImGui::BeginDisabled(value.size() >= o.field.count.high);
   if (ImGui::Button(("Add##" + pointer).c_str())) {
     Json more = value;
@@ -87,8 +84,7 @@ void ItemRows::draw_add(const Outline& o, const Json& value, const std::string& 
 }
 
 /// Behind what an item of a list or a map has in its row: duplicate, move, remove.
-void ItemRows::draw_item_buttons(const Json& items, const std::string& key, const std::string& pointer)
-{
+void ItemRows::draw_item_buttons(const Json& items, const std::string& key, const std::string& pointer) {
   const std::string at = child_of(pointer, key);
   const bool is_list = items.is_array();
   const std::size_t index = is_list ? std::stoul(key) : 0;
@@ -109,7 +105,8 @@ void ItemRows::draw_item_buttons(const Json& items, const std::string& key, cons
   });
   if (is_list) {
     ImGui::BeginDisabled(index == 0);
-    button("^", "move up", "Before the one above", [&](Json& changed) { std::swap(changed[index - 1], changed[index]); });
+    button("^", "move up", "Before the one above",
+           [&](Json& changed) { std::swap(changed[index - 1], changed[index]); });
     ImGui::EndDisabled();
   }
   button("x", "remove", "Remove this", [&](Json& changed) {
@@ -120,8 +117,7 @@ void ItemRows::draw_item_buttons(const Json& items, const std::string& key, cons
   });
 }
 
-void ItemRows::draw_items(const Outline& o, const Json& value, const std::string& pointer)
-{
+void ItemRows::draw_items(const Outline& o, const Json& value, const std::string& pointer) {
   for (const auto& entry : value.items()) {
     const Json& item = entry.value();
     const std::string& key = entry.key();
@@ -141,8 +137,7 @@ void ItemRows::draw_items(const Outline& o, const Json& value, const std::string
 }
 
 /// Of an item of a map, to be typed.
-void ItemRows::draw_name(const Json& items, const std::string& name, const std::string& pointer)
-{
+void ItemRows::draw_name(const Json& items, const std::string& name, const std::string& pointer) {
   const std::string at = child_of(pointer, name), id = at + ":name";
   ImGui::TextDisabled("name");
   ImGui::SameLine();
@@ -155,8 +150,7 @@ void ItemRows::draw_name(const Json& items, const std::string& name, const std::
 }
 
 /// Of a map; what uses the name is renamed with it.
-void ItemRows::rename(const std::string& map, const std::string& name, const std::string& to)
-{
+void ItemRows::rename(const std::string& map, const std::string& name, const std::string& to) {
   Json whole = form_.draft.value(), renamed = Json::object();
   Json& items = whole[Json::json_pointer(map)];
   if (to.empty() || items.contains(to)) return;
@@ -166,8 +160,7 @@ void ItemRows::rename(const std::string& map, const std::string& name, const std
   form_.ask(fmt::format("rename {} to {}", name, to), "", std::move(whole));
 }
 
-void ItemRows::draw_rows(const Outline& o, const Json& value, const std::string& pointer)
-{
+void ItemRows::draw_rows(const Outline& o, const Json& value, const std::string& pointer) {
   const bool pairs = o.kind == Kind::table;
   if (pairs) {
     ImGui::TableNextRow();
@@ -186,7 +179,8 @@ void ItemRows::draw_rows(const Outline& o, const Json& value, const std::string&
     if (pairs)
       for (std::size_t c = 0; c < 2; ++c) {
         if (c > 0) ImGui::SameLine(0, gap);
-        values_.draw_number({o.field.columns[c].bounds, false, (width - gap) / 2}, value[i].at(c), child_of(at, std::to_string(c)));
+        values_.draw_number({o.field.columns[c].bounds, false, (width - gap) / 2}, value[i].at(c),
+                            child_of(at, std::to_string(c)));
       }
     else if (o.kind == Kind::texts)
       values_.draw_text(at, value[i], width, [](const std::string& text) { return Json(text); });

@@ -10,8 +10,7 @@
 
 namespace nephroid::ui {
 
-void ParametersPanel::draw(const Context& context)
-{
+void ParametersPanel::draw(const Context& context) {
   form_.draft.follow(*context.preset());
   places_.clear();
   if (const Selection selection = context.selection(); selection != revealed_) {
@@ -25,7 +24,8 @@ void ParametersPanel::draw(const Context& context)
               help = room > 24 * ImGui::GetFontSize() ? 3.5f * ImGui::GetTextLineHeightWithSpacing() : 0;
   if (ImGui::BeginChild("fields", {0, room - help})) {
     ImGui::PushID(form_.searching() ? "found" : "all"); // what a search opens is closed again after it
-    if (ImGui::BeginTable("fields", 2, ImGuiTableFlags_Resizable | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV)) {
+    if (ImGui::BeginTable("fields", 2,
+                          ImGuiTableFlags_Resizable | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV)) {
       ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 2);
       ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 3);
       rows_.draw_fields(preset::outline(form_.draft.value()), form_.draft.value(), "");
@@ -35,15 +35,15 @@ void ParametersPanel::draw(const Context& context)
   }
   ImGui::EndChild();
   if (help > 0)
-    draw_wrapped(colour::quiet_text,
-                 rows_.help().empty() ? "Drag a number, or click on it and type. A right click on a name: its menu." : rows_.help());
+    draw_wrapped(colour::quiet_text, rows_.help().empty()
+                                         ? "Drag a number, or click on it and type. A right click on a name: its menu."
+                                         : rows_.help());
   if (form_.reveal == revealing) form_.reveal.clear(); // in sight, or nowhere
   form_.push_edits(context);
 }
 
 /// What the run found wrong with the preset is said at its field, too.
-void ParametersPanel::follow_run(const Context& context)
-{
+void ParametersPanel::follow_run(const Context& context) {
   form_.refused.reset();
   const std::optional<Error>& error = context.run.status().error;
   if (!error) return;
@@ -51,9 +51,9 @@ void ParametersPanel::follow_run(const Context& context)
   if (!field.empty()) form_.refused = {field, field, error->text()};
 }
 
-void ParametersPanel::draw_top()
-{
-  const float changed = ImGui::CalcTextSize("Changed").x + ImGui::GetFrameHeight() + 3 * ImGui::GetStyle().ItemSpacing.x;
+void ParametersPanel::draw_top() {
+  const float changed =
+      ImGui::CalcTextSize("Changed").x + ImGui::GetFrameHeight() + 3 * ImGui::GetStyle().ItemSpacing.x;
   ImGui::SetNextItemWidth(-changed);
   input_text("##search", "Search names, units and help", form_.search, ImGuiInputTextFlags_EscapeClearsAll);
   places_.note("search");

@@ -17,15 +17,13 @@ using preset::Outline;
 using Kind = Outline::Kind;
 
 /// The others have rows of their own below.
-bool is_leaf(const Outline& o)
-{
+bool is_leaf(const Outline& o) {
   const bool objects = o.kind == Kind::object || o.kind == Kind::list || o.kind == Kind::map;
   return !objects && o.kind != Kind::table && o.kind != Kind::texts && !(o.kind == Kind::numbers && o.size == 0);
 }
 
 /// By default. What has no default, a list and the type of an object stay as they are.
-Json reset(const Outline& o, const Json& value)
-{
+Json reset(const Outline& o, const Json& value) {
   if (o.optional) return nullptr;
   if (o.kind == Kind::object) {
     Json reset_fields = value;
@@ -37,8 +35,7 @@ Json reset(const Outline& o, const Json& value)
 }
 
 /// What an optional field is when it is given.
-Json given(const Outline& o)
-{
+Json given(const Outline& o) {
   const double number = o.field.bounds.contain(1) ? 1 : o.field.bounds.low;
   if (o.kind == Kind::number) return number;
   if (o.kind == Kind::integer) return static_cast<std::int64_t>(number);
@@ -46,21 +43,20 @@ Json given(const Outline& o)
   return o.object ? o.fresh() : o.kind == Kind::boolean ? Json(false) : o.kind == Kind::text ? Json("") : Json::array();
 }
 
-std::string help_of(const Outline& o, const std::string& pointer)
-{
+std::string help_of(const Outline& o, const std::string& pointer) {
   std::string text = fmt::format("{}: {}", dotted(pointer), o.field.sentence);
   if (o.kind == Kind::object) return text;
   text += fmt::format("\nWanted: {}", o.expected);
   if (o.optional) return text + "; may be left out";
   if (o.field.required || o.chooses || o.standard.size() > 8) return text;
-  return text +
-         fmt::format("; by default {}", o.standard.is_string() ? fmt::format("\"{}\"", o.standard.get<std::string>()) : o.standard.dump());
+  return text + fmt::format("; by default {}", o.standard.is_string()
+                                                   ? fmt::format("\"{}\"", o.standard.get<std::string>())
+                                                   : o.standard.dump());
 }
 
 } // namespace
 
-void FieldRows::draw_fields(const std::vector<Outline>& fields, const Json& object, const std::string& pointer)
-{
+void FieldRows::draw_fields(const std::vector<Outline>& fields, const Json& object, const std::string& pointer) {
   for (const Outline& o : fields) {
     if (o.chooses && !pointer.empty()) continue; // in the row of its object
     const std::string at = child_of(pointer, o.field.name);
@@ -69,8 +65,7 @@ void FieldRows::draw_fields(const std::vector<Outline>& fields, const Json& obje
   }
 }
 
-void FieldRows::draw_field(const Outline& o, const Json& value, const std::string& pointer)
-{
+void FieldRows::draw_field(const Outline& o, const Json& value, const std::string& pointer) {
   const bool leaf = is_leaf(o), changed = is_changed(o, value);
   const bool open = draw_label(std::string(o.field.name), pointer, leaf, changed);
   draw_menu(o, value, pointer);
@@ -98,8 +93,7 @@ void FieldRows::draw_field(const Outline& o, const Json& value, const std::strin
   ImGui::TreePop();
 }
 
-bool FieldRows::draw_label(const std::string& label, const std::string& pointer, bool leaf, bool changed)
-{
+bool FieldRows::draw_label(const std::string& label, const std::string& pointer, bool leaf, bool changed) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
@@ -118,20 +112,19 @@ bool FieldRows::draw_label(const std::string& label, const std::string& pointer,
   return open;
 }
 
-void FieldRows::draw_menu(const Outline& o, const Json& value, const std::string& pointer)
-{
+void FieldRows::draw_menu(const Outline& o, const Json& value, const std::string& pointer) {
   if (ImGui::IsItemHovered()) help_ = help_of(o, pointer);
   tooltip(std::string(o.field.sentence));
   if (!ImGui::BeginPopupContextItem((pointer + ":menu").c_str())) return;
-  if (ImGui::MenuItem("Reset", nullptr, false, reset(o, value) != value)) form_.ask("reset " + dotted(pointer), pointer, reset(o, value));
+  if (ImGui::MenuItem("Reset", nullptr, false, reset(o, value) != value))
+    form_.ask("reset " + dotted(pointer), pointer, reset(o, value));
   form_.note(pointer + ":menu reset");
   const std::string setting = fmt::format("--set '{}={}'", dotted(pointer), json_text(value));
   if (is_leaf(o) && ImGui::MenuItem("Copy as --set")) ImGui::SetClipboardText(setting.c_str());
   ImGui::EndPopup();
 }
 
-void FieldRows::draw_given(const Outline& o, const Json& value, const std::string& pointer)
-{
+void FieldRows::draw_given(const Outline& o, const Json& value, const std::string& pointer) {
   bool on = !value.is_null();
   if (ImGui::Checkbox(("##given" + pointer).c_str(), &on)) {
     form_.ask(fmt::format("{} {}", on ? "give" : "leave out", dotted(pointer)), pointer, on ? given(o) : Json());
@@ -141,17 +134,16 @@ void FieldRows::draw_given(const Outline& o, const Json& value, const std::strin
   ImGui::SameLine();
 }
 
-void FieldRows::draw_reset(const Outline& o, const Json& value, const std::string& pointer)
-{
+void FieldRows::draw_reset(const Outline& o, const Json& value, const std::string& pointer) {
   const Json standard = reset(o, value);
   if (o.optional || standard == value) return;
   ImGui::SameLine();
-  if (ImGui::ArrowButton(("##reset" + pointer).c_str(), ImGuiDir_Left)) form_.ask("reset " + dotted(pointer), pointer, standard);
+  if (ImGui::ArrowButton(("##reset" + pointer).c_str(), ImGuiDir_Left))
+    form_.ask("reset " + dotted(pointer), pointer, standard);
   form_.note(pointer + ":reset", "Reset: as it is by default");
 }
 
-void FieldRows::draw_problem(const std::string& pointer, bool with_inner)
-{
+void FieldRows::draw_problem(const std::string& pointer, bool with_inner) {
   const auto draw = [&](const Problem& problem) {
     const std::string place = shown_at(problem);
     if (with_inner ? !is_inside(place, pointer) : place != pointer) return;

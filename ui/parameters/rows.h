@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of the panel "Parameters": a row a field, with what can be done about it; and of what has any number of items.
+// The rows of the panel "Parameters": a row a field, with what can be done about it; and of what has any number of
+// items.
 #pragma once
 #include "ui/parameters/values.h"
 

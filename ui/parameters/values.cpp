@@ -23,9 +23,9 @@ using Kind = Outline::Kind;
 
 float gap() { return ImGui::GetStyle().ItemInnerSpacing.x; }
 
-/// Numbers as people type them (".5", "+3", "1e5"); anything else stays a text, of which the reader of presets says what is wrong.
-Json number_from(const std::string& text)
-{
+/// Numbers as people type them (".5", "+3", "1e5"); anything else stays a text, of which the reader of presets says
+/// what is wrong.
+Json number_from(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" +"), last = text.find_last_not_of(' ');
   if (first == std::string::npos) return text;
   const std::string_view number = std::string_view(text).substr(first, last + 1 - first);
@@ -36,22 +36,19 @@ Json number_from(const std::string& text)
 }
 
 /// A pixel of a drag: a hundredth of the number's power of ten.
-double step_of(double value, bool whole)
-{
+double step_of(double value, bool whole) {
   const double step = value == 0 ? 0.01 : std::pow(10, std::floor(std::log10(std::fabs(value)))) / 100;
   return whole ? std::max(step, 1.0) : ImGui::GetIO().KeyAlt ? step / 100 : step;
 }
 
 /// In decimals that a person reads.
-double rounded(double value, double step)
-{
+double rounded(double value, double step) {
   return step < 1 ? std::round(value * std::round(1 / step)) / std::round(1 / step) : std::round(value / step) * step;
 }
 
 std::string text_of(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
-std::vector<Outline::Word> as_words(const std::vector<std::string>& names)
-{
+std::vector<Outline::Word> as_words(const std::vector<std::string>& names) {
   std::vector<Outline::Word> words;
   for (const std::string& name : names) words.push_back({name, {}});
   return words;
@@ -59,16 +56,14 @@ std::vector<Outline::Word> as_words(const std::vector<std::string>& names)
 
 } // namespace
 
-std::string ValueWidgets::unit_of(const preset::Field& field) const
-{
+std::string ValueWidgets::unit_of(const preset::Field& field) const {
   return field.unit == preset::length_unit ? form_.draft.value().value("unit", "") : std::string(field.unit);
 }
 
-void ValueWidgets::draw_value(const Outline& o, const Json& value, const std::string& pointer)
-{
+void ValueWidgets::draw_value(const Outline& o, const Json& value, const std::string& pointer) {
   const std::string unit = unit_of(o.field);
-  const float after =
-      (unit.empty() ? 0 : ImGui::CalcTextSize(unit.c_str()).x + gap()) + ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x;
+  const float after = (unit.empty() ? 0 : ImGui::CalcTextSize(unit.c_str()).x + gap()) + ImGui::GetFrameHeight() +
+                      ImGui::GetStyle().ItemSpacing.x;
   const float width = std::max(ImGui::GetContentRegionAvail().x - after, 4 * ImGui::GetFontSize());
   const auto set = [&](std::string_view word) { form_.ask(dotted(pointer) + ": " + std::string(word), pointer, word); };
   switch (o.kind) {
@@ -91,7 +86,8 @@ void ValueWidgets::draw_value(const Outline& o, const Json& value, const std::st
   case Kind::integer:
   case Kind::number: {
     const std::string word(o.field.none_word);
-    const float button = word.empty() ? 0 : ImGui::CalcTextSize(word.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + gap();
+    const float button =
+        word.empty() ? 0 : ImGui::CalcTextSize(word.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + gap();
     draw_number({o.field.bounds, o.whole, width - button}, value, pointer);
     if (word.empty()) break;
     ImGui::SameLine(0, gap());
@@ -103,7 +99,8 @@ void ValueWidgets::draw_value(const Outline& o, const Json& value, const std::st
     const auto count = static_cast<float>(o.size);
     for (std::size_t i = 0; i < o.size; ++i) {
       if (i > 0) ImGui::SameLine(0, gap());
-      draw_number({o.field.bounds, o.whole, (width - (count - 1) * gap()) / count}, value.at(i), child_of(pointer, std::to_string(i)));
+      draw_number({o.field.bounds, o.whole, (width - (count - 1) * gap()) / count}, value.at(i),
+                  child_of(pointer, std::to_string(i)));
     }
     break;
   }
@@ -119,7 +116,8 @@ void ValueWidgets::draw_value(const Outline& o, const Json& value, const std::st
       break;
     }
     const bool file = o.field.text == preset::Text::file;
-    draw_text(pointer, value, file ? width - ImGui::GetFrameHeight() - gap() : width, [](const std::string& text) { return Json(text); });
+    draw_text(pointer, value, file ? width - ImGui::GetFrameHeight() - gap() : width,
+              [](const std::string& text) { return Json(text); });
     if (file) file_choice_.draw(form_, pointer);
     break;
   }
@@ -129,8 +127,7 @@ void ValueWidgets::draw_value(const Outline& o, const Json& value, const std::st
   ImGui::TextDisabled("%s", unit.c_str());
 }
 
-void ValueWidgets::draw_number(const Number& number, const Json& value, const std::string& pointer)
-{
+void ValueWidgets::draw_number(const Number& number, const Json& value, const std::string& pointer) {
   const double now = value.is_number() ? value.get<double>() : 0;
   const bool possible = value.is_number() && number.bounds.contain(now) && (!number.whole || std::trunc(now) == now);
   if (!possible || number_typed_ == pointer) {
@@ -154,26 +151,29 @@ void ValueWidgets::draw_number(const Number& number, const Json& value, const st
                most = high < 18446744073709551615.0 ? static_cast<std::uint64_t>(high) : UINT64_MAX;
     const auto pixel = static_cast<std::uint64_t>(step);
     auto to = value.get<std::uint64_t>();
-    if (ImGui::DragScalar(label.c_str(), ImGuiDataType_U64, &to, static_cast<float>(step), &least, &most, nullptr, flags))
+    if (ImGui::DragScalar(label.c_str(), ImGuiDataType_U64, &to, static_cast<float>(step), &least, &most, nullptr,
+                          flags))
       dragged = std::max(to / pixel * pixel, least);
   } else {
     double to = now;
-    if (ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &to, static_cast<float>(step), &low, &high, "%.9g", flags))
+    if (ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &to, static_cast<float>(step), &low, &high, "%.9g",
+                          flags))
       dragged = number.whole ? Json(std::llround(rounded(to, step))) : Json(rounded(to, step));
   }
   form_.note(pointer);
   if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   if (ImGui::IsItemActivated()) form_.gestures.begin();
-  if (!dragged.is_null() && number.bounds.contain(dragged.get<double>())) form_.ask(dotted(pointer), pointer, dragged, true);
+  if (!dragged.is_null() && number.bounds.contain(dragged.get<double>()))
+    form_.ask(dotted(pointer), pointer, dragged, true);
   if (!ImGui::IsItemDeactivated()) return;
   if (ImGui::IsItemDeactivatedAfterEdit()) return form_.end_gesture();
   number_typed_ = pointer;
   number_focused_ = false;
 }
 
-std::optional<std::string> ValueWidgets::type_text(const std::string& id, const std::string& before, float width,
-                                                   const std::function<std::optional<Problem>(const std::string&)>& problem)
-{
+std::optional<std::string>
+ValueWidgets::type_text(const std::string& id, const std::string& before, float width,
+                        const std::function<std::optional<Problem>(const std::string&)>& problem) {
   std::string text = before;
   ImGui::SetNextItemWidth(width);
   input_text(("##text" + id).c_str(), "", text, ImGuiInputTextFlags_AutoSelectAll);
@@ -190,23 +190,24 @@ std::optional<std::string> ValueWidgets::type_text(const std::string& id, const 
   return std::nullopt;
 }
 
-void ValueWidgets::draw_text(const std::string& pointer, const Json& value, float width, Json (*read)(const std::string&))
-{
+void ValueWidgets::draw_text(const std::string& pointer, const Json& value, float width,
+                             Json (*read)(const std::string&)) {
   const auto problem = [&](const std::string& text) { return form_.draft.trial(pointer, read(text)); };
-  if (const auto typed = type_text(pointer, text_of(value), width, problem)) form_.ask(dotted(pointer), pointer, read(*typed));
+  if (const auto typed = type_text(pointer, text_of(value), width, problem))
+    form_.ask(dotted(pointer), pointer, read(*typed));
 }
 
-void ValueWidgets::draw_choice(const std::string& pointer, const std::string& now, const std::vector<Outline::Word>& words,
-                               const std::function<void(std::string_view)>& choose, float width)
-{
+void ValueWidgets::draw_choice(const std::string& pointer, const std::string& now,
+                               const std::vector<Outline::Word>& words,
+                               const std::function<void(std::string_view)>& choose, float width) {
   ImGui::SetNextItemWidth(width);
   Combo list(("##" + pointer).c_str(), now, &form_.places(), pointer);
   for (const Outline::Word& word : words)
-    if (list.entry(std::string(word.name), word.name == now, std::string(word.sentence)) && word.name != now) choose(word.name);
+    if (list.entry(std::string(word.name), word.name == now, std::string(word.sentence)) && word.name != now)
+      choose(word.name);
 }
 
-void ValueWidgets::draw_type(const Outline& o, const Json& object, const std::string& pointer)
-{
+void ValueWidgets::draw_type(const Outline& o, const Json& object, const std::string& pointer) {
   const std::vector<Outline> all = o.fields(object);
   const auto chooser = std::find_if(all.begin(), all.end(), [](const Outline& field) { return field.chooses; });
   if (chooser == all.end()) return ImGui::Dummy({0, ImGui::GetFrameHeight()});
@@ -218,8 +219,7 @@ void ValueWidgets::draw_type(const Outline& o, const Json& object, const std::st
   draw_choice(at, object.value(key, ""), chooser->words, choose, 8 * ImGui::GetFontSize());
 }
 
-void FileChoice::enter(const fs::path& folder)
-{
+void FileChoice::enter(const fs::path& folder) {
   std::error_code ignored;
   folder_ = folder.lexically_normal().string();
   files_.clear();
@@ -228,8 +228,7 @@ void FileChoice::enter(const fs::path& folder)
   std::sort(files_.begin(), files_.end());
 }
 
-void FileChoice::draw(Form& form, const std::string& pointer)
-{
+void FileChoice::draw(Form& form, const std::string& pointer) {
   const std::string popup = "files" + pointer;
   const fs::path beside = fs::absolute(fs::path(form.draft.source()).parent_path());
   ImGui::SameLine(0, gap());

@@ -43,7 +43,8 @@ public:
   void draw_text(const std::string& pointer, const Json& value, float width, Json (*read)(const std::string&));
   /// In the row of an object: which type it is, where there are several.
   void draw_type(const preset::Outline& o, const Json& object, const std::string& pointer);
-  /// While a text is typed `problem` of it is said. What was typed is there at Enter, or where the keyboard goes elsewhere.
+  /// While a text is typed `problem` of it is said. What was typed is there at Enter, or where the keyboard goes
+  /// elsewhere.
   std::optional<std::string> type_text(const std::string& id, const std::string& before, float width,
                                        const std::function<std::optional<Problem>(const std::string&)>& problem);
   /// Whose text is being typed, a type_text() id; empty: none. And what is wrong with it.

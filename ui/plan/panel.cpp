@@ -16,36 +16,31 @@ namespace nephroid::ui {
 namespace {
 
 /// "a.b.c" of "/a/b/c", as --set takes it. Names of fields hold no '/', '~' or '.'.
-std::string path_of(const std::string& pointer)
-{
+std::string path_of(const std::string& pointer) {
   std::string path = pointer.substr(std::min<std::size_t>(1, pointer.size()));
   std::replace(path.begin(), path.end(), '/', '.');
   return path;
 }
 
-std::optional<double> seconds_of(const job::Snapshot* snapshot, const std::string& pass)
-{
+std::optional<double> seconds_of(const job::Snapshot* snapshot, const std::string& pass) {
   if (!snapshot) return std::nullopt;
   for (const auto& [phase, seconds] : snapshot->phases)
     if (phase == pass) return seconds;
   return std::nullopt;
 }
 
-void heading(const char* text)
-{
+void heading(const char* text) {
   ImGui::Spacing();
   ImGui::SeparatorText(text);
 }
 
-void seconds_cell(std::optional<double> seconds)
-{
+void seconds_cell(std::optional<double> seconds) {
   ImGui::TableNextColumn();
   if (seconds) ImGui::Text("%.3g s", *seconds);
 }
 
 /// Seconds that are no pass of the plan's: other phases, and measuring, which is not in the work's time.
-void draw_other_seconds(const Context& context, const plan::Plan& plan)
-{
+void draw_other_seconds(const Context& context, const plan::Plan& plan) {
   const auto row = [](const std::string& name, double seconds, const char* why) {
     ImGui::TableNextRow();
     ImGui::TableSetColumnIndex(1);
@@ -56,13 +51,14 @@ void draw_other_seconds(const Context& context, const plan::Plan& plan)
   };
   if (!context.run.snapshot()) return;
   for (const auto& [phase, seconds] : context.run.snapshot()->phases)
-    if (std::none_of(plan.passes.begin(), plan.passes.end(), [&, name = phase](const plan::Pass& pass) { return pass.name == name; }))
+    if (std::none_of(plan.passes.begin(), plan.passes.end(),
+                     [&, name = phase](const plan::Pass& pass) { return pass.name == name; }))
       row(phase, seconds, "");
-  if (const auto history = context.run.error_history()) row("measuring", history->measuring_seconds, "not counted as work");
+  if (const auto history = context.run.error_history())
+    row("measuring", history->measuring_seconds, "not counted as work");
 }
 
-void draw_buffers(const plan::Plan& plan)
-{
+void draw_buffers(const plan::Plan& plan) {
   std::uint64_t total = 0;
   for (const plan::PlannedBuffer& buffer : plan.buffers) total += buffer.bytes;
   heading(fmt::format("Memory: {}###memory", plan::readable_bytes(total)).c_str());
@@ -80,25 +76,26 @@ void draw_buffers(const plan::Plan& plan)
 
 } // namespace
 
-preset::Preset with_field(const preset::Preset& preset, const std::string& pointer, bool value)
-{
+preset::Preset with_field(const preset::Preset& preset, const std::string& pointer, bool value) {
   preset::Preset edited = preset::with_overrides(preset, {path_of(pointer) + (value ? "=true" : "=false")});
   edited.source = preset.source;
   return edited;
 }
 
-void PlanPanel::draw(const Context& context)
-{
+void PlanPanel::draw(const Context& context) {
   const plan::Plan* plan = context.run.plan().get();
   if (!plan) {
-    draw_hint(colour::quiet_text, ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(), "The plan is being made");
+    draw_hint(colour::quiet_text, ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
+              "The plan is being made");
     return;
   }
   read_fields(context);
   places_.clear();
   ImGui::AlignTextToFramePadding();
-  const auto left_out = std::count_if(plan->passes.begin(), plan->passes.end(), [](const plan::Pass& pass) { return !pass.runs; });
-  ImGui::TextUnformatted(fmt::format("Engine {}: {} left out of {}", plan->engine, left_out, plan->passes.size()).c_str());
+  const auto left_out =
+      std::count_if(plan->passes.begin(), plan->passes.end(), [](const plan::Pass& pass) { return !pass.runs; });
+  ImGui::TextUnformatted(
+      fmt::format("Engine {}: {} left out of {}", plan->engine, left_out, plan->passes.size()).c_str());
   ImGui::SameLine(std::max(ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 8, ImGui::GetFontSize() * 14));
   action_button("Copy plan as JSON", context);
   if (ImGui::BeginChild("plan")) {
@@ -113,9 +110,9 @@ void PlanPanel::draw(const Context& context)
   ImGui::EndChild();
 }
 
-/// What the fields say now: from the preset's JSON, in which the plan's pointers point. Only where plan or preset changed.
-void PlanPanel::read_fields(const Context& context)
-{
+/// What the fields say now: from the preset's JSON, in which the plan's pointers point. Only where plan or preset
+/// changed.
+void PlanPanel::read_fields(const Context& context) {
   if (plan_ == context.run.plan() && preset_ == *context.preset()) return;
   plan_ = context.run.plan();
   preset_ = *context.preset();
@@ -124,14 +121,15 @@ void PlanPanel::read_fields(const Context& context)
   for (const plan::Pass& pass : plan_->passes) {
     std::optional<bool>& computed = computed_.emplace_back();
     const nlohmann::json::json_pointer pointer(pass.field);
-    if (!pass.field.empty() && fields.contains(pointer) && fields[pointer].is_boolean()) computed = fields[pointer] == pass.run_value;
+    if (!pass.field.empty() && fields.contains(pointer) && fields[pointer].is_boolean())
+      computed = fields[pointer] == pass.run_value;
   }
 }
 
-void PlanPanel::draw_passes(const Context& context)
-{
+void PlanPanel::draw_passes(const Context& context) {
   if (!ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
-  for (const char* column : {"Always", "Pass", "Time"}) ImGui::TableSetupColumn(column, ImGuiTableColumnFlags_WidthFixed);
+  for (const char* column : {"Always", "Pass", "Time"})
+    ImGui::TableSetupColumn(column, ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("Why", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
   for (std::size_t i = 0; i < plan_->passes.size(); ++i) {
@@ -151,14 +149,15 @@ void PlanPanel::draw_passes(const Context& context)
   ImGui::EndTable();
 }
 
-void PlanPanel::draw_box(const Context& context, const plan::Pass& pass, bool computed)
-{
+void PlanPanel::draw_box(const Context& context, const plan::Pass& pass, bool computed) {
   if (ImGui::Checkbox("##computed", &computed)) {
     const std::string label = (computed ? "compute " : "leave out ") + pass.name;
-    context.push(command::Edit{label, with_field(*context.preset(), pass.field, computed ? pass.run_value : !pass.run_value)});
+    context.push(
+        command::Edit{label, with_field(*context.preset(), pass.field, computed ? pass.run_value : !pass.run_value)});
   }
-  places_.note(pass.name, fmt::format("Computed whatever the scene needs: {} = {}. Without the check the scene decides.",
-                                      path_of(pass.field), pass.run_value));
+  places_.note(pass.name,
+               fmt::format("Computed whatever the scene needs: {} = {}. Without the check the scene decides.",
+                           path_of(pass.field), pass.run_value));
 }
 
 } // namespace nephroid::ui

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Plan": which passes the run has, which are left out and why, seconds and bytes, and a box for each that a field of the
-// preset turns on or off.
+// The panel "Plan": which passes the run has, which are left out and why, seconds and bytes, and a box for each that a
+// field of the preset turns on or off.
 #pragma once
 #include "plan/plan.h"
 #include "preset/preset.h"
@@ -18,9 +18,10 @@ private:
   void draw_passes(const Context& context);
   void draw_box(const Context& context, const plan::Pass& pass, bool computed);
 
-  std::shared_ptr<const plan::Plan> plan_;    ///< what computed_ belongs to,
-  preset::Preset preset_;                     ///< and the preset that it was read from
-  std::vector<std::optional<bool>> computed_; ///< by pass: whether its field says that it is computed; nothing without such a field
+  std::shared_ptr<const plan::Plan> plan_; ///< what computed_ belongs to,
+  preset::Preset preset_;                  ///< and the preset that it was read from
+  std::vector<std::optional<bool>>
+      computed_; ///< by pass: whether its field says that it is computed; nothing without such a field
 };
 
 /// The preset with the boolean at a JSON pointer set. Throws bad_input where there is no such field.

@@ -22,14 +22,12 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Seconds since 1970; 0 where nobody can tell.
-std::int64_t time_of(const fs::path& file)
-{
+std::int64_t time_of(const fs::path& file) {
   struct stat status {};
   return ::stat(file.c_str(), &status) == 0 ? status.st_mtime : 0;
 }
 
-std::vector<RequiredFile> needs_of(const preset::Preset& preset)
-{
+std::vector<RequiredFile> needs_of(const preset::Preset& preset) {
   std::vector<std::string> names;
   for (auto& [pointer, name] : preset::file_names(preset))
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
@@ -47,8 +45,7 @@ std::vector<RequiredFile> needs_of(const preset::Preset& preset)
   return needs;
 }
 
-std::string stop_of(const preset::Preset& preset)
-{
+std::string stop_of(const preset::Preset& preset) {
   const preset::Stop& stop = preset.stop;
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : " or ") + part; };
@@ -58,9 +55,10 @@ std::string stop_of(const preset::Preset& preset)
   return text.empty() ? fmt::format("{} passes", preset::default_passes) : text;
 }
 
-CatalogueEntry entry_of(const fs::path& file, std::string name, bool shipped, const fs::path& thumbnails)
-{
-  CatalogueEntry entry{file, std::move(name), shipped, time_of(file), thumbnail_of(file, thumbnails), {}, {}, {}, {}, {0, 0}, {}, 1, 1, {}};
+CatalogueEntry entry_of(const fs::path& file, std::string name, bool shipped, const fs::path& thumbnails) {
+  CatalogueEntry entry{
+      file, std::move(name), shipped, time_of(file), thumbnail_of(file, thumbnails), {}, {}, {}, {}, {0, 0}, {}, 1, 1,
+      {}};
   try {
     const std::vector<preset::Preset> presets = preset::read_presets(file.string());
     const preset::Preset& first = presets.front();
@@ -79,8 +77,8 @@ CatalogueEntry entry_of(const fs::path& file, std::string name, bool shipped, co
 }
 
 /// thumbnails: their folder.
-std::vector<CatalogueEntry> read(const std::vector<RecentFile>& opened, const fs::path& thumbnails, TaskControl& control)
-{
+std::vector<CatalogueEntry> read(const std::vector<RecentFile>& opened, const fs::path& thumbnails,
+                                 TaskControl& control) {
   std::vector<CatalogueEntry> entries;
   try {
     const std::vector<preset::ShippedPreset> all_shipped = preset::shipped_presets();
@@ -93,27 +91,31 @@ std::vector<CatalogueEntry> read(const std::vector<RecentFile>& opened, const fs
   }
   for (const RecentFile& file : opened) {
     const std::string shipped = preset::shipped_name(file.file);
-    const auto same = std::find_if(entries.begin(), entries.end(), [&](const CatalogueEntry& e) { return e.shipped && e.name == shipped; });
-    CatalogueEntry& entry = !shipped.empty() && same != entries.end()
-                                ? *same
-                                : entries.emplace_back(entry_of(file.file, fs::path(file.file).filename().string(), false, thumbnails));
+    const auto same = std::find_if(entries.begin(), entries.end(),
+                                   [&](const CatalogueEntry& e) { return e.shipped && e.name == shipped; });
+    CatalogueEntry& entry =
+        !shipped.empty() && same != entries.end()
+            ? *same
+            : entries.emplace_back(entry_of(file.file, fs::path(file.file).filename().string(), false, thumbnails));
     entry.time = std::max(entry.time, file.opened);
   }
   return entries;
 }
 
-std::string text_of(const CatalogueEntry& e) { return fmt::format("{}\n{}\n{}\n{}", e.name, e.title, e.description, e.engine); }
+std::string text_of(const CatalogueEntry& e) {
+  return fmt::format("{}\n{}\n{}\n{}", e.name, e.title, e.description, e.engine);
+}
 
 constexpr std::size_t most_bytes = 1 << 20; ///< of a file
 constexpr int most_pixels = 512;            ///< of its edge
 
 } // namespace
 
-std::vector<std::size_t> matches(const std::vector<CatalogueEntry>& entries, const CatalogueFilter& filter)
-{
+std::vector<std::size_t> matches(const std::vector<CatalogueEntry>& entries, const CatalogueFilter& filter) {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < entries.size(); ++i)
-    if ((filter.engine.empty() || entries[i].engine == filter.engine) && has_words(text_of(entries[i]), filter.words)) indices.push_back(i);
+    if ((filter.engine.empty() || entries[i].engine == filter.engine) && has_words(text_of(entries[i]), filter.words))
+      indices.push_back(i);
   std::stable_sort(indices.begin(), indices.end(), [&](std::size_t a, std::size_t b) {
     if (filter.newest_first && entries[a].time != entries[b].time) return entries[a].time > entries[b].time;
     return entries[a].name < entries[b].name;
@@ -121,22 +123,22 @@ std::vector<std::size_t> matches(const std::vector<CatalogueEntry>& entries, con
   return indices;
 }
 
-void Catalogue::follow(const RecentFiles& recent, TaskQueue& tasks)
-{
+void Catalogue::follow(const RecentFiles& recent, TaskQueue& tasks) {
   if (tasks.busy(reading_) || (!stale_ && recent.all() == recent_)) return;
   stale_ = false;
   recent_ = recent.all();
   tasks.start(
       reading_, {"reading the presets"},
-      [opened = recent_, thumbnails = recent.thumbnails()](TaskControl& control) { return read(opened, thumbnails, control); },
+      [opened = recent_, thumbnails = recent.thumbnails()](TaskControl& control) {
+        return read(opened, thumbnails, control);
+      },
       [this](std::vector<CatalogueEntry> entries) {
         entries_ = std::move(entries);
         ++readings_;
       });
 }
 
-void Thumbnails::update(TaskQueue& tasks)
-{
+void Thumbnails::update(TaskQueue& tasks) {
   if (tasks.busy(reading_)) return;
   if (std::exchange(stale_, false))
     for (const auto& [file, picture] : pictures_) wanted_.push_back(file);
@@ -159,22 +161,21 @@ void Thumbnails::update(TaskQueue& tasks)
   });
 }
 
-const PictureTexture* Thumbnails::of(const std::filesystem::path& file)
-{
+const PictureTexture* Thumbnails::of(const std::filesystem::path& file) {
   if (file.empty()) return nullptr;
   const auto [found, is_new] = pictures_.try_emplace(file.string());
   if (is_new) wanted_.push_back(file.string());
   return found->second.get();
 }
 
-Thumbnails::Pixels Thumbnails::read(const std::string& file)
-{
+Thumbnails::Pixels Thumbnails::read(const std::string& file) {
   Pixels pixels{file, 0, 0, {}};
   try {
     std::error_code error;
     if (const auto size = std::filesystem::file_size(file, error); error || size > most_bytes) return pixels;
     const image::Image picture = image::read_image(file);
-    if (picture.width < 1 || picture.height < 1 || picture.width > most_pixels || picture.height > most_pixels) return pixels;
+    if (picture.width < 1 || picture.height < 1 || picture.width > most_pixels || picture.height > most_pixels)
+      return pixels;
     for (std::size_t i = 0; const float value : image::rgb_of(picture, file).values) {
       pixels.rgba8.push_back(static_cast<unsigned char>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))));
       if (++i % 3 == 0) pixels.rgba8.push_back(255);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the panel "Presets" lists: every shipped preset and the files that were opened lately, read away from the window's thread; which of
-// them a search finds, and in which order; and their small pictures.
+// What the panel "Presets" lists: every shipped preset and the files that were opened lately, read away from the
+// window's thread; which of them a search finds, and in which order; and their small pictures.
 #pragma once
 #include "ui/state/recent_files.h"
 #include "ui/state/tasks.h"
@@ -64,8 +64,8 @@ private:
   TaskKey reading_;
 };
 
-/// Small pictures of presets, read away from the window's thread when they come into sight. One that is missing or broken is known as such
-/// and not read again.
+/// Small pictures of presets, read away from the window's thread when they come into sight. One that is missing or
+/// broken is known as such and not read again.
 class Thumbnails {
 public:
   /// Once a frame: reads what was asked for.

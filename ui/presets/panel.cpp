@@ -14,8 +14,7 @@ namespace nephroid::ui {
 namespace {
 
 /// Of what stands in for a picture.
-ImU32 badge_of(std::string_view name)
-{
+ImU32 badge_of(std::string_view name) {
   engine::Introduction introduction;
   for (const engine::Engine* engine : engine::engines())
     if (name_of(*engine) == name) introduction = engine->introduction;
@@ -24,8 +23,8 @@ ImU32 badge_of(std::string_view name)
 }
 
 /// The picture in the middle of the area, as large as fits; without one the engine's name.
-void draw_picture(const PictureTexture* picture, const CatalogueEntry& entry, const ImVec2& corner, const ImVec2& size)
-{
+void draw_picture(const PictureTexture* picture, const CatalogueEntry& entry, const ImVec2& corner,
+                  const ImVec2& size) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   const ImVec2 end{corner.x + size.x, corner.y + size.y};
   if (picture && !picture->empty()) {
@@ -41,30 +40,30 @@ void draw_picture(const PictureTexture* picture, const CatalogueEntry& entry, co
   const std::string text = entry.problem.empty() ? entry.engine : "not readable";
   const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
   list->PushClipRect(corner, end, true);
-  list->AddText({corner.x + std::max(2.0f, (size.x - extent.x) / 2), corner.y + (size.y - extent.y) / 2}, colour::on_dark, text.c_str());
+  list->AddText({corner.x + std::max(2.0f, (size.x - extent.x) / 2), corner.y + (size.y - extent.y) / 2},
+                colour::on_dark, text.c_str());
   list->PopClipRect();
 }
 
 } // namespace
 
-std::vector<std::string> PresetsPanel::listed() const
-{
+std::vector<std::string> PresetsPanel::listed() const {
   std::vector<std::string> names;
   for (const std::size_t i : matches_) names.push_back(catalogue_.entries()[i].name);
   return names;
 }
 
-const CatalogueEntry* PresetsPanel::chosen_entry() const
-{
+const CatalogueEntry* PresetsPanel::chosen_entry() const {
   for (const std::size_t i : matches_)
     if (catalogue_.entries()[i].file == chosen_) return &catalogue_.entries()[i];
   return nullptr;
 }
 
-void PresetsPanel::open(const Context& context, const CatalogueEntry& entry) const { context.push(command::Open{entry.file.string()}); }
+void PresetsPanel::open(const Context& context, const CatalogueEntry& entry) const {
+  context.push(command::Open{entry.file.string()});
+}
 
-void PresetsPanel::draw(const Context& context)
-{
+void PresetsPanel::draw(const Context& context) {
   places_.clear();
   if (ImGui::IsWindowAppearing()) {
     catalogue_.read_again();
@@ -83,15 +82,15 @@ void PresetsPanel::draw(const Context& context)
   ImGui::EndChild();
 }
 
-void PresetsPanel::draw_top()
-{
+void PresetsPanel::draw_top() {
   const float em = ImGui::GetFontSize();
   // Whoever comes here without the mouse begins to type.
   const bool focused = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
   if (focused && !focused_ && !ImGui::IsMouseDown(0)) ImGui::SetKeyboardFocusHere();
   focused_ = focused;
   ImGui::SetNextItemWidth(-16 * em);
-  if (input_text("##search", "Search names, descriptions, engines", filter_.words, ImGuiInputTextFlags_EscapeClearsAll)) reveal_ = true;
+  if (input_text("##search", "Search names, descriptions, engines", filter_.words, ImGuiInputTextFlags_EscapeClearsAll))
+    reveal_ = true;
   typing_ = ImGui::IsItemActive() || ImGui::IsItemDeactivated(); // Enter ends typing, and opens
   places_.note("search");
   ImGui::SameLine();
@@ -103,13 +102,14 @@ void PresetsPanel::draw_top()
       if (const std::string name(name_of(*engine)); list.entry(name, filter_.engine == name)) filter_.engine = name;
   }
   ImGui::SameLine();
-  places_.checkbox("Newest first", &filter_.newest_first, "newest", "By when they were opened or written, else by name");
+  places_.checkbox("Newest first", &filter_.newest_first, "newest",
+                   "By when they were opened or written, else by name");
 }
 
-void PresetsPanel::follow_keys(const Context& context)
-{
+void PresetsPanel::follow_keys(const Context& context) {
   if (!focused_ || matches_.empty() || (ImGui::GetIO().WantTextInput && !typing_)) return;
-  const auto at = std::find_if(matches_.begin(), matches_.end(), [&](std::size_t i) { return catalogue_.entries()[i].file == chosen_; });
+  const auto at = std::find_if(matches_.begin(), matches_.end(),
+                               [&](std::size_t i) { return catalogue_.entries()[i].file == chosen_; });
   const auto last = static_cast<std::ptrdiff_t>(matches_.size()) - 1;
   const std::ptrdiff_t now = at == matches_.end() ? -1 : at - matches_.begin();
   std::ptrdiff_t next = now;
@@ -133,9 +133,9 @@ void PresetsPanel::follow_keys(const Context& context)
   }
 }
 
-void PresetsPanel::draw_list(const Context& context, float height)
-{
-  if (ImGui::BeginChild("list", {0, std::max(height, ImGui::GetFontSize())}, ImGuiChildFlags_Borders, ImGuiWindowFlags_NoNav)) {
+void PresetsPanel::draw_list(const Context& context, float height) {
+  if (ImGui::BeginChild("list", {0, std::max(height, ImGui::GetFontSize())}, ImGuiChildFlags_Borders,
+                        ImGuiWindowFlags_NoNav)) {
     if (matches_.empty()) ImGui::TextDisabled("%s", catalogue_.readings() == 0 ? "Reading..." : "Nothing is found.");
     for (const std::size_t i : matches_) draw_row(context, catalogue_.entries()[i]);
     reveal_ = false;
@@ -143,8 +143,7 @@ void PresetsPanel::draw_list(const Context& context, float height)
   ImGui::EndChild();
 }
 
-void PresetsPanel::draw_row(const Context& context, const CatalogueEntry& entry)
-{
+void PresetsPanel::draw_row(const Context& context, const CatalogueEntry& entry) {
   const float em = ImGui::GetFontSize(), high = 3.6f * em, wide = high * thumbnail_width / thumbnail_height;
   page_ = std::max(1, static_cast<int>(ImGui::GetWindowHeight() / (high + ImGui::GetStyle().ItemSpacing.y)));
   const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -169,8 +168,7 @@ void PresetsPanel::draw_row(const Context& context, const CatalogueEntry& entry)
   list->PopClipRect();
 }
 
-void PresetsPanel::draw_details(const Context& context)
-{
+void PresetsPanel::draw_details(const Context& context) {
   const CatalogueEntry* entry = chosen_entry();
   if (!entry) {
     ImGui::TextDisabled("%s", counted(matches_.size(), "preset").c_str());
@@ -185,13 +183,15 @@ void PresetsPanel::draw_details(const Context& context)
     return;
   }
   draw_wrapped(colour::text, entry->description);
-  std::string what = fmt::format("{}, {} x {} pixels, {}", entry->engine, entry->resolution[0], entry->resolution[1], entry->stop);
+  std::string what =
+      fmt::format("{}, {} x {} pixels, {}", entry->engine, entry->resolution[0], entry->resolution[1], entry->stop);
   if (entry->frames > 1) what += ", " + counted(entry->frames, "frame");
   if (entry->runs > 1) what += fmt::format(", a sweep of {}", counted(entry->runs, "run"));
   draw_wrapped(colour::quiet_text, what);
   if (entry->needs.empty()) draw_wrapped(colour::quiet_text, "Needs no other file");
   for (const RequiredFile& need : entry->needs)
-    draw_wrapped(need.there ? colour::quiet_text : colour::error, "Needs " + need.name + (need.there ? "" : ", which is not there"));
+    draw_wrapped(need.there ? colour::quiet_text : colour::error,
+                 "Needs " + need.name + (need.there ? "" : ", which is not there"));
   draw_wrapped(colour::quiet_text, entry->file.string());
 }
 

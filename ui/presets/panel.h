@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Presets": the shipped presets and the files that were opened lately, with a small picture each. They are searched, looked at
-// and opened, by the mouse or by the keyboard alone.
+// The panel "Presets": the shipped presets and the files that were opened lately, with a small picture each. They are
+// searched, looked at and opened, by the mouse or by the keyboard alone.
 #pragma once
 #include "ui/presets/catalogue.h"
 #include "ui/widgets/panel.h"
@@ -12,8 +12,8 @@ public:
   static constexpr const char* title = "Presets";
   void draw(const Context& context) override;
 
-  /// For tests: what is listed, from the top; the chosen one's file; the middle of a widget on the screen: a row by its name, "search",
-  /// "engine", "engine:spectral", "newest", "open". Nothing where it is not drawn.
+  /// For tests: what is listed, from the top; the chosen one's file; the middle of a widget on the screen: a row by its
+  /// name, "search", "engine", "engine:spectral", "newest", "open". Nothing where it is not drawn.
   const Catalogue& catalogue() const { return catalogue_; }
   std::vector<std::string> listed() const;
   const std::string& chosen() const { return chosen_; }

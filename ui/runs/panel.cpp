@@ -16,10 +16,10 @@
 namespace nephroid::ui {
 namespace {
 
-constexpr std::uint32_t present_colour = 0xffe4e4e4; ///< as the line of the run in hand in the panel "Error against time"
+constexpr std::uint32_t present_colour =
+    0xffe4e4e4; ///< as the line of the run in hand in the panel "Error against time"
 
-RunRow row_of(const PinnedRun& run)
-{
+RunRow row_of(const PinnedRun& run) {
   RunRow row{.pin = run.id, .name = run.name, .colour = run.colour};
   row.has_picture = run.picture != nullptr;
   if (!run.is_run()) {
@@ -32,7 +32,8 @@ RunRow row_of(const PinnedRun& run)
   }
   if (const auto& record = run.record) {
     if (!record->engine.empty()) row.engine = record->engine;
-    if (record->steps) row.steps = fmt::format("{} {}{}", *record->steps, record->steps_name, record->finished ? "" : "...");
+    if (record->steps)
+      row.steps = fmt::format("{} {}{}", *record->steps, record->steps_name, record->finished ? "" : "...");
     if (record->work_seconds) row.seconds_value = *record->work_seconds;
     row.preset = record->preset;
   } else if (!run.history->rows.empty()) // a table alone has the time of its last row
@@ -47,24 +48,22 @@ RunRow row_of(const PinnedRun& run)
 }
 
 /// A value as JSON, for a row.
-std::string short_value(const std::string& text)
-{
+std::string short_value(const std::string& text) {
   constexpr std::size_t longest = 24;
   if (text == "null") return "none";
   if (text.size() <= longest) return text;
   const preset::Json value = preset::Json::parse(text, nullptr, false);
   if (value.is_array()) return fmt::format("[{} items]", value.size());
-  if (value.is_object()) return value.contains("type") && value["type"].is_string() ? value["type"].get<std::string>() + " {...}" : "{...}";
+  if (value.is_object())
+    return value.contains("type") && value["type"].is_string() ? value["type"].get<std::string>() + " {...}" : "{...}";
   return text.substr(0, longest) + "...";
 }
 
-std::string line_of(const preset::Difference& d)
-{
+std::string line_of(const preset::Difference& d) {
   return fmt::format("{}: {} -> {}", d.path, short_value(d.before), short_value(d.after));
 }
 
-std::string all_lines(const std::vector<preset::Difference>& differences)
-{
+std::string all_lines(const std::vector<preset::Difference>& differences) {
   constexpr std::size_t most = 40;
   std::string text = "From the present preset to this one:";
   for (std::size_t i = 0; i < std::min(most, differences.size()); ++i) text += '\n' + line_of(differences[i]);
@@ -75,8 +74,7 @@ std::string all_lines(const std::vector<preset::Difference>& differences)
 enum Column { name_column, work_column, error_column, buttons_column };
 
 /// Whether a comes before b: by the column that a person clicked on. What has no number comes last.
-bool is_before(const RunRow& a, const RunRow& b, const ImGuiTableColumnSortSpecs& by)
-{
+bool is_before(const RunRow& a, const RunRow& b, const ImGuiTableColumnSortSpecs& by) {
   const bool down = by.SortDirection == ImGuiSortDirection_Descending;
   if (by.ColumnIndex == name_column) return down ? b.name < a.name : a.name < b.name;
   const double left = by.ColumnIndex == work_column ? a.seconds_value : a.error_value;
@@ -86,16 +84,14 @@ bool is_before(const RunRow& a, const RunRow& b, const ImGuiTableColumnSortSpecs
 }
 
 /// Two lines of a cell.
-void draw_cell(const std::string& above, const std::string& below)
-{
+void draw_cell(const std::string& above, const std::string& below) {
   ImGui::TextUnformatted(above.c_str());
   draw_text(colour::quiet_text, below);
 }
 
 } // namespace
 
-std::vector<RunRow> run_rows(const Context& context)
-{
+std::vector<RunRow> run_rows(const Context& context) {
   std::vector<RunRow> rows;
   if (context.run.snapshot()) {
     rows.push_back(row_of(look_at_run(context.run)));
@@ -108,14 +104,15 @@ std::vector<RunRow> run_rows(const Context& context)
   return rows;
 }
 
-const PresetDifferences::Known& PresetDifferences::of(const RunRow& row, const Context& context)
-{
-  std::erase_if(known_, [&](const auto& entry) { return entry.first != 0 && !context.comparing.pinned().find(entry.first); });
+const PresetDifferences::Known& PresetDifferences::of(const RunRow& row, const Context& context) {
+  std::erase_if(known_,
+                [&](const auto& entry) { return entry.first != 0 && !context.comparing.pinned().find(entry.first); });
   Known& known = known_[row.pin];
   const auto present = context.edits ? context.edits->shared() : nullptr;
   if (known.of == row.preset && known.present == present && !known.in_short.empty()) return known;
   known = {row.preset, present, {}, {}};
-  if (!row.preset && row.pin != 0) known.in_short = row.file.empty() ? "its preset is not known" : row.read_as + "; " + row.file;
+  if (!row.preset && row.pin != 0)
+    known.in_short = row.file.empty() ? "its preset is not known" : row.read_as + "; " + row.file;
   if (!row.preset || !present) return known;
   try {
     const std::vector<preset::Difference> differences = preset::differences(*present, *row.preset);
@@ -128,8 +125,7 @@ const PresetDifferences::Known& PresetDifferences::of(const RunRow& row, const C
   return known;
 }
 
-command::Edit taken(const RunRow& row, const preset::Preset& present)
-{
+command::Edit taken(const RunRow& row, const preset::Preset& present) {
   preset::Preset edited = preset::moved_to_file(*row.preset, present.source);
   if (row.preset->source == present.source) {
     edited.name = present.name;
@@ -138,8 +134,7 @@ command::Edit taken(const RunRow& row, const preset::Preset& present)
   return {"take the preset of " + row.name, std::move(edited)};
 }
 
-void RunsPanel::draw(const Context& context)
-{
+void RunsPanel::draw(const Context& context) {
   places_.clear();
   rows_ = run_rows(context);
   action_button("Write a report...", context);
@@ -152,18 +147,17 @@ void RunsPanel::draw(const Context& context)
   action_button("Open pictures...", context);
   sweep_.draw(context, places_);
   if (rows_.empty()) {
-    draw_wrapped(colour::quiet_text,
-                 "Open a preset: its run is listed here, and each run that is pinned. Or open the history of an earlier run, or pictures.");
+    draw_wrapped(colour::quiet_text, "Open a preset: its run is listed here, and each run that is pinned. Or open the "
+                                     "history of an earlier run, or pictures.");
     return;
   }
   draw_table(context);
 }
 
-void RunsPanel::draw_table(const Context& context)
-{
+void RunsPanel::draw_table(const Context& context) {
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_ScrollY |
-                                    ImGuiTableFlags_Resizable | ImGuiTableFlags_Sortable | ImGuiTableFlags_SortTristate |
-                                    ImGuiTableFlags_NoSavedSettings;
+                                    ImGuiTableFlags_Resizable | ImGuiTableFlags_Sortable |
+                                    ImGuiTableFlags_SortTristate | ImGuiTableFlags_NoSavedSettings;
   if (!ImGui::BeginTable("runs", 4, flags)) return;
   const float em = ImGui::GetFontSize();
   ImGui::TableSetupScrollFreeze(0, 1);
@@ -173,7 +167,8 @@ void RunsPanel::draw_table(const Context& context)
   ImGui::TableSetupColumn("##buttons", ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_NoSort, 7.5f * em);
   ImGui::TableHeadersRow();
   if (const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs(); specs && specs->SpecsCount > 0)
-    std::stable_sort(rows_.begin(), rows_.end(), [&](const RunRow& a, const RunRow& b) { return is_before(a, b, specs->Specs[0]); });
+    std::stable_sort(rows_.begin(), rows_.end(),
+                     [&](const RunRow& a, const RunRow& b) { return is_before(a, b, specs->Specs[0]); });
   const float high = 3 * ImGui::GetTextLineHeightWithSpacing() + 2 * ImGui::GetStyle().CellPadding.y;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(rows_.size()), high);
@@ -187,12 +182,12 @@ void RunsPanel::draw_table(const Context& context)
   ImGui::EndTable();
 }
 
-void RunsPanel::draw_row(const Context& context, const RunRow& row)
-{
+void RunsPanel::draw_row(const Context& context, const RunRow& row) {
   ImGui::TableNextColumn();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float em = ImGui::GetFontSize(), box = 0.7f * em, inset = box + 0.4f * em;
-  ImGui::GetWindowDrawList()->AddRectFilled({corner.x, corner.y + 0.15f * em}, {corner.x + box, corner.y + 0.15f * em + box}, row.colour);
+  ImGui::GetWindowDrawList()->AddRectFilled({corner.x, corner.y + 0.15f * em},
+                                            {corner.x + box, corner.y + 0.15f * em + box}, row.colour);
   ImGui::Indent(inset);
   draw_cell(row.name, row.engine);
   ImGui::Unindent(inset);
@@ -203,11 +198,11 @@ void RunsPanel::draw_row(const Context& context, const RunRow& row)
   ImGui::TableNextColumn();
   draw_buttons(context, row);
   const float end = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
-  draw_difference(context, row, {corner.x + inset, corner.y + 2 * ImGui::GetTextLineHeightWithSpacing()}, end - corner.x - inset);
+  draw_difference(context, row, {corner.x + inset, corner.y + 2 * ImGui::GetTextLineHeightWithSpacing()},
+                  end - corner.x - inset);
 }
 
-void RunsPanel::draw_buttons(const Context& context, const RunRow& row)
-{
+void RunsPanel::draw_buttons(const Context& context, const RunRow& row) {
   const auto button = [&](const char* label, const std::string& place, bool enabled, const char* help) {
     ImGui::BeginDisabled(!enabled);
     const bool pressed = places_.small_button(label, place, help);
@@ -239,13 +234,13 @@ void RunsPanel::draw_buttons(const Context& context, const RunRow& row)
   if (row.pin == 0 || !is_run) return;
   ImGui::SameLine();
   if (button("Take", fmt::format("take {}", row.pin), row.preset && context.preset(),
-             row.preset ? "Its preset in place of the present one, as an edit that can be undone" : "Its preset is not known"))
+             row.preset ? "Its preset in place of the present one, as an edit that can be undone"
+                        : "Its preset is not known"))
     context.push(taken(row, *context.preset()));
 }
 
 /// The third line of the row, across all columns, from its upper left corner on. Under the mouse: all of it.
-void RunsPanel::draw_difference(const Context& context, const RunRow& row, const ImVec2& corner, float width)
-{
+void RunsPanel::draw_difference(const Context& context, const RunRow& row, const ImVec2& corner, float width) {
   const auto& known = differences_.of(row, context);
   const ImVec2 low = corner, high{low.x + width, low.y + ImGui::GetTextLineHeight()};
   ImDrawList* list = ImGui::GetWindowDrawList();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Runs": the run in hand, each pinned run and each opened picture as a table, with what they cost, how far off they are and
-// where their presets differ; buttons to look at one, to take its preset, to pin and unpin, and to write the report over all of them. Above
-// it the sweep.
+// The panel "Runs": the run in hand, each pinned run and each opened picture as a table, with what they cost, how far
+// off they are and where their presets differ; buttons to look at one, to take its preset, to pin and unpin, and to
+// write the report over all of them. Above it the sweep.
 #pragma once
 #include "preset/differences.h"
 #include "ui/runs/sweep_section.h"
@@ -25,7 +25,8 @@ struct RunRow {
   std::string seconds = "-";    ///< "0.04 s": of work
   std::string error = "-";      ///< "0.0123 lab_mean"
   std::string error_kind = "-"; ///< "estimate", "to its reference"
-  double seconds_value = std::numeric_limits<double>::quiet_NaN(), error_value = std::numeric_limits<double>::quiet_NaN();
+  double seconds_value = std::numeric_limits<double>::quiet_NaN(),
+         error_value = std::numeric_limits<double>::quiet_NaN();
   bool has_picture = false;
   std::string file = {};                             ///< of an opened picture, whose seconds are its size; empty: a run
   std::string read_as = {};                          ///< as PinnedRun::read_as
@@ -40,8 +41,9 @@ class PresetDifferences {
 public:
   struct Known {
     std::shared_ptr<const preset::Preset> of, present;
-    std::string in_short; ///< for a row: "spectral.threshold_deg: 0.1 -> 0.5, 2 more"; the present one's value comes first
-    std::string in_full;  ///< a line a difference
+    std::string
+        in_short; ///< for a row: "spectral.threshold_deg: 0.1 -> 0.5, 2 more"; the present one's value comes first
+    std::string in_full; ///< a line a difference
   };
   const Known& of(const RunRow& row, const Context& context);
 
@@ -49,8 +51,8 @@ private:
   std::map<std::uint64_t, Known> known_; ///< by RunRow::pin
 };
 
-/// A run's preset in place of the present one, as one edit: names of files mean what they meant; it stays in the present file. A run of
-/// that same file leaves name and description as they are.
+/// A run's preset in place of the present one, as one edit: names of files mean what they meant; it stays in the
+/// present file. A run of that same file leaves name and description as they are.
 command::Edit taken(const RunRow& row, const preset::Preset& present);
 
 class RunsPanel : public Panel {
@@ -58,8 +60,9 @@ public:
   static constexpr const char* title = "Runs";
   void draw(const Context& context) override;
 
-  /// For tests: what was listed last, from the top; the middle of a widget on the screen: "show 3", "compare 3", "take 3", "unpin 3" of a
-  /// pin by its id, "show 0", "compare 0" and "pin" of the run in hand. Nothing where it is not drawn.
+  /// For tests: what was listed last, from the top; the middle of a widget on the screen: "show 3", "compare 3", "take
+  /// 3", "unpin 3" of a pin by its id, "show 0", "compare 0" and "pin" of the run in hand. Nothing where it is not
+  /// drawn.
   const std::vector<RunRow>& rows() const { return rows_; }
   std::string difference(const RunRow& row, const Context& context) { return differences_.of(row, context).in_short; }
   const SweepSection& sweep() const { return sweep_; }

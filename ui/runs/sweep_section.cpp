@@ -31,14 +31,13 @@ using Kind = Outline::Kind;
 constexpr std::size_t most_values = 10000; ///< that a sweep of a preset may have
 
 /// A name that --set takes between two dots.
-bool is_sayable(const std::string& key)
-{
+bool is_sayable(const std::string& key) {
   return !key.empty() && key.find_first_of(".=[") == std::string::npos &&
          std::ranges::none_of(key, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
-void collect(const std::vector<Outline>& outline, const Json& object, const std::string& before, std::vector<NumberField>& all)
-{
+void collect(const std::vector<Outline>& outline, const Json& object, const std::string& before,
+             std::vector<NumberField>& all) {
   for (const Outline& o : outline) {
     const std::string name(o.field.name);
     const std::string key = before + name;
@@ -55,21 +54,19 @@ void collect(const std::vector<Outline>& outline, const Json& object, const std:
   }
 }
 
-std::string text_of(const NumberField& field, double value)
-{
-  return field.whole ? fmt::format("{:.0f}", value) : Json(std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr)).dump();
+std::string text_of(const NumberField& field, double value) {
+  return field.whole ? fmt::format("{:.0f}", value)
+                     : Json(std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr)).dump();
 }
 
 /// Throws where the field may not have it.
-void check_value(const NumberField& field, double value, const std::string& shown)
-{
+void check_value(const NumberField& field, double value, const std::string& shown) {
   if (std::isfinite(value) && field.bounds.contain(value) && (!field.whole || value == std::trunc(value))) return;
   throw bad_input(field.key, fmt::format("{} is out of its range", shown), "expected " + field.expected);
 }
 
 /// A number as people type it: ".5", "+3", "1e5".
-std::string typed_value(const NumberField& field, const std::string& word)
-{
+std::string typed_value(const NumberField& field, const std::string& word) {
   const auto value = typed_number<double>(word);
   if (!value) throw bad_input(field.key, "a value is no number", "expected numbers with commas between");
   check_value(field, *value, fmt::format("{:g}", *value));
@@ -78,8 +75,7 @@ std::string typed_value(const NumberField& field, const std::string& word)
   return text_of(field, *value);
 }
 
-const std::vector<std::string>& all_different(const NumberField& field, const std::vector<std::string>& values)
-{
+const std::vector<std::string>& all_different(const NumberField& field, const std::vector<std::string>& values) {
   std::set<std::string> seen;
   for (const std::string& value : values)
     if (!seen.insert(value).second)
@@ -89,22 +85,19 @@ const std::vector<std::string>& all_different(const NumberField& field, const st
 
 using State = SweepQueue::State;
 
-const preset::Sweep& sweep_of(const Context& context)
-{
+const preset::Sweep& sweep_of(const Context& context) {
   static const preset::Sweep none;
   return context.edits ? context.edits->sweep() : none;
 }
 
-std::string heading(const Context& context)
-{
+std::string heading(const Context& context) {
   const preset::Sweep& sweep = sweep_of(context);
   if (context.sweep.active()) return "Sweep: " + context.sweep.summary();
   if (sweep.empty()) return "Sweep";
   return fmt::format("Sweep: {:.0f} runs of {}", preset::count_runs(sweep), counted(sweep.size(), "field"));
 }
 
-std::string state_text(const SweepQueue::QueuedRun& run)
-{
+std::string state_text(const SweepQueue::QueuedRun& run) {
   if (run.state == State::running) return fmt::format("{:.0f} %", 100 * run.part);
   static const std::map<State, const char*> names{
       {State::waiting, "waiting"}, {State::done, "done"}, {State::failed, "failed"}, {State::stopped, "stopped"}};
@@ -113,16 +106,14 @@ std::string state_text(const SweepQueue::QueuedRun& run)
 
 } // namespace
 
-std::vector<NumberField> number_fields(const preset::Preset& preset)
-{
+std::vector<NumberField> number_fields(const preset::Preset& preset) {
   std::vector<NumberField> all;
   const Json json = preset::as_json(preset);
   collect(preset::outline(json), json, "", all);
   return all;
 }
 
-std::vector<std::string> range_values(const NumberField& field, const SweepRange& range)
-{
+std::vector<std::string> range_values(const NumberField& field, const SweepRange& range) {
   if (range.count < 1 || static_cast<std::size_t>(range.count) > most_values)
     throw bad_input(field.key, fmt::format("{} values", range.count), fmt::format("expected 1 to {}", most_values));
   for (const double end : {range.from, range.to}) check_value(field, end, fmt::format("{:g}", end));
@@ -131,15 +122,15 @@ std::vector<std::string> range_values(const NumberField& field, const SweepRange
   std::vector<std::string> values;
   for (int i = 0; i < range.count; ++i) {
     const double part = range.count == 1 ? 0 : static_cast<double>(i) / (range.count - 1);
-    double value = range.logarithmic ? range.from * std::pow(range.to / range.from, part) : range.from + part * (range.to - range.from);
+    double value = range.logarithmic ? range.from * std::pow(range.to / range.from, part)
+                                     : range.from + part * (range.to - range.from);
     if (i == range.count - 1 && i > 0) value = range.to; // exactly
     values.push_back(text_of(field, field.whole ? std::round(value) : value));
   }
   return all_different(field, values);
 }
 
-std::vector<std::string> typed_values(const NumberField& field, const std::string& text)
-{
+std::vector<std::string> typed_values(const NumberField& field, const std::string& text) {
   constexpr const char* between = ", ;\t\r\n";
   std::vector<std::string> values;
   for (std::size_t at = text.find_first_not_of(between); at != std::string::npos;) {
@@ -154,19 +145,16 @@ std::vector<std::string> typed_values(const NumberField& field, const std::strin
   return all_different(field, values);
 }
 
-const NumberField* SweepSection::chosen() const
-{
+const NumberField* SweepSection::chosen() const {
   const auto found = std::ranges::find(fields_, key_, &NumberField::key);
   return found == fields_.end() ? nullptr : &*found;
 }
 
-void SweepSection::follow(const Context& context)
-{
+void SweepSection::follow(const Context& context) {
   if (const auto& now = context.edits->shared(); std::exchange(of_, now) != now) fields_ = number_fields(*now);
 }
 
-void SweepSection::choose(const NumberField& field)
-{
+void SweepSection::choose(const NumberField& field) {
   key_ = field.key;
   problem_.clear();
   text_.clear();
@@ -175,8 +163,7 @@ void SweepSection::choose(const NumberField& field)
   if (!field.bounds.contain(range_.to)) std::tie(range_.from, range_.to) = std::pair(field.value / 2, field.value);
 }
 
-void SweepSection::draw(const Context& context, WidgetPlaces& places)
-{
+void SweepSection::draw(const Context& context, WidgetPlaces& places) {
   if (!context.edits) return;
   const bool empty = sweep_of(context).empty() && context.sweep.runs().empty();
   if (std::exchange(was_empty_, empty) && !empty) ImGui::SetNextItemOpen(true);
@@ -199,11 +186,11 @@ void SweepSection::draw(const Context& context, WidgetPlaces& places)
 }
 
 /// What is swept, a line each.
-void SweepSection::draw_fields(const Context& context, WidgetPlaces& places)
-{
+void SweepSection::draw_fields(const Context& context, WidgetPlaces& places) {
   const preset::Sweep& sweep = sweep_of(context);
   if (sweep.empty())
-    draw_wrapped(colour::quiet_text, "A sweep runs the preset with several values of a field, or of several fields with each other.");
+    draw_wrapped(colour::quiet_text,
+                 "A sweep runs the preset with several values of a field, or of several fields with each other.");
   for (const preset::SweptField& field : sweep) {
     ImGui::PushID(field.key.c_str());
     const auto known = std::ranges::find(fields_, field.key, &NumberField::key);
@@ -223,17 +210,18 @@ void SweepSection::draw_fields(const Context& context, WidgetPlaces& places)
     ImGui::SameLine();
     constexpr std::size_t most = 100;
     const auto last = field.values.begin() + static_cast<std::ptrdiff_t>(std::min(most, field.values.size()));
-    const std::string values = fmt::format("{}{}", fmt::join(field.values.begin(), last, ", "), field.values.size() > most ? ", ..." : "");
+    const std::string values =
+        fmt::format("{}{}", fmt::join(field.values.begin(), last, ", "), field.values.size() > most ? ", ..." : "");
     ImGui::TextUnformatted(fmt::format("{}: {}", field.key, values).c_str());
     tooltip(counted(field.values.size(), "value"));
     ImGui::PopID();
   }
 }
 
-void SweepSection::draw_choice(WidgetPlaces& places)
-{
+void SweepSection::draw_choice(WidgetPlaces& places) {
   ImGui::SetNextItemWidth(-1);
-  const bool open = ImGui::BeginCombo("##field", key_.empty() ? "Choose a field" : key_.c_str(), ImGuiComboFlags_HeightLarge);
+  const bool open =
+      ImGui::BeginCombo("##field", key_.empty() ? "Choose a field" : key_.c_str(), ImGuiComboFlags_HeightLarge);
   places.note("sweep field");
   if (!open) return;
   if (ImGui::IsWindowAppearing()) {
@@ -256,8 +244,7 @@ void SweepSection::draw_choice(WidgetPlaces& places)
   ImGui::EndCombo();
 }
 
-void SweepSection::draw_values(const Context& context, WidgetPlaces& places)
-{
+void SweepSection::draw_values(const Context& context, WidgetPlaces& places) {
   const NumberField* field = chosen();
   if (!field) return;
   const float em = ImGui::GetFontSize();
@@ -298,8 +285,7 @@ void SweepSection::draw_values(const Context& context, WidgetPlaces& places)
   if (asked || entered) set(context);
 }
 
-void SweepSection::set(const Context& context)
-{
+void SweepSection::set(const Context& context) {
   const NumberField& field = *chosen();
   try {
     preset::SweptField swept{field.key, typed_ ? typed_values(field, text_) : range_values(field, range_)};
@@ -316,17 +302,18 @@ void SweepSection::set(const Context& context)
 }
 
 /// The runs with their states; the one that begins comes into sight.
-void SweepSection::draw_queue(const Context& context)
-{
+void SweepSection::draw_queue(const Context& context) {
   const std::vector<SweepQueue::QueuedRun>& runs = context.sweep.runs();
   const float line = ImGui::GetTextLineHeightWithSpacing(), em = ImGui::GetFontSize();
   constexpr std::size_t most_lines = 6;
-  if (ImGui::BeginChild("queue", {0, line * (static_cast<float>(std::min(most_lines, runs.size())) + 0.5f)}, ImGuiChildFlags_Borders)) {
+  if (ImGui::BeginChild("queue", {0, line * (static_cast<float>(std::min(most_lines, runs.size())) + 0.5f)},
+                        ImGuiChildFlags_Borders)) {
     for (const SweepQueue::QueuedRun& run : runs) {
       ImGui::TextUnformatted(state_text(run).c_str());
       if (run.state == State::running && std::exchange(in_sight_, run.name) != run.name) ImGui::SetScrollHereY();
       ImGui::SameLine(4 * em);
-      draw_text(run.state == State::failed ? colour::error : colour::text, run.why.empty() ? run.name : run.name + ": " + run.why);
+      draw_text(run.state == State::failed ? colour::error : colour::text,
+                run.why.empty() ? run.name : run.name + ": " + run.why);
       if (!run.why.empty()) tooltip(run.why);
     }
   }

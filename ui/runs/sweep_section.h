@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of the panel "Runs" that edits the preset's sweep and shows its runs as they are worked off: which fields can be swept, and the
-// values that a person gives them, a range or a list that is typed.
+// The part of the panel "Runs" that edits the preset's sweep and shows its runs as they are worked off: which fields
+// can be swept, and the values that a person gives them, a range or a list that is typed.
 #pragma once
 #include "preset/field.h"
 #include "preset/preset.h"
@@ -28,16 +28,17 @@ struct SweepRange {
   bool logarithmic = false;
 };
 
-/// Each as JSON. Throws bad_input at the field's key: no value or more than 10000, an end that the field may not have or that is no number,
-/// ends that a logarithm has not, values that are equal.
+/// Each as JSON. Throws bad_input at the field's key: no value or more than 10000, an end that the field may not have
+/// or that is no number, ends that a logarithm has not, values that are equal.
 std::vector<std::string> range_values(const NumberField& field, const SweepRange& range);
 /// Of numbers with commas or spaces between, typed as for --set. Throws as range_values.
 std::vector<std::string> typed_values(const NumberField& field, const std::string& text);
 
 class SweepSection {
 public:
-  /// Notes widgets as "sweep field", "field KEY" of the open list, "sweep from", "sweep to", "sweep count", "sweep log", "sweep range",
-  /// "sweep list" (the choice), "sweep values" (the text), "sweep set", "edit KEY", "remove KEY", "sweep run".
+  /// Notes widgets as "sweep field", "field KEY" of the open list, "sweep from", "sweep to", "sweep count", "sweep
+  /// log", "sweep range", "sweep list" (the choice), "sweep values" (the text), "sweep set", "edit KEY", "remove KEY",
+  /// "sweep run".
   void draw(const Context& context, WidgetPlaces& places);
   /// For tests: why what was typed cannot be swept.
   const std::string& problem() const { return problem_; }

@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_entries = 5000;
 
-std::string size_text(std::uintmax_t bytes)
-{
+std::string size_text(std::uintmax_t bytes) {
   if (bytes < 1000) return fmt::format("{} B", bytes);
   if (bytes < 1000000) return fmt::format("{:.0f} kB", static_cast<double>(bytes) / 1e3);
   return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
@@ -37,44 +36,44 @@ struct DialogKind {
   Command (*open)(const std::string& name) = nullptr; ///< what a chosen file is asked for
 };
 
-const DialogKind& kind_of_dialog(Question question)
-{
+const DialogKind& kind_of_dialog(Question question) {
   const auto pin = [](const std::string& name) { return Command(command::PinFile{name}); };
   const auto show = [](const std::string& name) { return Command(command::PinFile{name, true}); };
   const auto surround = [](const std::string& name) { return Command(command::OpenMap{name}); };
-  static const DialogKind kinds[] = {{Question::open, "Open a preset", "", {".json"}},
-                                     {Question::open_history,
-                                      "Open the history of a run",
-                                      "",
-                                      {".csv"},
-                                      "folder of a run, or its history.csv",
-                                      "Of a folder the picture is kept too. Dropping it on the window does the same.",
-                                      pin},
-                                     {Question::open_pictures,
-                                      "Open pictures",
-                                      "",
-                                      {".exr", ".hdr", ".pfm", ".png", ".jpg", ".jpeg", ".tif", ".tiff"},
-                                      "path of a picture",
-                                      "Several at once: drop them on the panel Runs, which lists them.",
-                                      show},
-                                     {Question::open_map,
-                                      "Open a map of the environment",
-                                      "",
-                                      {".hdr", ".exr"},
-                                      "a latitude-longitude picture",
-                                      "Pictures of all directions (.hdr, .exr). Dropping one on the window does the same.",
-                                      surround},
-                                     {Question::save_preset, "Save the preset as", "-edited.nephroid.json", {".json"}},
-                                     {Question::save_picture, "Save the picture as", ".png", {".png", ".exr"}},
-                                     {Question::save_report, "Write a report over the runs", "-report.html", {".html"}},
-                                     {Question::unsaved, "Unsaved changes", "", {}}};
+  static const DialogKind kinds[] = {
+      {Question::open, "Open a preset", "", {".json"}},
+      {Question::open_history,
+       "Open the history of a run",
+       "",
+       {".csv"},
+       "folder of a run, or its history.csv",
+       "Of a folder the picture is kept too. Dropping it on the window does the same.",
+       pin},
+      {Question::open_pictures,
+       "Open pictures",
+       "",
+       {".exr", ".hdr", ".pfm", ".png", ".jpg", ".jpeg", ".tif", ".tiff"},
+       "path of a picture",
+       "Several at once: drop them on the panel Runs, which lists them.",
+       show},
+      {Question::open_map,
+       "Open a map of the environment",
+       "",
+       {".hdr", ".exr"},
+       "a latitude-longitude picture",
+       "Pictures of all directions (.hdr, .exr). Dropping one on the window does the same.",
+       surround},
+      {Question::save_preset, "Save the preset as", "-edited.nephroid.json", {".json"}},
+      {Question::save_picture, "Save the picture as", ".png", {".png", ".exr"}},
+      {Question::save_report, "Write a report over the runs", "-report.html", {".html"}},
+      {Question::unsaved, "Unsaved changes", "", {}}};
   return *std::ranges::find(kinds, question, &DialogKind::question);
 }
 
-/// A field for a file's name, and a button. True where the name is chosen by one of them. replaces: Enter in the field only goes to the
-/// button, so that a file takes two of them. possible: whether the name will do.
-bool choose_name(const char* hint, float width, std::string& name, const char* button, bool possible, bool replaces = false)
-{
+/// A field for a file's name, and a button. True where the name is chosen by one of them. replaces: Enter in the field
+/// only goes to the button, so that a file takes two of them. possible: whether the name will do.
+bool choose_name(const char* hint, float width, std::string& name, const char* button, bool possible,
+                 bool replaces = false) {
   ImGui::SetNextItemWidth(width);
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   const bool entered = input_text("##file", hint, name, ImGuiInputTextFlags_EnterReturnsTrue);
@@ -88,8 +87,7 @@ bool choose_name(const char* hint, float width, std::string& name, const char* b
 
 } // namespace
 
-FileList::Read FileList::read(const fs::path& folder, const std::vector<std::string>& endings)
-{
+FileList::Read FileList::read(const fs::path& folder, const std::vector<std::string>& endings) {
   Read result;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
@@ -105,27 +103,27 @@ FileList::Read FileList::read(const fs::path& folder, const std::vector<std::str
   }
   if (error) result.error = error.message();
   std::sort(result.entries.begin(), result.entries.end(), [](const Entry& a, const Entry& b) {
-    return a.is_folder != b.is_folder ? a.is_folder : lower_case(a.path.filename().string()) < lower_case(b.path.filename().string());
+    return a.is_folder != b.is_folder ? a.is_folder
+                                      : lower_case(a.path.filename().string()) < lower_case(b.path.filename().string());
   });
   return result;
 }
 
-void FileList::begin(fs::path folder, std::vector<std::string> endings, TaskQueue& tasks)
-{
+void FileList::begin(fs::path folder, std::vector<std::string> endings, TaskQueue& tasks) {
   endings_ = std::move(endings);
   tasks_ = &tasks;
   go(std::move(folder));
 }
 
-void FileList::go(fs::path folder)
-{
+void FileList::go(fs::path folder) {
   std::error_code ignored;
   folder_ = fs::absolute(folder.empty() ? "." : folder, ignored).lexically_normal();
   entries_.clear();
   note_ = "Reading the folder";
   tasks_->forget(reading_); // a folder whose disk hangs keeps no other one waiting
   tasks_->start(
-      reading_, {"reading " + folder_.string()}, [folder = folder_, endings = endings_] { return read(folder, endings); },
+      reading_, {"reading " + folder_.string()},
+      [folder = folder_, endings = endings_] { return read(folder, endings); },
       [this](Read of_folder) {
         entries_ = std::move(of_folder.entries);
         note_.clear();
@@ -138,8 +136,7 @@ void FileList::go(fs::path folder)
       });
 }
 
-FileList::Picked FileList::draw(float width, float height)
-{
+FileList::Picked FileList::draw(float width, float height) {
   Picked picked = Picked::nothing;
   fs::path into;
   places_.clear();
@@ -157,8 +154,8 @@ FileList::Picked FileList::draw(float width, float height)
         const Entry& entry = entries_[static_cast<std::size_t>(i)];
         const std::string name = entry.path.filename().string() + (entry.is_folder ? "/" : "");
         ImGui::PushID(i);
-        const bool chosen =
-            ImGui::Selectable(name.c_str(), !entry.is_folder && entry.path == picked_, ImGuiSelectableFlags_AllowDoubleClick);
+        const bool chosen = ImGui::Selectable(name.c_str(), !entry.is_folder && entry.path == picked_,
+                                              ImGuiSelectableFlags_AllowDoubleClick);
         places_.note(entry.path.filename().string());
         if (!entry.is_folder) {
           ImGui::SameLine(width - 7 * ImGui::GetFontSize());
@@ -170,7 +167,8 @@ FileList::Picked FileList::draw(float width, float height)
           into = entry.path;
           continue;
         }
-        const bool by_key = !ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsMouseDown(ImGuiMouseButton_Left);
+        const bool by_key =
+            !ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsMouseDown(ImGuiMouseButton_Left);
         picked_ = entry.path;
         picked = by_key || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) ? Picked::opened : Picked::file;
       }
@@ -180,8 +178,7 @@ FileList::Picked FileList::draw(float width, float height)
   return picked;
 }
 
-void Dialogs::begin(Workbench& workbench)
-{
+void Dialogs::begin(Workbench& workbench) {
   shown_ = workbench.questions().question();
   name_.clear();
   const DialogKind& kind = kind_of_dialog(shown_);
@@ -194,11 +191,11 @@ void Dialogs::begin(Workbench& workbench)
   shipped_.clear();
   ImGui::OpenPopup(kind.title);
   if (shown_ == Question::open) shipped_ = preset::shipped_presets();
-  if (shown_ != Question::unsaved) files_.begin(save_target(workbench.preset()).parent_path(), kind.endings, workbench.tasks());
+  if (shown_ != Question::unsaved)
+    files_.begin(save_target(workbench.preset()).parent_path(), kind.endings, workbench.tasks());
 }
 
-void Dialogs::draw(Workbench& workbench, Commands& commands)
-{
+void Dialogs::draw(Workbench& workbench, Commands& commands) {
   if (workbench.questions().question() == Question::none || workbench.questions().question() == Question::command) {
     shown_ = Question::none;
     return;
@@ -207,7 +204,8 @@ void Dialogs::draw(Workbench& workbench, Commands& commands)
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport->GetWorkCenter(), ImGuiCond_Always, {0.5f, 0.5f});
   bool open = true;
-  if (!ImGui::BeginPopupModal(kind_of_dialog(shown_).title, &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+  if (!ImGui::BeginPopupModal(kind_of_dialog(shown_).title, &open,
+                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
     commands.push_back(command::Ask{Question::none}); // closed by its cross
     return;
   }
@@ -224,10 +222,10 @@ void Dialogs::draw(Workbench& workbench, Commands& commands)
   ImGui::EndPopup();
 }
 
-void Dialogs::draw_open(Commands& commands)
-{
+void Dialogs::draw_open(Commands& commands) {
   const float em = ImGui::GetFontSize();
-  if (choose_name("path of a preset file, or its name", em * 41, name_, "Open", !name_.empty())) commands.push_back(command::Open{name_});
+  if (choose_name("path of a preset file, or its name", em * 41, name_, "Open", !name_.empty()))
+    commands.push_back(command::Open{name_});
   if (!ImGui::BeginTabBar("where")) return;
   if (ImGui::BeginTabItem("Shipped presets")) {
     if (ImGui::BeginChild("shipped", {em * 46, em * 16})) {
@@ -248,16 +246,14 @@ void Dialogs::draw_open(Commands& commands)
 }
 
 /// The list of files; a click puts a file's name into the text field. True where it is chosen for good.
-bool Dialogs::pick_file()
-{
+bool Dialogs::pick_file() {
   const float em = ImGui::GetFontSize();
   const FileList::Picked picked = files_.draw(em * 46, em * 14);
   if (picked != FileList::Picked::nothing) name_ = files_.picked().string();
   return picked == FileList::Picked::opened;
 }
 
-void Dialogs::draw_open_file(Commands& commands)
-{
+void Dialogs::draw_open_file(Commands& commands) {
   const DialogKind& kind = kind_of_dialog(shown_);
   const bool typed = choose_name(kind.hint, ImGui::GetFontSize() * 41, name_, "Open", !name_.empty());
   const bool picked = pick_file();
@@ -265,13 +261,13 @@ void Dialogs::draw_open_file(Commands& commands)
   ImGui::TextDisabled("%s", kind.note);
 }
 
-void Dialogs::draw_save(Commands& commands)
-{
+void Dialogs::draw_save(Commands& commands) {
   std::error_code ignored;
   const bool picture = shown_ == Question::save_picture, report = shown_ == Question::save_report;
   const bool folder = fs::is_directory(name_, ignored), there = !folder && is_there(name_);
   // A file of the list is only named by a click: replacing it takes the button.
-  const bool chosen = choose_name("file", ImGui::GetFontSize() * 41, name_, there ? "Replace" : "Save", !name_.empty() && !folder, there);
+  const bool chosen = choose_name("file", ImGui::GetFontSize() * 41, name_, there ? "Replace" : "Save",
+                                  !name_.empty() && !folder, there);
   places_.note("save");
   if (chosen)
     commands.push_back(report    ? Command(command::WriteReport{name_})
@@ -284,16 +280,17 @@ void Dialogs::draw_save(Commands& commands)
     ImGui::TextDisabled("%s", parent_.c_str());
   }
   pick_file();
-  if (ImGui::Button("Save into this folder")) name_ = (files_.folder() / std::filesystem::path(name_).filename()).string();
+  if (ImGui::Button("Save into this folder"))
+    name_ = (files_.folder() / std::filesystem::path(name_).filename()).string();
   tooltip("The name above, in the folder that is shown");
   if (picture) ImGui::TextDisabled(".png: as shown, with this exposure; .exr: linear, with every layer");
-  if (report) ImGui::TextDisabled("One page that opens in a browser; runs that are in no folder are kept in one beside it");
+  if (report)
+    ImGui::TextDisabled("One page that opens in a browser; runs that are in no folder are kept in one beside it");
   if (folder) ImGui::TextDisabled("This is a folder: the name of a file in it is wanted.");
   if (there) ImGui::TextDisabled("This file is there already: Enter twice, or the button, replaces it.");
 }
 
-void Dialogs::draw_unsaved(const Workbench& workbench, Commands& commands)
-{
+void Dialogs::draw_unsaved(const Workbench& workbench, Commands& commands) {
   const std::string then = std::holds_alternative<command::Quit>(*workbench.questions().waiting()) ? "quit" : "open";
   ImGui::TextUnformatted("The preset was changed and is not saved.");
   const std::filesystem::path target = save_target(workbench.preset());
@@ -305,9 +302,11 @@ void Dialogs::draw_unsaved(const Workbench& workbench, Commands& commands)
       commands.push_back(command::SavePreset{target});
   }
   ImGui::SameLine();
-  if (ImGui::Button(then == "quit" ? "Quit without saving" : "Open without saving")) commands.push_back(*workbench.questions().waiting());
+  if (ImGui::Button(then == "quit" ? "Quit without saving" : "Open without saving"))
+    commands.push_back(*workbench.questions().waiting());
   ImGui::SameLine();
-  if (places_.button("Cancel", "cancel", "As Escape does: nothing is lost")) commands.push_back(command::Ask{Question::none});
+  if (places_.button("Cancel", "cancel", "As Escape does: nothing is lost"))
+    commands.push_back(command::Ask{Question::none});
 }
 
 } // namespace nephroid::ui

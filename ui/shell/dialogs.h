@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dialogs: which file to open or to save, and what to do with unsaved changes. Which one is open is the workbench's question().
+// The dialogs: which file to open or to save, and what to do with unsaved changes. Which one is open is the workbench's
+// question().
 #pragma once
 #include "preset/read.h"
 #include "ui/state/commands.h"
@@ -13,8 +14,8 @@
 
 namespace nephroid::ui {
 
-/// The files of a folder to choose from: folders first, then those of the wanted kinds. A folder is read away from the window's thread,
-/// because its disk may be slow or gone.
+/// The files of a folder to choose from: folders first, then those of the wanted kinds. A folder is read away from the
+/// window's thread, because its disk may be slow or gone.
 class FileList : public Placed {
 public:
   struct Entry {

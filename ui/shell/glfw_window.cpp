@@ -16,21 +16,18 @@
 namespace nephroid::ui {
 namespace {
 
-std::string last_glfw_error()
-{
+std::string last_glfw_error() {
   const char* description = nullptr;
   glfwGetError(&description);
   return description ? description : "no reason given";
 }
 
-Error no_window(const std::string& what)
-{
+Error no_window(const std::string& what) {
   return failed("window", what + " (" + last_glfw_error() + ")", "run it in a desktop session or under xvfb-run",
                 "or use nephroid run PRESET");
 }
 
-GLFWwindow* open_glfw(const std::string& title, std::array<int, 2> size)
-{
+GLFWwindow* open_glfw(const std::string& title, std::array<int, 2> size) {
 #ifdef GLFW_PLATFORM // since 3.4, which asks Wayland first; its library then says on standard error that there is none
   if (!std::getenv("WAYLAND_DISPLAY")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
 #endif
@@ -39,7 +36,8 @@ GLFWwindow* open_glfw(const std::string& title, std::array<int, 2> size)
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  for (const int name : {GLFW_X11_CLASS_NAME, GLFW_X11_INSTANCE_NAME}) glfwWindowHintString(name, "nephroid"); // as the desktop file says
+  for (const int name : {GLFW_X11_CLASS_NAME, GLFW_X11_INSTANCE_NAME})
+    glfwWindowHintString(name, "nephroid"); // as the desktop file says
   GLFWwindow* window = glfwCreateWindow(size[0], size[1], title.c_str(), nullptr, nullptr);
   if (window) return window;
   const Error error = no_window("no OpenGL 3");
@@ -49,41 +47,39 @@ GLFWwindow* open_glfw(const std::string& title, std::array<int, 2> size)
 
 bool is_modifier(ImGuiKey key) { return (key & ImGuiMod_Mask_) != 0 || ImGui::IsLRModKey(key); }
 
-bool is_press(const ImGuiInputEvent& event)
-{
+bool is_press(const ImGuiInputEvent& event) {
   if (event.Type == ImGuiInputEventType_Key) return event.Key.Down && !is_modifier(event.Key.Key);
   return event.Type == ImGuiInputEventType_MouseWheel; // a click's modifier Dear ImGui itself keeps
 }
 
 /// The first press of a button after a move of the mouse; the end where there is none.
-ImGuiInputEvent* press_after_move(ImVector<ImGuiInputEvent>& events)
-{
-  ImGuiInputEvent* const move =
-      std::find_if(events.begin(), events.end(), [](const ImGuiInputEvent& e) { return e.Type == ImGuiInputEventType_MousePos; });
-  return std::find_if(move, events.end(),
-                      [](const ImGuiInputEvent& e) { return e.Type == ImGuiInputEventType_MouseButton && e.MouseButton.Down; });
+ImGuiInputEvent* press_after_move(ImVector<ImGuiInputEvent>& events) {
+  ImGuiInputEvent* const move = std::find_if(
+      events.begin(), events.end(), [](const ImGuiInputEvent& e) { return e.Type == ImGuiInputEventType_MousePos; });
+  return std::find_if(move, events.end(), [](const ImGuiInputEvent& e) {
+    return e.Type == ImGuiInputEventType_MouseButton && e.MouseButton.Down;
+  });
 }
 
-bool lets_modifier_go(const ImGuiInputEvent& event)
-{
+bool lets_modifier_go(const ImGuiInputEvent& event) {
   return event.Type == ImGuiInputEventType_Key && !event.Key.Down && is_modifier(event.Key.Key);
 }
 
 } // namespace
 
-void new_frame()
-{
+void new_frame() {
   ImVector<ImGuiInputEvent>& events = ImGui::GetCurrentContext()->InputEventsQueue;
-  ImGuiInputEvent* const later = std::min(
-      std::find_if(std::find_if(events.begin(), events.end(), is_press), events.end(), lets_modifier_go), press_after_move(events));
+  ImGuiInputEvent* const later =
+      std::min(std::find_if(std::find_if(events.begin(), events.end(), is_press), events.end(), lets_modifier_go),
+               press_after_move(events));
   const std::vector<ImGuiInputEvent> kept(later, events.end());
   events.resize(static_cast<int>(later - events.begin()));
   ImGui::NewFrame();
   for (const ImGuiInputEvent& event : kept) events.push_back(event);
 }
 
-GlfwWindow::GlfwWindow(const std::string& title, std::array<int, 2> size) : window_(open_glfw(title, size)), title_(title)
-{
+GlfwWindow::GlfwWindow(const std::string& title, std::array<int, 2> size)
+    : window_(open_glfw(title, size)), title_(title) {
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
   glfwSetWindowUserPointer(window_, &dropped_);
@@ -101,24 +97,21 @@ GlfwWindow::GlfwWindow(const std::string& title, std::array<int, 2> size) : wind
   follow_scale();
 }
 
-GlfwWindow::~GlfwWindow()
-{
+GlfwWindow::~GlfwWindow() {
   shut_down_back_ends();
   ImGui::DestroyContext();
   glfwDestroyWindow(window_);
   glfwTerminate();
 }
 
-void GlfwWindow::shut_down_back_ends()
-{
+void GlfwWindow::shut_down_back_ends() {
   if (!std::exchange(back_ends_, false)) return;
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
 }
 
 /// The scale changes when the window moves to another display, or when a person wants another.
-void GlfwWindow::follow_scale()
-{
+void GlfwWindow::follow_scale() {
   float x = 1, y = 1;
   glfwGetWindowContentScale(window_, &x, &y);
   const Appearance now{wanted_.theme, wanted_.scale * std::clamp(std::max(x, y), 0.5f, 8.0f)};
@@ -126,8 +119,7 @@ void GlfwWindow::follow_scale()
   set_theme(now.scale, now.theme);
 }
 
-void GlfwWindow::begin_frame()
-{
+void GlfwWindow::begin_frame() {
   glfwPollEvents();
   follow_scale();
   // Mouse, keys and focus; Dear ImGui may deal one burst of them out to several frames.
@@ -139,8 +131,7 @@ void GlfwWindow::begin_frame()
 
 void GlfwWindow::end_frame() { ImGui::Render(); }
 
-void GlfwWindow::draw_frame()
-{
+void GlfwWindow::draw_frame() {
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
   glViewport(0, 0, width, height);
@@ -151,8 +142,7 @@ void GlfwWindow::draw_frame()
 
 void GlfwWindow::present() { glfwSwapBuffers(window_); }
 
-std::vector<unsigned char> GlfwWindow::read_back(int& width, int& height) const
-{
+std::vector<unsigned char> GlfwWindow::read_back(int& width, int& height) const {
   glfwGetFramebufferSize(window_, &width, &height);
   const std::size_t row = 4 * static_cast<std::size_t>(width);
   std::vector<unsigned char> pixels(row * static_cast<std::size_t>(height));
@@ -167,20 +157,17 @@ std::vector<unsigned char> GlfwWindow::read_back(int& width, int& height) const
 
 void GlfwWindow::wait(double seconds) { glfwWaitEventsTimeout(seconds); }
 
-bool GlfwWindow::take_close_request()
-{
+bool GlfwWindow::take_close_request() {
   const bool requested = glfwWindowShouldClose(window_);
   glfwSetWindowShouldClose(window_, GLFW_FALSE);
   return requested;
 }
 
-void GlfwWindow::set_title(const std::string& title)
-{
+void GlfwWindow::set_title(const std::string& title) {
   if (title != std::exchange(title_, title)) glfwSetWindowTitle(window_, title.c_str());
 }
 
-std::string GlfwWindow::renderer() const
-{
+std::string GlfwWindow::renderer() const {
   const GLubyte* name = glGetString(GL_RENDERER);
   return name ? reinterpret_cast<const char*>(name) : "unknown";
 }

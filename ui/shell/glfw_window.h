@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The display side of the window: GLFW, OpenGL and Dear ImGui's two back ends, from opening to closing. Nothing of the workbench.
+// The display side of the window: GLFW, OpenGL and Dear ImGui's two back ends, from opening to closing. Nothing of the
+// workbench.
 #pragma once
 #include "ui/state/commands.h"
 
@@ -14,7 +15,8 @@ namespace nephroid::ui {
 
 class GlfwWindow {
 public:
-  /// Opens the window and a Dear ImGui context with font and theme. Throws failed at "window" where there is no display or no OpenGL 3.
+  /// Opens the window and a Dear ImGui context with font and theme. Throws failed at "window" where there is no display
+  /// or no OpenGL 3.
   GlfwWindow(const std::string& title, std::array<int, 2> size);
   ~GlfwWindow();
   GlfwWindow(const GlfwWindow&) = delete;
@@ -61,9 +63,10 @@ private:
   bool back_ends_ = false, activity_ = false;
 };
 
-/// ImGui::NewFrame(), but a modifier that is let go after something was pressed is let go in the next frame. Where Ctrl was held before,
-/// and Z is pressed and Ctrl let go within one frame, Dear ImGui sees Z alone. And a button that is pressed where the mouse has just come
-/// is pressed in the next frame: tabs, and whatever else others may lie over, hear only what was under the mouse a frame before.
+/// ImGui::NewFrame(), but a modifier that is let go after something was pressed is let go in the next frame. Where Ctrl
+/// was held before, and Z is pressed and Ctrl let go within one frame, Dear ImGui sees Z alone. And a button that is
+/// pressed where the mouse has just come is pressed in the next frame: tabs, and whatever else others may lie over,
+/// hear only what was under the mouse a frame before.
 void new_frame();
 
 } // namespace nephroid::ui

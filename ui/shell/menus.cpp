@@ -21,8 +21,7 @@
 namespace nephroid::ui {
 namespace {
 
-void row(const char* how, const char* what)
-{
+void row(const char* how, const char* what) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(how);
@@ -32,12 +31,13 @@ void row(const char* how, const char* what)
 
 constexpr const char* palette_title = "Commands";
 
-bool is_enabled(const Palette::Entry& entry, const Context& context) { return !entry.action || entry.action->enabled(context); }
+bool is_enabled(const Palette::Entry& entry, const Context& context) {
+  return !entry.action || entry.action->enabled(context);
+}
 
 } // namespace
 
-std::span<const MouseHabit> mouse_habits()
-{
+std::span<const MouseHabit> mouse_habits() {
   static const MouseHabit habits[] = {
       {"Click", "Select the object or light that is there, or nothing"},
       {"Left drag on a handle", "Move, turn or scale what is selected; Ctrl: in steps, or freely with Snap"},
@@ -61,12 +61,12 @@ std::span<const MouseHabit> mouse_habits()
   return habits;
 }
 
-void draw_menus(const Context& context, WidgetPlaces& places)
-{
+void draw_menus(const Context& context, WidgetPlaces& places) {
   std::string menu;
   float width = 0;
   for (const Action& action : actions())
-    if (std::exchange(menu, action.menu) != action.menu) width += ImGui::CalcTextSize(menu.c_str()).x + 2 * ImGui::GetStyle().ItemSpacing.x;
+    if (std::exchange(menu, action.menu) != action.menu)
+      width += ImGui::CalcTextSize(menu.c_str()).x + 2 * ImGui::GetStyle().ItemSpacing.x;
   const bool is_narrow = width > ImGui::GetWindowWidth(); // all of them are in one then
   if (is_narrow && !ImGui::BeginMenu("Menu")) return places.note("menu:Menu");
   menu.clear();
@@ -86,8 +86,7 @@ void draw_menus(const Context& context, WidgetPlaces& places)
   if (is_narrow) ImGui::EndMenu();
 }
 
-void draw_toolbar(const Context& context, WidgetPlaces& places)
-{
+void draw_toolbar(const Context& context, WidgetPlaces& places) {
   constexpr const char* names[] = {"Undo", "Redo", "Start again", "Pin this run", "Commands..."};
   const ImGuiStyle& style = ImGui::GetStyle();
   float width = style.WindowPadding.x;
@@ -103,8 +102,7 @@ void draw_toolbar(const Context& context, WidgetPlaces& places)
   ImGui::PopStyleColor();
 }
 
-void run_shortcuts(const Context& context, bool dialog, bool help)
-{
+void run_shortcuts(const Context& context, bool dialog, bool help) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool elsewhere = dialog || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); // an open list has the keyboard
   int taken = 0; // of actions with the same keys the first that is enabled has them
@@ -117,12 +115,15 @@ void run_shortcuts(const Context& context, bool dialog, bool help)
     // A window that loses the keyboard never hears that the key went up.
     const auto key = static_cast<ImGuiKey>(action.shortcut & ~ImGuiMod_Mask_);
     if (action.let_go && (ImGui::IsKeyReleased(key) || io.AppFocusLost)) action.let_go(context);
-    // Not ImGui::Shortcut: the routes it goes by are those of the frame before, so that a key in the first frame would be lost.
+    // Not ImGui::Shortcut: the routes it goes by are those of the frame before, so that a key in the first frame would
+    // be lost.
     const ImGuiInputFlags flags = action.repeats ? ImGuiInputFlags_Repeat : ImGuiInputFlags_None;
     // Where somebody goes from widget to widget by the keyboard, Space is for the widget that is marked.
     if (io.NavVisible && action.shortcut == ImGuiKey_Space) continue;
-    // The start page begins in its search: there Ctrl+O still opens. In a preset's fields Ctrl+S would save without what is being typed.
-    const bool types = io.WantTextInput && (context.preset() || !(action.shortcut & ImGuiMod_Ctrl) || !action.enabled(context));
+    // The start page begins in its search: there Ctrl+O still opens. In a preset's fields Ctrl+S would save without
+    // what is being typed.
+    const bool types =
+        io.WantTextInput && (context.preset() || !(action.shortcut & ImGuiMod_Ctrl) || !action.enabled(context));
     if (elsewhere || types || action.shortcut == taken || !ImGui::IsKeyChordPressed(action.shortcut, flags)) continue;
     if (action.enabled(context)) {
       action.run(context);
@@ -132,13 +133,12 @@ void run_shortcuts(const Context& context, bool dialog, bool help)
   }
 }
 
-void draw_help(const Context& context)
-{
+void draw_help(const Context& context) {
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport->GetWorkCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
   bool open = true;
-  constexpr ImGuiWindowFlags flags =
-      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoSavedSettings;
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
+                                     ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoSavedSettings;
   if (ImGui::Begin("Mouse and keys", &open, flags) && ImGui::BeginTable("help", 2, ImGuiTableFlags_RowBg)) {
     for (const MouseHabit& habit : mouse_habits()) row(habit.how, habit.what);
     for (const Action& action : actions())
@@ -149,8 +149,7 @@ void draw_help(const Context& context)
   if (!open) context.push(command::ToggleHelp{});
 }
 
-void Palette::begin()
-{
+void Palette::begin() {
   typed_.clear();
   entries_.clear();
   for (const Action& action : actions())
@@ -162,14 +161,14 @@ void Palette::begin()
   ImGui::OpenPopup(palette_title);
 }
 
-void Palette::search()
-{
+void Palette::search() {
   std::vector<std::pair<int, const Entry*>> scored;
   for (const Entry& entry : entries_) {
     int score = 0;
     // Where the whole name is typed no other is meant, whatever its letters score.
     if (typed_.empty() || ImCmd::FuzzySearch(typed_.c_str(), entry.name.c_str(), score))
-      scored.emplace_back(lower_case(typed_) == lower_case(entry.name) ? std::numeric_limits<int>::max() : score, &entry);
+      scored.emplace_back(lower_case(typed_) == lower_case(entry.name) ? std::numeric_limits<int>::max() : score,
+                          &entry);
   }
   std::stable_sort(scored.begin(), scored.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   matches_.clear();
@@ -177,8 +176,7 @@ void Palette::search()
   selected_ = 0;
 }
 
-void Palette::choose(const Entry& entry, const Context& context) const
-{
+void Palette::choose(const Entry& entry, const Context& context) const {
   context.push(command::Ask{Question::none}); // first: what is chosen may ask something itself
   if (is_enabled(entry, context))
     entry.run(context);
@@ -186,14 +184,14 @@ void Palette::choose(const Entry& entry, const Context& context) const
     context.note(fmt::format("{}: {}", entry.name, entry.action->why_not ? entry.action->why_not(context) : "not now"));
 }
 
-void Palette::draw(const Context& context, bool shown)
-{
+void Palette::draw(const Context& context, bool shown) {
   if (shown && !std::exchange(shown_, shown)) begin();
   if (!(shown_ = shown)) return;
   const float em = ImGui::GetFontSize();
   const ImGuiViewport& viewport = *ImGui::GetMainViewport();
   ImGui::SetNextWindowPos({viewport.GetWorkCenter().x, viewport.WorkPos.y + 2 * em}, ImGuiCond_Always, {0.5f, 0});
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings;
+  constexpr ImGuiWindowFlags flags =
+      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings;
   // Not modal: a click beside it closes it.
   if (!ImGui::BeginPopup(palette_title, flags)) return context.push(command::Ask{Question::none});
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
@@ -207,8 +205,7 @@ void Palette::draw(const Context& context, bool shown)
   ImGui::EndPopup();
 }
 
-void Palette::draw_entries(const Context& context)
-{
+void Palette::draw_entries(const Context& context) {
   const float em = ImGui::GetFontSize();
   bool moved = false;
   if (ImGui::IsKeyPressed(ImGuiKey_DownArrow) && selected_ + 1 < matches_.size()) moved = ++selected_ > 0;

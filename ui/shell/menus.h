@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is made of the table of actions: menus, toolbar, shortcuts, the overlay that says what the mouse and the keys do, the command
-// palette.
+// What is made of the table of actions: menus, toolbar, shortcuts, the overlay that says what the mouse and the keys
+// do, the command palette.
 #pragma once
 #include "ui/state/context.h"
 #include "ui/widgets/action.h"
@@ -10,12 +10,14 @@
 
 namespace nephroid::ui {
 
-/// The menus of the main menu bar, in the table's order. places, for tests: "menu:NAME", and of those that are open "menu:NAME/ACTION".
+/// The menus of the main menu bar, in the table's order. places, for tests: "menu:NAME", and of those that are open
+/// "menu:NAME/ACTION".
 void draw_menus(const Context& context, WidgetPlaces& places);
-/// At the right end of the menu bar: buttons of the actions that are used all day, as far as there is room. places: "toolbar:ACTION".
+/// At the right end of the menu bar: buttons of the actions that are used all day, as far as there is room. places:
+/// "toolbar:ACTION".
 void draw_toolbar(const Context& context, WidgetPlaces& places);
-/// Runs the actions whose keys were pressed; says why where one is not enabled and has a reason. Keys that a text field wants are left to
-/// it, and all of them where there is a dialog. help: it is shown, and Escape closes it.
+/// Runs the actions whose keys were pressed; says why where one is not enabled and has a reason. Keys that a text field
+/// wants are left to it, and all of them where there is a dialog. help: it is shown, and Escape closes it.
 void run_shortcuts(const Context& context, bool dialog, bool help);
 void draw_help(const Context& context);
 
@@ -26,8 +28,8 @@ struct MouseHabit {
 };
 std::span<const MouseHabit> mouse_habits();
 
-/// Every action and every shipped preset in one list, found by some of the letters of its name. The keyboard alone is enough: type, up and
-/// down, Enter.
+/// Every action and every shipped preset in one list, found by some of the letters of its name. The keyboard alone is
+/// enough: type, up and down, Enter.
 class Palette {
 public:
   struct Entry {

@@ -16,8 +16,7 @@ namespace nephroid::ui {
 namespace {
 
 /// A card each; the preset's picture is the card's.
-std::vector<engine::ShippedExample> examples()
-{
+std::vector<engine::ShippedExample> examples() {
   std::vector<engine::ShippedExample> examples;
   for (const engine::Engine* engine : engine::engines())
     if (engine->introduction.example.preset) examples.push_back(engine->introduction.example);
@@ -26,10 +25,12 @@ std::vector<engine::ShippedExample> examples()
 
 constexpr float picture_aspect = static_cast<float>(thumbnail_height) / static_cast<float>(thumbnail_width);
 
-std::filesystem::path file_of(const engine::ShippedExample& example) { return presets_folder() / (std::string(example.preset) + ".json"); }
+std::filesystem::path file_of(const engine::ShippedExample& example) {
+  return presets_folder() / (std::string(example.preset) + ".json");
+}
 
-void draw_card(const engine::ShippedExample& card, const PictureTexture* picture, float width, const Context& context, WidgetPlaces& places)
-{
+void draw_card(const engine::ShippedExample& card, const PictureTexture* picture, float width, const Context& context,
+               WidgetPlaces& places) {
   const float em = ImGui::GetFontSize(), high = 7 * em;
   ImGui::PushID(card.preset);
   ImGui::PushStyleColor(ImGuiCol_ChildBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
@@ -53,13 +54,13 @@ void draw_card(const engine::ShippedExample& card, const PictureTexture* picture
 
 } // namespace
 
-void StartPage::draw(const Context& context, Panel& presets, bool to_presets)
-{
+void StartPage::draw(const Context& context, Panel& presets, bool to_presets) {
   const ImGuiViewport& viewport = *ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport.WorkPos);
   ImGui::SetNextWindowSize(viewport.WorkSize);
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoDocking |
-                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoSavedSettings |
+                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
   if (ImGui::Begin("Start", nullptr, flags)) {
     draw_engines(context);
     draw_devices(context.tasks);
@@ -77,22 +78,21 @@ void StartPage::draw(const Context& context, Panel& presets, bool to_presets)
   ImGui::End();
 }
 
-void StartPage::draw_engines(const Context& context)
-{
+void StartPage::draw_engines(const Context& context) {
   static const std::vector<engine::ShippedExample> cards = examples();
   if (pictures_.empty())
     for (const engine::ShippedExample& card : cards) pictures_.push_back(thumbnail_of(file_of(card), {}));
   thumbnails_.update(context.tasks);
   const auto count = static_cast<float>(cards.size());
-  const float gap = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - (count - 1) * gap) / count;
+  const float gap = ImGui::GetStyle().ItemSpacing.x,
+              width = (ImGui::GetContentRegionAvail().x - (count - 1) * gap) / count;
   for (std::size_t i = 0; i < cards.size(); ++i) {
     if (i > 0) ImGui::SameLine();
     draw_card(cards[i], thumbnails_.of(pictures_[i]), width, context, places_);
   }
 }
 
-void StartPage::draw_devices(TaskQueue& tasks)
-{
+void StartPage::draw_devices(TaskQueue& tasks) {
   const auto look = [] {
     Devices devices{compute::list_devices(), {}};
     if (devices.list.empty()) devices.why_none = compute::no_device_error().line();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the window shows while no preset is open: what the three engines do, the presets, the devices, and what to do where there is none.
+// What the window shows while no preset is open: what the three engines do, the presets, the devices, and what to do
+// where there is none.
 #pragma once
 #include "compute/compute.h"
 #include "ui/presets/catalogue.h"
@@ -11,8 +12,8 @@ namespace nephroid::ui {
 /// Names a card's button by its preset, for place_of.
 class StartPage : public Placed {
 public:
-  /// In the window's area between the menu bar and the status line. presets: the panel of that name, which is a part of the page.
-  /// to_presets: the keyboard goes to it.
+  /// In the window's area between the menu bar and the status line. presets: the panel of that name, which is a part of
+  /// the page. to_presets: the keyboard goes to it.
   void draw(const Context& context, Panel& presets, bool to_presets);
 
 private:

@@ -19,8 +19,7 @@ namespace nephroid::ui {
 namespace {
 
 /// How many there are; the lines themselves in a tooltip.
-void draw_notes(const std::vector<std::string>& notes)
-{
+void draw_notes(const std::vector<std::string>& notes) {
   if (notes.empty()) return;
   ImGui::SameLine(0, ImGui::GetFontSize());
   draw_text(colour::note, counted(notes.size(), "note"));
@@ -31,9 +30,9 @@ void draw_notes(const std::vector<std::string>& notes)
   ImGui::EndTooltip();
 }
 
-/// What has run for a moment, of which the window says nothing elsewhere; all of it, and how to end it, behind the button.
-void draw_tasks(TaskQueue& tasks)
-{
+/// What has run for a moment, of which the window says nothing elsewhere; all of it, and how to end it, behind the
+/// button.
+void draw_tasks(TaskQueue& tasks) {
   constexpr std::chrono::milliseconds worth_a_word{300};
   const std::vector<TaskView> running = tasks.running(worth_a_word);
   const auto text_of = [](const TaskView& task) {
@@ -64,33 +63,30 @@ std::span<const Message> shown(std::span<const Message> all) { return all.last(s
 /// Room at the right for the buttons.
 float text_width(float width) { return std::max(width - ImGui::GetFontSize() * 12, ImGui::GetFontSize() * 10); }
 
-float line_height(const Message& message, float width)
-{
-  return std::max(ImGui::CalcTextSize(message.line.c_str(), nullptr, false, text_width(width)).y, ImGui::GetFrameHeight()) +
+float line_height(const Message& message, float width) {
+  return std::max(ImGui::CalcTextSize(message.line.c_str(), nullptr, false, text_width(width)).y,
+                  ImGui::GetFrameHeight()) +
          ImGui::GetStyle().ItemSpacing.y;
 }
 
 } // namespace
 
-const char* name_of(job::State state)
-{
+const char* name_of(job::State state) {
   using enum job::State;
-  static const std::map<job::State, const char*> names{{idle, "no run"},   {preparing, "preparing"}, {running, "running"},
-                                                       {paused, "paused"}, {finished, "finished"},   {cancelled, "cancelled"},
-                                                       {failed, "failed"}};
+  static const std::map<job::State, const char*> names{
+      {idle, "no run"},       {preparing, "preparing"}, {running, "running"}, {paused, "paused"},
+      {finished, "finished"}, {cancelled, "cancelled"}, {failed, "failed"}};
   return names.at(state);
 }
 
-std::string duration_text(double seconds)
-{
+std::string duration_text(double seconds) {
   const auto whole = std::llround(seconds);
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
-void draw_status_line(const Context& context, const std::vector<std::string>& notes)
-{
+void draw_status_line(const Context& context, const std::vector<std::string>& notes) {
   const job::Status& status = context.run.status();
   const job::Progress& progress = status.progress;
   const bool paused = status.state == job::State::paused;
@@ -128,16 +124,14 @@ void draw_status_line(const Context& context, const std::vector<std::string>& no
   ImGui::TextDisabled("%s", help);
 }
 
-float errors_height(std::span<const Message> errors, float width)
-{
+float errors_height(std::span<const Message> errors, float width) {
   if (errors.empty()) return 0;
   float height = 2 * ImGui::GetStyle().WindowPadding.y;
   for (const Message& error : shown(errors)) height += line_height(error, width);
   return errors.size() > 1 ? height + ImGui::GetFrameHeight() : height;
 }
 
-void draw_errors(std::span<const Message> errors, const Context& context)
-{
+void draw_errors(std::span<const Message> errors, const Context& context) {
   const float width = ImGui::GetWindowWidth(), em = ImGui::GetFontSize();
   for (const Message& error : shown(errors)) {
     ImGui::PushID(static_cast<int>(error.id));
@@ -160,8 +154,7 @@ void draw_errors(std::span<const Message> errors, const Context& context)
     for (const Message& error : shown(errors)) context.push(command::Dismiss{error.id});
 }
 
-void draw_note_lines(std::span<const Message> notes, float width)
-{
+void draw_note_lines(std::span<const Message> notes, float width) {
   ImGui::PushTextWrapPos(width - ImGui::GetStyle().WindowPadding.x);
   for (const Message& note : shown(notes)) ImGui::TextUnformatted(note.line.c_str());
   ImGui::PopTextWrapPos();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window's foot: a line of what the run does, how far it is, how fast, how long it still takes, and how to hold or end it; above it
-// errors and notes, the whole line, wrapped, with what can be done about it.
+// The window's foot: a line of what the run does, how far it is, how fast, how long it still takes, and how to hold or
+// end it; above it errors and notes, the whole line, wrapped, with what can be done about it.
 #pragma once
 #include "job/worker.h"
 #include "ui/state/context.h"

@@ -30,30 +30,29 @@ using Clock = std::chrono::steady_clock;
 constexpr int frames_before_screenshot = 60;
 constexpr std::chrono::milliseconds hands_rest{500}; ///< after the last touch the display's rate is kept this long
 
-std::string title(const Workbench& workbench)
-{
+std::string title(const Workbench& workbench) {
   const preset::Preset* preset = workbench.preset();
   if (!preset) return "Nephroid";
   const std::string name = preset->name.empty() ? preset->source : preset->name;
   return fmt::format("{}{} - Nephroid", workbench.edits()->modified() ? "* " : "", name);
 }
 
-bool is_over(job::State state)
-{
-  return state == job::State::finished || state == job::State::cancelled || state == job::State::failed || state == job::State::idle;
+bool is_over(job::State state) {
+  return state == job::State::finished || state == job::State::cancelled || state == job::State::failed ||
+         state == job::State::idle;
 }
 
-/// Pins the histories and opens the first preset that can be opened. Behind it only runs and pictures are expected: what is none leaves its
-/// message.
-void open_first(Workbench& workbench, const Options& options)
-{
+/// Pins the histories and opens the first preset that can be opened. Behind it only runs and pictures are expected:
+/// what is none leaves its message.
+void open_first(Workbench& workbench, const Options& options) {
   bool opened = false;
   for (const std::string& file : options.files)
     if (opened || is_history(file))
       workbench.apply({command::PinFile{file}});
-    else if (kind_of(file) == FileKind::scene && !options.overrides.empty()) // it becomes a preset in the background: they cannot wait
-      workbench.apply(
-          {command::Report{bad_input(file, "--set cannot change a scene", "a preset", "import it first: nephroid import").line()}});
+    else if (kind_of(file) == FileKind::scene &&
+             !options.overrides.empty()) // it becomes a preset in the background: they cannot wait
+      workbench.apply({command::Report{
+          bad_input(file, "--set cannot change a scene", "a preset", "import it first: nephroid import").line()}});
     else if (kind_of(file) == FileKind::scene)
       workbench.apply({command::Open{file}});
     else
@@ -63,8 +62,7 @@ void open_first(Workbench& workbench, const Options& options)
 /// An unattended window keeps nothing and begins as a new one.
 bool keeps_sessions(const Options& options) { return options.screenshot.empty(); }
 
-std::unique_ptr<SessionKeeper> make_keeper(const Options& options, Workbench& workbench)
-{
+std::unique_ptr<SessionKeeper> make_keeper(const Options& options, Workbench& workbench) {
   try {
     return std::make_unique<SessionKeeper>(keeps_sessions(options) ? state_folder() : std::filesystem::path());
   } catch (const std::exception& error) {
@@ -74,27 +72,25 @@ std::unique_ptr<SessionKeeper> make_keeper(const Options& options, Workbench& wo
 }
 
 /// A window that was killed is shown as it was, unless there is something else to show.
-void begin_session(Workbench& workbench, SessionKeeper& keeper, const Options& options)
-{
+void begin_session(Workbench& workbench, SessionKeeper& keeper, const Options& options) {
   const std::string killed = keeper.killed_session();
   if (killed.empty()) return;
   if (options.files.empty()) {
     keeper.reopen(workbench);
-    if (workbench.preset()) workbench.apply({command::Report{"the last window was not closed: this is how it was at " + killed, false}});
+    if (workbench.preset())
+      workbench.apply({command::Report{"the last window was not closed: this is how it was at " + killed, false}});
   } else
-    workbench.apply(
-        {command::Report{"a window that was not closed left a session of " + killed + ": File, Reopen the last session", false}});
+    workbench.apply({command::Report{
+        "a window that was not closed left a session of " + killed + ": File, Reopen the last session", false}});
 }
 
-bool changes_preset(const Command& command)
-{
+bool changes_preset(const Command& command) {
   return std::holds_alternative<command::Edit>(command) || std::holds_alternative<command::Undo>(command) ||
          std::holds_alternative<command::Redo>(command);
 }
 
 /// What this thread has computed so far: time in which another had its core does not count.
-Clock::duration computed()
-{
+Clock::duration computed() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
@@ -109,10 +105,9 @@ public:
   enum class Pace { hands_on, running, idle };
 
   /// keep: every frame's time, for summary(); else frames are only counted. file: CSV with the line
-  /// frame,draw_ms,own_ms,own_cpu_ms,period_ms,edits,run,state,fraction of a frame as soon as it has been drawn, so that who reads along
-  /// knows what the window is at; empty: none. Throws failed where it cannot be written.
-  FrameClock(bool keep, const std::filesystem::path& file) : keep_(keep), file_(file)
-  {
+  /// frame,draw_ms,own_ms,own_cpu_ms,period_ms,edits,run,state,fraction of a frame as soon as it has been drawn, so
+  /// that who reads along knows what the window is at; empty: none. Throws failed where it cannot be written.
+  FrameClock(bool keep, const std::filesystem::path& file) : keep_(keep), file_(file) {
     if (file.empty()) return;
     lines_.open(file, std::ios::binary);
     write("frame,draw_ms,own_ms,own_cpu_ms,period_ms,edits,run,state,fraction\n");
@@ -120,43 +115,38 @@ public:
   bool keeps() const { return keep_; }
   std::size_t frames() const { return frames_; }
 
-  void begin()
-  {
+  void begin() {
     previous_ = std::exchange(began_, Clock::now());
     computed_before_ = computed();
   }
 
   /// What follows, until own() again, is OpenGL's work and not ours.
-  void driver()
-  {
+  void driver() {
     driver_began_ = Clock::now();
     driver_computed_before_ = computed();
   }
-  void own()
-  {
+  void own() {
     driver_ += Clock::now() - driver_began_;
     driver_computed_ += computed() - driver_computed_before_;
   }
   /// edits: how many there were. Throws failed where the file cannot be written any more.
-  void end(const job::Status& run, std::size_t edits)
-  {
+  void end(const job::Status& run, std::size_t edits) {
     const double draw_ms = milliseconds(Clock::now() - began_);
     last_draw_s_ = draw_ms / 1000;
     if (keep_) draw_ms_.push_back(draw_ms);
     if (!file_.empty()) {
       const double period_ms = frames_ == 0 ? 0 : milliseconds(began_ - previous_); // what a person sees
-      write(fmt::format("{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{:.4f}\n", frames_, draw_ms, draw_ms - milliseconds(driver_),
-                        milliseconds(computed() - computed_before_ - driver_computed_), period_ms, edits, run.generation,
-                        name_of(run.state), run.progress.fraction));
+      write(fmt::format("{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{:.4f}\n", frames_, draw_ms,
+                        draw_ms - milliseconds(driver_), milliseconds(computed() - computed_before_ - driver_computed_),
+                        period_ms, edits, run.generation, name_of(run.state), run.progress.fraction));
     }
     driver_ = driver_computed_ = {};
     ++frames_;
   }
 
-  /// Seconds to sleep before the next frame. The device may be the processor that draws, too: while nobody touches the window it
-  /// takes at most a quarter of the time, so that drawing without need does not slow the run.
-  double rest(Pace pace) const
-  {
+  /// Seconds to sleep before the next frame. The device may be the processor that draws, too: while nobody touches the
+  /// window it takes at most a quarter of the time, so that drawing without need does not slow the run.
+  double rest(Pace pace) const {
     double period_s = 1.0 / 60;
     if (pace == Pace::running) period_s = std::max(1.0 / 30, 4 * last_draw_s_);
     if (pace == Pace::idle) period_s = 1.0 / 4;
@@ -164,17 +154,18 @@ public:
   }
 
   /// "N frames, draw median A ms, 99 % B ms, most C ms" over what was drawn so far: at least a frame.
-  std::string summary() const
-  {
+  std::string summary() const {
     std::vector<double> sorted = draw_ms_;
     std::sort(sorted.begin(), sorted.end());
-    const auto at = [&](double part) { return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))]; };
-    return fmt::format("{} frames, draw median {:.1f} ms, 99 % {:.1f} ms, most {:.1f} ms", sorted.size(), at(0.5), at(0.99), sorted.back());
+    const auto at = [&](double part) {
+      return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
+    };
+    return fmt::format("{} frames, draw median {:.1f} ms, 99 % {:.1f} ms, most {:.1f} ms", sorted.size(), at(0.5),
+                       at(0.99), sorted.back());
   }
 
 private:
-  void write(const std::string& line)
-  {
+  void write(const std::string& line) {
     lines_ << line << std::flush;
     if (!lines_) throw failed(file_.string(), "cannot be written", "", "choose another file for --frame-times");
   }
@@ -194,13 +185,11 @@ class Loop {
 public:
   Loop(const Options& options, GlfwWindow& window, Workbench& workbench, Workspace& workspace, SessionKeeper& keeper)
       : options_(options), window_(window), workbench_(workbench), workspace_(workspace), keeper_(keeper),
-        clock_(options.frames > 0 || !options.frame_times.empty(), options.frame_times)
-  {
+        clock_(options.frames > 0 || !options.frame_times.empty(), options.frame_times) {
     limit_ = options.frames > 0 ? options.frames : options.screenshot.empty() ? 0 : frames_before_screenshot;
   }
 
-  void run()
-  {
+  void run() {
     while (!done_) {
       frame();
       if (!done_) rest();
@@ -209,8 +198,7 @@ public:
   }
 
 private:
-  void frame()
-  {
+  void frame() {
     clock_.begin();
     window_.set_appearance(workbench_.setup().settings().theme, workbench_.setup().settings().text_size);
     window_.begin_frame();
@@ -240,8 +228,7 @@ private:
     if (!screen.empty()) image::write_png_bytes(options_.screenshot, width, height, screen);
   }
 
-  bool is_last_frame() const
-  {
+  bool is_last_frame() const {
     if (limit_ == 0 || clock_.frames() + 1 < static_cast<std::size_t>(limit_)) return false;
     if (workbench_.works_on_files()) return false; // runs to pin, from the command line
     const job::Status& status = workbench_.run().status();
@@ -249,8 +236,7 @@ private:
     return is_over(status.state) || (options_.until < 1 && status.progress.fraction >= options_.until);
   }
 
-  void rest()
-  {
+  void rest() {
     const job::State state = workbench_.run().status().state;
     FrameClock::Pace pace = FrameClock::Pace::idle;
     if (Clock::now() - last_touch_ < hands_rest)
@@ -272,9 +258,9 @@ private:
   bool done_ = false;
 };
 
-/// What the workbench had to say and, where nobody was there to read it in the window, the exit code of the first error.
-int report_errors(const Workbench& workbench, bool unattended)
-{
+/// What the workbench had to say and, where nobody was there to read it in the window, the exit code of the first
+/// error.
+int report_errors(const Workbench& workbench, bool unattended) {
   int exit_code = 0;
   for (const Message& message : workbench.messages()) {
     if (!message.error) continue;
@@ -284,13 +270,14 @@ int report_errors(const Workbench& workbench, bool unattended)
   return exit_code;
 }
 
-/// Where there is no display, a preset that cannot be read is said first: with one there, it would be the next thing in the way.
-std::unique_ptr<GlfwWindow> open_display(const Options& options)
-{
+/// Where there is no display, a preset that cannot be read is said first: with one there, it would be the next thing in
+/// the way.
+std::unique_ptr<GlfwWindow> open_display(const Options& options) {
   try {
     return std::make_unique<GlfwWindow>("Nephroid", options.size);
   } catch (const Error&) {
-    if (!options.files.empty() && !is_history(options.files.front()) && kind_of(options.files.front()) != FileKind::scene) {
+    if (!options.files.empty() && !is_history(options.files.front()) &&
+        kind_of(options.files.front()) != FileKind::scene) {
       refuse_other_kinds(options.files.front());
       preset::read_with_sweep(options.files.front(), options.overrides);
     }
@@ -300,11 +287,12 @@ std::unique_ptr<GlfwWindow> open_display(const Options& options)
 
 } // namespace
 
-int open_window(const Options& options)
-{
+int open_window(const Options& options) {
   check_layout(options.layout);
-  if (const std::string ending = options.screenshot.extension().string(); !options.screenshot.empty() && lower_case(ending) != ".png")
-    throw bad_input("--screenshot", "a picture of the window cannot be written as \"" + ending + "\"", "expected a file .png");
+  if (const std::string ending = options.screenshot.extension().string();
+      !options.screenshot.empty() && lower_case(ending) != ".png")
+    throw bad_input("--screenshot", "a picture of the window cannot be written as \"" + ending + "\"",
+                    "expected a file .png");
   const std::string cache_note = compute::prepare_kernel_cache(); // before OpenGL's and our own threads start
   if (!cache_note.empty()) fmt::print(stderr, "note: {}\n", cache_note);
   const std::unique_ptr<GlfwWindow> window = open_display(options);

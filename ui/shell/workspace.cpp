@@ -16,8 +16,7 @@ namespace {
 
 /// Runs draw; what it throws becomes a message that names the part, and the widgets it left open are closed.
 template <class Draw>
-void guarded(const char* part, Commands& commands, Draw draw)
-{
+void guarded(const char* part, Commands& commands, Draw draw) {
   ImGuiErrorRecoveryState before;
   ImGui::ErrorRecoveryStoreState(&before);
   try {
@@ -35,40 +34,38 @@ void guarded(const char* part, Commands& commands, Draw draw)
 
 /// A strip over the window's whole width at its foot, above those drawn before.
 template <class Draw>
-void strip(const char* name, float height, Draw draw)
-{
+void strip(const char* name, float height, Draw draw) {
   // A message that comes takes the keyboard from nobody.
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
+  constexpr ImGuiWindowFlags flags =
+      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
   if (ImGui::BeginViewportSideBar(name, ImGui::GetMainViewport(), ImGuiDir_Down, height, flags)) draw();
   ImGui::End();
 }
 
 /// The errors, or the notes.
-std::vector<Message> errors_or_notes(const std::vector<Message>& messages, bool errors)
-{
+std::vector<Message> errors_or_notes(const std::vector<Message>& messages, bool errors) {
   std::vector<Message> chosen;
-  std::ranges::copy_if(messages, std::back_inserter(chosen), [errors](const Message& message) { return message.error == errors; });
+  std::ranges::copy_if(messages, std::back_inserter(chosen),
+                       [errors](const Message& message) { return message.error == errors; });
   return chosen;
 }
 
 /// Over the foot of the panels, where they take neither room nor mouse: they go by themselves.
-void draw_notes_over_panels(std::span<const Message> notes)
-{
+void draw_notes_over_panels(std::span<const Message> notes) {
   if (notes.empty()) return;
   const ImGuiViewport& viewport = *ImGui::GetMainViewport();
   ImGui::SetNextWindowPos({viewport.WorkPos.x, viewport.WorkPos.y + viewport.WorkSize.y}, ImGuiCond_Always, {0, 1});
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoDocking |
-                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                                     ImGuiWindowFlags_AlwaysAutoResize;
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                     ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoSavedSettings |
+                                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize;
   if (ImGui::Begin("notes", nullptr, flags)) draw_note_lines(notes, viewport.WorkSize.x);
   if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
   ImGui::End();
 }
 
-/// What menu bar and strips leave of the window is known in this frame, not only in the next: where a message went there would be a hole
-/// until then, and a window that nobody touches draws seldom.
-void take_over_strips()
-{
+/// What menu bar and strips leave of the window is known in this frame, not only in the next: where a message went
+/// there would be a hole until then, and a window that nobody touches draws seldom.
+void take_over_strips() {
   auto& viewport = static_cast<ImGuiViewportP&>(*ImGui::GetMainViewport());
   viewport.WorkInsetMin = viewport.BuildWorkInsetMin;
   viewport.WorkInsetMax = viewport.BuildWorkInsetMax;
@@ -77,14 +74,12 @@ void take_over_strips()
 
 } // namespace
 
-Workspace::Workspace(std::string layout) : name_(std::move(layout))
-{
+Workspace::Workspace(std::string layout) : name_(std::move(layout)) {
   check_layout(name_);
   for (const PanelEntry& entry : panel_table()) add(entry, entry.make(wavelengths_));
 }
 
-Commands Workspace::draw(Workbench& workbench)
-{
+Commands Workspace::draw(Workbench& workbench) {
   Commands commands;
   const Context context = workbench.context(commands);
   plots_.follow_scale();
@@ -98,7 +93,8 @@ Commands Workspace::draw(Workbench& workbench)
     run_shortcuts(context, workbench.questions().question() != Question::none, workbench.setup().help_shown());
   });
   guarded("status line", commands, [&] {
-    strip("status", ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y, [&] { draw_status_line(context, workbench.notes()); });
+    strip("status", ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y,
+          [&] { draw_status_line(context, workbench.notes()); });
   });
   guarded("messages", commands, [&] {
     const std::vector<Message> errors = errors_or_notes(workbench.messages(), true);
@@ -120,8 +116,7 @@ Commands Workspace::draw(Workbench& workbench)
   return commands;
 }
 
-Command Workspace::dropped(const std::string& file)
-{
+Command Workspace::dropped(const std::string& file) {
   const ImGuiWindow* list = ImGui::FindWindowByName(RunsPanel::title);
   const auto& [x, y] = ImGui::GetIO().MousePos;
   const bool on_list = list && list->WasActive && !list->Hidden && list->Rect().Contains({x, y});
@@ -129,8 +124,7 @@ Command Workspace::dropped(const std::string& file)
   return command::Open{file};
 }
 
-void Workspace::draw_panel(const Open& open, const Context& context)
-{
+void Workspace::draw_panel(const Open& open, const Context& context) {
   // Without NoFocusOnAppearing the last panel to be drawn would come before the one that the layout has in front.
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoFocusOnAppearing;
   if (open.entry.name == to_front_) ImGui::SetNextWindowFocus();
@@ -140,15 +134,13 @@ void Workspace::draw_panel(const Open& open, const Context& context)
   if (!stays) context.push(command::ShowPanel{std::string(open.entry.name), false});
 }
 
-void Workspace::draw_start_page(Workbench& workbench, const Context& context)
-{
+void Workspace::draw_start_page(Workbench& workbench, const Context& context) {
   to_front_ = workbench.setup().take_panel_to_front();
   for (const Open& open : panels_)
     if (open.entry.name == "presets") start_page_.draw(context, *open.panel, open.entry.name == to_front_);
 }
 
-void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
-{
+void Workspace::draw_dock_space(Workbench& workbench, const Context& context) {
   const std::array<float, 2> size{ImGui::GetMainViewport()->WorkSize.x, ImGui::GetMainViewport()->WorkSize.y};
   const std::string engine = context.engine();
   to_front_ = workbench.setup().take_panel_to_front();
@@ -173,7 +165,8 @@ void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
   if (++frames_laid_out_ <= settled) {
     bring_to_front(front_tabs_);
     bring_to_front(kept_in_front_);
-    // Whatever had the keyboard: its tab would come to the front. A dialog keeps it, and the View stays behind where another is before it.
+    // Whatever had the keyboard: its tab would come to the front. A dialog keeps it, and the View stays behind where
+    // another is before it.
     if (workbench.questions().question() == Question::none && is_seen(panel_table().front()))
       ImGui::SetWindowFocus(panel_table().front().title);
   }

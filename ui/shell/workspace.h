@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame of the whole window, from menu bar to status line, without a back end: the window and the tests draw the same thing.
+// One frame of the whole window, from menu bar to status line, without a back end: the window and the tests draw the
+// same thing.
 #pragma once
 #include "ui/shell/dialogs.h"
 #include "ui/shell/menus.h"
@@ -17,18 +18,18 @@ class Workspace : public Placed {
 public:
   /// Throws bad_input where there is no such layout.
   explicit Workspace(std::string layout = {});
-  /// Between ImGui::NewFrame and ImGui::Render. Returns what the person asked for; the caller gives it to Workbench::apply.
-  /// No exception leaves it.
+  /// Between ImGui::NewFrame and ImGui::Render. Returns what the person asked for; the caller gives it to
+  /// Workbench::apply. No exception leaves it.
   Commands draw(Workbench& workbench);
-  /// What a file is dropped for where the mouse is now: a picture on the panel that lists pictures is opened there, all else as Open says.
+  /// What a file is dropped for where the mouse is now: a picture on the panel that lists pictures is opened there, all
+  /// else as Open says.
   static Command dropped(const std::string& file);
   /// One more panel; those of the table are there from the start. entry: its make is not called.
   void add(const PanelEntry& entry, std::unique_ptr<Panel> panel) { panels_.push_back({entry, std::move(panel)}); }
   const Dialogs& dialogs() const { return dialogs_; }
   /// The panel of a class. Throws std::bad_cast where there is none.
   template <class P>
-  const P& panel() const
-  {
+  const P& panel() const {
     for (const Open& open : panels_)
       if (const auto* found = dynamic_cast<const P*>(open.panel.get())) return *found;
     throw std::bad_cast();
@@ -53,7 +54,8 @@ private:
   int frames_laid_out_ = 0;                  ///< since the layout was applied
   std::string before_;                       ///< what it was before a person touched it
   FrontTabs front_tabs_;                     ///< of the layout that was applied last
-  /// Of which preset that was, and the panels that a person looked at when an edit of it changed its engine: they stay in front.
+  /// Of which preset that was, and the panels that a person looked at when an edit of it changed its engine: they stay
+  /// in front.
   std::shared_ptr<const preset::Preset> laid_out_opened_;
   FrontTabs kept_in_front_;
   std::string to_front_;       ///< the panel that comes to the front in this frame

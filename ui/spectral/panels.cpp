@@ -7,8 +7,7 @@
 
 namespace nephroid::ui {
 
-std::vector<PanelEntry> spectral_panels()
-{
+std::vector<PanelEntry> spectral_panels() {
   return {{"dispersion", DispersionPanel::title, "spectral", make_panel<DispersionPanel>},
           {"spectra", SpectraPanel::title, "spectral", make_panel<SpectraPanel>,
            [](const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded, SceneFacts& facts) {

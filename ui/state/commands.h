@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What panels, menus and shortcuts ask for. They never change the workbench themselves: they push commands, which the workbench
-// applies once every panel has drawn. That is why a test can read what a click meant.
+// What panels, menus and shortcuts ask for. They never change the workbench themselves: they push commands, which the
+// workbench applies once every panel has drawn. That is why a test can read what a click meant.
 #pragma once
 #include "measure/difference.h"
 #include "preset/preset.h"
@@ -20,8 +20,8 @@
 
 namespace nephroid::ui {
 
-/// How linear values become what a display shows. standard: as image.png. filmic: for a wide range (state/tone.h). false_colour: of the
-/// luminance, logarithmic; exposure plays no part.
+/// How linear values become what a display shows. standard: as image.png. filmic: for a wide range (state/tone.h).
+/// false_colour: of the luminance, logarithmic; exposure plays no part.
 enum class ToneCurve { standard, filmic, false_colour };
 inline constexpr int tone_curves = 3;
 
@@ -36,9 +36,9 @@ struct ViewSettings {
   double exposure_stops = 0; ///< -20..20
   ToneCurve tone = ToneCurve::standard;
   std::optional<LuminanceRange> false_colour = {}; ///< nothing: automatic_range of what is shown
-  bool fit = true;                                 ///< the whole picture in the panel; zoom and centre are not used then
-  double zoom = 1;                                 ///< screen pixels a picture pixel
-  std::array<double, 2> centre{0, 0};              ///< the picture's point, in pixels, that is at the panel's middle
+  bool fit = true;                    ///< the whole picture in the panel; zoom and centre are not used then
+  double zoom = 1;                    ///< screen pixels a picture pixel
+  std::array<double, 2> centre{0, 0}; ///< the picture's point, in pixels, that is at the panel's middle
   bool operator==(const ViewSettings&) const = default;
 };
 
@@ -74,7 +74,7 @@ enum class Theme { dark, light };
 
 /// For the presets of one engine.
 struct EngineLayout {
-  std::string ini;              ///< where the panels are, in Dear ImGui's words; empty: where the engine begins with them
+  std::string ini; ///< where the panels are, in Dear ImGui's words; empty: where the engine begins with them
   std::set<std::string> closed; ///< names of panels (shell/panels.h)
   bool operator==(const EngineLayout&) const = default;
 };
@@ -89,13 +89,26 @@ struct Settings {
 };
 
 /// What a dialog is open for. unsaved: something waits for it (Workbench::waiting).
-enum class Question { none, open, open_history, open_pictures, open_map, save_preset, save_picture, unsaved, command, save_report };
+enum class Question {
+  none,
+  open,
+  open_history,
+  open_pictures,
+  open_map,
+  save_preset,
+  save_picture,
+  unsaved,
+  command,
+  save_report
+};
 
 namespace command {
 
-/// A preset file, or the name of a shipped preset: asks first where there are unsaved changes, unless sure. A run's folder or a table
-/// (.csv) is pinned as PinFile does; dispersion data (.yml) is loaded as LoadDispersion does. A map (.exr, .hdr) becomes the environment, a
-/// picture what the engine makes of it, else it is opened as PinFile does; a mesh an object, glTF a preset of its own.
+/// A preset file, or the name of a shipped preset: asks first where there are unsaved changes, unless sure. A run's
+/// folder or a table
+/// (.csv) is pinned as PinFile does; dispersion data (.yml) is loaded as LoadDispersion does. A map (.exr, .hdr)
+/// becomes the environment, a picture what the engine makes of it, else it is opened as PinFile does; a mesh an object,
+/// glTF a preset of its own.
 struct Open {
   std::string name;
   bool sure = false;
@@ -109,8 +122,8 @@ struct New {
   std::string preset; ///< as JSON
   bool sure = false;
 };
-/// The preset as it shall be. Edits of one gesture (same number, not 0) make one entry to undo. live: the gesture still lasts,
-/// so that a run may first show a picture before the next one replaces it.
+/// The preset as it shall be. Edits of one gesture (same number, not 0) make one entry to undo. live: the gesture still
+/// lasts, so that a run may first show a picture before the next one replaces it.
 struct Edit {
   std::string label;
   preset::Preset preset;
@@ -118,7 +131,8 @@ struct Edit {
   bool live = false;
   bool was_read = false; ///< by the reader of presets: it has nothing to refuse
 };
-/// The sweep as it shall be: which fields take which values. An edit to undo; the run goes on, as its preset is the same.
+/// The sweep as it shall be: which fields take which values. An edit to undo; the run goes on, as its preset is the
+/// same.
 struct SetSweep {
   std::string label;
   preset::Sweep sweep;
@@ -163,7 +177,8 @@ struct ShowDifference {
 struct ShowLayer {
   std::string layer;
 };
-/// The pixel (column, row) that the panel Inspector shows; nothing: none. It need not be in the picture, whose size may change.
+/// The pixel (column, row) that the panel Inspector shows; nothing: none. It need not be in the picture, whose size may
+/// change.
 struct InspectPixel {
   std::optional<std::array<int, 2>> pixel;
 };
@@ -183,7 +198,8 @@ struct ChangePin {
   std::uint32_t colour = 0; ///< IM_COL32
   bool shown = true;        ///< in the plot
 };
-/// A picture, or the history of an earlier run: history.csv, or its folder, whose image.exr is then kept too. Read in the background.
+/// A picture, or the history of an earlier run: history.csv, or its folder, whose image.exr is then kept too. Read in
+/// the background.
 struct PinFile {
   std::filesystem::path path;
   bool show = false;                  ///< a picture is then shown in the View
@@ -200,7 +216,8 @@ struct ChooseMetric {
 struct ChooseMaterial {
   std::string material;
 };
-/// Loads a refractiveindex.info file (a path, or the name of a shipped material) into the dielectric that is shown: one edit.
+/// Loads a refractiveindex.info file (a path, or the name of a shipped material) into the dielectric that is shown: one
+/// edit.
 struct LoadDispersion {
   std::string file;
 };
@@ -232,8 +249,8 @@ struct SavePreset {
 struct SavePicture {
   std::filesystem::path file;
 };
-/// Writes the files that a run made (job::Snapshot::files) into a new folder, in the background, and then opens the preset among them that
-/// shows what was found (engine::ResultView).
+/// Writes the files that a run made (job::Snapshot::files) into a new folder, in the background, and then opens the
+/// preset among them that shows what was found (engine::ResultView).
 struct OpenResult {
   std::string file; ///< its name
 };
@@ -280,15 +297,17 @@ struct Quit {
 } // namespace command
 
 using Command =
-    std::variant<command::Open, command::OpenMap, command::New, command::Edit, command::SetSweep, command::StartSweep, command::StopSweep,
-                 command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel, command::Pause, command::SetViewSettings,
-                 command::Flip, command::CompareWith, command::ShowPicture, command::Arrange, command::MoveSplit, command::ShowDifference,
-                 command::ShowLayer, command::InspectPixel, command::SelectRegion, command::ShowLines, command::PinRun, command::PinFile,
-                 command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial, command::LoadDispersion,
-                 command::Select, command::SetHandles, command::Nudged, command::SetBookmarks, command::Ask, command::SavePreset,
-                 command::SavePicture, command::OpenResult, command::WriteReport, command::Dismiss, command::ReopenSession,
-                 command::ReloadPreset, command::ToggleHelp, command::ResetLayout, command::KeepLayout, command::ShowPanel,
-                 command::SetAppearance, command::Report, command::Quit>;
+    std::variant<command::Open, command::OpenMap, command::New, command::Edit, command::SetSweep, command::StartSweep,
+                 command::StopSweep, command::EndGesture, command::Undo, command::Redo, command::Restart,
+                 command::Cancel, command::Pause, command::SetViewSettings, command::Flip, command::CompareWith,
+                 command::ShowPicture, command::Arrange, command::MoveSplit, command::ShowDifference,
+                 command::ShowLayer, command::InspectPixel, command::SelectRegion, command::ShowLines, command::PinRun,
+                 command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial,
+                 command::LoadDispersion, command::Select, command::SetHandles, command::Nudged, command::SetBookmarks,
+                 command::Ask, command::SavePreset, command::SavePicture, command::OpenResult, command::WriteReport,
+                 command::Dismiss, command::ReopenSession, command::ReloadPreset, command::ToggleHelp,
+                 command::ResetLayout, command::KeepLayout, command::ShowPanel, command::SetAppearance, command::Report,
+                 command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

@@ -16,8 +16,7 @@ namespace nephroid::ui {
 namespace {
 
 /// The values in the map's colours, by a table: there are far more pixels than colours that a display tells apart.
-std::vector<unsigned char> coloured(const std::vector<float>& values, double scale, bool is_signed)
-{
+std::vector<unsigned char> coloured(const std::vector<float>& values, double scale, bool is_signed) {
   constexpr int steps = 1024;
   std::vector<std::array<unsigned char, 3>> table;
   for (int i = 0; i <= steps; ++i) table.push_back(measure::map_colour(static_cast<double>(i) / steps, is_signed));
@@ -31,13 +30,14 @@ std::vector<unsigned char> coloured(const std::vector<float>& values, double sca
 }
 
 /// known: the values, where they are known from a map with another scale.
-std::shared_ptr<const ShownDifference> coloured_map(const DifferenceRequest& request, std::shared_ptr<const std::vector<float>> known)
-{
+std::shared_ptr<const ShownDifference> coloured_map(const DifferenceRequest& request,
+                                                    std::shared_ptr<const std::vector<float>> known) {
   auto map = std::make_shared<ShownDifference>();
   map->of = request;
   try {
     if (!known)
-      known = std::make_shared<std::vector<float>>(measure::difference_map(request.picture.pixels, request.other.pixels, request.metric));
+      known = std::make_shared<std::vector<float>>(
+          measure::difference_map(request.picture.pixels, request.other.pixels, request.metric));
     map->scale = request.scale > 0 ? request.scale : measure::colour_scale(*known);
     map->rgba = coloured(*known, map->scale, measure::is_signed(request.metric));
     map->values = std::move(known);
@@ -48,14 +48,13 @@ std::shared_ptr<const ShownDifference> coloured_map(const DifferenceRequest& req
 }
 
 /// Null where there is no layer of this name.
-const job::Layer* find_layer(const std::vector<job::Layer>& layers, const std::string& name)
-{
+const job::Layer* find_layer(const std::vector<job::Layer>& layers, const std::string& name) {
   const auto found = std::ranges::find(layers, name, &job::Layer::name);
   return found == layers.end() ? nullptr : &*found;
 }
 
-std::shared_ptr<const ShownMetrics> measured(const HeldPicture& picture, const HeldPicture& other, measure::MetricSet which)
-{
+std::shared_ptr<const ShownMetrics> measured(const HeldPicture& picture, const HeldPicture& other,
+                                             measure::MetricSet which) {
   auto metrics = std::make_shared<ShownMetrics>();
   metrics->picture = picture;
   metrics->other = other;
@@ -69,21 +68,18 @@ std::shared_ptr<const ShownMetrics> measured(const HeldPicture& picture, const H
 
 } // namespace
 
-void Comparing::carry_out(const command::ShowDifference& c)
-{
+void Comparing::carry_out(const command::ShowDifference& c) {
   comparison_.difference = c.on;
   comparison_.metric = c.metric;
   comparison_.scale = c.scale > 0 && std::isfinite(c.scale) ? c.scale : 0;
   if (!c.on) difference_.forget(tasks_);
 }
 
-void Comparing::carry_out(const command::PinRun&)
-{
+void Comparing::carry_out(const command::PinRun&) {
   if (run_.snapshot()) pin(run_now(run_));
 }
 
-void Comparing::carry_out(const command::PinFile& c)
-{
+void Comparing::carry_out(const command::PinFile& c) {
   services_.follow_ups.push_back(command::Ask{});
   tasks_.start(
       pins_, {"reading " + c.path.string(), TaskKind::request}, [path = c.path] { return read_pin(path); },
@@ -95,72 +91,67 @@ void Comparing::carry_out(const command::PinFile& c)
         }
         const bool shows_picture = show && !run.is_run();
         if (shows_picture)
-          services_.messages.note(fmt::format("opened {}, {} x {} ({})", run.name, run.picture->width, run.picture->height, run.read_as));
+          services_.messages.note(
+              fmt::format("opened {}, {} x {} ({})", run.name, run.picture->width, run.picture->height, run.read_as));
         const std::uint64_t id = pin(std::move(run));
         if (shows_picture) comparison_.shown = id;
       });
 }
 
-void Comparing::carry_out(const command::Unpin& c)
-{
+void Comparing::carry_out(const command::Unpin& c) {
   pinned_.remove(c.pin);
   if (comparison_.pin == c.pin) comparison_.pin = 0;
   if (comparison_.shown == c.pin) comparison_.shown = 0;
 }
 
-void Comparing::carry_out(const command::CompareWith& c)
-{
+void Comparing::carry_out(const command::CompareWith& c) {
   comparison_.pin = c.pin == Comparison::run_in_hand || pinned_.find(c.pin) ? c.pin : 0;
 }
 
-Comparing::Side Comparing::side_of(const PinnedRun& pin) const
-{
+Comparing::Side Comparing::side_of(const PinnedRun& pin) const {
   const std::string quoted = '"' + pin.name + '"';
   if (!pin.picture) return {.why_not = quoted + " has no picture: only its history was read"};
-  return {pin.picture, pin.picture->width, pin.picture->height, &pin.picture->rgb, &pin.picture->layers, pin.name, quoted};
+  return {pin.picture, pin.picture->width, pin.picture->height, &pin.picture->rgb, &pin.picture->layers, pin.name,
+          quoted};
 }
 
 /// Of the snapshot, which is there. Designs are compared by what they cast.
-std::shared_ptr<const job::Picture> Comparing::run_picture() const
-{
+std::shared_ptr<const job::Picture> Comparing::run_picture() const {
   const job::Snapshot& snapshot = *run_.snapshot();
   return shows_run_alone() && snapshot.in_view ? snapshot.in_view : snapshot.picture;
 }
 
-Comparing::Side Comparing::run_side() const
-{
+Comparing::Side Comparing::run_side() const {
   if (!run_.snapshot()) return {.why_not = "there is no picture yet"};
   const auto picture = run_picture();
   return {picture, picture->width, picture->height, &picture->rgb, &picture->layers, "the run", "the run's picture"};
 }
 
-Comparing::Side Comparing::side() const
-{
+Comparing::Side Comparing::side() const {
   const PinnedRun* pin = pinned_.find(comparison_.shown);
   return pin ? side_of(*pin) : run_side();
 }
 
-Comparing::Side Comparing::other_side() const
-{
+Comparing::Side Comparing::other_side() const {
   if (comparison_.pin == Comparison::run_in_hand) return run_side();
   if (const PinnedRun* pin = pinned_.find(comparison_.pin)) return side_of(*pin);
   if (const auto& reference = run_.reference())
-    return {reference, reference->width, reference->height, &reference->rgb, &reference->layers, reference->origin, "the reference"};
-  if (run_.plan() || !run_.has_reference()) return {.why_not = "the preset has no reference and no picture is chosen to compare with"};
+    return {reference,          reference->width,  reference->height, &reference->rgb,
+            &reference->layers, reference->origin, "the reference"};
+  if (run_.plan() || !run_.has_reference())
+    return {.why_not = "the preset has no reference and no picture is chosen to compare with"};
   return {.why_not = "the reference is not there yet"};
 }
 
 /// All of a picture or its layer, which is there. Other pixels have another owner.
-HeldPicture Comparing::held(const Side& side, const std::string& layer)
-{
+HeldPicture Comparing::held(const Side& side, const std::string& layer) {
   const job::Layer* found = layer.empty() ? nullptr : find_layer(*side.layers, layer);
   const std::vector<float>& rgb = found ? found->rgb : *side.rgb;
   return {std::shared_ptr<const void>(side.owner, &rgb), {side.width, side.height, rgb, side.name}};
 }
 
 /// Why it has no such layer; empty where it has it, or where none is asked for.
-std::string Comparing::why_no_layer(const Side& side, const std::string& layer)
-{
+std::string Comparing::why_no_layer(const Side& side, const std::string& layer) {
   if (!side.why_not.empty() || layer.empty() || find_layer(*side.layers, layer)) return side.why_not;
   if (side.layers->empty()) return fmt::format("{} has no layers, and \"{}\" is chosen", side.subject, layer);
   std::vector<std::string> names;
@@ -168,20 +159,17 @@ std::string Comparing::why_no_layer(const Side& side, const std::string& layer)
   return fmt::format("{} has no layer \"{}\", only {}", side.subject, layer, fmt::join(names, ", "));
 }
 
-std::shared_ptr<const job::Picture> Comparing::source() const
-{
+std::shared_ptr<const job::Picture> Comparing::source() const {
   if (const PinnedRun* pin = pinned_.find(comparison_.shown)) return pin->picture;
   return run_.snapshot() ? run_picture() : nullptr;
 }
 
-std::string Comparing::name() const
-{
+std::string Comparing::name() const {
   const PinnedRun* pin = pinned_.find(comparison_.shown);
   return pin ? '"' + pin->name + '"' : "this run";
 }
 
-std::string Comparing::other_name() const
-{
+std::string Comparing::other_name() const {
   if (comparison_.pin == Comparison::run_in_hand) return "this run";
   const PinnedRun* pin = pinned_.find(comparison_.pin);
   return pin ? '"' + pin->name + '"' : "Reference";
@@ -190,12 +178,15 @@ std::string Comparing::other_name() const
 std::string Comparing::why_no_picture() const { return why_no_layer(side(), comparison_.layer); }
 std::string Comparing::why_none_beside() const { return why_no_layer(other_side(), comparison_.layer); }
 
-HeldPicture Comparing::picture() const { return why_no_picture().empty() ? held(side(), comparison_.layer) : HeldPicture{}; }
-HeldPicture Comparing::picture_beside() const { return why_none_beside().empty() ? held(other_side(), comparison_.layer) : HeldPicture{}; }
+HeldPicture Comparing::picture() const {
+  return why_no_picture().empty() ? held(side(), comparison_.layer) : HeldPicture{};
+}
+HeldPicture Comparing::picture_beside() const {
+  return why_none_beside().empty() ? held(other_side(), comparison_.layer) : HeldPicture{};
+}
 HeldPicture Comparing::other_picture() const { return why_not().empty() ? picture_beside() : HeldPicture{}; }
 
-std::string Comparing::why_not() const
-{
+std::string Comparing::why_not() const {
   if (const std::string why = why_no_picture(); !why.empty()) return why;
   const Side one = side(), other = other_side();
   if (other.why_not.empty() && (one.width != other.width || one.height != other.height))
@@ -204,30 +195,27 @@ std::string Comparing::why_not() const
   return why_none_beside();
 }
 
-bool Comparing::are_compared(const HeldPicture& picture, const HeldPicture& other) const
-{
+bool Comparing::are_compared(const HeldPicture& picture, const HeldPicture& other) const {
   const auto is = [](const HeldPicture& of, const HeldPicture& now, bool of_run) {
-    return of.owner == now.owner || (of_run && now.owner && of.pixels.width == now.pixels.width && of.pixels.height == now.pixels.height &&
-                                     of.pixels.name == now.pixels.name);
+    return of.owner == now.owner || (of_run && now.owner && of.pixels.width == now.pixels.width &&
+                                     of.pixels.height == now.pixels.height && of.pixels.name == now.pixels.name);
   };
   const HeldPicture now = other_picture();
-  return now.owner && is(picture, this->picture(), comparison_.shown == 0) && is(other, now, comparison_.pin == Comparison::run_in_hand);
+  return now.owner && is(picture, this->picture(), comparison_.shown == 0) &&
+         is(other, now, comparison_.pin == Comparison::run_in_hand);
 }
 
-std::shared_ptr<const ShownMetrics> Comparing::fitting(const NewestResult<ShownMetrics>& metrics) const
-{
+std::shared_ptr<const ShownMetrics> Comparing::fitting(const NewestResult<ShownMetrics>& metrics) const {
   const auto& newest = metrics.newest();
   return newest && comparison_.measures() && are_compared(newest->picture, newest->other) ? newest : nullptr;
 }
 
-void Comparing::update(TaskQueue::Clock::time_point now)
-{
+void Comparing::update(TaskQueue::Clock::time_point now) {
   if (comparison_.difference) update_map(now);
   if (comparison_.measures()) update_metrics(now);
 }
 
-void Comparing::update_metrics(TaskQueue::Clock::time_point now)
-{
+void Comparing::update_metrics(TaskQueue::Clock::time_point now) {
   constexpr std::chrono::seconds stays{1};
   const HeldPicture picture = this->picture(), other = other_picture();
   if (!other.owner) return;
@@ -240,7 +228,8 @@ void Comparing::update_metrics(TaskQueue::Clock::time_point now)
   measured_ = picture.owner, measured_against_ = other.owner;
   const auto want = [&](NewestResult<ShownMetrics>& metrics, measure::MetricSet which) {
     const auto& newest = metrics.newest();
-    const bool same_other = newest && newest->other.owner == other.owner, same_picture = newest && newest->picture.owner == picture.owner;
+    const bool same_other = newest && newest->other.owner == other.owner,
+               same_picture = newest && newest->picture.owner == picture.owner;
     metrics.want(
         tasks_, "metrics of pictures",
         same_other && same_picture ? Request::same
@@ -252,12 +241,12 @@ void Comparing::update_metrics(TaskQueue::Clock::time_point now)
   if (now - measured_since_ >= stays) want(all_metrics_, measure::MetricSet::full);
 }
 
-void Comparing::update_map(TaskQueue::Clock::time_point now)
-{
+void Comparing::update_map(TaskQueue::Clock::time_point now) {
   const DifferenceRequest request{picture(), other_picture(), comparison_.metric, comparison_.scale};
   if (!request.other.owner) return;
   const auto& newest = difference_.newest();
-  const bool same_other = newest && newest->of.other.owner == request.other.owner && newest->of.metric == request.metric;
+  const bool same_other =
+      newest && newest->of.other.owner == request.other.owner && newest->of.metric == request.metric;
   const bool same_picture = newest && newest->of.picture.owner == request.picture.owner;
   const bool same_form = same_other && newest->of.scale == request.scale;
   difference_.want(
@@ -265,7 +254,10 @@ void Comparing::update_map(TaskQueue::Clock::time_point now)
       !same_form     ? Request::other
       : same_picture ? Request::same
                      : Request::other_picture,
-      [request, values = same_other && same_picture ? newest->values : nullptr] { return coloured_map(request, values); }, now);
+      [request, values = same_other && same_picture ? newest->values : nullptr] {
+        return coloured_map(request, values);
+      },
+      now);
 }
 
 } // namespace nephroid::ui

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two pictures held against each other: the run in hand, or a pinned run or an opened picture in its place, and another one of these or
-// the reference. The map of their difference in false colour and their metrics are made beside the frames: FLIP of a large picture takes
-// seconds, a frame 16 ms.
+// Two pictures held against each other: the run in hand, or a pinned run or an opened picture in its place, and another
+// one of these or the reference. The map of their difference in false colour and their metrics are made beside the
+// frames: FLIP of a large picture takes seconds, a frame 16 ms.
 #pragma once
 #include "measure/difference.h"
 #include "ui/state/commands.h"
@@ -53,12 +53,12 @@ public:
   const PinnedRuns& pinned() const { return pinned_; }
   const Comparison& comparison() const { return comparison_; }
   /// Whether the run's picture is shown, and nothing beside it or in its place.
-  bool shows_run_alone() const
-  {
+  bool shows_run_alone() const {
     const Comparison& c = comparison_;
     return c.shown == 0 && c.arrangement == Arrangement::single && !c.flip && !c.difference;
   }
-  /// What is shown, with all of its layers: the run's, or that of the pinned run or opened picture that comparison() names. Null: none yet.
+  /// What is shown, with all of its layers: the run's, or that of the pinned run or opened picture that comparison()
+  /// names. Null: none yet.
   std::shared_ptr<const job::Picture> source() const;
   /// "this run", or the name of the pinned run or picture in quotes; and of what it is compared with, "Reference" too.
   std::string name() const;
@@ -78,8 +78,8 @@ public:
   bool are_compared(const HeldPicture& picture, const HeldPicture& other) const;
   /// The newest map of differences that comparison() asked for; may be of an earlier snapshot. Null before the first.
   const std::shared_ptr<const ShownDifference>& difference() const { return difference_.newest(); }
-  /// The newest quick metrics of the two, and those that a person sees (FLIP, IW-SSIM), which come when both pictures have stayed for a
-  /// second. May be of an earlier snapshot. Null before the first, and where comparison() wants none.
+  /// The newest quick metrics of the two, and those that a person sees (FLIP, IW-SSIM), which come when both pictures
+  /// have stayed for a second. May be of an earlier snapshot. Null before the first, and where comparison() wants none.
   std::shared_ptr<const ShownMetrics> metrics() const { return fitting(metrics_); }
   std::shared_ptr<const ShownMetrics> all_metrics() const { return fitting(all_metrics_); }
 
@@ -99,8 +99,7 @@ public:
   /// Whether pins are being read.
   bool reads_pins() const { return tasks_.busy(pins_); }
   /// The map is of another preset, whose run is shown.
-  void forget()
-  {
+  void forget() {
     difference_.forget(tasks_);
     comparison_.layer.clear();
     comparison_.shown = 0;

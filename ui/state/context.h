@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a panel reads, and where what it asks for goes. Made anew for every frame.
 #pragma once
-#include "ui/state/view_state.h"
 #include "ui/state/commands.h"
 #include "ui/state/comparing.h"
 #include "ui/state/recent_files.h"
@@ -10,6 +9,7 @@
 #include "ui/state/sweep_queue.h"
 #include "ui/state/tasks.h"
 #include "ui/state/undo.h"
+#include "ui/state/view_state.h"
 
 #include <array>
 #include <optional>
@@ -39,8 +39,7 @@ struct Context {
   std::string engine() const { return std::string(edits->current().settings.engine()); }
   void push(Command command) const { commands.push_back(std::move(command)); }
   /// The look as the commands of this frame leave it: two keys in one frame must not undo each other.
-  ViewSettings view_settings() const
-  {
+  ViewSettings view_settings() const {
     for (auto c = commands.rbegin(); c != commands.rend(); ++c)
       if (const auto* set = std::get_if<command::SetViewSettings>(&*c)) return set->view_settings;
     return view_state.view_settings;
@@ -48,8 +47,7 @@ struct Context {
   void note(std::string line) const { push(command::Report{std::move(line), false}); }
   /// The preset as change(preset) makes it; gesture and live as in command::Edit. Where a preset is open.
   template <class Change>
-  void edit(std::string label, Change change, std::uint64_t gesture = 0, bool live = false) const
-  {
+  void edit(std::string label, Change change, std::uint64_t gesture = 0, bool live = false) const {
     preset::Preset edited = edits->current();
     change(edited);
     push(command::Edit{std::move(label), std::move(edited), gesture, live});

@@ -10,15 +10,15 @@ namespace {
 
 constexpr std::chrono::milliseconds look_at_kernels_every{200}; ///< at the kernels folder
 
-/// What the run is measured against. The window shows a picture with or without one: what stands against it becomes a note. A recipe is
-/// not rendered here, because every edit of the scene asks for another one.
+/// What the run is measured against. The window shows a picture with or without one: what stands against it becomes a
+/// note. A recipe is not rendered here, because every edit of the scene asks for another one.
 std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prepared, const compute::Context& context,
-                                                       std::vector<std::string>& notes)
-{
+                                                       std::vector<std::string>& notes) {
   try {
     auto found = preset::at_origins(prepared.preset, [&] { return run::find_reference(prepared, context); });
     if (!found && prepared.preset.reference)
-      notes.emplace_back("the reference of the preset as it is now has not been rendered yet; save it, and nephroid run renders it");
+      notes.emplace_back(
+          "the reference of the preset as it is now has not been rendered yet; save it, and nephroid run renders it");
     return found;
   } catch (const Error& error) {
     notes.push_back("without a reference: " + error.line());
@@ -29,15 +29,14 @@ std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prep
 } // namespace
 
 DeviceRuns::DeviceRuns(compute::DeviceOptions device, TakeFacts take_facts)
-    : kernels_(device.kernels), take_facts_(take_facts), run_([device = std::move(device)] { return compute::Context::open(device); })
-{
+    : kernels_(device.kernels), take_facts_(take_facts),
+      run_([device = std::move(device)] { return compute::Context::open(device); }) {
   if (!kernels_.empty()) watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }
 
 DeviceRuns::~DeviceRuns() = default;
 
-NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch)
-{
+NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch) {
   if (reread_.exchange(false)) run_.prepared.reset();
   if (reopen_.exchange(false)) run_.device.close();
   if (watcher_.joinable()) { // the sources are read below: what changed until here is in this run
@@ -58,8 +57,7 @@ NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch)
           run_.prepared->preset.white};
 }
 
-void DeviceRuns::watch(const std::stop_token& stop)
-{
+void DeviceRuns::watch(const std::stop_token& stop) {
   std::unique_lock lock(watching_);
   while (!stop.stop_requested()) {
     stopping_.wait_for(lock, stop, look_at_kernels_every, [] { return false; });

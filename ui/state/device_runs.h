@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the runs of the window's presets on a device. Keeps the device's context, with its built kernels, and the loaded scene from
-// one run to the next, so that moving the camera loads and builds nothing again. With a kernels folder (--kernels) it watches that.
+// Makes the runs of the window's presets on a device. Keeps the device's context, with its built kernels, and the
+// loaded scene from one run to the next, so that moving the camera loads and builds nothing again. With a kernels
+// folder (--kernels) it watches that.
 #pragma once
 #include "compute/compute.h"
 #include "run/ready.h"
@@ -37,10 +38,12 @@ private:
   TakeFacts take_facts_;
   run::ReadyRun run_; ///< the newest one, without its job; the worker's thread only
   std::atomic<bool> changed_{false}, reread_{false}, reopen_{false};
-  std::mutex watching_;                      ///< held for a look at the folder
-  std::optional<compute::KernelTimes> seen_; ///< by the newest run or look, whichever is later; nothing before the first run
+  std::mutex watching_; ///< held for a look at the folder
+  std::optional<compute::KernelTimes>
+      seen_; ///< by the newest run or look, whichever is later; nothing before the first run
   std::condition_variable_any stopping_;
-  std::jthread watcher_; ///< a thread of its own: neither a frame nor a run waits for the folder's disk. Last: it uses the others.
+  std::jthread watcher_; ///< a thread of its own: neither a frame nor a run waits for the folder's disk. Last: it uses
+                         ///< the others.
 };
 
 } // namespace nephroid::ui

@@ -16,9 +16,9 @@
 namespace nephroid::ui {
 namespace {
 
-/// With a map in place of its environment, as bright and as turned as that was. Whether the map can be read the run finds out.
-preset::Preset surrounded(preset::Preset preset, const std::string& map)
-{
+/// With a map in place of its environment, as bright and as turned as that was. Whether the map can be read the run
+/// finds out.
+preset::Preset surrounded(preset::Preset preset, const std::string& map) {
   std::error_code ignored;
   preset::Environment environment;
   if (const auto& before = preset.scene.environment) {
@@ -33,14 +33,12 @@ preset::Preset surrounded(preset::Preset preset, const std::string& map)
 
 } // namespace
 
-void Document::open(UndoStack edits)
-{
+void Document::open(UndoStack edits) {
   edits_.emplace(std::move(edits));
   run_.start(*edits_);
 }
 
-void Document::close()
-{
+void Document::close() {
   edits_.reset();
   run_.forget();
   view_state_.view_settings = ViewSettings{};
@@ -51,19 +49,18 @@ void Document::close()
   services_.tasks.forget(meshes_);
 }
 
-bool Document::take_over(preset::WithSweep read)
-{
+bool Document::take_over(preset::WithSweep read) {
   const std::string source = edits_->current().source;
   const bool is_other_run = read.preset != edits_->current();
   if (!is_other_run && read.sweep == edits_->sweep()) return false; // as where this window wrote it
-  edits_->push("reload " + std::filesystem::path(source).filename().string(), std::move(read.preset), std::move(read.sweep));
+  edits_->push("reload " + std::filesystem::path(source).filename().string(), std::move(read.preset),
+               std::move(read.sweep));
   edits_->mark_saved(source);
   if (is_other_run) run_.follow_edit();
   return true;
 }
 
-void Document::take_picture(const std::string& file)
-{
+void Document::take_picture(const std::string& file) {
   if (!is_there(file)) throw bad_input(file, "there is no such picture");
   preset::Preset edited = edits_->current();
   engine::PictureEdit taken = engine::engine_of(edited).take_picture(edited, file);
@@ -71,15 +68,13 @@ void Document::take_picture(const std::string& file)
   services_.messages.note(std::move(taken.note));
 }
 
-void Document::read_mesh(const std::filesystem::path& file)
-{
+void Document::read_mesh(const std::filesystem::path& file) {
   services_.tasks.start(
       meshes_, {"reading " + file.string(), TaskKind::request}, [file] { return read_dropped_mesh(file); },
       [this](const DroppedMesh& mesh) { add_object(mesh); });
 }
 
-void Document::add_object(const DroppedMesh& mesh)
-{
+void Document::add_object(const DroppedMesh& mesh) {
   if (!edits_) return;
   WithMesh with_it = with_mesh(edits_->current(), mesh);
   const std::size_t index = with_it.preset.scene.objects.size() - 1;
@@ -88,16 +83,14 @@ void Document::add_object(const DroppedMesh& mesh)
   services_.messages.note(with_it.note);
 }
 
-void Document::update()
-{
+void Document::update() {
   const auto white = run_.fitted_white();
   if (!white || !edits_ || edits_->current().white) return;
   edits_->fit_white(*white);
   services_.messages.note(fmt::format("white {} fits the first picture", *white));
 }
 
-void Document::carry_out(const command::Edit& c)
-{
+void Document::carry_out(const command::Edit& c) {
   try {
     edit(c);
   } catch (const std::exception& error) {
@@ -106,10 +99,9 @@ void Document::carry_out(const command::Edit& c)
   }
 }
 
-/// Throws bad_input where the preset could not be read again: a number is out of its range, however it came there, or two fields
-/// contradict each other.
-void Document::edit(const command::Edit& c)
-{
+/// Throws bad_input where the preset could not be read again: a number is out of its range, however it came there, or
+/// two fields contradict each other.
+void Document::edit(const command::Edit& c) {
   if (!edits_) return;
   services_.messages.dismiss(refused_edit_); // while the mouse drags there is a new one at every move
   preset::Preset edited = c.preset;
@@ -121,50 +113,44 @@ void Document::edit(const command::Edit& c)
 }
 
 /// What another engine takes away with the present one.
-void Document::note_left_out(std::string_view engine)
-{
+void Document::note_left_out(std::string_view engine) {
   auto json = preset::as_json(edits_->current());
   if (const auto keys = preset::take_foreign(json, engine); !keys.empty())
     services_.messages.note(preset::left_out_note(engine, keys) + " (Undo brings it back)");
 }
 
-void Document::carry_out(const command::SetSweep& c)
-{
+void Document::carry_out(const command::SetSweep& c) {
   if (!edits_ || c.sweep == edits_->sweep()) return;
   edits_->push(c.label, edits_->current(), c.sweep);
 }
 
 /// The run follows, but where the step was about the sweep alone.
-void Document::step(bool (UndoStack::*by)())
-{
+void Document::step(bool (UndoStack::*by)()) {
   if (!edits_) return;
   const preset::Preset before = edits_->current();
   if ((*edits_.*by)() && before != edits_->current()) run_.adopt_or_start(*edits_);
 }
 
-void Document::carry_out(const command::Restart&)
-{
+void Document::carry_out(const command::Restart&) {
   if (edits_) run_.start(*edits_);
 }
 
-void Document::carry_out(const command::Select& c)
-{
+void Document::carry_out(const command::Select& c) {
   view_state_.selection = in_preset(c.selection, preset());
   view_state_.nudged.at_s = command::Nudged{}.at_s; // another thing is another entry to undo
 }
 
-void Document::carry_out(const command::InspectPixel& c)
-{
+void Document::carry_out(const command::InspectPixel& c) {
   view_state_.pixel = c.pixel;
   if (c.pixel) view_state_.selection = {}; // the arrow keys are the pixel's now
   run_.watch_spectrum(c.pixel);
 }
 
 /// Throws bad_input where there is no such file, or one that is no map: the dialog stays open then.
-void Document::carry_out(const command::OpenMap& c)
-{
+void Document::carry_out(const command::OpenMap& c) {
   if (!edits_) return;
-  if (kind_of(c.file) != FileKind::map) throw bad_input(c.file, "is no map of an environment", "expected a file .hdr or .exr");
+  if (kind_of(c.file) != FileKind::map)
+    throw bad_input(c.file, "is no map of an environment", "expected a file .hdr or .exr");
   if (!is_there(c.file)) throw bad_input(c.file, "there is no such file");
   const std::string name = std::filesystem::path(c.file).filename().string();
   edit({"surround with " + name, surrounded(edits_->current(), c.file)});
@@ -172,13 +158,14 @@ void Document::carry_out(const command::OpenMap& c)
   services_.follow_ups.push_back(command::Ask{});
 }
 
-void Document::carry_out(const command::LoadDispersion& c)
-{
-  if (!edits_) throw bad_input(c.file, "is dispersion data, and no preset is open", {}, "open a preset with glass, then load it");
+void Document::carry_out(const command::LoadDispersion& c) {
+  if (!edits_)
+    throw bad_input(c.file, "is dispersion data, and no preset is open", {}, "open a preset with glass, then load it");
   preset::Preset edited = edits_->current();
   const std::string material = shown_dielectric(edited, view_state_.material);
   if (material.empty())
-    throw bad_input(c.file, "is dispersion data, and this preset has no dielectric", "expected a material of type \"dielectric\"");
+    throw bad_input(c.file, "is dispersion data, and this preset has no dielectric",
+                    "expected a material of type \"dielectric\"");
   edited.scene.materials.at(material).dispersion = load_dispersion(c.file, edited.source);
   const std::string name = std::filesystem::path(c.file).stem().string();
   edit({"load " + name + " into " + material, std::move(edited)});

@@ -2,11 +2,11 @@
 // The preset that is edited: its history, what changes it, and the run that follows each edit.
 #pragma once
 #include "preset/read.h"
-#include "ui/state/view_state.h"
 #include "ui/state/files.h"
 #include "ui/state/run_in_hand.h"
 #include "ui/state/services.h"
 #include "ui/state/undo.h"
+#include "ui/state/view_state.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -18,7 +18,8 @@ namespace nephroid::ui {
 class Document {
 public:
   /// All outlive it.
-  Document(RunInHand& run, ViewState& view_state, Services& services) : run_(run), view_state_(view_state), services_(services) {}
+  Document(RunInHand& run, ViewState& view_state, Services& services)
+      : run_(run), view_state_(view_state), services_(services) {}
 
   /// Both are null where no preset is open.
   const UndoStack* edits() const { return edits_ ? &*edits_ : nullptr; }

@@ -11,8 +11,7 @@ namespace nephroid::ui {
 
 FileWatch::FileWatch() : thread_([this](const std::stop_token& stop) { poll(stop); }) {}
 
-void FileWatch::watch(std::shared_ptr<const preset::Preset> preset, bool just_read)
-{
+void FileWatch::watch(std::shared_ptr<const preset::Preset> preset, bool just_read) {
   const std::lock_guard lock(mutex_);
   preset_ = std::move(preset);
   is_new_ = true;
@@ -21,14 +20,12 @@ void FileWatch::watch(std::shared_ptr<const preset::Preset> preset, bool just_re
   found_.clear();
 }
 
-std::vector<std::filesystem::path> FileWatch::take_changed()
-{
+std::vector<std::filesystem::path> FileWatch::take_changed() {
   const std::lock_guard lock(mutex_);
   return std::exchange(found_, {});
 }
 
-FileWatch::Stamp FileWatch::stamp_of(const std::filesystem::path& file)
-{
+FileWatch::Stamp FileWatch::stamp_of(const std::filesystem::path& file) {
   std::error_code error;
   const auto time = std::filesystem::last_write_time(file, error);
   if (error) return {};
@@ -37,8 +34,7 @@ FileWatch::Stamp FileWatch::stamp_of(const std::filesystem::path& file)
   return std::pair{time, bytes};
 }
 
-void FileWatch::poll(const std::stop_token& stop)
-{
+void FileWatch::poll(const std::stop_token& stop) {
   constexpr std::chrono::milliseconds look_every{300};
   std::map<std::filesystem::path, Seen> seen;
   std::unique_lock lock(mutex_);
@@ -73,30 +69,31 @@ void FileWatch::poll(const std::stop_token& stop)
   }
 }
 
-void DocumentFiles::carry_out(const command::ReloadPreset&)
-{
+void DocumentFiles::carry_out(const command::ReloadPreset&) {
   const preset::Preset* preset = document_.preset();
-  if (!preset || !document_.take_over(preset::read_with_sweep(preset->source))) messages_.note("the file has what is shown");
+  if (!preset || !document_.take_over(preset::read_with_sweep(preset->source)))
+    messages_.note("the file has what is shown");
 }
 
 /// Another program wrote the preset's file.
-void DocumentFiles::follow_own_file()
-{
+void DocumentFiles::follow_own_file() {
   const std::filesystem::path file = document_.preset()->source;
   try {
     preset::WithSweep read = preset::read_with_sweep(file.string());
     if (!document_.modified()) {
-      if (document_.take_over(std::move(read))) messages_.note(file.filename().string() + " was changed on disk and is taken over");
+      if (document_.take_over(std::move(read)))
+        messages_.note(file.filename().string() + " was changed on disk and is taken over");
     } else if (read.preset != *document_.preset() || read.sweep != document_.edits()->sweep())
-      messages_.error(file.string() + ": another program changed this file, and the preset has edits that are not saved; save them under "
-                                      "another name, or take the preset from its file (File)");
+      messages_.error(
+          file.string() +
+          ": another program changed this file, and the preset has edits that are not saved; save them under "
+          "another name, or take the preset from its file (File)");
   } catch (const std::exception& error) {
     messages_.error(error);
   }
 }
 
-void DocumentFiles::update()
-{
+void DocumentFiles::update() {
   const UndoStack* edits = document_.edits();
   if (const auto& now = edits ? edits->shared() : nullptr; now != watched_) {
     watched_ = now;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The preset's file and those that it names, where another program writes them: the preset or its run follows. A thread of its own looks
-// for changes: no frame waits for a disk.
+// The preset's file and those that it names, where another program writes them: the preset or its run follows. A thread
+// of its own looks for changes: no frame waits for a disk.
 #pragma once
 #include "preset/preset.h"
 #include "ui/state/document.h"
@@ -25,7 +25,8 @@ public:
   /// The files of this preset from now on; null: none. just_read: what was written until now is known, as they were all
   /// read; what is written from now on is not, however late the thread looks.
   void watch(std::shared_ptr<const preset::Preset> preset, bool just_read);
-  /// Those that were changed since the last call, and are not being written any more. A file that is gone is none, until it is back.
+  /// Those that were changed since the last call, and are not being written any more. A file that is gone is none,
+  /// until it is back.
   std::vector<std::filesystem::path> take_changed();
 
 private:
@@ -52,9 +53,7 @@ class DocumentFiles {
 public:
   /// All outlive it.
   DocumentFiles(Document& document, RunInHand& run, const SweepQueue& sweep, Messages& messages)
-      : document_(document), run_(run), sweep_(sweep), messages_(messages)
-  {
-  }
+      : document_(document), run_(run), sweep_(sweep), messages_(messages) {}
   /// Once a frame. Never waits for the disk but to read a preset that was changed.
   void update();
   void carry_out(const command::ReloadPreset&);

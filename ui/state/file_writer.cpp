@@ -4,8 +4,8 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "preset/differences.h"
 #include "formats/import/import.h"
+#include "preset/differences.h"
 #include "ui/state/run_record.h"
 
 #include <fmt/format.h>
@@ -15,22 +15,21 @@
 namespace nephroid::ui {
 
 /// Writes a file after those before it; what write() answers becomes a note.
-void FileWriter::save(const std::filesystem::path& file, std::function<std::string()> write)
-{
-  services_.tasks.start(writes_, {"saving " + file.string(), TaskKind::write}, std::move(write), [this](const std::string& note) {
-    if (!note.empty()) services_.messages.note(note);
-  });
+void FileWriter::save(const std::filesystem::path& file, std::function<std::string()> write) {
+  services_.tasks.start(writes_, {"saving " + file.string(), TaskKind::write}, std::move(write),
+                        [this](const std::string& note) {
+                          if (!note.empty()) services_.messages.note(note);
+                        });
 }
 
-void FileWriter::add_recent(const std::filesystem::path& file)
-{
+void FileWriter::add_recent(const std::filesystem::path& file) {
   recent_.add(file, std::time(nullptr));
-  services_.tasks.start(recent_writes_, {.name = "writing the list of recent files", .kind = TaskKind::write, .replaces = true},
+  services_.tasks.start(recent_writes_,
+                        {.name = "writing the list of recent files", .kind = TaskKind::write, .replaces = true},
                         recent_.writer(), [] {});
 }
 
-void FileWriter::import_scene(const std::filesystem::path& file)
-{
+void FileWriter::import_scene(const std::filesystem::path& file) {
   services_.tasks.start(
       writes_, {"importing " + file.string(), TaskKind::write},
       [file] {
@@ -43,13 +42,11 @@ void FileWriter::import_scene(const std::filesystem::path& file)
       });
 }
 
-void FileWriter::update()
-{
+void FileWriter::update() {
   if (std::string note = recent_.take_note(); !note.empty()) services_.messages.note(std::move(note));
 }
 
-void FileWriter::carry_out(const command::SavePreset& c)
-{
+void FileWriter::carry_out(const command::SavePreset& c) {
   const UndoStack* edits = document_.edits();
   if (!edits) return;
   const std::string parent = c.keep_parent ? parent_to_keep(edits->current()) : std::string();
@@ -64,8 +61,7 @@ void FileWriter::carry_out(const command::SavePreset& c)
 }
 
 /// Those of shipped presets are shipped.
-void FileWriter::save_thumbnail(const std::filesystem::path& preset)
-{
+void FileWriter::save_thumbnail(const std::filesystem::path& preset) {
   const std::filesystem::path file = thumbnail_of(preset, recent_.thumbnails());
   if (!run_.snapshot() || file.empty() || !preset::shipped_name(preset).empty()) return;
   save(file, [file, picture = run_.snapshot()->picture, exposure_stops = view_state_.view_settings.exposure_stops] {
@@ -78,8 +74,7 @@ void FileWriter::save_thumbnail(const std::filesystem::path& preset)
   });
 }
 
-void FileWriter::carry_out(const command::SavePicture& c)
-{
+void FileWriter::carry_out(const command::SavePicture& c) {
   const auto picture = comparing_.source();
   if (!picture) return;
   questions_.close();
@@ -87,19 +82,18 @@ void FileWriter::carry_out(const command::SavePicture& c)
 }
 
 /// What the View shows now.
-PictureToSave FileWriter::shown_picture() const
-{
+PictureToSave FileWriter::shown_picture() const {
   const Comparison& comparison = comparing_.comparison();
   const double white = document_.preset() ? document_.preset()->white.value_or(1) : 1;
   if (comparison.flip) return {comparing_.other_picture(), {}, view_state_.view_settings, white, comparing_.why_not()};
-  if (!comparison.difference) return {comparing_.picture(), {}, view_state_.view_settings, white, comparing_.why_no_picture()};
+  if (!comparison.difference)
+    return {comparing_.picture(), {}, view_state_.view_settings, white, comparing_.why_no_picture()};
   const auto& map = comparing_.difference();
   if (!map) return {{}, {}, {}, 1, "the difference is not computed yet"};
   return {map->of.picture, map, view_state_.view_settings, white, map->error};
 }
 
-void FileWriter::carry_out(const command::OpenResult& c)
-{
+void FileWriter::carry_out(const command::OpenResult& c) {
   if (!run_.snapshot() || !document_.preset()) return;
   const std::filesystem::path beside = save_target(document_.preset()).parent_path();
   const std::filesystem::path wanted = beside / proposed_name(document_.preset(), "-object");
@@ -112,8 +106,7 @@ void FileWriter::carry_out(const command::OpenResult& c)
       });
 }
 
-void FileWriter::carry_out(const command::WriteReport& c)
-{
+void FileWriter::carry_out(const command::WriteReport& c) {
   questions_.close();
   save(c.file, [file = c.file, runs = runs_of_table(comparing_, run_)] { return write_report(file, runs); });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files that the window writes, mostly beside the frames: presets, pictures, reports, what a run found, imported scenes, the list of
-// recent files.
+// The files that the window writes, mostly beside the frames: presets, pictures, reports, what a run found, imported
+// scenes, the list of recent files.
 #pragma once
 #include "ui/state/comparing.h"
 #include "ui/state/questions.h"
@@ -16,11 +16,10 @@ namespace nephroid::ui {
 class FileWriter {
 public:
   /// All outlive it.
-  FileWriter(Document& document, const RunInHand& run, const Comparing& comparing, const ViewState& view_state, Questions& questions,
-             Services& services)
-      : document_(document), run_(run), comparing_(comparing), view_state_(view_state), questions_(questions), services_(services)
-  {
-  }
+  FileWriter(Document& document, const RunInHand& run, const Comparing& comparing, const ViewState& view_state,
+             Questions& questions, Services& services)
+      : document_(document), run_(run), comparing_(comparing), view_state_(view_state), questions_(questions),
+        services_(services) {}
   const RecentFiles& recent() const { return recent_; }
   /// From now on presets that are opened or saved are remembered there.
   void remember(RecentFiles recent) { recent_ = std::move(recent); }

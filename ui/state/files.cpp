@@ -36,17 +36,17 @@ constexpr std::array kinds{
     KnownKind{FileKind::mesh, ".obj .ply .stl .3ds ", "is a mesh",
               "drop it on the window once a preset with a scene is open, or name it in one as an object's \"mesh\""},
     KnownKind{FileKind::map, ".exr .hdr ", "is a picture",
-              "drop it on the window once a preset is open, whose environment it becomes; a run's pictures lie beside its preset.json"},
-    KnownKind{
-        FileKind::picture, ".pfm .png .jpg .jpeg .tif .tiff ", "is a picture",
-        "drop it on the window once a preset of the engine {1} is open, which takes it; a run's pictures lie beside its preset.json: open "
-        "that; an environment is a .hdr or .exr"},
+              "drop it on the window once a preset is open, whose environment it becomes; a run's pictures lie beside "
+              "its preset.json"},
+    KnownKind{FileKind::picture, ".pfm .png .jpg .jpeg .tif .tiff ", "is a picture",
+              "drop it on the window once a preset of the engine {1} is open, which takes it; a run's pictures lie "
+              "beside its preset.json: open "
+              "that; an environment is a .hdr or .exr"},
     KnownKind{FileKind::kernel, ".cl ", "is a kernel source", "start with --kernels and its folder"},
 };
 
 /// "inverse": the engines that take pictures.
-std::string engines_for_pictures()
-{
+std::string engines_for_pictures() {
   std::string names;
   for (const engine::Engine* engine : engine::engines())
     if (engine->take_picture) names += (names.empty() ? "" : " or ") + std::string(name_of(*engine));
@@ -54,9 +54,9 @@ std::string engines_for_pictures()
 }
 
 /// Writes the PNG; returns what else is worth saying of it.
-std::string write_shown(const fs::path& file, const PictureToSave& shown)
-{
-  if (!shown.why_not.empty()) throw failed(file.string(), "nothing to save: " + shown.why_not, "", "show the picture, then save it");
+std::string write_shown(const fs::path& file, const PictureToSave& shown) {
+  if (!shown.why_not.empty())
+    throw failed(file.string(), "nothing to save: " + shown.why_not, "", "show the picture, then save it");
   const measure::Pixels& pixels = shown.picture.pixels;
   if (shown.map) {
     image::write_png_bytes(file, pixels.width, pixels.height, shown.map->rgba);
@@ -75,17 +75,16 @@ std::string write_shown(const fs::path& file, const PictureToSave& shown)
 }
 
 /// Null: of no kind but a preset's.
-const KnownKind* known_kind(const std::string& ending)
-{
+const KnownKind* known_kind(const std::string& ending) {
   if (ending.empty()) return nullptr;
-  const auto found =
-      std::ranges::find_if(kinds, [&](const KnownKind& kind) { return kind.endings.find(ending + ' ') != std::string_view::npos; });
+  const auto found = std::ranges::find_if(
+      kinds, [&](const KnownKind& kind) { return kind.endings.find(ending + ' ') != std::string_view::npos; });
   return found == kinds.end() ? nullptr : &*found;
 }
 
-/// Whether the first character that is no white space opens a JSON object. An empty file may become one: reading it says so.
-bool may_be_object(const fs::path& file)
-{
+/// Whether the first character that is no white space opens a JSON object. An empty file may become one: reading it
+/// says so.
+bool may_be_object(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   char first = '{';
   in >> first;
@@ -94,14 +93,12 @@ bool may_be_object(const fs::path& file)
 
 } // namespace
 
-FileKind kind_of(const fs::path& file)
-{
+FileKind kind_of(const fs::path& file) {
   const KnownKind* kind = known_kind(lower_case(file.extension().string()));
   return kind ? kind->kind : FileKind::other;
 }
 
-void refuse_other_kinds(const std::string& name)
-{
+void refuse_other_kinds(const std::string& name) {
   std::error_code ignored;
   if (!fs::is_regular_file(name, ignored)) return;
   constexpr const char* expected = "the window opens presets";
@@ -113,8 +110,7 @@ void refuse_other_kinds(const std::string& name)
                     "see `nephroid presets` for those that are shipped");
 }
 
-fs::path save_target(const preset::Preset* preset)
-{
+fs::path save_target(const preset::Preset* preset) {
   if (!preset || preset->source.empty()) return {};
   const fs::path source = preset->source;
   std::error_code ignored;
@@ -122,27 +118,23 @@ fs::path save_target(const preset::Preset* preset)
   return source;
 }
 
-std::string parent_to_keep(const preset::Preset& preset)
-{
+std::string parent_to_keep(const preset::Preset& preset) {
   const std::string own = preset::own_parent(preset.source);
   return own.empty() ? preset::shipped_name(preset.source) : own;
 }
 
-std::string proposed_name(const preset::Preset* preset, const std::string& ending)
-{
+std::string proposed_name(const preset::Preset* preset, const std::string& ending) {
   return (!preset || preset->source.empty() ? "untitled" : preset::stem_of(preset->source)) + ending;
 }
 
-fs::path free_name(const fs::path& path)
-{
+fs::path free_name(const fs::path& path) {
   fs::path free = path;
   std::error_code ignored;
   for (int n = 2; fs::exists(fs::symlink_status(free, ignored)); ++n) free = path.string() + fmt::format("-{}", n);
   return free;
 }
 
-fs::path make_new_folder(const fs::path& path)
-{
+fs::path make_new_folder(const fs::path& path) {
   while (true) { // whoever makes another one at the same time has another name
     std::error_code error;
     fs::path folder = free_name(path);
@@ -151,8 +143,7 @@ fs::path make_new_folder(const fs::path& path)
   }
 }
 
-std::string save_picture(const fs::path& file, const job::Picture& picture, const PictureToSave& shown)
-{
+std::string save_picture(const fs::path& file, const job::Picture& picture, const PictureToSave& shown) {
   const std::string extension = lower_case(file.extension().string());
   if (extension == ".png") return "saved " + file.string() + write_shown(file, shown);
   if (extension != ".exr")
@@ -162,8 +153,7 @@ std::string save_picture(const fs::path& file, const job::Picture& picture, cons
   return "saved " + file.string();
 }
 
-fs::path save_files(const fs::path& folder, const job::Snapshot& of, TaskControl& control)
-{
+fs::path save_files(const fs::path& folder, const job::Snapshot& of, TaskControl& control) {
   const fs::path new_folder = make_new_folder(folder);
   for (std::size_t i = 0; i < of.files.size(); ++i) {
     control.progress(static_cast<double>(i) / static_cast<double>(of.files.size()));

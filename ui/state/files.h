@@ -26,20 +26,24 @@ enum class FileKind {
 };
 FileKind kind_of(const std::filesystem::path& file);
 
-/// Throws bad_input in one line where `name` is a file of a kind that is no preset: a mesh, dispersion data, a picture, a kernel,
-/// anything that does not begin as a JSON object. Presets, broken ones too, and names of no file pass: reading them says the rest.
+/// Throws bad_input in one line where `name` is a file of a kind that is no preset: a mesh, dispersion data, a picture,
+/// a kernel, anything that does not begin as a JSON object. Presets, broken ones too, and names of no file pass:
+/// reading them says the rest.
 void refuse_other_kinds(const std::string& name);
-/// Where "save" writes without asking: the file that was opened, unless it is one of the shipped presets. Empty: ask. preset may be null.
+/// Where "save" writes without asking: the file that was opened, unless it is one of the shipped presets. Empty: ask.
+/// preset may be null.
 std::filesystem::path save_target(const preset::Preset* preset);
-/// What a saved preset may be written over, as preset::file_text takes it: the parent that its file names, or the shipped preset that it
-/// is. Empty: it has none.
+/// What a saved preset may be written over, as preset::file_text takes it: the parent that its file names, or the
+/// shipped preset that it is. Empty: it has none.
 std::string parent_to_keep(const preset::Preset& preset);
 /// A proposal for a file's name in the current folder: the preset's own with another ending.
 std::string proposed_name(const preset::Preset* preset, const std::string& ending);
 
-/// The path, or where something is there already, may be edited since, the first of PATH-2, PATH-3, ... where nothing is.
+/// The path, or where something is there already, may be edited since, the first of PATH-2, PATH-3, ... where nothing
+/// is.
 std::filesystem::path free_name(const std::filesystem::path& path);
-/// Makes a folder that nobody had, the free_name() of this one, which is returned. Throws failed where it cannot be made.
+/// Makes a folder that nobody had, the free_name() of this one, which is returned. Throws failed where it cannot be
+/// made.
 std::filesystem::path make_new_folder(const std::filesystem::path& path);
 
 /// The View's picture, for a file.
@@ -51,7 +55,8 @@ struct PictureToSave {
   std::string why_not; ///< there is none: a sentence without a full stop
 };
 
-/// By the extension of file: .png as shown, .exr the picture, linear with every layer. What there is to say of it, a sentence.
+/// By the extension of file: .png as shown, .exr the picture, linear with every layer. What there is to say of it, a
+/// sentence.
 std::string save_picture(const std::filesystem::path& file, const job::Picture& picture, const PictureToSave& shown);
 /// The files of a run into a new folder, the free_name() of this one, which is returned.
 std::filesystem::path save_files(const std::filesystem::path& folder, const job::Snapshot& of, TaskControl& control);
@@ -66,9 +71,10 @@ struct DroppedMesh {
 /// Throws bad_input naming the file where there is no mesh in it that could be rendered.
 DroppedMesh read_dropped_mesh(const std::filesystem::path& file);
 
-/// The preset with the mesh as its last object, and what was done, a sentence. The material is the first dielectric, else the first of all,
-/// else new glass. The longest edge of the mesh's box becomes 0.4 of what the camera sees at its target, where the box' middle goes. Throws
-/// bad_input where the preset refuses dielectrics that are not closed and this would be one.
+/// The preset with the mesh as its last object, and what was done, a sentence. The material is the first dielectric,
+/// else the first of all, else new glass. The longest edge of the mesh's box becomes 0.4 of what the camera sees at its
+/// target, where the box' middle goes. Throws bad_input where the preset refuses dielectrics that are not closed and
+/// this would be one.
 struct WithMesh {
   preset::Preset preset;
   std::string note;

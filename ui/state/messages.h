@@ -31,34 +31,31 @@ public:
   std::uint64_t newest() const { return newest_; }
   void note(std::string line) { say(false, std::move(line), ErrorKind::failed); }
   void error(std::string line, ErrorKind kind = ErrorKind::failed) { say(true, std::move(line), kind); }
-  void error(const std::exception& error)
-  {
+  void error(const std::exception& error) {
     const auto* known = dynamic_cast<const Error*>(&error);
     say(true, error.what(), known ? known->kind() : ErrorKind::failed);
   }
   void carry_out(const command::Dismiss& c) { dismiss(c.message); }
   void carry_out(const command::Report& c) { c.error ? error(c.line) : note(c.line); }
-  void dismiss(std::uint64_t id)
-  {
+  void dismiss(std::uint64_t id) {
     std::erase_if(messages_, [&](const Message& m) { return m.id == id; });
   }
   /// Errors up to this one, which what was opened since makes void.
-  void dismiss_errors_until(std::uint64_t id)
-  {
+  void dismiss_errors_until(std::uint64_t id) {
     std::erase_if(messages_, [&](const Message& m) { return m.error && m.id <= id; });
   }
   /// Once a frame: notes that were there for long enough go.
-  void expire(Clock::time_point now)
-  {
+  void expire(Clock::time_point now) {
     constexpr std::chrono::seconds lifetime{6};
     std::erase_if(messages_, [&](const Message& m) { return !m.error && now - m.since > lifetime; });
   }
 
 private:
   /// The same thing again (a panel that fails every frame) is one message.
-  void say(bool error, std::string line, ErrorKind kind)
-  {
-    if (std::any_of(messages_.begin(), messages_.end(), [&](const Message& m) { return m.line == line && m.error == error; })) return;
+  void say(bool error, std::string line, ErrorKind kind) {
+    if (std::any_of(messages_.begin(), messages_.end(),
+                    [&](const Message& m) { return m.line == line && m.error == error; }))
+      return;
     messages_.push_back({++newest_, error, std::move(line), Clock::now(), kind});
   }
 

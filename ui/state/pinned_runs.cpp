@@ -19,13 +19,13 @@ namespace nephroid::ui {
 namespace {
 
 /// Okabe and Ito's colours (2008), which people with any colour vision tell apart, without black; as IM_COL32.
-constexpr std::array<std::uint32_t, 7> colours{0xff009fe6, 0xffe9b456, 0xff739e00, 0xff42e4f0, 0xffa779cc, 0xff005ed5, 0xffb27200};
+constexpr std::array<std::uint32_t, 7> colours{0xff009fe6, 0xffe9b456, 0xff739e00, 0xff42e4f0,
+                                               0xffa779cc, 0xff005ed5, 0xffb27200};
 
 constexpr const char* history_name = "history.csv";
 
 /// The file of the history that a path means.
-std::filesystem::path history_file(const std::filesystem::path& path)
-{
+std::filesystem::path history_file(const std::filesystem::path& path) {
   constexpr const char* expected = "expected the folder of a run, its history.csv, or a picture";
   constexpr const char* remedy = "give the folder of `nephroid run PRESET -o FOLDER`";
   if (!is_there(path)) throw bad_input(path.string(), "there is no such run", expected, remedy);
@@ -37,8 +37,7 @@ std::filesystem::path history_file(const std::filesystem::path& path)
   return path / history_name;
 }
 
-PinnedRun read_picture_pin(const std::filesystem::path& path)
-{
+PinnedRun read_picture_pin(const std::filesystem::path& path) {
   PinnedRun pin;
   std::error_code ignored;
   pin.file = std::filesystem::absolute(path, ignored).lexically_normal();
@@ -59,44 +58,39 @@ PinnedRun read_picture_pin(const std::filesystem::path& path)
 
 } // namespace
 
-std::vector<PinnedRun> PinnedRuns::runs() const
-{
+std::vector<PinnedRun> PinnedRuns::runs() const {
   std::vector<PinnedRun> runs;
   std::ranges::copy_if(runs_, std::back_inserter(runs), &PinnedRun::is_run);
   return runs;
 }
 
-const PinnedRun* PinnedRuns::find(std::uint64_t id) const
-{
+const PinnedRun* PinnedRuns::find(std::uint64_t id) const {
   const auto run = std::ranges::find(runs_, id, &PinnedRun::id);
   return run == runs_.end() ? nullptr : &*run;
 }
 
-std::string PinnedRuns::own_name(const std::string& wanted, std::uint64_t id) const
-{
+std::string PinnedRuns::own_name(const std::string& wanted, std::uint64_t id) const {
   const auto taken = [&](const std::string& name) {
     return std::ranges::any_of(runs_, [&](const PinnedRun& run) { return run.id != id && run.name == name; });
   };
   return untaken_name(wanted, taken, "{} ({})");
 }
 
-std::uint32_t PinnedRuns::free_colour() const
-{
+std::uint32_t PinnedRuns::free_colour() const {
   for (const std::uint32_t colour : colours)
-    if (std::none_of(runs_.begin(), runs_.end(), [&](const PinnedRun& run) { return run.colour == colour; })) return colour;
+    if (std::none_of(runs_.begin(), runs_.end(), [&](const PinnedRun& run) { return run.colour == colour; }))
+      return colour;
   return colours[runs_.size() % colours.size()];
 }
 
-const PinnedRun& PinnedRuns::add(PinnedRun run)
-{
+const PinnedRun& PinnedRuns::add(PinnedRun run) {
   run.id = ++last_id_;
   run.name = own_name(run.name, run.id);
   if (run.colour == 0) run.colour = free_colour();
   return runs_.emplace_back(std::move(run));
 }
 
-void PinnedRuns::change(std::uint64_t id, std::string name, std::uint32_t colour, bool shown)
-{
+void PinnedRuns::change(std::uint64_t id, std::string name, std::uint32_t colour, bool shown) {
   const auto run = std::ranges::find(runs_, id, &PinnedRun::id);
   if (run == runs_.end()) return;
   if (!name.empty() && name != run->name) run->name = own_name(name, id);
@@ -104,32 +98,30 @@ void PinnedRuns::change(std::uint64_t id, std::string name, std::uint32_t colour
   run->shown = shown;
 }
 
-void PinnedRuns::remove(std::uint64_t id)
-{
+void PinnedRuns::remove(std::uint64_t id) {
   std::erase_if(runs_, [&](const PinnedRun& run) { return run.id == id; });
 }
 
-bool is_history(const std::filesystem::path& path)
-{
+bool is_history(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return is_there(path / history_name);
   return path.extension() == ".csv";
 }
 
-bool is_picture(const std::filesystem::path& path)
-{
+bool is_picture(const std::filesystem::path& path) {
   const FileKind kind = kind_of(path);
   return kind == FileKind::map || kind == FileKind::picture;
 }
 
-PinnedRun read_pin(const std::filesystem::path& path)
-{
+PinnedRun read_pin(const std::filesystem::path& path) {
   if (is_picture(path)) return read_picture_pin(path);
   const std::filesystem::path file = history_file(path);
   const std::filesystem::path folder = std::filesystem::absolute(file).lexically_normal().parent_path();
   PinnedRun run;
-  const bool is_of_folder = file.filename() == history_name; // what lies beside it belongs to it: the table itself has no noise floor
-  run.history = std::make_shared<job::History>(is_of_folder ? measure::read_run_history(folder) : measure::read_history(file));
+  const bool is_of_folder =
+      file.filename() == history_name; // what lies beside it belongs to it: the table itself has no noise floor
+  run.history =
+      std::make_shared<job::History>(is_of_folder ? measure::read_run_history(folder) : measure::read_history(file));
   run.name = is_of_folder ? folder.filename().string() : file.stem().string();
   if (const std::filesystem::path image = folder / "image.exr"; is_of_folder && is_there(image)) {
     auto picture = std::make_shared<job::Picture>();

@@ -25,21 +25,21 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t max_list_bytes = 1 << 20;
 
 /// Of an entry that makes sense; else nothing.
-std::optional<RecentFile> entry_of(const Json& json)
-{
+std::optional<RecentFile> entry_of(const Json& json) {
   if (!json.is_object() || !json.contains("file") || !json["file"].is_string()) return std::nullopt;
   RecentFile entry{json["file"].get<std::string>(), 0};
   const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  if (entry.file.size() > 4096 || !fs::path(entry.file).is_absolute() || std::any_of(entry.file.begin(), entry.file.end(), control))
+  if (entry.file.size() > 4096 || !fs::path(entry.file).is_absolute() ||
+      std::any_of(entry.file.begin(), entry.file.end(), control))
     return std::nullopt;
   const auto opened = json.find("opened");
-  if (opened != json.end() && opened->is_number_integer()) entry.opened = std::max<std::int64_t>(0, opened->get<std::int64_t>());
+  if (opened != json.end() && opened->is_number_integer())
+    entry.opened = std::max<std::int64_t>(0, opened->get<std::int64_t>());
   return entry;
 }
 
 /// Throws Error where the list is none.
-std::vector<RecentFile> read_list(const fs::path& file)
-{
+std::vector<RecentFile> read_list(const fs::path& file) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return {};
   if (const auto size = fs::file_size(file, ignored); !ignored && size > max_list_bytes)
@@ -58,8 +58,8 @@ std::vector<RecentFile> read_list(const fs::path& file)
 
 } // namespace
 
-RecentFiles::RecentFiles(fs::path list, fs::path thumbnails) : list_(std::move(list)), thumbnails_(std::move(thumbnails))
-{
+RecentFiles::RecentFiles(fs::path list, fs::path thumbnails)
+    : list_(std::move(list)), thumbnails_(std::move(thumbnails)) {
   if (list_.empty()) return;
   try {
     files_ = read_list(list_);
@@ -68,8 +68,7 @@ RecentFiles::RecentFiles(fs::path list, fs::path thumbnails) : list_(std::move(l
   }
 }
 
-void RecentFiles::add(const fs::path& file, std::int64_t now)
-{
+void RecentFiles::add(const fs::path& file, std::int64_t now) {
   std::error_code error;
   const fs::path absolute = fs::absolute(file, error).lexically_normal();
   if (error) return;
@@ -78,8 +77,7 @@ void RecentFiles::add(const fs::path& file, std::int64_t now)
   if (files_.size() > limit) files_.resize(limit);
 }
 
-std::function<void()> RecentFiles::writer() const
-{
+std::function<void()> RecentFiles::writer() const {
   return [list = list_, files = files_] {
     if (list.empty()) return;
     try {
@@ -94,18 +92,18 @@ std::function<void()> RecentFiles::writer() const
   };
 }
 
-fs::path thumbnail_of(const fs::path& preset, const fs::path& thumbnails)
-{
-  if (const std::string name = preset::shipped_name(preset); !name.empty()) return presets_folder() / "thumbnails" / (name + ".jpg");
+fs::path thumbnail_of(const fs::path& preset, const fs::path& thumbnails) {
+  if (const std::string name = preset::shipped_name(preset); !name.empty())
+    return presets_folder() / "thumbnails" / (name + ".jpg");
   if (thumbnails.empty()) return {};
   std::error_code error;
   const fs::path absolute = fs::absolute(preset, error).lexically_normal();
   return thumbnails / fmt::format("{:016x}.png", hash_of(absolute.string()));
 }
 
-void write_thumbnail(const fs::path& file, const job::Picture& picture, double exposure_stops)
-{
-  const double shrink = std::min({1.0, double(thumbnail_width) / picture.width, double(thumbnail_height) / picture.height});
+void write_thumbnail(const fs::path& file, const job::Picture& picture, double exposure_stops) {
+  const double shrink =
+      std::min({1.0, double(thumbnail_width) / picture.width, double(thumbnail_height) / picture.height});
   const int width = std::max(1, static_cast<int>(std::lround(picture.width * shrink)));
   const int height = std::max(1, static_cast<int>(std::lround(picture.height * shrink)));
   const auto index = [](int wide, int x, int y) {

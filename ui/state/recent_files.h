@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The preset files that were opened lately, over many sessions, and where the small pictures of presets are. The list is one small JSON
-// file, which may be missing, cut or somebody else's: then it is empty, and one note says so.
+// The preset files that were opened lately, over many sessions, and where the small pictures of presets are. The list
+// is one small JSON file, which may be missing, cut or somebody else's: then it is empty, and one note says so.
 #pragma once
 #include "job/job.h"
 
@@ -25,7 +25,8 @@ public:
 
   /// Nothing is remembered beyond the session.
   RecentFiles() = default;
-  /// list: the file of the list, in a folder that is made when needed. thumbnails: the folder of pictures; either may be empty.
+  /// list: the file of the list, in a folder that is made when needed. thumbnails: the folder of pictures; either may
+  /// be empty.
   RecentFiles(std::filesystem::path list, std::filesystem::path thumbnails);
 
   /// The newest first.
@@ -45,8 +46,8 @@ private:
   std::string note_;
 };
 
-/// The picture of a preset's file: presets/thumbnails/NAME.jpg of a shipped one, else one in this folder of thumbnails, which need not be
-/// there. Empty where there is none for it.
+/// The picture of a preset's file: presets/thumbnails/NAME.jpg of a shipped one, else one in this folder of thumbnails,
+/// which need not be there. Empty where there is none for it.
 std::filesystem::path thumbnail_of(const std::filesystem::path& preset, const std::filesystem::path& thumbnails);
 
 /// Writes a small copy of the picture, as it is shown with this exposure, as PNG; makes the folder. Throws failed.

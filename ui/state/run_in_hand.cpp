@@ -13,15 +13,13 @@ struct RunInHand::Arrival {
   std::shared_ptr<const preset::Preset> preset; ///< that it was made of
 };
 
-void RunInHand::forget()
-{
+void RunInHand::forget() {
   newest_ = {};
   snapshot_.reset();
   snapshot_origin_ = {};
 }
 
-std::function<std::unique_ptr<job::Job>()> RunInHand::maker()
-{
+std::function<std::unique_ptr<job::Job>()> RunInHand::maker() {
   if (preparing_.stop_requested()) preparing_ = {};
   return [this, preset = preset_, arrival = arrival_, stop = preparing_.get_token()] {
     const auto tell = [this](const std::string& doing) {
@@ -39,8 +37,7 @@ std::function<std::unique_ptr<job::Job>()> RunInHand::maker()
 }
 
 /// What every way to another preset begins with.
-void RunInHand::take_over(const UndoStack& edits)
-{
+void RunInHand::take_over(const UndoStack& edits) {
   restart_wanted_ = snapshot_is_current_ = false;
   messages_.dismiss(failure_message_);
   preset_ = std::make_shared<const preset::Preset>(edits.current());
@@ -49,15 +46,13 @@ void RunInHand::take_over(const UndoStack& edits)
   if (!edit.empty()) name_ += ": " + edit;
 }
 
-void RunInHand::start(const UndoStack& edits)
-{
+void RunInHand::start(const UndoStack& edits) {
   if (lent_) return; // take_back() starts it
   take_over(edits);
   begin();
 }
 
-void RunInHand::lend(std::shared_ptr<const preset::Preset> preset, std::string name)
-{
+void RunInHand::lend(std::shared_ptr<const preset::Preset> preset, std::string name) {
   lent_ = true;
   restart_wanted_ = snapshot_is_current_ = false;
   messages_.dismiss(failure_message_);
@@ -66,15 +61,13 @@ void RunInHand::lend(std::shared_ptr<const preset::Preset> preset, std::string n
   begin();
 }
 
-void RunInHand::take_back(const UndoStack* edits)
-{
+void RunInHand::take_back(const UndoStack* edits) {
   lent_ = false;
   if (edits) start(*edits);
 }
 
 /// Whether what the run before has read, or still reads, is of use for the next. Else nobody waits for it.
-bool RunInHand::loads_the_same() const
-{
+bool RunInHand::loads_the_same() const {
   if (!arrival_) return false;
   const std::lock_guard lock(arrival_->mutex);
   const preset::Preset& before = *arrival_->preset;
@@ -82,8 +75,7 @@ bool RunInHand::loads_the_same() const
 }
 
 /// The run of preset_.
-void RunInHand::begin()
-{
+void RunInHand::begin() {
   const bool ends_preparation = reads_anew_ || kernels_changed_ || !loads_the_same();
   std::stop_source preparing_before = preparing_;
   if (ends_preparation) preparing_ = {};
@@ -96,8 +88,7 @@ void RunInHand::begin()
   status_ = worker_.status();
 }
 
-void RunInHand::adopt_or_start(const UndoStack& edits)
-{
+void RunInHand::adopt_or_start(const UndoStack& edits) {
   if (lent_) return;
   if (kernels_changed_ || !preset_ || !engine::adoptable(*preset_, edits.current())) return start(edits);
   take_over(edits);
@@ -105,28 +96,24 @@ void RunInHand::adopt_or_start(const UndoStack& edits)
   adoption_ = worker_.adopt(preset_, maker());
 }
 
-void RunInHand::follow_edit(bool live)
-{
+void RunInHand::follow_edit(bool live) {
   restart_wanted_ = true;
   gesture_lasts_ = live;
   snapshot_is_current_ = false;
 }
 
-void RunInHand::cancel()
-{
+void RunInHand::cancel() {
   restart_wanted_ = false;
   worker_.cancel();
   preparing_.request_stop();
 }
 
-std::string RunInHand::preparation() const
-{
+std::string RunInHand::preparation() const {
   const std::lock_guard lock(preparation_mutex_);
   return status_.state == job::State::preparing ? preparation_ : std::string();
 }
 
-void RunInHand::take_arrival()
-{
+void RunInHand::take_arrival() {
   if (!arrival_) return;
   const std::lock_guard lock(arrival_->mutex);
   if (!arrival_->run) return;
@@ -139,9 +126,9 @@ void RunInHand::take_arrival()
   }
 }
 
-/// Parts of a picture on black would hide the one of the run before: they are shown only where there is none, or the run is slow.
-bool RunInHand::is_worth_showing(const job::Snapshot& newest)
-{
+/// Parts of a picture on black would hide the one of the run before: they are shown only where there is none, or the
+/// run is slow.
+bool RunInHand::is_worth_showing(const job::Snapshot& newest) {
   if (newest.progress.whole || !snapshot_ || shown_since_start_ || status_.state != job::State::running) return true;
   const auto now = std::chrono::steady_clock::now();
   if (!parts_since_) parts_since_ = now;
@@ -149,10 +136,10 @@ bool RunInHand::is_worth_showing(const job::Snapshot& newest)
 }
 
 /// True where there is a new one.
-bool RunInHand::take_snapshot()
-{
+bool RunInHand::take_snapshot() {
   std::shared_ptr<const job::Snapshot> newest = worker_.snapshot();
-  if (!newest || !newest->picture || newest == before_start_ || newest == snapshot_ || !is_worth_showing(*newest)) return false;
+  if (!newest || !newest->picture || newest == before_start_ || newest == snapshot_ || !is_worth_showing(*newest))
+    return false;
   snapshot_ = std::move(newest);
   snapshot_name_ = name_;
   shown_since_start_ = true;
@@ -160,8 +147,7 @@ bool RunInHand::take_snapshot()
   return true;
 }
 
-void RunInHand::report_failure()
-{
+void RunInHand::report_failure() {
   if (status_.state != job::State::failed || status_.failures == reported_failure_) return;
   reported_failure_ = status_.failures;
   source_.reopen_device(); // it may be gone; opening it takes a moment, and only after a failure
@@ -169,14 +155,14 @@ void RunInHand::report_failure()
   failure_message_ = messages_.newest();
 }
 
-void RunInHand::update(const UndoStack* edits)
-{
+void RunInHand::update(const UndoStack* edits) {
   // In this order: the worker makes a run's last snapshot before it says that the run is over.
   status_ = worker_.status();
   spectrum_ = worker_.spectrum();
   const bool is_new = take_snapshot();
   take_arrival(); // it was left there before the run's first snapshot
-  if (is_new && snapshot_->adoption >= adoption_) snapshot_origin_ = {preset_, newest_.plan, newest_.reference, newest_.device};
+  if (is_new && snapshot_->adoption >= adoption_)
+    snapshot_origin_ = {preset_, newest_.plan, newest_.reference, newest_.device};
   report_failure();
   if (!edits) return;
   if (source_.take_changed()) {
@@ -186,10 +172,10 @@ void RunInHand::update(const UndoStack* edits)
   start_if_wanted(*edits);
 }
 
-void RunInHand::start_if_wanted(const UndoStack& edits)
-{
-  // An edit replaces the run at once. While a gesture lasts, the run in hand may first show a picture: on a slow device every move of
-  // the mouse would otherwise throw away a run that has not shown anything yet, and nothing would be seen until the mouse rests.
+void RunInHand::start_if_wanted(const UndoStack& edits) {
+  // An edit replaces the run at once. While a gesture lasts, the run in hand may first show a picture: on a slow device
+  // every move of the mouse would otherwise throw away a run that has not shown anything yet, and nothing would be seen
+  // until the mouse rests.
   const bool working = status_.state == job::State::preparing || status_.state == job::State::running;
   if (restart_wanted_ && !lent_ && (!gesture_lasts_ || !working || shown_since_start_)) adopt_or_start(edits);
 }

@@ -9,9 +9,9 @@
 #include "measure/run_curves.h"
 #include "measure/run_files.h"
 #include "preset/read.h"
+#include "report/report.h"
 #include "run/prepare.h"
 #include "run/write_run.h"
-#include "report/report.h"
 #include "ui/state/files.h"
 
 #include <fmt/format.h>
@@ -32,41 +32,43 @@ using Json = nlohmann::ordered_json;
 constexpr std::array text_files{"run.json", "plan.json", "preset.json"};
 
 /// The names of run.json's members are the engine's. Whatever is of another type is not known.
-void read_figures(const std::string& text, RunRecord& record)
-{
+void read_figures(const std::string& text, RunRecord& record) {
   const Json run = Json::parse(text, nullptr, false);
   if (!run.is_object()) return;
-  const auto member = [&](const Json& of, const std::string& key) { return of.is_object() && of.contains(key) ? of[key] : Json(); };
+  const auto member = [&](const Json& of, const std::string& key) {
+    return of.is_object() && of.contains(key) ? of[key] : Json();
+  };
   if (const Json engine = member(run, "engine"); engine.is_string()) record.engine = engine;
   if (const Json finished = member(run, "finished"); finished.is_boolean()) record.finished = finished;
-  if (const Json seconds = member(run, "work_seconds"); seconds.is_number()) record.work_seconds = seconds.get<double>();
+  if (const Json seconds = member(run, "work_seconds"); seconds.is_number())
+    record.work_seconds = seconds.get<double>();
   if (const Json steps = member(member(run, "units"), "steps"); steps.is_string()) record.steps_name = steps;
-  if (const Json steps = member(run, record.steps_name); steps.is_number_integer()) record.steps = steps.get<std::int64_t>();
+  if (const Json steps = member(run, record.steps_name); steps.is_number_integer())
+    record.steps = steps.get<std::int64_t>();
 }
 
-std::string renamed(const std::string& text, const std::string& name)
-{
+std::string renamed(const std::string& text, const std::string& name) {
   Json json = Json::parse(text, nullptr, false);
   if (name.empty() || !json.is_object()) return text;
   json["name"] = name;
   return json_text(json, 2) + "\n";
 }
 
-std::string folder_name(std::size_t number, const std::string& name)
-{
+std::string folder_name(std::size_t number, const std::string& name) {
   constexpr std::size_t longest = 40;
   std::string plain = name.substr(0, longest);
   for (char& c : plain)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view("._-+=,").find(c) == std::string_view::npos) c = '-';
+    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view("._-+=,").find(c) == std::string_view::npos)
+      c = '-';
   return fmt::format("{:02}-{}", number, plain);
 }
 
 /// Whether the folder still holds the run that was read from it.
-bool is_still_there(const RunRecord& record)
-{
+bool is_still_there(const RunRecord& record) {
   if (record.folder.empty()) return false;
   try {
-    return std::ranges::all_of(record.texts, [&](const auto& file) { return read_file(record.folder / file.first) == file.second; });
+    return std::ranges::all_of(record.texts,
+                               [&](const auto& file) { return read_file(record.folder / file.first) == file.second; });
   } catch (const Error&) {
     return false;
   }
@@ -76,8 +78,7 @@ bool is_still_there(const RunRecord& record)
 struct Written {
   fs::path folder; ///< claimed; empty while nothing was written
   bool keep = false;
-  ~Written()
-  {
+  ~Written() {
     std::error_code ignored;
     if (!keep && !folder.empty()) fs::remove_all(folder, ignored);
   }
@@ -85,8 +86,7 @@ struct Written {
 
 } // namespace
 
-PinnedRun look_at_run(const RunInHand& run)
-{
+PinnedRun look_at_run(const RunInHand& run) {
   const job::Progress& progress = run.snapshot()->progress;
   RunRecord record;
   record.steps_name = progress.units.steps;
@@ -103,8 +103,7 @@ PinnedRun look_at_run(const RunInHand& run)
   return now;
 }
 
-PinnedRun run_now(const RunInHand& run)
-{
+PinnedRun run_now(const RunInHand& run) {
   PinnedRun now = look_at_run(run);
   if (const RunOrigin& origin = run.snapshot_origin(); origin.preset && origin.plan) {
     auto record = std::make_shared<RunRecord>(*now.record);
@@ -118,16 +117,14 @@ PinnedRun run_now(const RunInHand& run)
   return now;
 }
 
-std::vector<PinnedRun> runs_of_table(const Comparing& comparing, const RunInHand& run)
-{
+std::vector<PinnedRun> runs_of_table(const Comparing& comparing, const RunInHand& run) {
   std::vector<PinnedRun> runs = comparing.pinned().runs();
   const auto& now = run.snapshot();
   if (now && std::ranges::find(runs, now->picture, &PinnedRun::picture) == runs.end()) runs.push_back(run_now(run));
   return runs;
 }
 
-std::shared_ptr<const RunRecord> read_record(const fs::path& folder)
-{
+std::shared_ptr<const RunRecord> read_record(const fs::path& folder) {
   if (!is_there(folder / "run.json")) return nullptr;
   auto record = std::make_shared<RunRecord>();
   record->folder = folder;
@@ -136,16 +133,15 @@ std::shared_ptr<const RunRecord> read_record(const fs::path& folder)
   read_figures(record->texts["run.json"], *record);
   if (!record->texts.contains("preset.json")) return record;
   try {
-    record->preset =
-        std::make_shared<const preset::Preset>(preset::parse_preset(record->texts["preset.json"], (folder / "preset.json").string()));
+    record->preset = std::make_shared<const preset::Preset>(
+        preset::parse_preset(record->texts["preset.json"], (folder / "preset.json").string()));
   } catch (const Error&) {
     // of another version of the program, say: the run is shown without it
   }
   return record;
 }
 
-std::optional<KnownError> known_error(const job::History& history)
-{
+std::optional<KnownError> known_error(const job::History& history) {
   if (history.rows.empty()) return std::nullopt;
   for (const std::string& column : {history.error_column, std::string("lab_mean"), std::string("estimated_lab_mean")}) {
     const double value = job::error_in(history, history.rows.back(), column);
@@ -156,8 +152,7 @@ std::optional<KnownError> known_error(const job::History& history)
   return std::nullopt;
 }
 
-std::string why_no_folder(const PinnedRun& run)
-{
+std::string why_no_folder(const PinnedRun& run) {
   if (!run.record) return "only its history was read, not the folder of a run";
   if (!run.record->finished) return "it is not finished";
   if (!run.picture) return "it has no picture";
@@ -168,8 +163,7 @@ std::string why_no_folder(const PinnedRun& run)
   return {};
 }
 
-void write_run_folder(const fs::path& folder, const PinnedRun& run, const std::string& name, bool further)
-{
+void write_run_folder(const fs::path& folder, const PinnedRun& run, const std::string& name, bool further) {
   if (run.record && run.record->origin) {
     const RunOrigin& origin = *run.record->origin;
     run::Prepared prepared{*origin.preset, nullptr, origin.plan};
@@ -192,9 +186,9 @@ void write_run_folder(const fs::path& folder, const PinnedRun& run, const std::s
   }
 }
 
-std::string write_report(const fs::path& file, std::span<const PinnedRun> runs)
-{
-  if (file.extension() != ".html") throw bad_input(file.string(), "a report is a page", "expected a name that ends in .html");
+std::string write_report(const fs::path& file, std::span<const PinnedRun> runs) {
+  if (file.extension() != ".html")
+    throw bad_input(file.string(), "a report is a page", "expected a name that ends in .html");
   std::string left_out;
   std::vector<const PinnedRun*> taken;
   for (const PinnedRun& run : runs) {

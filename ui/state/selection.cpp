@@ -20,8 +20,7 @@ using Kind = Selection::Kind;
 
 bool has_scene(const preset::Preset& preset) { return engine::engine_of(preset).has_scene; }
 
-Selection in_preset(const Selection& selection, const preset::Preset* preset)
-{
+Selection in_preset(const Selection& selection, const preset::Preset* preset) {
   if (!preset || !has_scene(*preset)) return {};
   const bool there = selection.kind == Kind::object  ? selection.index < preset->scene.objects.size()
                      : selection.kind == Kind::light ? selection.index < preset->scene.lights.size()
@@ -29,8 +28,7 @@ Selection in_preset(const Selection& selection, const preset::Preset* preset)
   return there ? selection : Selection{};
 }
 
-std::vector<Selection> selectable(const preset::Preset& preset)
-{
+std::vector<Selection> selectable(const preset::Preset& preset) {
   std::vector<Selection> all;
   if (!has_scene(preset)) return all;
   for (std::size_t i = 0; i < preset.scene.objects.size(); ++i) all.push_back({Kind::object, i});
@@ -39,48 +37,40 @@ std::vector<Selection> selectable(const preset::Preset& preset)
   return all;
 }
 
-std::string name_of(const preset::Preset& preset, const Selection& selection)
-{
+std::string name_of(const preset::Preset& preset, const Selection& selection) {
   const std::size_t i = selection.index;
   switch (selection.kind) {
   case Kind::object: {
     const std::string& name = preset.scene.objects[i].name;
     return name.empty() ? fmt::format("object {}", i + 1) : name;
   }
-  case Kind::light:
-    return fmt::format("light {} ({})", i + 1, preset::word(preset.scene.lights[i].type));
-  case Kind::camera:
-    return "camera's target";
-  case Kind::nothing:
-    break;
+  case Kind::light: return fmt::format("light {} ({})", i + 1, preset::word(preset.scene.lights[i].type));
+  case Kind::camera: return "camera's target";
+  case Kind::nothing: break;
   }
   return {};
 }
 
 std::string unit_word(const preset::Preset& preset) { return std::string(preset::word(preset.unit)); }
 
-std::string pointer_of(const Selection& selection)
-{
+std::string pointer_of(const Selection& selection) {
   if (selection.kind == Kind::object) return fmt::format("/scene/objects/{}", selection.index);
   if (selection.kind == Kind::light) return fmt::format("/scene/lights/{}", selection.index);
   return selection.kind == Kind::camera ? "/scene/camera" : "";
 }
 
-double rounded(double value, int decimals)
-{
+double rounded(double value, int decimals) {
   const double power = std::pow(10.0, std::abs(decimals));
   const double result = decimals >= 0 ? std::round(value * power) / power : std::round(value / power) * power;
   return result == 0 ? 0.0 : result; // not -0
 }
 
-double with_digits(double value, int digits)
-{
+double with_digits(double value, int digits) {
   if (value == 0 || !std::isfinite(value)) return value;
   return rounded(value, digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
 }
 
-std::string new_bookmark_name(const preset::Preset& preset, const std::vector<Bookmark>& bookmarks)
-{
+std::string new_bookmark_name(const preset::Preset& preset, const std::vector<Bookmark>& bookmarks) {
   std::string of = preset.name.empty() ? std::filesystem::path(preset.source).stem().string() : preset.name;
   if (of.empty()) of = "Camera";
   for (int number = 1;; ++number) {
@@ -89,8 +79,7 @@ std::string new_bookmark_name(const preset::Preset& preset, const std::vector<Bo
   }
 }
 
-std::vector<std::string> dielectrics(const preset::Preset& preset)
-{
+std::vector<std::string> dielectrics(const preset::Preset& preset) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
     const auto found = preset.scene.materials.find(name);
@@ -102,23 +91,23 @@ std::vector<std::string> dielectrics(const preset::Preset& preset)
   return names;
 }
 
-std::string shown_dielectric(const preset::Preset& preset, const std::string& chosen)
-{
+std::string shown_dielectric(const preset::Preset& preset, const std::string& chosen) {
   const std::vector<std::string> names = dielectrics(preset);
   if (std::find(names.begin(), names.end(), chosen) != names.end()) return chosen;
   return names.empty() ? std::string() : names.front();
 }
 
-preset::Dispersion load_dispersion(const std::string& file, const std::string& preset_source)
-{
+preset::Dispersion load_dispersion(const std::string& file, const std::string& preset_source) {
   preset::Dispersion dispersion;
   dispersion.type = preset::Dispersion::Type::file;
-  // A path means what it means to the shell that the program was started from; a name is looked for where a preset's is.
+  // A path means what it means to the shell that the program was started from; a name is looked for where a preset's
+  // is.
   std::error_code ignored;
   const std::filesystem::path path = std::filesystem::absolute(file, ignored);
   dispersion.file = !file.empty() && is_there(path) ? path.string() : file;
   const FileFinder finder(std::filesystem::path(preset_source).parent_path());
-  optics::sample_n(scene::make_curve(dispersion, finder, file.empty() ? "load dispersion" : file), optics::Extrapolation::automatic);
+  optics::sample_n(scene::make_curve(dispersion, finder, file.empty() ? "load dispersion" : file),
+                   optics::Extrapolation::automatic);
   return dispersion;
 }
 

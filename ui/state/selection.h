@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of the preset a person has picked: the thing that is moved with the mouse or the keys, and with which handles; the dielectric that
-// is shown; bookmarks of cameras, which are the window's and not the preset's.
+// What of the preset a person has picked: the thing that is moved with the mouse or the keys, and with which handles;
+// the dielectric that is shown; bookmarks of cameras, which are the window's and not the preset's.
 #pragma once
 #include "preset/preset.h"
 
@@ -35,7 +35,8 @@ bool has_scene(const preset::Preset& preset);
 Selection in_preset(const Selection& selection, const preset::Preset* preset);
 /// All that can be selected: objects, lights, the camera; empty without a scene.
 std::vector<Selection> selectable(const preset::Preset& preset);
-/// "bunny", "object 2" where it has no name, "light 1 (spot)", "camera's target"; of what is in the preset. Empty for nothing.
+/// "bunny", "object 2" where it has no name, "light 1 (spot)", "camera's target"; of what is in the preset. Empty for
+/// nothing.
 std::string name_of(const preset::Preset& preset, const Selection& selection);
 /// The preset's unit of length, as its file has it: "mm".
 std::string unit_word(const preset::Preset& preset);
@@ -44,13 +45,13 @@ std::string pointer_of(const Selection& selection);
 
 /// The wanted name, or the first of "NAME 2", "NAME 3", ... that is not taken(). pattern: of those, for fmt.
 template <class PictureEdit>
-std::string untaken_name(const std::string& wanted, PictureEdit taken, const char* pattern = "{} {}")
-{
+std::string untaken_name(const std::string& wanted, PictureEdit taken, const char* pattern = "{} {}") {
   std::string name = wanted;
   for (int number = 2; taken(name); ++number) name = fmt::format(fmt::runtime(pattern), wanted, number);
   return name;
 }
-/// To so many decimals; negative: to whole tens, hundreds. The nearest double to that decimal number, so that a file shows no more digits.
+/// To so many decimals; negative: to whole tens, hundreds. The nearest double to that decimal number, so that a file
+/// shows no more digits.
 double rounded(double value, int decimals);
 /// To so many digits that count.
 double with_digits(double value, int digits);
@@ -68,8 +69,8 @@ std::string new_bookmark_name(const preset::Preset& preset, const std::vector<Bo
 std::vector<std::string> dielectrics(const preset::Preset& preset);
 /// The one that is shown where `chosen` was asked for: that, else the first; empty where there is none.
 std::string shown_dielectric(const preset::Preset& preset, const std::string& chosen);
-/// A dispersion of a refractiveindex.info file: a path, or the name of a shipped material ("N-SF66"), for a preset from `preset_source`.
-/// Throws bad_input where it cannot be read or has no n at one of the 401 wavelengths.
+/// A dispersion of a refractiveindex.info file: a path, or the name of a shipped material ("N-SF66"), for a preset from
+/// `preset_source`. Throws bad_input where it cannot be read or has no n at one of the 401 wavelengths.
 preset::Dispersion load_dispersion(const std::string& file, const std::string& preset_source);
 
 } // namespace nephroid::ui

@@ -33,36 +33,33 @@ constexpr std::array tone_names{NamedTone{ToneCurve::standard, "standard"}, Name
 /// Dear ImGui trusts what it reads: whatever it did not write itself is refused here.
 std::string checksum(const std::string& ini) { return fmt::format("{:016x}", hash_of(ini)); }
 
-double within(const Json& value, double low, double high)
-{
+double within(const Json& value, double low, double high) {
   const double read = value.get<double>();
   if (!(read >= low && read <= high)) throw std::out_of_range(fmt::format("{} is not in {}..{}", read, low, high));
   return read;
 }
 
 template <class T, std::size_t N>
-void read_within(const Json& values, double low, double high, std::array<T, N>& to)
-{
+void read_within(const Json& values, double low, double high, std::array<T, N>& to) {
   for (std::size_t i = 0; i < N; ++i) to[i] = static_cast<T>(within(values.at(i), low, high));
 }
 
-ViewSettings read_view_settings(const Json& value)
-{
+ViewSettings read_view_settings(const Json& value) {
   ViewSettings view_settings;
   view_settings.exposure_stops = within(value.at("exposure_stops"), -20, 20);
   const auto tone = std::ranges::find(tone_names, value.value("tone", "standard"), &NamedTone::name);
   if (tone == tone_names.end()) throw std::out_of_range("there is no such tone curve");
   view_settings.tone = tone->curve;
   if (value.contains("false_colour"))
-    view_settings.false_colour = valid_range({value["false_colour"].at(0).get<double>(), value["false_colour"].at(1).get<double>()});
+    view_settings.false_colour =
+        valid_range({value["false_colour"].at(0).get<double>(), value["false_colour"].at(1).get<double>()});
   view_settings.fit = value.at("fit").get<bool>();
   view_settings.zoom = within(value.at("zoom"), 1.0 / 1024, 1024);
   read_within(value.at("centre"), -1e6, 1e6, view_settings.centre);
   return view_settings;
 }
 
-Bookmark read_bookmark(const Json& value)
-{
+Bookmark read_bookmark(const Json& value) {
   constexpr double far = 1e12;
   Bookmark bookmark{value.at("name").get<std::string>(), {}};
   preset::Camera& camera = bookmark.camera;
@@ -75,8 +72,7 @@ Bookmark read_bookmark(const Json& value)
 }
 
 /// The entries about the current one.
-UndoStack::State trimmed(UndoStack::State state)
-{
+UndoStack::State trimmed(UndoStack::State state) {
   constexpr std::size_t most = Session::most_entries;
   auto& [opened, entries, index, saved] = state;
   if (entries.size() <= most) return state;
@@ -88,8 +84,7 @@ UndoStack::State trimmed(UndoStack::State state)
   return state;
 }
 
-PresetPtr read_state(const Json& json, const std::string& source, const std::string& where)
-{
+PresetPtr read_state(const Json& json, const std::string& source, const std::string& where) {
   try {
     return std::make_shared<const preset::Preset>(preset::parse_preset(json.dump(), source));
   } catch (const Error& error) {
@@ -97,8 +92,7 @@ PresetPtr read_state(const Json& json, const std::string& source, const std::str
   }
 }
 
-preset::Sweep read_sweep(const Json& value)
-{
+preset::Sweep read_sweep(const Json& value) {
   preset::Sweep sweep;
   for (const Json& field : value) {
     sweep.push_back({field.at(0).get<std::string>(), field.at(1).get<std::vector<std::string>>()});
@@ -108,8 +102,7 @@ preset::Sweep read_sweep(const Json& value)
   return sweep;
 }
 
-UndoStack::State read_edits(const Json& value)
-{
+UndoStack::State read_edits(const Json& value) {
   UndoStack::State state;
   const auto source = value.at("source").get<std::string>();
   state.opened = read_state(value.at("opened"), value.at("opened_source").get<std::string>(), "what was opened");
@@ -117,8 +110,9 @@ UndoStack::State read_edits(const Json& value)
   for (const Json& entry : value.at("entries")) {
     if (state.entries.size() >= Session::most_entries) throw std::out_of_range("there are too many entries");
     now = state.entries.empty() ? entry.at("preset") : now.patch(entry.at("patch"));
-    state.entries.push_back({entry.at("label").get<std::string>(), read_state(now, source, fmt::format("entry {}", state.entries.size())),
-                             0, read_sweep(entry.value("sweep", Json::array()))});
+    state.entries.push_back({entry.at("label").get<std::string>(),
+                             read_state(now, source, fmt::format("entry {}", state.entries.size())), 0,
+                             read_sweep(entry.value("sweep", Json::array()))});
   }
   const auto index_of = [&](const Json& json) {
     return static_cast<std::size_t>(within(json, 0, static_cast<double>(state.entries.size()) - 1));
@@ -128,10 +122,10 @@ UndoStack::State read_edits(const Json& value)
   return state;
 }
 
-EngineLayout read_engine_layout(const Json& value)
-{
+EngineLayout read_engine_layout(const Json& value) {
   EngineLayout layout{value.at("ini").get<std::string>(), {}};
-  if (value.at("checksum").get<std::string>() != checksum(layout.ini)) throw std::out_of_range("a layout is not as the window wrote it");
+  if (value.at("checksum").get<std::string>() != checksum(layout.ini))
+    throw std::out_of_range("a layout is not as the window wrote it");
   if (value.at("closed").size() > most_panels) throw std::out_of_range("there are too many panels");
   value.at("closed").get_to(layout.closed);
   return layout;
@@ -139,9 +133,8 @@ EngineLayout read_engine_layout(const Json& value)
 
 /// Calls read(value) of the text as JSON of this version. Whatever is wrong becomes one error.
 template <class Read>
-auto read_kept(const std::string& text, int version, const Place& source, const std::string& what_is_wrong, const std::string& remedy,
-               Read read)
-{
+auto read_kept(const std::string& text, int version, const Place& source, const std::string& what_is_wrong,
+               const std::string& remedy, Read read) {
   try {
     const Json value = Json::parse(text);
     if (value.at("version") != Json(version)) throw std::out_of_range("it is of another version of the program");
@@ -152,15 +145,13 @@ auto read_kept(const std::string& text, int version, const Place& source, const 
 }
 
 template <class Read>
-auto read_session(const std::string& text, const std::string& source, Read read)
-{
+auto read_session(const std::string& text, const std::string& source, Read read) {
   return read_kept(text, session_version, source, "the session cannot be read", "", read);
 }
 
 } // namespace
 
-std::string to_json(const Settings& settings)
-{
+std::string to_json(const Settings& settings) {
   Json engines = Json::object();
   for (const auto& [engine, layout] : settings.engines)
     engines[engine] = {{"closed", layout.closed}, {"ini", layout.ini}, {"checksum", checksum(layout.ini)}};
@@ -171,14 +162,15 @@ std::string to_json(const Settings& settings)
                    2);
 }
 
-Settings parse_settings(const std::string& text, const std::string& source)
-{
-  return read_kept(text, settings_version, source, "these are no settings of the window", "delete the file; the window writes a new one",
-                   [](const Json& value) {
+Settings parse_settings(const std::string& text, const std::string& source) {
+  return read_kept(text, settings_version, source, "these are no settings of the window",
+                   "delete the file; the window writes a new one", [](const Json& value) {
                      Settings settings;
                      settings.theme = value.at("theme").get<std::string>() == "light" ? Theme::light : Theme::dark;
-                     settings.text_size = within(value.at("text_size"), Settings::smallest_text, Settings::largest_text);
-                     for (const auto& [engine, layout] : value.at("engines").items()) settings.engines[engine] = read_engine_layout(layout);
+                     settings.text_size =
+                         within(value.at("text_size"), Settings::smallest_text, Settings::largest_text);
+                     for (const auto& [engine, layout] : value.at("engines").items())
+                       settings.engines[engine] = read_engine_layout(layout);
                      return settings;
                    });
 }
@@ -189,8 +181,7 @@ struct SessionText::Known {
   Json json, patch;
 };
 
-std::string SessionText::of(const Session& session)
-{
+std::string SessionText::of(const Session& session) {
   std::vector<std::shared_ptr<const Known>> used;
   const auto known = [&](const PresetPtr& preset, const std::shared_ptr<const Known>& before) {
     const PresetPtr before_preset = before ? before->preset : nullptr;
@@ -198,7 +189,8 @@ std::string SessionText::of(const Session& session)
       if (entry->preset == preset && entry->before == before_preset) return used.emplace_back(entry);
     Json json = preset::as_json(*preset);
     Json patch = before ? Json::diff(before->json, json) : Json();
-    return used.emplace_back(std::make_shared<const Known>(Known{preset, before_preset, std::move(json), std::move(patch)}));
+    return used.emplace_back(
+        std::make_shared<const Known>(Known{preset, before_preset, std::move(json), std::move(patch)}));
   };
   const ViewSettings& view_settings = session.view_state.view_settings;
   Json text{{"version", session_version},
@@ -211,7 +203,8 @@ std::string SessionText::of(const Session& session)
               {"centre", view_settings.centre}}},
             {"error_metric", session.view_state.error_metric},
             {"material", session.view_state.material}};
-  if (view_settings.false_colour) text["look"]["false_colour"] = {view_settings.false_colour->low, view_settings.false_colour->high};
+  if (view_settings.false_colour)
+    text["look"]["false_colour"] = {view_settings.false_colour->low, view_settings.false_colour->high};
   text["pins"] = Json::array();
   for (const Session::Pin& pin : session.pins)
     text["pins"].push_back({{"folder", pin.folder}, {"name", pin.name}, {"colour", pin.colour}, {"shown", pin.shown}});
@@ -234,8 +227,10 @@ std::string SessionText::of(const Session& session)
     std::shared_ptr<const Known> before;
     for (const UndoStack::Entry& entry : state.entries) {
       const auto now = known(entry.preset, before);
-      edits["entries"].push_back({{"label", entry.label}, {before ? "patch" : "preset", before ? now->patch : now->json}});
-      for (const preset::SweptField& field : entry.sweep) edits["entries"].back()["sweep"].push_back({field.key, field.values});
+      edits["entries"].push_back(
+          {{"label", entry.label}, {before ? "patch" : "preset", before ? now->patch : now->json}});
+      for (const preset::SweptField& field : entry.sweep)
+        edits["entries"].back()["sweep"].push_back({field.key, field.values});
       before = now;
     }
   }
@@ -243,15 +238,13 @@ std::string SessionText::of(const Session& session)
   return json_text(text);
 }
 
-SessionHeader parse_session_header(const std::string& text, const std::string& source)
-{
+SessionHeader parse_session_header(const std::string& text, const std::string& source) {
   return read_session(text, source, [](const Json& value) {
     return SessionHeader{value.at("closed").get<bool>(), value.contains("edits")};
   });
 }
 
-Session parse_session(const std::string& text, const std::string& source)
-{
+Session parse_session(const std::string& text, const std::string& source) {
   return read_session(text, source, [](const Json& value) {
     Session session;
     session.closed = value.at("closed").get<bool>();
@@ -260,7 +253,8 @@ Session parse_session(const std::string& text, const std::string& source)
     session.view_state.material = value.at("material").get<std::string>();
     for (const Json& pin : value.at("pins"))
       session.pins.push_back({pin.at("folder").get<std::string>(), pin.at("name").get<std::string>(),
-                              static_cast<std::uint32_t>(within(pin.at("colour"), 0, 0xffffffff)), pin.at("shown").get<bool>()});
+                              static_cast<std::uint32_t>(within(pin.at("colour"), 0, 0xffffffff)),
+                              pin.at("shown").get<bool>()});
     for (const Json& bookmark : value.at("bookmarks")) session.view_state.bookmarks.push_back(read_bookmark(bookmark));
     if (value.contains("edits")) session.edits = read_edits(value.at("edits"));
     return session;

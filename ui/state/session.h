@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the window is at, as a file: the preset with its undo, how it is looked at, the pinned runs. A window that was killed is opened
-// again with it. And its settings, as another. ui/state/session_keeper.h writes and finds the files.
+// What the window is at, as a file: the preset with its undo, how it is looked at, the pinned runs. A window that was
+// killed is opened again with it. And its settings, as another. ui/state/session_keeper.h writes and finds the files.
 #pragma once
-#include "ui/state/view_state.h"
 #include "ui/state/commands.h"
 #include "ui/state/undo.h"
+#include "ui/state/view_state.h"
 
 namespace nephroid::ui {
 
 struct Session {
-  /// A pinned run: its history and picture are files of their own. Or a picture that was opened, which stays where it is.
+  /// A pinned run: its history and picture are files of their own. Or a picture that was opened, which stays where it
+  /// is.
   struct Pin {
-    std::string folder; ///< in the session's folder: a name that measure reads as a run's; of a picture its file, absolute
+    std::string
+        folder; ///< in the session's folder: a name that measure reads as a run's; of a picture its file, absolute
     std::string name;
     std::uint32_t colour = 0; ///< IM_COL32
     bool shown = true;

@@ -26,10 +26,11 @@ constexpr std::uintmax_t most_bytes = 64u << 20; ///< of a session that somebody
 constexpr const char *session_name = "session.json", *settings_name = "settings.json", *lock_name = "lock";
 
 /// Null also where the file cannot be made.
-FileLock lock_file(const fs::path& file) { return lock_open_file(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)); }
+FileLock lock_file(const fs::path& file) {
+  return lock_open_file(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+}
 
-std::string read_limited(const fs::path& file)
-{
+std::string read_limited(const fs::path& file) {
   std::error_code ignored;
   if (fs::file_size(file, ignored) > most_bytes && !ignored)
     throw bad_input(file.string(), "the file is larger than any that a window writes");
@@ -37,8 +38,7 @@ std::string read_limited(const fs::path& file)
 }
 
 /// What the file says of itself; one that cannot be read counts as a killed window's, whose rest is worth a message.
-SessionHeader header_of(const fs::path& file)
-{
+SessionHeader header_of(const fs::path& file) {
   try {
     return parse_session_header(read_limited(file), file.string());
   } catch (const std::exception&) {
@@ -47,8 +47,7 @@ SessionHeader header_of(const fs::path& file)
 }
 
 /// Whole, or nothing of it: a folder that is there counts as kept.
-void write_pin(const fs::path& folder, const PinnedRun& run)
-{
+void write_pin(const fs::path& folder, const PinnedRun& run) {
   try {
     write_run_folder(folder, run, {}, false);
     if (!is_there(folder / "history.csv")) write_file_whole(folder / "history.csv", measure::to_csv(*run.history));
@@ -72,8 +71,7 @@ struct SessionKeeper::Writer {
   std::string write(const Work& work);
 };
 
-SessionKeeper::SessionKeeper(fs::path folder) : folder_(std::move(folder))
-{
+SessionKeeper::SessionKeeper(fs::path folder) : folder_(std::move(folder)) {
   if (folder_.empty()) return;
   writer_ = std::make_shared<Writer>();
   writer_->folder = folder_;
@@ -96,8 +94,7 @@ SessionKeeper::SessionKeeper(fs::path folder) : folder_(std::move(folder))
   find_earlier();
 }
 
-void SessionKeeper::find_earlier()
-{
+void SessionKeeper::find_earlier() {
   std::error_code error;
   std::vector<fs::path> folders;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "sessions", error))
@@ -125,8 +122,7 @@ void SessionKeeper::find_earlier()
   for (Earlier& earlier : earlier_) earlier.lock.reset(); // another window may offer them, too
 }
 
-void SessionKeeper::load_settings(Workbench& workbench) const
-{
+void SessionKeeper::load_settings(Workbench& workbench) const {
   const fs::path file = folder_ / settings_name;
   if (folder_.empty() || !is_there(file)) return;
   try {
@@ -136,16 +132,14 @@ void SessionKeeper::load_settings(Workbench& workbench) const
   }
 }
 
-std::string SessionKeeper::killed_session() const
-{
+std::string SessionKeeper::killed_session() const {
   if (earlier_.empty() || earlier_.front().closed) return {};
   const auto age = fs::file_time_type::clock::now() - earlier_.front().kept;
   const auto at = std::chrono::system_clock::now() - std::chrono::duration_cast<std::chrono::seconds>(age);
   return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(at)));
 }
 
-void SessionKeeper::reopen(Workbench& workbench)
-{
+void SessionKeeper::reopen(Workbench& workbench) {
   if (earlier_.empty()) return;
   const fs::path folder = earlier_.front().folder;
   earlier_.erase(earlier_.begin());
@@ -163,14 +157,14 @@ void SessionKeeper::reopen(Workbench& workbench)
   }
 }
 
-SessionKeeper::Work SessionKeeper::work_of(const Workbench& workbench) const
-{
+SessionKeeper::Work SessionKeeper::work_of(const Workbench& workbench) const {
   Work work;
   if (workbench.edits()) work.session.edits = workbench.edits()->state();
   work.session.view_state = workbench.view_state();
   work.pins = workbench.comparing().pinned().all();
   for (const PinnedRun& run : work.pins)
-    work.session.pins.push_back({run.is_run() ? fmt::format("pin-{}", run.id) : run.file.string(), run.name, run.colour, run.shown});
+    work.session.pins.push_back(
+        {run.is_run() ? fmt::format("pin-{}", run.id) : run.file.string(), run.name, run.colour, run.shown});
   work.settings = workbench.setup().settings();
   if (workbench.works_on_files()) return work; // the pins of the session before may still be being read
   work.replaces = taken_over_;
@@ -178,16 +172,16 @@ SessionKeeper::Work SessionKeeper::work_of(const Workbench& workbench) const
   return work;
 }
 
-bool SessionKeeper::is_kept(const Work& work) const
-{
-  return newest_ && newest_->replaces == work.replaces && newest_->session == work.session && newest_->settings == work.settings;
+bool SessionKeeper::is_kept(const Work& work) const {
+  return newest_ && newest_->replaces == work.replaces && newest_->session == work.session &&
+         newest_->settings == work.settings;
 }
 
-std::string SessionKeeper::Writer::write(const Work& work)
-{
+std::string SessionKeeper::Writer::write(const Work& work) {
   try {
     for (std::size_t i = 0; i < work.pins.size(); ++i)
-      if (const fs::path pin = own / work.session.pins[i].folder; work.pins[i].is_run() && !is_there(pin / "history.csv"))
+      if (const fs::path pin = own / work.session.pins[i].folder;
+          work.pins[i].is_run() && !is_there(pin / "history.csv"))
         write_pin(pin, work.pins[i]);
     write_file_whole(own / session_name, text.of(work.session));
     if (const std::string settings = to_json(work.settings);
@@ -201,14 +195,13 @@ std::string SessionKeeper::Writer::write(const Work& work)
   }
 }
 
-void SessionKeeper::say_once(Workbench& workbench, const std::string& error)
-{
+void SessionKeeper::say_once(Workbench& workbench, const std::string& error) {
   if (error == std::exchange(last_error_, error)) return;
-  workbench.apply({command::Report{error + "; the window goes on, but would lose its edits if it ended now: save the preset elsewhere"}});
+  workbench.apply({command::Report{
+      error + "; the window goes on, but would lose its edits if it ended now: save the preset elsewhere"}});
 }
 
-void SessionKeeper::written(Workbench& workbench, const std::string& error)
-{
+void SessionKeeper::written(Workbench& workbench, const std::string& error) {
   if (error.empty()) {
     last_error_.clear();
     if (!newest_->replaces.empty()) {
@@ -223,20 +216,19 @@ void SessionKeeper::written(Workbench& workbench, const std::string& error)
   say_once(workbench, error);
 }
 
-void SessionKeeper::update(Workbench& workbench, Clock::time_point now)
-{
+void SessionKeeper::update(Workbench& workbench, Clock::time_point now) {
   if (folder_.empty() || now < next_ || workbench.tasks().busy(writes_)) return;
   next_ = now + period;
   Work work = work_of(workbench);
   if (is_kept(work)) return;
   newest_ = std::move(work);
   workbench.tasks().start(
-      writes_, {"keeping the session", TaskKind::write}, [writer = writer_, work = *newest_] { return writer->write(work); },
+      writes_, {"keeping the session", TaskKind::write},
+      [writer = writer_, work = *newest_] { return writer->write(work); },
       [this, &workbench](const std::string& error) { written(workbench, error); });
 }
 
-void SessionKeeper::close(Workbench& workbench)
-{
+void SessionKeeper::close(Workbench& workbench) {
   if (folder_.empty()) return;
   workbench.finish(writes_);
   Work work = work_of(workbench);

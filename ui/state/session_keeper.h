@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the window's session and settings in files while it is open, so that a window that was killed loses a second at most; finds the
-// sessions that earlier windows left. Each window has a folder of its own, which it holds locked: several windows may be open.
+// Keeps the window's session and settings in files while it is open, so that a window that was killed loses a second at
+// most; finds the sessions that earlier windows left. Each window has a folder of its own, which it holds locked:
+// several windows may be open.
 #pragma once
 #include "base/file_lock.h"
 #include "ui/state/session.h"
@@ -12,17 +13,20 @@ class SessionKeeper {
 public:
   using Clock = std::chrono::steady_clock;
 
-  /// folder: state_folder(), or another for tests; empty: nothing is kept and nothing found. Throws failed where it cannot be made.
+  /// folder: state_folder(), or another for tests; empty: nothing is kept and nothing found. Throws failed where it
+  /// cannot be made.
   explicit SessionKeeper(std::filesystem::path folder);
 
   /// The settings that the last window kept; where they cannot be read, those a window begins with and a message.
   void load_settings(Workbench& workbench) const;
-  /// Whether an earlier window was not closed by a person, and when its session was last kept ("2026-11-22 03:12:05"); empty: none.
+  /// Whether an earlier window was not closed by a person, and when its session was last kept ("2026-11-22 03:12:05");
+  /// empty: none.
   std::string killed_session() const;
   /// Whether there is a session to go back to, of a window that was closed or not.
   bool has_earlier() const { return !earlier_.empty(); }
-  /// Opens the newest earlier session, of a killed window first, and holds its lock until this window's own session has all of it. What
-  /// another window opened meanwhile becomes a message; so does what cannot be read, which is kept under another name.
+  /// Opens the newest earlier session, of a killed window first, and holds its lock until this window's own session has
+  /// all of it. What another window opened meanwhile becomes a message; so does what cannot be read, which is kept
+  /// under another name.
   void reopen(Workbench& workbench);
 
   /// Once a frame, returns at once: at most once a second writes what changed, in the background.

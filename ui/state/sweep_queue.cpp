@@ -11,13 +11,13 @@
 
 namespace nephroid::ui {
 
-void SweepQueue::carry_out(const command::StartSweep&)
-{
+void SweepQueue::carry_out(const command::StartSweep&) {
   if (!document_.preset() || active_) return;
   const preset::Preset& preset = *document_.preset();
   const preset::Sweep& sweep = document_.edits()->sweep();
   const std::string place = preset.source + "#/sweep";
-  if (sweep.empty()) throw bad_input(place, "no field is swept", "expected one with its values", "add one in the panel Runs");
+  if (sweep.empty())
+    throw bad_input(place, "no field is swept", "expected one with its values", "add one in the panel Runs");
   if (const double count = preset::count_runs(sweep); count > static_cast<double>(most_runs))
     throw bad_input(place, fmt::format("gives {:.0f} runs, whose pictures the window would keep", count),
                     fmt::format("expected at most {}", most_runs), "save the preset and use `nephroid run`");
@@ -36,8 +36,7 @@ void SweepQueue::carry_out(const command::StartSweep&)
   active_ = true;
 }
 
-void SweepQueue::begin_next()
-{
+void SweepQueue::begin_next() {
   const auto next = std::ranges::find(runs_, State::waiting, &QueuedRun::state);
   if (next == runs_.end()) {
     active_ = false;
@@ -50,16 +49,14 @@ void SweepQueue::begin_next()
   run_.lend(next->preset, next->name);
 }
 
-void SweepQueue::stop()
-{
+void SweepQueue::stop() {
   if (!std::exchange(active_, false)) return;
   for (QueuedRun& swept : runs_)
     if (swept.state == State::running || swept.state == State::waiting) swept.state = State::stopped;
   if (std::exchange(lent_, false)) run_.take_back(document_.edits());
 }
 
-void SweepQueue::update()
-{
+void SweepQueue::update() {
   if (!active_) return;
   if (!lent_) return begin_next();
   QueuedRun& now = runs_[at_];
@@ -74,15 +71,12 @@ void SweepQueue::update()
     now.state = State::failed;
     now.why = status.error ? status.error->line() : "the run failed";
     return begin_next();
-  case job::State::cancelled:
-    return stop();
-  default:
-    now.part = status.progress.fraction;
+  case job::State::cancelled: return stop();
+  default: now.part = status.progress.fraction;
   }
 }
 
-std::string SweepQueue::summary() const
-{
+std::string SweepQueue::summary() const {
   const auto count = [&](State state) { return std::ranges::count(runs_, state, &QueuedRun::state); };
   std::string text = fmt::format("{} of {} done", count(State::done), runs_.size());
   if (count(State::failed) > 0) text += fmt::format(", {} failed", count(State::failed));

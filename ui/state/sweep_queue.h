@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The runs of a sweep, one after the other in place of the run in hand, because a device works on one run at a time. Each is pinned when
-// it is done.
+// The runs of a sweep, one after the other in place of the run in hand, because a device works on one run at a time.
+// Each is pinned when it is done.
 #pragma once
 #include "preset/read.h"
 #include "ui/state/comparing.h"
@@ -27,10 +27,11 @@ public:
   };
 
   /// All outlive it.
-  SweepQueue(const Document& document, RunInHand& run, Comparing& comparing) : document_(document), run_(run), comparing_(comparing) {}
+  SweepQueue(const Document& document, RunInHand& run, Comparing& comparing)
+      : document_(document), run_(run), comparing_(comparing) {}
 
-  /// Throws bad_input as preset::swept_runs, for no sweep and for more than most_runs; what is refused alone is a failed run. Nothing
-  /// changes then.
+  /// Throws bad_input as preset::swept_runs, for no sweep and for more than most_runs; what is refused alone is a
+  /// failed run. Nothing changes then.
   void carry_out(const command::StartSweep&);
   void carry_out(const command::StopSweep&) { stop(); }
   /// Without a sweep the run in hand is cancelled.

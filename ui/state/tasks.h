@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What takes longer than a frame: work on threads of its own, beside the frames. The queue says what runs, cancels it, hands results over
-// on the window's thread, and makes a message of what is thrown.
+// What takes longer than a frame: work on threads of its own, beside the frames. The queue says what runs, cancels it,
+// hands results over on the window's thread, and makes a message of what is thrown.
 #pragma once
 #include "ui/state/messages.h"
 
@@ -72,27 +72,27 @@ public:
   TaskQueue(const TaskQueue&) = delete;
   TaskQueue& operator=(const TaskQueue&) = delete;
 
-  /// work() or work(TaskControl&) on a thread of its own, after the tasks of this key that came before; deliver(result) in collect(). The
-  /// work must own or share whatever it uses: the key's owner may end before it.
+  /// work() or work(TaskControl&) on a thread of its own, after the tasks of this key that came before; deliver(result)
+  /// in collect(). The work must own or share whatever it uses: the key's owner may end before it.
   template <class Work, class Deliver>
-  void start(const TaskKey& key, TaskAbout about, Work work, Deliver deliver)
-  {
-    add(key, std::move(about), [work = std::move(work), deliver = std::move(deliver)](TaskControl& control) -> Delivery {
-      const auto call = [&] {
-        if constexpr (std::is_invocable_v<const Work&, TaskControl&>)
-          return work(control);
-        else
-          return work();
-      };
-      using Result = decltype(call());
-      if constexpr (std::is_void_v<Result>) {
-        call();
-        return deliver;
-      } else {
-        auto result = std::make_shared<Result>(call());
-        return [deliver, result] { deliver(std::move(*result)); };
-      }
-    });
+  void start(const TaskKey& key, TaskAbout about, Work work, Deliver deliver) {
+    add(key, std::move(about),
+        [work = std::move(work), deliver = std::move(deliver)](TaskControl& control) -> Delivery {
+          const auto call = [&] {
+            if constexpr (std::is_invocable_v<const Work&, TaskControl&>)
+              return work(control);
+            else
+              return work();
+          };
+          using Result = decltype(call());
+          if constexpr (std::is_void_v<Result>) {
+            call();
+            return deliver;
+          } else {
+            auto result = std::make_shared<Result>(call());
+            return [deliver, result] { deliver(std::move(*result)); };
+          }
+        });
   }
   /// Whether a task of this key runs or waits.
   bool busy(const TaskKey& key) const;
@@ -138,19 +138,20 @@ private:
 /// What is asked for, held against the newest result.
 enum class Request { same, other_picture, other };
 
-/// Something that is made again and again of what a panel shows: a difference of pictures, statistics of a region. Not of every picture of
-/// a run, as that may be faster than it.
+/// Something that is made again and again of what a panel shows: a difference of pictures, statistics of a region. Not
+/// of every picture of a run, as that may be faster than it.
 template <class Result>
 class NewestResult {
 public:
   using Clock = TaskQueue::Clock;
   using Make = std::function<std::shared_ptr<const Result>()>;
 
-  /// Once a frame, returns at once: starts make() where the request is not the same and nothing is in the making. Where only the run's
-  /// picture is another one it rests first, for twice the time that the last result took: the device may be the same processor.
-  void want(TaskQueue& tasks, std::string name, Request request, Make make, Clock::time_point now)
-  {
-    if (request == Request::same || tasks.busy(key_) || (request == Request::other_picture && now < rest_until_)) return;
+  /// Once a frame, returns at once: starts make() where the request is not the same and nothing is in the making. Where
+  /// only the run's picture is another one it rests first, for twice the time that the last result took: the device may
+  /// be the same processor.
+  void want(TaskQueue& tasks, std::string name, Request request, Make make, Clock::time_point now) {
+    if (request == Request::same || tasks.busy(key_) || (request == Request::other_picture && now < rest_until_))
+      return;
     const auto timed = [make = std::move(make)] {
       const Clock::time_point begin = Clock::now();
       auto result = make();
@@ -163,8 +164,7 @@ public:
   }
   /// May be of an older request. Null before the first and after forget().
   const std::shared_ptr<const Result>& newest() const { return newest_; }
-  void forget(TaskQueue& tasks)
-  {
+  void forget(TaskQueue& tasks) {
     newest_.reset();
     tasks.forget(key_);
   }

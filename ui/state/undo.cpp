@@ -7,15 +7,13 @@
 
 namespace nephroid::ui {
 
-UndoStack::UndoStack(preset::Preset opened, preset::Sweep sweep)
-{
+UndoStack::UndoStack(preset::Preset opened, preset::Sweep sweep) {
   state_.opened = std::make_shared<const preset::Preset>(std::move(opened));
   state_.entries = {{"", state_.opened, 0, std::move(sweep)}};
   state_.saved = 0;
 }
 
-void UndoStack::push(std::string label, preset::Preset preset, preset::Sweep sweep)
-{
+void UndoStack::push(std::string label, preset::Preset preset, preset::Sweep sweep) {
   const std::shared_ptr<const preset::Preset> before = shared();
   push(std::move(label), std::move(preset));
   Entry& entry = state_.entries[state_.index];
@@ -23,8 +21,7 @@ void UndoStack::push(std::string label, preset::Preset preset, preset::Sweep swe
   if (*entry.preset == *before) entry.preset = before; // the same preset is the same object
 }
 
-void UndoStack::push(std::string label, preset::Preset preset, std::uint64_t gesture)
-{
+void UndoStack::push(std::string label, preset::Preset preset, std::uint64_t gesture) {
   auto& [opened, entries, index, saved] = state_;
   entries.resize(index + 1);
   if (saved && *saved > index) saved.reset();
@@ -42,8 +39,7 @@ void UndoStack::push(std::string label, preset::Preset preset, std::uint64_t ges
   if (saved) saved = *saved > 0 ? std::optional(*saved - 1) : std::nullopt;
 }
 
-bool UndoStack::step(int by)
-{
+bool UndoStack::step(int by) {
   auto& [opened, entries, index, saved] = state_;
   const std::size_t to = index + static_cast<std::size_t>(by); // before the first one: it wraps around
   if (to >= entries.size()) return false;
@@ -52,8 +48,7 @@ bool UndoStack::step(int by)
   return true;
 }
 
-void UndoStack::fit_white(double white)
-{
+void UndoStack::fit_white(double white) {
   for (Entry& entry : state_.entries) {
     if (entry.preset->white) continue;
     preset::Preset fitted = *entry.preset;
@@ -62,8 +57,7 @@ void UndoStack::fit_white(double white)
   }
 }
 
-void UndoStack::mark_saved(const std::string& source)
-{
+void UndoStack::mark_saved(const std::string& source) {
   for (Entry& entry : state_.entries) {
     preset::Preset saved = preset::moved_to_file(*entry.preset, source);
     saved.provenance = {}; // the file holds every value now

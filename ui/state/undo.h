@@ -34,8 +34,8 @@ public:
   explicit UndoStack(preset::Preset opened, preset::Sweep sweep = {});
   /// As state() was.
   explicit UndoStack(State state) : state_(std::move(state)) {}
-  /// A new state after the current one; what could be redone is dropped. The same gesture (not 0) as the current entry's replaces it.
-  /// The sweep stays as it is.
+  /// A new state after the current one; what could be redone is dropped. The same gesture (not 0) as the current
+  /// entry's replaces it. The sweep stays as it is.
   void push(std::string label, preset::Preset preset, std::uint64_t gesture = 0);
   /// The same with another sweep.
   void push(std::string label, preset::Preset preset, preset::Sweep sweep);
@@ -50,11 +50,11 @@ public:
   const preset::Preset& opened() const { return *state_.opened; }
   /// What undo() would undo and redo() redo; empty where there is nothing.
   std::string undo_label() const { return state_.index > 0 ? state_.entries[state_.index].label : std::string(); }
-  std::string redo_label() const
-  {
+  std::string redo_label() const {
     return state_.index + 1 < state_.entries.size() ? state_.entries[state_.index + 1].label : std::string();
   }
-  /// The current state has been saved as `source`. All states belong to that file now: what they name is named as from its folder.
+  /// The current state has been saved as `source`. All states belong to that file now: what they name is named as from
+  /// its folder.
   void mark_saved(const std::string& source);
   /// In place of "auto" in all states. It is no step of its own.
   void fit_white(double white);

@@ -15,25 +15,23 @@ namespace nephroid::ui {
 
 struct ViewState {
   ViewSettings view_settings;
-  std::string error_metric;                     ///< to be plotted; empty: the run's own. Not every run has it.
-  std::optional<std::array<int, 2>> pixel;      ///< that is inspected: column and row; may lie outside of the picture
-  std::optional<PixelRegion> region;            ///< that there are statistics of; may reach out of the picture, is never empty
+  std::string error_metric;                ///< to be plotted; empty: the run's own. Not every run has it.
+  std::optional<std::array<int, 2>> pixel; ///< that is inspected: column and row; may lie outside of the picture
+  std::optional<PixelRegion> region; ///< that there are statistics of; may reach out of the picture, is never empty
   std::vector<std::vector<preset::Vec3>> lines; ///< over the View's picture: command::ShowLines
-  std::string material;                         ///< the dielectric to be shown; empty or none of the preset's: the first (shown_dielectric)
-  Selection selection;                          ///< may be of a preset that was: in_preset()
+  std::string material; ///< the dielectric to be shown; empty or none of the preset's: the first (shown_dielectric)
+  Selection selection;  ///< may be of a preset that was: in_preset()
   Handles handles;
   command::Nudged nudged;          ///< the newest
   std::vector<Bookmark> bookmarks; ///< of cameras
   bool operator==(const ViewState&) const = default;
 
-  void carry_out(const command::SetViewSettings& c)
-  {
+  void carry_out(const command::SetViewSettings& c) {
     view_settings = c.view_settings;
     if (view_settings.false_colour) view_settings.false_colour = valid_range(*view_settings.false_colour);
     view_settings.exposure_stops = std::clamp(view_settings.exposure_stops, -20.0, 20.0);
   }
-  void carry_out(const command::SelectRegion& c)
-  {
+  void carry_out(const command::SelectRegion& c) {
     region = c.region;
     if (region && (region->from[0] >= region->to[0] || region->from[1] >= region->to[1])) region.reset();
   }

@@ -25,13 +25,11 @@ public:
 
   void carry_out(const command::ToggleHelp&) { help_shown_ = !help_shown_; }
   void carry_out(const command::KeepLayout& c) { settings_.engines[c.engine].ini = c.ini; }
-  void carry_out(const command::ResetLayout&)
-  {
+  void carry_out(const command::ResetLayout&) {
     engine_layout() = {};
     layout_reset_ = true;
   }
-  void carry_out(const command::ShowPanel& c)
-  {
+  void carry_out(const command::ShowPanel& c) {
     if (c.on) panel_to_front_ = c.name;
     if (!document_.preset()) return; // the start page has no layout
     if (c.on)
@@ -39,8 +37,7 @@ public:
     else
       engine_layout().closed.insert(c.name);
   }
-  void carry_out(const command::SetAppearance& c)
-  {
+  void carry_out(const command::SetAppearance& c) {
     settings_.theme = c.theme;
     settings_.text_size = std::clamp(c.text_size, Settings::smallest_text, Settings::largest_text);
   }

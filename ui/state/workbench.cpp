@@ -15,15 +15,13 @@ namespace nephroid::ui {
 namespace {
 
 template <class Part, class C>
-concept Takes = requires(Part& part, const C& c)
-{
+concept Takes = requires(Part& part, const C& c) {
   part.carry_out(c);
 };
 
 /// Hands a command to the part that it is for.
 template <class C, class... Parts>
-void hand_over(const C& c, Parts&... parts)
-{
+void hand_over(const C& c, Parts&... parts) {
   static_assert((int{Takes<Parts, C>} + ...) == 1, "a command is for exactly one part");
   const auto hand_to = [&c](auto& part) {
     if constexpr (Takes<decltype(part), C>) part.carry_out(c);
@@ -33,13 +31,12 @@ void hand_over(const C& c, Parts&... parts)
 
 } // namespace
 
-void Workbench::carry_out_with_follow_ups(const Command& command)
-{
+void Workbench::carry_out_with_follow_ups(const Command& command) {
   try {
     std::visit(
         [this](const auto& c) {
-          hand_over(c, *this, document_, document_files_, run_, sweep_, comparing_, view_state_, files_, questions_, setup_,
-                    services_.messages);
+          hand_over(c, *this, document_, document_files_, run_, sweep_, comparing_, view_state_, files_, questions_,
+                    setup_, services_.messages);
         },
         command);
   } catch (const std::exception& error) {
@@ -48,20 +45,17 @@ void Workbench::carry_out_with_follow_ups(const Command& command)
   carry_out_follow_ups();
 }
 
-void Workbench::carry_out_follow_ups()
-{
+void Workbench::carry_out_follow_ups() {
   for (const Command& command : std::exchange(services_.follow_ups, {})) carry_out_with_follow_ups(command);
 }
 
-void Workbench::apply(const Commands& commands)
-{
+void Workbench::apply(const Commands& commands) {
   last_before_commands_ = services_.messages.newest();
   for (const Command& command : commands) carry_out_with_follow_ups(command);
   if (edits()) run_.start_if_wanted(*edits());
 }
 
-bool Workbench::open(const std::string& name, const preset::Overrides& overrides)
-{
+bool Workbench::open(const std::string& name, const preset::Overrides& overrides) {
   std::optional<preset::WithSweep> read;
   try {
     refuse_other_kinds(name);
@@ -77,15 +71,13 @@ bool Workbench::open(const std::string& name, const preset::Overrides& overrides
 }
 
 /// In place of what is open, which is not asked about.
-void Workbench::begin(preset::WithSweep preset)
-{
+void Workbench::begin(preset::WithSweep preset) {
   let_go();
   document_.open(UndoStack(std::move(preset.preset), std::move(preset.sweep)));
 }
 
 /// What is of the preset in hand, which another one replaces.
-void Workbench::let_go()
-{
+void Workbench::let_go() {
   document_.close();
   sweep_.stop();
   services_.messages.dismiss_errors_until(last_before_commands_);
@@ -93,19 +85,18 @@ void Workbench::let_go()
   questions_.close();
 }
 
-void Workbench::restore(Session session, const std::filesystem::path& folder)
-{
+void Workbench::restore(Session session, const std::filesystem::path& folder) {
   let_go();
   view_state_ = std::move(session.view_state);
   document_.carry_out(command::InspectPixel{view_state_.pixel});
   for (const Session::Pin& pin : session.pins)
-    comparing_.carry_out(command::PinFile{.path = folder / pin.folder, .like = command::ChangePin{0, pin.name, pin.colour, pin.shown}});
+    comparing_.carry_out(
+        command::PinFile{.path = folder / pin.folder, .like = command::ChangePin{0, pin.name, pin.colour, pin.shown}});
   if (session.edits) document_.open(UndoStack(std::move(*session.edits)));
   carry_out_follow_ups();
 }
 
-void Workbench::carry_out(const command::Open& c)
-{
+void Workbench::carry_out(const command::Open& c) {
   const std::string& file = c.name;
   if (is_history(file)) return comparing_.carry_out(command::PinFile{file});
   const FileKind kind = kind_of(file);
@@ -124,23 +115,20 @@ void Workbench::carry_out(const command::Open& c)
   if (!questions_.asks_first(c)) open(file);
 }
 
-void Workbench::carry_out(const command::New& c)
-{
+void Workbench::carry_out(const command::New& c) {
   if (questions_.asks_first(c)) return;
   preset::Preset preset = preset::parse_preset(c.preset, "untitled");
   preset.source.clear(); // else a file that happens to have this name would be its own
   begin({std::move(preset), {}});
 }
 
-std::vector<std::string> Workbench::notes() const
-{
+std::vector<std::string> Workbench::notes() const {
   std::vector<std::string> all = program_notes_;
   if (run_.plan()) all.insert(all.end(), run_.plan()->notes.begin(), run_.plan()->notes.end());
   return all;
 }
 
-void Workbench::update(Clock::time_point now)
-{
+void Workbench::update(Clock::time_point now) {
   document_files_.update();
   run_.update(edits());
   document_.update();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state behind the window, put together: each part owns a subject and carries out its commands. Knows nothing of Dear ImGui. Panels
-// read a Context of it; commands change it; update() runs once a frame and never waits for a device; of files it reads the preset alone,
-// when that was changed.
+// The state behind the window, put together: each part owns a subject and carries out its commands. Knows nothing of
+// Dear ImGui. Panels read a Context of it; commands change it; update() runs once a frame and never waits for a device;
+// of files it reads the preset alone, when that was changed.
 #pragma once
 #include "ui/state/comparing.h"
 #include "ui/state/context.h"
@@ -33,13 +33,14 @@ public:
   bool open(const std::string& name, const preset::Overrides& overrides = {});
   /// As a session was; `folder` holds its pinned runs, which are read in the background. The run starts.
   void restore(Session session, const std::filesystem::path& folder);
-  /// Once a frame: takes the newest snapshot, starts the run that edits ask for, collects what finished in the background.
+  /// Once a frame: takes the newest snapshot, starts the run that edits ask for, collects what finished in the
+  /// background.
   void update(Clock::time_point now = Clock::now());
 
   /// For one frame; what is asked for goes to `commands`.
-  Context context(Commands& commands)
-  {
-    return {edits(), run_, comparing_, view_state_, setup_.settings(), has_earlier_session_, commands, files_.recent(), sweep_, tasks()};
+  Context context(Commands& commands) {
+    return {edits(),         run_,   comparing_, view_state_, setup_.settings(), has_earlier_session_, commands,
+            files_.recent(), sweep_, tasks()};
   }
   /// Both are null before a preset is opened.
   const preset::Preset* preset() const { return document_.preset(); }

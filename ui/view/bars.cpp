@@ -24,13 +24,13 @@ struct NamedTone {
 };
 constexpr std::array tones{
     NamedTone{ToneCurve::standard, "as image.png", "sRGB, clipped at 1: the bytes of image.png"},
-    NamedTone{ToneCurve::filmic, "filmic", "For a wide range: a soft shoulder up to 5.6 times white (Hable 2010), then sRGB"},
+    NamedTone{ToneCurve::filmic, "filmic",
+              "For a wide range: a soft shoulder up to 5.6 times white (Hable 2010), then sRGB"},
     NamedTone{ToneCurve::false_colour, "false colour",
               "The luminance as a colour, on a logarithmic scale in W/m2/sr. Exposure plays no part."},
 };
 
-void draw_layer_choice(const Context& context, WidgetPlaces& places)
-{
+void draw_layer_choice(const Context& context, WidgetPlaces& places) {
   const std::string& chosen = context.comparing.comparison().layer;
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
   Combo list("##layer", chosen.empty() ? "all" : chosen, &places, "layer");
@@ -40,8 +40,7 @@ void draw_layer_choice(const Context& context, WidgetPlaces& places)
       if (list.entry(layer.name, chosen == layer.name)) context.push(command::ShowLayer{layer.name});
 }
 
-void draw_tone_choice(const Context& context, WidgetPlaces& places)
-{
+void draw_tone_choice(const Context& context, WidgetPlaces& places) {
   ViewSettings view_settings = context.view_settings();
   const ToneCurve now = view_settings.tone;
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
@@ -54,16 +53,14 @@ void draw_tone_choice(const Context& context, WidgetPlaces& places)
 }
 
 /// In the line of what was drawn last. True where it was typed.
-bool draw_number(const char* label, double& value)
-{
+bool draw_number(const char* label, double& value) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 5);
   ImGui::InputDouble(label, &value, 0, 0, "%.3g");
   return ImGui::IsItemDeactivatedAfterEdit();
 }
 
-void draw_range_choice(const Context& context, const LuminanceRange& shown, WidgetPlaces& places)
-{
+void draw_range_choice(const Context& context, const LuminanceRange& shown, WidgetPlaces& places) {
   const auto set = [&](const std::optional<LuminanceRange>& range) {
     ViewSettings view_settings = context.view_settings();
     view_settings.false_colour = range;
@@ -95,8 +92,7 @@ constexpr std::array<std::pair<Metric, const char*>, 6> metric_names{{{Metric::l
                                                                       {Metric::luminance, "luminance a - b"},
                                                                       {Metric::flip, "FLIP"}}};
 
-void draw_shown_choice(const Context& context, WidgetPlaces& places)
-{
+void draw_shown_choice(const Context& context, WidgetPlaces& places) {
   const std::uint64_t now = context.comparing.comparison().shown;
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
   Combo list("##shown", context.comparing.name(), &places, "shown");
@@ -105,19 +101,18 @@ void draw_shown_choice(const Context& context, WidgetPlaces& places)
     if (list.entry(run.name, now == run.id)) context.push(command::ShowPicture{run.id});
 }
 
-void draw_other_choice(const Context& context, WidgetPlaces& places)
-{
+void draw_other_choice(const Context& context, WidgetPlaces& places) {
   const std::uint64_t now = context.comparing.comparison().pin;
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
   Combo list("##other", context.comparing.other_name(), &places, "other");
   if (list.entry("Reference", now == 0)) context.push(command::CompareWith{0});
-  if (list.entry("this run", now == Comparison::run_in_hand)) context.push(command::CompareWith{Comparison::run_in_hand});
+  if (list.entry("this run", now == Comparison::run_in_hand))
+    context.push(command::CompareWith{Comparison::run_in_hand});
   for (const PinnedRun& run : context.comparing.pinned().all())
     if (list.entry(run.name, now == run.id)) context.push(command::CompareWith{run.id});
 }
 
-void draw_metric_choice(const Context& context)
-{
+void draw_metric_choice(const Context& context) {
   const Comparison& comparison = context.comparing.comparison();
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 10);
   Combo list("##difference metric", metric_name(comparison.metric));
@@ -126,8 +121,7 @@ void draw_metric_choice(const Context& context)
       context.push(command::ShowDifference{true, metric, 0}); // the values of another metric have another size
 }
 
-void draw_range_of_difference(const Context& context)
-{
+void draw_range_of_difference(const Context& context) {
   const Comparison& comparison = context.comparing.comparison();
   const auto set = [&](double scale) { context.push(command::ShowDifference{true, comparison.metric, scale}); };
   const auto& map = context.comparing.difference();
@@ -140,12 +134,12 @@ void draw_range_of_difference(const Context& context)
   ImGui::EndDisabled();
 }
 
-void draw_selected_choice(const Context& context, WidgetPlaces& places)
-{
+void draw_selected_choice(const Context& context, WidgetPlaces& places) {
   const preset::Preset& preset = *context.preset();
   const Selection now = context.selection();
   const float em = ImGui::GetFontSize();
-  ImGui::SetNextItemWidth(std::clamp(ImGui::GetContentRegionAvail().x - 26 * em, 5 * em, 12 * em)); // the buttons have the rest
+  ImGui::SetNextItemWidth(
+      std::clamp(ImGui::GetContentRegionAvail().x - 26 * em, 5 * em, 12 * em)); // the buttons have the rest
   Combo list("##selected", now == Selection{} ? "nothing" : name_of(preset, now), &places, "selected");
   if (list.entry("nothing", now == Selection{})) context.push(command::Select{});
   for (const Selection& selection : selectable(preset))
@@ -153,16 +147,14 @@ void draw_selected_choice(const Context& context, WidgetPlaces& places)
 }
 
 /// A button that stays down while what it does is on.
-void draw_toggle(const char* name, bool on, const Context& context)
-{
+void draw_toggle(const char* name, bool on, const Context& context) {
   ImGui::SameLine();
   if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
   action_button(name, context);
   if (on) ImGui::PopStyleColor();
 }
 
-void draw_bookmarks(const Context& context, WidgetPlaces& places)
-{
+void draw_bookmarks(const Context& context, WidgetPlaces& places) {
   std::vector<Bookmark> bookmarks = context.view_state.bookmarks;
   std::optional<std::size_t> deleted;
   bool changed = false;
@@ -200,21 +192,20 @@ using ScaleKey = std::pair<std::array<unsigned char, 3>, std::string>;
 
 ImU32 opaque(const std::array<unsigned char, 3>& colour) { return IM_COL32(colour[0], colour[1], colour[2], 255); }
 
-void draw_bar(const ImVec2& corner, float width, float height, const ScaleColour& colour_at)
-{
+void draw_bar(const ImVec2& corner, float width, float height, const ScaleColour& colour_at) {
   constexpr int parts = 64;
   for (int part = 0; part < parts; ++part) {
     const float low = static_cast<float>(part) / parts, high = static_cast<float>(part + 1) / parts;
     const ImU32 above = opaque(colour_at(high)), below = opaque(colour_at(low));
     ImGui::GetWindowDrawList()->AddRectFilledMultiColor({corner.x, corner.y + (1 - high) * height},
-                                                        {corner.x + width, corner.y + (1 - low) * height}, above, above, below, below);
+                                                        {corner.x + width, corner.y + (1 - low) * height}, above, above,
+                                                        below, below);
   }
 }
 
 /// A scale of colours with its numbers, along the right edge of the picture. title: above; may be empty.
-void draw_scale(const Canvas& canvas, const std::string& title, std::span<const ScaleMark> marks, const ScaleColour& colour_at,
-                std::span<const ScaleKey> keys = {})
-{
+void draw_scale(const Canvas& canvas, const std::string& title, std::span<const ScaleMark> marks,
+                const ScaleColour& colour_at, std::span<const ScaleKey> keys = {}) {
   const float em = ImGui::GetFontSize(), width = em, line = 1.2f * em;
   const float head = title.empty() ? 0 : line, foot = line * static_cast<float>(keys.size());
   const float height = std::max(std::min(16 * em, 0.7f * static_cast<float>(canvas.size[1]) - head - foot), 2 * em);
@@ -224,15 +215,16 @@ void draw_scale(const Canvas& canvas, const std::string& title, std::span<const 
   for (const auto& [position, text] : marks) text_width = std::max(text_width, ImGui::CalcTextSize(text.c_str()).x);
   for (const auto& [colour, text] : keys) text_width = std::max(text_width, ImGui::CalcTextSize(text.c_str()).x);
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
-  draw_list->AddRectFilled({corner.x - text_width - em, corner.y - em - head}, {corner.x + 1.5f * width, corner.y + height + em + foot},
-                           colour::overlay, 0.4f * em);
+  draw_list->AddRectFilled({corner.x - text_width - em, corner.y - em - head},
+                           {corner.x + 1.5f * width, corner.y + height + em + foot}, colour::overlay, 0.4f * em);
   const auto draw_text = [&](const std::string& text, float right, float middle) {
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
     draw_list->AddText({right - extent.x, middle - extent.y / 2}, colour::on_dark, text.c_str());
   };
   draw_bar(corner, width, height, colour_at);
   if (!title.empty()) draw_text(title, corner.x + width, corner.y - head);
-  for (const auto& [position, text] : marks) draw_text(text, corner.x - 0.4f * em, corner.y + height * static_cast<float>(1 - position));
+  for (const auto& [position, text] : marks)
+    draw_text(text, corner.x - 0.4f * em, corner.y + height * static_cast<float>(1 - position));
   float y = corner.y + height + em;
   for (const auto& [colour, text] : keys) {
     draw_list->AddRectFilled({corner.x, y - 0.4f * em}, {corner.x + width, y + 0.4f * em}, opaque(colour));
@@ -243,8 +235,7 @@ void draw_scale(const Canvas& canvas, const std::string& title, std::span<const 
 
 } // namespace
 
-void go_to_bookmark(const Context& context, std::size_t index)
-{
+void go_to_bookmark(const Context& context, std::size_t index) {
   const auto& [name, bookmarked] = context.view_state.bookmarks.at(index);
   const preset::Camera& now = context.preset()->scene.camera;
   preset::Camera camera = bookmarked;
@@ -252,8 +243,7 @@ void go_to_bookmark(const Context& context, std::size_t index)
   if (camera != now) context.edit("go to " + name, [&](preset::Preset& p) { p.scene.camera = camera; });
 }
 
-void draw_view_bar(const Context& context, const Tone& tone, WidgetPlaces& places)
-{
+void draw_view_bar(const Context& context, const Tone& tone, WidgetPlaces& places) {
   draw_label("Layer");
   draw_layer_choice(context, places);
   ImGui::SameLine(0, ImGui::GetFontSize());
@@ -266,8 +256,7 @@ void draw_view_bar(const Context& context, const Tone& tone, WidgetPlaces& place
   draw_range_choice(context, tone.range, places);
 }
 
-std::string metrics_as_text(const Context& context)
-{
+std::string metrics_as_text(const Context& context) {
   const Comparing& comparing = context.comparing;
   const auto quick = comparing.metrics(), full = comparing.all_metrics();
   if (!quick || !quick->error.empty()) return quick ? quick->error : std::string();
@@ -275,20 +264,25 @@ std::string metrics_as_text(const Context& context)
     const PinnedRun* pinned = comparing.pinned().find(pin);
     return pinned && !pinned->read_as.empty() ? fmt::format("{} ({})", name, pinned->read_as) : name;
   };
-  std::string text = fmt::format("{} to {}; linear sRGB, 1 is white\n", described(comparing.name(), comparing.comparison().shown),
-                                 described(comparing.other_name(), comparing.comparison().pin));
+  std::string text =
+      fmt::format("{} to {}; linear sRGB, 1 is white\n", described(comparing.name(), comparing.comparison().shown),
+                  described(comparing.other_name(), comparing.comparison().pin));
   for (const measure::Metric& metric : measure::all_metrics()) {
     const bool is_quick = metric.kind != measure::Metric::Kind::perceptual;
-    const double value = is_quick ? metric.of(quick->metrics) : full && full->error.empty() ? metric.of(full->metrics) : NAN;
-    text += fmt::format("{}\t{}\t{}\n", metric.name, std::isfinite(value) ? fmt::format("{:.6g}", value) : "-", metric.meaning);
+    const double value = is_quick                      ? metric.of(quick->metrics)
+                         : full && full->error.empty() ? metric.of(full->metrics)
+                                                       : NAN;
+    text += fmt::format("{}\t{}\t{}\n", metric.name, std::isfinite(value) ? fmt::format("{:.6g}", value) : "-",
+                        metric.meaning);
   }
   return text;
 }
 
-const char* metric_name(Metric metric) { return std::ranges::find(metric_names, metric, &std::pair<Metric, const char*>::first)->second; }
+const char* metric_name(Metric metric) {
+  return std::ranges::find(metric_names, metric, &std::pair<Metric, const char*>::first)->second;
+}
 
-void draw_comparison_bar(const Context& context, WidgetPlaces& places)
-{
+void draw_comparison_bar(const Context& context, WidgetPlaces& places) {
   const Comparison& comparison = context.comparing.comparison();
   draw_label("Compare");
   if (!context.comparing.pinned().all().empty()) {
@@ -299,7 +293,8 @@ void draw_comparison_bar(const Context& context, WidgetPlaces& places)
   draw_other_choice(context, places);
   ImGui::SameLine();
   action_button("Flip", context);
-  for (const char* name : {"Difference", "Split", "Side by side"}) draw_toggle(name, action(name).checked(context), context);
+  for (const char* name : {"Difference", "Split", "Side by side"})
+    draw_toggle(name, action(name).checked(context), context);
   if (!comparison.difference) return;
   ImGui::SameLine();
   draw_metric_choice(context);
@@ -307,8 +302,7 @@ void draw_comparison_bar(const Context& context, WidgetPlaces& places)
   draw_range_of_difference(context);
 }
 
-void draw_metrics(const Context& context, WidgetPlaces& places)
-{
+void draw_metrics(const Context& context, WidgetPlaces& places) {
   const Comparing& comparing = context.comparing;
   if (!comparing.comparison().measures()) return;
   const auto quick = comparing.metrics(), full = comparing.all_metrics();
@@ -320,16 +314,16 @@ void draw_metrics(const Context& context, WidgetPlaces& places)
   else if (!quick->error.empty())
     line = "Not measured: " + quick->error;
   else
-    line = fmt::format("rel_l2 {:.3g}   CIELAB {:.3g}   FLIP {}   of {} to {}", quick->metrics.rel_l2, quick->metrics.lab_mean,
-                       full && full->metrics.flip ? fmt::format("{:.3g}", *full->metrics.flip) : "...", comparing.name(),
-                       comparing.other_name());
+    line = fmt::format("rel_l2 {:.3g}   CIELAB {:.3g}   FLIP {}   of {} to {}", quick->metrics.rel_l2,
+                       quick->metrics.lab_mean,
+                       full && full->metrics.flip ? fmt::format("{:.3g}", *full->metrics.flip) : "...",
+                       comparing.name(), comparing.other_name());
   draw_text(colour::quiet_text, line);
   places.note("metrics");
   if (quick && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", metrics_as_text(context).c_str());
 }
 
-void draw_selection_bar(const Context& context, WidgetPlaces& places)
-{
+void draw_selection_bar(const Context& context, WidgetPlaces& places) {
   if (!context.preset() || !has_scene(*context.preset())) return;
   draw_label("Selected");
   draw_selected_choice(context, places);
@@ -344,8 +338,7 @@ void draw_selection_bar(const Context& context, WidgetPlaces& places)
   ImGui::EndPopup();
 }
 
-void draw_overlay(const ImVec2& at, const std::string& text)
-{
+void draw_overlay(const ImVec2& at, const std::string& text) {
   const float pad = ImGui::GetFontSize() * 0.4f;
   const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
@@ -353,21 +346,22 @@ void draw_overlay(const ImVec2& at, const std::string& text)
   draw_list->AddText({at.x + pad, at.y + pad}, colour::on_dark, text.c_str());
 }
 
-void draw_luminance_scale(const LuminanceRange& range, const Canvas& canvas)
-{
+void draw_luminance_scale(const LuminanceRange& range, const Canvas& canvas) {
   const double low = std::log10(range.low), high = std::log10(range.high);
   std::vector<ScaleMark> marks{{0, fmt::format("{:.3g}", range.low)}, {1, fmt::format("{:.3g}", range.high)}};
-  for (int decade = static_cast<int>(std::ceil(low)); decade <= high; ++decade) // numbers that would touch the ends are left out
+  for (int decade = static_cast<int>(std::ceil(low)); decade <= high;
+       ++decade) // numbers that would touch the ends are left out
     if (const double position = (decade - low) / (high - low); position > 0.06 && position < 0.94)
       marks.emplace_back(position, fmt::format("{:.3g}", std::pow(10.0, decade)));
   if (marks.size() > 12) marks.resize(2);
-  const std::array keys{ScaleKey{negative_colour, "negative"}, ScaleKey{infinite_colour, "infinite"}, ScaleKey{nan_colour, "NaN"}};
+  const std::array keys{ScaleKey{negative_colour, "negative"}, ScaleKey{infinite_colour, "infinite"},
+                        ScaleKey{nan_colour, "NaN"}};
   draw_scale(
-      canvas, "W/m2/sr", marks, [](float position) { return measure::map_colour(static_cast<double>(position)); }, keys);
+      canvas, "W/m2/sr", marks, [](float position) { return measure::map_colour(static_cast<double>(position)); },
+      keys);
 }
 
-void draw_difference_scale(const ShownDifference& map, const Canvas& canvas)
-{
+void draw_difference_scale(const ShownDifference& map, const Canvas& canvas) {
   const bool is_signed = measure::is_signed(map.of.metric);
   constexpr int numbers = 5;
   std::vector<ScaleMark> marks;
@@ -375,7 +369,8 @@ void draw_difference_scale(const ShownDifference& map, const Canvas& canvas)
     const double position = static_cast<double>(i) / (numbers - 1);
     marks.emplace_back(position, fmt::format("{:.3g}", map.scale * (is_signed ? 2 * position - 1 : position)));
   }
-  draw_scale(canvas, "", marks, [&](float position) { return measure::map_colour(static_cast<double>(position), is_signed); });
+  draw_scale(canvas, "", marks,
+             [&](float position) { return measure::map_colour(static_cast<double>(position), is_signed); });
 }
 
 } // namespace nephroid::ui

@@ -26,15 +26,13 @@ constexpr float handle_em = 6; ///< the length of an arrow, in font sizes
 constexpr float farthest = 50; ///< a drag ends there, in distances from the camera
 
 /// ImGuizmo's state is one for the program: nothing is held any more.
-void let_go()
-{
+void let_go() {
   ImGuizmo::Enable(false);
   ImGuizmo::Enable(true);
 }
 
 /// How far one orientation is turned from another about an axis, counter-clockwise.
-double degrees_about(const glm::dvec3& axis, const glm::mat4& now, const glm::dmat3& start)
-{
+double degrees_about(const glm::dvec3& axis, const glm::mat4& now, const glm::dmat3& start) {
   glm::dmat3 turned(now);
   for (int i = 0; i < 3; ++i) turned[i] = glm::normalize(turned[i]);
   const glm::dmat3 r = turned * glm::transpose(start);
@@ -42,27 +40,30 @@ double degrees_about(const glm::dvec3& axis, const glm::mat4& now, const glm::dm
   return glm::degrees(std::atan2(glm::dot(axis, sine), 0.5 * (r[0][0] + r[1][1] + r[2][2] - 1)));
 }
 
-/// How many times as far from the middle of the handles the mouse is as where it took hold, along an axis as it lies in the picture; for
-/// all axes at once: a pixel to the right is a hundredth. (ImGuizmo asks where the mouse meets a plane, and there is no such place where
-/// that is seen from its edge.)
-glm::dvec3 factors_of(const GizmoFrame& frame, const glm::dmat3& axes, int handle, const Point& from, const Point& now, double step)
-{
+/// How many times as far from the middle of the handles the mouse is as where it took hold, along an axis as it lies in
+/// the picture; for all axes at once: a pixel to the right is a hundredth. (ImGuizmo asks where the mouse meets a
+/// plane, and there is no such place where that is seen from its edge.)
+glm::dvec3 factors_of(const GizmoFrame& frame, const glm::dmat3& axes, int handle, const Point& from, const Point& now,
+                      double step) {
   constexpr double smallest = 0.01;
-  const auto stepped = [&](double factor) { return std::max(step > 0 ? step * std::round(factor / step) : factor, smallest); };
+  const auto stepped = [&](double factor) {
+    return std::max(step > 0 ? step * std::round(factor / step) : factor, smallest);
+  };
   if (handle == ImGuizmo::MT_SCALE_XYZ) return glm::dvec3(stepped(1 + (now[0] - from[0]) / (100 * scale())));
   const int axis = handle - ImGuizmo::MT_SCALE_X;
-  const auto middle = frame.pinhole.to_screen(frame.base), beside = frame.pinhole.to_screen(frame.base + 0.01 * frame.unit * axes[axis]);
+  const auto middle = frame.pinhole.to_screen(frame.base),
+             beside = frame.pinhole.to_screen(frame.base + 0.01 * frame.unit * axes[axis]);
   glm::dvec3 factors(1);
   if (!middle || !beside) return factors;
   const auto along = [&](const Point& p) {
-    return ((*beside)[0] - (*middle)[0]) * (p[0] - (*middle)[0]) + ((*beside)[1] - (*middle)[1]) * (p[1] - (*middle)[1]);
+    return ((*beside)[0] - (*middle)[0]) * (p[0] - (*middle)[0]) +
+           ((*beside)[1] - (*middle)[1]) * (p[1] - (*middle)[1]);
   };
   if (const double start = along(from); start != 0) factors[axis] = stepped(along(now) / start);
   return factors;
 }
 
-ImGuizmo::OPERATION operation(Tool tool, const GizmoTarget& grip)
-{
+ImGuizmo::OPERATION operation(Tool tool, const GizmoTarget& grip) {
   if (tool == Tool::move) return ImGuizmo::TRANSLATE;
   if (tool == Tool::turn) return ImGuizmo::ROTATE;
   constexpr ImGuizmo::OPERATION along[] = {ImGuizmo::SCALE_X, ImGuizmo::SCALE_Y, ImGuizmo::SCALE_Z};
@@ -72,22 +73,21 @@ ImGuizmo::OPERATION operation(Tool tool, const GizmoTarget& grip)
   return static_cast<ImGuizmo::OPERATION>(all);
 }
 
-glm::vec3 snap_steps(Tool tool, double unit)
-{
+glm::vec3 snap_steps(Tool tool, double unit) {
   const double step = tool == Tool::move ? snap_step(unit) / unit : tool == Tool::turn ? snap_deg : snap_factor;
   return glm::vec3(step);
 }
 
 /// For the frame. Numbers are drawn here: ImGuizmo's would be in the frame's units.
-void prepare(const Canvas& canvas)
-{
+void prepare(const Canvas& canvas) {
   ImGuizmo::BeginFrame();
   ImGuizmo::SetDrawlist();
   ImGuizmo::SetOrthographic(false);
   ImGuizmo::AllowAxisFlip(false);
   const auto [x, y] = canvas.corner;
   const auto [width, height] = canvas.size;
-  ImGuizmo::SetRect(static_cast<float>(x), static_cast<float>(y), static_cast<float>(width), static_cast<float>(height));
+  ImGuizmo::SetRect(static_cast<float>(x), static_cast<float>(y), static_cast<float>(width),
+                    static_cast<float>(height));
   ImGuizmo::SetGizmoSizeClipSpace(2 * handle_em * ImGui::GetFontSize() / static_cast<float>(std::max(width, height)));
   // The mouse may leave the View's window while it drags.
   ImGuizmo::SetAlternativeWindow(ImGuizmo::IsUsingAny() ? ImGui::GetCurrentContext()->HoveredWindow : nullptr);
@@ -112,8 +112,7 @@ constexpr ImU32 lamp = IM_COL32(255, 214, 102, 255), marked = IM_COL32(255, 150,
 constexpr float icon_radius = 6, grab_radius = 10; ///< pixels at scale 1
 
 /// A line of the scene, as far as it is before the camera. Dark below, so that it is seen on any colour.
-void draw_line(const Pinhole& pinhole, glm::dvec3 a, glm::dvec3 b, ImU32 colour)
-{
+void draw_line(const Pinhole& pinhole, glm::dvec3 a, glm::dvec3 b, ImU32 colour) {
   const double from = pinhole.depth(a), to = pinhole.depth(b), nearest = 1e-3 * std::max(std::abs(from), std::abs(to));
   if (!(std::max(from, to) > nearest)) return;
   if (from < nearest) a += (nearest - from) / (to - from) * (b - a);
@@ -126,8 +125,7 @@ void draw_line(const Pinhole& pinhole, glm::dvec3 a, glm::dvec3 b, ImU32 colour)
 }
 
 /// The edges of a parallelepiped from its middle by three half edges.
-void draw_box(const Pinhole& pinhole, const glm::dvec3& middle, const glm::dmat3& half, ImU32 colour)
-{
+void draw_box(const Pinhole& pinhole, const glm::dvec3& middle, const glm::dmat3& half, ImU32 colour) {
   const auto corner = [&](unsigned bits) {
     glm::dvec3 p = middle;
     for (int axis = 0; axis < 3; ++axis) p += (bits >> axis & 1 ? 1.0 : -1.0) * half[axis];
@@ -138,8 +136,7 @@ void draw_box(const Pinhole& pinhole, const glm::dvec3& middle, const glm::dmat3
       if (!(bits >> axis & 1)) draw_line(pinhole, corner(bits), corner(bits | 1U << axis), colour);
 }
 
-void draw_object_box(const Context& context, const Pinhole& pinhole, std::size_t index)
-{
+void draw_object_box(const Context& context, const Pinhole& pinhole, std::size_t index) {
   const auto box = local_box(context.run.scene_facts().view.get(), *context.preset(), index);
   if (!box) return;
   const preset::Transform& transform = context.preset()->scene.objects[index].transform;
@@ -150,8 +147,7 @@ void draw_object_box(const Context& context, const Pinhole& pinhole, std::size_t
 }
 
 /// An area light's rectangle; the way that the light of the others goes; a disc where it is.
-void draw_light(const Context& context, const Pinhole& pinhole, std::size_t index, bool selected)
-{
+void draw_light(const Context& context, const Pinhole& pinhole, std::size_t index, bool selected) {
   const preset::Preset& preset = *context.preset();
   const preset::Light& light = preset.scene.lights[index];
   const GizmoTarget grip = *grip_of(preset, {Selection::Kind::light, index}, nullptr);
@@ -160,7 +156,8 @@ void draw_light(const Context& context, const Pinhole& pinhole, std::size_t inde
   const ImU32 colour = selected ? marked : lamp;
   const double em = 2 * pinhole.depth(grip.at) * pinhole.tan_x / pinhole.size[0] * ImGui::GetFontSize();
   if (light.type == LightType::area)
-    draw_box(pinhole, grip.at, {0.5 * light.size[0] * grip.axes[0], 0.5 * light.size[1] * grip.axes[1], glm::dvec3(0)}, colour);
+    draw_box(pinhole, grip.at, {0.5 * light.size[0] * grip.axes[0], 0.5 * light.size[1] * grip.axes[1], glm::dvec3(0)},
+             colour);
   if (light.type != LightType::point) draw_line(pinhole, grip.at, grip.at + 2.5 * em * grip.axes[2], colour);
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   const float radius = icon_radius * scale();
@@ -171,14 +168,12 @@ void draw_light(const Context& context, const Pinhole& pinhole, std::size_t inde
 
 } // namespace
 
-glm::mat4 view_matrix(const GizmoFrame& frame)
-{
+glm::mat4 view_matrix(const GizmoFrame& frame) {
   const glm::dvec3 eye = (frame.pinhole.position - frame.base) / frame.unit;
   return glm::lookAt(eye, eye + frame.pinhole.forward, frame.pinhole.up);
 }
 
-glm::mat4 projection_matrix(const Pinhole& pinhole, const Canvas& canvas)
-{
+glm::mat4 projection_matrix(const Pinhole& pinhole, const Canvas& canvas) {
   constexpr double near = 0.05, far = 10; // in the frame's units; nothing is cut off there
   // The canvas' edges in the picture, from -1 to 1, y down on the screen.
   const auto edge = [&](std::size_t i, double part) {
@@ -190,13 +185,13 @@ glm::mat4 projection_matrix(const Pinhole& pinhole, const Canvas& canvas)
 
 Gizmo::Gizmo() { let_go(); }
 
-void Gizmo::draw(const Context& context, const Pinhole& pinhole, const Canvas& canvas, bool hovered)
-{
+void Gizmo::draw(const Context& context, const Pinhole& pinhole, const Canvas& canvas, bool hovered) {
   prepare(canvas);
   places_.reset();
   const Selection selection = context.selection();
   if (drag_ && (drag_->selection != selection || !context.view_state.handles.shown)) end_drag(context);
-  const auto grip = context.preset() ? grip_of(*context.preset(), selection, context.run.scene_facts().view.get()) : std::nullopt;
+  const auto grip =
+      context.preset() ? grip_of(*context.preset(), selection, context.run.scene_facts().view.get()) : std::nullopt;
   if (!grip || !context.view_state.handles.shown) return;
   const Handles& handles = context.view_state.handles;
   const GizmoFrame frame = drag_ ? drag_->frame : GizmoFrame{pinhole, grip->at, pinhole.depth(grip->at)};
@@ -218,8 +213,9 @@ void Gizmo::draw(const Context& context, const Pinhole& pinhole, const Canvas& c
   note_places(frame, own_axes ? grip->axes : glm::dmat3(1));
   if (!drag_ && ImGuizmo::IsUsing()) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    drag_ = Drag{*context.preset(), *context.preset(), selection, *grip, frame, tool, own_axes, ImGuizmo::GetActiveHandleType(),
-                 {mouse.x, mouse.y}};
+    drag_ = Drag{
+        *context.preset(), *context.preset(), selection, *grip, frame, tool, own_axes, ImGuizmo::GetActiveHandleType(),
+        {mouse.x, mouse.y}};
     drag_->matrix = matrix;
     gestures_.begin();
   }
@@ -231,21 +227,18 @@ void Gizmo::draw(const Context& context, const Pinhole& pinhole, const Canvas& c
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) end_drag(context);
 }
 
-void Gizmo::rest(const Context& context)
-{
+void Gizmo::rest(const Context& context) {
   places_.reset();
   if (drag_) end_drag(context);
 }
 
-void Gizmo::end_drag(const Context& context)
-{
+void Gizmo::end_drag(const Context& context) {
   if (ImGuizmo::IsUsingAny()) let_go();
   drag_.reset();
   context.push(command::EndGesture{});
 }
 
-void Gizmo::follow(const Context& context, const glm::mat4& matrix)
-{
+void Gizmo::follow(const Context& context, const glm::mat4& matrix) {
   // Near the horizon of a plane a pixel is any length, and beyond it there is no place.
   if (drag_->tool != Tool::scale) {
     const std::span values(glm::value_ptr(matrix), 16);
@@ -257,13 +250,12 @@ void Gizmo::follow(const Context& context, const glm::mat4& matrix)
   if (edited.scene == drag_->newest.scene || !make_pinhole(edited.scene.camera, {}, {1, 1})) return;
   drag_->newest = edited;
   drag_->text = std::move(text);
-  context.push(command::Edit{fmt::format("{} {}", verb(drag_->tool), name_of(edited, drag_->selection)), std::move(edited),
-                             gestures_.number(), true});
+  context.push(command::Edit{fmt::format("{} {}", verb(drag_->tool), name_of(edited, drag_->selection)),
+                             std::move(edited), gestures_.number(), true});
 }
 
 /// Changes the preset of the drag's start; returns what that is in words.
-std::string Gizmo::edit(preset::Preset& edited, const glm::mat4& matrix) const
-{
+std::string Gizmo::edit(preset::Preset& edited, const glm::mat4& matrix) const {
   const Drag& d = *drag_;
   switch (d.tool) {
   case Tool::move: {
@@ -275,22 +267,23 @@ std::string Gizmo::edit(preset::Preset& edited, const glm::mat4& matrix) const
   }
   case Tool::turn: {
     const int which = d.handle - ImGuizmo::MT_ROTATE_X;
-    const glm::dvec3 axis = which == 3 ? -d.frame.pinhole.forward : d.own_axes ? d.grip.axes[which] : glm::dmat3(1)[which];
+    const glm::dvec3 axis = which == 3   ? -d.frame.pinhole.forward
+                            : d.own_axes ? d.grip.axes[which]
+                                         : glm::dmat3(1)[which];
     const double degrees = std::round(10 * degrees_about(axis, matrix, d.grip.axes)) / 10;
     turn(edited, d.selection, d.grip, axis, degrees);
     return fmt::format("{:+.1f} degrees", degrees);
   }
-  case Tool::scale:
-    break;
+  case Tool::scale: break;
   }
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const glm::dvec3 factors = factors_of(d.frame, d.grip.axes, d.handle, d.from, {mouse.x, mouse.y}, d.snaps ? snap_factor : 0);
+  const glm::dvec3 factors =
+      factors_of(d.frame, d.grip.axes, d.handle, d.from, {mouse.x, mouse.y}, d.snaps ? snap_factor : 0);
   stretch(edited, d.selection, d.grip, factors);
   return fmt::format("times {:.3f}, {:.3f}, {:.3f}", factors.x, factors.y, factors.z);
 }
 
-void Gizmo::note_places(const GizmoFrame& frame, const glm::dmat3& axes)
-{
+void Gizmo::note_places(const GizmoFrame& frame, const glm::dmat3& axes) {
   const glm::dvec3 middle = drag_ ? frame.base + frame.unit * glm::dvec3(drag_->matrix[3]) : frame.base;
   const double pixel = 2 * frame.unit * frame.pinhole.tan_x / frame.pinhole.size[0];
   const double length = handle_em * ImGui::GetFontSize() * pixel;
@@ -301,17 +294,16 @@ void Gizmo::note_places(const GizmoFrame& frame, const glm::dmat3& axes)
   places_ = places;
 }
 
-std::optional<Point> SceneOverlay::icon(const Context& context, std::size_t light) const
-{
+std::optional<Point> SceneOverlay::icon(const Context& context, std::size_t light) const {
   const auto grip = pinhole_ ? grip_of(*context.preset(), {Selection::Kind::light, light}, nullptr) : std::nullopt;
   return grip ? pinhole_->to_screen(grip->at) : std::nullopt;
 }
 
-void SceneOverlay::draw(const Context& context, const Canvas& canvas, const std::array<int, 2>& picture, bool hovered)
-{
+void SceneOverlay::draw(const Context& context, const Canvas& canvas, const std::array<int, 2>& picture, bool hovered) {
   const preset::Preset* preset = context.preset();
   pinhole_.reset();
-  if (preset && has_scene(*preset)) pinhole_ = make_pinhole(preset->scene.camera, place(context.view_state.view_settings, canvas, picture), picture);
+  if (preset && has_scene(*preset))
+    pinhole_ = make_pinhole(preset->scene.camera, place(context.view_state.view_settings, canvas, picture), picture);
   const Selection selection = context.selection();
   const Comparison& comparison = context.comparing.comparison();
   const bool other_picture = comparison.flip || comparison.shown != 0; // nothing over that: one looks at it to compare
@@ -326,8 +318,7 @@ void SceneOverlay::draw(const Context& context, const Canvas& canvas, const std:
     gizmo_.rest(context);
 }
 
-void SceneOverlay::click(const Context& context, const Point& at) const
-{
+void SceneOverlay::click(const Context& context, const Point& at) const {
   if (!pinhole_ || !context.view_state.handles.shown) return;
   Selection selection;
   double nearest = grab_radius * scale();
@@ -342,7 +333,8 @@ void SceneOverlay::click(const Context& context, const Point& at) const
     const auto seen = context.run.scene_facts().view;
     if (!seen) return; // no run of the preset was ready yet: nobody knows what is there
     const Ray ray = pinhole_->ray(at);
-    const bool inside = at[0] >= pinhole_->corner[0] && at[1] >= pinhole_->corner[1] && at[0] < pinhole_->corner[0] + pinhole_->size[0] &&
+    const bool inside = at[0] >= pinhole_->corner[0] && at[1] >= pinhole_->corner[1] &&
+                        at[0] < pinhole_->corner[0] + pinhole_->size[0] &&
                         at[1] < pinhole_->corner[1] + pinhole_->size[1];
     if (const auto object = inside ? object_at(*seen, *context.preset(), ray) : std::nullopt)
       selection = {Selection::Kind::object, *object};

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The handles on what is selected: ImGuizmo drawn over the picture with the camera's own projection, and what a drag of one of them does to
-// the preset. What is edited is worked out in double precision from the start of the drag; ImGuizmo only says how far it went. And all that
-// the View draws of the scene over its picture, and what a click there selects.
+// The handles on what is selected: ImGuizmo drawn over the picture with the camera's own projection, and what a drag of
+// one of them does to the preset. What is edited is worked out in double precision from the start of the drag; ImGuizmo
+// only says how far it went. And all that the View draws of the scene over its picture, and what a click there selects.
 #pragma once
 #include "ui/state/context.h"
 #include "ui/view/gizmo_edits.h"
-#include "ui/view/placement.h"
 #include "ui/view/pinhole.h"
+#include "ui/view/placement.h"
 #include "ui/widgets/widgets.h"
 
 namespace nephroid::ui {
 
-/// What ImGuizmo calculates in: single precision, so lengths are in distances from the camera, and places from the middle of the handles.
+/// What ImGuizmo calculates in: single precision, so lengths are in distances from the camera, and places from the
+/// middle of the handles.
 struct GizmoFrame {
   Pinhole pinhole;
   glm::dvec3 base{0}; ///< the frame's origin
@@ -30,8 +31,8 @@ public:
   void rest(const Context& context);
   /// Whether a handle is being dragged, so that the mouse means nothing else.
   bool has_mouse() const { return drag_.has_value(); }
-  /// For tests: the middle of the handles and the tips of the three arrows, or of what they are when turning and scaling, where they were
-  /// drawn last; nothing where there are none.
+  /// For tests: the middle of the handles and the tips of the three arrows, or of what they are when turning and
+  /// scaling, where they were drawn last; nothing where there are none.
   const std::optional<std::array<Point, 4>>& places() const { return places_; }
 
 private:

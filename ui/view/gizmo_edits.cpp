@@ -15,30 +15,27 @@ namespace {
 using Kind = Selection::Kind;
 using LightType = preset::Light::Type;
 
-preset::Vec3 rounded_vector(const glm::dvec3& v, int decimals)
-{
+preset::Vec3 rounded_vector(const glm::dvec3& v, int decimals) {
   return {rounded(v.x, decimals), rounded(v.y, decimals), rounded(v.z, decimals)};
 }
 
-glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& otherwise)
-{
+glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& otherwise) {
   const double length = glm::length(v);
   return length > 0 && std::isfinite(length) ? v / length : otherwise;
 }
 
 /// Of a light: the third axis is the way its light goes, the first two are an area light's edges.
-glm::dmat3 light_axes(const preset::Light& light)
-{
+glm::dmat3 light_axes(const preset::Light& light) {
   const glm::dvec3 along = unit_or(to_vector(light.direction), {0, -1, 0});
   const glm::dvec3 wanted = to_vector(light.up);
   const glm::dvec3 other = std::abs(along.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
-  const glm::dvec3 up = unit_or(wanted - glm::dot(wanted, along) * along, unit_or(other - glm::dot(other, along) * along, other));
+  const glm::dvec3 up =
+      unit_or(wanted - glm::dot(wanted, along) * along, unit_or(other - glm::dot(other, along) * along, other));
   return {glm::cross(up, along), up, along};
 }
 
 /// A directional light has no place. It is shown before the camera's target, so far away that its arrow is in sight.
-glm::dvec3 light_place(const preset::Preset& preset, const preset::Light& light)
-{
+glm::dvec3 light_place(const preset::Preset& preset, const preset::Light& light) {
   if (light.type != LightType::directional) return to_vector(light.position);
   const preset::Camera& camera = preset.scene.camera;
   const double distance = glm::length(to_vector(camera.target) - to_vector(camera.position));
@@ -46,8 +43,7 @@ glm::dvec3 light_place(const preset::Preset& preset, const preset::Light& light)
   return to_vector(camera.target) - reach * unit_or(to_vector(light.direction), {0, -1, 0});
 }
 
-GizmoTarget light_grip(const preset::Preset& preset, const preset::Light& light)
-{
+GizmoTarget light_grip(const preset::Preset& preset, const preset::Light& light) {
   GizmoTarget grip;
   grip.at = light_place(preset, light);
   grip.moves = light.type != LightType::directional;
@@ -57,19 +53,16 @@ GizmoTarget light_grip(const preset::Preset& preset, const preset::Light& light)
   return grip;
 }
 
-glm::dvec3 scaled(const preset::Transform& transform, const glm::dvec3& p)
-{
+glm::dvec3 scaled(const preset::Transform& transform, const glm::dvec3& p) {
   return scene::rotation(transform.rotate_deg) * (to_vector(transform.scale) * p);
 }
 
-glm::dmat3 about(const glm::dvec3& axis, double degrees)
-{
+glm::dmat3 about(const glm::dvec3& axis, double degrees) {
   return glm::dmat3(glm::rotate(glm::dmat4(1), degrees * std::numbers::pi / 180, axis));
 }
 
 /// After a change of `object`, moved so that its pivot is where it was.
-void keep_pivot(preset::Transform& transform, const glm::dvec3& pivot, const glm::dvec3& place)
-{
+void keep_pivot(preset::Transform& transform, const glm::dvec3& pivot, const glm::dvec3& place) {
   if (pivot == glm::dvec3(0)) return;
   transform.translate = to_stored(place - scaled(transform, pivot));
 }
@@ -77,9 +70,9 @@ void keep_pivot(preset::Transform& transform, const glm::dvec3& pivot, const glm
 /// The one of a number of turns by 360 degrees that is nearest.
 double nearest_turn(double degrees, double near) { return degrees + 360 * std::round((near - degrees) / 360); }
 
-/// For each direction of the picture (right, up, away) the axis, a column, that is nearest to it, with a sign; each axis once.
-glm::dmat3 sorted_axes(const glm::dmat3& axes, const glm::dmat3& directions)
-{
+/// For each direction of the picture (right, up, away) the axis, a column, that is nearest to it, with a sign; each
+/// axis once.
+glm::dmat3 sorted_axes(const glm::dmat3& axes, const glm::dmat3& directions) {
   std::array<int, 3> order{0, 1, 2}, best = order;
   double most = -1;
   do {
@@ -99,8 +92,7 @@ glm::dmat3 sorted_axes(const glm::dmat3& axes, const glm::dmat3& directions)
 
 } // namespace
 
-std::optional<GizmoTarget> grip_of(const preset::Preset& preset, const Selection& selection, const ViewedScene* seen)
-{
+std::optional<GizmoTarget> grip_of(const preset::Preset& preset, const Selection& selection, const ViewedScene* seen) {
   switch (in_preset(selection, &preset).kind) {
   case Kind::object: {
     const preset::Transform& transform = preset.scene.objects[selection.index].transform;
@@ -112,29 +104,26 @@ std::optional<GizmoTarget> grip_of(const preset::Preset& preset, const Selection
     grip.scales = {true, true, true};
     return grip;
   }
-  case Kind::light:
-    return light_grip(preset, preset.scene.lights[selection.index]);
+  case Kind::light: return light_grip(preset, preset.scene.lights[selection.index]);
   case Kind::camera: {
     GizmoTarget grip;
     grip.at = to_vector(preset.scene.camera.target);
     return grip;
   }
-  case Kind::nothing:
-    break;
+  case Kind::nothing: break;
   }
   return std::nullopt;
 }
 
-Handles::Tool usable_tool(const GizmoTarget& grip, Handles::Tool wanted)
-{
+Handles::Tool usable_tool(const GizmoTarget& grip, Handles::Tool wanted) {
   const bool scales = std::ranges::any_of(grip.scales, [](bool b) { return b; });
   if ((wanted == Handles::Tool::turn && grip.turns) || (wanted == Handles::Tool::scale && scales)) return wanted;
   return grip.moves ? Handles::Tool::move : Handles::Tool::turn;
 }
 
-preset::Vec3 angles_of(const glm::dmat3& r, const preset::Vec3& near)
-{
-  // r = Rz(c) Ry(b) Rx(a): its first column is (cos b cos c, cos b sin c, -sin b), its last row (-sin b, cos b sin a, cos b cos a).
+preset::Vec3 angles_of(const glm::dmat3& r, const preset::Vec3& near) {
+  // r = Rz(c) Ry(b) Rx(a): its first column is (cos b cos c, cos b sin c, -sin b), its last row (-sin b, cos b sin a,
+  // cos b cos a).
   const double cos_b = std::hypot(r[0][0], r[0][1]);
   std::array<glm::dvec3, 2> solutions;
   if (cos_b > 1e-9) {
@@ -163,12 +152,12 @@ preset::Vec3 angles_of(const glm::dmat3& r, const preset::Vec3& near)
   return best;
 }
 
-void move(preset::Preset& preset, const Selection& selection, const glm::dvec3& by, int decimals)
-{
+void move(preset::Preset& preset, const Selection& selection, const glm::dvec3& by, int decimals) {
   const double least = 0.5 * std::pow(10.0, -decimals);
   const auto shift = [&](preset::Vec3& place) {
     for (std::size_t i = 0; i < 3; ++i)
-      if (const double step = by[static_cast<int>(i)]; std::abs(step) >= least) place[i] = rounded(place[i] + step, decimals);
+      if (const double step = by[static_cast<int>(i)]; std::abs(step) >= least)
+        place[i] = rounded(place[i] + step, decimals);
   };
   preset::Scene& scene = preset.scene;
   if (selection.kind == Kind::object) shift(scene.objects[selection.index].transform.translate);
@@ -176,8 +165,8 @@ void move(preset::Preset& preset, const Selection& selection, const glm::dvec3& 
   if (selection.kind == Kind::camera) shift(scene.camera.target);
 }
 
-void turn(preset::Preset& preset, const Selection& selection, const GizmoTarget& grip, const glm::dvec3& axis, double degrees)
-{
+void turn(preset::Preset& preset, const Selection& selection, const GizmoTarget& grip, const glm::dvec3& axis,
+          double degrees) {
   if (degrees == 0) return;
   const glm::dmat3 rotation = about(axis, degrees);
   if (selection.kind == Kind::object) {
@@ -191,8 +180,7 @@ void turn(preset::Preset& preset, const Selection& selection, const GizmoTarget&
   }
 }
 
-void stretch(preset::Preset& preset, const Selection& selection, const GizmoTarget& grip, const glm::dvec3& factors)
-{
+void stretch(preset::Preset& preset, const Selection& selection, const GizmoTarget& grip, const glm::dvec3& factors) {
   const auto multiply = [](double& value, double factor) {
     if (factor != 1) value = with_digits(value * factor, 4);
   };
@@ -206,8 +194,7 @@ void stretch(preset::Preset& preset, const Selection& selection, const GizmoTarg
   }
 }
 
-double snap_step(double depth)
-{
+double snap_step(double depth) {
   const double wanted = depth / 20, power = std::pow(10.0, std::floor(std::log10(wanted)));
   return (wanted >= 5 * power ? 5 : wanted >= 2 * power ? 2 : 1) * power;
 }
@@ -215,14 +202,16 @@ double snap_step(double depth)
 int decimals_for(double depth) { return static_cast<int>(std::ceil(-std::log10(depth * 1e-4))); }
 
 std::optional<preset::Preset> nudged(const preset::Preset& preset, const Selection& selection, const Handles& handles,
-                                     const ViewedScene* seen, Nudge nudge)
-{
+                                     const ViewedScene* seen, Nudge nudge) {
   const auto grip = grip_of(preset, selection, seen);
   const auto pinhole = make_pinhole(preset.scene.camera, {}, {1, 1});
   if (!grip || !pinhole) return std::nullopt;
   const bool forth = nudge == Nudge::right || nudge == Nudge::up || nudge == Nudge::away;
-  const int direction = nudge == Nudge::left || nudge == Nudge::right ? 0 : nudge == Nudge::up || nudge == Nudge::down ? 1 : 2;
-  const glm::dmat3 axes = sorted_axes(handles.own_axes ? grip->axes : glm::dmat3(1), {pinhole->right, pinhole->up, pinhole->forward});
+  const int direction = nudge == Nudge::left || nudge == Nudge::right ? 0
+                        : nudge == Nudge::up || nudge == Nudge::down  ? 1
+                                                                      : 2;
+  const glm::dmat3 axes =
+      sorted_axes(handles.own_axes ? grip->axes : glm::dmat3(1), {pinhole->right, pinhole->up, pinhole->forward});
   preset::Preset edited = preset;
   switch (usable_tool(*grip, handles.tool)) {
   case Handles::Tool::move: {
@@ -233,7 +222,8 @@ std::optional<preset::Preset> nudged(const preset::Preset& preset, const Selecti
     break;
   }
   case Handles::Tool::turn: {
-    // To the right is about the axis that is up; what is in front goes up about the one to the right; "away" turns like a clock's hand.
+    // To the right is about the axis that is up; what is in front goes up about the one to the right; "away" turns like
+    // a clock's hand.
     const double degrees = (handles.snap ? snap_deg : 1) * (forth == (direction != 1) ? 1 : -1);
     turn(edited, selection, *grip, direction == 2 ? axes[2] : axes[1 - direction], degrees);
     break;
@@ -251,8 +241,8 @@ std::optional<preset::Preset> nudged(const preset::Preset& preset, const Selecti
   return edited;
 }
 
-std::optional<preset::Camera> looking_at(const preset::Preset& preset, const Selection& selection, const ViewedScene* seen)
-{
+std::optional<preset::Camera> looking_at(const preset::Preset& preset, const Selection& selection,
+                                         const ViewedScene* seen) {
   const auto grip = grip_of(preset, selection, seen);
   if (!grip || !grip->moves || selection.kind == Kind::camera) return std::nullopt;
   preset::Camera camera = preset.scene.camera;

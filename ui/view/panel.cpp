@@ -25,19 +25,20 @@ constexpr double pixel_squares_from = 3;     ///< at this zoom and above pixels 
 Point mouse() { return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y}; }
 
 /// About pixels from `from` to before `to`, at least so many pixels of the screen large; seen on any colour.
-void draw_frame(const Placement& placement, const std::array<int, 2>& from, const std::array<int, 2>& to, ImU32 colour, double least)
-{
+void draw_frame(const Placement& placement, const std::array<int, 2>& from, const std::array<int, 2>& to, ImU32 colour,
+                double least) {
   Point low = placement.to_screen({static_cast<double>(from[0]), static_cast<double>(from[1])});
   Point high = placement.to_screen({static_cast<double>(to[0]), static_cast<double>(to[1])});
   for (std::size_t i = 0; i < 2; ++i)
     if (const double missing = least - (high[i] - low[i]); missing > 0) low[i] -= missing / 2, high[i] += missing / 2;
-  for (const auto& [margin, line] : {std::pair{2, colour::outline}, std::pair{1, colour}, std::pair{0, colour::outline}})
-    ImGui::GetWindowDrawList()->AddRect(vec({low[0] - margin, low[1] - margin}), vec({high[0] + margin, high[1] + margin}), line);
+  for (const auto& [margin, line] :
+       {std::pair{2, colour::outline}, std::pair{1, colour}, std::pair{0, colour::outline}})
+    ImGui::GetWindowDrawList()->AddRect(vec({low[0] - margin, low[1] - margin}),
+                                        vec({high[0] + margin, high[1] + margin}), line);
 }
 
 /// The pixel and the rectangle that the panel Inspector is about.
-void draw_marks(const ViewState& view_state, const Placement& placement, const std::array<int, 2>& picture)
-{
+void draw_marks(const ViewState& view_state, const Placement& placement, const std::array<int, 2>& picture) {
   if (const auto& region = view_state.region) {
     const std::array to{std::min(region->to[0], picture[0]), std::min(region->to[1], picture[1])};
     if (region->from[0] < to[0] && region->from[1] < to[1]) draw_frame(placement, region->from, to, colour::accent, 0);
@@ -47,8 +48,7 @@ void draw_marks(const ViewState& view_state, const Placement& placement, const s
 }
 
 /// What a panel shows in the picture (command::ShowLines), with a dark rim.
-void draw_lines(const Context& context, const Placement& placement, const std::array<int, 2>& picture)
-{
+void draw_lines(const Context& context, const Placement& placement, const std::array<int, 2>& picture) {
   if (context.view_state.lines.empty() || !context.preset() || !context.comparing.shows_run_alone()) return;
   const auto pinhole = make_pinhole(engine::camera_of(*context.preset()), placement, picture);
   if (!pinhole) return;
@@ -62,8 +62,7 @@ void draw_lines(const Context& context, const Placement& placement, const std::a
 
 } // namespace
 
-void ViewPanel::draw(const Context& context)
-{
+void ViewPanel::draw(const Context& context) {
   shown_ = shown_picture(context);
   beside_ = picture_beside(context);
   places_.clear();
@@ -81,7 +80,8 @@ void ViewPanel::draw(const Context& context)
   lay_out(context, area);
   ImGui::SetNextItemAllowOverlap();
   ImGui::InvisibleButton("picture", vec(area.size),
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
+                             ImGuiButtonFlags_MouseButtonRight);
   hovered_ = ImGui::IsItemHovered();
   own_keys(context);
   pressed_ = ImGui::IsItemActivated();
@@ -96,14 +96,14 @@ void ViewPanel::draw(const Context& context)
   draw_list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
   draw_pictures(context);
   if (const auto& map = context.comparing.difference(); map && map == shown_.owner) draw_difference_scale(*map, area);
-  if (!shown_.rgb.empty() && first_.tone.curve == ToneCurve::false_colour) draw_luminance_scale(first_.tone.range, area);
+  if (!shown_.rgb.empty() && first_.tone.curve == ToneCurve::false_colour)
+    draw_luminance_scale(first_.tone.range, area);
   draw_pixel_value(context, area);
   draw_list->PopClipRect();
 }
 
 /// Two pictures: in one place, of which each has the part on its side of the line, or each in a half of the area.
-void ViewPanel::lay_out(const Context& context, const Canvas& area)
-{
+void ViewPanel::lay_out(const Context& context, const Canvas& area) {
   const Comparison& comparison = context.comparing.comparison();
   canvas_ = seen_first_ = area;
   seen_second_ = {};
@@ -119,8 +119,7 @@ void ViewPanel::lay_out(const Context& context, const Canvas& area)
 }
 
 /// The line between two pictures, and the mouse on it.
-void ViewPanel::take_line(const Context& context, const Canvas& area)
-{
+void ViewPanel::take_line(const Context& context, const Canvas& area) {
   if (context.comparing.comparison().arrangement != Arrangement::split) return;
   const float reach = 0.4f * ImGui::GetFontSize(), x = static_cast<float>(seen_second_.corner[0]);
   const ImVec2 after = ImGui::GetCursorScreenPos();
@@ -137,8 +136,7 @@ void ViewPanel::take_line(const Context& context, const Canvas& area)
   ImGui::SetCursorScreenPos(after);
 }
 
-void ViewPanel::draw_toolbar(const Context& context)
-{
+void ViewPanel::draw_toolbar(const Context& context) {
   ViewSettings view_settings = context.view_settings();
   float stops = static_cast<float>(view_settings.exposure_stops);
   draw_label("Exposure");
@@ -157,12 +155,14 @@ void ViewPanel::draw_toolbar(const Context& context)
 }
 
 /// like: the tone of the picture that it is held against; null: its own.
-void ViewPanel::refresh(ToneMappedPicture& tone_mapped, const ShownPicture& shown, const ViewSettings& view_settings, double white, const Tone* like)
-{
+void ViewPanel::refresh(ToneMappedPicture& tone_mapped, const ShownPicture& shown, const ViewSettings& view_settings,
+                        double white, const Tone* like) {
   if (!shown.owner) return;
   const bool is_linear = !shown.rgb.empty();
-  const bool same_settings = view_settings.exposure_stops == tone_mapped.view_settings.exposure_stops && view_settings.tone == tone_mapped.view_settings.tone &&
-                         view_settings.false_colour == tone_mapped.view_settings.false_colour && white == tone_mapped.white && (!like || *like == tone_mapped.tone);
+  const bool same_settings = view_settings.exposure_stops == tone_mapped.view_settings.exposure_stops &&
+                             view_settings.tone == tone_mapped.view_settings.tone &&
+                             view_settings.false_colour == tone_mapped.view_settings.false_colour &&
+                             white == tone_mapped.white && (!like || *like == tone_mapped.tone);
   if (shown.owner == tone_mapped.owner && (!is_linear || same_settings)) return;
   const std::span<unsigned char> bytes = tone_mapped.texture.edit(shown.size[0], shown.size[1]);
   if (is_linear) {
@@ -175,14 +175,14 @@ void ViewPanel::refresh(ToneMappedPicture& tone_mapped, const ShownPicture& show
   tone_mapped.white = white;
 }
 
-void ViewPanel::draw_pictures(const Context& context)
-{
+void ViewPanel::draw_pictures(const Context& context) {
   const Placement first = placed(context);
   Placement second = first;
   second.origin[0] += shift_;
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   const auto within = [&](const Canvas& seen, auto draw) {
-    draw_list->PushClipRect(vec(seen.corner), vec({seen.corner[0] + seen.size[0], seen.corner[1] + seen.size[1]}), true);
+    draw_list->PushClipRect(vec(seen.corner), vec({seen.corner[0] + seen.size[0], seen.corner[1] + seen.size[1]}),
+                            true);
     draw();
     draw_list->PopClipRect();
   };
@@ -209,8 +209,8 @@ void ViewPanel::draw_pictures(const Context& context)
   });
 }
 
-void ViewPanel::draw_picture(const ShownPicture& shown, const ToneMappedPicture& tone_mapped, const Placement& placement) const
-{
+void ViewPanel::draw_picture(const ShownPicture& shown, const ToneMappedPicture& tone_mapped,
+                             const Placement& placement) const {
   if (!shown.owner) return;
   const ImVec2 from = vec(placement.to_screen({0, 0}));
   const ImVec2 to = vec(placement.to_screen({static_cast<double>(shown.size[0]), static_cast<double>(shown.size[1])}));
@@ -219,8 +219,8 @@ void ViewPanel::draw_picture(const ShownPicture& shown, const ToneMappedPicture&
 }
 
 /// What is said of a picture, and the marks of the panel Inspector.
-void ViewPanel::draw_marked(const Context& context, const ShownPicture& shown, const Canvas& seen, const Placement& placement) const
-{
+void ViewPanel::draw_marked(const Context& context, const ShownPicture& shown, const Canvas& seen,
+                            const Placement& placement) const {
   if (!shown.hint.empty()) draw_hint(colour::quiet_on_dark, vec(seen.corner), vec(seen.size), shown.hint);
   draw_marks(context.view_state, placement, shown.size);
   const double pad = 0.4 * static_cast<double>(ImGui::GetFontSize());
@@ -231,27 +231,26 @@ void ViewPanel::draw_marked(const Context& context, const ShownPicture& shown, c
 Point ViewPanel::pointer() const { return {mouse()[0] - (on_second_ ? shift_ : 0), mouse()[1]}; }
 
 /// Of the first picture or of the one beside it, which may be larger.
-std::optional<std::array<int, 2>> ViewPanel::pointed_pixel(const Context& context) const
-{
+std::optional<std::array<int, 2>> ViewPanel::pointed_pixel(const Context& context) const {
   const std::array size{std::max(shown_.size[0], beside_.size[0]), std::max(shown_.size[1], beside_.size[1])};
   return pixel_at(placed(context), size, pointer());
 }
 
 /// What the pixel under the cursor is, in the picture's lower left corner.
-void ViewPanel::draw_pixel_value(const Context& context, const Canvas& area)
-{
+void ViewPanel::draw_pixel_value(const Context& context, const Canvas& area) {
   const auto pixel = hovered_ ? pointed_pixel(context) : std::nullopt;
   pixel_value_ = pixel ? pixel_text(context, *pixel) : std::string();
   if (pixel_value_.empty()) return;
   const float pad = ImGui::GetFontSize() * 0.4f;
-  draw_overlay(vec({area.corner[0] + pad, area.corner[1] + area.size[1] - ImGui::CalcTextSize(pixel_value_.c_str()).y - 3 * pad}),
+  draw_overlay(vec({area.corner[0] + pad,
+                    area.corner[1] + area.size[1] - ImGui::CalcTextSize(pixel_value_.c_str()).y - 3 * pad}),
                pixel_value_);
 }
 
-/// Alt with the mouse on the picture opens no menu, and while a pixel is inspected or a thing is selected the arrow keys are theirs, not
-/// the keyboard's cursor's. Else they go from picture to picture, unless somebody goes from widget to widget by the keyboard.
-void ViewPanel::own_keys(const Context& context)
-{
+/// Alt with the mouse on the picture opens no menu, and while a pixel is inspected or a thing is selected the arrow
+/// keys are theirs, not the keyboard's cursor's. Else they go from picture to picture, unless somebody goes from widget
+/// to widget by the keyboard.
+void ViewPanel::own_keys(const Context& context) {
   ImGui::SetItemKeyOwner(ImGuiMod_Alt);
   if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
   if (!context.view_state.pixel && context.selection() == Selection{}) {
@@ -265,16 +264,14 @@ void ViewPanel::own_keys(const Context& context)
   for (const ImGuiKey key : {ImGuiKey_PageUp, ImGuiKey_PageDown}) ImGui::SetKeyOwner(key, ImGui::GetItemID());
 }
 
-void ViewPanel::use_mouse(const Context& context)
-{
+void ViewPanel::use_mouse(const Context& context) {
   if (!context.preset()) return;
   if (pressed_ && !overlay_.has_mouse()) start_drag(context);
   if (drag_ != Drag::none) continue_drag(context);
   if (hovered_ && ImGui::GetIO().MouseWheel != 0) use_wheel(context);
 }
 
-void ViewPanel::start_drag(const Context& context)
-{
+void ViewPanel::start_drag(const Context& context) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.KeyCtrl)
     drag_ = Drag::move_picture;
@@ -296,8 +293,7 @@ void ViewPanel::start_drag(const Context& context)
   gestures_.begin();
 }
 
-void ViewPanel::continue_drag(const Context& context)
-{
+void ViewPanel::continue_drag(const Context& context) {
   const ImVec2 step = ImGui::GetIO().MouseDelta;
   const Point delta{pointer()[0] - drag_from_[0], pointer()[1] - drag_from_[1]};
   moved_ = moved_ || std::hypot(delta[0], delta[1]) > click_trembles * scale();
@@ -319,8 +315,7 @@ void ViewPanel::continue_drag(const Context& context)
   context.push(command::EndGesture{});
 }
 
-void ViewPanel::move_camera(const Context& context, const Point& delta) const
-{
+void ViewPanel::move_camera(const Context& context, const Point& delta) const {
   const double height = placed(context).scale * shown_.size[1];
   const double across = delta[0] / height, down = delta[1] / height;
   const auto edit = [&](const char* label, const preset::Camera& camera) {
@@ -336,8 +331,7 @@ void ViewPanel::move_camera(const Context& context, const Point& delta) const
 }
 
 /// A click takes a pixel, a drag a rectangle, which follows the mouse.
-void ViewPanel::mark(const Context& context)
-{
+void ViewPanel::mark(const Context& context) {
   const Placement placement = placed(context);
   const double way = std::hypot(pointer()[0] - drag_from_[0], pointer()[1] - drag_from_[1]);
   marks_region_ = marks_region_ || way >= ImGui::GetIO().MouseDragThreshold;
@@ -347,11 +341,11 @@ void ViewPanel::mark(const Context& context)
   context.push(command::ShowPanel{"inspector"});
 }
 
-void ViewPanel::use_wheel(const Context& context)
-{
+void ViewPanel::use_wheel(const Context& context) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.KeyCtrl || context.comparing.comparison().shown != 0) {
-    context.push(command::SetViewSettings{zoomed(context.view_settings(), canvas_, shown_.size, pointer(), std::pow(notch, io.MouseWheel))});
+    context.push(command::SetViewSettings{
+        zoomed(context.view_settings(), canvas_, shown_.size, pointer(), std::pow(notch, io.MouseWheel))});
     return;
   }
   const double now = ImGui::GetTime();
@@ -359,7 +353,8 @@ void ViewPanel::use_wheel(const Context& context)
   last_wheel_s_ = now;
   const double factor = std::pow(notch, -io.MouseWheel);
   context.edit(
-      "distance of the camera", [&](preset::Preset& p) { p.scene.camera = dolly(engine::camera_of(p), factor); }, gestures_.number());
+      "distance of the camera", [&](preset::Preset& p) { p.scene.camera = dolly(engine::camera_of(p), factor); },
+      gestures_.number());
 }
 
 } // namespace nephroid::ui

@@ -23,18 +23,18 @@ struct Affine {
   glm::dvec3 offset{0};
 };
 
-Affine affine(const preset::Transform& transform)
-{
+Affine affine(const preset::Transform& transform) {
   glm::dmat3 scale(1);
   for (int i = 0; i < 3; ++i) scale[i][i] = transform.scale[static_cast<std::size_t>(i)];
   return {scene::rotation(transform.rotate_deg) * scale, to_vector(transform.translate)};
 }
 
-bool is_same_surface(const preset::Object& a, const preset::Object& b) { return a.mesh == b.mesh && a.shape == b.shape; }
+bool is_same_surface(const preset::Object& a, const preset::Object& b) {
+  return a.mesh == b.mesh && a.shape == b.shape;
+}
 
 /// About every corner, in the object's own coordinates.
-scene::Bounds box_of(const scene::Scene& scene, const scene::Object& object, const preset::Transform& transform)
-{
+scene::Bounds box_of(const scene::Scene& scene, const scene::Object& object, const preset::Transform& transform) {
   const Affine placed = affine(transform);
   const glm::dmat3 back = glm::inverse(placed.linear);
   const glm::dvec3 shift = scene.origin - placed.offset;
@@ -43,8 +43,8 @@ scene::Bounds box_of(const scene::Scene& scene, const scene::Object& object, con
     low = glm::min(low, p);
     high = glm::max(high, p);
   };
-  scene::for_each_corner_index(scene, object,
-                               [&](std::uint32_t vertex) { add(back * (glm::dvec3(scene.geometry.positions[vertex]) + shift)); });
+  scene::for_each_corner_index(
+      scene, object, [&](std::uint32_t vertex) { add(back * (glm::dvec3(scene.geometry.positions[vertex]) + shift)); });
   for (const scene::Ellipsoid& ellipsoid : scene::ellipsoids_of(scene, object)) {
     const glm::dvec3 centre = back * (glm::dvec3(ellipsoid.centre) + shift);
     glm::dvec3 squares(0);
@@ -58,10 +58,10 @@ scene::Bounds box_of(const scene::Scene& scene, const scene::Object& object, con
   return {low, high};
 }
 
-/// The ray in the place that an object had when the scene was loaded, in the scene's coordinates. A hit is as far along it, in lengths of
-/// the direction, as along the ray itself.
-Ray moved_back(const Ray& ray, const preset::Transform& now, const preset::Transform& loaded, const glm::dvec3& origin)
-{
+/// The ray in the place that an object had when the scene was loaded, in the scene's coordinates. A hit is as far along
+/// it, in lengths of the direction, as along the ray itself.
+Ray moved_back(const Ray& ray, const preset::Transform& now, const preset::Transform& loaded,
+               const glm::dvec3& origin) {
   if (now == loaded) return {ray.origin - origin, ray.direction};
   const Affine from = affine(now), to = affine(loaded);
   const glm::dmat3 linear = to.linear * glm::inverse(from.linear);
@@ -74,8 +74,7 @@ struct Axes {
   double distance = 1;
 };
 
-Axes axes(const preset::Camera& camera)
-{
+Axes axes(const preset::Camera& camera) {
   Axes a;
   const glm::dvec3 arm = to_vector(camera.position) - to_vector(camera.target);
   a.distance = glm::length(arm);
@@ -83,17 +82,19 @@ Axes axes(const preset::Camera& camera)
   const glm::dvec3 up = to_vector(camera.up);
   a.up = glm::length(up) > 0 ? glm::normalize(up) : glm::dvec3(0, 1, 0);
   glm::dvec3 right = glm::cross(a.up, a.outwards);
-  if (glm::length(right) < 1e-9) right = glm::cross(a.up, std::abs(a.up.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1));
+  if (glm::length(right) < 1e-9)
+    right = glm::cross(a.up, std::abs(a.up.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1));
   a.right = glm::normalize(right);
   return a;
 }
 
-nlohmann::ordered_json camera_fields(const preset::Preset& preset) { return preset::as_json(preset).at("scene").at("camera"); }
+nlohmann::ordered_json camera_fields(const preset::Preset& preset) {
+  return preset::as_json(preset).at("scene").at("camera");
+}
 
 } // namespace
 
-std::optional<Point> Pinhole::to_screen(const glm::dvec3& p) const
-{
+std::optional<Point> Pinhole::to_screen(const glm::dvec3& p) const {
   const glm::dvec3 arm = p - position;
   const double ahead = glm::dot(arm, forward);
   if (!(ahead > 0)) return std::nullopt;
@@ -101,14 +102,13 @@ std::optional<Point> Pinhole::to_screen(const glm::dvec3& p) const
   return Point{corner[0] + size[0] * (x + 1) / 2, corner[1] + size[1] * (1 - y) / 2};
 }
 
-Ray Pinhole::ray(const Point& screen) const
-{
+Ray Pinhole::ray(const Point& screen) const {
   const double x = 2 * (screen[0] - corner[0]) / size[0] - 1, y = 1 - 2 * (screen[1] - corner[1]) / size[1];
   return {position, forward + x * tan_x * right + y * tan_y * up};
 }
 
-std::optional<Pinhole> make_pinhole(const preset::Camera& camera, const Placement& placement, const std::array<int, 2>& shown)
-{
+std::optional<Pinhole> make_pinhole(const preset::Camera& camera, const Placement& placement,
+                                    const std::array<int, 2>& shown) {
   Pinhole pinhole;
   pinhole.position = to_vector(camera.position);
   const glm::dvec3 arm = to_vector(camera.target) - pinhole.position;
@@ -127,18 +127,18 @@ std::optional<Pinhole> make_pinhole(const preset::Camera& camera, const Placemen
   return pinhole;
 }
 
-void ViewedScene::take(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded, SceneFacts& facts)
-{
+void ViewedScene::take(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded,
+                       SceneFacts& facts) {
   auto seen = std::make_shared<ViewedScene>();
   seen->loaded = loaded;
   const scene::Scene& scene = loaded->scene;
   if (scene.objects.size() == preset.scene.objects.size()) seen->objects = preset.scene.objects;
-  for (std::size_t i = 0; i < seen->objects.size(); ++i) seen->boxes.push_back(box_of(scene, scene.objects[i], seen->objects[i].transform));
+  for (std::size_t i = 0; i < seen->objects.size(); ++i)
+    seen->boxes.push_back(box_of(scene, scene.objects[i], seen->objects[i].transform));
   facts.view = std::move(seen);
 }
 
-std::optional<std::size_t> object_at(const ViewedScene& seen, const preset::Preset& preset, const Ray& ray)
-{
+std::optional<std::size_t> object_at(const ViewedScene& seen, const preset::Preset& preset, const Ray& ray) {
   const scene::Scene& scene = seen.loaded->scene;
   const std::vector<preset::Object>& now = preset.scene.objects;
   std::optional<std::size_t> nearest;
@@ -156,29 +156,29 @@ std::optional<std::size_t> object_at(const ViewedScene& seen, const preset::Pres
   trace({ray.origin - scene.origin, ray.direction}, stayed);
   for (std::size_t i = 0; i < seen.objects.size(); ++i)
     if (is_found(i) && !stayed(i))
-      trace(moved_back(ray, now[i].transform, seen.objects[i].transform, scene.origin), [&](std::size_t other) { return other == i; });
+      trace(moved_back(ray, now[i].transform, seen.objects[i].transform, scene.origin),
+            [&](std::size_t other) { return other == i; });
   return nearest;
 }
 
-std::optional<scene::Bounds> local_box(const ViewedScene* seen, const preset::Preset& preset, std::size_t object)
-{
+std::optional<scene::Bounds> local_box(const ViewedScene* seen, const preset::Preset& preset, std::size_t object) {
   const std::vector<preset::Object>& now = preset.scene.objects;
-  if (!seen || object >= seen->objects.size() || object >= now.size() || !is_same_surface(now[object], seen->objects[object]))
+  if (!seen || object >= seen->objects.size() || object >= now.size() ||
+      !is_same_surface(now[object], seen->objects[object]))
     return std::nullopt;
   return seen->boxes[object];
 }
 
-glm::dvec3 pivot_of(const ViewedScene* seen, const preset::Preset& preset, std::size_t object)
-{
+glm::dvec3 pivot_of(const ViewedScene* seen, const preset::Preset& preset, std::size_t object) {
   const auto box = local_box(seen, preset, object);
   if (!box || preset.scene.objects[object].shape) return glm::dvec3(0);
   return 0.5 * box->low + 0.5 * box->high;
 }
 
-preset::Camera orbit(const preset::Camera& camera, double right_deg, double up_deg)
-{
+preset::Camera orbit(const preset::Camera& camera, double right_deg, double up_deg) {
   const Axes a = axes(camera);
-  // Spherical coordinates about up: the polar angle and, in the plane across it, `ahead` (the camera's side) and `right`.
+  // Spherical coordinates about up: the polar angle and, in the plane across it, `ahead` (the camera's side) and
+  // `right`.
   const glm::dvec3 ahead = glm::cross(a.right, a.up);
   const double polar = std::acos(std::clamp(glm::dot(a.outwards, a.up), -1.0, 1.0));
   const double limit = glm::radians(1.0);
@@ -186,20 +186,19 @@ preset::Camera orbit(const preset::Camera& camera, double right_deg, double up_d
   const double azimuth = glm::radians(right_deg);
   const glm::dvec3 across = std::cos(azimuth) * ahead + std::sin(azimuth) * a.right;
   preset::Camera moved = camera;
-  moved.position = to_stored(to_vector(camera.target) + a.distance * (std::cos(new_polar) * a.up + std::sin(new_polar) * across));
+  moved.position =
+      to_stored(to_vector(camera.target) + a.distance * (std::cos(new_polar) * a.up + std::sin(new_polar) * across));
   return moved;
 }
 
-preset::Camera dolly(const preset::Camera& camera, double factor)
-{
+preset::Camera dolly(const preset::Camera& camera, double factor) {
   preset::Camera moved = camera;
   const glm::dvec3 target = to_vector(camera.target);
   moved.position = to_stored(target + factor * (to_vector(camera.position) - target));
   return moved;
 }
 
-preset::Camera pan(const preset::Camera& camera, double right, double down)
-{
+preset::Camera pan(const preset::Camera& camera, double right, double down) {
   const Axes a = axes(camera);
   const glm::dvec3 picture_up = glm::cross(a.outwards, a.right);
   const double height = 2 * a.distance * std::tan(glm::radians(camera.fov_deg) / 2);
@@ -210,10 +209,11 @@ preset::Camera pan(const preset::Camera& camera, double right, double down)
   return moved;
 }
 
-std::string camera_json(const preset::Preset& preset) { return nlohmann::ordered_json{{"camera", camera_fields(preset)}}.dump(2) + "\n"; }
+std::string camera_json(const preset::Preset& preset) {
+  return nlohmann::ordered_json{{"camera", camera_fields(preset)}}.dump(2) + "\n";
+}
 
-std::string camera_settings(const preset::Preset& preset)
-{
+std::string camera_settings(const preset::Preset& preset) {
   const nlohmann::ordered_json fields = camera_fields(preset);
   std::string text;
   for (const auto& [name, value] : fields.items())

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a preset's camera sees, on the screen: from points of the scene to points of the screen and back as rays, however the picture is
-// placed in its panel; which object is there: a ray through the loaded scene, with objects where the preset has them now; and how the mouse
-// moves the camera. In the preset's coordinates and in double precision. No Dear ImGui.
+// What a preset's camera sees, on the screen: from points of the scene to points of the screen and back as rays,
+// however the picture is placed in its panel; which object is there: a ray through the loaded scene, with objects where
+// the preset has them now; and how the mouse moves the camera. In the preset's coordinates and in double precision. No
+// Dear ImGui.
 #pragma once
 #include "preset/preset.h"
 #include "run/prepare.h"
@@ -33,9 +34,10 @@ struct Pinhole {
   Ray ray(const Point& screen) const;
 };
 
-/// shown: the size in pixels of the picture that `placement` places, which may still be of another size than the camera's. Nothing for a
-/// camera that sees nothing: at its own target, or looking along its up.
-std::optional<Pinhole> make_pinhole(const preset::Camera& camera, const Placement& placement, const std::array<int, 2>& shown);
+/// shown: the size in pixels of the picture that `placement` places, which may still be of another size than the
+/// camera's. Nothing for a camera that sees nothing: at its own target, or looking along its up.
+std::optional<Pinhole> make_pinhole(const preset::Camera& camera, const Placement& placement,
+                                    const std::array<int, 2>& shown);
 
 /// What the View keeps of a loaded scene.
 struct ViewedScene {
@@ -43,29 +45,31 @@ struct ViewedScene {
   std::vector<preset::Object> objects; ///< as the preset had them when it was loaded
   std::vector<scene::Bounds> boxes;    ///< of each object, before its transform
 
-  static void take(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded, SceneFacts& facts);
+  static void take(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded,
+                   SceneFacts& facts);
 };
 
-/// The first object that the ray hits, an index into scene.objects. An object that was moved, turned or scaled since the scene was
-/// loaded is found where it is now; one of another shape or mesh, or a new one, is not found before the scene is loaded again.
+/// The first object that the ray hits, an index into scene.objects. An object that was moved, turned or scaled since
+/// the scene was loaded is found where it is now; one of another shape or mesh, or a new one, is not found before the
+/// scene is loaded again.
 std::optional<std::size_t> object_at(const ViewedScene& seen, const preset::Preset& preset, const Ray& ray);
 
 /// The box about an object before its transform; nothing where the scene that was loaded has another one in its place.
 std::optional<scene::Bounds> local_box(const ViewedScene* seen, const preset::Preset& preset, std::size_t object);
 
-/// What an object turns about and is scaled from, before its transform: a shape's own middle, or the middle of the box about a mesh, whose
-/// origin may lie anywhere.
+/// What an object turns about and is scaled from, before its transform: a shape's own middle, or the middle of the box
+/// about a mesh, whose origin may lie anywhere.
 glm::dvec3 pivot_of(const ViewedScene* seen, const preset::Preset& preset, std::size_t object);
 
-/// Moves the camera round its target: right_deg about the camera's up (positive: the camera goes to its right), then up_deg
-/// towards up. It stops 1 degree short of looking along up, where left and right would swap.
+/// Moves the camera round its target: right_deg about the camera's up (positive: the camera goes to its right), then
+/// up_deg towards up. It stops 1 degree short of looking along up, where left and right would swap.
 preset::Camera orbit(const preset::Camera& camera, double right_deg, double up_deg);
 
 /// Multiplies the distance to the target; the target stays. factor > 0.
 preset::Camera dolly(const preset::Camera& camera, double factor);
 
-/// Shifts position and target together, in parts of the picture's height at the target's distance: a thing at the target moves
-/// by (right, down) in the picture.
+/// Shifts position and target together, in parts of the picture's height at the target's distance: a thing at the
+/// target moves by (right, down) in the picture.
 preset::Camera pan(const preset::Camera& camera, double right, double down);
 
 /// {"camera": {...}}, as it stands in a preset's scene.

@@ -12,12 +12,13 @@
 namespace nephroid::ui {
 namespace {
 
-/// What is said where the renderer has no texture of the size (0: it has every size); else empty. is_run: of the run's picture.
-std::string too_large_hint(const std::array<int, 2>& size, bool is_run)
-{
+/// What is said where the renderer has no texture of the size (0: it has every size); else empty. is_run: of the run's
+/// picture.
+std::string too_large_hint(const std::array<int, 2>& size, bool is_run) {
   const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
   const auto beyond = [](int length, int limit) { return limit > 0 && length > limit; };
-  if (!beyond(size[0], platform.Renderer_TextureMaxWidth) && !beyond(size[1], platform.Renderer_TextureMaxHeight)) return {};
+  if (!beyond(size[0], platform.Renderer_TextureMaxWidth) && !beyond(size[1], platform.Renderer_TextureMaxHeight))
+    return {};
   return fmt::format("The picture is {} x {}; this display's OpenGL shows at most {} x {}. {}", size[0], size[1],
                      platform.Renderer_TextureMaxWidth, platform.Renderer_TextureMaxHeight,
                      is_run ? "It is computed all the same: save it with Ctrl+E, or lower scene.camera.resolution."
@@ -25,8 +26,7 @@ std::string too_large_hint(const std::array<int, 2>& size, bool is_run)
 }
 
 /// What to do or to wait for before the first picture.
-std::string waiting_hint(const Context& context)
-{
+std::string waiting_hint(const Context& context) {
   if (context.run.status().state == job::State::failed) return "No picture: see the message below";
   if (context.run.status().state == job::State::cancelled) return "Cancelled before the first picture; start again: F5";
   if (context.run.status().state == job::State::running) return "The first picture is being made";
@@ -35,20 +35,18 @@ std::string waiting_hint(const Context& context)
 }
 
 /// The newest map, where it is of the metric and the pictures that are compared now.
-std::shared_ptr<const ShownDifference> fitting_map(const Context& context)
-{
+std::shared_ptr<const ShownDifference> fitting_map(const Context& context) {
   const auto& map = context.comparing.difference();
   if (!map || map->of.metric != context.comparing.comparison().metric) return nullptr;
   return context.comparing.are_compared(map->of.picture, map->of.other) ? map : nullptr;
 }
 
 /// The map, or why there is none yet.
-void show_difference(const Context& context, ShownPicture& shown)
-{
+void show_difference(const Context& context, ShownPicture& shown) {
   const auto map = fitting_map(context);
   const Comparison& comparison = context.comparing.comparison();
-  shown.label =
-      fmt::format("{} to {}", metric_name(comparison.metric), comparison.pin == 0 ? "the reference" : context.comparing.other_name());
+  shown.label = fmt::format("{} to {}", metric_name(comparison.metric),
+                            comparison.pin == 0 ? "the reference" : context.comparing.other_name());
   if (comparison.shown != 0) shown.label = context.comparing.name() + ": " + shown.label;
   if (!map)
     shown.hint = "The difference is being computed";
@@ -63,28 +61,24 @@ void show_difference(const Context& context, ShownPicture& shown)
 using Rgb = std::array<float, 3>;
 
 /// Nothing where the pixel lies outside of it.
-std::optional<std::size_t> index_in(const std::array<int, 2>& size, const std::array<int, 2>& pixel)
-{
+std::optional<std::size_t> index_in(const std::array<int, 2>& size, const std::array<int, 2>& pixel) {
   if (pixel[0] < 0 || pixel[1] < 0 || pixel[0] >= size[0] || pixel[1] >= size[1]) return std::nullopt;
   return static_cast<std::size_t>(pixel[1]) * static_cast<std::size_t>(size[0]) + static_cast<std::size_t>(pixel[0]);
 }
 
-std::optional<Rgb> value_at(const measure::Pixels& picture, const std::array<int, 2>& pixel)
-{
+std::optional<Rgb> value_at(const measure::Pixels& picture, const std::array<int, 2>& pixel) {
   const auto index = index_in({picture.width, picture.height}, pixel);
   if (!index) return std::nullopt;
   return Rgb{picture.rgb[3 * *index], picture.rgb[3 * *index + 1], picture.rgb[3 * *index + 2]};
 }
 
-std::string text_of(const Rgb& value, double white, const char* format)
-{
+std::string text_of(const Rgb& value, double white, const char* format) {
   return fmt::format(fmt::runtime(format), value[0], value[1], value[2], white * measure::luminance(value.data()));
 }
 
 } // namespace
 
-ShownPicture shown_picture(const Context& context)
-{
+ShownPicture shown_picture(const Context& context) {
   ShownPicture shown;
   if (const preset::Preset* preset = context.preset()) shown.size = preset->scene.camera.resolution;
   const Comparing& comparing = context.comparing;
@@ -107,7 +101,8 @@ ShownPicture shown_picture(const Context& context)
     if (is_run && !context.run.snapshot()->caption.empty()) shown.label = context.run.snapshot()->caption;
     if (!is_run || comparison.arrangement != Arrangement::single)
       shown.label = comparing.name() + (shown.label.empty() ? "" : ": " + shown.label);
-    if (is_run && context.run.snapshot_is_previous()) shown.label = "Previous picture" + (shown.label.empty() ? "" : ": " + shown.label);
+    if (is_run && context.run.snapshot_is_previous())
+      shown.label = "Previous picture" + (shown.label.empty() ? "" : ": " + shown.label);
   } else if (const HeldPicture other = comparing.other_picture(); !other.owner)
     shown.hint = "Nothing to compare with: " + comparing.why_not();
   else if (comparison.flip) {
@@ -119,8 +114,7 @@ ShownPicture shown_picture(const Context& context)
   return shown;
 }
 
-ShownPicture picture_beside(const Context& context)
-{
+ShownPicture picture_beside(const Context& context) {
   ShownPicture shown;
   shown.size = {0, 0};
   const Comparing& comparing = context.comparing;
@@ -133,21 +127,24 @@ ShownPicture picture_beside(const Context& context)
   }
   shown.size = {other.pixels.width, other.pixels.height};
   shown.label = comparing.other_name() + (comparison.layer.empty() ? "" : ": " + comparison.layer);
-  if (shown.hint = too_large_hint(shown.size, comparison.pin == Comparison::run_in_hand); !shown.hint.empty()) return shown;
+  if (shown.hint = too_large_hint(shown.size, comparison.pin == Comparison::run_in_hand); !shown.hint.empty())
+    return shown;
   shown.owner = other.owner;
   shown.rgb = other.pixels.rgb;
   return shown;
 }
 
-std::string pixel_text(const Context& context, const std::array<int, 2>& pixel)
-{
+std::string pixel_text(const Context& context, const std::array<int, 2>& pixel) {
   const auto source = context.comparing.source();
   if (!source || !context.preset()) return {};
   const double white = context.preset()->white.value_or(1);
   constexpr const char* format = "R {:.4g}   G {:.4g}   B {:.4g}   Y {:.4g} W/m2/sr";
-  const auto text_in = [&](const std::optional<Rgb>& value) { return value ? text_of(*value, white, format) : "outside of it"; };
+  const auto text_in = [&](const std::optional<Rgb>& value) {
+    return value ? text_of(*value, white, format) : "outside of it";
+  };
   const HeldPicture held = context.comparing.picture();
-  const auto value = value_at(held.owner ? held.pixels : measure::Pixels{source->width, source->height, source->rgb, {}}, pixel);
+  const auto value =
+      value_at(held.owner ? held.pixels : measure::Pixels{source->width, source->height, source->rgb, {}}, pixel);
   const Comparison& comparison = context.comparing.comparison();
   const bool is_single = comparison.arrangement == Arrangement::single;
   const HeldPicture other = is_single ? context.comparing.other_picture() : context.comparing.picture_beside();
@@ -158,7 +155,8 @@ std::string pixel_text(const Context& context, const std::array<int, 2>& pixel)
   if (!compares) return text;
   text += fmt::format("\n{}   {}", context.comparing.other_name(), text_in(other_value));
   if (!value || !other_value) return text;
-  const Rgb difference{(*value)[0] - (*other_value)[0], (*value)[1] - (*other_value)[1], (*value)[2] - (*other_value)[2]};
+  const Rgb difference{(*value)[0] - (*other_value)[0], (*value)[1] - (*other_value)[1],
+                       (*value)[2] - (*other_value)[2]};
   text += "\ndifference   " + text_of(difference, white, "R {:+.4g}   G {:+.4g}   B {:+.4g}   Y {:+.4g} W/m2/sr");
   if (const auto map = fitting_map(context); comparison.difference && map && map->values)
     text += fmt::format("   {} {:.4g}", metric_name(map->of.metric),

@@ -13,11 +13,12 @@ struct Action {
   std::string help; ///< a sentence
   std::function<bool(const Context&)> enabled;
   std::function<void(const Context&)> run;
-  std::function<std::string(const Context&)> why_not = nullptr; ///< where it is not enabled and a person may wonder: the reason
-  std::function<void(const Context&)> let_go = nullptr;         ///< of a key that is held: when it goes up again
-  std::function<bool(const Context&)> checked = nullptr;        ///< of what can be on or off: whether it is on
-  bool repeats = false;                                         ///< while the keys are held
-  std::string menu = {};                                        ///< the menu it is in
+  std::function<std::string(const Context&)> why_not =
+      nullptr;                                          ///< where it is not enabled and a person may wonder: the reason
+  std::function<void(const Context&)> let_go = nullptr; ///< of a key that is held: when it goes up again
+  std::function<bool(const Context&)> checked = nullptr; ///< of what can be on or off: whether it is on
+  bool repeats = false;                                  ///< while the keys are held
+  std::string menu = {};                                 ///< the menu it is in
 };
 
 /// The table: actions/table.cpp.

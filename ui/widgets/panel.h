@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A panel of the window: reads what it needs of its context, draws with Dear ImGui, pushes commands. It needs no back end to be drawn. A
-// new one is a folder with its class, and a line in the table of panels.
+// A panel of the window: reads what it needs of its context, draws with Dear ImGui, pushes commands. It needs no back
+// end to be drawn. A new one is a folder with its class, and a line in the table of panels.
 #pragma once
 #include "ui/state/context.h"
 #include "ui/widgets/widgets.h"
@@ -36,19 +36,19 @@ protected:
   };
   /// change(preset, value): one gesture from taking hold of it to letting go.
   template <class Change>
-  void draw_dragged(const Context& context, Gestures& gestures, const Dragged& d, Change change)
-  {
+  void draw_dragged(const Context& context, Gestures& gestures, const Dragged& d, Change change) {
     double value = d.value;
-    const bool changed = ImGui::DragScalar(("##" + d.widget).c_str(), ImGuiDataType_Double, &value, static_cast<float>(d.step), &d.low,
-                                           &d.high, d.format, ImGuiSliderFlags_AlwaysClamp | d.flags);
+    const bool changed =
+        ImGui::DragScalar(("##" + d.widget).c_str(), ImGuiDataType_Double, &value, static_cast<float>(d.step), &d.low,
+                          &d.high, d.format, ImGuiSliderFlags_AlwaysClamp | d.flags);
     follow_item(context, gestures, d.widget, changed, d.label, [&](preset::Preset& p) { change(p, value); });
     tooltip(d.help);
   }
-  /// What the item drawn last changes of the preset, from taking hold of it to letting go one gesture. Its place is noted as `widget`.
+  /// What the item drawn last changes of the preset, from taking hold of it to letting go one gesture. Its place is
+  /// noted as `widget`.
   template <class Change>
-  void follow_item(const Context& context, Gestures& gestures, const std::string& widget, bool changed, const std::string& label,
-                   Change change)
-  {
+  void follow_item(const Context& context, Gestures& gestures, const std::string& widget, bool changed,
+                   const std::string& label, Change change) {
     places_.note(widget);
     if (ImGui::IsItemActivated()) gestures.begin();
     if (changed) context.edit(label, change, gestures.number(), true);
@@ -73,8 +73,7 @@ struct PanelEntry {
 
 /// The entry's `make` of a panel.
 template <class P>
-std::unique_ptr<Panel> make_panel([[maybe_unused]] WavelengthAxis& wavelengths)
-{
+std::unique_ptr<Panel> make_panel([[maybe_unused]] WavelengthAxis& wavelengths) {
   if constexpr (std::is_constructible_v<P, WavelengthAxis&>)
     return std::make_unique<P>(wavelengths);
   else

@@ -9,33 +9,31 @@
 namespace nephroid::ui {
 namespace {
 
-void unregister_and_delete(ImTextureData* texture)
-{
+void unregister_and_delete(ImTextureData* texture) {
   if (ImGui::GetCurrentContext()) {
     ImGui::UnregisterUserTexture(texture);
-    ImGui::GetPlatformIO().Textures.find_erase(texture); // the list a back end goes through; made anew with every frame only
+    ImGui::GetPlatformIO().Textures.find_erase(
+        texture); // the list a back end goes through; made anew with every frame only
   }
   IM_DELETE(texture);
 }
 
-std::span<unsigned char> bytes_of(ImTextureData* texture)
-{
+std::span<unsigned char> bytes_of(ImTextureData* texture) {
   return {static_cast<unsigned char*>(texture->GetPixels()), static_cast<std::size_t>(texture->GetSizeInBytes())};
 }
 
 } // namespace
 
-PictureTexture::~PictureTexture()
-{
+PictureTexture::~PictureTexture() {
   for (ImTextureData* old : retired_) unregister_and_delete(old);
   if (texture_) unregister_and_delete(texture_);
 }
 
-std::span<unsigned char> PictureTexture::edit(int width, int height)
-{
+std::span<unsigned char> PictureTexture::edit(int width, int height) {
   free_retired();
   if (texture_ && (texture_->Width != width || texture_->Height != height)) {
-    texture_->WantDestroyNextFrame = true; // the frame in hand may still draw with it; the back end destroys it in a later one
+    texture_->WantDestroyNextFrame =
+        true; // the frame in hand may still draw with it; the back end destroys it in a later one
     retired_.push_back(std::exchange(texture_, nullptr));
   }
   if (!texture_) {
@@ -57,8 +55,7 @@ ImTextureRef PictureTexture::ref() const { return texture_->GetTexRef(); }
 
 std::span<const unsigned char> PictureTexture::pixels() const { return bytes_of(texture_); }
 
-void PictureTexture::draw(const ImVec2& low, const ImVec2& high, bool squares) const
-{
+void PictureTexture::draw(const ImVec2& low, const ImVec2& high, bool squares) const {
   const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   squares = squares && platform.DrawCallback_SetSamplerNearest;
@@ -67,8 +64,7 @@ void PictureTexture::draw(const ImVec2& low, const ImVec2& high, bool squares) c
   if (squares) list.AddCallback(platform.DrawCallback_SetSamplerLinear, nullptr);
 }
 
-void PictureTexture::free_retired()
-{
+void PictureTexture::free_retired() {
   std::erase_if(retired_, [](ImTextureData* texture) {
     if (texture->Status == ImTextureStatus_Destroyed || texture->TexID == ImTextureID_Invalid) {
       unregister_and_delete(texture);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of the workbench as a texture of Dear ImGui. The renderer's back end uploads it (ImTextureData), so this knows no
-// OpenGL and works, without pixels on a screen, where there is no back end at all.
+// A picture of the workbench as a texture of Dear ImGui. The renderer's back end uploads it (ImTextureData), so this
+// knows no OpenGL and works, without pixels on a screen, where there is no back end at all.
 #pragma once
 #include <span>
 #include <vector>

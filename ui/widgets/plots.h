@@ -29,14 +29,14 @@ struct PlotArea {
   /// Of the plot in hand, after SetupFinish.
   static PlotArea in_hand();
   /// Where a point is, on linear axes.
-  std::array<double, 2> to_screen(const std::array<double, 2>& point) const
-  {
-    return {screen[0] + screen[2] * (point[0] - x[0]) / (x[1] - x[0]), screen[1] + screen[3] * (y[1] - point[1]) / (y[1] - y[0])};
+  std::array<double, 2> to_screen(const std::array<double, 2>& point) const {
+    return {screen[0] + screen[2] * (point[0] - x[0]) / (x[1] - x[0]),
+            screen[1] + screen[3] * (y[1] - point[1]) / (y[1] - y[0])};
   }
 };
 
-/// Whether axes that follow what they show go on with that, when the mouse is on their plot: the wheel and a drag let them go, a double
-/// click takes them back.
+/// Whether axes that follow what they show go on with that, when the mouse is on their plot: the wheel and a drag let
+/// them go, a double click takes them back.
 bool follows_after_mouse(bool follows);
 
 /// A name in quotes, as CSV has it (RFC 4180).
@@ -62,8 +62,8 @@ class WavelengthAxis {
 public:
   static constexpr double margin_nm = 10; ///< of the whole range, beyond the 401 wavelengths at both ends
 
-  /// The x axis of a plot, with its label and its limits: after ImPlot::BeginPlot, before SetupFinish and the first plotted item.
-  /// compact: without label and tick labels, for a plot above one that has them.
+  /// The x axis of a plot, with its label and its limits: after ImPlot::BeginPlot, before SetupFinish and the first
+  /// plotted item. compact: without label and tick labels, for a plot above one that has them.
   void set_up(bool compact = false);
   /// The whole range again, with a margin: the 401 wavelengths, and what lies from low_nm to high_nm beyond them.
   void show_all(double low_nm = 380, double high_nm = 780);

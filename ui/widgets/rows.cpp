@@ -20,25 +20,25 @@ bool is_finite(const Row& row) { return std::isfinite(row[0]) && std::isfinite(r
 
 double inside(double value, const preset::Bounds& bounds) { return std::clamp(value, bounds.low, bounds.high); }
 
-/// A sum or difference as a person writes it, not with 17 figures: 500.3 + 0.1 is 500.40000000000003, 500.4 - 500.3 is less than 0.1.
+/// A sum or difference as a person writes it, not with 17 figures: 500.3 + 0.1 is 500.40000000000003, 500.4 - 500.3 is
+/// less than 0.1.
 double readable_nm(double nm) { return std::round(1e6 * nm) / 1e6; }
 
 bool before(const Row& a, const Row& b) { return a[0] < b[0]; }
 
 /// Why add_row adds nothing.
-std::string refusal(const std::vector<Row>& rows, const Row& row, const RowRules& rules)
-{
+std::string refusal(const std::vector<Row>& rows, const Row& row, const RowRules& rules) {
   if (rows.size() >= preset::max_rows) return fmt::format("a preset has at most {} rows", preset::max_rows);
   if (!is_finite(row)) return "its place is not finite";
   const double nm = std::clamp(row[0], preset::wavelength_bounds.low, preset::wavelength_bounds.high);
   return fmt::format("another is less than {} nm from {:.6g} nm", rules.least_gap_nm, nm);
 }
 
-constexpr float point_radius = 5, grab_radius = 9; ///< pixels at scale 1: what can be grabbed is wider than what is seen
-constexpr std::ptrdiff_t most_in_sight = 400;      ///< more would lie on each other
+constexpr float point_radius = 5,
+                grab_radius = 9;              ///< pixels at scale 1: what can be grabbed is wider than what is seen
+constexpr std::ptrdiff_t most_in_sight = 400; ///< more would lie on each other
 
-void draw_point(const Row& at, float radius, std::uint32_t colour)
-{
+void draw_point(const Row& at, float radius, std::uint32_t colour) {
   ImDrawList& list = *ImPlot::GetPlotDrawList();
   const ImVec2 middle = ImPlot::PlotToPixels(at[0], at[1]);
   ImPlot::PushPlotClipRect();
@@ -49,23 +49,22 @@ void draw_point(const Row& at, float radius, std::uint32_t colour)
 
 } // namespace
 
-std::vector<Row> sorted_rows(std::vector<Row> rows)
-{
+std::vector<Row> sorted_rows(std::vector<Row> rows) {
   std::stable_sort(rows.begin(), rows.end(), before);
   return rows;
 }
 
-void move_row(std::vector<Row>& rows, std::size_t index, const Row& to, const RowRules& rules)
-{
+void move_row(std::vector<Row>& rows, std::size_t index, const Row& to, const RowRules& rules) {
   if (index >= rows.size() || !is_finite(to)) return;
   rows[index][1] = inside(to[1], rules.value);
   const double low = index > 0 ? readable_nm(rows[index - 1][0] + rules.least_gap_nm) : preset::wavelength_bounds.low;
-  const double high = index + 1 < rows.size() ? readable_nm(rows[index + 1][0] - rules.least_gap_nm) : preset::wavelength_bounds.high;
-  if (low <= high) rows[index][0] = std::clamp(to[0], low, high); // neighbours of a file may be nearer than that: then it stays
+  const double high =
+      index + 1 < rows.size() ? readable_nm(rows[index + 1][0] - rules.least_gap_nm) : preset::wavelength_bounds.high;
+  if (low <= high)
+    rows[index][0] = std::clamp(to[0], low, high); // neighbours of a file may be nearer than that: then it stays
 }
 
-std::optional<std::size_t> add_row(std::vector<Row>& rows, Row row, const RowRules& rules)
-{
+std::optional<std::size_t> add_row(std::vector<Row>& rows, Row row, const RowRules& rules) {
   if (!is_finite(row) || rows.size() >= preset::max_rows) return std::nullopt;
   row = {inside(row[0], preset::wavelength_bounds), inside(row[1], rules.value)};
   const auto right = std::upper_bound(rows.begin(), rows.end(), row, before);
@@ -76,15 +75,13 @@ std::optional<std::size_t> add_row(std::vector<Row>& rows, Row row, const RowRul
   return static_cast<std::size_t>(added - rows.begin());
 }
 
-bool remove_row(std::vector<Row>& rows, std::size_t index, const RowRules& rules)
-{
+bool remove_row(std::vector<Row>& rows, std::size_t index, const RowRules& rules) {
   if (rows.size() <= rules.fewest || index >= rows.size()) return false;
   rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(index));
   return true;
 }
 
-double middle_of_widest_gap(const std::vector<Row>& rows)
-{
+double middle_of_widest_gap(const std::vector<Row>& rows) {
   double from = optics::first_nm, widest = 0, middle = from;
   const auto look = [&](double to) {
     if (to - from > widest) {
@@ -99,22 +96,20 @@ double middle_of_widest_gap(const std::vector<Row>& rows)
   return middle;
 }
 
-void RowEditor::keep(std::size_t rows)
-{
+void RowEditor::keep(std::size_t rows) {
   removed_ = false;
   if (marked_ && *marked_ >= rows) marked_.reset();
 }
 
-std::optional<RowsEdit> RowEditor::follow(const RowGesture& gesture, std::vector<Row> rows, const RowRules& rules, Commands& commands)
-{
+std::optional<RowsEdit> RowEditor::follow(const RowGesture& gesture, std::vector<Row> rows, const RowRules& rules,
+                                          Commands& commands) {
   using Kind = RowGesture::Kind;
   const Row to = rules.readable ? rules.readable(gesture.to) : gesture.to;
   const auto refuse = [&](const char* what, const std::string& why) {
     commands.push_back(command::Report{fmt::format("no {} was {}: {}", rules.noun, what, why), false});
   };
   switch (gesture.kind) {
-  case Kind::none:
-    break;
+  case Kind::none: break;
   case Kind::take:
     marked_ = gesture.row;
     gestures_.begin();
@@ -123,12 +118,11 @@ std::optional<RowsEdit> RowEditor::follow(const RowGesture& gesture, std::vector
     if (removed_) break; // else the row would be back
     const std::vector<Row> before = rows;
     move_row(rows, gesture.row, to, rules);
-    if (rows != before) return RowsEdit{fmt::format("move a {}", rules.noun), std::move(rows), gestures_.number(), true};
+    if (rows != before)
+      return RowsEdit{fmt::format("move a {}", rules.noun), std::move(rows), gestures_.number(), true};
     break;
   }
-  case Kind::let_go:
-    commands.push_back(command::EndGesture{});
-    break;
+  case Kind::let_go: commands.push_back(command::EndGesture{}); break;
   case Kind::add:
     if (const auto added = add_row(rows, to, rules)) {
       marked_ = added;
@@ -148,17 +142,19 @@ std::optional<RowsEdit> RowEditor::follow(const RowGesture& gesture, std::vector
   return std::nullopt;
 }
 
-RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<std::size_t>& marked, const RowStyle& look)
-{
+RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<std::size_t>& marked,
+                            const RowStyle& look) {
   using Kind = RowGesture::Kind;
   RowGesture gesture;
   const ImPlotPoint mouse = ImPlot::GetPlotMousePos();
   const Row under_mouse{mouse.x, mouse.y * look.unit};
   const ImPlotRange nm = ImPlot::GetPlotLimits().X;
-  const bool few = std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return nm.Contains(row[0]); }) <= most_in_sight;
+  const bool few =
+      std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return nm.Contains(row[0]); }) <= most_in_sight;
   const ImVec2 step = ImGui::GetIO().MouseDelta;
   waits_ = waits_ && ImGui::IsMouseDown(ImGuiMouseButton_Left);
-  if (held_ && rows.size() != rows_at_take_) { // removed, or its addition undone: the row of that index is another one now
+  if (held_ &&
+      rows.size() != rows_at_take_) { // removed, or its addition undone: the row of that index is another one now
     gesture = {Kind::let_go, *held_, {}};
     held_.reset();
     waits_ = true;
@@ -168,8 +164,9 @@ RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<st
     if (held_ != i && !nm.Contains(rows[i][0])) continue;
     double x = rows[i][0], y = rows[i][1] / look.unit;
     bool hovered = false, held = false;
-    const bool moved = ImPlot::DragPoint(static_cast<int>(i), &x, &y, {0, 0, 0, 0}, grab_radius * scale(),
-                                         ImPlotDragToolFlags_NoFit | ImPlotDragToolFlags_Delayed, nullptr, &hovered, &held);
+    const bool moved =
+        ImPlot::DragPoint(static_cast<int>(i), &x, &y, {0, 0, 0, 0}, grab_radius * scale(),
+                          ImPlotDragToolFlags_NoFit | ImPlotDragToolFlags_Delayed, nullptr, &hovered, &held);
     draw_point({rows[i][0], rows[i][1] / look.unit}, point_radius * (hovered || held ? 1.3f : 1) * scale(),
                marked == i ? look.marked : look.colour);
     over_row_ |= hovered || held;
@@ -177,7 +174,8 @@ RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<st
       held_ = i;
       rows_at_take_ = rows.size();
       gesture = {Kind::take, i, {}};
-    } else if (held && held_ == i && moved && (step.x != 0 || step.y != 0)) // where the mouse rests, what was undone meanwhile stays undone
+    } else if (held && held_ == i && moved &&
+               (step.x != 0 || step.y != 0)) // where the mouse rests, what was undone meanwhile stays undone
       gesture = {Kind::move, i, under_mouse};
     if (hovered && !held_ && !waits_ && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) gesture = {Kind::remove, i, {}};
     if (hovered || held) ImGui::SetTooltip("%s", look.text(rows[i]).c_str());
@@ -185,19 +183,20 @@ RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<st
   if (held_ && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     gesture = {Kind::let_go, *held_, {}};
     held_.reset();
-  } else if (!held_ && !waits_ && !over_row_ && ImPlot::IsPlotHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+  } else if (!held_ && !waits_ && !over_row_ && ImPlot::IsPlotHovered() &&
+             ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
     gesture = {Kind::add, 0, under_mouse};
   return gesture;
 }
 
-RowGesture draw_row_buttons(const Row& added, const std::optional<std::size_t>& marked, WidgetPlaces& places)
-{
+RowGesture draw_row_buttons(const Row& added, const std::optional<std::size_t>& marked, WidgetPlaces& places) {
   RowGesture gesture;
   if (places.button("Add", "add", "One more in the widest gap; a double click on the plot adds one at the mouse"))
     gesture = {RowGesture::Kind::add, 0, added};
   ImGui::SameLine();
   ImGui::BeginDisabled(!marked);
-  if (places.button("Remove", "remove", "The point that was clicked last; Delete, or a right click on a point, does the same") ||
+  if (places.button("Remove", "remove",
+                    "The point that was clicked last; Delete, or a right click on a point, does the same") ||
       (marked && delete_pressed()))
     gesture = {RowGesture::Kind::remove, *marked, {}};
   ImGui::EndDisabled();

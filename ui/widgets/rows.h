@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of a wavelength and a value, by rising wavelength, that a person moves, adds and removes: the control points of a dispersion, the
-// rows of a light's spectrum. What becomes of them is here; a panel puts it into its preset. And the rows as points of a plot.
+// Rows of a wavelength and a value, by rising wavelength, that a person moves, adds and removes: the control points of
+// a dispersion, the rows of a light's spectrum. What becomes of them is here; a panel puts it into its preset. And the
+// rows as points of a plot.
 #pragma once
 #include "preset/field.h"
 #include "ui/state/commands.h"
@@ -18,19 +19,19 @@ using Row = std::array<double, 2>; ///< (nm, value)
 
 /// What a preset may have, and a person wants to have, in one kind of rows.
 struct RowRules {
-  const char* noun = "row";              ///< "control point", for labels and messages
-  preset::Bounds value;                  ///< of the second number
-  double least_gap_nm = 0;               ///< the least distance of neighbours, in nm, so that no wavelength gets two values
-  std::size_t fewest = 0;                ///< so many stay
+  const char* noun = "row"; ///< "control point", for labels and messages
+  preset::Bounds value;     ///< of the second number
+  double least_gap_nm = 0;  ///< the least distance of neighbours, in nm, so that no wavelength gets two values
+  std::size_t fewest = 0;   ///< so many stay
   Row (*readable)(const Row&) = nullptr; ///< in figures that a person reads; null: as it is
 };
 
 std::vector<Row> sorted_rows(std::vector<Row> rows);
-/// One row to a new place: between its neighbours, and its value inside of the rules. A place that is not finite changes nothing; where
-/// neighbours leave no room the wavelength stays.
+/// One row to a new place: between its neighbours, and its value inside of the rules. A place that is not finite
+/// changes nothing; where neighbours leave no room the wavelength stays.
 void move_row(std::vector<Row>& rows, std::size_t index, const Row& to, const RowRules& rules);
-/// The new row's index; nothing, and no change, where another is nearer than the least gap, the place is not finite, or there are as
-/// many as a preset may have.
+/// The new row's index; nothing, and no change, where another is nearer than the least gap, the place is not finite, or
+/// there are as many as a preset may have.
 std::optional<std::size_t> add_row(std::vector<Row>& rows, Row row, const RowRules& rules);
 /// False, and no change, where only the fewest are left.
 bool remove_row(std::vector<Row>& rows, std::size_t index, const RowRules& rules);
@@ -63,8 +64,10 @@ public:
   void unmark() { marked_.reset(); }
   /// Once a frame: the rows may have become fewer, by undo or by another edit.
   void keep(std::size_t rows);
-  /// Nothing where nothing changes. Why a row cannot be added or removed is reported; the end of a drag is a command too.
-  std::optional<RowsEdit> follow(const RowGesture& gesture, std::vector<Row> rows, const RowRules& rules, Commands& commands);
+  /// Nothing where nothing changes. Why a row cannot be added or removed is reported; the end of a drag is a command
+  /// too.
+  std::optional<RowsEdit> follow(const RowGesture& gesture, std::vector<Row> rows, const RowRules& rules,
+                                 Commands& commands);
 
 private:
   Gestures& gestures_;
@@ -78,8 +81,8 @@ struct RowStyle {
   double unit = 1;                           ///< of a row's value: what is 1 on the plot's y axis
 };
 
-/// Rows as points of an ImPlot plot that the mouse takes hold of: drag one, click the right button on one, double click beside them.
-/// A row that is dragged cannot be clicked; where rows come or go meanwhile, the drag ends.
+/// Rows as points of an ImPlot plot that the mouse takes hold of: drag one, click the right button on one, double click
+/// beside them. A row that is dragged cannot be clicked; where rows come or go meanwhile, the drag ends.
 class RowHandles {
 public:
   /// In the plot in hand; rows out of its sight are not drawn.
@@ -99,7 +102,8 @@ private:
   bool over_row_ = false;
 };
 
-/// Buttons that add this row and remove the marked one; Delete removes it too. Their places are noted as "add" and "remove".
+/// Buttons that add this row and remove the marked one; Delete removes it too. Their places are noted as "add" and
+/// "remove".
 RowGesture draw_row_buttons(const Row& added, const std::optional<std::size_t>& marked, WidgetPlaces& places);
 
 } // namespace nephroid::ui

@@ -10,8 +10,7 @@ constexpr float font_size = 16;
 
 ImVec4 grey(float value, float alpha = 1) { return {value, value, value, alpha}; }
 
-ImVec4 accent(float alpha)
-{
+ImVec4 accent(float alpha) {
   ImVec4 tint = ImGui::ColorConvertU32ToFloat4(colour::accent);
   tint.w = alpha;
   return tint;
@@ -31,8 +30,7 @@ constexpr Greys dark_greys{0.13f, 0.14f, 0.28f, 0.17f, 0.22f, 0.25f, 0.31f, 0.36
 constexpr Words dark_words{colour::on_dark, colour::quiet_on_dark, IM_COL32(240, 128, 112, 255), colour::note_on_dark},
     light_words{grey_text(24), grey_text(84), IM_COL32(176, 28, 16, 255), IM_COL32(122, 82, 0, 255)};
 
-void set_colours(ImGuiStyle& style, bool light)
-{
+void set_colours(ImGuiStyle& style, bool light) {
   const Greys& shade = light ? light_greys : dark_greys;
   const Words& words = light ? light_words : dark_words;
   colour::text = words.text;
@@ -75,16 +73,15 @@ void set_colours(ImGuiStyle& style, bool light)
 
 } // namespace
 
-void add_font()
-{
+void add_font() {
   const auto bytes = embedded_font();
   ImFontConfig config;
   config.FontDataOwnedByAtlas = false;
-  ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(bytes.data()), static_cast<int>(bytes.size()), font_size, &config);
+  ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(bytes.data()), static_cast<int>(bytes.size()),
+                                             font_size, &config);
 }
 
-void set_theme(float scale, Theme theme)
-{
+void set_theme(float scale, Theme theme) {
   ImGuiStyle style;
   set_colours(style, theme == Theme::light);
   style.WindowRounding = style.FrameRounding = style.PopupRounding = style.GrabRounding = 4;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the window looks: one font, neutral greys (a coloured surround would change how a picture's colours are seen), one accent.
+// How the window looks: one font, neutral greys (a coloured surround would change how a picture's colours are seen),
+// one accent.
 #pragma once
 #include "ui/state/commands.h"
 
@@ -10,7 +11,8 @@
 namespace nephroid::ui {
 
 namespace colour {
-// Pictures and plots lie on a dark ground in every theme: the same picture looks the same, and curves keep their colours.
+// Pictures and plots lie on a dark ground in every theme: the same picture looks the same, and curves keep their
+// colours.
 inline constexpr ImU32 surround = IM_COL32(38, 38, 38, 255);
 inline constexpr ImU32 frame = IM_COL32(72, 72, 72, 255);
 inline constexpr ImU32 overlay = IM_COL32(18, 18, 18, 215);
@@ -24,8 +26,7 @@ inline ImU32 text = on_dark, quiet_text = quiet_on_dark, error = IM_COL32(240, 1
 } // namespace colour
 
 /// alpha: 0 (not seen) .. 1.
-constexpr ImU32 with_alpha(ImU32 colour, float alpha)
-{
+constexpr ImU32 with_alpha(ImU32 colour, float alpha) {
   return (colour & ~IM_COL32_A_MASK) | (static_cast<ImU32>(255 * alpha) << IM_COL32_A_SHIFT);
 }
 

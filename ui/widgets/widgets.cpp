@@ -12,8 +12,7 @@
 namespace nephroid::ui {
 namespace {
 
-int resize(ImGuiInputTextCallbackData* data)
-{
+int resize(ImGuiInputTextCallbackData* data) {
   if (data->EventFlag != ImGuiInputTextFlags_CallbackResize) return 0;
   auto* text = static_cast<std::string*>(data->UserData);
   text->resize(static_cast<std::size_t>(data->BufTextLen));
@@ -23,27 +22,24 @@ int resize(ImGuiInputTextCallbackData* data)
 
 } // namespace
 
-bool input_text(const char* label, const char* hint, std::string& text, int flags)
-{
-  return ImGui::InputTextWithHint(label, hint, text.data(), text.capacity() + 1, flags | ImGuiInputTextFlags_CallbackResize, resize, &text);
+bool input_text(const char* label, const char* hint, std::string& text, int flags) {
+  return ImGui::InputTextWithHint(label, hint, text.data(), text.capacity() + 1,
+                                  flags | ImGuiInputTextFlags_CallbackResize, resize, &text);
 }
 
-void draw_text(std::uint32_t colour, const std::string& text)
-{
+void draw_text(std::uint32_t colour, const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopStyleColor();
 }
 
-void draw_wrapped(std::uint32_t colour, const std::string& text)
-{
+void draw_wrapped(std::uint32_t colour, const std::string& text) {
   ImGui::PushTextWrapPos(0);
   draw_text(colour, text);
   ImGui::PopTextWrapPos();
 }
 
-void draw_label(const char* text)
-{
+void draw_label(const char* text) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text);
   ImGui::SameLine();
@@ -51,47 +47,42 @@ void draw_label(const char* text)
 
 void tooltip(const std::string& text) { ImGui::SetItemTooltip("%s", text.c_str()); }
 
-void draw_hint(std::uint32_t colour, const ImVec2& corner, const ImVec2& size, const std::string& hint)
-{
+void draw_hint(std::uint32_t colour, const ImVec2& corner, const ImVec2& size, const std::string& hint) {
   const float wrap = 0.9f * size.x;
   const ImVec2 extent = ImGui::CalcTextSize(hint.c_str(), nullptr, false, wrap);
   const ImVec2 at{corner.x + (size.x - extent.x) / 2, corner.y + (size.y - extent.y) / 2};
   ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, colour, hint.c_str(), nullptr, wrap);
 }
 
-void cell(const std::string& text)
-{
+void cell(const std::string& text) {
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(text.c_str());
 }
 
-void heading_cell(const char* text, const char* help)
-{
+void heading_cell(const char* text, const char* help) {
   ImGui::TableNextColumn();
   ImGui::TextDisabled("%s", text);
   tooltip(help);
 }
 
-bool has_words(const std::string& text, const std::string& words)
-{
+bool has_words(const std::string& text, const std::string& words) {
   const std::string lower_text = lower_case(text);
   std::istringstream wanted(lower_case(words));
   return std::all_of(std::istream_iterator<std::string>(wanted), {},
                      [&](const std::string& word) { return lower_text.find(word) != std::string::npos; });
 }
 
-bool delete_pressed()
-{
+bool delete_pressed() {
   return ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) && !ImGui::GetIO().WantTextInput &&
          ImGui::IsKeyPressed(ImGuiKey_Delete, false);
 }
 
-void BarRows::bar(const std::function<void()>& draw)
-{
+void BarRows::bar(const std::function<void()>& draw) {
   const std::size_t index = next_++;
   if (index == widths_.size()) widths_.push_back(0);
   const float gap = 2 * ImGui::GetFontSize();
-  const float end = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x; // the cursor is at the left again after each bar
+  const float end = ImGui::GetCursorScreenPos().x +
+                    ImGui::GetContentRegionAvail().x; // the cursor is at the left again after each bar
   if (index > 0 && widths_[index] > 0 && right_ + gap + widths_[index] <= end) ImGui::SameLine(0, gap);
   ImGui::BeginGroup();
   draw();
@@ -100,47 +91,41 @@ void BarRows::bar(const std::function<void()>& draw)
   widths_[index] = ImGui::GetItemRectSize().x;
 }
 
-void WidgetPlaces::note(const std::string& widget, const std::string& help)
-{
+void WidgetPlaces::note(const std::string& widget, const std::string& help) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   places_[widget] = {(low.x + high.x) / 2, (low.y + high.y) / 2};
   if (!help.empty()) tooltip(help);
 }
 
-bool WidgetPlaces::button(const char* label, const std::string& widget, const std::string& help)
-{
+bool WidgetPlaces::button(const char* label, const std::string& widget, const std::string& help) {
   const bool pressed = ImGui::Button(label);
   note(widget, help);
   return pressed;
 }
 
-bool WidgetPlaces::small_button(const char* label, const std::string& widget, const std::string& help)
-{
+bool WidgetPlaces::small_button(const char* label, const std::string& widget, const std::string& help) {
   const bool pressed = ImGui::SmallButton(label);
   note(widget, help);
   return pressed;
 }
 
-bool WidgetPlaces::checkbox(const char* label, bool* on, const std::string& widget, const std::string& help)
-{
+bool WidgetPlaces::checkbox(const char* label, bool* on, const std::string& widget, const std::string& help) {
   const bool changed = ImGui::Checkbox(label, on);
   note(widget, help);
   return changed;
 }
 
 Combo::Combo(const char* label, const std::string& shown, WidgetPlaces* places, std::string widget)
-    : places_(places), widget_(std::move(widget)), open_(ImGui::BeginCombo(label, shown.c_str(), ImGuiComboFlags_HeightLarge))
-{
+    : places_(places), widget_(std::move(widget)),
+      open_(ImGui::BeginCombo(label, shown.c_str(), ImGuiComboFlags_HeightLarge)) {
   if (places_) places_->note(widget_);
 }
 
-Combo::~Combo()
-{
+Combo::~Combo() {
   if (open_) ImGui::EndCombo();
 }
 
-bool Combo::entry(const std::string& text, bool is_now, const std::string& help)
-{
+bool Combo::entry(const std::string& text, bool is_now, const std::string& help) {
   if (!open_) {
     if (is_now && !help.empty()) tooltip(help);
     return false;
@@ -153,8 +138,7 @@ bool Combo::entry(const std::string& text, bool is_now, const std::string& help)
   return chosen;
 }
 
-std::optional<std::array<double, 2>> WidgetPlaces::of(const std::string& widget) const
-{
+std::optional<std::array<double, 2>> WidgetPlaces::of(const std::string& widget) const {
   const auto found = places_.find(widget);
   if (found == places_.end()) return std::nullopt;
   return found->second;

@@ -70,12 +70,14 @@ private:
 /// A list to choose from, open or not; as long as it lives its entries are drawn.
 class Combo {
 public:
-  /// shown: what is chosen now. widget: its name among places, where that is not null; entries are noted as "WIDGET:TEXT".
+  /// shown: what is chosen now. widget: its name among places, where that is not null; entries are noted as
+  /// "WIDGET:TEXT".
   Combo(const char* label, const std::string& shown, WidgetPlaces* places = nullptr, std::string widget = {});
   ~Combo();
   Combo(const Combo&) = delete;
   Combo& operator=(const Combo&) = delete;
-  /// True where it is chosen in this frame. is_now: it was chosen before. help: of the entry; while the list is closed, of the present one.
+  /// True where it is chosen in this frame. is_now: it was chosen before. help: of the entry; while the list is closed,
+  /// of the present one.
   bool entry(const std::string& text, bool is_now, const std::string& help = {});
 
 private:
@@ -88,14 +90,16 @@ private:
 /// What notes where its widgets are.
 class Placed {
 public:
-  /// For tests: the middle of a widget on the screen, by the name that its owner gives it; nothing where it was not drawn last.
+  /// For tests: the middle of a widget on the screen, by the name that its owner gives it; nothing where it was not
+  /// drawn last.
   std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 protected:
   WidgetPlaces places_;
 };
 
-/// Numbers for the gestures of one panel. UndoStack makes one entry of the edits that have one number, so no two panels may have the same.
+/// Numbers for the gestures of one panel. UndoStack makes one entry of the edits that have one number, so no two panels
+/// may have the same.
 class Gestures {
 public:
   /// panel: its name, which is no other panel's.

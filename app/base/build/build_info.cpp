@@ -9,8 +9,7 @@ std::string version() { return NEPHROID_VERSION; }
 
 std::string commit() { return NEPHROID_COMMIT; }
 
-std::string compiler()
-{
+std::string compiler() {
 #if defined(__clang__)
   const std::string name = "clang " __clang_version__;
 #else
@@ -19,8 +18,7 @@ std::string compiler()
   return name + " (" NEPHROID_BUILD_TYPE ")";
 }
 
-std::string program_name()
-{
+std::string program_name() {
   const std::string name = "nephroid " + version();
   return commit().empty() ? name : name + " (" + commit() + ")";
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `nephroid pictures`: what the receivers of a preset of engine 3 shall show, and how close to that an object comes at best. Designs
-// nothing.
+// `nephroid pictures`: what the receivers of a preset of engine 3 shall show, and how close to that an object comes at
+// best. Designs nothing.
 #include "cli/verb.h"
 #include "image/image.h"
 #include "inverse/assign/cost.h"
@@ -25,8 +25,7 @@ struct PicturesOptions {
   std::filesystem::path picture;
 };
 
-void show_pictures(const PicturesOptions& options)
-{
+void show_pictures(const PicturesOptions& options) {
   const preset::Preset preset = preset::read_preset(options.preset, options.overrides);
   const InversePlan plan = preset::at_origins(preset, [&] {
     engine::require_engine(preset, inverse::engine, "casts no pictures");
@@ -37,7 +36,8 @@ void show_pictures(const PicturesOptions& options)
   for (std::size_t j = 0; j < design.targets.size(); ++j) {
     const Target &target = design.targets[j], &best = design.best()[j];
     const double most = *std::max_element(target.begin(), target.end()), off = cost_of(target, best, 1).rel_l2;
-    const auto wanted = grey_picture(target, 1 / most, design.layout.cells), at_best = grey_picture(best, 1 / most, design.layout.cells);
+    const auto wanted = grey_picture(target, 1 / most, design.layout.cells),
+               at_best = grey_picture(best, 1 / most, design.layout.cells);
     columns.push_back({{wanted, fmt::format("wanted at {} mm", design.layout.distances[j])},
                        {at_best, fmt::format("at best: {:.3f} off", off)},
                        {difference_picture(*wanted, *at_best), "red: too much, blue: too little"}});
@@ -52,8 +52,7 @@ void show_pictures(const PicturesOptions& options)
 
 } // namespace
 
-void add_pictures(CLI::App& program, Session&)
-{
+void add_pictures(CLI::App& program, Session&) {
   const auto options = std::make_shared<PicturesOptions>();
   Verb verb(program, "pictures", "What an object of the engine 'inverse' shall cast, and how close it can come at best",
             {{"nephroid pictures inverse/faces -o faces.png", "before a run: wanted, at best, and the difference"}});

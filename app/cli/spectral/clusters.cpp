@@ -40,25 +40,27 @@ struct Task {
 };
 
 /// The dielectric to cluster: the wanted one, or the only one that an object is made of.
-std::string chosen_material(const preset::Preset& preset, const std::string& wanted)
-{
+std::string chosen_material(const preset::Preset& preset, const std::string& wanted) {
   std::set<std::string> dielectrics;
   for (const preset::Object& object : preset.scene.objects) {
     const auto found = preset.scene.materials.find(object.material);
-    if (found != preset.scene.materials.end() && found->second.type == preset::Material::Type::dielectric) dielectrics.insert(found->first);
+    if (found != preset.scene.materials.end() && found->second.type == preset::Material::Type::dielectric)
+      dielectrics.insert(found->first);
   }
   const std::string names = fmt::format("{}", fmt::join(dielectrics, ", "));
-  if (dielectrics.empty()) throw bad_input(preset.source, "no object is made of a dielectric", "expected a material with dispersion");
+  if (dielectrics.empty())
+    throw bad_input(preset.source, "no object is made of a dielectric", "expected a material with dispersion");
   if (wanted.empty() && dielectrics.size() == 1) return *dielectrics.begin();
   if (wanted.empty())
-    throw bad_input(preset.source, "objects are made of several dielectrics: " + names, "expected one of them with --material");
+    throw bad_input(preset.source, "objects are made of several dielectrics: " + names,
+                    "expected one of them with --material");
   if (!dielectrics.contains(wanted))
-    throw bad_input("--material", fmt::format("no object is made of a dielectric \"{}\"", wanted), "expected one of " + names);
+    throw bad_input("--material", fmt::format("no object is made of a dielectric \"{}\"", wanted),
+                    "expected one of " + names);
   return wanted;
 }
 
-Task preset_task(const ClusterOptions& options)
-{
+Task preset_task(const ClusterOptions& options) {
   const preset::Preset preset = preset::read_preset(options.preset, options.overrides);
   preset::at_origins(preset, [&] { engine::require_engine(preset, spectral::engine, "clusters no wavelengths"); });
   const std::string name = chosen_material(preset, options.material);
@@ -66,11 +68,11 @@ Task preset_task(const ClusterOptions& options)
   const Place where = Place(preset.source) / "scene" / "materials" / name / "dispersion";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   return {preset::at_origins(preset, [&] { return scene::make_curve(dispersion, finder, where); }),
-          scene::outside_policy(dispersion.outside), spectral::settings(preset).threshold_deg, spectral::settings(preset).method};
+          scene::outside_policy(dispersion.outside), spectral::settings(preset).threshold_deg,
+          spectral::settings(preset).method};
 }
 
-Task make_task(const ClusterOptions& options)
-{
+Task make_task(const ClusterOptions& options) {
   if (options.preset.empty() == options.ior.empty())
     throw bad_input("clusters", options.ior.empty() ? "nothing to cluster" : "both a preset and --ior are given",
                     "expected a PRESET or --ior FILE");
@@ -84,11 +86,11 @@ Task make_task(const ClusterOptions& options)
   return task;
 }
 
-void print_json(const Clustering& clustering)
-{
+void print_json(const Clustering& clustering) {
   Json clusters = Json::array();
   for (const photons::Cluster& c : clustering.clusters)
-    clusters.push_back({{"wavelengths_nm", wavelengths_nm(c.wavelengths)}, {"n_mean", c.n_mean}, {"theta_deg2", c.theta_deg2}});
+    clusters.push_back(
+        {{"wavelengths_nm", wavelengths_nm(c.wavelengths)}, {"n_mean", c.n_mean}, {"theta_deg2", c.theta_deg2}});
   const Json all{{"method", preset::word(clustering.method)},
                  {"threshold_deg", clustering.threshold_deg},
                  {"total_theta_deg2", clustering.total_theta_deg2},
@@ -97,39 +99,42 @@ void print_json(const Clustering& clustering)
   fmt::print("{}\n", json_text(all));
 }
 
-void print_text(const std::string& name, const Clustering& clustering)
-{
-  fmt::print("{}: {} by the method {} at a threshold of {} deg; the angle changes by {:.3f} square degrees in all\n", name,
-             counted(clustering.clusters.size(), "cluster"), preset::word(clustering.method), clustering.threshold_deg,
-             clustering.total_theta_deg2);
+void print_text(const std::string& name, const Clustering& clustering) {
+  fmt::print("{}: {} by the method {} at a threshold of {} deg; the angle changes by {:.3f} square degrees in all\n",
+             name, counted(clustering.clusters.size(), "cluster"), preset::word(clustering.method),
+             clustering.threshold_deg, clustering.total_theta_deg2);
   fmt::print("{:>5} {:>10} {:>10}  {}\n", "count", "mean n", "deg^2", "wavelengths");
   for (const photons::Cluster& c : clustering.clusters)
-    fmt::print("{:>5} {:>10.6f} {:>10.4f}  {}\n", c.wavelengths.size(), c.n_mean, c.theta_deg2, wavelength_runs(c.wavelengths));
+    fmt::print("{:>5} {:>10.6f} {:>10.4f}  {}\n", c.wavelengths.size(), c.n_mean, c.theta_deg2,
+               wavelength_runs(c.wavelengths));
 }
 
-void print_clusters(const ClusterOptions& options)
-{
+void print_clusters(const ClusterOptions& options) {
   const Task task = make_task(options);
   const optics::Spectrum n = optics::sample_n(task.curve, task.outside);
-  if (const std::string note = optics::outside_note(task.curve, task.outside); !note.empty()) fmt::print(stderr, "nephroid: {}\n", note);
+  if (const std::string note = optics::outside_note(task.curve, task.outside); !note.empty())
+    fmt::print(stderr, "nephroid: {}\n", note);
   const Clustering clustering = photons::cluster_wavelengths(n, task.threshold_deg, task.method);
   options.json ? print_json(clustering) : print_text(task.curve.name, clustering);
 }
 
 } // namespace
 
-void add_clusters(CLI::App& program, Session&)
-{
+void add_clusters(CLI::App& program, Session&) {
   const auto options = std::make_shared<ClusterOptions>();
   Verb verb(program, "clusters", "Which wavelengths share one path through a glass",
-            {{"nephroid clusters first-light", ""}, {"nephroid clusters --ior N-SF66 --threshold 0.1", "of a glass, without a scene"}});
+            {{"nephroid clusters first-light", ""},
+             {"nephroid clusters --ior N-SF66 --threshold 0.1", "of a glass, without a scene"}});
   verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset"});
-  verb.option("--ior", options->ior,
-              {.type = "FILE", .says = "A refractiveindex.info file or a shipped material (N-SF66) instead of a preset"});
-  verb.option("--material", options->material, {.type = "NAME", .says = "Which dielectric of the preset, where it has several"});
   verb.option(
-      "--threshold", options->threshold_deg,
-      {.type = "DEG", .says = "The largest change of the refraction angle inside a cluster, in degrees; default: the preset's, else 0.05"});
+      "--ior", options->ior,
+      {.type = "FILE", .says = "A refractiveindex.info file or a shipped material (N-SF66) instead of a preset"});
+  verb.option("--material", options->material,
+              {.type = "NAME", .says = "Which dielectric of the preset, where it has several"});
+  verb.option("--threshold", options->threshold_deg,
+              {.type = "DEG",
+               .says = "The largest change of the refraction angle inside a cluster, in degrees; default: the "
+                       "preset's, else 0.05"});
   verb.option("--method", options->method,
               {.type = "METHOD",
                .says = "optimal, thesis (Algorithm 4.1) or brute_force; default: the preset's, else optimal",

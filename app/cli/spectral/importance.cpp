@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `nephroid importance`: how much each wavelength matters in a preset's scene, and the iterations that its clusters get for it.
+// `nephroid importance`: how much each wavelength matters in a preset's scene, and the iterations that its clusters get
+// for it.
 #include "photons/effort/importance.h"
 #include "base/counted.h"
 #include "base/json_output.h"
@@ -46,15 +47,14 @@ struct Answer {
 };
 
 /// The wavelengths of a cluster that are rendered.
-std::vector<int> rendered(const std::vector<int>& cluster, const std::vector<bool>& lit)
-{
+std::vector<int> rendered(const std::vector<int>& cluster, const std::vector<bool>& lit) {
   std::vector<int> result;
-  std::copy_if(cluster.begin(), cluster.end(), std::back_inserter(result), [&](int w) { return lit[static_cast<std::size_t>(w)]; });
+  std::copy_if(cluster.begin(), cluster.end(), std::back_inserter(result),
+               [&](int w) { return lit[static_cast<std::size_t>(w)]; });
   return result;
 }
 
-std::vector<Row> make_rows(const preset::Preset& preset, const scene::Scene& scene, const Answer& answer)
-{
+std::vector<Row> make_rows(const preset::Preset& preset, const scene::Scene& scene, const Answer& answer) {
   std::vector<bool> lit(optics::wavelength_count, true);
   const photons::Settings& settings = spectral::settings(preset);
   if (preset.leave_out) lit = tracing::lit_wavelengths(scene);
@@ -62,14 +62,14 @@ std::vector<Row> make_rows(const preset::Preset& preset, const scene::Scene& sce
   for (const std::vector<int>& cluster : photons::scene_clusters(settings, scene)) {
     const std::vector<std::vector<int>> counted{rendered(cluster, lit)};
     const double importance =
-        counted[0].empty() ? 0 : photons::cluster_importance(answer.importance.u, counted, settings.importance.cluster)[0];
+        counted[0].empty() ? 0
+                           : photons::cluster_importance(answer.importance.u, counted, settings.importance.cluster)[0];
     rows.push_back({cluster, importance, photons::iterations(importance, answer.passes)});
   }
   return rows;
 }
 
-Answer answer_for(preset::Preset preset, const std::string& method)
-{
+Answer answer_for(preset::Preset preset, const std::string& method) {
   Method& effort = spectral::settings(preset).effort;
   if (method.empty() ? effort != Method::radziszewski : method == "thesis") effort = Method::importance;
   if (method == "radziszewski") effort = Method::radziszewski;
@@ -88,14 +88,14 @@ Answer answer_for(preset::Preset preset, const std::string& method)
 
 std::string word(Method method) { return method == Method::importance ? "thesis" : "radziszewski"; }
 
-void print_json(const Answer& answer)
-{
+void print_json(const Answer& answer) {
   std::vector<int> all;
   for (int w = 0; w < optics::wavelength_count; ++w) all.push_back(w);
   Json iterations = Json::array(), surroundings = Json::array();
   for (const Row& row : answer.rows)
-    iterations.push_back(
-        {{"wavelengths_nm", wavelengths_nm(row.wavelengths)}, {"importance", row.importance}, {"iterations", row.iterations}});
+    iterations.push_back({{"wavelengths_nm", wavelengths_nm(row.wavelengths)},
+                          {"importance", row.importance},
+                          {"iterations", row.iterations}});
   for (std::size_t i = 0; i < answer.materials.size(); ++i) {
     const photons::Surrounding& s = answer.importance.surroundings[i];
     surroundings.push_back({{"material", answer.materials[i]}, {"share", s.share}, {"lightness", s.lightness}});
@@ -110,12 +110,14 @@ void print_json(const Answer& answer)
   fmt::print("{}\n", json_text(object));
 }
 
-double ratio(std::int64_t a, std::int64_t b) { return static_cast<double>(a) / static_cast<double>(std::max<std::int64_t>(b, 1)); }
+double ratio(std::int64_t a, std::int64_t b) {
+  return static_cast<double>(a) / static_cast<double>(std::max<std::int64_t>(b, 1));
+}
 
-void print_text(const Answer& answer)
-{
+void print_text(const Answer& answer) {
   fmt::print("{}: importance by {}\n", answer.name,
-             answer.method == Method::importance ? "light, luminosity and surroundings (4.15)" : "1 / cosh^2(0.0072 (lambda - 538))");
+             answer.method == Method::importance ? "light, luminosity and surroundings (4.15)"
+                                                 : "1 / cosh^2(0.0072 (lambda - 538))");
   if (!answer.materials.empty()) fmt::print("{:>7} {:>6}  {}\n", "share", "L*", "surrounding material");
   for (std::size_t i = 0; i < answer.materials.size(); ++i) {
     const photons::Surrounding& s = answer.importance.surroundings[i];
@@ -125,17 +127,17 @@ void print_text(const Answer& answer)
   std::int64_t sum = 0;
   for (const Row& row : answer.rows) {
     sum += row.iterations;
-    fmt::print("{:>5} {:>10.3g} {:>10}  {}\n", row.wavelengths.size(), row.importance, row.iterations, wavelength_runs(row.wavelengths));
+    fmt::print("{:>5} {:>10.3g} {:>10}  {}\n", row.wavelengths.size(), row.importance, row.iterations,
+               wavelength_runs(row.wavelengths));
   }
   const auto clusters = static_cast<std::int64_t>(answer.rows.size());
   const std::int64_t equal = clusters * answer.passes, brute_force = optics::wavelength_count * answer.passes;
-  fmt::print("{} for {}; {} alike: {}, {:.1f} times as many; {} wavelengths one by one: {}, {:.1f} times\n", counted(sum, "iteration"),
-             counted(answer.passes, "pass", "passes"), counted(clusters, "cluster"), equal, ratio(equal, sum), optics::wavelength_count,
-             brute_force, ratio(brute_force, sum));
+  fmt::print("{} for {}; {} alike: {}, {:.1f} times as many; {} wavelengths one by one: {}, {:.1f} times\n",
+             counted(sum, "iteration"), counted(answer.passes, "pass", "passes"), counted(clusters, "cluster"), equal,
+             ratio(equal, sum), optics::wavelength_count, brute_force, ratio(brute_force, sum));
 }
 
-void print_importance(const ImportanceOptions& options)
-{
+void print_importance(const ImportanceOptions& options) {
   std::vector<Answer> answers; // all before the first is printed: one of a sweep may be refused
   for (const preset::Preset& preset : preset::read_presets(options.preset, options.overrides))
     answers.push_back(preset::at_origins(preset, [&] {
@@ -147,8 +149,7 @@ void print_importance(const ImportanceOptions& options)
 
 } // namespace
 
-void add_importance(CLI::App& program, Session&)
-{
+void add_importance(CLI::App& program, Session&) {
   const auto options = std::make_shared<ImportanceOptions>();
   Verb verb(program, "importance", "How much each wavelength matters, and the iterations its cluster gets",
             {{"nephroid importance spectral/prism", ""}});

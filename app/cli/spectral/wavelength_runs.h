@@ -11,16 +11,14 @@
 namespace nephroid::cli {
 
 /// indices (both): 0..400, in any order.
-inline std::vector<int> wavelengths_nm(const std::vector<int>& indices)
-{
+inline std::vector<int> wavelengths_nm(const std::vector<int>& indices) {
   std::vector<int> result;
   for (const int index : indices) result.push_back(optics::wavelength_nm(index));
   return result;
 }
 
 /// "380-384,390 nm": runs of neighbouring wavelengths, by rising wavelength.
-inline std::string wavelength_runs(const std::vector<int>& indices)
-{
+inline std::string wavelength_runs(const std::vector<int>& indices) {
   const std::vector<int> members = wavelengths_nm(indices);
   const std::set<int> sorted(members.begin(), members.end());
   std::string text;

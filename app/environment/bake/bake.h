@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an object does to parallel light from each of some directions: caustic spheres (thesis 3.1).
 //
-// Stored is the power through a texel of a sphere over the texel's solid angle, for light of 1 W/m^2: E r^2, where E is the irradiance on
-// the sphere itself, so on a surface that faces the middle. And stored is the mean way that the light goes there. A surface with another
-// normal has E times the cosine between that and the way, over the cosine between the sphere's and the way: exact where all light of a
-// texel goes one way. (The thesis takes all light to come from the middle. Under a low sun
-// `environment/bunny` then has 30 % too much light on its floor.)
+// Stored is the power through a texel of a sphere over the texel's solid angle, for light of 1 W/m^2: E r^2, where E is
+// the irradiance on the sphere itself, so on a surface that faces the middle. And stored is the mean way that the light
+// goes there. A surface with another normal has E times the cosine between that and the way, over the cosine between
+// the sphere's and the way: exact where all light of a texel goes one way. (The thesis takes all light to come from the
+// middle. Under a low sun `environment/bunny` then has 30 % too much light on its floor.)
 #pragma once
 #include <glm/glm.hpp>
 
@@ -20,44 +20,47 @@
 
 namespace nephroid::environment {
 
-/// The map of a caustic sphere: a square whose texels all have the same solid angle, by the octahedral map of Clarberg (2008, "Fast
-/// equal-area mapping of the (hemi)sphere using SIMD"). kernels/environment/sphere_map.h has the same in single precision.
+/// The map of a caustic sphere: a square whose texels all have the same solid angle, by the octahedral map of Clarberg
+/// (2008, "Fast equal-area mapping of the (hemi)sphere using SIMD"). kernels/environment/sphere_map.h has the same in
+/// single precision.
 struct SphereMap {
   int side = 1; ///< texels across and down
 
   std::size_t texels() const { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
-  double solid_angle() const { return 4 * std::numbers::pi / static_cast<double>(texels()); } ///< of a texel, in steradians
+  double solid_angle() const {
+    return 4 * std::numbers::pi / static_cast<double>(texels());
+  } ///< of a texel, in steradians
   /// Row after row. direction: of any length but 0.
   std::size_t texel(const glm::dvec3& direction) const;
   /// The unit direction of a texel's middle.
   glm::dvec3 direction(std::size_t texel) const;
 
-  /// In their stored form maps have a border of one more texel all around, with what is over the edge: there the square goes on at the same
-  /// edge, from its other end. So what lies between texels is looked up without a branch.
+  /// In their stored form maps have a border of one more texel all around, with what is over the edge: there the square
+  /// goes on at the same edge, from its other end. So what lies between texels is looked up without a branch.
   std::size_t stored_texels() const { return static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2); }
   std::size_t stored_texel(std::size_t texel) const; ///< where a texel is in the stored form
   /// The texel that each of the stored form shows; texel_of_stored of kernels/environment/spheres.h, for all.
   std::vector<std::size_t> texels_of_stored() const;
 };
 
-/// The upper half of the nearest float: what maps hold. Nine bits are more than the photons' noise leaves, and no device takes long over
-/// them.
+/// The upper half of the nearest float: what maps hold. Nine bits are more than the photons' noise leaves, and no
+/// device takes long over them.
 std::uint16_t upper_half(double value);
 
-/// How many directions light may be baked from: points of a cube's surface, towards its middle (thesis 3.1). Each face is a square grid
-/// whose points on edges and corners it shares with its neighbours: 3 x 3 points a face are 26 in all (8 corners, 12 middles of edges, 6 of
-/// faces), 5 x 5 are 98, 9 x 9 are 386.
+/// How many directions light may be baked from: points of a cube's surface, towards its middle (thesis 3.1). Each face
+/// is a square grid whose points on edges and corners it shares with its neighbours: 3 x 3 points a face are 26 in all
+/// (8 corners, 12 middles of edges, 6 of faces), 5 x 5 are 98, 9 x 9 are 386.
 std::span<const int> direction_counts();
 
-/// The points of a cube from -m to m, m = 1, 2 or 4, with whole coordinates: of x, y and z the last changes fastest. count: one of
-/// direction_counts().
+/// The points of a cube from -m to m, m = 1, 2 or 4, with whole coordinates: of x, y and z the last changes fastest.
+/// count: one of direction_counts().
 std::vector<glm::ivec3> cube_points(int count);
 
 /// Unit, the way the light goes, of each of cube_points(count).
 std::vector<glm::dvec3> light_directions(int count);
 
-/// Where the light of one direction goes. Areas across it, in squares of Bake::size: of the light that meets the object, and of that the
-/// part that leaves it, that is absorbed, and that is lost after too many surfaces.
+/// Where the light of one direction goes. Areas across it, in squares of Bake::size: of the light that meets the
+/// object, and of that the part that leaves it, that is absorbed, and that is lost after too many surfaces.
 struct BakedDirection {
   double met = 0, sent = 0, absorbed = 0, lost = 0;
 };
@@ -83,8 +86,9 @@ struct Bake {
   glm::dvec3 at(std::size_t direction, std::size_t sphere, std::size_t texel) const;
 };
 
-/// A bake kept on disk, so that a second start costs a read. The file has the name of its key in the folder of caches. It is written whole,
-/// and used only where it was made by this version of the program and its kernels for exactly this key, and is as long as it was.
+/// A bake kept on disk, so that a second start costs a read. The file has the name of its key in the folder of caches.
+/// It is written whole, and used only where it was made by this version of the program and its kernels for exactly this
+/// key, and is as long as it was.
 struct BakeIdentity {
   std::uint64_t key = 0;     ///< bake_key
   std::uint64_t kernels = 0; ///< hash of the kernels' sources; 0 where they are not known yet
@@ -93,14 +97,15 @@ struct BakeIdentity {
 /// Empty where the user has no folder of caches.
 std::filesystem::path bake_path(std::uint64_t key);
 
-/// Why the file cannot be used, as far as its first bytes and its length tell; "" where there is none, nothing where all is right.
+/// Why the file cannot be used, as far as its first bytes and its length tell; "" where there is none, nothing where
+/// all is right.
 std::optional<std::string> bake_file_fault(const std::filesystem::path& file, const BakeIdentity& identity);
 
 /// Throws bad_input, saying why, where the file cannot be used.
 Bake read_bake(const std::filesystem::path& file, const BakeIdentity& identity);
 
-/// Makes the folder. Throws failed where it cannot be written. Then removes the oldest bakes of the folder, until all together take no more
-/// than `most` bytes; the one just written stays.
+/// Makes the folder. Throws failed where it cannot be written. Then removes the oldest bakes of the folder, until all
+/// together take no more than `most` bytes; the one just written stays.
 void write_bake(const std::filesystem::path& file, const BakeIdentity& identity, const Bake& bake,
                 std::uint64_t most = std::uint64_t{4} << 30);
 

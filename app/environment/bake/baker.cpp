@@ -14,21 +14,20 @@
 namespace nephroid::environment {
 namespace {
 
-/// Quanta that a photon with an equal share of all power has: far more than rounding takes, and 2^30 photons of 2^6 times as much fit.
+/// Quanta that a photon with an equal share of all power has: far more than rounding takes, and 2^30 photons of 2^6
+/// times as much fit.
 constexpr double quanta_of_photon = 0x1p24;
 
 } // namespace
 
-bool is_coloured(const tracing::WavelengthTables& tables)
-{
+bool is_coloured(const tracing::WavelengthTables& tables) {
   if (tables.clusters_spread) return true;
   for (std::size_t i = 0; i < tables.coefficient.size(); ++i)
     if (tables.coefficient[i] != tables.coefficient[i - i % WAVELENGTH_COUNT]) return true;
   return false;
 }
 
-Bake BakeTask::empty_bake() const
-{
+Bake BakeTask::empty_bake() const {
   Bake bake;
   bake.map.side = resolution;
   bake.channels = coloured ? 3 : 1;
@@ -38,8 +37,7 @@ Bake BakeTask::empty_bake() const
   return bake;
 }
 
-BakeTask make_task(const preset::Preset& preset)
-{
+BakeTask make_task(const preset::Preset& preset) {
   const Settings& s = settings(preset);
   BakeTask task;
   task.caster = make_caster(preset);
@@ -65,9 +63,8 @@ Baker::Baker(const BakeTask& task, const mpi::RankContext& context, std::size_t 
     : task_(task), wanted_(std::min(wanted, task.directions.size())),
       world_(tracing::make_world(context, task.caster.scene, task.bvh, task.tables, task.defines, task.seed)),
       light_rgb_(compute::Buffer(context, "white light", white_light())),
-      radii_(compute::Buffer(context, "radii", std::vector<float>(task.radii.begin(), task.radii.end()))), bake_(task.empty_bake()),
-      texels_(bake_.map.texels_of_stored())
-{
+      radii_(compute::Buffer(context, "radii", std::vector<float>(task.radii.begin(), task.radii.end()))),
+      bake_(task.empty_bake()), texels_(bake_.map.texels_of_stored()) {
   for (std::size_t i = 0; i < bake_.map.texels(); ++i)
     outward_.push_back(static_cast<std::uint16_t>(Bake::way_map.texel(bake_.map.direction(i))));
   // As kernels/tracing/emission.h has it: photons are spread over the discs of all targets, which may overlap.
@@ -81,16 +78,14 @@ Baker::Baker(const BakeTask& task, const mpi::RankContext& context, std::size_t 
   kernel_ = compute::Program(context, "environment/bake.cl", world_.photon_defines()).kernel("bake");
 }
 
-std::size_t Baker::at_once() const
-{
+std::size_t Baker::at_once() const {
   return std::min(static_cast<std::size_t>(world_.context.communicator().size()), wanted_ - bake_.baked.size());
 }
 
-void Baker::advance()
-{
+void Baker::advance() {
   const Communicator& communicator = world_.context.communicator();
-  const auto count = static_cast<std::uint32_t>(
-      std::clamp<std::int64_t>(std::llround(photons_a_slice_.amount(communicator)), 1, std::int64_t{task_.photons} - sent_));
+  const auto count = static_cast<std::uint32_t>(std::clamp<std::int64_t>(
+      std::llround(photons_a_slice_.amount(communicator)), 1, std::int64_t{task_.photons} - sent_));
   const auto rank = static_cast<std::size_t>(communicator.rank()), number = bake_.baked.size() + rank;
   // The light of the tables has power_unit W/m^2 as its unit.
   const auto scale = static_cast<float>(quanta_of_photon / watts_ * task_.tables.power_unit);
@@ -115,15 +110,14 @@ void Baker::advance()
   if (sent_ == task_.photons) finish_directions();
 }
 
-std::optional<double> Baker::seconds_left() const
-{
+std::optional<double> Baker::seconds_left() const {
   if (!seconds_a_direction_) return std::nullopt;
   return *seconds_a_direction_ * (static_cast<double>(task_.directions.size() - bake_.baked.size()) - fraction_done());
 }
 
-void Baker::finish_sphere(std::size_t direction, std::size_t sphere, double scale)
-{
-  const std::size_t channels = task_.sums_a_texel() - 3, first = (direction * task_.radii.size() + sphere) * texels_.size();
+void Baker::finish_sphere(std::size_t direction, std::size_t sphere, double scale) {
+  const std::size_t channels = task_.sums_a_texel() - 3,
+                    first = (direction * task_.radii.size() + sphere) * texels_.size();
   std::vector<std::int64_t> sums(task_.sums_a_sphere());
   const std::size_t bytes = sums.size() * sizeof(std::int64_t);
   film_.RawBuffer::read(sums.data(), bytes, sphere * bytes);
@@ -133,26 +127,27 @@ void Baker::finish_sphere(std::size_t direction, std::size_t sphere, double scal
       for (std::size_t c = 0; c < channels; ++c)
         bake_.light[(first + i) * channels + c] = upper_half(scale * static_cast<double>(texel_sums[c]));
       const glm::dvec3 way(texel_sums[channels], texel_sums[channels + 1], texel_sums[channels + 2]);
-      bake_.ways[first + i] = way == glm::dvec3(0) ? outward_[texels_[i]] : static_cast<std::uint16_t>(Bake::way_map.texel(way));
+      bake_.ways[first + i] =
+          way == glm::dvec3(0) ? outward_[texels_[i]] : static_cast<std::uint16_t>(Bake::way_map.texel(way));
     }
   });
 }
 
-BakedDirection Baker::finish_direction(std::size_t direction)
-{
+BakedDirection Baker::finish_direction(std::size_t direction) {
   const double size2 = std::pow(task_.caster.size * task_.caster.scene.metres_per_unit, 2);
   const double area_of_quantum = watts_ / (quanta_of_photon * task_.photons * size2); // in size^2
   const double scale = area_of_quantum / bake_.map.solid_angle();
   for (std::size_t sphere = 0; sphere < task_.radii.size(); ++sphere) finish_sphere(direction, sphere, scale);
   const std::vector<std::int64_t> energy = energy_.read();
   const auto area = [&](std::size_t outcome) { return area_of_quantum * static_cast<double>(energy[outcome]); };
-  return {area(OUTCOME_EMITTED) - area(OUTCOME_MISSED), area(OUTCOME_ESCAPED), area(OUTCOME_ABSORBED), area(OUTCOME_LOST)};
+  return {area(OUTCOME_EMITTED) - area(OUTCOME_MISSED), area(OUTCOME_ESCAPED), area(OUTCOME_ABSORBED),
+          area(OUTCOME_LOST)};
 }
 
-void Baker::finish_directions()
-{
+void Baker::finish_directions() {
   const Communicator& communicator = world_.context.communicator();
-  const std::size_t before = bake_.baked.size(), after = before + at_once(), own = before + static_cast<std::size_t>(communicator.rank());
+  const std::size_t before = bake_.baked.size(), after = before + at_once(),
+                    own = before + static_cast<std::size_t>(communicator.rank());
   bake_.light.resize(after * bake_.direction_items());
   bake_.ways.resize(after * bake_.direction_texels());
   bake_.baked.resize(after);
@@ -166,26 +161,26 @@ void Baker::finish_directions()
   join(bake_.baked);
   clear();
   const auto now = std::chrono::steady_clock::now();
-  seconds_a_direction_ = std::chrono::duration<double>(now - std::exchange(began_, now)).count() / static_cast<double>(after - before);
+  seconds_a_direction_ =
+      std::chrono::duration<double>(now - std::exchange(began_, now)).count() / static_cast<double>(after - before);
 }
 
 /// Directions in hand begin anew.
-void Baker::clear()
-{
+void Baker::clear() {
   film_.fill_zero();
   energy_.fill_zero();
   sent_ = 0;
 }
 
-void Baker::state(tracing::State& state)
-{
+void Baker::state(tracing::State& state) {
   // What ranks have in hand is done again: any number of them may go on.
   const bool is_alone = world_.context.communicator().is_alone();
   std::uint64_t baked = bake_.baked.size();
   std::uint32_t sent = is_alone ? sent_ : 0;
   state.value(sent);
   state.value(baked);
-  if (state.is_read() && (baked > task_.directions.size() || sent >= task_.photons)) throw bad_input("checkpoint", "is of another run");
+  if (state.is_read() && (baked > task_.directions.size() || sent >= task_.photons))
+    throw bad_input("checkpoint", "is of another run");
   bake_.baked.resize(baked);
   bake_.light.resize(baked * bake_.direction_items());
   bake_.ways.resize(baked * bake_.direction_texels());

@@ -3,8 +3,8 @@
 #pragma once
 #include "environment/bake/bake.h"
 #include "environment/bake/caster.h"
-#include "scene/bvh.h"
 #include "mpi/rank_context.h"
+#include "scene/bvh.h"
 #include "tracing/scene_tables.h"
 #include "tracing/slices.h"
 #include "tracing/world.h"
@@ -38,10 +38,10 @@ struct BakeTask {
   std::size_t sums_a_sphere() const { return sums_a_texel() * SphereMap{resolution}.texels(); }
   std::uint64_t film_bytes() const { return radii.size() * sums_a_sphere() * sizeof(std::int64_t); }
   /// Of all directions, in memory.
-  std::uint64_t bytes() const
-  {
+  std::uint64_t bytes() const {
     const Bake bake = empty_bake();
-    return static_cast<std::uint64_t>(bake.direction_items() + bake.direction_texels()) * directions.size() * sizeof(std::uint16_t);
+    return static_cast<std::uint64_t>(bake.direction_items() + bake.direction_texels()) * directions.size() *
+           sizeof(std::uint16_t);
   }
 };
 
@@ -50,10 +50,12 @@ BakeTask make_task(const preset::Preset& preset);
 
 class Baker {
 public:
-  /// task outlives it. wanted: directions that it will be asked for. Throws failed where the device has not enough memory.
+  /// task outlives it. wanted: directions that it will be asked for. Throws failed where the device has not enough
+  /// memory.
   Baker(const BakeTask& task, const mpi::RankContext& context, std::size_t wanted = ~std::size_t{0});
 
-  /// Photons of the direction in hand; with its last ones the direction is added to the bake. With several ranks, of a direction for each rank.
+  /// Photons of the direction in hand; with its last ones the direction is added to the bake. With several ranks, of a
+  /// direction for each rank.
   void advance();
   bool finished() const { return bake_.baked.size() == task_.directions.size(); }
   /// Of the direction in hand, 0..1.
@@ -61,7 +63,9 @@ public:
   /// Until all is baked, if all goes on as it went with the last direction; nothing before the first is done.
   std::optional<double> seconds_left() const;
   /// Sent so far.
-  std::uint64_t photons() const { return bake_.baked.size() * std::uint64_t{task_.photons} + at_once() * std::uint64_t{sent_}; }
+  std::uint64_t photons() const {
+    return bake_.baked.size() * std::uint64_t{task_.photons} + at_once() * std::uint64_t{sent_};
+  }
   const Bake& bake() const { return bake_; }
   /// Once finished.
   Bake take() { return std::move(bake_); }
@@ -90,7 +94,7 @@ private:
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(); ///< with the direction in hand
   std::optional<double> seconds_a_direction_;                                      ///< that the one before it took
   std::vector<std::size_t> texels_;                                                ///< SphereMap::texels_of_stored
-  std::vector<std::uint16_t> outward_;                                             ///< [texel]: the number of its direction among ways
+  std::vector<std::uint16_t> outward_; ///< [texel]: the number of its direction among ways
 };
 
 } // namespace nephroid::environment

@@ -8,17 +8,16 @@
 
 namespace nephroid::environment {
 
-Baking::Baking(std::shared_ptr<const BakeTask> task, std::uint64_t key, std::filesystem::path file, bool reads, std::size_t directions,
-               const mpi::RankContext& context)
+Baking::Baking(std::shared_ptr<const BakeTask> task, std::uint64_t key, std::filesystem::path file, bool reads,
+               std::size_t directions, const mpi::RankContext& context)
     : task_(std::move(task)), context_(context),
-      file_(std::move(file)), identity_{key, hash_of(compute::kernel_source(context, "environment/bake.cl"))}, wanted_(directions)
-{
+      file_(std::move(file)), identity_{key, hash_of(compute::kernel_source(context, "environment/bake.cl"))},
+      wanted_(directions) {
   if (context.communicator().broadcast(reads)) read();
   if (!bake_) baker_.emplace(*task_, context_, wanted_);
 }
 
-void Baking::advance()
-{
+void Baking::advance() {
   baker_->advance();
   if (!baker_->finished()) return;
   photons_ = baker_->photons();
@@ -27,20 +26,19 @@ void Baking::advance()
   keep();
 }
 
-void Baking::begin_anew()
-{
+void Baking::begin_anew() {
   bake_.reset();
   baker_.emplace(*task_, context_, wanted_);
 }
 
-double Baking::fraction_done() const
-{
-  return bake_ ? 1.0 : (static_cast<double>(directions()) + baker_->fraction_done()) / static_cast<double>(task_->directions.size());
+double Baking::fraction_done() const {
+  return bake_ ? 1.0
+               : (static_cast<double>(directions()) + baker_->fraction_done()) /
+                     static_cast<double>(task_->directions.size());
 }
 
 /// Ranks have rank 0's.
-void Baking::read()
-{
+void Baking::read() {
   const Communicator& communicator = context_.communicator();
   try {
     if (communicator.is_root()) bake_ = read_bake(file_, identity_);
@@ -55,8 +53,7 @@ void Baking::read()
   bake_->ways = communicator.broadcast(std::move(bake_->ways));
 }
 
-void Baking::keep()
-{
+void Baking::keep() {
   if (!context_.communicator().is_root()) return;
   try {
     write_bake(file_, identity_, *bake_);

@@ -15,10 +15,10 @@ namespace nephroid::environment {
 
 class Baking {
 public:
-  /// key: of the bake. directions: how many it will be asked for. reads: the file is there and looks right; where it turns out wrong, that
-  /// is a warning. Throws as Baker.
-  Baking(std::shared_ptr<const BakeTask> task, std::uint64_t key, std::filesystem::path file, bool reads, std::size_t directions,
-         const mpi::RankContext& context);
+  /// key: of the bake. directions: how many it will be asked for. reads: the file is there and looks right; where it
+  /// turns out wrong, that is a warning. Throws as Baker.
+  Baking(std::shared_ptr<const BakeTask> task, std::uint64_t key, std::filesystem::path file, bool reads,
+         std::size_t directions, const mpi::RankContext& context);
 
   const BakeTask& task() const { return *task_; }
   bool is_complete() const { return bake_.has_value(); }
@@ -31,7 +31,7 @@ public:
   void begin_anew();
 
   std::int64_t directions() const { return static_cast<std::int64_t>(bake().baked.size()); } ///< complete ones
-  double fraction_done() const;                                                                       ///< 0..1
+  double fraction_done() const;                                                              ///< 0..1
   /// That were sent here.
   std::uint64_t photons() const { return bake_ ? photons_ : baker_->photons(); }
   /// Until it is complete; nothing where that is not known.

@@ -25,34 +25,34 @@ namespace {
 
 Place objects_place(const std::string& source) { return Place(source) / "environment" / "objects"; }
 
-[[noreturn]] void refuse_name(const preset::Preset& preset, const std::string& name, const Place& where)
-{
+[[noreturn]] void refuse_name(const preset::Preset& preset, const std::string& name, const Place& where) {
   std::vector<std::string> candidates;
   for (const preset::Object& object : preset.scene.objects)
     if (casts(preset, object) && !object.name.empty()) candidates.push_back(object.name);
-  const bool diffuse = std::ranges::any_of(preset.scene.objects, [&](const preset::Object& o) { return o.name == name; });
+  const bool diffuse =
+      std::ranges::any_of(preset.scene.objects, [&](const preset::Object& o) { return o.name == name; });
   const std::string near = nearest(name, candidates);
-  throw bad_input(where, fmt::format("'{}' is {}", name, diffuse ? "neither of glass nor a mirror" : "no object of the scene"),
+  throw bad_input(where,
+                  fmt::format("'{}' is {}", name, diffuse ? "neither of glass nor a mirror" : "no object of the scene"),
                   candidates.empty() ? "expected an object of glass or a mirror with a name"
                                      : fmt::format("expected one of {}", fmt::join(candidates, ", ")),
                   near.empty() ? "" : fmt::format("did you mean '{}'?", near));
 }
 
-std::size_t index_of(const preset::Preset& preset, const std::string& name, const Place& where)
-{
+std::size_t index_of(const preset::Preset& preset, const std::string& name, const Place& where) {
   const auto& objects = preset.scene.objects;
-  const auto found =
-      std::ranges::find_if(objects, [&](const preset::Object& o) { return !name.empty() && o.name == name && casts(preset, o); });
+  const auto found = std::ranges::find_if(
+      objects, [&](const preset::Object& o) { return !name.empty() && o.name == name && casts(preset, o); });
   if (found == objects.end()) refuse_name(preset, name, where);
   return static_cast<std::size_t>(found - objects.begin());
 }
 
-/// Without the rounding of what was computed in double, and without -0: what is turned and moved together keeps its bits.
+/// Without the rounding of what was computed in double, and without -0: what is turned and moved together keeps its
+/// bits.
 double rounded(double value) { return std::round(value * 1e9) * 1e-9 + 0.0; }
 
 /// Of an object in the frame of the first: its rotation R and translation T become R1^-1 R and R1^-1 (T - T1).
-preset::Transform in_frame(const preset::Transform& object, const preset::Transform& first)
-{
+preset::Transform in_frame(const preset::Transform& object, const preset::Transform& first) {
   const glm::dmat3 back = glm::transpose(scene::rotation(first.rotate_deg));
   const auto vector = [](const preset::Vec3& v) { return glm::dvec3(v[0], v[1], v[2]); };
   const glm::dvec3 translate = back * (vector(object.translate) - vector(first.translate));
@@ -72,8 +72,7 @@ preset::Transform in_frame(const preset::Transform& object, const preset::Transf
 }
 
 /// The preset of these objects alone. Photons have the wavelengths of D65; white_light() says what each counts.
-preset::Preset alone(const preset::Preset& preset, const std::vector<std::size_t>& objects)
-{
+preset::Preset alone(const preset::Preset& preset, const std::vector<std::size_t>& objects) {
   preset::Preset alone;
   alone.source = preset.source;
   alone.unit = preset.unit;
@@ -90,8 +89,7 @@ preset::Preset alone(const preset::Preset& preset, const std::vector<std::size_t
   return alone;
 }
 
-std::string name_of(const preset::Preset& preset, const std::vector<std::size_t>& objects)
-{
+std::string name_of(const preset::Preset& preset, const std::vector<std::size_t>& objects) {
   std::vector<std::string> names;
   for (const std::size_t index : objects) {
     const std::string& name = preset.scene.objects[index].name;
@@ -101,23 +99,24 @@ std::string name_of(const preset::Preset& preset, const std::vector<std::size_t>
 }
 
 template <class T>
-std::uint64_t hash_items(const T& items, std::uint64_t hash)
-{
+std::uint64_t hash_items(const T& items, std::uint64_t hash) {
   using Item = std::remove_cvref_t<decltype(items[0])>;
   static_assert(std::is_standard_layout_v<Item>);
   return hash_of({reinterpret_cast<const char*>(items.data()), items.size() * sizeof(Item)}, hash);
 }
 
 /// The point of a triangle nearest to the origin: in its plane where the foot lies in it, else on the nearest edge.
-glm::dvec3 nearest_point(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
-{
+glm::dvec3 nearest_point(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 normal = glm::cross(b - a, c - a);
-  const auto beyond = [&](const glm::dvec3& p, const glm::dvec3& q) { return glm::dot(glm::cross(q - p, -p), normal) < 0; };
+  const auto beyond = [&](const glm::dvec3& p, const glm::dvec3& q) {
+    return glm::dot(glm::cross(q - p, -p), normal) < 0;
+  };
   if (glm::dot(normal, normal) > 0 && !beyond(a, b) && !beyond(b, c) && !beyond(c, a))
     return glm::dot(a, normal) / glm::dot(normal, normal) * normal;
   const auto nearest_on_edge = [](const glm::dvec3& p, const glm::dvec3& q) {
     const glm::dvec3 way = q - p;
-    const double length2 = glm::dot(way, way), along = length2 > 0 ? std::clamp(-glm::dot(p, way) / length2, 0.0, 1.0) : 0;
+    const double length2 = glm::dot(way, way),
+                 along = length2 > 0 ? std::clamp(-glm::dot(p, way) / length2, 0.0, 1.0) : 0;
     return p + along * way;
   };
   const auto nearer = [](const glm::dvec3& p, const glm::dvec3& q) { return glm::dot(q, q) < glm::dot(p, p) ? q : p; };
@@ -130,29 +129,25 @@ struct Piece {
   std::uint32_t object = 0, primitive = 0;
 };
 
-std::array<glm::dvec3, 3> corners(const scene::Scene& scene, std::uint32_t triangle)
-{
+std::array<glm::dvec3, 3> corners(const scene::Scene& scene, std::uint32_t triangle) {
   const glm::uvec3& t = scene.geometry.triangles[triangle];
   return {scene.geometry.positions[t.x], scene.geometry.positions[t.y], scene.geometry.positions[t.z]};
 }
 
 /// Where the middle is as seen from where the ellipsoid is the unit sphere.
-glm::dvec3 middle_from(const scene::Ellipsoid& ellipsoid)
-{
+glm::dvec3 middle_from(const scene::Ellipsoid& ellipsoid) {
   const auto rows = to_unit_sphere(ellipsoid);
   const glm::dvec3 way = -glm::dvec3(ellipsoid.centre);
   return {glm::dot(rows[0], way), glm::dot(rows[1], way), glm::dot(rows[2], way)};
 }
 
 /// What is |u| - 1 off the unit sphere is at least as many shortest half axes off the ellipsoid.
-double nearest_of(const scene::Ellipsoid& ellipsoid)
-{
+double nearest_of(const scene::Ellipsoid& ellipsoid) {
   return scene::shortest_half_axis(ellipsoid) * std::abs(glm::length(middle_from(ellipsoid)) - 1);
 }
 
 /// Points of the ellipsoid, first the one towards the middle.
-std::vector<glm::dvec3> points_of(const scene::Ellipsoid& ellipsoid)
-{
+std::vector<glm::dvec3> points_of(const scene::Ellipsoid& ellipsoid) {
   constexpr int count = 256;
   std::vector<glm::dvec3> points;
   const auto add = [&](const glm::dvec3& unit) {
@@ -167,8 +162,7 @@ std::vector<glm::dvec3> points_of(const scene::Ellipsoid& ellipsoid)
 }
 
 /// Some points of it, first the one nearest to the middle.
-std::vector<glm::dvec3> points_of(const scene::Scene& scene, const Piece& piece)
-{
+std::vector<glm::dvec3> points_of(const scene::Scene& scene, const Piece& piece) {
   const std::size_t triangles = scene.geometry.triangles.size();
   if (piece.primitive >= triangles) return points_of(scene.geometry.ellipsoids[piece.primitive - triangles]);
   const auto [a, b, c] = corners(scene, piece.primitive);
@@ -176,11 +170,14 @@ std::vector<glm::dvec3> points_of(const scene::Scene& scene, const Piece& piece)
 }
 
 /// Whether a closed object encloses p: a ray from there meets its surface an odd number of times.
-bool encloses(const scene::Scene& scene, const scene::Bvh& bvh, std::size_t object, const glm::dvec3& p)
-{
-  if (glm::distance(p, glm::dvec3(scene.objects[object].bounds.centre)) > scene.objects[object].bounds.radius) return false;
-  static const glm::dvec3 direction = glm::normalize(glm::dvec3(0.4713, 0.7921, -0.3877)); // along no edge that people draw
-  const scene::CountsPrimitive of_object = [&](std::uint32_t primitive) { return scene.object_of_primitive[primitive] == object; };
+bool encloses(const scene::Scene& scene, const scene::Bvh& bvh, std::size_t object, const glm::dvec3& p) {
+  if (glm::distance(p, glm::dvec3(scene.objects[object].bounds.centre)) > scene.objects[object].bounds.radius)
+    return false;
+  static const glm::dvec3 direction =
+      glm::normalize(glm::dvec3(0.4713, 0.7921, -0.3877)); // along no edge that people draw
+  const scene::CountsPrimitive of_object = [&](std::uint32_t primitive) {
+    return scene.object_of_primitive[primitive] == object;
+  };
   bool inside = false;
   glm::dvec3 from = p;
   std::uint32_t leaves = scene::no_primitive;
@@ -194,15 +191,15 @@ bool encloses(const scene::Scene& scene, const scene::Bvh& bvh, std::size_t obje
 }
 
 /// Of the pieces that are not inside other glass; of all where there are no others.
-double nearest_outside(const scene::Scene& scene, std::vector<Piece> pieces)
-{
+double nearest_outside(const scene::Scene& scene, std::vector<Piece> pieces) {
   if (scene.objects.size() == 1) return std::ranges::min(pieces, {}, &Piece::nearest).nearest;
   std::ranges::sort(pieces, {}, &Piece::nearest);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   const auto is_buried = [&](const glm::dvec3& p, std::size_t object) {
     for (std::size_t other = 0; other < scene.objects.size(); ++other)
       if (other != object && scene.objects[other].closed &&
-          material_of(scene, scene.objects[other]).type == scene::Material::Type::dielectric && encloses(scene, bvh, other, p))
+          material_of(scene, scene.objects[other]).type == scene::Material::Type::dielectric &&
+          encloses(scene, bvh, other, p))
         return true;
     return false;
   };
@@ -219,34 +216,33 @@ double nearest_outside(const scene::Scene& scene, std::vector<Piece> pieces)
 
 } // namespace
 
-bool casts(const preset::Preset& preset, const preset::Object& object)
-{
+bool casts(const preset::Preset& preset, const preset::Object& object) {
   const auto material = preset.scene.materials.find(object.material);
   return material != preset.scene.materials.end() && material->second.type != preset::Material::Type::diffuse;
 }
 
-std::vector<std::size_t> caster_objects(const preset::Preset& preset)
-{
+std::vector<std::size_t> caster_objects(const preset::Preset& preset) {
   const std::vector<std::string>& wanted = settings(preset).objects;
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const Place where = objects_place(preset.source) / i;
     const std::size_t index = index_of(preset, wanted[i], where);
-    if (std::ranges::count(found, index)) throw bad_input(where, fmt::format("'{}' is named twice", wanted[i]), "expected each name once");
+    if (std::ranges::count(found, index))
+      throw bad_input(where, fmt::format("'{}' is named twice", wanted[i]), "expected each name once");
     found.push_back(index);
   }
   if (wanted.empty())
     for (std::size_t i = 0; i < preset.scene.objects.size(); ++i)
       if (casts(preset, preset.scene.objects[i])) found.push_back(i);
   if (found.empty())
-    throw bad_input(objects_place(preset.source), "no object of the scene is of glass or a mirror, so there are no caustics",
+    throw bad_input(objects_place(preset.source),
+                    "no object of the scene is of glass or a mirror, so there are no caustics",
                     "expected such an object", "add one, or give an object another material");
   std::ranges::sort(found);
   return found;
 }
 
-Caster make_caster(const preset::Preset& preset)
-{
+Caster make_caster(const preset::Preset& preset) {
   Caster caster;
   caster.objects = caster_objects(preset);
   caster.name = name_of(preset, caster.objects);
@@ -255,7 +251,8 @@ Caster make_caster(const preset::Preset& preset)
   for (std::size_t i = 0; i < caster.objects.size(); ++i) {
     const scene::Object& object = caster.scene.objects[i];
     if (is_empty(object))
-      throw bad_input(Place(preset.source) / "scene" / "objects" / caster.objects[i], "has no surface", "expected one to bake");
+      throw bad_input(Place(preset.source) / "scene" / "objects" / caster.objects[i], "has no surface",
+                      "expected one to bake");
     box = enclosing(box, bounds_of(caster.scene, object));
   }
   const glm::dvec3 sides = box.high - box.low;
@@ -264,27 +261,29 @@ Caster make_caster(const preset::Preset& preset)
   return caster;
 }
 
-std::vector<double> sphere_radii(const Settings& settings, const Caster& caster, const std::string& source)
-{
-  const double largest = settings.reach * caster.size, smallest = std::max(1.001 * caster.extent.nearest, 0.05 * caster.size);
+std::vector<double> sphere_radii(const Settings& settings, const Caster& caster, const std::string& source) {
+  const double largest = settings.reach * caster.size,
+               smallest = std::max(1.001 * caster.extent.nearest, 0.05 * caster.size);
   if (largest < 1.001 * caster.extent.farthest)
-    throw bad_input(Place(source) / "environment" / "reach",
-                    fmt::format("is {}: a sphere of radius {:.4g} does not enclose {}, which reaches {:.4g} from its middle",
-                                settings.reach, largest, caster.name, caster.extent.farthest),
-                    fmt::format("expected at least {:.3g}", std::ceil(1001 * caster.extent.farthest / caster.size) / 1000));
+    throw bad_input(
+        Place(source) / "environment" / "reach",
+        fmt::format("is {}: a sphere of radius {:.4g} does not enclose {}, which reaches {:.4g} from its middle",
+                    settings.reach, largest, caster.name, caster.extent.farthest),
+        fmt::format("expected at least {:.3g}", std::ceil(1001 * caster.extent.farthest / caster.size) / 1000));
   std::vector<double> radii;
   for (int i = 0; i < settings.spheres; ++i) {
     const double part = static_cast<double>(i) / (settings.spheres - 1);
-    radii.push_back(smallest + (largest - smallest) * (settings.radii == Settings::Radii::quadratic ? part * part : part));
+    radii.push_back(smallest +
+                    (largest - smallest) * (settings.radii == Settings::Radii::quadratic ? part * part : part));
   }
   return radii;
 }
 
-std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster)
-{
+std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster) {
   const Settings& s = settings(preset);
-  std::uint64_t hash = hash_of(fmt::format("{} {} {} {} {} {} {} {} {}", s.directions, s.spheres, static_cast<int>(s.radii), s.reach,
-                                           s.resolution, s.photons, preset.seed, preset.leave_out, caster.scene.metres_per_unit));
+  std::uint64_t hash =
+      hash_of(fmt::format("{} {} {} {} {} {} {} {} {}", s.directions, s.spheres, static_cast<int>(s.radii), s.reach,
+                          s.resolution, s.photons, preset.seed, preset.leave_out, caster.scene.metres_per_unit));
   const scene::Mesh& mesh = caster.scene.geometry;
   hash = hash_items(mesh.positions, hash);
   hash = hash_items(mesh.triangles, hash);
@@ -296,26 +295,26 @@ std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster)
   for (const scene::Object& object : caster.scene.objects) {
     const scene::Material& material = material_of(caster.scene, object);
     // Of priorities the order alone matters.
-    const auto rank = std::ranges::count_if(caster.scene.objects, [&](const scene::Object& o) { return o.priority < object.priority; });
-    hash = hash_of(fmt::format("{} {} {} {} {} {}", object.triangle_count, object.ellipsoid_count, static_cast<int>(material.type),
-                               object.smooth, material.absorbs, rank),
+    const auto rank = std::ranges::count_if(caster.scene.objects,
+                                            [&](const scene::Object& o) { return o.priority < object.priority; });
+    hash = hash_of(fmt::format("{} {} {} {} {} {}", object.triangle_count, object.ellipsoid_count,
+                               static_cast<int>(material.type), object.smooth, material.absorbs, rank),
                    hash);
-    for (const optics::Spectrum* spectrum : {&material.n, &material.k, &material.reflectance}) hash = hash_items(*spectrum, hash);
+    for (const optics::Spectrum* spectrum : {&material.n, &material.k, &material.reflectance})
+      hash = hash_items(*spectrum, hash);
   }
   return hash;
 }
 
 // A point that the object has at p without its rotation R and its translation T is at R p + T in the preset.
-Placement placement(const preset::Preset& preset, const Caster& caster, const scene::Scene& scene)
-{
+Placement placement(const preset::Preset& preset, const Caster& caster, const scene::Scene& scene) {
   const preset::Transform& transform = preset.scene.objects.at(caster.objects.front()).transform;
   const glm::dmat3 turn = scene::rotation(transform.rotate_deg);
   const glm::dvec3 translate(transform.translate[0], transform.translate[1], transform.translate[2]);
   return {turn, turn * caster.scene.origin + translate - scene.origin};
 }
 
-Extent extent_of(const scene::Scene& scene)
-{
+Extent extent_of(const scene::Scene& scene) {
   Extent extent{.middle_inside = false};
   std::vector<Piece> pieces;
   const auto triangles = static_cast<std::uint32_t>(scene.geometry.triangles.size());
@@ -328,7 +327,8 @@ Extent extent_of(const scene::Scene& scene)
     } else {
       const scene::Ellipsoid& ellipsoid = scene.geometry.ellipsoids[i - triangles];
       piece.nearest = nearest_of(ellipsoid);
-      extent.farthest = std::max(extent.farthest, glm::length(glm::dvec3(ellipsoid.centre)) + scene::longest_half_axis(ellipsoid));
+      extent.farthest =
+          std::max(extent.farthest, glm::length(glm::dvec3(ellipsoid.centre)) + scene::longest_half_axis(ellipsoid));
       extent.middle_inside = extent.middle_inside || contains(ellipsoid, glm::dvec3(0));
     }
     pieces.push_back(piece);

@@ -11,16 +11,15 @@ namespace {
 constexpr std::size_t group = 32;
 
 /// [number]: the unit way of Bake::ways.
-std::vector<shared::float4> all_ways()
-{
+std::vector<shared::float4> all_ways() {
   std::vector<shared::float4> ways;
-  for (std::size_t i = 0; i < Bake::way_map.texels(); ++i) ways.push_back(tracing::to_float4(Bake::way_map.direction(i)));
+  for (std::size_t i = 0; i < Bake::way_map.texels(); ++i)
+    ways.push_back(tracing::to_float4(Bake::way_map.direction(i)));
   return ways;
 }
 
 /// Eight after eight. direction_texels: of all that are stored of one direction.
-std::vector<shared::DeviceEightSets> eights_of(const std::vector<TurnedSet>& sets, std::size_t direction_texels)
-{
+std::vector<shared::DeviceEightSets> eights_of(const std::vector<TurnedSet>& sets, std::size_t direction_texels) {
   std::vector<shared::DeviceEightSets> eights;
   for (std::size_t i = 0; i < (sets.size() + 7) / 8 * 8; ++i) {
     const bool missing = i >= sets.size();
@@ -28,7 +27,8 @@ std::vector<shared::DeviceEightSets> eights_of(const std::vector<TurnedSet>& set
     const std::size_t lane = i % 8;
     if (lane == 0) eights.emplace_back();
     shared::DeviceEightSets& eight = eights.back();
-    for (int k = 0; k < 9; ++k) eight.to_bake[k][lane] = static_cast<float>(set.to_bake[k % 3][k / 3]); // glm has columns
+    for (int k = 0; k < 9; ++k)
+      eight.to_bake[k][lane] = static_cast<float>(set.to_bake[k % 3][k / 3]); // glm has columns
     for (int c = 0; c < 3; ++c) eight.flux[c][lane] = missing ? 0.0F : static_cast<float>(set.flux[c]);
     eight.first[lane] = static_cast<std::size_t>(set.direction) * direction_texels;
   }
@@ -38,11 +38,13 @@ std::vector<shared::DeviceEightSets> eights_of(const std::vector<TurnedSet>& set
 } // namespace
 
 Caustics::Caustics(const Bake& bake, const compute::Context& context)
-    : context_(context), directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
-                                                                                         static_cast<float>(bake.size * bake.size), 0},
+    : context_(context),
+      directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()),
+                                                                      bake.map.side,
+                                                                      static_cast<float>(bake.size * bake.size), 0},
       way_of_(compute::Buffer(context, "ways", all_ways())),
-      radii_(compute::Buffer(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end()))), sets_(context, "turned sets", 1)
-{
+      radii_(compute::Buffer(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end()))),
+      sets_(context, "turned sets", 1) {
   stored_ = compute::Buffer<std::uint16_t>::wrapping_host_memory(context, "caustic spheres", bake.light);
   ways_ = compute::Buffer<std::uint16_t>::wrapping_host_memory(context, "ways through spheres", bake.ways);
   const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(bake.channels)}};
@@ -51,31 +53,29 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context)
   compile_air_ = program.kernel("compile_air");
 }
 
-std::uint64_t Caustics::bytes(const Bake& bake)
-{
-  return sizeof(std::uint16_t) * bake.directions.size() * bake.direction_texels() * (static_cast<std::size_t>(bake.channels) + 1);
+std::uint64_t Caustics::bytes(const Bake& bake) {
+  return sizeof(std::uint16_t) * bake.directions.size() * bake.direction_texels() *
+         (static_cast<std::size_t>(bake.channels) + 1);
 }
 
-std::uint64_t Caustics::air_bytes(const Bake& bake, int side)
-{
+std::uint64_t Caustics::air_bytes(const Bake& bake, int side) {
   return 6 * sizeof(float) * SphereMap{side}.stored_texels() * bake.radii.size();
 }
 
 template <class Work>
-void Caustics::timed(const Work& work)
-{
+void Caustics::timed(const Work& work) {
   const auto begin = std::chrono::steady_clock::now();
   work();
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation)
-{
+void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation) {
   timed([&] {
     const std::vector<TurnedSet> sets = turned_sets(lights, rotation, directions_);
     const std::vector<shared::DeviceEightSets> eights =
         eights_of(sets, SphereMap{spheres_.side}.stored_texels() * static_cast<std::size_t>(spheres_.count));
-    if (eights.size() > sets_.size()) sets_ = compute::Buffer<shared::DeviceEightSets>(context_, "turned sets", eights.size());
+    if (eights.size() > sets_.size())
+      sets_ = compute::Buffer<shared::DeviceEightSets>(context_, "turned sets", eights.size());
     if (!eights.empty()) sets_.write(eights);
     used_eights_ = static_cast<int>(eights.size());
     air_.object_x = tracing::to_float4(rotation[0]);
@@ -84,8 +84,7 @@ void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dm
   });
 }
 
-void Caustics::compile_air(int side)
-{
+void Caustics::compile_air(int side) {
   air_.spheres = {spheres_.count, side, 1, 0};
   const std::size_t items = SphereMap{side}.stored_texels() * static_cast<std::size_t>(spheres_.count);
   if (air_.light.size() < 6 * items) air_.light = compute::Buffer<float>(context_, "light in the air", 6 * items);
@@ -107,8 +106,7 @@ void Caustics::compile_air(int side)
   context_.finish();
 }
 
-void Caustics::cast(const CastTexels& texels)
-{
+void Caustics::cast(const CastTexels& texels) {
   timed([&] {
     cast_.run(texels.count, group, texels.arguments(),
               {{"stored", stored_},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A baked object under lights, on a device: E r^2 of all of them together, at points around it (kernels/environment/cast.cl).
+// A baked object under lights, on a device: E r^2 of all of them together, at points around it
+// (kernels/environment/cast.cl).
 #pragma once
 #include "compute/compute.h"
 #include "environment/bake/bake.h"
@@ -19,12 +20,12 @@ struct CastTexels {
   std::uint32_t first, count;
   const compute::Buffer<float>* distances;        ///< [texel of the cube]
   const compute::Buffer<shared::float4>* normals; ///< [texel of the cube], unit, on the object's side
-  const compute::Buffer<float>* caustics;         ///< [texel of the cube][3], written: E r^2, linear sRGB, W/m^2 of Y times squared units
-  int size;                                       ///< of the cube's faces
+  const compute::Buffer<float>*
+      caustics; ///< [texel of the cube][3], written: E r^2, linear sRGB, W/m^2 of Y times squared units
+  int size;     ///< of the cube's faces
 
   /// Of a kernel that lights them.
-  std::vector<compute::Argument> arguments() const
-  {
+  std::vector<compute::Argument> arguments() const {
     return {{"list", *list},           {"first", first},      {"count", count},       {"size", size},
             {"distances", *distances}, {"normals", *normals}, {"caustics", *caustics}};
   }
@@ -48,7 +49,8 @@ public:
   /// Of all calls of set_lights and cast so far.
   double seconds() const { return seconds_; }
 
-  /// Adds up the light in the air of all sets into one set of spheres (Algorithm 3.5), whose maps have side x side texels.
+  /// Adds up the light in the air of all sets into one set of spheres (Algorithm 3.5), whose maps have side x side
+  /// texels.
   void compile_air(int side);
 
   /// What compile_air() made, for kernels that look it up (compiled_air in kernels/environment/spheres.h).

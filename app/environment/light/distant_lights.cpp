@@ -14,42 +14,39 @@ namespace nephroid::environment {
 namespace {
 
 /// Cells along an edge of the cube.
-int cells_of(int count)
-{
+int cells_of(int count) {
   const std::vector<glm::ivec3> points = cube_points(count);
   return 2 * points.back().x;
 }
 
 } // namespace
 
-std::vector<DistantLight> environment_lights(const std::vector<VisibleLight>& lights, double rotate_deg)
-{
+std::vector<DistantLight> environment_lights(const std::vector<VisibleLight>& lights, double rotate_deg) {
   std::vector<DistantLight> distant;
   for (const VisibleLight& light : lights) distant.push_back({-turned(light.direction, rotate_deg), light.flux});
   return distant;
 }
 
-std::vector<DistantLight> lamps(const scene::Scene& scene)
-{
+std::vector<DistantLight> lamps(const scene::Scene& scene) {
   std::vector<DistantLight> lights;
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const scene::Light& light = scene.lights[i];
     if (scene::is_environment(light)) continue;
     if (light.type != preset::Light::Type::directional)
-      throw bad_input(
-          Place(scene.source) / "scene" / "lights" / i / "type", "is no directional light",
-          "expected \"directional\": the engine 'environment' knows light from far away only",
-          fmt::format("give it a direction: --set 'scene.lights.{}={{\"type\": \"directional\", \"direction\": [0, -1, 0]}}'; or "
-                      "take the engine 'spectral'",
-                      i));
+      throw bad_input(Place(scene.source) / "scene" / "lights" / i / "type", "is no directional light",
+                      "expected \"directional\": the engine 'environment' knows light from far away only",
+                      fmt::format("give it a direction: --set 'scene.lights.{}={{\"type\": \"directional\", "
+                                  "\"direction\": [0, -1, 0]}}'; or "
+                                  "take the engine 'spectral'",
+                                  i));
     const optics::Colour rgb = optics::xyz_to_linear_srgb(optics::to_xyz(light.spectrum));
     lights.push_back({glm::dvec3(light.direction), light.irradiance_w_m2 * glm::dvec3(rgb[0], rgb[1], rgb[2])});
   }
   return lights;
 }
 
-std::vector<DistantLight> seen_lights(std::vector<DistantLight> lights, tracing::World& surroundings, const std::vector<glm::dvec3>& from)
-{
+std::vector<DistantLight> seen_lights(std::vector<DistantLight> lights, tracing::World& surroundings,
+                                      const std::vector<glm::dvec3>& from) {
   Visibility visibility;
   for (DistantLight& light : lights) {
     const glm::vec3 way(-light.direction);
@@ -61,11 +58,13 @@ std::vector<DistantLight> seen_lights(std::vector<DistantLight> lights, tracing:
   return lights;
 }
 
-std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count)
-{
+std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count) {
   const int cells = cells_of(count), half = cells / 2;
   const glm::dvec3 from = -travel, size = glm::abs(from);
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0
+                   : size.y >= size.z                   ? 1
+                                                        : 2,
+            u = (axis + 1) % 3, v = (axis + 2) % 3;
   const glm::dvec3 place = from * (half / size[axis]); // on the cube from -half to half
   const auto cell_of = [&](double at) { return std::clamp(static_cast<int>(std::floor(at)), -half, half - 1); };
   const int first_u = cell_of(place[u]), first_v = cell_of(place[v]);
@@ -85,11 +84,13 @@ std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count)
   return near;
 }
 
-// The real part of glm's quaternion is rounded off where the vectors are nearly opposite: its length is wrong there, but its axis is right.
-glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to) { return glm::mat3_cast(glm::normalize(glm::rotation(from, to))); }
+// The real part of glm's quaternion is rounded off where the vectors are nearly opposite: its length is wrong there,
+// but its axis is right.
+glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to) {
+  return glm::mat3_cast(glm::normalize(glm::rotation(from, to)));
+}
 
-std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count)
-{
+std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count) {
   const glm::dmat3 to_object = glm::transpose(rotation);
   const std::vector<glm::dvec3> baked = light_directions(count);
   std::vector<TurnedSet> sets;
@@ -97,7 +98,8 @@ std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, cons
     if (light.irradiance == glm::dvec3(0)) continue;
     const glm::dvec3 travel = to_object * light.direction;
     for (const NearDirection& near : near_directions(travel, count)) {
-      const glm::dmat3 to_bake = glm::transpose(shortest_turn(baked[static_cast<std::size_t>(near.direction)], travel)) * to_object;
+      const glm::dmat3 to_bake =
+          glm::transpose(shortest_turn(baked[static_cast<std::size_t>(near.direction)], travel)) * to_object;
       sets.push_back({to_bake, near.weight * light.irradiance, near.direction});
     }
   }

@@ -12,10 +12,10 @@ double sum(const glm::dvec3& v) { return v.x + v.y + v.z; }
 /// Adds objects to a scene, each with the vertices that its triangles use.
 class Copier {
 public:
-  Copier(const scene::Scene& from, scene::Scene& to) : from_(from), to_(to), places_(from.geometry.positions.size(), nowhere) {}
+  Copier(const scene::Scene& from, scene::Scene& to)
+      : from_(from), to_(to), places_(from.geometry.positions.size(), nowhere) {}
 
-  void add(const scene::Object& object)
-  {
+  void add(const scene::Object& object) {
     scene::Object added = object;
     added.first_triangle = static_cast<std::uint32_t>(to_.geometry.triangles.size());
     added.first_ellipsoid = static_cast<std::uint32_t>(to_.geometry.ellipsoids.size());
@@ -28,8 +28,7 @@ public:
 private:
   static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
-  std::uint32_t place_of(std::uint32_t vertex)
-  {
+  std::uint32_t place_of(std::uint32_t vertex) {
     std::uint32_t& place = places_[vertex];
     if (place == nowhere) {
       place = static_cast<std::uint32_t>(to_.geometry.positions.size());
@@ -44,39 +43,39 @@ private:
   std::vector<std::uint32_t> places_; ///< of each vertex in the new scene
 };
 
-bool is_one_of(const std::vector<std::size_t>& caster, std::size_t object) { return std::ranges::count(caster, object) > 0; }
+bool is_one_of(const std::vector<std::size_t>& caster, std::size_t object) {
+  return std::ranges::count(caster, object) > 0;
+}
 
 /// Without the caster, and with the others' new numbers.
-std::vector<int> renumbered(const std::vector<int>& objects, const std::vector<std::size_t>& caster)
-{
+std::vector<int> renumbered(const std::vector<int>& objects, const std::vector<std::size_t>& caster) {
   std::vector<int> result;
   for (const int object : objects) {
     const auto index = static_cast<std::size_t>(object);
     if (!is_one_of(caster, index))
-      result.push_back(object - static_cast<int>(std::ranges::count_if(caster, [&](std::size_t c) { return c < index; })));
+      result.push_back(object -
+                       static_cast<int>(std::ranges::count_if(caster, [&](std::size_t c) { return c < index; })));
   }
   return result;
 }
 
 } // namespace
 
-std::vector<VisibleLight> whole_lights(const Segmentation& segmentation)
-{
+std::vector<VisibleLight> whole_lights(const Segmentation& segmentation) {
   std::vector<VisibleLight> lights;
   for (const Region& region : segmentation.lights) lights.push_back({region.flux, region.direction});
   return lights;
 }
 
 Occlusion::Occlusion(const compute::Context& context, const Segmentation& segmentation, const CubeMap& cube)
-    : whole_(whole_lights(segmentation)), samples_(sample_lights(segmentation, cube))
-{
+    : whole_(whole_lights(segmentation)), samples_(sample_lights(segmentation, cube)) {
   std::vector<shared::float4> directions;
   for (const LightSample& sample : samples_) directions.push_back(tracing::to_float4(sample.direction));
   directions_ = compute::Buffer(context, "directions of the environment's light", directions);
 }
 
-std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings, double rotate_deg, const std::vector<glm::dvec3>& from)
-{
+std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings, double rotate_deg,
+                                                    const std::vector<glm::dvec3>& from) {
   if (surroundings.buffers.primitives.size() == 0 || whole_.empty()) return whole_;
   const std::vector<std::uint8_t> is_seen = visibility_.free(surroundings, directions_, rotate_deg, from);
   const std::size_t samples = samples_per_light(whole_.size());
@@ -95,17 +94,19 @@ std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings
     if (hidden == glm::dvec3(0)) continue;
     VisibleLight& left = visible[light];
     left.flux = glm::min(flux, left.flux);
-    // The samples' mean stands for the region's only nearly. So the difference that hiding makes is added to the region's own direction.
-    const glm::dvec3 shift =
-        all - hidden != glm::dvec3(0) && flux != glm::dvec3(0) ? glm::normalize(all - hidden) - glm::normalize(all) : glm::dvec3(0);
+    // The samples' mean stands for the region's only nearly. So the difference that hiding makes is added to the
+    // region's own direction.
+    const glm::dvec3 shift = all - hidden != glm::dvec3(0) && flux != glm::dvec3(0)
+                                 ? glm::normalize(all - hidden) - glm::normalize(all)
+                                 : glm::dvec3(0);
     left.direction = glm::normalize(left.direction + shift);
   }
   return visible;
 }
 
-std::vector<std::uint8_t> Visibility::free(tracing::World& surroundings, const compute::Buffer<shared::float4>& directions, double rotate_deg,
-                                      const std::vector<glm::dvec3>& from)
-{
+std::vector<std::uint8_t> Visibility::free(tracing::World& surroundings,
+                                           const compute::Buffer<shared::float4>& directions, double rotate_deg,
+                                           const std::vector<glm::dvec3>& from) {
   if (!kernel_.state || defines_ != surroundings.defines) {
     kernel_ = compute::Program(surroundings.context, "environment/visible.cl", surroundings.defines).kernel("visible");
     defines_ = surroundings.defines;
@@ -126,8 +127,7 @@ std::vector<std::uint8_t> Visibility::free(tracing::World& surroundings, const c
   return seen_.read();
 }
 
-scene::Scene without_caster(const scene::Scene& scene, const std::vector<std::size_t>& caster)
-{
+scene::Scene without_caster(const scene::Scene& scene, const std::vector<std::size_t>& caster) {
   scene::Scene result;
   result.source = scene.source;
   result.metres_per_unit = scene.metres_per_unit;
@@ -144,10 +144,10 @@ scene::Scene without_caster(const scene::Scene& scene, const std::vector<std::si
   return result;
 }
 
-tracing::World surroundings_world(const mpi::RankContext& context, const scene::Scene& surroundings)
-{
+tracing::World surroundings_world(const mpi::RankContext& context, const scene::Scene& surroundings) {
   const scene::Bvh bvh = scene::build_bvh(surroundings.geometry);
-  return tracing::make_world(context, surroundings, bvh, tracing::make_scene_tables(surroundings, {optics::all_wavelengths()}, {}),
+  return tracing::make_world(context, surroundings, bvh,
+                             tracing::make_scene_tables(surroundings, {optics::all_wavelengths()}, {}),
                              scene::tree_defines(bvh), 0);
 }
 

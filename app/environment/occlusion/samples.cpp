@@ -21,15 +21,15 @@ struct Cell {
   double length(int axis) const { return high[axis] - low[axis]; }
 };
 
-/// Which of all cells it is: how often it was cut across and down, and its number from the left and from the top among cells cut like that.
+/// Which of all cells it is: how often it was cut across and down, and its number from the left and from the top among
+/// cells cut like that.
 struct CellPlace {
   unsigned number[2] = {0, 0};
   int cuts[2] = {0, 0};
 };
 
 /// The lowest bits of a number in the opposite order.
-unsigned mirrored(unsigned number, int bits)
-{
+unsigned mirrored(unsigned number, int bits) {
   unsigned result = 0;
   for (int i = 0; i < bits; ++i) result |= (number >> i & 1) << (bits - 1 - i);
   return result;
@@ -39,8 +39,7 @@ class Sampler {
 public:
   /// to: 2^halvings samples.
   Sampler(const CubeMap& cube, const Region& light, int halvings, LightSample* to)
-      : cube_(cube), light_(light), halvings_(halvings), to_(to)
-  {
+      : cube_(cube), light_(light), halvings_(halvings), to_(to) {
     const Rect& r = light.rect;
     const glm::dvec3 own = flux_of({{r.x0, r.y0}, {r.x1, r.y1}});
     dropped_flux_ = glm::max(light.flux - own, glm::dvec3(0)) / std::exp2(halvings);
@@ -54,9 +53,10 @@ private:
 
   /// visit(x, y, how much of it lies in the cell) for each texel of it.
   template <class Visit>
-  static void for_each_texel(const Cell& cell, const Visit& visit)
-  {
-    const auto overlap = [&](int i, int axis) { return std::min(cell.high[axis], i + 1.0) - std::max(cell.low[axis], double(i)); };
+  static void for_each_texel(const Cell& cell, const Visit& visit) {
+    const auto overlap = [&](int i, int axis) {
+      return std::min(cell.high[axis], i + 1.0) - std::max(cell.low[axis], double(i));
+    };
     const glm::ivec2 first(cell.low), end(glm::ceil(cell.high));
     for (int y = first.y; y < end.y; ++y) {
       const double height = overlap(y, 1);
@@ -64,18 +64,18 @@ private:
     }
   }
 
-  glm::dvec3 flux_of(const Cell& cell) const
-  {
+  glm::dvec3 flux_of(const Cell& cell) const {
     glm::dvec3 sum(0);
-    for_each_texel(cell, [&](int x, int y, double part) { sum += part * cube_.flux_of(cube_.texel(light_.face, x, y)); });
+    for_each_texel(cell,
+                   [&](int x, int y, double part) { sum += part * cube_.flux_of(cube_.texel(light_.face, x, y)); });
     return sum;
   }
 
   /// Where along an axis (0: x) the given part of the cell's weight lies before.
-  double quantile(const Cell& cell, int axis, double part) const
-  {
+  double quantile(const Cell& cell, int axis, double part) const {
     const int first = static_cast<int>(cell.low[axis]);
-    std::vector<double> sums(static_cast<std::size_t>(std::ceil(cell.high[axis])) - static_cast<std::size_t>(first), 0.0);
+    std::vector<double> sums(static_cast<std::size_t>(std::ceil(cell.high[axis])) - static_cast<std::size_t>(first),
+                             0.0);
     double rest = 0;
     for_each_texel(cell, [&](int x, int y, double area) {
       const double added = area * weight(x, y);
@@ -91,8 +91,7 @@ private:
   }
 
   /// Cuts the cell across its longer side into two of equal weight, and those again.
-  void halve(const Cell& cell, const CellPlace& place)
-  {
+  void halve(const Cell& cell, const CellPlace& place) {
     if (place.cuts[0] + place.cuts[1] == halvings_) {
       *to_++ = sample(cell, place);
       return;
@@ -108,12 +107,11 @@ private:
     halve(behind, next);
   }
 
-  /// Counted by weight, the samples of a rectangle are Hammersley's points: each cell has one, and no two have the same place across or
-  /// the same place down. So an edge that moves over the rectangle meets them one by one. (With a cuts across and b down, the highest a
-  /// bits of the point's place across and the highest b bits of its place down say which cell it is in. The lower bits of one place are the
-  /// higher bits of the other, mirrored.)
-  LightSample sample(const Cell& cell, const CellPlace& place) const
-  {
+  /// Counted by weight, the samples of a rectangle are Hammersley's points: each cell has one, and no two have the same
+  /// place across or the same place down. So an edge that moves over the rectangle meets them one by one. (With a cuts
+  /// across and b down, the highest a bits of the point's place across and the highest b bits of its place down say
+  /// which cell it is in. The lower bits of one place are the higher bits of the other, mirrored.)
+  LightSample sample(const Cell& cell, const CellPlace& place) const {
     const auto part = [&](int axis) {
       return (mirrored(place.number[1 - axis], place.cuts[1 - axis]) + 0.5) / std::exp2(place.cuts[1 - axis]);
     };
@@ -122,7 +120,8 @@ private:
     column.low.x = std::max(cell.low.x, std::floor(x));
     column.high.x = std::min(cell.high.x, std::floor(x) + 1);
     const double y = quantile(column, 1, part(1));
-    return {glm::normalize(position({light_.face, 2 * x / cube_.size - 1, 2 * y / cube_.size - 1})), flux_of(cell) + dropped_flux_};
+    return {glm::normalize(position({light_.face, 2 * x / cube_.size - 1, 2 * y / cube_.size - 1})),
+            flux_of(cell) + dropped_flux_};
   }
 
   const CubeMap& cube_;
@@ -140,8 +139,7 @@ using Corners = std::array<glm::dvec3, 3>;
 double area(const Corners& t) { return glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) / 2; }
 
 /// Thomsen's approximation, within 1.1 %.
-double area(const scene::Ellipsoid& ellipsoid)
-{
+double area(const scene::Ellipsoid& ellipsoid) {
   constexpr double p = 1.6075;
   const auto& axes = ellipsoid.half_axes;
   const double a = glm::length(axes[0]), b = glm::length(axes[1]), c = glm::length(axes[2]);
@@ -149,14 +147,14 @@ double area(const scene::Ellipsoid& ellipsoid)
 }
 
 /// The i-th of an additive recurrence over the square, whose upper half is folded onto the lower.
-glm::dvec3 point(const Corners& t, std::size_t i)
-{
-  const double u = part(0.5 + 0.7548776662 * static_cast<double>(i)), v = part(0.5 + 0.5698402910 * static_cast<double>(i));
-  return u + v > 1 ? t[0] + (1 - u) * (t[1] - t[0]) + (1 - v) * (t[2] - t[0]) : t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+glm::dvec3 point(const Corners& t, std::size_t i) {
+  const double u = part(0.5 + 0.7548776662 * static_cast<double>(i)),
+               v = part(0.5 + 0.5698402910 * static_cast<double>(i));
+  return u + v > 1 ? t[0] + (1 - u) * (t[1] - t[0]) + (1 - v) * (t[2] - t[0])
+                   : t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
 }
 
-glm::dvec3 point(const scene::Ellipsoid& ellipsoid, std::size_t i, std::size_t count)
-{
+glm::dvec3 point(const scene::Ellipsoid& ellipsoid, std::size_t i, std::size_t count) {
   const glm::dvec3 unit = scene::even_direction(static_cast<int>(i), static_cast<int>(count));
   glm::dvec3 result = ellipsoid.centre;
   for (int k = 0; k < 3; ++k) result += unit[k] * glm::dvec3(ellipsoid.half_axes[static_cast<std::size_t>(k)]);
@@ -166,32 +164,32 @@ glm::dvec3 point(const scene::Ellipsoid& ellipsoid, std::size_t i, std::size_t c
 /// Calls triangle(Corners) and ellipsoid(Ellipsoid) for all of the objects.
 template <class Triangle, class Ellipsoid>
 void for_each_piece(const scene::Scene& scene, const std::vector<std::size_t>& objects, const Triangle& triangle,
-                    const Ellipsoid& ellipsoid)
-{
+                    const Ellipsoid& ellipsoid) {
   const auto place = [&](std::uint32_t vertex) { return glm::dvec3(scene.geometry.positions[vertex]); };
   for (const std::size_t object : objects) {
-    for (const glm::uvec3& t : triangles_of(scene, scene.objects[object])) triangle(Corners{place(t.x), place(t.y), place(t.z)});
+    for (const glm::uvec3& t : triangles_of(scene, scene.objects[object]))
+      triangle(Corners{place(t.x), place(t.y), place(t.z)});
     for (const scene::Ellipsoid& e : ellipsoids_of(scene, scene.objects[object])) ellipsoid(e);
   }
 }
 
 } // namespace
 
-std::size_t samples_per_light(std::size_t lights)
-{
+std::size_t samples_per_light(std::size_t lights) {
   return std::min(most_samples_of_light, std::bit_floor(most_samples / std::max<std::size_t>(lights, 1)));
 }
 
-std::vector<LightSample> sample_lights(const Segmentation& segmentation, const CubeMap& cube)
-{
+std::vector<LightSample> sample_lights(const Segmentation& segmentation, const CubeMap& cube) {
   const std::size_t lights = segmentation.lights.size(), count = samples_per_light(lights);
   std::vector<LightSample> samples(count * lights);
-  for_blocks(lights, [&](std::size_t i) { Sampler(cube, segmentation.lights[i], std::countr_zero(count), samples.data() + count * i); });
+  for_blocks(lights, [&](std::size_t i) {
+    Sampler(cube, segmentation.lights[i], std::countr_zero(count), samples.data() + count * i);
+  });
   return samples;
 }
 
-std::vector<glm::dvec3> surface_points(const scene::Scene& scene, const std::vector<std::size_t>& objects, std::size_t count)
-{
+std::vector<glm::dvec3> surface_points(const scene::Scene& scene, const std::vector<std::size_t>& objects,
+                                       std::size_t count) {
   double total = 0, before = 0;
   const auto add = [&](const auto& piece) { total += area(piece); };
   for_each_piece(scene, objects, add, add);
@@ -205,7 +203,8 @@ std::vector<glm::dvec3> surface_points(const scene::Scene& scene, const std::vec
   for_each_piece(
       scene, objects,
       [&](const Corners& t) {
-        for (const std::size_t end = points_until(area(t)); points.size() < end;) points.push_back(point(t, points.size()));
+        for (const std::size_t end = points_until(area(t)); points.size() < end;)
+          points.push_back(point(t, points.size()));
       },
       [&](const scene::Ellipsoid& e) {
         const std::size_t first = points.size(), end = points_until(area(e));

@@ -17,22 +17,21 @@ double solid_angle_to(double s, double t) { return std::atan(s * t / std::sqrt(1
 constexpr double pi = std::numbers::pi;
 constexpr int least_size = 128, most_size = 512;
 
-/// How many parts a texel has along one side. count: texels along that side of the map. parts_around: wanted at least along all of it.
-/// All of it has a multiple of `of` parts, so that a line between octants lies between parts.
-int parts_of(int count, double parts_around, int of)
-{
+/// How many parts a texel has along one side. count: texels along that side of the map. parts_around: wanted at least
+/// along all of it. All of it has a multiple of `of` parts, so that a line between octants lies between parts.
+int parts_of(int count, double parts_around, int of) {
   int parts = std::max(1, static_cast<int>(std::ceil(parts_around / count)));
   while (static_cast<long long>(parts) * count % of != 0) ++parts;
   return parts;
 }
 
-/// A texel's parts are rectangles of longitude and latitude. Each gives its flux to the texel of the cube that its middle lies in.
-/// The width of a part is at most a quarter of the narrowest texel of the cube.
+/// A texel's parts are rectangles of longitude and latitude. Each gives its flux to the texel of the cube that its
+/// middle lies in. The width of a part is at most a quarter of the narrowest texel of the cube.
 class Scatter {
 public:
   Scatter(const scene::Environment& map, CubeMap& cube)
-      : map_(map), cube_(cube), across_(parts_of(map.width, 8 * pi * cube.size, 4)), down_(parts_of(map.height, 4 * pi * cube.size, 2))
-  {
+      : map_(map), cube_(cube), across_(parts_of(map.width, 8 * pi * cube.size, 4)),
+        down_(parts_of(map.height, 4 * pi * cube.size, 2)) {
     const int columns = across_ * map.width;
     for (int i = 0; i < columns; ++i) {
       const double azimuth = 2 * pi * (i + 0.5) / columns - pi;
@@ -42,20 +41,20 @@ public:
     }
   }
 
-  /// quarter: of the map's width, 0..3; half: of its height. Its light goes to texels that no other octant's light goes to, as the faces
-  /// have an even size.
-  void octant(int quarter, int half) const
-  {
+  /// quarter: of the map's width, 0..3; half: of its height. Its light goes to texels that no other octant's light goes
+  /// to, as the faces have an even size.
+  void octant(int quarter, int half) const {
     const int columns = across_ * map_.width / 4, rows = down_ * map_.height / 2;
-    for (int row = half * rows; row < (half + 1) * rows; ++row) scatter_row(row, quarter * columns, (quarter + 1) * columns);
+    for (int row = half * rows; row < (half + 1) * rows; ++row)
+      scatter_row(row, quarter * columns, (quarter + 1) * columns);
   }
 
 private:
-  void scatter_row(int row, int first, int last) const
-  {
+  void scatter_row(int row, int first, int last) const {
     const int rows = down_ * map_.height;
     const double zenith = pi * (row + 0.5) / rows;
-    // cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2): the difference of two cosines would lose digits at the poles.
+    // cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2): the difference of two cosines would lose digits at the
+    // poles.
     const double part_sr = 2 * std::sin(zenith) * std::sin(pi / rows / 2) * 2 * pi / (across_ * map_.width);
     const double up = std::cos(zenith), level = std::sin(zenith), scale = part_sr * map_.radiance;
     const float* const texels =
@@ -64,7 +63,8 @@ private:
       const auto place = static_cast<std::size_t>(i);
       const float* const rgb = texels + texels_[place];
       const CubePoint to = met_point({level * sines_[place], up, -level * cosines_[place]});
-      double* const sum = cube_.flux.data() + 3 * cube_.texel(to.face, texel_of(to.s, cube_.size), texel_of(to.t, cube_.size));
+      double* const sum =
+          cube_.flux.data() + 3 * cube_.texel(to.face, texel_of(to.s, cube_.size), texel_of(to.t, cube_.size));
       for (int c = 0; c < 3; ++c) sum[c] += scale * double(rgb[c]);
     }
   }
@@ -78,39 +78,30 @@ private:
 
 } // namespace
 
-glm::dvec3 position(const CubePoint& point)
-{
+glm::dvec3 position(const CubePoint& point) {
   const double s = point.s, t = point.t;
   switch (point.face) {
-  case 0:
-    return {1, -t, -s};
-  case 1:
-    return {-1, -t, s};
-  case 2:
-    return {s, 1, t};
-  case 3:
-    return {s, -1, -t};
-  case 4:
-    return {s, -t, 1};
-  default:
-    return {-s, -t, -1};
+  case 0: return {1, -t, -s};
+  case 1: return {-1, -t, s};
+  case 2: return {s, 1, t};
+  case 3: return {s, -1, -t};
+  case 4: return {s, -t, 1};
+  default: return {-s, -t, -1};
   }
 }
 
-double solid_angle(const Rect& rect, int size)
-{
-  const double s0 = border(rect.x0, size), s1 = border(rect.x1, size), t0 = border(rect.y0, size), t1 = border(rect.y1, size);
+double solid_angle(const Rect& rect, int size) {
+  const double s0 = border(rect.x0, size), s1 = border(rect.x1, size), t0 = border(rect.y0, size),
+               t1 = border(rect.y1, size);
   return solid_angle_to(s1, t1) - solid_angle_to(s0, t1) - solid_angle_to(s1, t0) + solid_angle_to(s0, t0);
 }
 
-int cube_size(const scene::Environment& map)
-{
+int cube_size(const scene::Environment& map) {
   const int wanted = std::max(map.width, 2 * map.height) / 4;
   return std::clamp(wanted + wanted % 2, least_size, most_size);
 }
 
-CubeMap make_cube_map(const scene::Environment& map)
-{
+CubeMap make_cube_map(const scene::Environment& map) {
   CubeMap cube{cube_size(map), {}};
   cube.even = std::equal(map.rgb.begin() + 3, map.rgb.end(), map.rgb.begin()); // each texel is as the one before
   const auto size = static_cast<std::size_t>(cube.size);
@@ -120,8 +111,7 @@ CubeMap make_cube_map(const scene::Environment& map)
   return cube;
 }
 
-glm::dvec3 turned(const glm::dvec3& direction, double rotate_deg)
-{
+glm::dvec3 turned(const glm::dvec3& direction, double rotate_deg) {
   const double angle = glm::radians(std::fmod(rotate_deg, 360.0)), c = std::cos(angle), s = std::sin(angle);
   return {c * direction.x + s * direction.z, direction.y, -s * direction.x + c * direction.z};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cube seen from its centre: six square faces, which of their points a direction meets, and solid angles on them. And the environment on
-// these faces, which keep its light exactly.
+// A cube seen from its centre: six square faces, which of their points a direction meets, and solid angles on them. And
+// the environment on these faces, which keep its light exactly.
 #pragma once
 #include "scene/environment.h"
 
@@ -17,8 +17,9 @@ inline constexpr int face_count = 6;
 /// A face is named by the axis through its middle. The numbers of faces are places in this list.
 inline constexpr std::array<const char*, face_count> face_names{"+x", "-x", "+y", "-y", "+z", "-z"};
 
-/// A point of the cube of half side 1: s to the right and t downwards in its face, -1..1 each. Faces lie as in cube maps of OpenGL:
-/// s and t of +x are -z and -y, of -x +z and -y, of +y +x and +z, of -y +x and -z, of +z +x and -y, of -z -x and -y.
+/// A point of the cube of half side 1: s to the right and t downwards in its face, -1..1 each. Faces lie as in cube
+/// maps of OpenGL: s and t of +x are -z and -y, of -x +z and -y, of +y +x and +z, of -y +x and -z, of +z +x and -y, of
+/// -z -x and -y.
 struct CubePoint {
   int face = 0;
   double s = 0, t = 0;
@@ -27,8 +28,7 @@ struct CubePoint {
 /// Where the point is; not of unit length.
 glm::dvec3 position(const CubePoint& point);
 /// The point that a direction from the centre meets. direction: of any length but 0.
-inline CubePoint met_point(const glm::dvec3& direction)
-{
+inline CubePoint met_point(const glm::dvec3& direction) {
   const double x = direction.x, y = direction.y, z = direction.z;
   const double across = std::abs(x), up = std::abs(y), along = std::abs(z);
   if (up >= across && up >= along) return y > 0 ? CubePoint{2, x / up, z / up} : CubePoint{3, x / up, -z / up};
@@ -49,8 +49,7 @@ inline double border(int i, int size) { return 2.0 * i / size - 1; }
 /// s or t of the middle of texel i.
 inline double middle(int i, int size) { return (2.0 * i + 1) / size - 1; }
 /// The texel, 0..size-1, that s or t lies in.
-inline int texel_of(double s, int size)
-{
+inline int texel_of(double s, int size) {
   const int i = static_cast<int>((s + 1) / 2 * size);
   return i < size ? i : size - 1;
 }
@@ -59,12 +58,12 @@ inline int texel_of(double s, int size)
 double solid_angle(const Rect& rect, int size);
 
 struct CubeMap {
-  int size = 0;             ///< texels along a side of a face
-  std::vector<double> flux; ///< 3 a texel, face after face and row after row: radiance times solid angle, linear sRGB, W/m^2 of Y
-  bool even = false;        ///< whether the map has one colour all around
+  int size = 0; ///< texels along a side of a face
+  std::vector<double>
+      flux; ///< 3 a texel, face after face and row after row: radiance times solid angle, linear sRGB, W/m^2 of Y
+  bool even = false; ///< whether the map has one colour all around
 
-  std::size_t texel(int face, int x, int y) const
-  {
+  std::size_t texel(int face, int x, int y) const {
     return (static_cast<std::size_t>(face) * static_cast<std::size_t>(size) + static_cast<std::size_t>(y)) *
                static_cast<std::size_t>(size) +
            static_cast<std::size_t>(x);
@@ -72,16 +71,19 @@ struct CubeMap {
   glm::dvec3 flux_of(std::size_t texel) const { return {flux[3 * texel], flux[3 * texel + 1], flux[3 * texel + 2]}; }
 };
 
-/// A texel in the middle of a face is about as wide as the map's at its equator: a quarter of the map's width, but 128 to 512, and even.
+/// A texel in the middle of a face is about as wide as the map's at its equator: a quarter of the map's width, but 128
+/// to 512, and even.
 int cube_size(const scene::Environment& map);
 
-/// All light of the map, times its `radiance`. It is not turned by rotate_deg: what is made of the cube stays the same while the map turns.
+/// All light of the map, times its `radiance`. It is not turned by rotate_deg: what is made of the cube stays the same
+/// while the map turns.
 CubeMap make_cube_map(const scene::Environment& map);
 
 /// Y of linear sRGB (IEC 61966-2-1).
 inline double luminance(const glm::dvec3& rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
 
-/// A direction in the cube as it is in the scene, where the map is turned about +y, counterclockwise as seen from above.
+/// A direction in the cube as it is in the scene, where the map is turned about +y, counterclockwise as seen from
+/// above.
 glm::dvec3 turned(const glm::dvec3& direction, double rotate_deg);
 
 } // namespace nephroid::environment

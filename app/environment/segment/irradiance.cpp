@@ -17,8 +17,7 @@ using AxisMoments = glm::dmat3;
 constexpr int blocks_along = 128; // of a face: a block is as small as a texel of the smallest cube
 
 /// A block's light does not count as one direction's, so a plane is lit rightly by every block but those that it cuts.
-std::vector<AxisMoments> blocks_of(const CubeMap& cube)
-{
+std::vector<AxisMoments> blocks_of(const CubeMap& cube) {
   const int side = (cube.size + blocks_along - 1) / blocks_along;
   std::vector<AxisMoments> blocks;
   for (int face = 0; face < face_count; ++face)
@@ -36,8 +35,7 @@ std::vector<AxisMoments> blocks_of(const CubeMap& cube)
 }
 
 /// E(n) = sum of max(0, n . moment).
-glm::dvec3 irradiance(const std::vector<AxisMoments>& blocks, const glm::dvec3& normal)
-{
+glm::dvec3 irradiance(const std::vector<AxisMoments>& blocks, const glm::dvec3& normal) {
   glm::dvec3 sum{0};
   for (const AxisMoments& block : blocks) sum += glm::max(normal * block, glm::dvec3(0));
   return sum;
@@ -45,16 +43,16 @@ glm::dvec3 irradiance(const std::vector<AxisMoments>& blocks, const glm::dvec3& 
 
 } // namespace
 
-std::vector<glm::dvec3> irradiances(const CubeMap& cube, int normals)
-{
+std::vector<glm::dvec3> irradiances(const CubeMap& cube, int normals) {
   const std::vector<AxisMoments> blocks = blocks_of(cube);
   std::vector<glm::dvec3> result(static_cast<std::size_t>(normals));
-  for_blocks(result.size(), [&](std::size_t i) { result[i] = irradiance(blocks, scene::even_direction(static_cast<int>(i), normals)); });
+  for_blocks(result.size(), [&](std::size_t i) {
+    result[i] = irradiance(blocks, scene::even_direction(static_cast<int>(i), normals));
+  });
   return result;
 }
 
-double irradiance_error(const std::vector<glm::dvec3>& truth, const Segmentation& segmentation)
-{
+double irradiance_error(const std::vector<glm::dvec3>& truth, const Segmentation& segmentation) {
   std::vector<AxisMoments> lights;
   for (const Region& region : segmentation.lights) lights.push_back(glm::outerProduct(region.direction, region.flux));
   double differences = 0, squares = 0;
@@ -67,8 +65,7 @@ double irradiance_error(const std::vector<glm::dvec3>& truth, const Segmentation
   return squares > 0 ? std::sqrt(differences / squares) : 0;
 }
 
-IrradianceMoments irradiance_moments(const CubeMap& cube)
-{
+IrradianceMoments irradiance_moments(const CubeMap& cube) {
   IrradianceMoments moments;
   for (int face = 0; face < face_count; ++face)
     for (int y = 0; y < cube.size; ++y)
@@ -85,8 +82,7 @@ IrradianceMoments irradiance_moments(const CubeMap& cube)
   return moments;
 }
 
-IrradiancePolynomial irradiance_polynomial(const IrradianceMoments& moments, double rotate_deg)
-{
+IrradiancePolynomial irradiance_polynomial(const IrradianceMoments& moments, double rotate_deg) {
   const glm::dmat3 turn(turned({1, 0, 0}, rotate_deg), turned({0, 1, 0}, rotate_deg), turned({0, 0, 1}, rotate_deg));
   IrradiancePolynomial polynomial{};
   polynomial[0] = 3.0 / 32 * moments.flux;
@@ -94,7 +90,8 @@ IrradiancePolynomial irradiance_polynomial(const IrradianceMoments& moments, dou
     const auto i = static_cast<std::size_t>(c);
     const glm::dvec3 v = 0.5 * (turn * moments.first[i]);
     const glm::dmat3 m = 15.0 / 32 * (turn * moments.second[i] * glm::transpose(turn));
-    const std::array<double, 9> factors{v.x, v.y, v.z, m[0][0], m[1][1], m[2][2], 2 * m[0][1], 2 * m[1][2], 2 * m[2][0]};
+    const std::array<double, 9> factors{v.x,     v.y,         v.z,         m[0][0],    m[1][1],
+                                        m[2][2], 2 * m[0][1], 2 * m[1][2], 2 * m[2][0]};
     for (std::size_t k = 0; k < factors.size(); ++k) polynomial[k + 1][c] = factors[k];
   }
   return polynomial;

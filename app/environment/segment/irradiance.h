@@ -10,18 +10,20 @@
 
 namespace nephroid::environment {
 
-/// The irradiance of all texels of the cube on planes whose normals lie evenly on the sphere, linear sRGB, W/m^2 of Y. normals: 1 or more.
+/// The irradiance of all texels of the cube on planes whose normals lie evenly on the sphere, linear sRGB, W/m^2 of Y.
+/// normals: 1 or more.
 std::vector<glm::dvec3> irradiances(const CubeMap& cube, int normals = 256);
 
-/// Of the lights against the truth, which irradiances() gave: the norm of the difference, of all normals and channels, over the norm of the
-/// truth. 0 where the truth is black.
+/// Of the lights against the truth, which irradiances() gave: the norm of the difference, of all normals and channels,
+/// over the norm of the truth. 0 where the truth is black.
 double irradiance_error(const std::vector<glm::dvec3>& truth, const Segmentation& segmentation);
 
-/// The smooth part of the irradiance, for any normal at once, as a polynomial of the unit normal (x, y, z): factors of 1, x, y, z, xx, yy,
-/// zz, xy, yz, zx; linear sRGB, W/m^2 of Y.
+/// The smooth part of the irradiance, for any normal at once, as a polynomial of the unit normal (x, y, z): factors of
+/// 1, x, y, z, xx, yy, zz, xy, yz, zx; linear sRGB, W/m^2 of Y.
 using IrradiancePolynomial = std::array<glm::dvec3, 10>;
 
-/// Of all light of a map as it lies in its file: its flux, that times the direction it comes from, and times the products of that.
+/// Of all light of a map as it lies in its file: its flux, that times the direction it comes from, and times the
+/// products of that.
 struct IrradianceMoments {
   glm::dvec3 flux{0};
   std::array<glm::dvec3, 3> first{};                                             ///< by channel
@@ -29,9 +31,10 @@ struct IrradianceMoments {
 };
 IrradianceMoments irradiance_moments(const CubeMap& cube);
 
-/// The spherical harmonics of the irradiance up to the second degree, which leave out 1 % of it on the whole (Ramamoorthi and Hanrahan
-/// 2001, "An efficient representation for irradiance environment maps"). max(t, 0) up to that degree is 3/32 + t/2 + 15/32 t^2, so the
-/// irradiance is the sum of that over all light, with t its direction times the normal. rotate_deg: by how much the map is turned.
+/// The spherical harmonics of the irradiance up to the second degree, which leave out 1 % of it on the whole
+/// (Ramamoorthi and Hanrahan 2001, "An efficient representation for irradiance environment maps"). max(t, 0) up to that
+/// degree is 3/32 + t/2 + 15/32 t^2, so the irradiance is the sum of that over all light, with t its direction times
+/// the normal. rotate_deg: by how much the map is turned.
 IrradiancePolynomial irradiance_polynomial(const IrradianceMoments& moments, double rotate_deg);
 
 } // namespace nephroid::environment

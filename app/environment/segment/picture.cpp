@@ -19,15 +19,13 @@ struct PixelRange {
 };
 
 /// The texels under pixel i of `pixels`, at least one.
-PixelRange texels_under(int i, int pixels, int texels)
-{
+PixelRange texels_under(int i, int pixels, int texels) {
   const auto to = [&](int pixel) { return static_cast<int>(static_cast<long long>(pixel) * texels / pixels); };
   return {to(i), std::max(to(i) + 1, to(i + 1))};
 }
 
 /// The mean of the texels under each pixel.
-std::vector<glm::dvec3> scaled_map(const scene::Environment& map)
-{
+std::vector<glm::dvec3> scaled_map(const scene::Environment& map) {
   std::vector<glm::dvec3> pixels;
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {
@@ -35,8 +33,9 @@ std::vector<glm::dvec3> scaled_map(const scene::Environment& map)
       glm::dvec3 sum{0};
       for (int y = rows.begin; y < rows.end; ++y)
         for (int x = columns.begin; x < columns.end; ++x) {
-          const float* const rgb = map.rgb.data() + std::size_t{3} * (static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                                                                      static_cast<std::size_t>(x));
+          const float* const rgb =
+              map.rgb.data() + std::size_t{3} * (static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                                                 static_cast<std::size_t>(x));
           sum += glm::dvec3(rgb[0], rgb[1], rgb[2]);
         }
       pixels.push_back(sum / (double(rows.end - rows.begin) * (columns.end - columns.begin)));
@@ -44,9 +43,9 @@ std::vector<glm::dvec3> scaled_map(const scene::Environment& map)
   return pixels;
 }
 
-/// Reinhard et al. 2002, "Photographic tone reproduction", (1) to (3): the geometric mean becomes .18, and the brightest stays below 1.
-void make_small_range(std::vector<glm::dvec3>& pixels)
-{
+/// Reinhard et al. 2002, "Photographic tone reproduction", (1) to (3): the geometric mean becomes .18, and the
+/// brightest stays below 1.
+void make_small_range(std::vector<glm::dvec3>& pixels) {
   double logarithms = 0, lit = 0;
   for (const glm::dvec3& rgb : pixels) {
     const double mean = (rgb.x + rgb.y + rgb.z) / 3;
@@ -62,22 +61,22 @@ class Painter {
 public:
   explicit Painter(SegmentPicture picture) : picture_(std::move(picture)) {}
 
-  void borders(const Segmentation& segmentation)
-  {
+  void borders(const Segmentation& segmentation) {
     const std::vector<int> regions = regions_of_pixels(segmentation);
     const auto region = [&](int x, int y) { return regions[pixel(x, y)]; };
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
-        const bool ends_right = region(x, y) != region((x + 1) % width, y), ends_below = y + 1 < height && region(x, y) != region(x, y + 1);
+        const bool ends_right = region(x, y) != region((x + 1) % width, y),
+                   ends_below = y + 1 < height && region(x, y) != region(x, y + 1);
         if (ends_right || ends_below) paint(x, y, green);
       }
   }
 
-  void disc(const glm::dvec3& direction)
-  {
+  void disc(const glm::dvec3& direction) {
     const double column = (std::atan2(direction.x, -direction.z) / (2 * std::numbers::pi) + 0.5) * width;
     const double row = std::acos(std::clamp(direction.y, -1.0, 1.0)) / std::numbers::pi * height;
-    const int reach = static_cast<int>(disc_radius + rim) + 1, x0 = static_cast<int>(column), y0 = static_cast<int>(row);
+    const int reach = static_cast<int>(disc_radius + rim) + 1, x0 = static_cast<int>(column),
+              y0 = static_cast<int>(row);
     for (int y = std::max(0, y0 - reach); y <= std::min(height - 1, y0 + reach); ++y)
       for (int x = x0 - reach; x <= x0 + reach; ++x) {
         const double distance = std::hypot(x + 0.5 - column, y + 0.5 - row);
@@ -89,14 +88,12 @@ public:
 
 private:
   static std::size_t pixel(int x, int y) { return static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x); }
-  void paint(int x, int y, const std::array<unsigned char, 3>& colour)
-  {
+  void paint(int x, int y, const std::array<unsigned char, 3>& colour) {
     std::copy(colour.begin(), colour.end(), picture_.rgba.begin() + static_cast<std::ptrdiff_t>(4 * pixel(x, y)));
   }
 
   /// The number of the region that each pixel's middle lies in.
-  static std::vector<int> regions_of_pixels(const Segmentation& segmentation)
-  {
+  static std::vector<int> regions_of_pixels(const Segmentation& segmentation) {
     const int size = segmentation.cube_size;
     const CubeMap cube{size, {}};
     std::vector<int> texel_regions(cube.texel(face_count, 0, 0)), pixel_regions;
@@ -111,7 +108,8 @@ private:
       for (int column = 0; column < width; ++column) {
         const double zenith = std::numbers::pi * (row + 0.5) / height,
                      azimuth = 2 * std::numbers::pi * (column + 0.5) / width - std::numbers::pi;
-        const CubePoint at = met_point({std::sin(zenith) * std::sin(azimuth), std::cos(zenith), -std::sin(zenith) * std::cos(azimuth)});
+        const CubePoint at =
+            met_point({std::sin(zenith) * std::sin(azimuth), std::cos(zenith), -std::sin(zenith) * std::cos(azimuth)});
         pixel_regions.push_back(texel_regions[cube.texel(at.face, texel_of(at.s, size), texel_of(at.t, size))]);
       }
     return pixel_regions;
@@ -122,8 +120,7 @@ private:
 
 } // namespace
 
-SegmentPicture shown_map(const scene::Environment& map)
-{
+SegmentPicture shown_map(const scene::Environment& map) {
   std::vector<glm::dvec3> pixels = scaled_map(map);
   make_small_range(pixels);
   SegmentPicture picture{width, height, {}};
@@ -134,8 +131,7 @@ SegmentPicture shown_map(const scene::Environment& map)
   return picture;
 }
 
-SegmentPicture segment_picture(const scene::Environment& map, const Segmentation& segmentation)
-{
+SegmentPicture segment_picture(const scene::Environment& map, const Segmentation& segmentation) {
   Painter painter(shown_map(map));
   painter.borders(segmentation);
   for (const Region& light : segmentation.lights) painter.disc(light.direction);

@@ -21,18 +21,17 @@ struct Piece {
   double importance = 0; ///< of most importance is cut next
 
   auto place() const { return std::tuple(face, rect.y0, rect.x0); }
-  bool operator<(const Piece& other) const
-  {
+  bool operator<(const Piece& other) const {
     return importance < other.importance || (importance == other.importance && place() > other.place());
   }
 };
 
 class Segmenter {
 public:
-  Segmenter(const CubeMap& cube, const SegmentSettings& settings) : cube_(cube), settings_(settings), weighed_(cube, settings.weights) {}
+  Segmenter(const CubeMap& cube, const SegmentSettings& settings)
+      : cube_(cube), settings_(settings), weighed_(cube, settings.weights) {}
 
-  Segmentation result()
-  {
+  Segmentation result() {
     start();
     while (pieces_.size() + done_.size() < static_cast<std::size_t>(settings_.lights) && !pieces_.empty()) cut_next();
     for (; !pieces_.empty(); pieces_.pop()) done_.push_back(pieces_.top());
@@ -40,8 +39,7 @@ public:
   }
 
 private:
-  void start()
-  {
+  void start() {
     const Rect whole{0, 0, cube_.size, cube_.size};
     std::array<Moments, face_count> faces;
     for (int face = 0; face < face_count; ++face) {
@@ -53,8 +51,7 @@ private:
 
   bool is_dark(const Moments& moments) const { return !(moments.m0 > least_); }
 
-  void add(int face, const Rect& rect, const Moments& moments)
-  {
+  void add(int face, const Rect& rect, const Moments& moments) {
     const Piece piece{face, rect, moments, settings_.method == SegmentMethod::thesis ? moments.m0 : moments.variance()};
     if (is_dark(moments))
       dropped_.push_back(piece);
@@ -63,8 +60,7 @@ private:
   }
 
   /// A piece that cannot be cut, or of which no light would be left, is passed over.
-  void cut_next()
-  {
+  void cut_next() {
     const Piece piece = pieces_.top();
     pieces_.pop();
     const std::optional<Cut> cut = best_cut(weighed_, piece.face, piece.rect, settings_.method);
@@ -76,8 +72,7 @@ private:
     add(piece.face, cut->second, cut->second_moments);
   }
 
-  glm::dvec3 flux_of(int face, const Rect& rect) const
-  {
+  glm::dvec3 flux_of(int face, const Rect& rect) const {
     glm::dvec3 all{0};
     for (int y = rect.y0; y < rect.y1; ++y) {
       glm::dvec3 row{0};
@@ -87,10 +82,10 @@ private:
     return all;
   }
 
-  Region region_of(const Piece& piece) const
-  {
+  Region region_of(const Piece& piece) const {
     const Rect& r = piece.rect;
-    // Moments along s, t and outwards are a point of the face, scaled; a black piece has none, so it gets the middle of its rectangle.
+    // Moments along s, t and outwards are a point of the face, scaled; a black piece has none, so it gets the middle of
+    // its rectangle.
     const glm::dvec3 m = piece.moments.m1;
     const CubePoint centre = m.z > 0 ? CubePoint{piece.face, m.x / m.z, m.y / m.z}
                                      : CubePoint{piece.face, (border(r.x0, cube_.size) + border(r.x1, cube_.size)) / 2,
@@ -98,16 +93,14 @@ private:
     return {piece.face, r, glm::normalize(position(centre)), flux_of(piece.face, r), solid_angle(r, cube_.size)};
   }
 
-  std::vector<Region> regions_of(std::vector<Piece>& pieces) const
-  {
+  std::vector<Region> regions_of(std::vector<Piece>& pieces) const {
     std::ranges::sort(pieces, [](const Piece& a, const Piece& b) { return a.place() < b.place(); });
     std::vector<Region> regions;
     for (const Piece& piece : pieces) regions.push_back(region_of(piece));
     return regions;
   }
 
-  Segmentation finished()
-  {
+  Segmentation finished() {
     Segmentation result{cube_.size, glm::dvec3(0), regions_of(done_), regions_of(dropped_)};
     for (int face = 0; face < face_count; ++face) result.total_flux += flux_of(face, {0, 0, cube_.size, cube_.size});
     for (const Region& dark : result.dropped) {
@@ -138,15 +131,13 @@ struct Candidate {
   Moments before, after;
 };
 
-double cost_of(const Moments& before, const Moments& after, SegmentMethod method)
-{
+double cost_of(const Moments& before, const Moments& after, SegmentMethod method) {
   return method == SegmentMethod::thesis ? std::abs(before.m0 - after.m0) : before.variance() + after.variance();
 }
 
-/// lines: the sums of rows or of columns. Both sides of a cut are sums of lines: a difference of larger sums would be rounding where
-/// there is hardly any light.
-Candidate best_between(const std::vector<Moments>& lines, SegmentMethod method)
-{
+/// lines: the sums of rows or of columns. Both sides of a cut are sums of lines: a difference of larger sums would be
+/// rounding where there is hardly any light.
+Candidate best_between(const std::vector<Moments>& lines, SegmentMethod method) {
   const std::size_t count = lines.size();
   if (count < 2) return {};
   std::vector<Moments> after(count); // [i]: of lines i and on
@@ -168,17 +159,18 @@ Candidate best_between(const std::vector<Moments>& lines, SegmentMethod method)
   return best;
 }
 
-double squared_deviation(int across, int down)
-{
+double squared_deviation(int across, int down) {
   const double aspect = static_cast<double>(std::max(across, down)) / std::min(across, down);
   return (aspect - 1) * (aspect - 1);
 }
 
 /// Dev (3.2) of two rectangles `side` wide, that have `at` and the rest of `length`.
-double deviation(int side, int length, int at) { return squared_deviation(side, at) + squared_deviation(side, length - at); }
+double deviation(int side, int length, int at) {
+  return squared_deviation(side, at) + squared_deviation(side, length - at);
+}
 
-bool is_cut_across(const Rect& rect, const Candidate& across, const Candidate& along, SegmentMethod method, double weight)
-{
+bool is_cut_across(const Rect& rect, const Candidate& across, const Candidate& along, SegmentMethod method,
+                   double weight) {
   if (across.at == 0 || along.at == 0) return along.at == 0;
   if (method == SegmentMethod::thesis)
     return deviation(rect.width(), rect.height(), across.at) <= deviation(rect.height(), rect.width(), along.at);
@@ -188,15 +180,13 @@ bool is_cut_across(const Rect& rect, const Candidate& across, const Candidate& a
 
 } // namespace
 
-Segmentation segment(const CubeMap& cube, const SegmentSettings& settings)
-{
+Segmentation segment(const CubeMap& cube, const SegmentSettings& settings) {
   if (settings.lights < face_count)
     throw bad_input("q", fmt::format("is {}", settings.lights), "expected 6 or more, as a cube has 6 faces");
   return Segmenter(cube, settings).result();
 }
 
-Segmentation even_segments(const CubeMap& cube, int lights)
-{
+Segmentation even_segments(const CubeMap& cube, int lights) {
   int across = 1;
   while (face_count * across * across < lights) ++across;
   const auto place = [&](int i) { // at equal angles, which gives about equal solid angles
@@ -213,7 +203,8 @@ Segmentation even_segments(const CubeMap& cube, int lights)
           for (int x = rect.x0; x < rect.x1; ++x) {
             const glm::dvec3 flux = cube.flux_of(cube.texel(face, x, y));
             region.flux += flux;
-            region.direction += luminance(flux) * glm::normalize(position({face, middle(x, cube.size), middle(y, cube.size)}));
+            region.direction +=
+                luminance(flux) * glm::normalize(position({face, middle(x, cube.size), middle(y, cube.size)}));
           }
         region.direction = glm::normalize(region.direction);
         result.total_flux += region.flux;
@@ -222,16 +213,15 @@ Segmentation even_segments(const CubeMap& cube, int lights)
   return result;
 }
 
-double Moments::variance() const
-{
+double Moments::variance() const {
   if (!(m0 > 0)) return 0;
   const double value = m0 - glm::dot(m1, m1) / m0;
   return value > rounding * m0 ? value : 0;
 }
 
 WeighedCube::WeighedCube(const CubeMap& cube, SegmentWeights weights)
-    : size_(cube.size), side_(static_cast<std::size_t>(cube.size)), weights_(face_count * side_ * side_), outwards_(side_ * side_)
-{
+    : size_(cube.size), side_(static_cast<std::size_t>(cube.size)), weights_(face_count * side_ * side_),
+      outwards_(side_ * side_) {
   for (int y = 0; y < size_; ++y)
     for (int x = 0; x < size_; ++x) {
       const double s = middle(x, size_), t = middle(y, size_);
@@ -244,8 +234,7 @@ WeighedCube::WeighedCube(const CubeMap& cube, SegmentWeights weights)
     }
 }
 
-Moments WeighedCube::sum(int face, const Rect& rect) const
-{
+Moments WeighedCube::sum(int face, const Rect& rect) const {
   Moments all;
   for (int y = rect.y0; y < rect.y1; ++y) {
     Moments row;
@@ -255,8 +244,7 @@ Moments WeighedCube::sum(int face, const Rect& rect) const
   return all;
 }
 
-std::optional<Cut> best_cut(const WeighedCube& cube, int face, const Rect& rect, SegmentMethod method)
-{
+std::optional<Cut> best_cut(const WeighedCube& cube, int face, const Rect& rect, SegmentMethod method) {
   std::vector<Moments> rows(static_cast<std::size_t>(rect.height())), columns(static_cast<std::size_t>(rect.width()));
   double weight = 0;
   for (int y = rect.y0; y < rect.y1; ++y) {

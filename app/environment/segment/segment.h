@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment as few directional lights: its cube map cut into rectangles, each with one direction and its whole flux (Kartasasmita,
-// Algorithm 3.3; Viriyothai and Debevec 2009, "Variance minimization light probe sampling").
+// The environment as few directional lights: its cube map cut into rectangles, each with one direction and its whole
+// flux (Kartasasmita, Algorithm 3.3; Viriyothai and Debevec 2009, "Variance minimization light probe sampling").
 #pragma once
 #include "environment/segment/cube.h"
 
@@ -9,13 +9,13 @@
 
 namespace nephroid::environment {
 
-/// variance: M0 - |M1|^2 / M0, from a region's radiance M0 and the sum M1 of its radiance times direction, is what one direction leaves
-/// out. Of the region that has most of it, the cut is made that leaves least. thesis: the region of most radiance is cut into halves of
-/// equal radiance, in the direction that gives the squarer rectangles (3.2).
+/// variance: M0 - |M1|^2 / M0, from a region's radiance M0 and the sum M1 of its radiance times direction, is what one
+/// direction leaves out. Of the region that has most of it, the cut is made that leaves least. thesis: the region of
+/// most radiance is cut into halves of equal radiance, in the direction that gives the squarer rectangles (3.2).
 enum class SegmentMethod { variance, thesis };
 
-/// How much a texel's radiance counts: as its solid angle, or, as printed in the thesis, as every other texel's. For where regions are cut
-/// and which direction each has; their flux is exact either way.
+/// How much a texel's radiance counts: as its solid angle, or, as printed in the thesis, as every other texel's. For
+/// where regions are cut and which direction each has; their flux is exact either way.
 enum class SegmentWeights { solid_angle, texel };
 
 struct SegmentSettings {
@@ -36,18 +36,18 @@ struct Region {
 
 struct Segmentation {
   int cube_size = 0;
-  glm::dvec3 total_flux{0};   ///< of the cube map, and of all lights together
-  std::vector<Region> lights; ///< by face, row and column of their first texel
-  std::vector<Region>
-      dropped; ///< below the threshold: black, or its flux is counted in the nearest light's. With the lights it tiles the cube.
+  glm::dvec3 total_flux{0};    ///< of the cube map, and of all lights together
+  std::vector<Region> lights;  ///< by face, row and column of their first texel
+  std::vector<Region> dropped; ///< below the threshold: black, or its flux is counted in the nearest light's. With the
+                               ///< lights it tiles the cube.
 };
 
-/// Radiance is luminance here. A region of one texel is passed over, so there are fewer lights where the lit texels are fewer, and none
-/// where the map is black. Throws bad_input at "q" for fewer than 6.
+/// Radiance is luminance here. A region of one texel is passed over, so there are fewer lights where the lit texels are
+/// fewer, and none where the map is black. Throws bad_input at "q" for fewer than 6.
 Segmentation segment(const CubeMap& cube, const SegmentSettings& settings);
 
-/// What cutting makes of a map of one colour all around, without looking for cuts: each face in as many parts across as down, at equal
-/// angles. The fewest that are `lights` or more; for 6 and 24 the very lights that segment() makes.
+/// What cutting makes of a map of one colour all around, without looking for cuts: each face in as many parts across as
+/// down, at equal angles. The fewest that are `lights` or more; for 6 and 24 the very lights that segment() makes.
 Segmentation even_segments(const CubeMap& cube, int lights);
 
 /// Sums of weights and of weights times unit direction, in the face's own axes s, t and outwards.
@@ -55,8 +55,7 @@ struct Moments {
   double m0 = 0;
   glm::dvec3 m1{0};
 
-  Moments& operator+=(const Moments& other)
-  {
+  Moments& operator+=(const Moments& other) {
     m0 += other.m0;
     m1 += other.m1;
     return *this;
@@ -70,10 +69,9 @@ class WeighedCube {
 public:
   WeighedCube(const CubeMap& cube, SegmentWeights weights);
   int size() const { return size_; }
-  Moments of(int face, int x, int y) const
-  {
-    const double weight =
-        weights_[(static_cast<std::size_t>(face) * side_ + static_cast<std::size_t>(y)) * side_ + static_cast<std::size_t>(x)];
+  Moments of(int face, int x, int y) const {
+    const double weight = weights_[(static_cast<std::size_t>(face) * side_ + static_cast<std::size_t>(y)) * side_ +
+                                   static_cast<std::size_t>(x)];
     const double scaled = weight * outwards_[static_cast<std::size_t>(y) * side_ + static_cast<std::size_t>(x)];
     return {weight, {scaled * middle(x, size_), scaled * middle(y, size_), scaled}};
   }
@@ -91,9 +89,9 @@ struct Cut {
   Moments first_moments, second_moments;
 };
 
-/// By thesis: into the most equal halves across and along, of which the one with the smaller Dev (3.2) is taken. By variance: the two parts
-/// have the least variance together. Of cuts that are equally good, the one nearest to the middle, of the longer side. Nothing for one
-/// texel.
+/// By thesis: into the most equal halves across and along, of which the one with the smaller Dev (3.2) is taken. By
+/// variance: the two parts have the least variance together. Of cuts that are equally good, the one nearest to the
+/// middle, of the longer side. Nothing for one texel.
 std::optional<Cut> best_cut(const WeighedCube& cube, int face, const Rect& rect, SegmentMethod method);
 
 } // namespace nephroid::environment

@@ -15,33 +15,31 @@ std::size_t texels_of(int size) { return 6 * static_cast<std::size_t>(size) * st
 
 } // namespace
 
-std::uint64_t Receivers::bytes(int size)
-{
+std::uint64_t Receivers::bytes(int size) {
   return texels_of(size) * (sizeof(int) + 7 * sizeof(float) + sizeof(shared::float4) + sizeof(std::uint32_t));
 }
 
 Receivers::Receivers(const mpi::RankContext& context, int size)
     : context_(context), size_(size), states_(context, "wanted receivers", texels_of(size)),
-      distances_(context, "receivers' distances", texels_of(size)), caustics_(context, "caustics on receivers", 3 * texels_of(size)),
-      parts_seen_(context, "environment that receivers see", 3 * texels_of(size)), normals_(context, "receivers' normals", texels_of(size)),
-      list_(context, "list of receivers", texels_of(size))
-{
+      distances_(context, "receivers' distances", texels_of(size)),
+      caustics_(context, "caustics on receivers", 3 * texels_of(size)),
+      parts_seen_(context, "environment that receivers see", 3 * texels_of(size)),
+      normals_(context, "receivers' normals", texels_of(size)), list_(context, "list of receivers", texels_of(size)) {
   list_on_host_.reserve(texels_of(size));
   caustics_.fill_zero();
   forget();
 }
 
-void Receivers::forget()
-{
+void Receivers::forget() {
   states_.fill_zero();
   list_on_host_.clear();
   known_ = lit_ = shared_ = 0;
 }
 
-void Receivers::find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle)
-{
+void Receivers::find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle) {
   states_read_ = context_.all_reduced_or(states_);
-  // Square after square, as texels beside each other look up spheres beside each other: a sixth faster than row after row.
+  // Square after square, as texels beside each other look up spheres beside each other: a sixth faster than row after
+  // row.
   const std::size_t size = static_cast<std::size_t>(size_);
   for (std::size_t top = 0; top < 6 * size; top += square)
     for (std::size_t left = 0; left < size; left += square)
@@ -71,22 +69,21 @@ void Receivers::find_wanted(std::optional<Surroundings>& surroundings, const glm
                            {"facing", normals_}});
 }
 
-void Receivers::find_all(std::optional<Surroundings>& surroundings, const glm::dvec3& middle)
-{
+void Receivers::find_all(std::optional<Surroundings>& surroundings, const glm::dvec3& middle) {
   states_.write(std::vector<int>(states_.size(), RECEIVER_WANTED));
   find_wanted(surroundings, middle);
 }
 
-bool Receivers::cast(const std::function<void(const CastTexels&)>& light)
-{
+bool Receivers::cast(const std::function<void(const CastTexels&)>& light) {
   if (lit_ == known_) return true;
   const Communicator& communicator = context_.communicator();
-  const auto count = std::clamp<std::int64_t>(std::llround(texels_a_slice_.amount(communicator)), 1, static_cast<std::int64_t>(known_ - lit_));
+  const auto count = std::clamp<std::int64_t>(std::llround(texels_a_slice_.amount(communicator)), 1,
+                                              static_cast<std::int64_t>(known_ - lit_));
   const Partition partition(communicator, static_cast<std::int64_t>(known_ - shared_));
   texels_a_slice_.timed(static_cast<double>(count), [&] {
     partition.for_own(static_cast<std::int64_t>(lit_ - shared_), count, [&](std::int64_t first, std::int64_t own) {
-      light({&list_, static_cast<std::uint32_t>(shared_) + static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(own), &distances_,
-             &normals_, &caustics_, size_});
+      light({&list_, static_cast<std::uint32_t>(shared_) + static_cast<std::uint32_t>(first),
+             static_cast<std::uint32_t>(own), &distances_, &normals_, &caustics_, size_});
     });
   });
   lit_ += static_cast<std::size_t>(count);
@@ -97,8 +94,7 @@ bool Receivers::cast(const std::function<void(const CastTexels&)>& light)
 }
 
 /// Lets all ranks have what each has worked out of the list's newest.
-void Receivers::share(const Partition& partition, compute::Buffer<float>& values) const
-{
+void Receivers::share(const Partition& partition, compute::Buffer<float>& values) const {
   if (context_.communicator().is_alone()) return;
   std::vector<float> all = values.read(), newest;
   const auto each = [&](const auto& use) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands around the caustic object, as a cube seen from its middle, with the light on it. Only those texels are worked out that a
-// path from the eye has ended near (kernels/environment/see.cl), each once until something changes.
+// What stands around the caustic object, as a cube seen from its middle, with the light on it. Only those texels are
+// worked out that a path from the eye has ended near (kernels/environment/see.cl), each once until something changes.
 #pragma once
 #include "environment/light/caustics.h"
 #include "mpi/rank_context.h"
@@ -35,8 +35,8 @@ public:
   /// Of the environment's light, past all objects: [texel][3].
   const compute::Buffer<float>& parts_seen() const { return parts_seen_; }
 
-  /// Lists the texels that paths have asked for since the last call, and works out their distances. surroundings: empty where there is
-  /// nothing.
+  /// Lists the texels that paths have asked for since the last call, and works out their distances. surroundings: empty
+  /// where there is nothing.
   void find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle);
   /// Works out the distances of all texels.
   void find_all(std::optional<Surroundings>& surroundings, const glm::dvec3& middle);

@@ -15,8 +15,7 @@ constexpr std::size_t surface_point_count = 1024;
 bool shines(const scene::Scene& scene) { return scene.environment && !scene.environment->is_black(); }
 
 /// Of the scene, whose environment is a light to this engine whatever `lights` says.
-std::shared_ptr<const scene::Scene> lit_scene(const scene::Scene& scene)
-{
+std::shared_ptr<const scene::Scene> lit_scene(const scene::Scene& scene) {
   auto lit = std::make_shared<scene::Scene>(scene);
   if (shines(scene) && !scene.environment->lights) {
     lit->environment->lights = true;
@@ -25,37 +24,34 @@ std::shared_ptr<const scene::Scene> lit_scene(const scene::Scene& scene)
   return lit;
 }
 
-bool same_light(const scene::Environment& a, const scene::Environment& b)
-{
+bool same_light(const scene::Environment& a, const scene::Environment& b) {
   return a.width == b.width && a.radiance == b.radiance && a.rgb == b.rgb;
 }
 
 } // namespace
 
-bool has_light(const scene::Scene& scene) { return shines(scene) || std::ranges::any_of(scene.lights, tracing::has_power); }
+bool has_light(const scene::Scene& scene) {
+  return shines(scene) || std::ranges::any_of(scene.lights, tracing::has_power);
+}
 
-const scene::Environment& backdrop(const scene::Scene& scene)
-{
+const scene::Environment& backdrop(const scene::Scene& scene) {
   static const scene::Environment black{1, 1, {0, 0, 0}, 0, 0, false};
   return scene.environment ? *scene.environment : black;
 }
 
-bool is_cut_evenly(const preset::Preset& preset, const CubeMap& cube)
-{
+bool is_cut_evenly(const preset::Preset& preset, const CubeMap& cube) {
   const Settings& s = settings(preset);
   return preset.leave_out && cube.even && 2 * s.lights * s.threshold < 1; // else regions would be dropped
 }
 
-Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube)
-{
+Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube) {
   const Settings& s = settings(preset);
   if (is_cut_evenly(preset, cube)) return even_segments(cube, s.lights);
   return segment(cube, {.lights = s.lights, .method = s.segmentation, .threshold = s.threshold});
 }
 
-RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const Caster& caster,
-                            const RenderTask* before)
-{
+RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
+                            const Caster& caster, const RenderTask* before) {
   const tracing::LeaveOut leave_out{.all = preset.leave_out};
   RenderTask task;
   task.scene = lit_scene(scene);
@@ -75,15 +71,16 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
   const Settings& s = task.settings = settings(preset);
   task.has_medium = s.extinction > 0 && s.albedo > 0;
   if (shines(scene)) {
-    task.cube = before && same_light(*before->scene->environment, *scene.environment) ? before->cube : make_cube_map(*scene.environment);
+    task.cube = before && same_light(*before->scene->environment, *scene.environment)
+                    ? before->cube
+                    : make_cube_map(*scene.environment);
     task.segmentation = segment_by(preset, task.cube);
   }
   return task;
 }
 
-std::optional<MovedObjects> move_objects(const RenderTask& loaded, const preset::Preset& before, const preset::Preset& shown,
-                                         const preset::Preset& now, const Caster& caster)
-{
+std::optional<MovedObjects> move_objects(const RenderTask& loaded, const preset::Preset& before,
+                                         const preset::Preset& shown, const preset::Preset& now, const Caster& caster) {
   std::optional<scene::Scene> scene = scene::move_objects(*loaded.scene, before, now);
   if (!scene) return {};
   MovedObjects moved;

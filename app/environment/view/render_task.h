@@ -50,9 +50,10 @@ struct MovedObjects {
 /// Whether the scene has light: else only the bake is shown.
 bool has_light(const scene::Scene& scene);
 
-/// caster: of the preset. bvh: of the scene. before: a task whose environment is kept where it is the same. Throws bad_input as `lamps`.
-RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const Caster& caster,
-                            const RenderTask* before = nullptr);
+/// caster: of the preset. bvh: of the scene. before: a task whose environment is kept where it is the same. Throws
+/// bad_input as `lamps`.
+RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
+                            const Caster& caster, const RenderTask* before = nullptr);
 
 /// What is seen behind everything; black where there is no environment.
 const scene::Environment& backdrop(const scene::Scene& scene);
@@ -60,9 +61,10 @@ const scene::Environment& backdrop(const scene::Scene& scene);
 /// Whether the map has one colour all around, so that there is nothing to look for.
 bool is_cut_evenly(const preset::Preset& preset, const CubeMap& cube);
 
-/// As scene::move_objects. loaded: of `before`. shown: what the surroundings were last made for. caster: of the presets.
-std::optional<MovedObjects> move_objects(const RenderTask& loaded, const preset::Preset& before, const preset::Preset& shown,
-                                         const preset::Preset& now, const Caster& caster);
+/// As scene::move_objects. loaded: of `before`. shown: what the surroundings were last made for. caster: of the
+/// presets.
+std::optional<MovedObjects> move_objects(const RenderTask& loaded, const preset::Preset& before,
+                                         const preset::Preset& shown, const preset::Preset& now, const Caster& caster);
 
 /// The preset's lights of the cube, by its settings.
 Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube);

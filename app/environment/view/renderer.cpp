@@ -25,16 +25,16 @@ int coarse_side(int side) { return std::max(side / 4, 8); }
 
 } // namespace
 
-std::uint64_t Renderer::bytes_a_pixel(const RenderTask& task)
-{
+std::uint64_t Renderer::bytes_a_pixel(const RenderTask& task) {
   return ends_of_pixel(task) * sizeof(shared::DeviceEnd) +
          std::uint64_t{6} * sizeof(float) * (layer_names.size() + (task.has_medium ? 1 : 0));
 }
 
-std::uint64_t Renderer::receiver_bytes() { return Receivers::bytes(coarse_receivers) + Receivers::bytes(fine_receivers); }
+std::uint64_t Renderer::receiver_bytes() {
+  return Receivers::bytes(coarse_receivers) + Receivers::bytes(fine_receivers);
+}
 
-std::uint64_t Renderer::medium_bytes(const Bake& bake)
-{
+std::uint64_t Renderer::medium_bytes(const Bake& bake) {
   return Receivers::bytes(coarse_receivers) + Caustics::air_bytes(bake, fine_side(bake.map.side));
 }
 
@@ -44,12 +44,13 @@ Renderer::Renderer(RenderTask task, double white, std::uint64_t seed, const mpi:
       channel_cdf_(compute::Buffer(context, "wavelengths of channels", channel_cdf())),
       lit_rgb_(compute::Buffer(context, "colours of lit surfaces", lit_colours(task_.tables.wavelengths))),
       reflected_rgb_(compute::Buffer(context, "colours of surfaces", reflected_primaries(task_.tables.wavelengths))),
-      moments_(irradiance_moments(task_.cube)), irradiance_(context, "irradiance", std::tuple_size_v<IrradiancePolynomial>),
+      moments_(irradiance_moments(task_.cube)),
+      irradiance_(context, "irradiance", std::tuple_size_v<IrradiancePolynomial>),
       texels_(compute::Buffer(context, "environment", backdrop(*task_.scene).rgb)),
       texels_size_(tracing::picture_size(backdrop(*task_.scene))),
-      ends_(context, "ends of paths", ends_of_pixel(task_) * static_cast<std::size_t>(pixels())), coarse_(context, coarse_receivers),
-      fine_(context, fine_receivers), see_slices_(pixels(), 8192), shade_slices_(pixels(), 8192), volume_slices_(pixels(), 8192)
-{
+      ends_(context, "ends of paths", ends_of_pixel(task_) * static_cast<std::size_t>(pixels())),
+      coarse_(context, coarse_receivers), fine_(context, fine_receivers), see_slices_(pixels(), 8192),
+      shade_slices_(pixels(), 8192), volume_slices_(pixels(), 8192) {
   for (compute::Buffer<float>& sums : sums_)
     sums = compute::Buffer<float>(context, "picture", 3 * layer_names.size() * static_cast<std::size_t>(pixels()));
   make_occlusion();
@@ -65,21 +66,18 @@ Renderer::Renderer(RenderTask task, double white, std::uint64_t seed, const mpi:
   begin_anew();
 }
 
-void Renderer::set_caustics(Caustics& caustics)
-{
+void Renderer::set_caustics(Caustics& caustics) {
   caustics_ = &caustics;
   light_up();
   begin_anew();
 }
 
-void Renderer::make_occlusion()
-{
+void Renderer::make_occlusion() {
   occlusion_.reset();
   if (!task_.segmentation.lights.empty()) occlusion_.emplace(context_, task_.segmentation, task_.cube);
 }
 
-void Renderer::make_kernels()
-{
+void Renderer::make_kernels() {
   see_ = compute::Program(context_, "environment/see.cl", world_.defines).kernel("see");
   shadows_ = compute::Program(context_, "environment/shadows.cl", world_.defines).kernel("shadows");
   shade_ = compute::Program(context_, "environment/shade.cl", world_.defines).kernel("shade");
@@ -89,23 +87,21 @@ void Renderer::make_kernels()
   if (task_.has_medium) volume_ = compute::Program(context_, "environment/volume.cl", world_.defines).kernel("volume");
 }
 
-void Renderer::make_surroundings()
-{
+void Renderer::make_surroundings() {
   tracing::World world = surroundings_world(context_, task_.surroundings);
   const compute::Program program(context_, "environment/receivers.cl", world.defines);
   surroundings_ = Surroundings{std::move(world), program.kernel("receivers")};
 }
 
-void Renderer::find_around()
-{
+void Renderer::find_around() {
   if (around_) around_->find_all(surroundings_, task_.placement.middle);
 }
 
-void Renderer::light_up()
-{
+void Renderer::light_up() {
   world_.scene.sky_size.turns = texels_size_.turns = static_cast<float>(rotate_deg_ / 360);
-  visible_ = occlusion_ && surroundings_ ? occlusion_->visible_lights(surroundings_->world, rotate_deg_, task_.surface_points)
-                                         : whole_lights(task_.segmentation);
+  visible_ = occlusion_ && surroundings_
+                 ? occlusion_->visible_lights(surroundings_->world, rotate_deg_, task_.surface_points)
+                 : whole_lights(task_.segmentation);
   std::vector<shared::float4> sky_lights;
   for (const DistantLight& light : environment_lights(whole_lights(task_.segmentation), rotate_deg_))
     sky_lights.insert(sky_lights.end(), {tracing::to_float4(-light.direction), tracing::to_float4(light.irradiance)});
@@ -116,21 +112,22 @@ void Renderer::light_up()
   lights.insert(lights.end(), lamps.begin(), lamps.end());
   if (caustics_) caustics_->set_lights(lights, task_.placement.turn);
   std::vector<shared::float4> polynomial;
-  for (const glm::dvec3& factor : irradiance_polynomial(moments_, rotate_deg_)) polynomial.push_back(tracing::to_float4(factor));
+  for (const glm::dvec3& factor : irradiance_polynomial(moments_, rotate_deg_))
+    polynomial.push_back(tracing::to_float4(factor));
   irradiance_.write(polynomial);
   air_side_ = 0;
   coarse_.forget(); // with what other cameras have seen
   fine_.forget();
 }
 
-void Renderer::begin_anew()
-{
+void Renderer::begin_anew() {
   pass_ = 0;
   stage_ = Stage::see;
   shaded_ = false;
   see_slices_ = shade_slices_ = volume_slices_ = tracing::PixelSlices(pixels(), 8192);
   const auto across = [](int n) { return (n + block_of_coarse - 1) / block_of_coarse; };
-  const auto blocks = static_cast<std::uint32_t>(across(task_.tables.camera.width) * across(task_.tables.camera.height));
+  const auto blocks =
+      static_cast<std::uint32_t>(across(task_.tables.camera.width) * across(task_.tables.camera.height));
   see(coarse_, block_of_coarse, 0, blocks);
   coarse_.find_wanted(surroundings_, task_.placement.middle);
   while (!cast(coarse_)) {
@@ -141,14 +138,12 @@ void Renderer::begin_anew()
   scatter(block_of_coarse, 0, blocks);
 }
 
-void Renderer::compile_air(int side)
-{
+void Renderer::compile_air(int side) {
   caustics_->compile_air(side);
   air_side_ = side;
 }
 
-bool Renderer::cast(Receivers& receivers)
-{
+bool Renderer::cast(Receivers& receivers) {
   return receivers.cast([&](const CastTexels& texels) {
     if (task_.settings.cast && caustics_) caustics_->cast(texels); // else they stay 0
     world_.run(shadows_, texels.count, 32,
@@ -165,12 +160,11 @@ bool Renderer::cast(Receivers& receivers)
   });
 }
 
-void Renderer::advance()
-{
+void Renderer::advance() {
   switch (stage_) {
   case Stage::see:
     if (!see_slices_.advance(context_.communicator(), pixels(), pixels(),
-                         [&](std::uint32_t first, std::uint32_t count) { see(fine_, 1, first, count); }))
+                             [&](std::uint32_t first, std::uint32_t count) { see(fine_, 1, first, count); }))
       return;
     fine_.find_wanted(surroundings_, task_.placement.middle);
     stage_ = Stage::cast;
@@ -180,7 +174,7 @@ void Renderer::advance()
     return;
   case Stage::shade:
     if (!shade_slices_.advance(context_.communicator(), pixels(), pixels(),
-                           [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); }))
+                               [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); }))
       return;
     shaded_ = true;
     if (scatters())
@@ -194,26 +188,24 @@ void Renderer::advance()
     return;
   case Stage::volume:
     if (volume_slices_.advance(context_.communicator(), pixels(), pixels(),
-                           [&](std::uint32_t first, std::uint32_t count) { scatter(1, first, count); }))
+                               [&](std::uint32_t first, std::uint32_t count) { scatter(1, first, count); }))
       end_pass();
   }
 }
 
-void Renderer::end_pass()
-{
+void Renderer::end_pass() {
   stage_ = Stage::see;
   shaded_ = false;
   ++pass_;
 }
 
-double Renderer::fraction_done() const
-{
-  const double done = (stage_ == Stage::see ? see_slices_.fraction_done() : 1) + (shaded_ ? 1 : shade_slices_.fraction_done()) + volume_slices_.fraction_done();
+double Renderer::fraction_done() const {
+  const double done = (stage_ == Stage::see ? see_slices_.fraction_done() : 1) +
+                      (shaded_ ? 1 : shade_slices_.fraction_done()) + volume_slices_.fraction_done();
   return done / (scatters() ? 3 : 2);
 }
 
-void Renderer::see(Receivers& receivers, int block, std::uint32_t first, std::uint32_t count)
-{
+void Renderer::see(Receivers& receivers, int block, std::uint32_t first, std::uint32_t count) {
   world_.run(see_, count, 32,
              {{"channel_cdf", channel_cdf_},
               {"ends", ends_},
@@ -228,8 +220,7 @@ void Renderer::see(Receivers& receivers, int block, std::uint32_t first, std::ui
               {"count", count}});
 }
 
-void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first, std::uint32_t count)
-{
+void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first, std::uint32_t count) {
   const scene::Environment& sky = backdrop(*task_.scene);
   const int anew = pass_ < 2 ? 1 : 0;
   world_.run(block == 1 ? shade_ : coarse_shade_, count, 32,
@@ -257,8 +248,7 @@ void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first,
               {"count", count}});
 }
 
-void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count)
-{
+void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count) {
   const Caustics::Air& air = caustics_->air();
   const Settings& s = task_.settings;
   const int anew = pass_ < 2 ? 1 : 0;
@@ -286,11 +276,11 @@ void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count)
               {"count", count}});
 }
 
-std::vector<Renderer::Layer> Renderer::layers() const
-{
+std::vector<Renderer::Layer> Renderer::layers() const {
   const std::size_t values = 3 * static_cast<std::size_t>(pixels());
   const Communicator& communicator = context_.communicator();
-  const auto layer = [&](const char* name, const std::array<compute::Buffer<float>, 2>& sums, std::size_t first, std::size_t ahead) {
+  const auto layer = [&](const char* name, const std::array<compute::Buffer<float>, 2>& sums, std::size_t first,
+                         std::size_t ahead) {
     std::array<std::vector<float>, 2> halves{std::vector<float>(values), std::vector<float>(values)};
     for (const std::size_t h : {0, 1})
       if (pass_ > 0 || h == 0) {
@@ -308,26 +298,27 @@ std::vector<Renderer::Layer> Renderer::layers() const
         const double count = samples[0] + samples[1], a = halves[0][i], b = samples[1] > 0 ? halves[1][i] : 0;
         result.rgb[i] = static_cast<float>((a + b) / (white_ * count));
         if (pass_ >= 2)
-          result.draw[i] = static_cast<float>((a / samples[0] - b / samples[1]) * std::sqrt(samples[0] * samples[1]) / (white_ * count));
+          result.draw[i] = static_cast<float>((a / samples[0] - b / samples[1]) * std::sqrt(samples[0] * samples[1]) /
+                                              (white_ * count));
       }
     });
     return result;
   };
   const std::size_t shaded = shaded_ ? values / 3 : static_cast<std::size_t>(shade_slices_.done());
   std::vector<Layer> result;
-  for (std::size_t l = 0; l < layer_names.size(); ++l) result.push_back(layer(layer_names[l], sums_, values * l, shaded));
-  if (task_.has_medium) result.push_back(layer("volume", volume_sums_, 0, static_cast<std::size_t>(volume_slices_.done())));
+  for (std::size_t l = 0; l < layer_names.size(); ++l)
+    result.push_back(layer(layer_names[l], sums_, values * l, shaded));
+  if (task_.has_medium)
+    result.push_back(layer("volume", volume_sums_, 0, static_cast<std::size_t>(volume_slices_.done())));
   return result;
 }
 
-void Renderer::set_camera(const scene::Camera& camera, const Place& where)
-{
+void Renderer::set_camera(const scene::Camera& camera, const Place& where) {
   task_.tables.camera = tracing::device_camera(camera, where);
   begin_anew();
 }
 
-void Renderer::move_objects(MovedObjects moved)
-{
+void Renderer::move_objects(MovedObjects moved) {
   task_.scene = std::move(moved.scene);
   task_.placement = moved.placement;
   task_.surface_points = std::move(moved.surface_points);
@@ -346,14 +337,12 @@ void Renderer::move_objects(MovedObjects moved)
   begin_anew();
 }
 
-void Renderer::set_tree(scene::Bvh bvh)
-{
+void Renderer::set_tree(scene::Bvh bvh) {
   task_.bvh = std::make_shared<const scene::Bvh>(std::move(bvh));
   tracing::upload_surfaces(context_, *task_.scene, *task_.bvh, world_.buffers);
 }
 
-void Renderer::renew_tree()
-{
+void Renderer::renew_tree() {
   if (!is_refitted_) return;
   set_tree(scene::build_bvh(task_.scene->geometry));
 
@@ -363,23 +352,20 @@ void Renderer::renew_tree()
   is_refitted_ = false;
 }
 
-void Renderer::turn_environment(double rotate_deg)
-{
+void Renderer::turn_environment(double rotate_deg) {
   rotate_deg_ = rotate_deg;
   light_up();
   begin_anew();
 }
 
-void Renderer::set_segmentation(Segmentation segmentation)
-{
+void Renderer::set_segmentation(Segmentation segmentation) {
   task_.segmentation = std::move(segmentation);
   make_occlusion();
   light_up();
   begin_anew();
 }
 
-void Renderer::state(tracing::State& state)
-{
+void Renderer::state(tracing::State& state) {
   state.value(pass_);
   state.value(shaded_);
   shade_slices_.state(state);

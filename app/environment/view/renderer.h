@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a scene with a baked object under an environment: a coarse one at once, then pass after pass of one sample a pixel
-// (kernels/environment/see.cl, shade.cl, volume.cl). What a change does not touch stays.
+// Pictures of a scene with a baked object under an environment: a coarse one at once, then pass after pass of one
+// sample a pixel (kernels/environment/see.cl, shade.cl, volume.cl). What a change does not touch stays.
 #pragma once
 #include "environment/light/caustics.h"
 #include "environment/occlusion/occlusion.h"
@@ -8,10 +8,10 @@
 #include "environment/view/receivers.h"
 #include "environment/view/render_task.h"
 #include "job/job.h"
-#include "scene/move.h"
 #include "mpi/rank_context.h"
-#include "tracing/state.h"
+#include "scene/move.h"
 #include "tracing/slices.h"
+#include "tracing/state.h"
 
 #include <array>
 #include <cstdint>
@@ -41,14 +41,15 @@ public:
   /// One slice of about 30 ms of the pass in hand.
   void advance();
   std::int64_t passes() const { return pass_; } ///< complete ones
-  double fraction_done() const;                          ///< of the pass in hand, 0..1
+  double fraction_done() const;                 ///< of the pass in hand, 0..1
   /// Means of all samples so far, linear sRGB over white, [pixel][3].
   struct Layer {
     const char* name = "";
     std::vector<float> rgb;
     std::vector<float> draw; ///< of its error, as job::Picture::error_draw; empty until there are two passes
   };
-  /// Places in layers(). smooth: the layer direct without noise, with the shadows of the segmentation's lights. volume: in a medium only.
+  /// Places in layers(). smooth: the layer direct without noise, with the shadows of the segmentation's lights. volume:
+  /// in a medium only.
   enum : std::size_t { background, direct, caustic, smooth, volume };
   std::vector<Layer> layers() const;
 

@@ -8,11 +8,11 @@
 
 namespace nephroid::environment {
 
-preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other)
-{
+preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other) {
   preset::Preset result = preset;
   result.scene.camera = other.scene.camera;
-  if (result.scene.environment && other.scene.environment) result.scene.environment->rotate_deg = other.scene.environment->rotate_deg;
+  if (result.scene.environment && other.scene.environment)
+    result.scene.environment->rotate_deg = other.scene.environment->rotate_deg;
   result.white = other.white;
   result.name = other.name;
   result.description = other.description;
@@ -24,8 +24,7 @@ preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& 
   return result;
 }
 
-preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset& other)
-{
+preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset& other) {
   preset::Preset result = preset;
   for (std::size_t i = 0; i < result.scene.objects.size(); ++i) {
     result.scene.objects[i].transform.rotate_deg = other.scene.objects[i].transform.rotate_deg;
@@ -34,22 +33,19 @@ preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset
   return result;
 }
 
-void SceneView::begin(const preset::Preset& preset)
-{
+void SceneView::begin(const preset::Preset& preset) {
   make_renderer(preset);
   shown_ = loaded_;
   go_on_with(preset);
 }
 
-void SceneView::end()
-{
+void SceneView::end() {
   renderer_.reset();
   caustics_.reset();
   caustics_seconds_before_ = 0;
 }
 
-bool SceneView::show(const preset::Preset& preset)
-{
+bool SceneView::show(const preset::Preset& preset) {
   const double seconds = caustics_ ? caustics_->seconds() : 0;
   bool begins = false;
   try {
@@ -65,36 +61,32 @@ bool SceneView::show(const preset::Preset& preset)
   return begins;
 }
 
-void SceneView::set_bake(const Bake& bake)
-{
+void SceneView::set_bake(const Bake& bake) {
   caustics_.emplace(bake, context_);
   renderer_->set_caustics(*caustics_);
 }
 
-void SceneView::set_caustics_seconds(double seconds)
-{
+void SceneView::set_caustics_seconds(double seconds) {
   if (caustics_) caustics_seconds_before_ = caustics_->seconds() - seconds;
 }
 
-void SceneView::make_renderer(const preset::Preset& preset)
-{
+void SceneView::make_renderer(const preset::Preset& preset) {
   renderer_.reset(); // its device memory is for the next
   renderer_.emplace(*task_, preset.white.value(), preset.seed, context_);
   if (caustics_) renderer_->set_caustics(*caustics_);
 }
 
-bool SceneView::show_anew(const preset::Preset& preset)
-{
+bool SceneView::show_anew(const preset::Preset& preset) {
   const scene::Scene scene = scene::load_scene(preset);
-  task_ = std::make_shared<const RenderTask>(make_render_task(preset, scene, scene::build_bvh(scene.geometry), caster_, task_.get()));
+  task_ = std::make_shared<const RenderTask>(
+      make_render_task(preset, scene, scene::build_bvh(scene.geometry), caster_, task_.get()));
   loaded_ = preset;
   make_renderer(preset);
   shown_ = preset;
   return true;
 }
 
-bool SceneView::go_on_with(const preset::Preset& preset)
-{
+bool SceneView::go_on_with(const preset::Preset& preset) {
   if (!(with_view_of(with_places_of(shown_, preset), preset) == preset)) return show_anew(preset);
   bool begins = false;
   if (!(with_places_of(shown_, preset) == shown_)) {
@@ -103,7 +95,8 @@ bool SceneView::go_on_with(const preset::Preset& preset)
     renderer_->move_objects(std::move(*moved));
     begins = true;
   } else if (!(preset.scene.camera == shown_.scene.camera)) {
-    renderer_->set_camera(scene::make_camera(preset.scene.camera, renderer_->scene()), Place(preset.source) / "scene" / "camera");
+    renderer_->set_camera(scene::make_camera(preset.scene.camera, renderer_->scene()),
+                          Place(preset.source) / "scene" / "camera");
     begins = true;
   }
   const auto same_segmentation = [](const Settings& a, const Settings& b) {

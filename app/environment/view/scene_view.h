@@ -12,7 +12,8 @@ namespace nephroid::environment {
 
 // How a preset may differ from another for a run to go on, in parts.
 
-/// The preset with what a renderer takes on as it goes: camera, turn of the environment, segmentation and white of another.
+/// The preset with what a renderer takes on as it goes: camera, turn of the environment, segmentation and white of
+/// another.
 preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other);
 
 /// The preset with objects turned and moved as in another.
@@ -21,10 +22,9 @@ preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset
 class SceneView {
 public:
   /// task: of the preset, with this caster, which outlives it.
-  SceneView(const preset::Preset& preset, std::shared_ptr<const RenderTask> task, const Caster& caster, const mpi::RankContext& context)
-      : shown_(preset), loaded_(preset), task_(std::move(task)), caster_(caster), context_(context)
-  {
-  }
+  SceneView(const preset::Preset& preset, std::shared_ptr<const RenderTask> task, const Caster& caster,
+            const mpi::RankContext& context)
+      : shown_(preset), loaded_(preset), task_(std::move(task)), caster_(caster), context_(context) {}
 
   bool has_medium() const { return task_->has_medium; }
   /// Null before begin() and after a show() that failed.
@@ -34,8 +34,8 @@ public:
   /// Until begin() nothing is shown, and there are no caustics.
   void end();
 
-  /// Goes on with a preset that is adoptable. Whether another picture begins. Throws bad_input where all stays as it was; after any other
-  /// exception there is no renderer.
+  /// Goes on with a preset that is adoptable. Whether another picture begins. Throws bad_input where all stays as it
+  /// was; after any other exception there is no renderer.
   bool show(const preset::Preset& preset);
   const preset::Preset& shown() const { return shown_; }
   double backdrop_rotate_deg() const { return shown_.scene.environment ? shown_.scene.environment->rotate_deg : 0; }

@@ -23,17 +23,18 @@ using namespace nlohmann::literals;
 constexpr const char* surroundings_file = "surroundings.exr";
 
 /// What any file system and shell takes.
-std::string file_of(const scene::Scene& scene, int object)
-{
+std::string file_of(const scene::Scene& scene, int object) {
   std::string name = scene.objects[static_cast<std::size_t>(object)].name;
   std::ranges::replace_if(
-      name, [](char c) { return !(lower_case({c}) >= "a" && lower_case({c}) <= "z") && !(c >= '0' && c <= '9') && c != '-' && c != '_'; },
+      name,
+      [](char c) {
+        return !(lower_case({c}) >= "a" && lower_case({c}) <= "z") && !(c >= '0' && c <= '9') && c != '-' && c != '_';
+      },
       '-');
   return fmt::format("caustic-{}-{}.exr", object, name);
 }
 
-Json caustic_json(const scene::Scene& scene, const Caustic& caustic)
-{
+Json caustic_json(const scene::Scene& scene, const Caustic& caustic) {
   const Receiver& r = caustic.receiver;
   const double metres = scene.metres_per_unit;
   const glm::dvec3 corner = r.centre - 0.5 * r.width * r.right + 0.5 * r.height * r.up;
@@ -46,52 +47,58 @@ Json caustic_json(const scene::Scene& scene, const Caustic& caustic)
           {"luminous_w", caustic.watts}};
 }
 
-Json area_lights(const scene::Scene& scene)
-{
+Json area_lights(const scene::Scene& scene) {
   Json lights = Json::array();
   for (const scene::Light& light : scene.lights) {
     if (light.type != preset::Light::Type::area || scene::is_environment(light)) continue;
     const GltfColour colour = colour_of_light(light.spectrum);
     const double metres = scene.metres_per_unit;
-    lights.push_back({{"position_m", three_numbers(metres * (scene.origin + glm::dvec3(light.position)))},
-                      {"edges_m", {three_numbers(metres * glm::dvec3(light.edge_u)), three_numbers(metres * glm::dvec3(light.edge_v))}},
-                      {"direction", three_numbers(light.direction)},
-                      {"colour", colour.rgb},
-                      {"luminous_w", light.power_w * colour.luminous_per_watt}});
+    lights.push_back(
+        {{"position_m", three_numbers(metres * (scene.origin + glm::dvec3(light.position)))},
+         {"edges_m",
+          {three_numbers(metres * glm::dvec3(light.edge_u)), three_numbers(metres * glm::dvec3(light.edge_v))}},
+         {"direction", three_numbers(light.direction)},
+         {"colour", colour.rgb},
+         {"luminous_w", light.power_w * colour.luminous_per_watt}});
   }
   return lights;
 }
 
 /// Of an older export.
-std::vector<fs::path> caustics_in(const fs::path& folder)
-{
+std::vector<fs::path> caustics_in(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!is_there(folder / list_file)) return files;
   try {
     const Json older = Json::parse(read_file(folder / list_file));
     for (const Json& caustic : older.at("caustics"))
-      files.push_back(folder / fs::path(caustic.at("file").get<std::string>()).filename()); // nothing outside the folder
+      files.push_back(folder /
+                      fs::path(caustic.at("file").get<std::string>()).filename()); // nothing outside the folder
   } catch (const Json::exception&) {
     files.clear(); // somebody has changed it
   }
   return files;
 }
 
-image::Image picture_of(const scene::Environment& environment)
-{
-  return {.width = environment.width, .height = environment.height, .channels = {"R", "G", "B"}, .data = environment.rgb, .attributes = {}};
+image::Image picture_of(const scene::Environment& environment) {
+  return {.width = environment.width,
+          .height = environment.height,
+          .channels = {"R", "G", "B"},
+          .data = environment.rgb,
+          .attributes = {}};
 }
 
-std::vector<std::string> left_out(const scene::Scene& scene)
-{
+std::vector<std::string> left_out(const scene::Scene& scene) {
   std::vector<std::string> notes;
-  if (!area_lights(scene).empty()) notes.push_back("glTF has no area lights: those are in caustics.json, and blender.py makes them");
+  if (!area_lights(scene).empty())
+    notes.push_back("glTF has no area lights: those are in caustics.json, and blender.py makes them");
   if (scene.environment)
-    notes.push_back(fmt::format("glTF has no surroundings: those are in {}, and blender.py takes them", surroundings_file));
+    notes.push_back(
+        fmt::format("glTF has no surroundings: those are in {}, and blender.py takes them", surroundings_file));
   if (std::ranges::any_of(scene.lights, [](const scene::Light& light) { return !light.inside.empty(); }))
     notes.push_back("a light is inside glass: another renderer may keep its light there");
-  if (std::ranges::any_of(scene.lights,
-                          [](const scene::Light& light) { return light.type == preset::Light::Type::spot && light.cos_half_angle < 0; }))
+  if (std::ranges::any_of(scene.lights, [](const scene::Light& light) {
+        return light.type == preset::Light::Type::spot && light.cos_half_angle < 0;
+      }))
     notes.push_back("a spot of glTF has at most half of all directions: what a wider one sends beyond them is missing");
   return notes;
 }
@@ -99,11 +106,15 @@ std::vector<std::string> left_out(const scene::Scene& scene)
 } // namespace
 
 Caustic::Caustic(const scene::Scene& scene, const Receiver& on, const job::Picture& picture)
-    : receiver(on), irradiance{.width = picture.width, .height = picture.height, .channels = {"R", "G", "B"}, .data = {}, .attributes = {}},
-      file(file_of(scene, on.object))
-{
+    : receiver(on), irradiance{.width = picture.width,
+                               .height = picture.height,
+                               .channels = {"R", "G", "B"},
+                               .data = {},
+                               .attributes = {}},
+      file(file_of(scene, on.object)) {
   irradiance.attributes["nephroid:unit"] = "luminous W/m^2";
-  const double area = on.width * on.height * scene.metres_per_unit * scene.metres_per_unit / (picture.width * picture.height);
+  const double area =
+      on.width * on.height * scene.metres_per_unit * scene.metres_per_unit / (picture.width * picture.height);
   for (const job::Layer& layer : picture.layers)
     if (layer.name == "caustic") irradiance.data = layer.rgb;
   for (float& value : irradiance.data) value *= std::numbers::pi_v<float>;
@@ -111,8 +122,7 @@ Caustic::Caustic(const scene::Scene& scene, const Receiver& on, const job::Pictu
 }
 
 std::vector<std::string> write_export(const fs::path& folder, const scene::Scene& scene, const preset::Preset& preset,
-                                      const std::vector<Caustic>& caustics, double white)
-{
+                                      const std::vector<Caustic>& caustics, double white) {
   Json all{{"program", "Nephroid " + version()},
            {"preset", preset.name},
            {"unit", "luminous watts: of 683 lumens"},

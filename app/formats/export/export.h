@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene for another renderer, with the light that we add to it: glTF and, for Blender, pictures of irradiance and a script that puts all
-// of it together. Units there are ours: a watt is a luminous one, 683 lumens, which is also what Blender takes a watt of glTF's lights for.
+// A scene for another renderer, with the light that we add to it: glTF and, for Blender, pictures of irradiance and a
+// script that puts all of it together. Units there are ours: a watt is a luminous one, 683 lumens, which is also what
+// Blender takes a watt of glTF's lights for.
 #pragma once
 #include "formats/export/receiver.h"
 #include "image/image.h"
@@ -26,10 +27,10 @@ struct Caustic {
 /// Each folder of an export has this file.
 inline constexpr const char* list_file = "caustics.json";
 
-/// scene.glb, a picture of each caustic, surroundings.exr where the scene has some, caustics.json and blender.py, each whole. white: what
-/// shows the picture well. Returns what no glTF file holds, a sentence each.
-std::vector<std::string> write_export(const std::filesystem::path& folder, const scene::Scene& scene, const preset::Preset& preset,
-                                      const std::vector<Caustic>& caustics, double white);
+/// scene.glb, a picture of each caustic, surroundings.exr where the scene has some, caustics.json and blender.py, each
+/// whole. white: what shows the picture well. Returns what no glTF file holds, a sentence each.
+std::vector<std::string> write_export(const std::filesystem::path& folder, const scene::Scene& scene,
+                                      const preset::Preset& preset, const std::vector<Caustic>& caustics, double white);
 
 /// Of app/formats/export/*.py.
 struct ExportScript {

@@ -12,14 +12,12 @@ namespace {
 // Of glTF 2.0.
 constexpr int type_float = 5126, type_unsigned = 5125;
 
-void append(std::string& bytes, std::uint32_t value)
-{
+void append(std::string& bytes, std::uint32_t value) {
   for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 0xff);
 }
 
 /// A chunk ends at a multiple of 4.
-void append_chunk(std::string& bytes, const char (&type)[5], std::string content, char fill)
-{
+void append_chunk(std::string& bytes, const char (&type)[5], std::string content, char fill) {
   content.resize((content.size() + 3) / 4 * 4, fill);
   append(bytes, static_cast<std::uint32_t>(content.size()));
   bytes.append(type, 4);
@@ -28,31 +26,29 @@ void append_chunk(std::string& bytes, const char (&type)[5], std::string content
 
 } // namespace
 
-std::size_t Glb::add(const char* list, Json item)
-{
+std::size_t Glb::add(const char* list, Json item) {
   Json& items = json[list];
   items.push_back(std::move(item));
   return items.size() - 1;
 }
 
-void Glb::use(const char* extension)
-{
+void Glb::use(const char* extension) {
   Json& used = json["extensionsUsed"];
   if (std::find(used.begin(), used.end(), extension) == used.end()) used.push_back(extension);
 }
 
-std::size_t Glb::view(const void* bytes, std::size_t count)
-{
+std::size_t Glb::view(const void* bytes, std::size_t count) {
   bin_.resize((bin_.size() + 3) / 4 * 4);
   const std::size_t offset = bin_.size();
   bin_.append(static_cast<const char*>(bytes), count);
   return add("bufferViews", {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", count}});
 }
 
-std::size_t Glb::vectors(const std::vector<glm::vec3>& values, bool with_bounds)
-{
-  Json accessor{
-      {"bufferView", view(values.data(), values.size() * 12)}, {"componentType", type_float}, {"count", values.size()}, {"type", "VEC3"}};
+std::size_t Glb::vectors(const std::vector<glm::vec3>& values, bool with_bounds) {
+  Json accessor{{"bufferView", view(values.data(), values.size() * 12)},
+                {"componentType", type_float},
+                {"count", values.size()},
+                {"type", "VEC3"}};
   if (with_bounds) {
     glm::vec3 low = values.front(), high = low;
     for (const glm::vec3& v : values) low = glm::min(low, v), high = glm::max(high, v);
@@ -62,28 +58,25 @@ std::size_t Glb::vectors(const std::vector<glm::vec3>& values, bool with_bounds)
   return add("accessors", std::move(accessor));
 }
 
-std::size_t Glb::places(const std::vector<glm::vec2>& values)
-{
-  return add(
-      "accessors",
-      {{"bufferView", view(values.data(), values.size() * 8)}, {"componentType", type_float}, {"count", values.size()}, {"type", "VEC2"}});
+std::size_t Glb::places(const std::vector<glm::vec2>& values) {
+  return add("accessors", {{"bufferView", view(values.data(), values.size() * 8)},
+                           {"componentType", type_float},
+                           {"count", values.size()},
+                           {"type", "VEC2"}});
 }
 
-std::size_t Glb::corners(const std::vector<glm::uvec3>& triangles)
-{
+std::size_t Glb::corners(const std::vector<glm::uvec3>& triangles) {
   return add("accessors", {{"bufferView", view(triangles.data(), triangles.size() * 12)},
                            {"componentType", type_unsigned},
                            {"count", 3 * triangles.size()},
                            {"type", "SCALAR"}});
 }
 
-std::size_t Glb::png(std::string_view bytes)
-{
+std::size_t Glb::png(std::string_view bytes) {
   return add("images", {{"bufferView", view(bytes.data(), bytes.size())}, {"mimeType", "image/png"}});
 }
 
-std::string Glb::bytes() const
-{
+std::string Glb::bytes() const {
   Json complete = json;
   complete["buffers"] = {{{"byteLength", bin_.size()}}};
   std::string chunks;

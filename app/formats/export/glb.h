@@ -20,7 +20,9 @@ public:
   Json json;
 
   /// What they add is named by its index in the file's list. Nothing is empty.
-  std::size_t positions(const std::vector<glm::vec3>& values) { return vectors(values, true); } ///< with the bounds that these need
+  std::size_t positions(const std::vector<glm::vec3>& values) {
+    return vectors(values, true);
+  } ///< with the bounds that these need
   std::size_t normals(const std::vector<glm::vec3>& values) { return vectors(values, false); }
   std::size_t places(const std::vector<glm::vec2>& values); ///< in a texture
   std::size_t corners(const std::vector<glm::uvec3>& triangles);

@@ -21,19 +21,17 @@ namespace {
 using Json = Glb::Json;
 using std::numbers::pi;
 
-double at(const optics::Spectrum& spectrum, double nm)
-{
+double at(const optics::Spectrum& spectrum, double nm) {
   const double place = nm - optics::first_nm;
   const auto i = static_cast<std::size_t>(place);
   return std::lerp(spectrum[i], spectrum[i + 1], place - std::floor(place));
 }
 
 /// Above which values have `part` of the sum of all that is positive; 1 where nothing is.
-float clipping(std::vector<float> values, double part)
-{
+float clipping(std::vector<float> values, double part) {
   std::ranges::sort(values, std::greater());
-  const double sum =
-      std::accumulate(values.begin(), values.end(), 0.0, [](double so_far, float value) { return so_far + std::max(0.0f, value); });
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0,
+                                     [](double so_far, float value) { return so_far + std::max(0.0f, value); });
   if (!(sum > 0)) return 1;
   double above = 0; // what is over the next value
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
@@ -44,8 +42,7 @@ float clipping(std::vector<float> values, double part)
 }
 
 /// A turn that takes -z to `forward` and y near to `up`.
-Json turn_to(const glm::dvec3& forward, const glm::dvec3& up)
-{
+Json turn_to(const glm::dvec3& forward, const glm::dvec3& up) {
   const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
   const glm::dquat q = glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(right, forward), -forward)));
   return {q.x, q.y, q.z, q.w};
@@ -55,8 +52,7 @@ Json turn_to(const glm::dvec3& forward, const glm::dvec3& up)
 glm::dvec3 across(const glm::dvec3& way) { return std::abs(way.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0); }
 
 /// As triangles, some 3 degrees each.
-void add(const scene::Ellipsoid& ellipsoid, scene::Mesh& mesh)
-{
+void add(const scene::Ellipsoid& ellipsoid, scene::Mesh& mesh) {
   constexpr std::uint32_t around = 128, rings = 64;
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   const auto& [x, y, z] = ellipsoid.half_axes;
@@ -66,12 +62,14 @@ void add(const scene::Ellipsoid& ellipsoid, scene::Mesh& mesh)
       const double polar = ring * pi / rings, turn = i * 2 * pi / around;
       const glm::dvec3 unit(std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn));
       glm::dvec3 place = ellipsoid.centre;
-      for (int axis = 0; axis < 3; ++axis) place += unit[axis] * glm::dvec3(ellipsoid.half_axes[static_cast<std::size_t>(axis)]);
+      for (int axis = 0; axis < 3; ++axis)
+        place += unit[axis] * glm::dvec3(ellipsoid.half_axes[static_cast<std::size_t>(axis)]);
       mesh.positions.emplace_back(place);
       mesh.normals.emplace_back(scene::normal_at(ellipsoid, place));
       const std::uint32_t corner = first + ring * (around + 1) + i;
       if (ring == rings || i == around) continue;
-      glm::uvec3 upper(corner, corner + 1, corner + around + 1), lower(corner + 1, corner + around + 2, corner + around + 1);
+      glm::uvec3 upper(corner, corner + 1, corner + around + 1),
+          lower(corner + 1, corner + around + 2, corner + around + 1);
       if (is_left_handed != ellipsoid.inwards) std::swap(upper.y, upper.z), std::swap(lower.y, lower.z);
       if (ring > 0) mesh.triangles.push_back(upper);
       if (ring + 1 < rings) mesh.triangles.push_back(lower);
@@ -81,18 +79,19 @@ void add(const scene::Ellipsoid& ellipsoid, scene::Mesh& mesh)
 class Writer {
 public:
   Writer(const scene::Scene& scene, const preset::Preset& preset, const std::vector<Caustic>& caustics)
-      : scene_(scene), metres_(scene.metres_per_unit)
-  {
+      : scene_(scene), metres_(scene.metres_per_unit) {
     glb_.json["asset"] = {{"version", "2.0"}, {"generator", "Nephroid"}};
     glb_.json["scene"] = 0;
     glb_.json["scenes"] = {{{"name", preset.name}, {"nodes", Json::array()}}};
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-      const auto caustic = std::ranges::find(caustics, static_cast<int>(i), [](const Caustic& c) { return c.receiver.object; });
+      const auto caustic =
+          std::ranges::find(caustics, static_cast<int>(i), [](const Caustic& c) { return c.receiver.object; });
       add_object(scene.objects[i], caustic == caustics.end() ? nullptr : &*caustic);
     }
     add_camera();
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
-      if (!scene::is_environment(scene.lights[i]) && scene.lights[i].type != preset::Light::Type::area) add_light(scene.lights[i], i);
+      if (!scene::is_environment(scene.lights[i]) && scene.lights[i].type != preset::Light::Type::area)
+        add_light(scene.lights[i], i);
   }
 
   Glb take() { return std::move(glb_); }
@@ -101,14 +100,12 @@ private:
   /// Of the scene's coordinates, in metres.
   glm::dvec3 placed(const glm::dvec3& p) const { return metres_ * (scene_.origin + p); }
 
-  void add_node(Json node)
-  {
+  void add_node(Json node) {
     const std::size_t index = glb_.add("nodes", std::move(node)); // first: it moves what the list is in
     glb_.json["scenes"][0]["nodes"].push_back(index);
   }
 
-  void add_object(const scene::Object& object, const Caustic* caustic)
-  {
+  void add_object(const scene::Object& object, const Caustic* caustic) {
     if (is_empty(object)) return;
     const glm::dvec3 middle = object.bounds.centre;
     const scene::Mesh mesh = mesh_of(object);
@@ -126,15 +123,15 @@ private:
       attributes["TEXCOORD_0"] = glb_.places(places);
     }
     const std::size_t corners = glb_.corners(mesh.triangles), material = material_of_object(object, caustic);
-    const std::size_t mesh_index =
-        glb_.add("meshes", {{"name", object.name},
-                            {"primitives", {{{"attributes", std::move(attributes)}, {"indices", corners}, {"material", material}}}}});
+    const std::size_t mesh_index = glb_.add(
+        "meshes",
+        {{"name", object.name},
+         {"primitives", {{{"attributes", std::move(attributes)}, {"indices", corners}, {"material", material}}}}});
     add_node({{"name", object.name}, {"mesh", mesh_index}, {"translation", three_numbers(placed(middle))}});
   }
 
   /// With the vertices that it has alone.
-  scene::Mesh mesh_of(const scene::Object& object) const
-  {
+  scene::Mesh mesh_of(const scene::Object& object) const {
     scene::Mesh mesh;
     std::unordered_map<std::uint32_t, std::uint32_t> own;
     for (const glm::uvec3& triangle : scene::triangles_of(scene_, object)) {
@@ -153,16 +150,14 @@ private:
   }
 
   /// A receiver has one of its own.
-  std::size_t material_of_object(const scene::Object& object, const Caustic* caustic)
-  {
+  std::size_t material_of_object(const scene::Object& object, const Caustic* caustic) {
     if (caustic) return glb_.add("materials", lit(matt(material_of(scene_, object)), object.name, *caustic));
     const auto [found, is_new] = materials_.try_emplace(object.material);
     if (is_new) found->second = glb_.add("materials", plain(material_of(scene_, object)));
     return found->second;
   }
 
-  Json plain(const scene::Material& material)
-  {
+  Json plain(const scene::Material& material) {
     using Type = scene::Material::Type;
     if (material.type == Type::dielectric) return glass(material);
     Json made = matt(material);
@@ -171,18 +166,17 @@ private:
     return made;
   }
 
-  static Json matt(const scene::Material& material)
-  {
+  static Json matt(const scene::Material& material) {
     Json colour = Json(colour_of_reflectance(material.reflectance));
     colour.push_back(1);
     return {{"name", material.name},
             {"doubleSided", true},
-            {"pbrMetallicRoughness", {{"baseColorFactor", std::move(colour)}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}};
+            {"pbrMetallicRoughness",
+             {{"baseColorFactor", std::move(colour)}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}};
   }
 
   /// The texture holds bytes, whose largest stands for the level above which a hundredth of the caustic's light is.
-  Json lit(Json material, const std::string& name, const Caustic& caustic)
-  {
+  Json lit(Json material, const std::string& name, const Caustic& caustic) {
     const image::Image& picture = caustic.irradiance;
     const float most = clipping(picture.data, 0.01);
     std::vector<float> scaled = picture.data;
@@ -198,15 +192,16 @@ private:
     return material;
   }
 
-  Json glass(const scene::Material& material)
-  {
+  Json glass(const scene::Material& material) {
     double thickness = 0; // of the largest object of it, in metres
     for (const scene::Object& object : scene_.objects)
       if (&material_of(scene_, object) == &material)
         thickness = std::max(thickness, 2 * static_cast<double>(object.bounds.radius) * metres_);
-    const double n = at(material.n, optics::line_d_nm), spread = at(material.n, optics::line_f_nm) - at(material.n, optics::line_c_nm);
-    Json made{{"name", material.name},
-              {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0}}}};
+    const double n = at(material.n, optics::line_d_nm),
+                 spread = at(material.n, optics::line_f_nm) - at(material.n, optics::line_c_nm);
+    Json made{
+        {"name", material.name},
+        {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0}}}};
     Json& extensions = made["extensions"];
     extensions["KHR_materials_transmission"] = {{"transmissionFactor", 1}};
     extensions["KHR_materials_ior"] = {{"ior", n}};
@@ -218,31 +213,32 @@ private:
       extensions["KHR_materials_volume"]["attenuationDistance"] = thickness;
       extensions["KHR_materials_volume"]["attenuationColor"] = Json(colour_of_reflectance(kept));
     }
-    if (n > 1 && spread > 0) extensions["KHR_materials_dispersion"] = {{"dispersion", 20 * spread / (n - 1)}}; // 20 over Abbe's number
+    if (n > 1 && spread > 0)
+      extensions["KHR_materials_dispersion"] = {{"dispersion", 20 * spread / (n - 1)}}; // 20 over Abbe's number
     for (const auto& [name, value] : extensions.items()) glb_.use(name.c_str());
     return made;
   }
 
-  void add_camera()
-  {
+  void add_camera() {
     const scene::Camera& camera = scene_.camera;
     const glm::dvec3 position = placed(camera.position);
     double farthest = 0;
     for (const scene::Object& object : scene_.objects)
-      farthest =
-          std::max(farthest, glm::length(placed(object.bounds.centre) - position) + metres_ * static_cast<double>(object.bounds.radius));
+      farthest = std::max(farthest, glm::length(placed(object.bounds.centre) - position) +
+                                        metres_ * static_cast<double>(object.bounds.radius));
     const std::size_t lens = glb_.add("cameras", {{"type", "perspective"},
                                                   {"perspective",
                                                    {{"yfov", 2 * std::atan(camera.tan_y)},
                                                     {"aspectRatio", static_cast<double>(camera.width) / camera.height},
                                                     {"znear", 1e-4 * farthest},
                                                     {"zfar", 10 * farthest}}}});
-    add_node(
-        {{"name", "camera"}, {"camera", lens}, {"translation", three_numbers(position)}, {"rotation", turn_to(camera.forward, camera.up)}});
+    add_node({{"name", "camera"},
+              {"camera", lens},
+              {"translation", three_numbers(position)},
+              {"rotation", turn_to(camera.forward, camera.up)}});
   }
 
-  void add_light(const scene::Light& light, std::size_t number)
-  {
+  void add_light(const scene::Light& light, std::size_t number) {
     using Type = preset::Light::Type;
     const GltfColour colour = colour_of_light(light.spectrum);
     const std::string name = fmt::format("light {}", number);
@@ -278,8 +274,7 @@ private:
 
 } // namespace
 
-std::array<double, 3> colour_of_reflectance(const optics::Spectrum& reflectance)
-{
+std::array<double, 3> colour_of_reflectance(const optics::Spectrum& reflectance) {
   optics::Spectrum light = optics::illuminant("D65");
   const double white = optics::to_xyz(light)[1];
   for (std::size_t w = 0; w < light.size(); ++w) light[w] *= reflectance[w] / white;
@@ -288,8 +283,7 @@ std::array<double, 3> colour_of_reflectance(const optics::Spectrum& reflectance)
   return rgb;
 }
 
-GltfColour colour_of_light(const optics::Spectrum& spectrum)
-{
+GltfColour colour_of_light(const optics::Spectrum& spectrum) {
   const optics::Colour xyz = optics::to_xyz(spectrum);
   GltfColour colour{optics::xyz_to_linear_srgb(xyz), 0};
   const double most = std::max({colour.rgb[0], colour.rgb[1], colour.rgb[2]});
@@ -298,8 +292,7 @@ GltfColour colour_of_light(const optics::Spectrum& spectrum)
   return colour;
 }
 
-Glb gltf_of(const scene::Scene& scene, const preset::Preset& preset, const std::vector<Caustic>& caustics)
-{
+Glb gltf_of(const scene::Scene& scene, const preset::Preset& preset, const std::vector<Caustic>& caustics) {
   return Writer(scene, preset, caustics).take();
 }
 

@@ -16,8 +16,8 @@ struct GltfColour {
 };
 GltfColour colour_of_light(const optics::Spectrum& spectrum);
 
-/// Preset coordinates in metres, y up. Area lights and the surroundings have no counterpart; the caustics are light that the receivers'
-/// materials send out, in cd/m^2.
+/// Preset coordinates in metres, y up. Area lights and the surroundings have no counterpart; the caustics are light
+/// that the receivers' materials send out, in cd/m^2.
 Glb gltf_of(const scene::Scene& scene, const preset::Preset& preset, const std::vector<Caustic>& caustics);
 
 } // namespace nephroid::formats

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pinhole camera that looks straight at a plane shows all of it at one scale, and a white surface of irradiance E the radiance E / pi. So
-// the map is the picture of such a camera, for which nothing stands before the receiver (scene::Camera::receiver).
+// A pinhole camera that looks straight at a plane shows all of it at one scale, and a white surface of irradiance E the
+// radiance E / pi. So the map is the picture of such a camera, for which nothing stands before the receiver
+// (scene::Camera::receiver).
 #include "formats/export/receiver.h"
 
 #include "optics/spectrum.h"
@@ -15,9 +16,9 @@ namespace {
 
 constexpr double distance = 2; ///< of the camera from the receiver, over the receiver's longer edge
 
-/// The smallest of the rectangles along an edge of the first triangle: of a rectangle, and of a grid of them, that itself.
-Receiver rectangle(const scene::Scene& scene, int index, const scene::Plane& plane)
-{
+/// The smallest of the rectangles along an edge of the first triangle: of a rectangle, and of a grid of them, that
+/// itself.
+Receiver rectangle(const scene::Scene& scene, int index, const scene::Plane& plane) {
   const scene::Object& object = scene.objects[static_cast<std::size_t>(index)];
   Receiver receiver;
   receiver.object = index;
@@ -47,17 +48,16 @@ Receiver rectangle(const scene::Scene& scene, int index, const scene::Plane& pla
 
 } // namespace
 
-std::vector<Receiver> receivers_of(const scene::Scene& scene)
-{
+std::vector<Receiver> receivers_of(const scene::Scene& scene) {
   std::vector<Receiver> receivers;
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     if (material_of(scene, scene.objects[i]).type == scene::Material::Type::diffuse)
-      if (const auto plane = scene::plane_of(scene, scene.objects[i])) receivers.push_back(rectangle(scene, static_cast<int>(i), *plane));
+      if (const auto plane = scene::plane_of(scene, scene.objects[i]))
+        receivers.push_back(rectangle(scene, static_cast<int>(i), *plane));
   return receivers;
 }
 
-scene::Scene irradiance_view(scene::Scene scene, const Receiver& receiver, int longest)
-{
+scene::Scene irradiance_view(scene::Scene scene, const Receiver& receiver, int longest) {
   scene::Material white;
   white.reflectance = optics::constant_spectrum(1);
   scene.objects[static_cast<std::size_t>(receiver.object)].material = static_cast<int>(scene.materials.size());

@@ -7,7 +7,8 @@
 
 namespace nephroid::formats {
 
-/// A rectangle about a flat matt object, seen from the side that the glass and mirrors are on. In the scene's coordinates.
+/// A rectangle about a flat matt object, seen from the side that the glass and mirrors are on. In the scene's
+/// coordinates.
 struct Receiver {
   int object = 0; ///< of Scene::objects
   glm::dvec3 centre{0};
@@ -21,9 +22,9 @@ struct Receiver {
 /// Of all flat matt objects, in the order of the scene.
 std::vector<Receiver> receivers_of(const scene::Scene& scene);
 
-/// The scene with a camera for the light that a receiver gets, not for what an eye sees of it. Where engine 1 renders that with a white
-/// of 1 and no photon maps, the layer "caustic" is the irradiance in W/m^2 over pi, as linear sRGB whose Y has no factor 683.
-/// longest: of the picture's edges, in pixels.
+/// The scene with a camera for the light that a receiver gets, not for what an eye sees of it. Where engine 1 renders
+/// that with a white of 1 and no photon maps, the layer "caustic" is the irradiance in W/m^2 over pi, as linear sRGB
+/// whose Y has no factor 683. longest: of the picture's edges, in pixels.
 scene::Scene irradiance_view(scene::Scene scene, const Receiver& receiver, int longest);
 
 } // namespace nephroid::formats

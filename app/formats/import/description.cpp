@@ -31,8 +31,7 @@ struct Emitter {
   bool flat = false, rectangle = false;
 };
 
-Emitter emitter_of(const scene::Mesh& mesh, const glm::dmat4& to_world)
-{
+Emitter emitter_of(const scene::Mesh& mesh, const glm::dmat4& to_world) {
   Emitter e;
   std::vector<glm::dvec3> points;
   for (const glm::vec3& p : mesh.positions) points.emplace_back(to_world * glm::dvec4(glm::dvec3(p), 1));
@@ -44,7 +43,8 @@ Emitter emitter_of(const scene::Mesh& mesh, const glm::dmat4& to_world)
     e.area += glm::length(n);
     e.centre += glm::length(n) * (a + b + c) / 3.0;
     for (const auto& [u, v] : {std::pair(b - a, c - a), std::pair(c - b, a - b), std::pair(a - c, b - c)}) {
-      const double product = glm::length(u) * glm::length(v), cosine = product > 0 ? std::abs(glm::dot(u, v)) / product : 2;
+      const double product = glm::length(u) * glm::length(v),
+                   cosine = product > 0 ? std::abs(glm::dot(u, v)) / product : 2;
       if (cosine < squarest) squarest = cosine, e.edge = glm::normalize(u);
     }
   }
@@ -71,20 +71,20 @@ double clamped_power(double watts) { return std::clamp(watts, 0.0, 1e9); }
 
 class PresetBuilder {
 public:
-  explicit PresetBuilder(Description& from) : from_(from)
-  {
-    // A picture is right as our camera sees it where x, y and -z of the camera are right-handed. Else the whole world is mirrored.
+  explicit PresetBuilder(Description& from) : from_(from) {
+    // A picture is right as our camera sees it where x, y and -z of the camera are right-handed. Else the whole world
+    // is mirrored.
     if (from_.camera && glm::determinant(glm::dmat3(from_.camera->to_world)) > 0) mirror_[0][0] = -1;
     made_.white = std::clamp(from_.unit, 1e-12, 1e12);
     made_.scene.materials = from_.materials;
   }
 
-  preset::Preset make(const std::string& name, const std::string& folder)
-  {
+  preset::Preset make(const std::string& name, const std::string& folder) {
     made_.name = name;
     made_.description = "Imported from " + name_of(from_.source.filename().string(), "a scene");
     for (const DescribedShape& shape : from_.shapes) add(shape, folder);
-    if (made_.scene.objects.empty()) throw bad_input(from_.source.string(), "has no surface that can be taken over", "expected shapes");
+    if (made_.scene.objects.empty())
+      throw bad_input(from_.source.string(), "has no surface that can be taken over", "expected shapes");
     for (const DescribedLight& light : from_.lights) add(light);
     if (from_.surroundings) surround(*from_.surroundings);
     if (from_.camera)
@@ -109,14 +109,14 @@ private:
   glm::dvec3 middle() const { return 0.5 * (bounds_.low + bounds_.high); }
   double size() const { return std::max(glm::length(bounds_.high - bounds_.low), 1e-3); }
 
-  void add(const DescribedShape& shape, const std::string& folder)
-  {
+  void add(const DescribedShape& shape, const std::string& folder) {
     glm::dmat4 to_world = mirror_ * shape.to_world;
     if (shape.mesh.empty()) to_world = to_world * glm::dmat4(glm::dmat3(shape.radius));
     if (shape.glow) return glow(shape, to_world);
     preset::Object object;
     object.name = name_of(shape.name, "object");
-    for (int n = 2; !names_.insert(object.name).second; ++n) object.name = fmt::format("{} {}", name_of(shape.name, "object"), n);
+    for (int n = 2; !names_.insert(object.name).second; ++n)
+      object.name = fmt::format("{} {}", name_of(shape.name, "object"), n);
     object.material = shape.material;
     auto transform = transform_of(to_world);
     if (shape.mesh.empty()) {
@@ -149,8 +149,7 @@ private:
   }
 
   /// A lamp takes the place of a surface that shines.
-  void glow(const DescribedShape& shape, const glm::dmat4& to_world)
-  {
+  void glow(const DescribedShape& shape, const glm::dmat4& to_world) {
     const LightColour colour = light_colour(scene::to_vec3(*shape.glow));
     const double radiance = watts(colour); // W m^-2 sr^-1
     preset::Light light;
@@ -170,7 +169,9 @@ private:
         const glm::dvec3 up = glm::cross(e.normal, e.edge);
         light.up = scene::to_vec3(up);
         light.size = e.size;
-        if (!e.rectangle) from_.note(shape.where, "a flat surface that shines is left out: a rectangle of its area shines in its place");
+        if (!e.rectangle)
+          from_.note(shape.where,
+                     "a flat surface that shines is left out: a rectangle of its area shines in its place");
       } else
         from_.note(shape.where, "a surface that shines is left out: a point light of its power is in its middle");
     }
@@ -179,8 +180,7 @@ private:
 
   double watts(const LightColour& colour) const { return colour.watts_per_lumen * most_lumens * from_.unit; }
 
-  void add(const DescribedLight& light)
-  {
+  void add(const DescribedLight& light) {
     const LightColour colour = light_colour(scene::to_vec3(light.colour));
     preset::Light made;
     made.type = light.type;
@@ -191,14 +191,14 @@ private:
     made.direction = scene::to_vec3(glm::normalize(way));
     made.half_angle_deg = std::clamp(light.half_angle_deg, 0.01, 90.0);
     const bool spot = light.type == preset::Light::Type::spot;
-    made.power_w = clamped_power(watts(colour) * (spot ? 2 * pi * (1 - std::cos(glm::radians(made.half_angle_deg))) : 4 * pi));
+    made.power_w =
+        clamped_power(watts(colour) * (spot ? 2 * pi * (1 - std::cos(glm::radians(made.half_angle_deg))) : 4 * pi));
     made.irradiance_w_m2 = clamped_power(watts(colour));
     if (!(watts(colour) > 0)) return from_.note(light.where, "a light that is black is left out");
     made_.scene.lights.push_back(made);
   }
 
-  void surround(const DescribedSurroundings& s)
-  {
+  void surround(const DescribedSurroundings& s) {
     preset::Environment& e = made_.scene.environment.emplace();
     e.lights = true;
     e.radiance = s.scale * from_.unit;
@@ -211,15 +211,16 @@ private:
     // Ours looks along -z, and a turn is counterclockwise seen from above: (-sin a, 0, -cos a).
     const glm::dvec3 centre = glm::dmat3(mirror_) * s.centre;
     e.rotate_deg = glm::degrees(std::atan2(-centre.x, -centre.z));
-    if (mirror_[0][0] < 0) from_.note(s.where, "the surroundings are mirrored with the scene in the file and are not here");
+    if (mirror_[0][0] < 0)
+      from_.note(s.where, "the surroundings are mirrored with the scene in the file and are not here");
   }
 
-  void aim(const DescribedCamera& c)
-  {
+  void aim(const DescribedCamera& c) {
     preset::Camera& made = made_.scene.camera;
     const glm::dmat4 to_world = mirror_ * c.to_world;
     const glm::dvec3 position(to_world[3]), forward(to_world[2]), up(to_world[1]);
-    if (!(glm::length(forward) > 0) || !(glm::length(up) > 0)) throw bad_input(from_.source.string(), "the camera has no direction");
+    if (!(glm::length(forward) > 0) || !(glm::length(up) > 0))
+      throw bad_input(from_.source.string(), "the camera has no direction");
     made.position = scene::to_vec3(position);
     made.up = scene::to_vec3(glm::normalize(up));
     made.fov_deg = std::clamp(c.fov_deg, 0.001, 179.9);
@@ -240,8 +241,7 @@ public:
 
 } // namespace
 
-std::string name_of(const std::string& text, const std::string& otherwise)
-{
+std::string name_of(const std::string& text, const std::string& otherwise) {
   std::string name;
   for (const char c : text.substr(0, 60)) {
     const auto byte = static_cast<unsigned char>(c);
@@ -250,14 +250,12 @@ std::string name_of(const std::string& text, const std::string& otherwise)
   return name.empty() ? otherwise : name;
 }
 
-void Description::note(const Place& where, const std::string& text)
-{
+void Description::note(const Place& where, const std::string& text) {
   std::string line = where.text() + ": " + text;
   if (std::find(notes.begin(), notes.end(), line) == notes.end()) notes.push_back(std::move(line));
 }
 
-std::string Description::mesh_file(const fs::path& file, const Place& where)
-{
+std::string Description::mesh_file(const fs::path& file, const Place& where) {
   const std::string key = name_of(file.lexically_normal().string(), "mesh") + ".ply";
   if (meshes.contains(key)) return key;
   if (!is_there(file)) throw bad_input(where, "the mesh " + file.string() + " is not there", {}, "put it there");
@@ -265,46 +263,43 @@ std::string Description::mesh_file(const fs::path& file, const Place& where)
   return key;
 }
 
-std::string Description::own_mesh(const std::string& name, scene::Mesh mesh)
-{
+std::string Description::own_mesh(const std::string& name, scene::Mesh mesh) {
   std::string key = name_of(name, "mesh") + ".ply";
   for (int n = 2; meshes.contains(key); ++n) key = fmt::format("{}-{}.ply", name_of(name, "mesh"), n);
   meshes.emplace(key, std::move(mesh));
   return key;
 }
 
-scene::Mesh polygon(const std::vector<glm::vec3>& corners)
-{
+scene::Mesh polygon(const std::vector<glm::vec3>& corners) {
   scene::Mesh mesh;
   mesh.positions = corners;
   for (std::uint32_t i = 2; i < corners.size(); ++i) mesh.triangles.emplace_back(0, i - 1, i);
   return mesh;
 }
 
-scene::Mesh cube()
-{
+scene::Mesh cube() {
   scene::Mesh mesh;
   for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-  for (const auto& q : {std::array{0u, 2u, 3u, 1u}, std::array{4u, 5u, 7u, 6u}, std::array{0u, 1u, 5u, 4u}, std::array{2u, 6u, 7u, 3u},
-                        std::array{0u, 4u, 6u, 2u}, std::array{1u, 3u, 7u, 5u}}) {
+  for (const auto& q : {std::array{0u, 2u, 3u, 1u}, std::array{4u, 5u, 7u, 6u}, std::array{0u, 1u, 5u, 4u},
+                        std::array{2u, 6u, 7u, 3u}, std::array{0u, 4u, 6u, 2u}, std::array{1u, 3u, 7u, 5u}}) {
     mesh.triangles.emplace_back(q[0], q[1], q[2]);
     mesh.triangles.emplace_back(q[0], q[2], q[3]);
   }
   return mesh;
 }
 
-scene::Mesh disk(double radius)
-{
+scene::Mesh disk(double radius) {
   std::vector<glm::vec3> corners;
-  for (int i = 0; i < 128; ++i) corners.emplace_back(radius * std::cos(2 * pi * i / 128), radius * std::sin(2 * pi * i / 128), 0);
+  for (int i = 0; i < 128; ++i)
+    corners.emplace_back(radius * std::cos(2 * pi * i / 128), radius * std::sin(2 * pi * i / 128), 0);
   return polygon(corners);
 }
 
-scene::Mesh open_cylinder(const glm::dvec3& from, const glm::dvec3& to, double radius)
-{
+scene::Mesh open_cylinder(const glm::dvec3& from, const glm::dvec3& to, double radius) {
   scene::Mesh mesh;
   const glm::dvec3 axis = glm::normalize(to - from),
-                   u = glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+                   u = glm::normalize(
+                       glm::cross(axis, std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
   const glm::dvec3 v = glm::cross(axis, u);
   constexpr std::uint32_t around = 128;
   for (std::uint32_t i = 0; i < around; ++i) {
@@ -320,17 +315,16 @@ scene::Mesh open_cylinder(const glm::dvec3& from, const glm::dvec3& to, double r
   return mesh;
 }
 
-Imported write_described(Description description, const fs::path& preset)
-{
+Imported write_described(Description description, const fs::path& preset) {
   PresetBuilder builder(description);
   const preset::Preset made = builder.make(preset.stem().string(), preset.stem().string() + "-meshes");
   std::erase_if(description.meshes, [&](const auto& mesh) { return !builder.used.contains(mesh.first); });
   return write_imported(made, preset, description.meshes, {}, std::move(description.notes));
 }
 
-Imported write_imported(const preset::Preset& made, const fs::path& preset, const std::map<std::string, scene::Mesh>& meshes,
-                        const std::map<std::string, std::string>& glasses, std::vector<std::string> notes)
-{
+Imported write_imported(const preset::Preset& made, const fs::path& preset,
+                        const std::map<std::string, scene::Mesh>& meshes,
+                        const std::map<std::string, std::string>& glasses, std::vector<std::string> notes) {
   const std::string text = preset::to_json(made);
   preset::parse_preset(text, preset.string()); // what cannot be read again is not written
   const fs::path folder = preset.parent_path() / (preset.stem().string() + "-meshes");
@@ -338,7 +332,8 @@ Imported write_imported(const preset::Preset& made, const fs::path& preset, cons
   fs::create_directories(folder, error);
   if (error) throw failed(folder.string(), "cannot be made: " + error.message(), {}, "choose another folder with -o");
   for (const auto& [name, glass] : glasses) write_file_whole(folder / name, glass);
-  for (const auto& [name, mesh] : meshes) write_file_whole(folder / name, [&mesh = mesh](ByteSink& to) { scene::write_ply(mesh, to); });
+  for (const auto& [name, mesh] : meshes)
+    write_file_whole(folder / name, [&mesh = mesh](ByteSink& to) { scene::write_ply(mesh, to); });
   write_file_whole(preset, text);
   return {preset, made.scene.objects.size(), meshes.size(), made.scene.lights.size(), std::move(notes)};
 }

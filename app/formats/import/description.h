@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the readers of Mitsuba and PBRT scenes find, in the file's own coordinates and units, and how it becomes a preset: in one place, for
-// both. Intensities are colours whose luminance is in the file's unit of power.
+// What the readers of Mitsuba and PBRT scenes find, in the file's own coordinates and units, and how it becomes a
+// preset: in one place, for both. Intensities are colours whose luminance is in the file's unit of power.
 #pragma once
 #include "base/place.h"
 #include "formats/import/import.h"
@@ -74,10 +74,10 @@ scene::Mesh cube();              ///< from -1 to 1
 scene::Mesh disk(double radius); ///< faces +z
 scene::Mesh open_cylinder(const glm::dvec3& from, const glm::dvec3& to, double radius);
 
-/// The half angle of a cone of constant intensity with the power of one that fades: fade(angle) is its intensity over that of its axis.
+/// The half angle of a cone of constant intensity with the power of one that fades: fade(angle) is its intensity over
+/// that of its axis.
 template <class Fade>
-double same_power_half_angle_deg(double outer_deg, const Fade& fade)
-{
+double same_power_half_angle_deg(double outer_deg, const Fade& fade) {
   constexpr int steps = 4096;
   double part = 0; // of the solid angle over 2 pi
   for (int i = 0; i < steps; ++i) {
@@ -90,7 +90,8 @@ double same_power_half_angle_deg(double outer_deg, const Fade& fade)
 /// Throws bad_input where there is nothing to see.
 Imported write_described(Description description, const std::filesystem::path& preset);
 /// Writes the meshes, then the preset that names them.
-Imported write_imported(const preset::Preset& made, const std::filesystem::path& preset, const std::map<std::string, scene::Mesh>& meshes,
+Imported write_imported(const preset::Preset& made, const std::filesystem::path& preset,
+                        const std::map<std::string, scene::Mesh>& meshes,
                         const std::map<std::string, std::string>& glasses, std::vector<std::string> notes);
 
 Description read_mitsuba(const std::filesystem::path& file);

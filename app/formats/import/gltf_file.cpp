@@ -31,38 +31,38 @@ constexpr std::array known_extensions{"KHR_lights_punctual",
                                       "KHR_materials_pbrSpecularGlossiness",
                                       "KHR_texture_transform"};
 
-GltfJson parse(const std::string& text, const std::string& name)
-{
+GltfJson parse(const std::string& text, const std::string& name) {
   try {
     return GltfJson::parse(text, [&](int depth, GltfJson::parse_event_t, GltfJson&) {
       if (depth > max_depth) throw bad_input(name, fmt::format("is nested deeper than {} levels", max_depth), expected);
       return true;
     });
   } catch (const GltfJson::parse_error& error) {
-    throw bad_input(name, fmt::format("its JSON is broken at byte {}", error.byte), expected, "check that the file is whole");
+    throw bad_input(name, fmt::format("its JSON is broken at byte {}", error.byte), expected,
+                    "check that the file is whole");
   } catch (const GltfJson::exception& error) {
     throw bad_input(name, fmt::format("its JSON cannot be read ({})", error.what()), expected);
   }
 }
 
-std::uint32_t word(const std::string& bytes, std::size_t at)
-{
+std::uint32_t word(const std::string& bytes, std::size_t at) {
   std::uint32_t value = 0;
   std::memcpy(&value, bytes.data() + at, sizeof value); // little-endian, as every machine that this runs on
   return value;
 }
 
 /// Section 4.4 of the specification: a header of 12 bytes, a chunk of JSON, then at most one of binary data.
-void split_glb(const std::string& bytes, const std::string& name, std::string& json, std::string& bin)
-{
+void split_glb(const std::string& bytes, const std::string& name, std::string& json, std::string& bin) {
   constexpr std::uint32_t json_chunk = 0x4e4f534a, bin_chunk = 0x004e4942;
   if (bytes.size() < 20) throw bad_input(name, fmt::format("is cut: it has {} bytes", bytes.size()), expected);
   if (word(bytes, 4) != 2) throw bad_input(name, fmt::format("is glTF of version {}", word(bytes, 4)), expected);
   if (word(bytes, 8) > bytes.size())
-    throw bad_input(name, fmt::format("is cut: it has {} of its {} bytes", bytes.size(), word(bytes, 8)), expected, "copy the file again");
+    throw bad_input(name, fmt::format("is cut: it has {} of its {} bytes", bytes.size(), word(bytes, 8)), expected,
+                    "copy the file again");
   for (std::size_t at = 12; at + 8 <= bytes.size();) {
     const std::size_t size = word(bytes, at);
-    if (size > bytes.size() - at - 8) throw bad_input(name, fmt::format("a chunk of {} bytes does not fit into it", size), expected);
+    if (size > bytes.size() - at - 8)
+      throw bad_input(name, fmt::format("a chunk of {} bytes does not fit into it", size), expected);
     const std::uint32_t kind = word(bytes, at + 4);
     if (kind == json_chunk && json.empty()) json = bytes.substr(at + 8, size);
     if (kind == bin_chunk && bin.empty()) bin = bytes.substr(at + 8, size);
@@ -73,15 +73,13 @@ void split_glb(const std::string& bytes, const std::string& name, std::string& j
 
 const GltfJson empty_object = GltfJson::object();
 
-[[noreturn]] void refuse(const Place& where, const char* wanted)
-{
+[[noreturn]] void refuse(const Place& where, const char* wanted) {
   throw bad_input(where, "is of a wrong kind", std::string("expected ") + wanted);
 }
 
 } // namespace
 
-GltfFile read_gltf(const std::filesystem::path& file)
-{
+GltfFile read_gltf(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::string text = read_file(file);
   if (text.empty()) throw bad_input(name, "is empty", expected);
@@ -95,7 +93,8 @@ GltfFile read_gltf(const std::filesystem::path& file)
   const GltfValue root(gltf.json, gltf.where());
   if (!gltf.json.is_object() || !root.has("asset")) throw bad_input(name, "is no glTF: it has no \"asset\"", expected);
   const std::string version = root.object("asset").text("version");
-  if (!version.starts_with("2.")) throw bad_input(gltf.where() / "asset" / "version", "is \"" + version + "\"", expected);
+  if (!version.starts_with("2."))
+    throw bad_input(gltf.where() / "asset" / "version", "is \"" + version + "\"", expected);
   if (!root.has("extensionsRequired")) return gltf;
   const Place where = gltf.where() / "extensionsRequired";
   if (!gltf.json["extensionsRequired"].is_array()) throw bad_input(where, "is no list", expected);
@@ -108,8 +107,7 @@ GltfFile read_gltf(const std::filesystem::path& file)
   return gltf;
 }
 
-GltfValue GltfValue::object(const char* key) const
-{
+GltfValue GltfValue::object(const char* key) const {
   const Place where = where_ / key;
   if (!has(key)) return {empty_object, where};
   const GltfJson& value = (*json_)[key];
@@ -117,8 +115,7 @@ GltfValue GltfValue::object(const char* key) const
   return {value, where};
 }
 
-std::vector<GltfValue> GltfValue::list(const char* key) const
-{
+std::vector<GltfValue> GltfValue::list(const char* key) const {
   std::vector<GltfValue> items;
   if (!has(key)) return items;
   const GltfJson& value = (*json_)[key];
@@ -131,61 +128,55 @@ std::vector<GltfValue> GltfValue::list(const char* key) const
   return items;
 }
 
-GltfValue GltfValue::item(const char* key, std::size_t index) const
-{
+GltfValue GltfValue::item(const char* key, std::size_t index) const {
   const Place where = where_ / key;
-  if (!has(key) || !(*json_)[key].is_array() || index >= (*json_)[key].size()) throw bad_input(where, fmt::format("has no item {}", index));
+  if (!has(key) || !(*json_)[key].is_array() || index >= (*json_)[key].size())
+    throw bad_input(where, fmt::format("has no item {}", index));
   const GltfJson& value = (*json_)[key][index];
   if (!value.is_object()) refuse(where / index, "an object");
   return {value, where / index};
 }
 
-double GltfValue::number(const char* key, double standard) const
-{
+double GltfValue::number(const char* key, double standard) const {
   if (!has(key)) return standard;
   const GltfJson& value = (*json_)[key];
   if (!value.is_number() || !std::isfinite(value.get<double>())) refuse(where_ / key, "a number");
   return value.get<double>();
 }
 
-std::uint64_t GltfValue::count(const char* key, std::uint64_t standard) const
-{
+std::uint64_t GltfValue::count(const char* key, std::uint64_t standard) const {
   const double value = number(key, static_cast<double>(standard));
-  if (value < 0 || value >= 4294967296.0 || value != std::floor(value)) refuse(where_ / key, "a whole number from 0 to 2^32");
+  if (value < 0 || value >= 4294967296.0 || value != std::floor(value))
+    refuse(where_ / key, "a whole number from 0 to 2^32");
   return static_cast<std::uint64_t>(value);
 }
 
-std::string GltfValue::text(const char* key) const
-{
+std::string GltfValue::text(const char* key) const {
   if (!has(key)) return {};
   const GltfJson& value = (*json_)[key];
   if (!value.is_string()) refuse(where_ / key, "a text");
   return value.get<std::string>();
 }
 
-bool GltfValue::truth(const char* key, bool standard) const
-{
+bool GltfValue::truth(const char* key, bool standard) const {
   if (!has(key)) return standard;
   if (!(*json_)[key].is_boolean()) refuse(where_ / key, "true or false");
   return (*json_)[key].get<bool>();
 }
 
-std::size_t GltfValue::checked_index(const GltfJson& json, const Place& where, std::size_t size, const char* of) const
-{
+std::size_t GltfValue::checked_index(const GltfJson& json, const Place& where, std::size_t size, const char* of) const {
   if (!json.is_number_integer() || json.get<double>() < 0) refuse(where, "an index");
   if (json.get<double>() >= static_cast<double>(size))
     throw bad_input(where, fmt::format("is {}, and there are {} {}", json.dump(), size, of));
   return json.get<std::size_t>();
 }
 
-std::size_t GltfValue::index(const char* key, std::size_t size, const char* of) const
-{
+std::size_t GltfValue::index(const char* key, std::size_t size, const char* of) const {
   if (!has(key)) throw bad_input(where_, fmt::format("has no \"{}\"", key));
   return checked_index((*json_)[key], where_ / key, size, of);
 }
 
-std::vector<std::size_t> GltfValue::indices(const char* key, std::size_t size, const char* of) const
-{
+std::vector<std::size_t> GltfValue::indices(const char* key, std::size_t size, const char* of) const {
   std::vector<std::size_t> all;
   if (!has(key)) return all;
   const GltfJson& value = (*json_)[key];
@@ -194,8 +185,7 @@ std::vector<std::size_t> GltfValue::indices(const char* key, std::size_t size, c
   return all;
 }
 
-void GltfValue::read_numbers(const char* key, double* values, std::size_t count) const
-{
+void GltfValue::read_numbers(const char* key, double* values, std::size_t count) const {
   if (!has(key)) return;
   const GltfJson& value = (*json_)[key];
   if (!value.is_array() || value.size() != count) refuse(where_ / key, fmt::format("{} numbers", count).c_str());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A glTF 2.0 file as JSON with its binary chunk, and reading that JSON strictly: every wrong type and every index out of range is an error
-// at its place. Of buffers only sizes are looked at: the mesh reader, a program of its own, reads them.
+// A glTF 2.0 file as JSON with its binary chunk, and reading that JSON strictly: every wrong type and every index out
+// of range is an error at its place. Of buffers only sizes are looked at: the mesh reader, a program of its own, reads
+// them.
 #pragma once
 #include "base/place.h"
 
@@ -50,8 +51,7 @@ public:
   std::vector<std::size_t> indices(const char* key, std::size_t size, const char* of) const;
   std::size_t index(const char* key, std::size_t size, const char* of) const;
   template <std::size_t N>
-  std::array<double, N> numbers(const char* key, const std::array<double, N>& standard) const
-  {
+  std::array<double, N> numbers(const char* key, const std::array<double, N>& standard) const {
     std::array<double, N> values = standard;
     read_numbers(key, values.data(), N);
     return values;

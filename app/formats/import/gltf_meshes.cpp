@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// "a%20b.bin" as the name of a file.
-std::string decoded(const std::string& uri)
-{
+std::string decoded(const std::string& uri) {
   std::string name;
   for (std::size_t i = 0; i < uri.size(); ++i) {
     unsigned value = 0;
@@ -31,30 +30,30 @@ std::string decoded(const std::string& uri)
   return name;
 }
 
-fs::path make_folder()
-{
+fs::path make_folder() {
   std::string name = (fs::temp_directory_path() / "nephroid-import-XXXXXX").string();
   if (!mkdtemp(name.data()))
-    throw failed(name, std::string("cannot be made: ") + std::strerror(errno), {}, "set TMPDIR to a folder that you may write to");
+    throw failed(name, std::string("cannot be made: ") + std::strerror(errno), {},
+                 "set TMPDIR to a folder that you may write to");
   return name;
 }
 
 /// Copies parts of the file into a file of one primitive and numbers them anew.
 class Extract {
 public:
-  Extract(const GltfFile& file, const std::vector<GltfJson>& buffers) : root_(file.json, file.where()), buffers_(buffers)
-  {
+  Extract(const GltfFile& file, const std::vector<GltfJson>& buffers)
+      : root_(file.json, file.where()), buffers_(buffers) {
     for (const char* list : {"accessors", "bufferViews", "buffers"}) made_[list] = GltfJson::array();
   }
 
-  GltfJson of(const GltfValue& primitive)
-  {
+  GltfJson of(const GltfValue& primitive) {
     const GltfValue attributes = primitive.object("attributes");
     const std::size_t count = root_.list("accessors").size();
     GltfJson one = GltfJson::object();
     one["mode"] = primitive.count("mode", 4);
     one["attributes"]["POSITION"] = accessor(attributes.index("POSITION", count, "accessors"), 3);
-    if (attributes.has("NORMAL")) one["attributes"]["NORMAL"] = accessor(attributes.index("NORMAL", count, "accessors"), 3);
+    if (attributes.has("NORMAL"))
+      one["attributes"]["NORMAL"] = accessor(attributes.index("NORMAL", count, "accessors"), 3);
     if (primitive.has("indices")) one["indices"] = accessor(primitive.index("indices", count, "accessors"), 1);
     made_["asset"] = {{"version", "2.0"}};
     made_["scene"] = 0;
@@ -68,36 +67,39 @@ public:
 
 private:
   /// width: how many numbers an item has to have.
-  std::size_t accessor(std::size_t index, std::size_t width)
-  {
+  std::size_t accessor(std::size_t index, std::size_t width) {
     const GltfValue accessor = root_.item("accessors", index);
     const std::string type = accessor.text("type");
     if (type != (width == 1 ? "SCALAR" : "VEC3"))
-      throw bad_input(accessor.where() / "type", "is \"" + type + "\"", width == 1 ? "expected SCALAR" : "expected VEC3");
+      throw bad_input(accessor.where() / "type", "is \"" + type + "\"",
+                      width == 1 ? "expected SCALAR" : "expected VEC3");
     const std::size_t component = component_bytes(accessor);
     const std::uint64_t count = accessor.count("count", 0);
     if (count == 0) throw bad_input(accessor.where() / "count", "is 0", "expected at least one item");
     GltfJson copy = accessor.json();
     for (const char* unused : {"extensions", "extras", "name"}) copy.erase(unused);
     if (accessor.has("bufferView")) {
-      const GltfValue view = root_.item("bufferViews", accessor.index("bufferView", root_.list("bufferViews").size(), "buffer views"));
+      const GltfValue view =
+          root_.item("bufferViews", accessor.index("bufferView", root_.list("bufferViews").size(), "buffer views"));
       const std::uint64_t item = component * width, stride = std::max(view.count("byteStride", item), item);
-      const std::uint64_t end = accessor.count("byteOffset", 0) + (count - 1) * stride + item, length = view.count("byteLength", 0);
+      const std::uint64_t end = accessor.count("byteOffset", 0) + (count - 1) * stride + item,
+                          length = view.count("byteLength", 0);
       if (end > length)
-        throw bad_input(accessor.where(), fmt::format("its {} items end at byte {} of a buffer view of {}", count, end, length));
+        throw bad_input(accessor.where(),
+                        fmt::format("its {} items end at byte {} of a buffer view of {}", count, end, length));
       copy["bufferView"] = this->view(accessor.index("bufferView", root_.list("bufferViews").size(), "buffer views"));
     }
     if (accessor.has("sparse"))
       for (const char* part : {"indices", "values"}) {
         const GltfValue sparse = accessor.object("sparse").object(part);
-        copy["sparse"][part]["bufferView"] = view(sparse.index("bufferView", root_.list("bufferViews").size(), "buffer views"));
+        copy["sparse"][part]["bufferView"] =
+            view(sparse.index("bufferView", root_.list("bufferViews").size(), "buffer views"));
       }
     made_["accessors"].push_back(std::move(copy));
     return made_["accessors"].size() - 1;
   }
 
-  static std::size_t component_bytes(const GltfValue& accessor)
-  {
+  static std::size_t component_bytes(const GltfValue& accessor) {
     constexpr std::array<std::size_t, 7> bytes{1, 1, 2, 2, 0, 4, 4}; // of 5120 to 5126
     const std::uint64_t type = accessor.count("componentType", 0);
     if (type < 5120 || type > 5126 || bytes[type - 5120] == 0)
@@ -105,8 +107,7 @@ private:
     return bytes[type - 5120];
   }
 
-  std::size_t view(std::size_t index)
-  {
+  std::size_t view(std::size_t index) {
     const GltfValue view = root_.item("bufferViews", index);
     const std::size_t buffer = view.index("buffer", buffers_.size(), "buffers");
     const std::uint64_t end = view.count("byteOffset", 0) + view.count("byteLength", 0),
@@ -127,8 +128,7 @@ private:
 
 } // namespace
 
-GltfMeshes::GltfMeshes(const GltfFile& file) : file_(file), folder_(make_folder())
-{
+GltfMeshes::GltfMeshes(const GltfFile& file) : file_(file), folder_(make_folder()) {
   try {
     const GltfValue root(file.json, file.where());
     for (const GltfValue& value : root.list("buffers")) buffers_.push_back(buffer(value, buffers_.size()));
@@ -139,40 +139,40 @@ GltfMeshes::GltfMeshes(const GltfFile& file) : file_(file), folder_(make_folder(
   }
 }
 
-GltfMeshes::~GltfMeshes()
-{
+GltfMeshes::~GltfMeshes() {
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
 }
 
 /// As the reader finds it in the folder.
-GltfJson GltfMeshes::buffer(const GltfValue& value, std::size_t index) const
-{
+GltfJson GltfMeshes::buffer(const GltfValue& value, std::size_t index) const {
   const std::uint64_t length = value.count("byteLength", 0);
   const std::string uri = value.text("uri");
   if (uri.starts_with("data:")) return {{"byteLength", length}, {"uri", uri}};
   const std::string name = fmt::format("buffer{}.bin", index);
   std::uint64_t size = 0;
   if (uri.empty()) {
-    if (index != 0 || file_.bin.empty()) throw bad_input(value.where(), "has no \"uri\", and the file has no binary data for it");
+    if (index != 0 || file_.bin.empty())
+      throw bad_input(value.where(), "has no \"uri\", and the file has no binary data for it");
     write_file_whole(folder_ / name, file_.bin);
     size = file_.bin.size();
   } else {
     const fs::path meant = fs::absolute(file_.file).parent_path() / decoded(uri);
     std::error_code error;
     if (!fs::is_regular_file(meant, error))
-      throw bad_input(value.where() / "uri", "there is no file '" + meant.string() + "'", {}, "put it beside the glTF file");
+      throw bad_input(value.where() / "uri", "there is no file '" + meant.string() + "'", {},
+                      "put it beside the glTF file");
     size = fs::file_size(meant, error);
     fs::create_symlink(meant, folder_ / name, error);
     if (error) throw failed((folder_ / name).string(), "cannot be made: " + error.message());
   }
   if (size < length)
-    throw bad_input(value.where() / "byteLength", fmt::format("is {}, and there are {} bytes", length, size), {}, "copy the files again");
+    throw bad_input(value.where() / "byteLength", fmt::format("is {}, and there are {} bytes", length, size), {},
+                    "copy the files again");
   return {{"byteLength", length}, {"uri", name}};
 }
 
-scene::Mesh GltfMeshes::read(const GltfValue& primitive) const
-{
+scene::Mesh GltfMeshes::read(const GltfValue& primitive) const {
   const GltfJson one = Extract(file_, buffers_).of(primitive);
   const fs::path part = folder_ / "part.gltf";
   write_file_whole(part, one.dump(-1, ' ', false, GltfJson::error_handler_t::replace));

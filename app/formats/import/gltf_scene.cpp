@@ -21,8 +21,7 @@ namespace {
 
 using std::numbers::pi;
 
-glm::dmat4 local_matrix(const GltfValue& node)
-{
+glm::dmat4 local_matrix(const GltfValue& node) {
   if (node.has("matrix")) return glm::make_mat4(node.numbers<16>("matrix", {}).data()); // both list columns
   const auto t = node.numbers<3>("translation", {0, 0, 0}), s = node.numbers<3>("scale", {1, 1, 1});
   const auto [x, y, z, w] = node.numbers<4>("rotation", {0, 0, 0, 1});
@@ -30,30 +29,30 @@ glm::dmat4 local_matrix(const GltfValue& node)
   return glm::scale(glm::translate(glm::dmat4(1), scene::to_dvec3(t)) * turn, scene::to_dvec3(s));
 }
 
-std::vector<std::size_t> roots_of(const GltfValue& root, std::size_t count)
-{
+std::vector<std::size_t> roots_of(const GltfValue& root, std::size_t count) {
   const std::vector<GltfValue> scenes = root.list("scenes");
   if (scenes.empty()) throw bad_input(root.where(), "has no scene", "expected nodes to import");
-  return root.item("scenes", root.has("scene") ? root.index("scene", scenes.size(), "scenes") : 0).indices("nodes", count, "nodes");
+  return root.item("scenes", root.has("scene") ? root.index("scene", scenes.size(), "scenes") : 0)
+      .indices("nodes", count, "nodes");
 }
 
 // In micrometres, as Cauchy's formula has them.
-constexpr double line_f = optics::line_f_nm / 1000, line_d = optics::line_d_nm / 1000, line_c = optics::line_c_nm / 1000;
+constexpr double line_f = optics::line_f_nm / 1000, line_d = optics::line_d_nm / 1000,
+                 line_c = optics::line_c_nm / 1000;
 
-bool is_textured(const GltfValue& material)
-{
+bool is_textured(const GltfValue& material) {
   const GltfValue pbr = material.object("pbrMetallicRoughness");
   return pbr.has("baseColorTexture") || pbr.has("metallicRoughnessTexture") || material.has("normalTexture") ||
          material.extension("KHR_materials_transmission").has("transmissionTexture");
 }
 
-preset::Material glass(const GltfValue& material, const std::string& name, std::vector<std::string>& notes)
-{
+preset::Material glass(const GltfValue& material, const std::string& name, std::vector<std::string>& notes) {
   preset::Material glass;
   glass.type = preset::Material::Type::dielectric;
   double ior = material.extension("KHR_materials_ior").number("ior", 1.5);
   if (ior < 1 || ior > 100) {
-    notes.push_back(fmt::format("material '{}': an index of refraction of {} means nothing here; 1.5 takes its place", name, ior));
+    notes.push_back(
+        fmt::format("material '{}': an index of refraction of {} means nothing here; 1.5 takes its place", name, ior));
     ior = 1.5;
   }
   glass.dispersion = dispersion_of(ior, material.extension("KHR_materials_dispersion").number("dispersion", 0));
@@ -66,8 +65,7 @@ preset::Material glass(const GltfValue& material, const std::string& name, std::
 }
 
 /// What in the file speaks for glass, of a material that is not taken as such; empty where nothing does.
-std::string sign_of_glass(const GltfValue& material, const std::string& name)
-{
+std::string sign_of_glass(const GltfValue& material, const std::string& name) {
   if (const double part = material.extension("KHR_materials_transmission").number("transmissionFactor", 0); part > 0)
     return fmt::format("its transmission is {}", part);
   if (material.extension("KHR_materials_volume").number("thicknessFactor", 0) > 0) return "it has a volume";
@@ -78,17 +76,16 @@ std::string sign_of_glass(const GltfValue& material, const std::string& name)
   return {};
 }
 
-std::string advice_on_glass(const GltfValue& material, const std::string& name)
-{
+std::string advice_on_glass(const GltfValue& material, const std::string& name) {
   const std::string sign = sign_of_glass(material, name);
   if (sign.empty()) return {};
-  return fmt::format("material '{}' may be meant as glass ({}) and is opaque here; to make it glass, where its meshes are closed: "
-                     "--set 'scene.materials.{}={{\"type\": \"dielectric\", \"dispersion\": {}}}'",
-                     name, sign, name, material.extension("KHR_materials_ior").number("ior", 1.5));
+  return fmt::format(
+      "material '{}' may be meant as glass ({}) and is opaque here; to make it glass, where its meshes are closed: "
+      "--set 'scene.materials.{}={{\"type\": \"dielectric\", \"dispersion\": {}}}'",
+      name, sign, name, material.extension("KHR_materials_ior").number("ior", 1.5));
 }
 
-double sum(const optics::Spectrum& spectrum)
-{
+double sum(const optics::Spectrum& spectrum) {
   double all = 0;
   for (const double value : spectrum) all += value;
   return all;
@@ -96,8 +93,7 @@ double sum(const optics::Spectrum& spectrum)
 
 } // namespace
 
-std::vector<GltfNode> nodes_of(const GltfFile& file)
-{
+std::vector<GltfNode> nodes_of(const GltfFile& file) {
   const GltfValue root(file.json, file.where());
   const std::vector<GltfValue> all = root.list("nodes");
   std::vector<bool> seen(all.size());
@@ -116,7 +112,8 @@ std::vector<GltfNode> nodes_of(const GltfFile& file)
     const Task task = tasks.back();
     tasks.pop_back();
     const GltfValue& node = all[task.index];
-    if (seen[task.index]) throw bad_input(node.where(), "the node has two parents, or nodes go round in a circle", "expected a tree");
+    if (seen[task.index])
+      throw bad_input(node.where(), "the node has two parents, or nodes go round in a circle", "expected a tree");
     seen[task.index] = true;
     nodes.push_back({node, task.parent * local_matrix(node)});
     add(node.indices("children", all.size(), "nodes"), nodes.back().to_world);
@@ -124,8 +121,7 @@ std::vector<GltfNode> nodes_of(const GltfFile& file)
   return nodes;
 }
 
-std::optional<preset::Transform> transform_of(const glm::dmat4& matrix)
-{
+std::optional<preset::Transform> transform_of(const glm::dmat4& matrix) {
   glm::dmat3 axes(matrix);
   glm::dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
   if (std::min({scale.x, scale.y, scale.z}) < 1e-6 || std::max({scale.x, scale.y, scale.z}) > 1e6) return std::nullopt;
@@ -133,7 +129,8 @@ std::optional<preset::Transform> transform_of(const glm::dmat4& matrix)
   for (int i = 0; i < 3; ++i) axes[i] /= scale[i];
   for (int i = 0; i < 3; ++i)
     if (std::abs(glm::dot(axes[i], axes[(i + 1) % 3])) > 1e-6) return std::nullopt;
-  // R = Rz Ry Rx, so its third row is (-sin y, cos y sin x, cos y cos x) and its first column (cos y cos z, cos y sin z, -sin y).
+  // R = Rz Ry Rx, so its third row is (-sin y, cos y sin x, cos y cos x) and its first column (cos y cos z, cos y sin
+  // z, -sin y).
   const double sin_y = std::clamp(-axes[0][2], -1.0, 1.0), y = std::asin(sin_y);
   const bool pole = std::abs(sin_y) > 1 - 1e-12; // x and z turn about one axis: all of it is x
   const double x = pole ? std::atan2(-axes[2][1], axes[1][1]) : std::atan2(axes[1][2], axes[2][2]);
@@ -148,8 +145,7 @@ std::optional<preset::Transform> transform_of(const glm::dmat4& matrix)
   return transform;
 }
 
-preset::Dispersion dispersion_of(double ior, double dispersion)
-{
+preset::Dispersion dispersion_of(double ior, double dispersion) {
   preset::Dispersion glass;
   if (!(dispersion > 0)) {
     glass.n = ior;
@@ -162,29 +158,32 @@ preset::Dispersion dispersion_of(double ior, double dispersion)
   return glass;
 }
 
-std::string absorbing_glass_file(const GltfValue& material, const preset::Dispersion& clear)
-{
+std::string absorbing_glass_file(const GltfValue& material, const preset::Dispersion& clear) {
   const GltfValue volume = material.extension("KHR_materials_volume");
   const double distance = volume.number("attenuationDistance", 0);
   const auto colour = volume.numbers<3>("attenuationColor", {1, 1, 1});
-  if (!(distance > 0) || volume.number("thicknessFactor", 0) == 0 || colour == std::array<double, 3>{1, 1, 1}) return {};
+  if (!(distance > 0) || volume.number("thicknessFactor", 0) == 0 || colour == std::array<double, 3>{1, 1, 1})
+    return {};
   const bool bends = clear.type == preset::Dispersion::Type::cauchy;
-  const std::string n = bends ? fmt::format("{} {} -2", clear.coefficients[0], clear.coefficients[1]) : fmt::format("{}", clear.n);
-  std::string text = "COMMENTS: |\n    n as KHR_materials_ior and KHR_materials_dispersion say it, k as KHR_materials_volume does\nDATA:\n";
+  const std::string n =
+      bends ? fmt::format("{} {} -2", clear.coefficients[0], clear.coefficients[1]) : fmt::format("{}", clear.n);
+  std::string text = "COMMENTS: |\n    n as KHR_materials_ior and KHR_materials_dispersion say it, k as "
+                     "KHR_materials_volume does\nDATA:\n";
   text += fmt::format("  - type: formula 5\n    wavelength_range: 0.38 0.78\n    coefficients: {}\n", n);
   text += "  - type: tabulated k\n    data: |\n";
   const preset::Reflectance kept = reflectance_of(colour);
   constexpr double least = 1e-4; // black glass has no k
   for (int nm = optics::first_nm; nm <= optics::last_nm; nm += 10) {
-    const double transmittance = kept.table.empty() ? kept.value : kept.table[static_cast<std::size_t>((nm - optics::first_nm) / 10)][1];
-    const double absorbed = std::log(1 / std::max(transmittance, least)) / distance; // in 1/m: the file's lengths are metres
+    const double transmittance =
+        kept.table.empty() ? kept.value : kept.table[static_cast<std::size_t>((nm - optics::first_nm) / 10)][1];
+    const double absorbed =
+        std::log(1 / std::max(transmittance, least)) / distance; // in 1/m: the file's lengths are metres
     text += fmt::format("        {:.2f} {:.6g}\n", nm * 1e-3, absorbed * nm * 1e-9 / (4 * std::numbers::pi));
   }
   return text;
 }
 
-preset::Reflectance reflectance_of(const std::array<double, 3>& rgb)
-{
+preset::Reflectance reflectance_of(const std::array<double, 3>& rgb) {
   preset::Reflectance reflectance;
   std::array<double, 3> colour = rgb;
   for (double& c : colour) c = std::clamp(c, 0.0, 1.0);
@@ -203,12 +202,12 @@ preset::Reflectance reflectance_of(const std::array<double, 3>& rgb)
   return reflectance;
 }
 
-preset::Material material_of(const GltfValue& value, const std::string& name, std::vector<std::string>& notes)
-{
+preset::Material material_of(const GltfValue& value, const std::string& name, std::vector<std::string>& notes) {
   if (is_textured(value)) notes.push_back(fmt::format("material '{}': textures are left out", name));
   if (value.numbers<3>("emissiveFactor", {0, 0, 0}) != std::array<double, 3>{0, 0, 0})
     notes.push_back(fmt::format("material '{}' does not shine here", name));
-  if (value.extension("KHR_materials_transmission").number("transmissionFactor", 0) >= 0.5) return glass(value, name, notes);
+  if (value.extension("KHR_materials_transmission").number("transmissionFactor", 0) >= 0.5)
+    return glass(value, name, notes);
   const GltfValue pbr = value.object("pbrMetallicRoughness");
   const auto base = pbr.numbers<4>("baseColorFactor", {1, 1, 1, 1});
   preset::Material material;
@@ -223,15 +222,17 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
   return material;
 }
 
-double lumens_per_watt(const optics::Spectrum& spectrum) { return most_lumens * optics::to_xyz(spectrum)[1] / sum(spectrum); }
+double lumens_per_watt(const optics::Spectrum& spectrum) {
+  return most_lumens * optics::to_xyz(spectrum)[1] / sum(spectrum);
+}
 
-LightColour light_colour(const std::array<double, 3>& rgb)
-{
+LightColour light_colour(const std::array<double, 3>& rgb) {
   std::array<double, 3> colour = rgb;
   for (double& c : colour) c = std::clamp(c, 0.0, 1e6);
   const double luminance = optics::linear_srgb_to_xyz(colour)[1];
   LightColour light; // D65
-  const double largest = std::max({colour[0], colour[1], colour[2]}), least = std::min({colour[0], colour[1], colour[2]});
+  const double largest = std::max({colour[0], colour[1], colour[2]}),
+               least = std::min({colour[0], colour[1], colour[2]});
   if (!(largest > 0)) return light; // black: no watts
   if (largest - least < 1e-3 * largest) {
     light.watts_per_lumen = luminance / lumens_per_watt(optics::illuminant("D65"));
@@ -241,14 +242,16 @@ LightColour light_colour(const std::array<double, 3>& rgb)
   for (std::size_t i = 0; i < spectrum.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) spectrum[i] += colour[c] / largest * optics::primary_spectra()[c][i];
   light.spectrum.type = preset::LightSpectrum::Type::table;
-  for (int nm = optics::first_nm; nm <= optics::last_nm; nm += 10) // power cannot be negative, so saturated colours become a little paler
-    light.spectrum.table.push_back({static_cast<double>(nm), std::max(0.0, spectrum[static_cast<std::size_t>(nm - optics::first_nm)])});
+  for (int nm = optics::first_nm; nm <= optics::last_nm;
+       nm += 10) // power cannot be negative, so saturated colours become a little paler
+    light.spectrum.table.push_back(
+        {static_cast<double>(nm), std::max(0.0, spectrum[static_cast<std::size_t>(nm - optics::first_nm)])});
   light.watts_per_lumen = luminance / lumens_per_watt(scene::make_light_spectrum(light.spectrum, "spectrum"));
   return light;
 }
 
-preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const std::string& name, std::vector<std::string>& notes)
-{
+preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const std::string& name,
+                       std::vector<std::string>& notes) {
   preset::Light light;
   const std::string type = value.text("type");
   const LightColour colour = light_colour(value.numbers<3>("color", {1, 1, 1}));
@@ -261,10 +264,12 @@ preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const
     light.power_w = 4 * pi * intensity * colour.watts_per_lumen; // candela over the whole sphere
   } else if (type == "spot") {
     const GltfValue spot = value.object("spot");
-    const double outer = std::clamp(spot.number("outerConeAngle", pi / 4), 1e-3, pi / 2), inner = spot.number("innerConeAngle", 0);
+    const double outer = std::clamp(spot.number("outerConeAngle", pi / 4), 1e-3, pi / 2),
+                 inner = spot.number("innerConeAngle", 0);
     light.type = preset::Light::Type::spot;
     light.half_angle_deg = outer * 180 / pi;
-    light.power_w = 2 * pi * (1 - std::cos(outer)) * intensity * colour.watts_per_lumen; // candela over the cone's solid angle
+    light.power_w =
+        2 * pi * (1 - std::cos(outer)) * intensity * colour.watts_per_lumen; // candela over the cone's solid angle
     if (inner < 0.99 * outer)
       notes.push_back(fmt::format("light '{}' fades towards the edge of its cone in the file and does not here", name));
   } else if (type == "directional") {
@@ -274,12 +279,12 @@ preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const
     throw bad_input(value.where() / "type", "is \"" + type + "\"", "expected point, spot or directional");
   light.power_w = std::min(light.power_w, 1e9);
   light.irradiance_w_m2 = std::min(light.irradiance_w_m2, 1e9);
-  if (value.has("range")) notes.push_back(fmt::format("light '{}' ends at a range in the file and does not here", name));
+  if (value.has("range"))
+    notes.push_back(fmt::format("light '{}' ends at a range in the file and does not here", name));
   return light;
 }
 
-double luminous_irradiance(const preset::Light& light, const glm::dvec3& at)
-{
+double luminous_irradiance(const preset::Light& light, const glm::dvec3& at) {
   const double seen = lumens_per_watt(scene::make_light_spectrum(light.spectrum, "spectrum")) / most_lumens;
   if (light.type == preset::Light::Type::directional) return light.irradiance_w_m2 * seen;
   const glm::dvec3 way = at - scene::to_dvec3(light.position);

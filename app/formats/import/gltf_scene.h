@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of a glTF scene as a preset has them: nodes with their places in the world; materials, of which a preset knows glass, mirrors and
-// matt surfaces and nothing between; lights of KHR_lights_punctual. glTF says what an eye sees of these (candela, lux), we say watts: both
-// units meet here and nowhere else.
+// Parts of a glTF scene as a preset has them: nodes with their places in the world; materials, of which a preset knows
+// glass, mirrors and matt surfaces and nothing between; lights of KHR_lights_punctual. glTF says what an eye sees of
+// these (candela, lux), we say watts: both units meet here and nowhere else.
 #pragma once
 #include "formats/import/gltf_file.h"
 #include "optics/wavelength.h"
@@ -17,19 +17,20 @@ struct GltfNode {
   glm::dmat4 to_world;
 };
 
-/// Of the file's scene, parents before children, in the order of the file. Throws bad_input where nodes go round in a circle, one has two
-/// parents, or there is no scene.
+/// Of the file's scene, parents before children, in the order of the file. Throws bad_input where nodes go round in a
+/// circle, one has two parents, or there is no scene.
 std::vector<GltfNode> nodes_of(const GltfFile& file);
 
 /// The same as scale, turn and shift; nothing where the matrix shears or flattens.
 std::optional<preset::Transform> transform_of(const glm::dmat4& matrix);
 
-/// KHR_materials_dispersion gives 20 / V with the Abbe number V = (n_d - 1) / (n_F - n_C). Cauchy's n = a + b / l^2 with that n_d and V.
+/// KHR_materials_dispersion gives 20 / V with the Abbe number V = (n_d - 1) / (n_F - n_C). Cauchy's n = a + b / l^2
+/// with that n_d and V.
 preset::Dispersion dispersion_of(double ior, double dispersion);
 
-/// Where glass absorbs: a dispersion file in the form of refractiveindex.info, with the n of `clear` (a result of dispersion_of) and the k
-/// of KHR_materials_volume: after attenuationDistance the smoothest spectrum of attenuationColor is left, at least 1e-4 of the light. Empty
-/// for clear glass and for what is thin in the file.
+/// Where glass absorbs: a dispersion file in the form of refractiveindex.info, with the n of `clear` (a result of
+/// dispersion_of) and the k of KHR_materials_volume: after attenuationDistance the smoothest spectrum of
+/// attenuationColor is left, at least 1e-4 of the light. Empty for clear glass and for what is thin in the file.
 std::string absorbing_glass_file(const GltfValue& material, const preset::Dispersion& clear);
 
 /// A reflectance of this linear sRGB colour; one number where it is grey.
@@ -51,15 +52,17 @@ struct LightColour {
 /// Linear sRGB. White is D65, as in sRGB; a colour has the smoothest spectrum that shows it.
 LightColour light_colour(const std::array<double, 3>& rgb);
 
-/// The light of a node, which shines along its -z axis. light: an item of the extension's list. Intensities in candela, of "directional" in
-/// lux.
-preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const std::string& name, std::vector<std::string>& notes);
+/// The light of a node, which shines along its -z axis. light: an item of the extension's list. Intensities in candela,
+/// of "directional" in lux.
+preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const std::string& name,
+                       std::vector<std::string>& notes);
 
 /// What the light gives a surface that faces it at this point, in luminous watts a square metre: lux / 683.
 double luminous_irradiance(const preset::Light& light, const glm::dvec3& at);
 
-/// The triangles of the file's primitives. Each is handed to the mesh reader, a program of its own, as a glTF file that holds this
-/// primitive alone: so what is corrupt in it harms nobody, and nobody has to guess which of the reader's meshes is which of the file's.
+/// The triangles of the file's primitives. Each is handed to the mesh reader, a program of its own, as a glTF file that
+/// holds this primitive alone: so what is corrupt in it harms nobody, and nobody has to guess which of the reader's
+/// meshes is which of the file's.
 class GltfMeshes {
 public:
   /// Throws bad_input where a buffer is missing or shorter than the file says. file outlives this.
@@ -68,8 +71,8 @@ public:
   GltfMeshes(const GltfMeshes&) = delete;
   GltfMeshes& operator=(const GltfMeshes&) = delete;
 
-  /// In the mesh's own frame, with normals where the file has them. primitive: of meshes/I/primitives. Throws bad_input, at the primitive
-  /// or at what it uses.
+  /// In the mesh's own frame, with normals where the file has them. primitive: of meshes/I/primitives. Throws
+  /// bad_input, at the primitive or at what it uses.
   scene::Mesh read(const GltfValue& primitive) const;
 
 private:

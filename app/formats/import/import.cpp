@@ -22,8 +22,7 @@ namespace {
 using std::numbers::pi;
 
 /// The name, with a number behind it where it is taken.
-std::string unique(const std::string& name, std::set<std::string>& taken)
-{
+std::string unique(const std::string& name, std::set<std::string>& taken) {
   std::string free = name;
   for (int n = 2; !taken.insert(free).second; ++n) free = fmt::format("{} {}", name, n);
   return free;
@@ -31,8 +30,8 @@ std::string unique(const std::string& name, std::set<std::string>& taken)
 
 class Import {
 public:
-  Import(const GltfFile& file, fs::path preset) : root_(file.json, file.where()), meshes_(file), preset_file_(std::move(preset))
-  {
+  Import(const GltfFile& file, fs::path preset)
+      : root_(file.json, file.where()), meshes_(file), preset_file_(std::move(preset)) {
     for (const GltfNode& node : nodes_of(file)) {
       if (node.value.has("mesh")) add_mesh(node);
       if (node.value.has("skin")) note("skins are left out: meshes are as they rest");
@@ -40,7 +39,8 @@ public:
       if (node.value.object("extensions").has("KHR_lights_punctual")) add_light(node);
     }
     if (root_.has("animations") && !root_.list("animations").empty()) note("animations are left out");
-    if (made_.scene.objects.empty()) throw bad_input(root_.where(), "has no triangles in its scene", "expected meshes of triangles");
+    if (made_.scene.objects.empty())
+      throw bad_input(root_.where(), "has no triangles in its scene", "expected meshes of triangles");
     made_.name = preset_file_.stem().string();
     made_.description = "Imported from " + name_of(file.file.filename().string(), "glTF");
     if (!has_camera_) look_at_all();
@@ -51,8 +51,7 @@ public:
   Imported write() { return write_imported(made_, preset_file_, files_, glasses_, notes_); }
 
 private:
-  void note(std::string text)
-  {
+  void note(std::string text) {
     if (std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(std::move(text));
   }
 
@@ -61,11 +60,11 @@ private:
   glm::dvec3 middle() const { return 0.5 * (bounds_.low + bounds_.high); }
   double size() const { return std::max(glm::length(bounds_.high - bounds_.low), 1e-3); }
 
-  void add_mesh(const GltfNode& node)
-  {
+  void add_mesh(const GltfNode& node) {
     const std::size_t index = node.value.index("mesh", root_.list("meshes").size(), "meshes");
     const GltfValue mesh = root_.item("meshes", index);
-    const std::string name = name_of(node.value.text("name"), name_of(mesh.text("name"), fmt::format("mesh {}", index)));
+    const std::string name =
+        name_of(node.value.text("name"), name_of(mesh.text("name"), fmt::format("mesh {}", index)));
     const auto transform = transform_of(node.to_world);
     const std::vector<GltfValue> primitives = mesh.list("primitives");
     for (std::size_t p = 0; p < primitives.size(); ++p) {
@@ -92,8 +91,8 @@ private:
   /// Mesh, primitive, and 0 or a number of its own.
   using MeshKey = std::array<std::size_t, 3>;
 
-  std::string mesh_file(const MeshKey& key, const GltfValue& primitive, const std::string& name, const glm::dmat4& baked)
-  {
+  std::string mesh_file(const MeshKey& key, const GltfValue& primitive, const std::string& name,
+                        const glm::dmat4& baked) {
     const auto [found, is_new] = names_.try_emplace(key);
     if (!is_new) return found->second;
     scene::Mesh mesh = meshes_.read(primitive);
@@ -110,10 +109,10 @@ private:
     return found->second = file;
   }
 
-  std::string material(const GltfValue& primitive)
-  {
+  std::string material(const GltfValue& primitive) {
     constexpr std::size_t none = ~std::size_t{0};
-    const std::size_t index = primitive.has("material") ? primitive.index("material", root_.list("materials").size(), "materials") : none;
+    const std::size_t index =
+        primitive.has("material") ? primitive.index("material", root_.list("materials").size(), "materials") : none;
     const auto [found, is_new] = material_names_.try_emplace(index);
     if (!is_new) return found->second;
     if (index == none) {
@@ -136,8 +135,7 @@ private:
     return found->second;
   }
 
-  void add_camera(const GltfNode& node)
-  {
+  void add_camera(const GltfNode& node) {
     const GltfValue camera = root_.item("cameras", node.value.index("camera", root_.list("cameras").size(), "cameras"));
     if (camera.text("type") != "perspective") return note("a camera without perspective is left out");
     if (std::exchange(has_camera_, true)) return note("only the first camera is taken");
@@ -148,14 +146,14 @@ private:
     made.resolution = aspect >= 1 ? std::array{static_cast<int>(std::lround(512 * aspect)), 512}
                                   : std::array{512, static_cast<int>(std::lround(512 / aspect))};
     const glm::dvec3 position(node.to_world[3]), forward = -glm::dvec3(node.to_world[2]), up(node.to_world[1]);
-    if (!(glm::length(forward) > 0) || !(glm::length(up) > 0)) throw bad_input(node.value.where(), "the camera has no direction");
+    if (!(glm::length(forward) > 0) || !(glm::length(up) > 0))
+      throw bad_input(node.value.where(), "the camera has no direction");
     made.position = scene::to_vec3(position);
     made.up = scene::to_vec3(glm::normalize(up));
     forward_ = glm::normalize(forward);
   }
 
-  void add_light(const GltfNode& node)
-  {
+  void add_light(const GltfNode& node) {
     const GltfValue lights = root_.extension("KHR_lights_punctual");
     const GltfValue own = node.value.extension("KHR_lights_punctual");
     const GltfValue light = lights.item("lights", own.index("light", lights.list("lights").size(), "lights"));
@@ -164,23 +162,20 @@ private:
   }
 
   /// The file's camera looks along a line; ours at a point, about which the window turns it.
-  void aim()
-  {
+  void aim() {
     preset::Camera& camera = made_.scene.camera;
     const glm::dvec3 position = scene::to_dvec3(camera.position);
     const double ahead = glm::dot(middle() - position, forward_);
     camera.target = scene::to_vec3(position + forward_ * (ahead > 1e-3 * size() ? ahead : size()));
   }
 
-  void look_at_all()
-  {
+  void look_at_all() {
     note("the file has no camera with perspective: one that sees everything takes its place");
     made_.scene.camera.target = scene::to_vec3(middle());
     made_.scene.camera.position = scene::to_vec3(middle() + size() * glm::dvec3(0.3, 0.7, 1.2));
   }
 
-  void light_all()
-  {
+  void light_all() {
     note("the file has no lights: a lamp above everything takes their place");
     preset::Light lamp;
     lamp.position = scene::to_vec3(middle() + size() * glm::dvec3(-0.5, 1, 0.4));
@@ -189,8 +184,7 @@ private:
   }
 
   /// White is a white surface in the middle of everything that faces every light.
-  void expose()
-  {
+  void expose() {
     if (has_camera_) aim();
     double irradiance = 0;
     for (const preset::Light& light : made_.scene.lights) irradiance += luminous_irradiance(light, middle());
@@ -214,24 +208,21 @@ private:
 
 } // namespace
 
-std::string Imported::summary() const
-{
-  std::string text = fmt::format("{}: {}, {}, {}", preset.string(), counted(objects, "object"), counted(meshes, "mesh", "meshes"),
-                                 counted(lights, "light"));
+std::string Imported::summary() const {
+  std::string text = fmt::format("{}: {}, {}, {}", preset.string(), counted(objects, "object"),
+                                 counted(meshes, "mesh", "meshes"), counted(lights, "light"));
   for (const std::string& note : notes) text += "; " + note;
   return text;
 }
 
-Imported import_scene(const fs::path& file, const fs::path& preset)
-{
+Imported import_scene(const fs::path& file, const fs::path& preset) {
   const std::string kind = lower_case(file.extension().string());
   if (kind == ".xml") return write_described(read_mitsuba(file), preset);
   if (kind == ".pbrt") return write_described(read_pbrt(file), preset);
   return import_gltf(file, preset);
 }
 
-Imported import_gltf(const fs::path& file, const fs::path& preset)
-{
+Imported import_gltf(const fs::path& file, const fs::path& preset) {
   const GltfFile gltf = read_gltf(file);
   return Import(gltf, preset).write();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mitsuba's scenes: XML of version 3 and 2, and of 0.6 where only names differ ("toWorld" is read as "to_world"). Right-handed; a camera
-// looks along its +z axis with +x to the left.
+// Mitsuba's scenes: XML of version 3 and 2, and of 0.6 where only names differ ("toWorld" is read as "to_world").
+// Right-handed; a camera looks along its +z axis with +x to the left.
 #include "base/error.h"
 #include "base/files.h"
 #include "base/numbers.h"
@@ -28,10 +28,10 @@ using pugi::xml_node;
 constexpr int max_files = 100;
 class Mitsuba {
 public:
-  explicit Mitsuba(const fs::path& file)
-  {
+  explicit Mitsuba(const fs::path& file) {
     d_.source = file;
-    d_.unit = optics::to_xyz(optics::constant_spectrum(1))[1]; // spectra are per nanometre: a radiance of 1 is this bright
+    d_.unit =
+        optics::to_xyz(optics::constant_spectrum(1))[1]; // spectra are per nanometre: a radiance of 1 is this bright
     read_all(load(file));
   }
   Description take() { return std::move(d_); }
@@ -43,120 +43,112 @@ private:
     pugi::xml_document xml;
   };
 
-  xml_node load(const fs::path& file)
-  {
+  xml_node load(const fs::path& file) {
     if (documents_.size() >= max_files) throw bad_input(file.string(), "is included too often, perhaps by itself");
     Document& document = documents_.emplace_back();
     document.file = file;
     document.text = read_file(file);
     const auto result = document.xml.load_buffer(document.text.data(), document.text.size());
     if (!result)
-      throw bad_input(Place(file.string(), line_of(document, result.offset)), std::string("its XML is broken: ") + result.description(),
-                      "expected a Mitsuba scene", "check that the file is whole");
+      throw bad_input(Place(file.string(), line_of(document, result.offset)),
+                      std::string("its XML is broken: ") + result.description(), "expected a Mitsuba scene",
+                      "check that the file is whole");
     const xml_node scene = document.xml.child("scene");
     if (!scene) throw bad_input(file.string(), "is no Mitsuba scene: it has no <scene>", "expected a Mitsuba scene");
     return scene;
   }
 
-  static std::size_t line_of(const Document& document, std::ptrdiff_t offset)
-  {
+  static std::size_t line_of(const Document& document, std::ptrdiff_t offset) {
     const auto end = static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0));
     const std::string before = document.text.substr(0, end);
     return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
   }
 
-  const Document& document_of(xml_node node) const
-  {
+  const Document& document_of(xml_node node) const {
     for (const Document& document : documents_)
       if (document.xml.root() == node.root()) return document;
     return documents_.front();
   }
-  Place at(xml_node node) const
-  {
+  Place at(xml_node node) const {
     const Document& document = document_of(node);
     return {document.file.string(), line_of(document, node.offset_debug())};
   }
   fs::path beside(xml_node node, const std::string& file) const { return document_of(node).file.parent_path() / file; }
 
   /// An attribute with its $names replaced.
-  std::string attribute(xml_node node, const char* key) const
-  {
+  std::string attribute(xml_node node, const char* key) const {
     std::string text = node.attribute(key).value();
     for (std::size_t from = text.find('$'); from != std::string::npos; from = text.find('$', from)) {
       std::size_t to = from + 1;
       while (to < text.size() && (std::isalnum(static_cast<unsigned char>(text[to])) || text[to] == '_')) ++to;
       const auto found = defaults_.find(text.substr(from + 1, to - from - 1));
-      if (found == defaults_.end()) throw bad_input(at(node), text.substr(from, to - from) + " has no value", "expected a <default>");
+      if (found == defaults_.end())
+        throw bad_input(at(node), text.substr(from, to - from) + " has no value", "expected a <default>");
       text.replace(from, to - from, found->second);
       from += found->second.size();
     }
     return text;
   }
 
-  std::vector<double> numbers(xml_node node, const char* key) const
-  {
+  std::vector<double> numbers(xml_node node, const char* key) const {
     std::string text = attribute(node, key);
     std::ranges::replace(text, ',', ' ');
     std::vector<double> values;
     std::istringstream words(text);
     for (std::string word; words >> word;) {
       const auto value = typed_number<double>(word);
-      if (!value || !(std::abs(*value) <= 1e12)) throw bad_input(at(node), fmt::format("\"{}\" is no number", text), "expected numbers");
+      if (!value || !(std::abs(*value) <= 1e12))
+        throw bad_input(at(node), fmt::format("\"{}\" is no number", text), "expected numbers");
       values.push_back(*value);
     }
     return values;
   }
-  double number_of(xml_node node, const char* key, double standard) const
-  {
+  double number_of(xml_node node, const char* key, double standard) const {
     if (!node.attribute(key)) return standard;
     const auto values = numbers(node, key);
-    if (values.size() != 1) throw bad_input(at(node), std::string("\"") + key + "\" is no number", "expected one number");
+    if (values.size() != 1)
+      throw bad_input(at(node), std::string("\"") + key + "\" is no number", "expected one number");
     return values[0];
   }
-  glm::dvec3 vector_of(xml_node node, const char* key, double standard) const
-  {
-    if (!node.attribute(key)) return {number_of(node, "x", standard), number_of(node, "y", standard), number_of(node, "z", standard)};
+  glm::dvec3 vector_of(xml_node node, const char* key, double standard) const {
+    if (!node.attribute(key))
+      return {number_of(node, "x", standard), number_of(node, "y", standard), number_of(node, "z", standard)};
     const auto v = numbers(node, key);
     if (v.size() == 1) return glm::dvec3(v[0]);
     if (v.size() != 3) throw bad_input(at(node), fmt::format("\"{}\" has {} numbers", key, v.size()), "expected three");
     return {v[0], v[1], v[2]};
   }
 
-  xml_node child(xml_node parent, const std::string& name) const
-  {
+  xml_node child(xml_node parent, const std::string& name) const {
     for (const xml_node node : parent.children())
       if (mitsuba_name(node.attribute("name").value()) == name) return node;
     return {};
   }
-  double number(xml_node parent, const std::string& name, double standard) const
-  {
+  double number(xml_node parent, const std::string& name, double standard) const {
     return number_of(child(parent, name), "value", standard);
   }
-  std::string text(xml_node parent, const std::string& name, const std::string& standard) const
-  {
+  std::string text(xml_node parent, const std::string& name, const std::string& standard) const {
     const xml_node node = child(parent, name);
     return node ? attribute(node, "value") : standard;
   }
-  glm::dvec3 point(xml_node parent, const std::string& name, const glm::dvec3& standard) const
-  {
+  glm::dvec3 point(xml_node parent, const std::string& name, const glm::dvec3& standard) const {
     const xml_node node = child(parent, name);
     return node ? vector_of(node, "value", 0) : standard;
   }
 
-  glm::dvec3 colour(xml_node parent, const std::string& name, const glm::dvec3& standard)
-  {
+  glm::dvec3 colour(xml_node parent, const std::string& name, const glm::dvec3& standard) {
     const xml_node node = child(parent, name);
     if (!node) return standard;
     const std::string kind = node.name();
     if (kind == "rgb" || kind == "float") return vector_of(node, "value", 0);
     if (kind == "spectrum" && node.attribute("value") && attribute(node, "value").find(':') == std::string::npos)
       return vector_of(node, "value", 0);
-    d_.note(at(node), fmt::format("this {} is left out: {:.3g} {:.3g} {:.3g} takes its place", kind, standard.x, standard.y, standard.z));
+    d_.note(at(node), fmt::format("this {} is left out: {:.3g} {:.3g} {:.3g} takes its place", kind, standard.x,
+                                  standard.y, standard.z));
     return standard;
   }
 
-  glm::dmat4 matrix(xml_node parent) const
-  {
+  glm::dmat4 matrix(xml_node parent) const {
     glm::dmat4 all(1);
     for (const xml_node step : child(parent, "to_world").children()) {
       const std::string kind = mitsuba_name(step.name());
@@ -184,14 +176,14 @@ private:
         const glm::dvec3 z = glm::normalize(way), x = glm::normalize(left);
         m = {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(origin, 1)};
       } else if (step.type() == pugi::node_element)
-        throw bad_input(at(step), "<" + kind + "> is no transform", "expected translate, rotate, scale, matrix or lookat");
+        throw bad_input(at(step), "<" + kind + "> is no transform",
+                        "expected translate, rotate, scale, matrix or lookat");
       all = m * all;
     }
     return all;
   }
 
-  void read_all(xml_node scene)
-  {
+  void read_all(xml_node scene) {
     for (const xml_node node : scene.children()) {
       const std::string kind = node.name();
       if (node.attribute("id")) ids_[attribute(node, "id")] = node;
@@ -210,8 +202,7 @@ private:
     }
   }
 
-  void add_camera(xml_node node)
-  {
+  void add_camera(xml_node node) {
     const std::string type = attribute(node, "type");
     if (type != "perspective" && type != "thinlens") return d_.note(at(node), "the sensor " + type + " is left out");
     if (d_.camera) return d_.note(at(node), "only the first camera is taken: this one is left out");
@@ -219,14 +210,16 @@ private:
     DescribedCamera& camera = d_.camera.emplace();
     camera.to_world = matrix(node) * glm::scale(glm::dmat4(1), {-1, 1, 1});
     const xml_node film = node.child("film");
-    const double w = std::clamp(number(film, "width", 768), 1.0, 16384.0), h = std::clamp(number(film, "height", 576), 1.0, 16384.0);
+    const double w = std::clamp(number(film, "width", 768), 1.0, 16384.0),
+                 h = std::clamp(number(film, "height", 576), 1.0, 16384.0);
     camera.resolution = {static_cast<int>(w), static_cast<int>(h)};
     if (child(film, "crop_width")) d_.note(at(film), "the crop is left out: the whole picture is taken");
     std::string axis = text(node, "fov_axis", "x");
     double fov = number(node, "fov", 0);
     if (!child(node, "fov")) { // of a film of 36 by 24 mm
       const std::string length = text(node, "focal_length", "50mm");
-      const double mm = number_in<double>(std::string_view(length).substr(0, length.find_first_not_of("0123456789."))).value_or(50);
+      const double mm =
+          number_in<double>(std::string_view(length).substr(0, length.find_first_not_of("0123456789."))).value_or(50);
       fov = glm::degrees(2 * std::atan(std::hypot(36.0, 24.0) / (2 * std::max(mm, 1e-3))));
       axis = "diagonal";
     }
@@ -235,11 +228,11 @@ private:
                           : axis == "smaller"  ? std::min(w, h)
                           : axis == "larger"   ? std::max(w, h)
                                                : w;
-    camera.fov_deg = glm::degrees(2 * std::atan(std::tan(glm::radians(std::clamp(fov, 0.001, 179.0)) / 2) * h / across));
+    camera.fov_deg =
+        glm::degrees(2 * std::atan(std::tan(glm::radians(std::clamp(fov, 0.001, 179.0)) / 2) * h / across));
   }
 
-  void add_light(xml_node node)
-  {
+  void add_light(xml_node node) {
     const std::string type = attribute(node, "type");
     DescribedLight light;
     light.where = at(node);
@@ -271,7 +264,8 @@ private:
         s.colour = colour(node, "radiance", glm::dvec3(1));
       else {
         s.file = beside(node, text(node, "filename", ""));
-        if (!fs::is_regular_file(s.file)) throw bad_input(light.where, "the picture " + s.file.string() + " is not there");
+        if (!fs::is_regular_file(s.file))
+          throw bad_input(light.where, "the picture " + s.file.string() + " is not there");
         s.scale = number(node, "scale", 1);
         s.centre = light.direction;
         if (glm::normalize(glm::dvec3(to_world[1])).y < 1 - 1e-6)
@@ -285,8 +279,7 @@ private:
   }
 
   /// The named or nested material of a shape.
-  xml_node bsdf_of(xml_node node, int depth = 0) const
-  {
+  xml_node bsdf_of(xml_node node, int depth = 0) const {
     if (const xml_node own = node.child("bsdf")) return own;
     for (const xml_node ref : node.children("ref"))
       if (const auto found = ids_.find(attribute(ref, "id")); found != ids_.end()) {
@@ -296,12 +289,12 @@ private:
     return {};
   }
 
-  std::string material(xml_node shape)
-  {
+  std::string material(xml_node shape) {
     xml_node node = bsdf_of(shape);
     for (int depth = 0; node; ++depth) {
       const std::string type = mitsuba_name(attribute(node, "type"));
-      if (type != "twosided" && type != "bumpmap" && type != "normalmap" && type != "mask" && type != "blendbsdf") break;
+      if (type != "twosided" && type != "bumpmap" && type != "normalmap" && type != "mask" && type != "blendbsdf")
+        break;
       if (type != "twosided") d_.note(at(node), "the " + type + " is left out: the material in it is taken");
       if (depth > 16) throw bad_input(at(node), "materials go round in a circle");
       node = bsdf_of(node, 1);
@@ -320,7 +313,8 @@ private:
     if (type == "dielectric" || type == "roughdielectric" || type == "thindielectric") {
       made.type = preset::Material::Type::dielectric;
       made.dispersion.n = ior(node, "int_ior", "bk7") / ior(node, "ext_ior", "air");
-      if (made.dispersion.n < 0.01 || made.dispersion.n > 100) throw bad_input(at(node), "its index of refraction is out of range");
+      if (made.dispersion.n < 0.01 || made.dispersion.n > 100)
+        throw bad_input(at(node), "its index of refraction is out of range");
       if (type != "dielectric") d_.note(at(node), "a film or roughness is left out: the glass is solid and polished");
     } else if (type == "conductor" || type == "roughconductor") {
       made.type = preset::Material::Type::mirror;
@@ -337,8 +331,7 @@ private:
     return key;
   }
 
-  double ior(xml_node node, const char* name, const char* standard) const
-  {
+  double ior(xml_node node, const char* name, const char* standard) const {
     const xml_node given = child(node, name);
     const std::string value = given ? attribute(given, "value") : standard;
     if (const auto known = mitsuba_iors().find(value); known != mitsuba_iors().end()) return known->second;
@@ -346,8 +339,7 @@ private:
     throw bad_input(at(given), "an index of refraction is above 0");
   }
 
-  void add_shape(xml_node node)
-  {
+  void add_shape(xml_node node) {
     const std::string type = attribute(node, "type");
     DescribedShape shape;
     shape.where = at(node);

@@ -3,8 +3,7 @@
 
 namespace nephroid::formats {
 
-const std::map<std::string, double>& mitsuba_iors()
-{
+const std::map<std::string, double>& mitsuba_iors() {
   static const std::map<std::string, double> iors{{"vacuum", 1},
                                                   {"air", 1.000277},
                                                   {"water", 1.3330},
@@ -31,8 +30,7 @@ const std::map<std::string, double>& mitsuba_iors()
   return iors;
 }
 
-std::string mitsuba_name(const std::string& name)
-{
+std::string mitsuba_name(const std::string& name) {
   std::string text;
   for (std::size_t i = 0; i < name.size(); ++i) {
     const bool upper = name[i] >= 'A' && name[i] <= 'Z';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PBRT's scenes of version 4, and of 3 where only names differ. A camera has +x to the right and looks along +z, so coordinates are
-// left-handed unless the file mirrors them.
+// PBRT's scenes of version 4, and of 3 where only names differ. A camera has +x to the right and looks along +z, so
+// coordinates are left-handed unless the file mirrors them.
 #include "base/error.h"
 #include "formats/import/description.h"
 #include "formats/import/gltf_scene.h"
@@ -25,12 +25,13 @@ using std::numbers::pi;
 constexpr std::size_t max_shapes = 1000000; ///< instances of instances multiply
 
 /// What is done without: it says how to render, not what.
-const std::set<std::string> about_rendering{"Sampler",     "Integrator", "SurfaceIntegrator", "VolumeIntegrator", "PixelFilter",
-                                            "Accelerator", "Renderer",   "ColorSpace",        "Option",           "Attribute"};
+const std::set<std::string> about_rendering{"Sampler",     "Integrator",  "SurfaceIntegrator", "VolumeIntegrator",
+                                            "PixelFilter", "Accelerator", "Renderer",          "ColorSpace",
+                                            "Option",      "Attribute"};
 /// n at 587.6 nm, of the named_glasses that PBRT names.
-const std::map<std::string, double> named_glasses{{"glass-BK7", 1.5168},   {"glass-BAF10", 1.6700}, {"glass-FK51A", 1.4866},
-                                                  {"glass-LASF9", 1.8503}, {"glass-F5", 1.6034},    {"glass-SF5", 1.6727},
-                                                  {"glass-SF10", 1.7283},  {"glass-SF11", 1.7847}};
+const std::map<std::string, double> named_glasses{
+    {"glass-BK7", 1.5168}, {"glass-BAF10", 1.6700}, {"glass-FK51A", 1.4866}, {"glass-LASF9", 1.8503},
+    {"glass-F5", 1.6034},  {"glass-SF5", 1.6727},   {"glass-SF10", 1.7283},  {"glass-SF11", 1.7847}};
 
 struct State {
   glm::dmat4 to_world{1};
@@ -41,8 +42,7 @@ struct State {
 
 class Pbrt {
 public:
-  explicit Pbrt(const fs::path& file) : tokens_(pbrt_tokens(file))
-  {
+  explicit Pbrt(const fs::path& file) : tokens_(pbrt_tokens(file)) {
     d_.source = file;
     d_.materials["plain"].reflectance.value = 0.5;
     while (next_ < tokens_.size()) directive();
@@ -51,33 +51,32 @@ public:
   Description take() { return std::move(d_); }
 
 private:
-  const PbrtToken& token(const Place& where)
-  {
-    if (next_ >= tokens_.size()) throw bad_input(where, "the file ends here", "expected more", "check that the file is whole");
+  const PbrtToken& token(const Place& where) {
+    if (next_ >= tokens_.size())
+      throw bad_input(where, "the file ends here", "expected more", "check that the file is whole");
     return tokens_[next_++];
   }
-  std::string string(const Place& where)
-  {
+  std::string string(const Place& where) {
     const PbrtToken& t = token(where);
     if (!t.quoted) throw bad_input(t.where, "\"" + t.text + "\" is no string", "expected a text in quotes");
     return t.text;
   }
-  std::vector<double> numbers(const Place& where, std::size_t count)
-  {
+  std::vector<double> numbers(const Place& where, std::size_t count) {
     PbrtParameter list{{}, "the transform", {}, where};
     const bool bracket = next_ < tokens_.size() && tokens_[next_].text == "[";
     if (bracket) ++next_;
     while (list.values.size() < count) list.values.push_back(token(where).text);
-    if (bracket && token(where).text != "]") throw bad_input(where, "has too many numbers", fmt::format("expected {}", count));
+    if (bracket && token(where).text != "]")
+      throw bad_input(where, "has too many numbers", fmt::format("expected {}", count));
     return list.numbers();
   }
 
-  PbrtParameters parameters(const Place& where)
-  {
+  PbrtParameters parameters(const Place& where) {
     PbrtParameters result{{}, where};
     while (next_ < tokens_.size() && tokens_[next_].quoted) {
       const PbrtToken& declared = tokens_[next_++];
-      const std::size_t space = declared.text.find_first_of(" \t"), name = declared.text.find_first_not_of(" \t", space);
+      const std::size_t space = declared.text.find_first_of(" \t"),
+                        name = declared.text.find_first_not_of(" \t", space);
       if (space == std::string::npos || name == std::string::npos)
         throw bad_input(declared.where, "\"" + declared.text + "\" is no parameter", "expected \"type name\"");
       PbrtParameter p{declared.text.substr(0, space), declared.text.substr(name), {}, declared.where};
@@ -95,8 +94,7 @@ private:
     return result;
   }
 
-  void directive()
-  {
+  void directive() {
     const PbrtToken& head = tokens_[next_++];
     const std::string& word = head.text;
     const Place& where = head.where;
@@ -112,7 +110,8 @@ private:
       }
     } else if (word == "AttributeEnd" || word == "TransformEnd" || word == "ObjectEnd") {
       const std::string begin = word.substr(0, word.size() - 3) + "Begin";
-      if (stack_.empty() || stack_.back().second != begin) throw bad_input(where, word + " has no " + begin + " before it");
+      if (stack_.empty() || stack_.back().second != begin)
+        throw bad_input(where, word + " has no " + begin + " before it");
       if (word == "TransformEnd")
         m = stack_.back().first.to_world;
       else
@@ -135,7 +134,8 @@ private:
                                               right = glm::cross(glm::dvec3(v[6], v[7], v[8]), way);
       if (!(glm::length(right) > 0)) throw bad_input(where, "looks nowhere, or up is the way it looks");
       const glm::dvec3 z = glm::normalize(way), x = glm::normalize(right);
-      m = m * glm::inverse(glm::dmat4(glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(eye, 1)));
+      m = m * glm::inverse(
+                  glm::dmat4(glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(eye, 1)));
     } else if (word == "Transform" || word == "ConcatTransform") {
       const auto v = numbers(where, 16);
       m = word == "Transform" ? glm::make_mat4(v.data()) : m * glm::make_mat4(v.data());
@@ -155,7 +155,8 @@ private:
       instance(string(where), where);
     } else if (word == "NamedMaterial") {
       state_.material = name_of(string(where), "material");
-      if (!d_.materials.contains(state_.material)) throw bad_input(where, "there is no material \"" + state_.material + "\" above it");
+      if (!d_.materials.contains(state_.material))
+        throw bad_input(where, "there is no material \"" + state_.material + "\" above it");
     } else if (word == "MediumInterface") {
       while (next_ < tokens_.size() && tokens_[next_].quoted) ++next_;
       d_.note(where, "media are left out: there is clear space in their place");
@@ -167,10 +168,10 @@ private:
       typed(word, where);
   }
 
-  void typed(const std::string& word, const Place& where)
-  {
-    if (!about_rendering.contains(word) && word != "Film" && word != "Camera" && word != "Material" && word != "MakeNamedMaterial" &&
-        word != "LightSource" && word != "AreaLightSource" && word != "Shape" && word != "MakeNamedMedium")
+  void typed(const std::string& word, const Place& where) {
+    if (!about_rendering.contains(word) && word != "Film" && word != "Camera" && word != "Material" &&
+        word != "MakeNamedMaterial" && word != "LightSource" && word != "AreaLightSource" && word != "Shape" &&
+        word != "MakeNamedMedium")
       throw bad_input(where, word + " is no directive of PBRT", "expected a word such as Shape");
     const std::string type = string(where);
     const PbrtParameters p = parameters(where);
@@ -188,7 +189,8 @@ private:
       add_light(type, p);
     else if (word == "AreaLightSource") {
       state_.glow = colour(p, "L", glm::dvec3(1)) * p.number("scale", 1);
-      if (p.text("twosided", "false") == "true") d_.note(where, "the back of a light that shines on both sides is left out");
+      if (p.text("twosided", "false") == "true")
+        d_.note(where, "the back of a light that shines on both sides is left out");
       if (p.find("power")) d_.note(where, "the light's power is left out: its L counts");
     } else if (word == "Shape")
       add_shape(type, p);
@@ -196,8 +198,7 @@ private:
       d_.note(where, "media are left out: there is clear space in their place");
   }
 
-  glm::dvec3 colour(const PbrtParameters& p, const std::string& name, const glm::dvec3& standard)
-  {
+  glm::dvec3 colour(const PbrtParameters& p, const std::string& name, const glm::dvec3& standard) {
     const PbrtParameter* given = p.find(name);
     if (given && given->type == "texture" && !given->values.empty())
       if (const auto found = textures_.find(given->values[0]); found != textures_.end()) given = &found->second;
@@ -208,13 +209,12 @@ private:
       if (v.size() == 3) return {v[0], v[1], v[2]};
       throw bad_input(given->where, fmt::format("\"{}\" has {} values", name, v.size()), "expected one or three");
     }
-    d_.note(given->where, fmt::format("the {} \"{}\" is left out: {:.3g} {:.3g} {:.3g} takes its place", given->type, name, standard.x,
-                                      standard.y, standard.z));
+    d_.note(given->where, fmt::format("the {} \"{}\" is left out: {:.3g} {:.3g} {:.3g} takes its place", given->type,
+                                      name, standard.x, standard.y, standard.z));
     return standard;
   }
 
-  void add_camera(const std::string& type, const PbrtParameters& p)
-  {
+  void add_camera(const std::string& type, const PbrtParameters& p) {
     if (!(std::abs(glm::determinant(state_.to_world)) > 0)) throw bad_input(p.where, "the camera's transform is flat");
     systems_["camera"] = glm::inverse(state_.to_world);
     if (type != "perspective") return d_.note(p.where, "the camera " + type + " is left out");
@@ -225,15 +225,14 @@ private:
     frame();
   }
   /// The film may come before the camera or after it. fov is that of the shorter edge.
-  void frame()
-  {
+  void frame() {
     d_.camera->resolution = resolution_;
     const double w = resolution_[0], h = resolution_[1];
-    d_.camera->fov_deg = glm::degrees(2 * std::atan(std::tan(glm::radians(std::clamp(fov_, 0.001, 179.0)) / 2) * h / std::min(w, h)));
+    d_.camera->fov_deg =
+        glm::degrees(2 * std::atan(std::tan(glm::radians(std::clamp(fov_, 0.001, 179.0)) / 2) * h / std::min(w, h)));
   }
 
-  std::string add_material(const std::string& key, const std::string& type, const PbrtParameters& p)
-  {
+  std::string add_material(const std::string& key, const std::string& type, const PbrtParameters& p) {
     preset::Material& made = d_.materials[key] = {};
     const auto reflect = [&](const char* name, double standard) {
       const glm::dvec3 c = colour(p, name, glm::dvec3(standard));
@@ -250,29 +249,32 @@ private:
         d_.note(eta->where, fmt::format("the spectrum of eta is left out: n = {} takes its place", made.dispersion.n));
       } else
         made.dispersion.n = p.number(name, 1.5);
-      if (made.dispersion.n < 0.01 || made.dispersion.n > 100) throw bad_input(p.where, "its index of refraction is out of range");
+      if (made.dispersion.n < 0.01 || made.dispersion.n > 100)
+        throw bad_input(p.where, "its index of refraction is out of range");
       if (type == "thindielectric") d_.note(p.where, "a thin film is solid glass here");
       if (rough > 0) d_.note(p.where, "roughness is left out: the glass is polished");
     } else if (type == "conductor" || type == "mirror") {
       made.type = preset::Material::Type::mirror;
       reflect(type == "mirror" ? "Kr" : "reflectance", 0.9);
-      if (type == "conductor" && !p.find("reflectance")) d_.note(p.where, "the metal is left out: a mirror of 0.9 takes its place");
+      if (type == "conductor" && !p.find("reflectance"))
+        d_.note(p.where, "the metal is left out: a mirror of 0.9 takes its place");
       if (rough > 0) d_.note(p.where, "roughness is left out: the mirror is polished");
     } else {
       reflect(p.find("Kd") ? "Kd" : "reflectance", 0.5);
       if (type != "diffuse" && type != "matte")
-        d_.note(p.where, "the material " + (type.empty() ? "\"\"" : type) + " is left out: a matt surface of its colour takes its place");
+        d_.note(p.where, "the material " + (type.empty() ? "\"\"" : type) +
+                             " is left out: a matt surface of its colour takes its place");
     }
     return key;
   }
 
   /// The luminance of a white of 1 is 1 in version 4, which divides a light by the luminance of its spectrum.
-  void add_light(const std::string& type, const PbrtParameters& p)
-  {
+  void add_light(const std::string& type, const PbrtParameters& p) {
     DescribedLight light;
     light.where = p.where;
     const double scale = p.number("scale", 1);
-    const glm::dvec3 from = scene::to_dvec3(p.vector("from", {0, 0, 0})), to = scene::to_dvec3(p.vector("to", {0, 0, 1}));
+    const glm::dvec3 from = scene::to_dvec3(p.vector("from", {0, 0, 0})),
+                     to = scene::to_dvec3(p.vector("to", {0, 0, 1}));
     light.position = glm::dvec3(state_.to_world * glm::dvec4(from, 1));
     light.direction = glm::dmat3(state_.to_world) * (to - from);
     light.colour = colour(p, type == "distant" || type == "infinite" ? "L" : "I", glm::dvec3(1)) * scale;
@@ -305,8 +307,7 @@ private:
     d_.lights.push_back(light);
   }
 
-  void add_shape(const std::string& type, const PbrtParameters& p)
-  {
+  void add_shape(const std::string& type, const PbrtParameters& p) {
     DescribedShape shape;
     shape.where = p.where;
     shape.name = type;
@@ -344,8 +345,7 @@ private:
       d_.shapes.push_back(std::move(shape));
   }
 
-  void instance(const std::string& name, const Place& where)
-  {
+  void instance(const std::string& name, const Place& where) {
     const auto found = objects_.find(name);
     if (found == objects_.end()) throw bad_input(where, "there is no object \"" + name + "\" above it");
     if (object_) return d_.note(where, "an instance within an object is left out");

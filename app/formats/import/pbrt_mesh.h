@@ -6,7 +6,8 @@
 
 namespace nephroid::formats {
 
-/// type: trianglemesh or bilinearmesh, whose patches become two triangles. Throws bad_input where an index names no point.
+/// type: trianglemesh or bilinearmesh, whose patches become two triangles. Throws bad_input where an index names no
+/// point.
 scene::Mesh pbrt_mesh(const std::string& type, const PbrtParameters& p);
 
 } // namespace nephroid::formats

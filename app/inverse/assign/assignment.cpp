@@ -15,16 +15,18 @@
 #include <utility>
 
 namespace nephroid::inverse {
-Assignment::Assignment(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed)
+Assignment::Assignment(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
+                       std::uint64_t seed)
     : given_(layout), layout_(layout), targets_(targets), seed_(seed), tones_(targets.size(), 1.0), wanted_(targets),
-      weights_(picture_weights(layout, targets)), heights_(layout.facet_count()), facets_(context, layout, targets, weights_)
-{
+      weights_(picture_weights(layout, targets)), heights_(layout.facet_count()),
+      facets_(context, layout, targets, weights_) {
   std::mt19937_64 random(seed_);
   std::vector<glm::dvec2> slopes(layout.facet_count());
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     const std::size_t j = layout.distances.size() - 1 - i % (layout.offsets ? layout.distances.size() : 1);
     const glm::dvec2 to = layout.offset(j) + (glm::dvec2(uniform(random), uniform(random)) - 0.5) * layout.receiver;
-    slopes[i] = nearest_reachable((to - layout.middle(i)) / layout.distances[j], layout.n, layout.sines_on(i), layout.steepest);
+    slopes[i] =
+        nearest_reachable((to - layout.middle(i)) / layout.distances[j], layout.n, layout.sines_on(i), layout.steepest);
   }
   put(slopes);
   settle();
@@ -32,8 +34,7 @@ Assignment::Assignment(const mpi::RankContext& context, const Layout& layout, co
   begin_sweep();
 }
 
-void Assignment::relight()
-{
+void Assignment::relight() {
   Illumination light = std::move(layout_.light);
   layout_ = given_;
   layout_.light = std::move(light);
@@ -47,16 +48,15 @@ void Assignment::relight()
   begin_sweep();
 }
 
-void Assignment::aim()
-{
+void Assignment::aim() {
   for (std::size_t j = 0; j < wanted_.size(); ++j)
-    std::transform(targets_[j].begin(), targets_[j].end(), wanted_[j].begin(), [&](double cell) { return tones_[j] * cell; });
+    std::transform(targets_[j].begin(), targets_[j].end(), wanted_[j].begin(),
+                   [&](double cell) { return tones_[j] * cell; });
   weights_ = picture_weights(layout_, wanted_);
   facets_.aim(layout_, wanted_, weights_);
 }
 
-void Assignment::begin_sweep()
-{
+void Assignment::begin_sweep() {
   std::mt19937_64 random = numbers_of(seed_, static_cast<std::uint64_t>(sweeps_));
   std::vector<std::uint32_t> order(layout_.facet_count());
   std::iota(order.begin(), order.end(), 0u);
@@ -64,16 +64,15 @@ void Assignment::begin_sweep()
   facets_.begin_sweep(order, sweeps_, seed_);
 }
 
-void Assignment::put(const std::vector<glm::dvec2>& slopes)
-{
+void Assignment::put(const std::vector<glm::dvec2>& slopes) {
   facets_.put(slopes, heights_);
   forget();
 }
 
-/// Free heights stand where walls are lowest for the slopes that facets have; their light falls from there. Facets in one plane see their
-/// neighbours as these are now, in whose shadows they lie. Each picture is as bright as the light lets it be that reaches its receiver.
-void Assignment::settle()
-{
+/// Free heights stand where walls are lowest for the slopes that facets have; their light falls from there. Facets in
+/// one plane see their neighbours as these are now, in whose shadows they lie. Each picture is as bright as the light
+/// lets it be that reaches its receiver.
+void Assignment::settle() {
   if (layout_.free_heights || layout_.light.facets) {
     const std::vector<glm::dvec2> now = slopes();
     if (layout_.free_heights) heights_ = heights_of(layout_, now);
@@ -87,37 +86,35 @@ void Assignment::settle()
   constexpr double least_tone = 0.01; // of a picture that no light has found yet
   for (std::size_t j = 0; j < tones_.size(); ++j) {
     const std::vector<double>& light = all_light()[j];
-    tones_[j] = std::max(least_tone, std::accumulate(light.begin(), light.end(), 0.0) / static_cast<double>(layout_.facet_count()));
+    tones_[j] = std::max(least_tone,
+                         std::accumulate(light.begin(), light.end(), 0.0) / static_cast<double>(layout_.facet_count()));
   }
   aim();
 }
 
-/// What one facet's Cost_N, thesis (6.1), weighs in the sum: both costs are means, one over the facets, one over all cells.
-double Assignment::smoothing_weight() const
-{
-  return layout_.smoothing * static_cast<double>(layout_.cell_count() * targets_.size()) / static_cast<double>(layout_.facet_count());
+/// What one facet's Cost_N, thesis (6.1), weighs in the sum: both costs are means, one over the facets, one over all
+/// cells.
+double Assignment::smoothing_weight() const {
+  return layout_.smoothing * static_cast<double>(layout_.cell_count() * targets_.size()) /
+         static_cast<double>(layout_.facet_count());
 }
 
-void Assignment::forget()
-{
+void Assignment::forget() {
   slopes_.clear();
   light_.clear();
 }
 
-const std::vector<glm::dvec2>& Assignment::slopes() const
-{
+const std::vector<glm::dvec2>& Assignment::slopes() const {
   if (slopes_.empty()) slopes_ = facets_.slopes();
   return slopes_;
 }
 
-const std::vector<std::vector<double>>& Assignment::all_light() const
-{
+const std::vector<std::vector<double>>& Assignment::all_light() const {
   if (light_.empty()) light_ = facets_.light();
   return light_;
 }
 
-void Assignment::refine()
-{
+void Assignment::refine() {
   refinement_->advance(facets_);
   forget();
   tried_ += layout_.facet_count();
@@ -126,8 +123,7 @@ void Assignment::refine()
   settle();
 }
 
-void Assignment::advance()
-{
+void Assignment::advance() {
   if (refinement_) return refine();
   const std::size_t count = std::min(facets_.batch(), layout_.facet_count() - next_);
   facets_.improve(next_, count, smoothing_weight());
@@ -147,22 +143,21 @@ void Assignment::advance()
   begin_sweep();
 }
 
-double Assignment::residual() const
-{
-  const double rough =
-      layout_.smoothing > 0 ? smoothing_weight() * static_cast<double>(layout_.facet_count()) * roughness(layout_, slopes()) : 0;
+double Assignment::residual() const {
+  const double rough = layout_.smoothing > 0 ? smoothing_weight() * static_cast<double>(layout_.facet_count()) *
+                                                   roughness(layout_, slopes())
+                                             : 0;
   return weighted_squares(wanted_, weights_, all_light(), layout_.facet_count()) + rough;
 }
 
-double Assignment::fraction_done() const
-{
-  return refinement_ ? refinement_->fraction_done() : static_cast<double>(next_) / static_cast<double>(layout_.facet_count());
+double Assignment::fraction_done() const {
+  return refinement_ ? refinement_->fraction_done()
+                     : static_cast<double>(next_) / static_cast<double>(layout_.facet_count());
 }
 
 std::vector<Cost> Assignment::costs() const { return costs_of(targets_, all_light(), light_sent(layout_, slopes())); }
 
-void Assignment::state(State& state)
-{
+void Assignment::state(State& state) {
   state.value(sweeps_);
   state.value(next_);
   state.value(tried_);

@@ -9,16 +9,19 @@
 
 namespace nephroid::inverse {
 
-/// Lowers weighted_squares(), and what smoothing adds to it (cost.h), on the device. A sweep goes through all facets in a random order, in
-/// batches: every facet of a batch looks for its slope at once, among the light as it is before the batch. Then those take what they found
-/// that share no cell with a facet before them, if it is better than what they had, and the others try again. So no batch makes the sum
-/// larger while pictures have their tones, and the number of threads changes no bit. When a sweep gains less than three hundredths of the
-/// sum, the last one moves all facets together: see Refinement, which knows no smoothing and is left out where there is some. Free heights,
-/// what facets see of their neighbours, and the pictures' tones follow the slopes after each sweep.
+/// Lowers weighted_squares(), and what smoothing adds to it (cost.h), on the device. A sweep goes through all facets in
+/// a random order, in batches: every facet of a batch looks for its slope at once, among the light as it is before the
+/// batch. Then those take what they found that share no cell with a facet before them, if it is better than what they
+/// had, and the others try again. So no batch makes the sum larger while pictures have their tones, and the number of
+/// threads changes no bit. When a sweep gains less than three hundredths of the sum, the last one moves all facets
+/// together: see Refinement, which knows no smoothing and is left out where there is some. Free heights, what facets
+/// see of their neighbours, and the pictures' tones follow the slopes after each sweep.
 class Assignment final : public Method {
 public:
-  /// The layout and the targets outlive it. Facets begin with random slopes. Throws failed where the device has not enough memory.
-  Assignment(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed);
+  /// The layout and the targets outlive it. Facets begin with random slopes. Throws failed where the device has not
+  /// enough memory.
+  Assignment(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
+             std::uint64_t seed);
 
   /// One batch, or one step of the refinement.
   void advance() override;
@@ -55,7 +58,8 @@ private:
   Layout layout_; ///< the same, but that facets see their neighbours as they are
   const std::vector<Target>& targets_;
   std::uint64_t seed_;
-  std::vector<double> tones_;  ///< of each picture: the part of all light that reaches its receiver, at least a hundredth; a state, too
+  std::vector<double>
+      tones_; ///< of each picture: the part of all light that reaches its receiver, at least a hundredth; a state, too
   std::vector<Target> wanted_; ///< targets in their tones
   std::vector<double> weights_;
   std::vector<double> heights_; ///< of the facets' middles; a state, too

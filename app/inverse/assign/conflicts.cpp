@@ -13,10 +13,10 @@
 
 namespace nephroid::inverse {
 
-ConflictSearch::ConflictSearch(const Layout& layout, const std::vector<Target>& targets, const std::vector<glm::dvec2>& slopes,
-                               const std::vector<double>& heights, const std::vector<std::vector<double>>& light)
-    : layout_(layout), slopes_(slopes), heights_(heights), light_(light), wanted_(targets), too_much_(light)
-{
+ConflictSearch::ConflictSearch(const Layout& layout, const std::vector<Target>& targets,
+                               const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights,
+                               const std::vector<std::vector<double>>& light)
+    : layout_(layout), slopes_(slopes), heights_(heights), light_(light), wanted_(targets), too_much_(light) {
   for (std::size_t j = 0; j < light.size(); ++j) {
     const double received = std::accumulate(light[j].begin(), light[j].end(), 0.0);
     for (std::size_t c = 0; c < light[j].size(); ++c) {
@@ -28,27 +28,25 @@ ConflictSearch::ConflictSearch(const Layout& layout, const std::vector<Target>& 
 }
 
 /// Part of the facet's light.
-double ConflictSearch::misplaced(std::size_t facet, std::size_t receiver) const
-{
+double ConflictSearch::misplaced(std::size_t facet, std::size_t receiver) const {
   double well = 0;
   for_cells(layout_, footprint(layout_, facet, slopes_[facet], receiver, heights_[facet]),
             [&](std::size_t cell, double part) { well += part * (1 - too_much_[receiver][cell]); });
   return 1 - well;
 }
 
-std::vector<double> ConflictSearch::facet_conflicts() const
-{
+std::vector<double> ConflictSearch::facet_conflicts() const {
   std::vector<double> most(slopes_.size());
   for_ranges(most.size(), 256, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
-      for (std::size_t j = 0; j < light_.size() && !layout_.is_beside(layout_.middle(i)); ++j) most[i] = std::max(most[i], misplaced(i, j));
+      for (std::size_t j = 0; j < light_.size() && !layout_.is_beside(layout_.middle(i)); ++j)
+        most[i] = std::max(most[i], misplaced(i, j));
   });
   return most;
 }
 
 /// What a picture's weighted squares would change by with the facet at another slope.
-double ConflictSearch::change(std::size_t facet, const glm::dvec2& slope, std::size_t receiver) const
-{
+double ConflictSearch::change(std::size_t facet, const glm::dvec2& slope, std::size_t receiver) const {
   std::vector<std::pair<std::size_t, double>> moves; // a cell, and how much it gets
   const auto move = [&](const glm::dvec2& to, double sign) {
     const double power = sign * facet_power(layout_, facet, to);
@@ -69,18 +67,21 @@ double ConflictSearch::change(std::size_t facet, const glm::dvec2& slope, std::s
 }
 
 /// Places on a receiver, at most 64 a side, those first where a flat facet's light helps its picture most.
-std::vector<glm::dvec2> ConflictSearch::best_places(std::size_t receiver) const
-{
+std::vector<glm::dvec2> ConflictSearch::best_places(std::size_t receiver) const {
   const glm::ivec2 cells = layout_.cells, step = (cells + 63) / 64;
   const double distance = layout_.distances[receiver],
-               lamp = layout_.light.lamp ? distance / (layout_.light.lamp->z - layout_.thickness + layout_.thickness / layout_.n) : 0;
+               lamp = layout_.light.lamp
+                          ? distance / (layout_.light.lamp->z - layout_.thickness + layout_.thickness / layout_.n)
+                          : 0;
   const auto parts = [&](int axis, int at) { // of a beam on the middle of a cell: the first cell, and the part on each
     const double cell = layout_.cell()[axis], width = layout_.facet()[axis] * (1 + lamp) / cell,
                  blur = blur_width(layout_, distance) / cell;
     const Beam beam{at + 0.5, width, blur};
-    const int reach = static_cast<int>(std::min<double>(cells[axis], std::ceil((width + blur) / 2))), first = std::max(0, at - reach);
+    const int reach = static_cast<int>(std::min<double>(cells[axis], std::ceil((width + blur) / 2))),
+              first = std::max(0, at - reach);
     std::vector<double> part;
-    for (int c = first; c <= std::min(at + reach, cells[axis] - 1); ++c) part.push_back(part_before(beam, c + 1) - part_before(beam, c));
+    for (int c = first; c <= std::min(at + reach, cells[axis] - 1); ++c)
+      part.push_back(part_before(beam, c + 1) - part_before(beam, c));
     return std::pair(first, part);
   };
   std::vector<std::pair<double, std::size_t>> places; // what it adds to the squares, and the cell
@@ -90,9 +91,10 @@ std::vector<glm::dvec2> ConflictSearch::best_places(std::size_t receiver) const
       double sum = 0;
       for (std::size_t k = 0; k < down.second.size(); ++k)
         for (std::size_t i = 0; i < across.second.size(); ++i) {
-          const std::size_t cell = index_at(across.first + static_cast<int>(i), down.first + static_cast<int>(k), cells.x);
-          sum +=
-              down.second[k] * across.second[i] * (light_[receiver][cell] - static_cast<double>(slopes_.size()) * wanted_[receiver][cell]);
+          const std::size_t cell =
+              index_at(across.first + static_cast<int>(i), down.first + static_cast<int>(k), cells.x);
+          sum += down.second[k] * across.second[i] *
+                 (light_[receiver][cell] - static_cast<double>(slopes_.size()) * wanted_[receiver][cell]);
         }
       places.emplace_back(sum, index_at(x, y, cells.x));
     }
@@ -102,13 +104,13 @@ std::vector<glm::dvec2> ConflictSearch::best_places(std::size_t receiver) const
   return best;
 }
 
-Conflicts ConflictSearch::picture_conflicts() const
-{
+Conflicts ConflictSearch::picture_conflicts() const {
   const std::size_t count = light_.size();
   const double sent = light_sent(layout_, slopes_);
   Conflicts conflicts{std::vector<double>(count), std::vector<std::vector<double>>(count, std::vector<double>(count))};
   for (std::size_t i = 0; i < slopes_.size(); ++i)
-    for (std::size_t j = 0; j < count; ++j) conflicts.misplaced[j] += misplaced(i, j) * facet_power(layout_, i, slopes_[i]) / sent;
+    for (std::size_t j = 0; j < count; ++j)
+      conflicts.misplaced[j] += misplaced(i, j) * facet_power(layout_, i, slopes_[i]) / sent;
   if (count == 1) return conflicts;
 
   const std::vector<std::size_t> facets = some_facets(layout_, 32);

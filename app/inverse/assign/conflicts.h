@@ -5,11 +5,12 @@
 
 namespace nephroid::inverse {
 
-/// Light is misplaced in a picture where more falls than is wanted, or beside the receiver. Every facet in a cell has the same share in
-/// what is too much there.
+/// Light is misplaced in a picture where more falls than is wanted, or beside the receiver. Every facet in a cell has
+/// the same share in what is too much there.
 struct Conflicts {
-  std::vector<double> misplaced;            ///< of each picture: part of all light; what it keeps of its error, its floor
-  std::vector<std::vector<double>> between; ///< [j][k]: part of all light that is misplaced in picture j for the sake of picture k
+  std::vector<double> misplaced; ///< of each picture: part of all light; what it keeps of its error, its floor
+  std::vector<std::vector<double>>
+      between; ///< [j][k]: part of all light that is misplaced in picture j for the sake of picture k
 };
 
 /// light: of facets with these slopes and heights, by their footprints.
@@ -22,8 +23,8 @@ public:
   /// For each facet the part of its light that is misplaced, in the picture where that is largest.
   std::vector<double> facet_conflicts() const;
 
-  /// A facet would go where picture j gains most, were it alone. What is misplaced of it in j is put down to the others by what
-  /// they would lose by that. Some facets speak for all: every one up to 32 a side.
+  /// A facet would go where picture j gains most, were it alone. What is misplaced of it in j is put down to the others
+  /// by what they would lose by that. Some facets speak for all: every one up to 32 a side.
   Conflicts picture_conflicts() const;
 
 private:

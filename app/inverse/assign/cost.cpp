@@ -12,8 +12,7 @@ namespace {
 
 /// f(neighbour) for each neighbour of a facet.
 template <class F>
-void for_neighbours(const glm::ivec2& facets, std::size_t facet, const F& f)
-{
+void for_neighbours(const glm::ivec2& facets, std::size_t facet, const F& f) {
   const auto columns = static_cast<std::size_t>(facets.x), rows = static_cast<std::size_t>(facets.y);
   const std::size_t column = facet % columns, row = facet / columns;
   if (column > 0) f(facet - 1);
@@ -24,8 +23,7 @@ void for_neighbours(const glm::ivec2& facets, std::size_t facet, const F& f)
 
 } // namespace
 
-Cost cost_of(const Target& t, std::span<const double> z, double sent)
-{
+Cost cost_of(const Target& t, std::span<const double> z, double sent) {
   constexpr double counts = 0.01;
   const double t_max = *std::max_element(t.begin(), t.end()), z_max = *std::max_element(z.begin(), z.end());
   const double t_sum = std::accumulate(t.begin(), t.end(), 0.0), z_sum = std::accumulate(z.begin(), z.end(), 0.0);
@@ -47,15 +45,14 @@ Cost cost_of(const Target& t, std::span<const double> z, double sent)
           std::sqrt(l2 / norm), sent > 0 ? 1 - z_sum / sent : 0};
 }
 
-std::vector<Cost> costs_of(const std::vector<Target>& targets, const std::vector<std::vector<double>>& light, double sent)
-{
+std::vector<Cost> costs_of(const std::vector<Target>& targets, const std::vector<std::vector<double>>& light,
+                           double sent) {
   std::vector<Cost> costs;
   for (std::size_t j = 0; j < targets.size(); ++j) costs.push_back(cost_of(targets[j], light[j], sent));
   return costs;
 }
 
-Cost mean(std::span<const Cost> costs)
-{
+Cost mean(std::span<const Cost> costs) {
   Cost sum;
   for (const Cost& c : costs) {
     sum.cost += c.cost;
@@ -67,13 +64,11 @@ Cost mean(std::span<const Cost> costs)
   return {sum.cost / count, sum.cost_all / count, sum.rel_l2 / count, sum.missed / count};
 }
 
-glm::dvec3 normal_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope)
-{
+glm::dvec3 normal_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope) {
   return glm::normalize(glm::dvec3(facet_gradient(slope, layout.n, layout.sines_on(facet)), -1));
 }
 
-double roughness(const Layout& layout, const std::vector<glm::dvec2>& slopes)
-{
+double roughness(const Layout& layout, const std::vector<glm::dvec2>& slopes) {
   double sum = 0;
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     glm::dvec3 around(0);

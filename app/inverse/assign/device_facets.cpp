@@ -22,16 +22,14 @@ constexpr std::uint32_t all_turns = 1u << 20;
 
 Pair pair_of(const glm::dvec2& v) { return {static_cast<float>(v.x), static_cast<float>(v.y)}; }
 
-std::vector<glm::dvec2> wide(const std::vector<Pair>& pairs)
-{
+std::vector<glm::dvec2> wide(const std::vector<Pair>& pairs) {
   std::vector<glm::dvec2> values;
   values.reserve(pairs.size());
   for (const Pair& p : pairs) values.emplace_back(p[0], p[1]);
   return values;
 }
 
-std::vector<shared::DeviceReceiver> receivers_of(const Layout& layout, std::span<const double> weights)
-{
+std::vector<shared::DeviceReceiver> receivers_of(const Layout& layout, std::span<const double> weights) {
   std::vector<shared::DeviceReceiver> receivers;
   for (std::size_t j = 0; j < layout.distances.size(); ++j)
     receivers.push_back({.x = static_cast<float>(layout.offset(j).x),
@@ -42,8 +40,7 @@ std::vector<shared::DeviceReceiver> receivers_of(const Layout& layout, std::span
 }
 
 /// In facets.
-std::vector<float> wanted_of(const Layout& layout, const std::vector<Target>& targets)
-{
+std::vector<float> wanted_of(const Layout& layout, const std::vector<Target>& targets) {
   std::vector<float> wanted;
   for (const Target& target : targets)
     for (const double t : target) wanted.push_back(static_cast<float>(t * static_cast<double>(layout.facet_count())));
@@ -52,27 +49,25 @@ std::vector<float> wanted_of(const Layout& layout, const std::vector<Target>& ta
 
 /// Puts the first `own` items of each rank at their place among `count`: those of this one begin at `begin`.
 template <class T>
-void share(compute::Buffer<T>& items, std::size_t begin, std::size_t own, std::size_t count, const Communicator& communicator)
-{
+void share(compute::Buffer<T>& items, std::size_t begin, std::size_t own, std::size_t count,
+           const Communicator& communicator) {
   std::vector<T> all(count);
   items.RawBuffer::read(all.data() + begin, own * sizeof(T), 0);
   communicator.all_reduce_or(std::as_writable_bytes(std::span(all)));
   items.write(all);
 }
 
-std::size_t rimmed_cells(const Layout& l)
-{
+std::size_t rimmed_cells(const Layout& l) {
   return static_cast<std::size_t>(l.cells.x + 2) * static_cast<std::size_t>(l.cells.y + 2) * l.distances.size();
 }
 
 /// More facets get into each other's way the fewer cells there are, and the more of them a facet's light touches.
-std::size_t batch_of(const Layout& l)
-{
+std::size_t batch_of(const Layout& l) {
   std::size_t touched = 0;
   const std::size_t facet = index_at(l.facets.x / 2, l.facets.y / 2, l.facets.x);
   for (std::size_t j = 0; j < l.distances.size(); ++j) {
-    const Footprint print =
-        footprint(l, facet, nearest_reachable((l.offset(j) - l.middle(facet)) / l.distances[j], l.n, l.sines_on(facet)), j);
+    const Footprint print = footprint(
+        l, facet, nearest_reachable((l.offset(j) - l.middle(facet)) / l.distances[j], l.n, l.sines_on(facet)), j);
     touched = std::max(touched, static_cast<std::size_t>(print.columns) * static_cast<std::size_t>(print.rows));
   }
   const std::size_t most = std::clamp<std::size_t>(l.facet_count() / 16, 1, DeviceFacets::most_in_a_batch);
@@ -81,8 +76,7 @@ std::size_t batch_of(const Layout& l)
 
 } // namespace
 
-shared::DeviceLayout device_layout(const Layout& l)
-{
+shared::DeviceLayout device_layout(const Layout& l) {
   const auto number = [](double value) { return static_cast<float>(value); };
   shared::DeviceLayout made{.size_x = number(l.size.x),
                             .size_y = number(l.size.y),
@@ -103,7 +97,8 @@ shared::DeviceLayout device_layout(const Layout& l)
                             .one_over_straight = number(1 / transmitted({0, 0}, l.n)),
                             .sun_radius = number(l.sun_radius),
                             .scatter = number(l.scatter),
-                            .spreads = l.light.lamp ? number(1 / (l.light.lamp->z - l.thickness + l.thickness / l.n)) : 0,
+                            .spreads =
+                                l.light.lamp ? number(1 / (l.light.lamp->z - l.thickness + l.thickness / l.n)) : 0,
                             .free_heights = l.free_heights,
                             .index_spread = number(index_spread(l)),
                             .index_levels = 1,
@@ -134,8 +129,7 @@ shared::DeviceLayout device_layout(const Layout& l)
   return made;
 }
 
-std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout)
-{
+std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout) {
   std::vector<shared::DeviceIncoming> incoming;
   incoming.reserve(layout.incoming().size());
   for (const Incoming& in : layout.incoming()) {
@@ -151,8 +145,7 @@ std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout)
   return incoming;
 }
 
-compute::Defines facet_defines(const Layout& layout)
-{
+compute::Defines facet_defines(const Layout& layout) {
   return {{"NEPHROID_INCOMING", layout.light.facets ? "1" : "0"},
           {"NEPHROID_SPREAD", layout.blurs() ? "1" : "0"},
           {"NEPHROID_SMOOTHS", layout.smoothing > 0 ? "1" : "0"}};
@@ -162,16 +155,16 @@ DeviceFacets::DeviceFacets(const mpi::RankContext& context, const Layout& layout
                            std::span<const double> weights)
     : context_(context), layout_(context, "layout", std::vector{device_layout(layout)}), facets_(layout.facet_count()),
       batch_(batch_of(layout)), cells_(layout.cell_count() * targets.size()),
-      rows_(static_cast<std::size_t>(layout.cells.y) * targets.size()), receivers_(context, "receivers", receivers_of(layout, weights)),
+      rows_(static_cast<std::size_t>(layout.cells.y) * targets.size()),
+      receivers_(context, "receivers", receivers_of(layout, weights)),
       incoming_(context, "light on the facets", incoming_of(layout)), heights_(context, "facets' heights", facets_),
       wanted_(context, "wanted light", wanted_of(layout, targets)), lack_(context, "lack of light", cells_),
       along_y_(context, "lack of light along y", cells_),
-      smeared_(compute::zeroed<float>(context, "lack of light, smeared", rimmed_cells(layout))), slopes_(context, "slopes", facets_),
-      candidates_(context, "slopes to try", 8 * most_in_a_batch), found_(context, "slopes found", most_in_a_batch),
-      gradient_(context, "gradient", facets_), light_(context, "light on the receivers", cells_),
-      order_(context, "order of the facets", facets_), claims_(context, "claims", cells_ + facets_),
-      done_(context, "facets that have looked", most_in_a_batch)
-{
+      smeared_(compute::zeroed<float>(context, "lack of light, smeared", rimmed_cells(layout))),
+      slopes_(context, "slopes", facets_), candidates_(context, "slopes to try", 8 * most_in_a_batch),
+      found_(context, "slopes found", most_in_a_batch), gradient_(context, "gradient", facets_),
+      light_(context, "light on the receivers", cells_), order_(context, "order of the facets", facets_),
+      claims_(context, "claims", cells_ + facets_), done_(context, "facets that have looked", most_in_a_batch) {
   const compute::Defines defines = facet_defines(layout);
   const compute::Program light(context, "inverse/light.cl", defines), propose(context, "inverse/propose.cl", defines),
       search(context, "inverse/search.cl", defines);
@@ -186,21 +179,20 @@ DeviceFacets::DeviceFacets(const mpi::RankContext& context, const Layout& layout
   take_ = search.kernel("take");
 }
 
-void DeviceFacets::aim(const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights)
-{
+void DeviceFacets::aim(const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights) {
   layout_.write(std::vector{device_layout(layout)});
   receivers_.write(receivers_of(layout, weights));
   wanted_.write(wanted_of(layout, targets));
   find_lack();
 }
 
-void DeviceFacets::find_lack()
-{
-  find_lack_.run(cells_, group, {{"layout", layout_}, {"receivers", receivers_}, {"light", light_}, {"wanted", wanted_}, {"lack", lack_}});
+void DeviceFacets::find_lack() {
+  find_lack_.run(
+      cells_, group,
+      {{"layout", layout_}, {"receivers", receivers_}, {"light", light_}, {"wanted", wanted_}, {"lack", lack_}});
 }
 
-void DeviceFacets::put(const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights)
-{
+void DeviceFacets::put(const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights) {
   std::vector<Pair> narrow(slopes.size());
   std::transform(slopes.begin(), slopes.end(), narrow.begin(), pair_of);
   slopes_.write(narrow);
@@ -218,8 +210,7 @@ void DeviceFacets::put(const std::vector<glm::dvec2>& slopes, const std::vector<
 
 std::vector<glm::dvec2> DeviceFacets::slopes() const { return wide(slopes_.read()); }
 
-std::vector<std::vector<double>> DeviceFacets::light() const
-{
+std::vector<std::vector<double>> DeviceFacets::light() const {
   const std::vector<std::int64_t> quanta = light_.read();
   const std::size_t receivers = receivers_.size(), cells = cells_ / receivers;
   std::vector<std::vector<double>> light(receivers, std::vector<double>(cells));
@@ -228,8 +219,7 @@ std::vector<std::vector<double>> DeviceFacets::light() const
   return light;
 }
 
-void DeviceFacets::begin_sweep(const std::vector<std::uint32_t>& order, std::int64_t sweep, std::uint64_t seed)
-{
+void DeviceFacets::begin_sweep(const std::vector<std::uint32_t>& order, std::int64_t sweep, std::uint64_t seed) {
   order_.write(order);
   sweep_ = static_cast<std::uint32_t>(sweep);
   seed_ = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
@@ -237,34 +227,38 @@ void DeviceFacets::begin_sweep(const std::vector<std::uint32_t>& order, std::int
 }
 
 /// Each rank looks for some of the facets. Then all know of all.
-void DeviceFacets::find_better(std::size_t first, std::size_t count, double smoothing)
-{
+void DeviceFacets::find_better(std::size_t first, std::size_t count, double smoothing) {
   const Communicator& communicator = context_.communicator();
-  const std::size_t ranks = static_cast<std::size_t>(communicator.size()), rank = static_cast<std::size_t>(communicator.rank());
+  const std::size_t ranks = static_cast<std::size_t>(communicator.size()),
+                    rank = static_cast<std::size_t>(communicator.rank());
   const std::size_t begin = count * rank / ranks, own = count * (rank + 1) / ranks - begin;
   const auto first_facet = static_cast<std::uint32_t>(first + begin), facets = static_cast<std::uint32_t>(own);
   const auto weight = static_cast<float>(smoothing);
-  const compute::Argument shared[] = {{"layout", layout_},    {"receivers", receivers_}, {"incoming", incoming_}, {"heights", heights_},
-                                      {"slopes", slopes_},    {"lack", lack_},           {"smoothing", weight},   {"order", order_},
-                                      {"first", first_facet}, {"count", facets}};
+  const compute::Argument shared[] = {{"layout", layout_},   {"receivers", receivers_}, {"incoming", incoming_},
+                                      {"heights", heights_}, {"slopes", slopes_},       {"lack", lack_},
+                                      {"smoothing", weight}, {"order", order_},         {"first", first_facet},
+                                      {"count", facets}};
   if (own > 0) {
-    propose_.run(own, group, shared, {{"smeared", smeared_}, {"seed", seed_}, {"sweep", sweep_}, {"candidates", candidates_}});
-    improve_.run(own, group, shared, {{"candidates", candidates_}, {"seed", seed_}, {"sweep", sweep_}, {"found", found_}, {"done", done_}});
+    propose_.run(own, group, shared,
+                 {{"smeared", smeared_}, {"seed", seed_}, {"sweep", sweep_}, {"candidates", candidates_}});
+    improve_.run(own, group, shared,
+                 {{"candidates", candidates_}, {"seed", seed_}, {"sweep", sweep_}, {"found", found_}, {"done", done_}});
   }
   if (communicator.is_alone()) return;
   share(found_, begin, own, count, communicator);
   share(done_, begin, own, count, communicator);
 }
 
-void DeviceFacets::improve(std::size_t first, std::size_t count, double smoothing)
-{
+void DeviceFacets::improve(std::size_t first, std::size_t count, double smoothing) {
   const auto first_facet = static_cast<std::uint32_t>(first), facets = static_cast<std::uint32_t>(count);
   const auto weight = static_cast<float>(smoothing);
-  const compute::Argument shared[] = {{"layout", layout_},    {"receivers", receivers_}, {"incoming", incoming_}, {"heights", heights_},
-                                      {"slopes", slopes_},    {"lack", lack_},           {"smoothing", weight},   {"order", order_},
-                                      {"first", first_facet}, {"count", facets}};
+  const compute::Argument shared[] = {{"layout", layout_},   {"receivers", receivers_}, {"incoming", incoming_},
+                                      {"heights", heights_}, {"slopes", slopes_},       {"lack", lack_},
+                                      {"smoothing", weight}, {"order", order_},         {"first", first_facet},
+                                      {"count", facets}};
   smear_y_.run(rows_, 1, {{"layout", layout_}, {"receivers", receivers_}, {"lack", lack_}, {"along_y", along_y_}});
-  smear_x_.run(rows_, 1, {{"layout", layout_}, {"receivers", receivers_}, {"along_y", along_y_}, {"smeared", smeared_}});
+  smear_x_.run(rows_, 1,
+               {{"layout", layout_}, {"receivers", receivers_}, {"along_y", along_y_}, {"smeared", smeared_}});
   find_better(first, count, smoothing);
   for (int i = 0; i < turns; ++i, ++turn_) {
     if (turn_ >= all_turns) {
@@ -273,13 +267,17 @@ void DeviceFacets::improve(std::size_t first, std::size_t count, double smoothin
     }
     claim_.run(count, group, shared, {{"found", found_}, {"done", done_}, {"claims", claims_}, {"turn", turn_}});
     take_.run(count, group, shared,
-              {{"found", found_}, {"done", done_}, {"claims", claims_}, {"turn", turn_}, {"light", light_}, {"wanted", wanted_}});
+              {{"found", found_},
+               {"done", done_},
+               {"claims", claims_},
+               {"turn", turn_},
+               {"light", light_},
+               {"wanted", wanted_}});
   }
   context_.finish();
 }
 
-std::vector<glm::dvec2> DeviceFacets::gradient()
-{
+std::vector<glm::dvec2> DeviceFacets::gradient() {
   const Communicator& communicator = context_.communicator();
   const auto facets = static_cast<std::int64_t>(facets_);
   if (!communicator.is_alone()) gradient_.fill_zero();
@@ -299,15 +297,13 @@ std::vector<glm::dvec2> DeviceFacets::gradient()
   return wide(context_.all_reduced_or(gradient_));
 }
 
-std::uint64_t DeviceFacets::bytes(const Layout& l)
-{
+std::uint64_t DeviceFacets::bytes(const Layout& l) {
   const std::uint64_t cells = l.cell_count() * l.distances.size();
   return l.facet_count() * (sizeof(float) + 2 * sizeof(Pair) + 2 * sizeof(std::uint32_t)) +
          l.incoming().size() * sizeof(shared::DeviceIncoming) + cells * (sizeof(std::int64_t) + 5 * sizeof(float));
 }
 
-void DeviceFacets::state(State& state)
-{
+void DeviceFacets::state(State& state) {
   std::vector<Pair> slopes = slopes_.read();
   std::vector<float> heights = heights_.read();
   std::vector<std::int64_t> light = light_.read();

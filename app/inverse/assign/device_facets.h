@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The facets on the device: their slopes, the light that they send to the receivers, and which slopes would serve the pictures better
-// (kernels/inverse).
+// The facets on the device: their slopes, the light that they send to the receivers, and which slopes would serve the
+// pictures better (kernels/inverse).
 #pragma once
 #include "base/bytes.h"
 #include "compute/compute.h"
@@ -29,7 +29,8 @@ public:
   static constexpr std::size_t most_in_a_batch = 4096;
 
   /// weights: of a receiver's squares. Throws failed where the device has not enough memory.
-  DeviceFacets(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights);
+  DeviceFacets(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
+               std::span<const double> weights);
 
   /// Other distances, targets and weights.
   void aim(const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights);
@@ -47,8 +48,8 @@ public:
   void begin_sweep(const std::vector<std::uint32_t>& order, std::int64_t sweep, std::uint64_t seed);
   /// How many facets a batch has.
   std::size_t batch() const { return batch_; }
-  /// Facets first .. first + count - 1 of the order look for better slopes and take them. What they gain is what each of them would gain
-  /// alone. smoothing: what a facet's Cost_N weighs in the sum.
+  /// Facets first .. first + count - 1 of the order look for better slopes and take them. What they gain is what each
+  /// of them would gain alone. smoothing: what a facet's Cost_N weighs in the sum.
   void improve(std::size_t first, std::size_t count, double smoothing);
 
   /// Of the weighted squares, by each facet's slope.

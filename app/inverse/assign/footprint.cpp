@@ -16,10 +16,9 @@ namespace {
 
 double half_square(double t) { return t > 0 ? t * t / 2 : 0; }
 
-/// The cells of a row of so many that beams between two places can touch: the first one and the one behind the last. Far off no int
-/// would hold a cell.
-glm::ivec2 touched(double from, double to, int cells)
-{
+/// The cells of a row of so many that beams between two places can touch: the first one and the one behind the last.
+/// Far off no int would hold a cell.
+glm::ivec2 touched(double from, double to, int cells) {
   const double end = cells, first = std::clamp(std::floor(from), 0.0, end);
   return {static_cast<int>(first), static_cast<int>(std::clamp(std::ceil(to), first, end))};
 }
@@ -30,26 +29,27 @@ struct LitPart {
 };
 
 /// The mean over v = -1/2 .. 1/2 of a + b v where that is above 0.
-double mean_above_0(double a, double b)
-{
+double mean_above_0(double a, double b) {
   b = std::abs(b);
   return std::abs(a) >= b / 2 ? std::max(a, 0.0) : (a + b / 2) * (a + b / 2) / (2 * b);
 }
 
 /// inside: the slope of the light in the object. g: the facet's gradient.
-LitPart lit_part(const Layout& layout, std::size_t facet, const glm::dvec2& inside, const glm::dvec2& slope, const glm::dvec2& g)
-{
+LitPart lit_part(const Layout& layout, std::size_t facet, const glm::dvec2& inside, const glm::dvec2& slope,
+                 const glm::dvec2& g) {
   const auto columns = static_cast<std::size_t>(layout.facets.x);
   const glm::ivec2 at(facet % columns, facet / columns);
   const glm::dvec2 size = layout.facet();
-  // In parts of the facet's width: what a neighbour hides of light with this slope, which comes from its side or goes there.
+  // In parts of the facet's width: what a neighbour hides of light with this slope, which comes from its side or goes
+  // there.
   const auto hidden = [&](const glm::dvec2& light, int axis, int side) {
     glm::ivec2 to = at;
     to[axis] += axis == 0 ? side : -side; // rows count downwards
     if (to.x < 0 || to.y < 0 || to.x >= layout.facets.x || to.y >= layout.facets.y) return 0.0;
     const glm::dvec2 h = layout.incoming()[index_at(to.x, to.y, layout.facets.x)].around;
     const int other = 1 - axis;
-    return mean_above_0(light[axis] * (g[axis] + h[axis]) / 2, light[axis] * (g[other] - h[other]) * size[other] / size[axis]) /
+    return mean_above_0(light[axis] * (g[axis] + h[axis]) / 2,
+                        light[axis] * (g[other] - h[other]) * size[other] / size[axis]) /
            std::max(0.1, 1 + glm::dot(light, g));
   };
   LitPart lit;
@@ -71,8 +71,7 @@ struct Blur {
 };
 
 /// The line of indices in as many pieces as it takes for each to be short beside a cell.
-void part_colours(const Layout& layout, const glm::dvec2& by_index, double longest, int most, Blur& blur)
-{
+void part_colours(const Layout& layout, const glm::dvec2& by_index, double longest, int most, Blur& blur) {
   const double length = glm::length(by_index) * index_spread(layout);
   int count = 1;
   while (2 * count <= most && length > longest * count) count *= 2;
@@ -84,8 +83,7 @@ void part_colours(const Layout& layout, const glm::dvec2& by_index, double longe
 }
 
 /// Each beam becomes `points`. spread: a variance of 1 becomes that of the blur.
-void part_disc(const glm::dmat2& spread, int points, Blur& blur)
-{
+void part_disc(const glm::dmat2& spread, int points, Blur& blur) {
   const std::vector<glm::dvec2> disc = disc_points(points);
   for (int k = blur.count - 1; k >= 0; --k) {
     const glm::dvec2 middle = blur.shifts[static_cast<std::size_t>(k)];
@@ -101,17 +99,18 @@ void part_disc(const glm::dmat2& spread, int points, Blur& blur)
 }
 
 /// fine: a cell as a slope.
-Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, double fine)
-{
+Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, double fine) {
   Blur blur;
   if (!(layout.scatter > 0 || layout.sun_radius > 0 || layout.spectrum)) return blur;
   const SlopeChange change = slope_change(slope, layout.n, in.sines);
   // The disc is across the light: of its radius r, sines have the covariance r^2 / 4 (1 - sines sines^T).
   const double sun = layout.sun_radius / 2, cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
-  const glm::dmat2 disc = sun * change.by_sines * (glm::dmat2(1) - glm::outerProduct(in.sines, in.sines) / (1 + cosine));
+  const glm::dmat2 disc =
+      sun * change.by_sines * (glm::dmat2(1) - glm::outerProduct(in.sines, in.sines) / (1 + cosine));
   const glm::dmat2 both = disc * glm::transpose(disc) + glm::dmat2(layout.scatter * layout.scatter); // covariance
   const bool is_wide = std::sqrt(12 * (both[0][0] + both[1][1]) / 2) > wide_in_cells * fine;
-  if (layout.spectrum) part_colours(layout, change.by_index, piece_in_cells * fine, is_wide ? Beams::most / 4 : Beams::most, blur);
+  if (layout.spectrum)
+    part_colours(layout, change.by_index, piece_in_cells * fine, is_wide ? Beams::most / 4 : Beams::most, blur);
   if (is_wide) {
     glm::dmat2 root(0); // of the covariance: root root^T
     root[0][0] = std::sqrt(both[0][0]);
@@ -128,8 +127,7 @@ Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, 
 namespace {
 
 /// The least and the most of all but the ends of the spectrum.
-glm::dvec2 index_ends(const Layout& layout)
-{
+glm::dvec2 index_ends(const Layout& layout) {
   constexpr double beyond = 1e-3;
   glm::dvec2 ends(std::numeric_limits<double>::infinity(), 0);
   double before = 0;
@@ -143,14 +141,12 @@ glm::dvec2 index_ends(const Layout& layout)
 
 } // namespace
 
-double index_spread(const Layout& layout)
-{
+double index_spread(const Layout& layout) {
   const glm::dvec2 ends = index_ends(layout);
   return ends[1] - ends[0];
 }
 
-IndexGroups index_groups(const Layout& layout, int count)
-{
+IndexGroups index_groups(const Layout& layout, int count) {
   const auto groups_count = static_cast<std::size_t>(count);
   const glm::dvec2 ends = index_ends(layout);
   const double length = (ends[1] - ends[0]) / count;
@@ -172,8 +168,7 @@ IndexGroups index_groups(const Layout& layout, int count)
   return groups;
 }
 
-std::vector<glm::dvec2> disc_points(int count)
-{
+std::vector<glm::dvec2> disc_points(int count) {
   const double r = std::sqrt(2 * (1 - left_of_disc(count))), first = count == disc_beams ? 1.0 / 16 : 1.0 / 6;
   std::vector<glm::dvec2> points;
   for (int i = 0; i < count; ++i) {
@@ -183,23 +178,20 @@ std::vector<glm::dvec2> disc_points(int count)
   return points;
 }
 
-double part_before(const Beam& beam, double t)
-{
+double part_before(const Beam& beam, double t) {
   const double a = std::max(beam.width, beam.blur), b = std::min(beam.width, beam.blur), at = t - beam.middle;
   if (b < 1e-6 * a) return std::clamp(at / a + 0.5, 0.0, 1.0); // the difference below would be rounding
-  const double sum =
-      half_square(at + (a + b) / 2) - half_square(at + (a - b) / 2) - half_square(at - (a - b) / 2) + half_square(at - (a + b) / 2);
+  const double sum = half_square(at + (a + b) / 2) - half_square(at + (a - b) / 2) - half_square(at - (a - b) / 2) +
+                     half_square(at - (a + b) / 2);
   return std::clamp(sum / (a * b), 0.0, 1.0);
 }
 
-double blur_width(const Layout& layout, double distance)
-{
+double blur_width(const Layout& layout, double distance) {
   const double sun = layout.sun_radius * distance / 2, rough = layout.scatter * distance;
   return std::sqrt(12 * (sun * sun + rough * rough));
 }
 
-Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height)
-{
+Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height) {
   const Incoming in = layout.light.facets ? layout.incoming()[facet] : Incoming{};
   const glm::dvec2 g = facet_gradient(slope, layout.n, in.sines), size = layout.facet(), cell = layout.cell();
   const double distance = layout.distances[receiver] + height;
@@ -210,9 +202,11 @@ Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope,
     const glm::dvec2 inside = slope_inside(in.sines, layout.n);
     if (!layout.free_heights) lit = lit_part(layout, facet, inside, slope, g);
     if (layout.light.lamp)
-      map += distance * slope_change(slope, layout.n, in.sines).by_sines * in.spread * (glm::dmat2(1) + glm::outerProduct(inside, g));
+      map += distance * slope_change(slope, layout.n, in.sines).by_sines * in.spread *
+             (glm::dmat2(1) + glm::outerProduct(inside, g));
   }
-  const glm::dvec2 at = layout.in_cells(layout.middle(facet) - layout.offset(receiver) + map * (lit.middle * size) + slope * distance),
+  const glm::dvec2 at = layout.in_cells(layout.middle(facet) - layout.offset(receiver) + map * (lit.middle * size) +
+                                        slope * distance),
                    box = 12.0 * distance * distance * blur.variance;
   const auto beam = [&](int axis) {
     const int other = 1 - axis;
@@ -222,12 +216,13 @@ Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope,
   };
   Beams beams{beam(0), beam(1), blur.count, {}, blur.parts};
   for (int k = 0; k < blur.count; ++k)
-    beams.shifts[static_cast<std::size_t>(k)] = blur.shifts[static_cast<std::size_t>(k)] * distance / glm::dvec2(cell.x, -cell.y);
+    beams.shifts[static_cast<std::size_t>(k)] =
+        blur.shifts[static_cast<std::size_t>(k)] * distance / glm::dvec2(cell.x, -cell.y);
   return beams;
 }
 
-Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height)
-{
+Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver,
+                    double height) {
   const Beams beams = beams_of(layout, facet, slope, receiver, height);
   glm::dvec2 low = beams.shifts[0], high = low;
   for (int k = 1; k < beams.count; ++k) {
@@ -263,27 +258,26 @@ Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& s
   return print;
 }
 
-double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& slope)
-{
+double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& slope) {
   const double n = layout.n;
   if (!layout.light.facets) return transmitted(slope, n) / transmitted({0, 0}, n);
   const Incoming& in = layout.incoming()[facet];
   const glm::dvec2 g = facet_gradient(slope, n, in.sines), inside = slope_inside(in.sines, n);
   const glm::dvec2 lit = layout.free_heights ? glm::dvec2(1) : lit_part(layout, facet, inside, slope, g).size;
-  return in.power * (1 + glm::dot(inside, g)) * lit.x * lit.y * transmitted(slope, n, in.sines) / transmitted({0, 0}, n);
+  return in.power * (1 + glm::dot(inside, g)) * lit.x * lit.y * transmitted(slope, n, in.sines) /
+         transmitted({0, 0}, n);
 }
 
-void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign, std::vector<std::vector<double>>& light,
-               double height)
-{
+void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign,
+               std::vector<std::vector<double>>& light, double height) {
   const double power = sign * facet_power(layout, facet, slope);
   for (std::size_t j = 0; j < light.size(); ++j)
-    for_cells(layout, footprint(layout, facet, slope, j, height), [&](std::size_t cell, double part) { light[j][cell] += power * part; });
+    for_cells(layout, footprint(layout, facet, slope, j, height),
+              [&](std::size_t cell, double part) { light[j][cell] += power * part; });
 }
 
 void light_all(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights,
-               std::vector<std::vector<double>>& light)
-{
+               std::vector<std::vector<double>>& light) {
   for_blocks(light.size(), [&](std::size_t j) {
     std::fill(light[j].begin(), light[j].end(), 0.0);
     for (std::size_t i = 0; i < slopes.size(); ++i) {
@@ -294,8 +288,7 @@ void light_all(const Layout& layout, const std::vector<glm::dvec2>& slopes, cons
   });
 }
 
-double light_sent(const Layout& layout, const std::vector<glm::dvec2>& slopes)
-{
+double light_sent(const Layout& layout, const std::vector<glm::dvec2>& slopes) {
   double sum = 0;
   for (std::size_t i = 0; i < slopes.size(); ++i) sum += facet_power(layout, i, slopes[i]);
   return sum;

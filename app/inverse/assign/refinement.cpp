@@ -12,7 +12,8 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Steps. Sixty take as long as a sweep or two and gain two to fifteen hundredths of rel_l2, more where pictures are fine.
+/// Steps. Sixty take as long as a sweep or two and gain two to fifteen hundredths of rel_l2, more where pictures are
+/// fine.
 constexpr std::size_t most_steps = 60;
 /// Lengths tried along a line.
 constexpr int most_tries = 6;
@@ -20,8 +21,7 @@ constexpr int most_tries = 6;
 constexpr double first_step = 0.05;
 /// A line's step is good where the sum falls by this part of what the gradient promises.
 constexpr double promise = 0.1;
-double dot(const std::vector<glm::dvec2>& a, const std::vector<glm::dvec2>& b)
-{
+double dot(const std::vector<glm::dvec2>& a, const std::vector<glm::dvec2>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += glm::dot(a[i], b[i]);
   return sum;
@@ -31,18 +31,15 @@ double dot(const std::vector<glm::dvec2>& a, const std::vector<glm::dvec2>& b)
 
 Refinement::Refinement(const Layout& layout, const std::vector<Target>& targets, std::vector<double> weights,
                        const std::vector<double>& heights)
-    : layout_(layout), targets_(targets), weights_(std::move(weights)), heights_(heights), gradient_(layout.facet_count()),
-      before_(layout.facet_count()), direction_(layout.facet_count())
-{
-}
+    : layout_(layout), targets_(targets), weights_(std::move(weights)), heights_(heights),
+      gradient_(layout.facet_count()), before_(layout.facet_count()), direction_(layout.facet_count()) {}
 
 bool Refinement::finished() const { return stuck_ || done_ >= most_steps; }
 
 double Refinement::fraction_done() const { return static_cast<double>(done_) / static_cast<double>(most_steps); }
 
 /// The new direction, and how the sum changes along it.
-double Refinement::turn()
-{
+double Refinement::turn() {
   const double before = dot(before_, before_), now = dot(gradient_, gradient_);
   const double keep = before > 0 ? std::max(0.0, (now - dot(gradient_, before_)) / before) : 0;
   for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] = keep * direction_[i] - gradient_[i];
@@ -51,8 +48,7 @@ double Refinement::turn()
   return -now;
 }
 
-void Refinement::advance(DeviceFacets& facets)
-{
+void Refinement::advance(DeviceFacets& facets) {
   ++done_;
   gradient_ = facets.gradient();
   const std::vector<glm::dvec2> slopes = facets.slopes();
@@ -66,7 +62,8 @@ void Refinement::advance(DeviceFacets& facets)
   for (int i = 0; i < most_tries; ++i) {
     for_ranges(slopes.size(), 4096, [&](std::size_t, Range range) {
       for (std::size_t k = range.begin; k < range.end; ++k)
-        moved[k] = nearest_reachable(slopes[k] + step_ * direction_[k], layout_.n, layout_.sines_on(k), layout_.steepest);
+        moved[k] =
+            nearest_reachable(slopes[k] + step_ * direction_[k], layout_.n, layout_.sines_on(k), layout_.steepest);
     });
     facets.put(moved, heights_);
     // The parabola through both sums with the slope at the first: its lowest point is the next length.
@@ -83,8 +80,7 @@ void Refinement::advance(DeviceFacets& facets)
   stuck_ = true;
 }
 
-void Refinement::state(State& state)
-{
+void Refinement::state(State& state) {
   state.items(before_);
   state.items(direction_);
   state.value(step_);

@@ -8,12 +8,14 @@
 
 namespace nephroid::inverse {
 
-/// The slopes of all facets at once, downhill: conjugate gradients (Polak and Ribiere) on weighted_squares(). Sweeps leave each facet at
-/// the best place among the others; moving together, facets still gain. The number of threads changes no bit.
+/// The slopes of all facets at once, downhill: conjugate gradients (Polak and Ribiere) on weighted_squares(). Sweeps
+/// leave each facet at the best place among the others; moving together, facets still gain. The number of threads
+/// changes no bit.
 class Refinement {
 public:
   /// weights: of a receiver's squares; heights: of the facets' middles. All but the weights outlive it.
-  Refinement(const Layout& layout, const std::vector<Target>& targets, std::vector<double> weights, const std::vector<double>& heights);
+  Refinement(const Layout& layout, const std::vector<Target>& targets, std::vector<double> weights,
+             const std::vector<double>& heights);
 
   /// One step along a line; the sum gets smaller, or it is finished.
   void advance(DeviceFacets& facets);

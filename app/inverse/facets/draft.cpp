@@ -11,7 +11,8 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Where no wall is, the strip is still so wide a part of a facet: triangles of no area are refused by readers of meshes.
+/// Where no wall is, the strip is still so wide a part of a facet: triangles of no area are refused by readers of
+/// meshes.
 constexpr double least_given = 1e-3;
 /// Strips are widened so often until their walls lean enough.
 constexpr int most_widenings = 20;
@@ -22,8 +23,8 @@ enum Corner : std::size_t { left_top, right_top, right_bottom, left_bottom };
 class DraftBuilder {
 public:
   DraftBuilder(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights)
-      : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y), beside_(count(nx_ + 1, ny_)), below_(count(nx_, ny_ + 1))
-  {
+      : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y), beside_(count(nx_ + 1, ny_)),
+        below_(count(nx_, ny_ + 1)) {
     for (std::size_t i = 0; i < slopes.size(); ++i)
       solid_.facets.push_back({slopes[i], facet_gradient(slopes[i], layout.n, layout.sines_on(i)), heights[i]});
     for (int b = 0; b < ny_; ++b)
@@ -32,8 +33,7 @@ public:
       for (int a = 0; a < nx_; ++a) below(a, b) = least_given * layout.facet().y;
   }
 
-  Solid build()
-  {
+  Solid build() {
     for (int round = 0; round < most_widenings && widen(); ++round) {
     }
     place_corners();
@@ -46,15 +46,16 @@ public:
   }
 
 private:
-  static std::size_t count(int columns, int rows) { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+  static std::size_t count(int columns, int rows) {
+    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
 
   /// What each side of an edge gives up: of the edge at the left of facet (a, b), and of that above it. 0 on the rim.
   double& beside(int a, int b) { return beside_[index_at(a, b, nx_ + 1)]; }
   double& below(int a, int b) { return below_[index_at(a, b, nx_)]; }
 
   /// The vertices of all facets' corners, then of the points where four facets meet.
-  void place_corners()
-  {
+  void place_corners() {
     solid_.mesh.positions.clear();
     places_.clear();
     const glm::dvec2 half = layout_.facet() / 2.0;
@@ -63,7 +64,8 @@ private:
         const Facet& f = solid_.facets[index_at(a, b, nx_)];
         const double left = beside(a, b) - half.x, right = half.x - beside(a + 1, b), top = half.y - below(a, b),
                      bottom = below(a, b + 1) - half.y;
-        for (const glm::dvec2& p : {glm::dvec2(left, top), glm::dvec2(right, top), glm::dvec2(right, bottom), glm::dvec2(left, bottom)})
+        for (const glm::dvec2& p :
+             {glm::dvec2(left, top), glm::dvec2(right, top), glm::dvec2(right, bottom), glm::dvec2(left, bottom)})
           add(glm::dvec3(layout_.middle(index_at(a, b, nx_)) + p, f.height + glm::dot(f.gradient, p)));
       }
     for (int b = 1; b < ny_; ++b)
@@ -74,8 +76,7 @@ private:
       }
   }
 
-  glm::uint add(const glm::dvec3& place)
-  {
+  glm::uint add(const glm::dvec3& place) {
     places_.push_back(place);
     solid_.mesh.positions.emplace_back(place);
     return static_cast<glm::uint>(places_.size() - 1);
@@ -84,43 +85,43 @@ private:
   glm::uint corner(int a, int b, Corner k) const { return static_cast<glm::uint>(4 * index_at(a, b, nx_) + k); }
 
   /// The corners about the point at the left top of facet (a, b), clockwise seen from above.
-  std::array<glm::uint, 4> around(int a, int b) const
-  {
-    return {corner(a - 1, b - 1, right_bottom), corner(a, b - 1, left_bottom), corner(a, b, left_top), corner(a - 1, b, right_top)};
+  std::array<glm::uint, 4> around(int a, int b) const {
+    return {corner(a - 1, b - 1, right_bottom), corner(a, b - 1, left_bottom), corner(a, b, left_top),
+            corner(a - 1, b, right_top)};
   }
 
-  /// f(the ids of a triangle, what the edges give that it stands between) for all triangles of the walls, clockwise seen from above.
+  /// f(the ids of a triangle, what the edges give that it stands between) for all triangles of the walls, clockwise
+  /// seen from above.
   template <class F>
-  void for_walls(const F& f)
-  {
+  void for_walls(const F& f) {
     const auto strip = [&](glm::uint p, glm::uint q, glm::uint r, glm::uint s, double* given) {
       f(std::array{p, q, r}, std::array{given});
       f(std::array{p, r, s}, std::array{given});
     };
     for (int b = 0; b < ny_; ++b)
       for (int a = 1; a < nx_; ++a)
-        strip(corner(a - 1, b, right_bottom), corner(a - 1, b, right_top), corner(a, b, left_top), corner(a, b, left_bottom),
-              &beside(a, b));
+        strip(corner(a - 1, b, right_bottom), corner(a - 1, b, right_top), corner(a, b, left_top),
+              corner(a, b, left_bottom), &beside(a, b));
     for (int b = 1; b < ny_; ++b)
       for (int a = 0; a < nx_; ++a)
-        strip(corner(a, b - 1, left_bottom), corner(a, b - 1, right_bottom), corner(a, b, right_top), corner(a, b, left_top), &below(a, b));
+        strip(corner(a, b - 1, left_bottom), corner(a, b - 1, right_bottom), corner(a, b, right_top),
+              corner(a, b, left_top), &below(a, b));
     for (int b = 1; b < ny_; ++b)
       for (int a = 1; a < nx_; ++a) {
         const auto middle = static_cast<glm::uint>(4 * solid_.facets.size() + index_at(a - 1, b - 1, nx_ - 1));
         const std::array<glm::uint, 4> ring = around(a, b);
         for (std::size_t i = 0; i < 4; ++i)
-          f(std::array{middle, ring[i], ring[(i + 1) % 4]}, std::array{&beside(a, b - 1), &beside(a, b), &below(a - 1, b), &below(a, b)});
+          f(std::array{middle, ring[i], ring[(i + 1) % 4]},
+            std::array{&beside(a, b - 1), &beside(a, b), &below(a - 1, b), &below(a, b)});
       }
   }
 
-  glm::dvec3 normal(const std::array<glm::uint, 3>& t) const
-  {
+  glm::dvec3 normal(const std::array<glm::uint, 3>& t) const {
     return glm::normalize(glm::cross(places_[t[1]] - places_[t[0]], places_[t[2]] - places_[t[0]]));
   }
 
   /// Widens the strips of walls that are too steep. False: none is, or can be widened.
-  bool widen()
-  {
+  bool widen() {
     place_corners();
     const double most = 1 / layout_.draft; // the steepest gradient
     std::vector<std::pair<double*, double>> wider;
@@ -141,21 +142,18 @@ private:
     return changed;
   }
 
-  void triangle(const std::array<glm::uint, 3>& t, Part part)
-  {
+  void triangle(const std::array<glm::uint, 3>& t, Part part) {
     solid_.mesh.triangles.emplace_back(t[0], t[1], t[2]);
     solid_.parts.push_back(part);
   }
 
-  void facet(int a, int b)
-  {
+  void facet(int a, int b) {
     triangle({corner(a, b, left_top), corner(a, b, right_top), corner(a, b, right_bottom)}, Part::facet);
     triangle({corner(a, b, left_top), corner(a, b, right_bottom), corner(a, b, left_bottom)}, Part::facet);
   }
 
   /// Sides up from the rim, and the front, a fan about its middle.
-  void close()
-  {
+  void close() {
     std::vector<glm::uint> rim; // counter-clockwise seen from above
     const auto pass = [&](int a, int b, Corner from, Corner to) {
       for (const Corner k : {from, to})
@@ -178,8 +176,7 @@ private:
     }
   }
 
-  void measure()
-  {
+  void measure() {
     solid_.lowest = std::numeric_limits<double>::infinity();
     solid_.highest = -solid_.lowest;
     for (std::size_t i = 0; i < 4 * solid_.facets.size(); ++i) {
@@ -197,7 +194,8 @@ private:
       }
       solid_.highest_wall = std::max(solid_.highest_wall, high - low);
       solid_.wall_area += glm::length(glm::cross(places_[t[1]] - places_[t[0]], places_[t[2]] - places_[t[0]])) / 2;
-      solid_.steepest_wall_deg = std::max(solid_.steepest_wall_deg, glm::degrees(std::acos(std::min(1.0, std::abs(normal(t).z)))));
+      solid_.steepest_wall_deg =
+          std::max(solid_.steepest_wall_deg, glm::degrees(std::acos(std::min(1.0, std::abs(normal(t).z)))));
     });
   }
 
@@ -210,8 +208,8 @@ private:
 
 } // namespace
 
-Solid make_drafted_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights)
-{
+Solid make_drafted_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes,
+                         const std::vector<double>& heights) {
   return DraftBuilder(layout, slopes, heights).build();
 }
 

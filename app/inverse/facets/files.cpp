@@ -22,8 +22,7 @@ void write_text(std::string_view text, ByteSink& to) { to.write(std::as_bytes(st
 /// Pixels of the height map across a facet.
 int pixels_across(const Layout& layout) { return std::max(4, 1024 / std::max(layout.facets.x, layout.facets.y)); }
 
-std::string scale_of(const Layout& layout)
-{
+std::string scale_of(const Layout& layout) {
   const glm::dvec2 pixel = layout.facet() / static_cast<double>(pixels_across(layout));
   return fmt::format("a pixel is {:.6g} x {:.6g} mm; seen from the facets' side, +x is at the left{}", pixel.x, pixel.y,
                      layout.round ? "; 0 beside the object" : "");
@@ -32,64 +31,61 @@ std::string scale_of(const Layout& layout)
 /// What one step of the 16-bit map is.
 double step_mm(const Solid& solid) { return solid.relief() / std::numeric_limits<std::uint16_t>::max(); }
 
-std::string png_scale(const Layout& layout, const Solid& solid)
-{
-  return fmt::format("thickness in mm = {:.9g} + {:.9g} * value (0..65535); {}", layout.thickness - solid.highest, step_mm(solid),
-                     scale_of(layout));
+std::string png_scale(const Layout& layout, const Solid& solid) {
+  return fmt::format("thickness in mm = {:.9g} + {:.9g} * value (0..65535); {}", layout.thickness - solid.highest,
+                     step_mm(solid), scale_of(layout));
 }
 
-std::string wall_angle(const Solid& solid)
-{
+std::string wall_angle(const Solid& solid) {
   return solid.steepest_wall_deg < 90 ? fmt::format("{:.4g} degrees from the front", solid.steepest_wall_deg)
                                       : "90 degrees, as all of them";
 }
 
 /// What a ball end mill leaves.
-std::string reach_of(const Layout& layout, const Solid& solid, double radius)
-{
+std::string reach_of(const Layout& layout, const Solid& solid, double radius) {
   if (!solid.surface)
     return fmt::format("cannot touch {:.3g} % of the facets, whose light its fillets send elsewhere",
                        100 * unreached_part(layout, solid, radius));
   const Valley valley = tightest_valley(layout, *solid.surface);
   if (valley.radius == std::numeric_limits<double>::infinity()) return "reaches everything: there is no valley";
   return fmt::format("{}: the tightest valley has a radius of {:.4g} mm, at ({:.4g}, {:.4g}) mm from the middle",
-                     valley.radius >= radius ? "reaches everything" : "is too large", valley.radius, valley.at.x, valley.at.y);
+                     valley.radius >= radius ? "reaches everything" : "is too large", valley.radius, valley.at.x,
+                     valley.at.y);
 }
 
-std::string layers_of(const Solid& solid, double layer)
-{
-  return fmt::format(
-      "{:.0f} in the relief. A layer's top is flat and bends no light: polish or coat the steps away, or print with the front "
-      "upright",
-      std::ceil(solid.relief() / layer));
+std::string layers_of(const Solid& solid, double layer) {
+  return fmt::format("{:.0f} in the relief. A layer's top is flat and bends no light: polish or coat the steps away, "
+                     "or print with the front "
+                     "upright",
+                     std::ceil(solid.relief() / layer));
 }
 
 } // namespace
 
-void write_obj(const scene::Mesh& mesh, ByteSink& to)
-{
+void write_obj(const scene::Mesh& mesh, ByteSink& to) {
   write_text("# millimetres\n", to);
   for (const glm::vec3& p : mesh.positions) write_text(fmt::format("v {} {} {}\n", p.x, p.y, p.z), to);
   for (const glm::uvec3& t : mesh.triangles) write_text(fmt::format("f {} {} {}\n", t.x + 1, t.y + 1, t.z + 1), to);
 }
 
-/// 80 bytes of title, the number of triangles, then for each its normal, its corners and two empty bytes; little-endian.
-void write_stl(const scene::Mesh& mesh, ByteSink& to)
-{
+/// 80 bytes of title, the number of triangles, then for each its normal, its corners and two empty bytes;
+/// little-endian.
+void write_stl(const scene::Mesh& mesh, ByteSink& to) {
   std::string title = mesh_title;
   title.resize(80, ' ');
   write_text(title, to);
   to.value(static_cast<std::uint32_t>(mesh.triangles.size()));
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-    const glm::vec3 numbers[] = {glm::vec3(glm::normalize(glm::cross(b - a, c - a))), glm::vec3(a), glm::vec3(b), glm::vec3(c)};
+    const glm::vec3 numbers[] = {glm::vec3(glm::normalize(glm::cross(b - a, c - a))), glm::vec3(a), glm::vec3(b),
+                                 glm::vec3(c)};
     to.write(std::as_bytes(std::span(numbers)));
     to.value(std::uint16_t{0});
   }
 }
 
-std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material, const Manufacturing& making)
-{
+std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material,
+                          const Manufacturing& making) {
   std::string page = "# For the workshop\n\n| what | figure |\n|---|---|\n";
   const auto row = [&](const char* what, const std::string& figure) {
     fmt::format_to(std::back_inserter(page), "| {} | {} |\n", what, figure);
@@ -101,7 +97,8 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
   row("smallest thickness", mm(layout.thickness - solid.highest));
   row("depth of the relief", mm(solid.relief()));
   row("volume",
-      fmt::format("{:.6g} cm3", scene::signed_volume(solid.mesh, 0, static_cast<std::uint32_t>(solid.mesh.triangles.size())) / 1000));
+      fmt::format("{:.6g} cm3",
+                  scene::signed_volume(solid.mesh, 0, static_cast<std::uint32_t>(solid.mesh.triangles.size())) / 1000));
   row("material", material);
   row("facets", fmt::format("{} x {}", layout.facets.x, layout.facets.y));
   row("smallest facet", fmt::format("{:.4g} x {:.4g} mm, as all of them{}", layout.facet().x, layout.facet().y,
@@ -111,38 +108,39 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
   row("highest wall", mm(solid.highest_wall));
   row("area of the walls between facets", fmt::format("{:.4g} mm2", solid.wall_area));
   if (making.tool_radius)
-    row(fmt::format("a ball of {:.4g} mm radius", *making.tool_radius).c_str(), reach_of(layout, solid, *making.tool_radius));
-  if (making.layer) row(fmt::format("layers of {:.4g} mm along the front", *making.layer).c_str(), layers_of(solid, *making.layer));
-  page +=
-      fmt::format("\nThe front is flat and the light's way in. {} on the other side.\n\n",
-                  solid.wall_area > 0 ? (solid.steepest_wall_deg < 90 ? "The facets, with walls between them that lean, are"
-                                                                      : "The facets, with walls between them that stand straight up, are")
-                                      : "The relief is");
+    row(fmt::format("a ball of {:.4g} mm radius", *making.tool_radius).c_str(),
+        reach_of(layout, solid, *making.tool_radius));
+  if (making.layer)
+    row(fmt::format("layers of {:.4g} mm along the front", *making.layer).c_str(), layers_of(solid, *making.layer));
+  page += fmt::format("\nThe front is flat and the light's way in. {} on the other side.\n\n",
+                      solid.wall_area > 0 ? (solid.steepest_wall_deg < 90
+                                                 ? "The facets, with walls between them that lean, are"
+                                                 : "The facets, with walls between them that stand straight up, are")
+                                          : "The relief is");
   page += "- `object.stl`, `object.obj`, `object.ply`: the closed solid in millimetres, the front at the top (+z).\n"
           "- `facets.json`: a line a facet.\n";
-  fmt::format_to(std::back_inserter(page), "- `heights.exr`: thickness in mm; {}.\n- `heights.png`: {}.\n", scale_of(layout),
-                 png_scale(layout, solid));
+  fmt::format_to(std::back_inserter(page), "- `heights.exr`: thickness in mm; {}.\n- `heights.png`: {}.\n",
+                 scale_of(layout), png_scale(layout, solid));
   return page;
 }
 
-void write_facets(const Layout& layout, const Solid& solid, ByteSink& to)
-{
+void write_facets(const Layout& layout, const Solid& solid, ByteSink& to) {
   const glm::dvec2 facet = layout.facet();
-  write_text(fmt::format("{{\"columns\": {}, \"rows\": {}, \"facet_mm\": [{}, {}],\n"
-                         " \"order\": \"row by row from the top, from -x to +x\",\n"
-                         " \"normal\": \"(dz_dx, dz_dy, -1), not of unit length: out of the object\",\n"
-                         " \"numbers\": [\"slope_x\", \"slope_y\", \"dz_dx\", \"dz_dy\", \"middle_z_mm\"],\n \"facets\": [",
-                         layout.facets.x, layout.facets.y, facet.x, facet.y),
-             to);
+  write_text(
+      fmt::format("{{\"columns\": {}, \"rows\": {}, \"facet_mm\": [{}, {}],\n"
+                  " \"order\": \"row by row from the top, from -x to +x\",\n"
+                  " \"normal\": \"(dz_dx, dz_dy, -1), not of unit length: out of the object\",\n"
+                  " \"numbers\": [\"slope_x\", \"slope_y\", \"dz_dx\", \"dz_dy\", \"middle_z_mm\"],\n \"facets\": [",
+                  layout.facets.x, layout.facets.y, facet.x, facet.y),
+      to);
   for (const Facet& f : solid.facets)
-    write_text(fmt::format("{}[{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}]", &f == solid.facets.data() ? "\n" : ",\n", f.slope.x, f.slope.y,
-                           f.gradient.x, f.gradient.y, f.height),
+    write_text(fmt::format("{}[{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}]", &f == solid.facets.data() ? "\n" : ",\n",
+                           f.slope.x, f.slope.y, f.gradient.x, f.gradient.y, f.height),
                to);
   write_text("\n ]}\n", to);
 }
 
-image::Image height_map(const Layout& layout, const Solid& solid)
-{
+image::Image height_map(const Layout& layout, const Solid& solid) {
   const int across = pixels_across(layout);
   image::Image map{layout.facets.x * across, layout.facets.y * across, {"Y"}, {}, {}, false};
   map.data.reserve(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
@@ -165,16 +163,18 @@ image::Image height_map(const Layout& layout, const Solid& solid)
   return map;
 }
 
-void write_height_exr(const Layout& layout, const Solid& solid, ByteSink& to) { image::write_exr(to, height_map(layout, solid)); }
+void write_height_exr(const Layout& layout, const Solid& solid, ByteSink& to) {
+  image::write_exr(to, height_map(layout, solid));
+}
 
-void write_height_png(const Layout& layout, const Solid& solid, ByteSink& to)
-{
+void write_height_png(const Layout& layout, const Solid& solid, ByteSink& to) {
   const image::Image map = height_map(layout, solid);
   const double deepest = layout.thickness - solid.highest, step = step_mm(solid);
   std::vector<std::uint16_t> grey;
   grey.reserve(map.data.size());
   for (const float thickness : map.data)
-    grey.push_back(static_cast<std::uint16_t>(step > 0 ? std::clamp(std::round((thickness - deepest) / step), 0.0, 65535.0) : 0));
+    grey.push_back(
+        static_cast<std::uint16_t>(step > 0 ? std::clamp(std::round((thickness - deepest) / step), 0.0, 65535.0) : 0));
   image::write_png16(to, map.width, map.height, grey, png_scale(layout, solid));
 }
 

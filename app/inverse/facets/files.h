@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The solid as files: meshes in millimetres, and what a workshop needs beside them: the object's figures, its facets as a list, and a
-// height map of their side.
+// The solid as files: meshes in millimetres, and what a workshop needs beside them: the object's figures, its facets as
+// a list, and a height map of their side.
 #pragma once
 #include "base/bytes.h"
 #include "image/image.h"
@@ -21,15 +21,18 @@ struct Manufacturing {
 };
 
 /// The figures as a page of Markdown. material: in words, with its index.
-std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material, const Manufacturing& making = {});
+std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material,
+                          const Manufacturing& making = {});
 
 /// JSON: the grid's size, what a facet's numbers are, and a line of them a facet, row by row from the top.
 void write_facets(const Layout& layout, const Solid& solid, ByteSink& to);
 
-/// The object's thickness in millimetres over its flat front, as one sees it who looks at the facets: +x is at the left, +y at the top.
-/// Its pixels part each facet alike, some 1024 across the object and at least 4 across a facet; they may be oblong as facets are.
+/// The object's thickness in millimetres over its flat front, as one sees it who looks at the facets: +x is at the
+/// left, +y at the top. Its pixels part each facet alike, some 1024 across the object and at least 4 across a facet;
+/// they may be oblong as facets are.
 image::Image height_map(const Layout& layout, const Solid& solid);
 void write_height_exr(const Layout& layout, const Solid& solid, ByteSink& to); ///< 32 bits
-void write_height_png(const Layout& layout, const Solid& solid, ByteSink& to); ///< 16 bits, of the relief: 0 is its deepest point
+void write_height_png(const Layout& layout, const Solid& solid,
+                      ByteSink& to); ///< 16 bits, of the relief: 0 is its deepest point
 
 } // namespace nephroid::inverse

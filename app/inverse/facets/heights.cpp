@@ -19,12 +19,12 @@ using FacetGrid = Eigen::MatrixXd; // (column, row): columns of facets vary fast
 struct Steps {
   Eigen::Index across, down;
   glm::dvec2 facet;
-  FacetGrid rise_x, rise_y; ///< how much a facet's neighbour at +x, or below, must be higher for their edges to meet in the middle
-  FacetGrid reach;          ///< from a facet's middle to its highest corner
+  FacetGrid rise_x,
+      rise_y; ///< how much a facet's neighbour at +x, or below, must be higher for their edges to meet in the middle
+  FacetGrid reach; ///< from a facet's middle to its highest corner
 };
 
-Steps steps_of(const Layout& layout, std::span<const glm::dvec2> gradients)
-{
+Steps steps_of(const Layout& layout, std::span<const glm::dvec2> gradients) {
   Steps s{layout.facets.x, layout.facets.y, layout.facet(), {}, {}, {}};
   s.rise_x = s.rise_y = s.reach = FacetGrid::Zero(s.across, s.down);
   const auto g = [&](Eigen::Index x, Eigen::Index y) { return gradients[static_cast<std::size_t>(y * s.across + x)]; };
@@ -38,8 +38,7 @@ Steps steps_of(const Layout& layout, std::span<const glm::dvec2> gradients)
 }
 
 /// Without bounds. An edge weighs as much as it is long.
-FacetGrid free_heights(const Steps& s)
-{
+FacetGrid free_heights(const Steps& s) {
   FacetGrid right = FacetGrid::Zero(s.across, s.down);
   for (Eigen::Index y = 0; y < s.down; ++y)
     for (Eigen::Index x = 0; x < s.across; ++x) {
@@ -48,15 +47,15 @@ FacetGrid free_heights(const Steps& s)
       if (x + 1 < s.across) right(x + 1, y) += to_right;
       if (y + 1 < s.down) right(x, y + 1) += to_below;
     }
-  const Poisson poisson(static_cast<int>(s.across), static_cast<int>(s.down), 1.0 / glm::sqrt(glm::dvec2(s.facet.y, s.facet.x)));
+  const Poisson poisson(static_cast<int>(s.across), static_cast<int>(s.down),
+                        1.0 / glm::sqrt(glm::dvec2(s.facet.y, s.facet.x)));
   FacetGrid heights = poisson.solve(right.transpose()).transpose();
   heights.array() -= ((heights + s.reach).maxCoeff() + (heights - s.reach).minCoeff()) / 2;
   return heights;
 }
 
 /// Where a facet would stand among its neighbours as they are.
-double between_neighbours(const Steps& s, const FacetGrid& h, Eigen::Index x, Eigen::Index y)
-{
+double between_neighbours(const Steps& s, const FacetGrid& h, Eigen::Index x, Eigen::Index y) {
   double sum = 0, weight = 0;
   const auto add = [&](double height, double length) {
     sum += length * height;
@@ -69,8 +68,7 @@ double between_neighbours(const Steps& s, const FacetGrid& h, Eigen::Index x, Ei
   return weight > 0 ? sum / weight : 0;
 }
 
-void relax(const Steps& s, double band, FacetGrid& h)
-{
+void relax(const Steps& s, double band, FacetGrid& h) {
   constexpr int most_rounds = 1000;
   constexpr double still = 1e-4; // of a facet's side
   const double over = 2 / (1 + glm::pi<double>() / static_cast<double>(std::max({s.across, s.down, Eigen::Index{4}})));
@@ -88,8 +86,7 @@ void relax(const Steps& s, double band, FacetGrid& h)
 
 } // namespace
 
-std::vector<double> least_steps(const Layout& layout, std::span<const glm::dvec2> gradients)
-{
+std::vector<double> least_steps(const Layout& layout, std::span<const glm::dvec2> gradients) {
   const Steps steps = steps_of(layout, gradients);
   FacetGrid heights = free_heights(steps);
   if ((heights + steps.reach).maxCoeff() > layout.band) {
@@ -100,11 +97,11 @@ std::vector<double> least_steps(const Layout& layout, std::span<const glm::dvec2
   return {heights.data(), heights.data() + heights.size()};
 }
 
-std::vector<double> heights_of(const Layout& layout, std::span<const glm::dvec2> slopes)
-{
+std::vector<double> heights_of(const Layout& layout, std::span<const glm::dvec2> slopes) {
   if (!layout.free_heights) return std::vector<double>(slopes.size());
   std::vector<glm::dvec2> gradients;
-  for (std::size_t i = 0; i < slopes.size(); ++i) gradients.push_back(facet_gradient(slopes[i], layout.n, layout.sines_on(i)));
+  for (std::size_t i = 0; i < slopes.size(); ++i)
+    gradients.push_back(facet_gradient(slopes[i], layout.n, layout.sines_on(i)));
   return least_steps(layout, gradients);
 }
 

@@ -18,12 +18,9 @@ constexpr double moves = 0.2;
 class Cutter {
 public:
   Cutter(const Layout& layout, const Surface& surface, Solid& solid)
-      : surface_(surface), half_(layout.size / 2.0), front_(layout.thickness), mesh_(solid.mesh), parts_(solid.parts)
-  {
-  }
+      : surface_(surface), half_(layout.size / 2.0), front_(layout.thickness), mesh_(solid.mesh), parts_(solid.parts) {}
 
-  void cut()
-  {
+  void cut() {
     find_sides();
     std::vector<glm::uvec3> whole;
     whole.swap(mesh_.triangles);
@@ -36,14 +33,12 @@ public:
 private:
   glm::dvec2 at(std::uint32_t id) const { return glm::dvec2(mesh_.positions[id].x, mesh_.positions[id].y); }
 
-  std::uint32_t add(const glm::dvec2& p, double z)
-  {
+  std::uint32_t add(const glm::dvec2& p, double z) {
     mesh_.positions.emplace_back(glm::dvec3(p, z));
     return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
   }
 
-  void find_sides()
-  {
+  void find_sides() {
     std::vector<double> shortest(mesh_.positions.size(), std::numeric_limits<double>::infinity());
     for (const glm::uvec3& t : mesh_.triangles)
       for (int i = 0; i < 3; ++i) {
@@ -66,8 +61,7 @@ private:
   }
 
   /// Where an edge passes the ellipse.
-  std::uint32_t crossing(std::uint32_t within, std::uint32_t beside)
-  {
+  std::uint32_t crossing(std::uint32_t within, std::uint32_t beside) {
     const auto [known, is_new] = crossings_.try_emplace(std::uint64_t{within} << 32 | beside, 0);
     if (!is_new) return known->second;
     const glm::dvec2 from = at(within) / half_, way = at(beside) / half_ - from; // |from + t way| = 1
@@ -76,8 +70,7 @@ private:
     return known->second = add(p, surface_.at(p).z);
   }
 
-  void cut_triangle(const glm::uvec3& t)
-  {
+  void cut_triangle(const glm::uvec3& t) {
     const auto side = [&](int i) { return sides_[t[i % 3]]; };
     if (side(0) != Side::within && side(1) != Side::within && side(2) != Side::within) return;
     std::vector<std::uint32_t> ring;
@@ -89,8 +82,7 @@ private:
     for (std::size_t i = 2; i < ring.size(); ++i) mesh_.triangles.emplace_back(ring[0], ring[i - 1], ring[i]);
   }
 
-  void drop_unused()
-  {
+  void drop_unused() {
     constexpr auto unused = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> now(mesh_.positions.size(), unused);
     std::vector<glm::vec3> kept;
@@ -106,8 +98,7 @@ private:
   }
 
   /// Vertices of the edges that have one triangle, clockwise seen from above, as the relief's triangles pass them.
-  std::vector<std::uint32_t> rim() const
-  {
+  std::vector<std::uint32_t> rim() const {
     std::unordered_map<std::uint64_t, int> passed;
     const auto key = [](std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; };
     std::unordered_map<std::uint32_t, std::uint32_t> next;
@@ -125,14 +116,12 @@ private:
     return ring;
   }
 
-  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, Part part)
-  {
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, Part part) {
     mesh_.triangles.emplace_back(a, b, c);
     parts_.push_back(part);
   }
 
-  void close(const std::vector<std::uint32_t>& ring)
-  {
+  void close(const std::vector<std::uint32_t>& ring) {
     std::vector<std::uint32_t> above;
     for (const std::uint32_t id : ring) above.push_back(add(at(id), front_));
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -144,17 +133,18 @@ private:
   }
 
   /// Strips along y between the upper and the lower half, so that rays find their triangle soon.
-  void make_front(std::vector<std::uint32_t> ring)
-  {
+  void make_front(std::vector<std::uint32_t> ring) {
     const auto x_of = [&](std::uint32_t id) { return mesh_.positions[id].x; };
-    std::rotate(ring.begin(), std::ranges::min_element(ring, {}, x_of), ring.end()); // clockwise from the left: the upper half first
+    std::rotate(ring.begin(), std::ranges::min_element(ring, {}, x_of),
+                ring.end()); // clockwise from the left: the upper half first
     const auto right = std::ranges::max_element(ring, {}, x_of);
     const std::vector<std::uint32_t> upper(ring.begin(), right + 1);
     std::vector<std::uint32_t> lower(ring.rbegin(), std::make_reverse_iterator(right));
     lower.insert(lower.begin(), ring.front());
     std::size_t i = 0, k = 0;
     while (i + 1 < lower.size() || k + 1 < upper.size()) {
-      const bool along_lower = k + 1 == upper.size() || (i + 1 < lower.size() && x_of(lower[i + 1]) < x_of(upper[k + 1]));
+      const bool along_lower =
+          k + 1 == upper.size() || (i + 1 < lower.size() && x_of(lower[i + 1]) < x_of(upper[k + 1]));
       const std::uint32_t next = along_lower ? lower[i + 1] : upper[k + 1];
       if (lower[i] != upper[k] && next != lower[i] && next != upper[k]) triangle(lower[i], next, upper[k], Part::front);
       ++(along_lower ? i : k);

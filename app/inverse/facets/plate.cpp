@@ -7,12 +7,12 @@
 
 namespace nephroid::inverse {
 
-std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, std::vector<PlatePart>& bodies)
-{
+std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, std::vector<PlatePart>& bodies) {
   constexpr double slack = 1e-6; // of sums that are rounded
   std::vector<std::size_t> order(bodies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return bodies[a].size.y > bodies[b].size.y; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return bodies[a].size.y > bodies[b].size.y; });
   double left = gap, top = gap, shelf = 0; // from the plate's upper left corner
   for (const std::size_t i : order) {
     PlatePart& body = bodies[i];
@@ -29,8 +29,7 @@ std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, s
   return std::nullopt;
 }
 
-scene::Mesh plate_mesh(const std::vector<scene::Mesh>& meshes, const std::vector<PlatePart>& places)
-{
+scene::Mesh plate_mesh(const std::vector<scene::Mesh>& meshes, const std::vector<PlatePart>& places) {
   scene::Mesh plate;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const scene::Mesh& mesh = meshes[i];

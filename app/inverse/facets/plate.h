@@ -18,9 +18,9 @@ struct PlatePart {
   glm::dvec2 size{0}, middle{0};
 };
 
-/// Puts rectangles on shelves, the highest first, from the plate's upper edge down (next-fit decreasing height: Coffman, Garey, Johnson and
-/// Tarjan 1980). `gap` is left between them and at the plate's rim. Nothing is turned. Returns the first that found no place, if any:
-/// its index.
+/// Puts rectangles on shelves, the highest first, from the plate's upper edge down (next-fit decreasing height:
+/// Coffman, Garey, Johnson and Tarjan 1980). `gap` is left between them and at the plate's rim. Nothing is turned.
+/// Returns the first that found no place, if any: its index.
 std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, std::vector<PlatePart>& bodies);
 
 /// All as one mesh: each moved to its place, with its front (its highest z) at z = 0. A body stays as closed as it is.

@@ -21,22 +21,20 @@ namespace {
 constexpr int most_parts = 64;
 
 /// The larger of the two values by which a symmetric matrix stretches.
-double largest_stretch(const glm::dmat2& m)
-{
+double largest_stretch(const glm::dmat2& m) {
   const double half = (m[0][0] + m[1][1]) / 2, off = std::hypot((m[0][0] - m[1][1]) / 2, m[0][1]);
   return std::abs(half) + off;
 }
 
-/// Numbers of the vertices, and the mesh that they make. Edges of facets have vertices of their own, as many as the finer of both sides.
+/// Numbers of the vertices, and the mesh that they make. Edges of facets have vertices of their own, as many as the
+/// finer of both sides.
 class SmoothBuilder {
 public:
   SmoothBuilder(const Layout& layout, const Surface& surface, const std::vector<int>& parts)
-      : layout_(layout), grid_(mesh_layout(layout)), surface_(surface), parts_(parts), nx_(grid_.facets.x), ny_(grid_.facets.y)
-  {
-  }
+      : layout_(layout), grid_(mesh_layout(layout)), surface_(surface), parts_(parts), nx_(grid_.facets.x),
+        ny_(grid_.facets.y) {}
 
-  std::uint64_t triangles() const
-  {
+  std::uint64_t triangles() const {
     std::uint64_t count = 0;
     for (int row = 0; row < ny_; ++row)
       for (int column = 0; column < nx_; ++column) {
@@ -49,8 +47,7 @@ public:
     return count + 2 * static_cast<std::uint64_t>(nx_) + 2 * static_cast<std::uint64_t>(ny_) - 2;
   }
 
-  Solid build()
-  {
+  Solid build() {
     number_edges();
     make_facets();
     if (layout_.round)
@@ -65,25 +62,24 @@ public:
 private:
   int of(int column, int row) const { return parts_[index_at(column, row, nx_)]; }
   bool is_facet(int column, int row) const { return column >= 0 && row >= 0 && column < nx_ && row < ny_; }
-  int finer(int c1, int r1, int c2, int r2) const { return std::max(is_facet(c1, r1) ? of(c1, r1) : 1, is_facet(c2, r2) ? of(c2, r2) : 1); }
+  int finer(int c1, int r1, int c2, int r2) const {
+    return std::max(is_facet(c1, r1) ? of(c1, r1) : 1, is_facet(c2, r2) ? of(c2, r2) : 1);
+  }
   /// Parts of the edge to the right of a corner, and of that below it.
   int across(int a, int b) const { return finer(a, b - 1, a, b); }
   int down(int a, int b) const { return finer(a - 1, b, a, b); }
-  std::array<int, 4> sides(int column, int row) const
-  {
+  std::array<int, 4> sides(int column, int row) const {
     return {across(column, row), down(column + 1, row), across(column, row + 1), down(column, row)};
   }
 
   /// x and y in facets from the top left corner.
-  std::uint32_t add(double x, double y)
-  {
+  std::uint32_t add(double x, double y) {
     const glm::dvec2 p(x * grid_.facet().x - layout_.size.x / 2, layout_.size.y / 2 - y * grid_.facet().y);
     solid_.mesh.positions.emplace_back(glm::dvec3(p, surface_.at(p).z));
     return static_cast<std::uint32_t>(solid_.mesh.positions.size() - 1);
   }
 
-  void number_edges()
-  {
+  void number_edges() {
     for (int b = 0; b <= ny_; ++b)
       for (int a = 0; a <= nx_; ++a) corners_.push_back(add(a, b));
     const auto along = [&](int a, int b, const glm::dvec2& step, int count) {
@@ -98,34 +94,32 @@ private:
   }
 
   /// Point i of the edge to the right of a corner, or below it.
-  std::uint32_t on_across(int a, int b, int i) const
-  {
+  std::uint32_t on_across(int a, int b, int i) const {
     if (i == 0 || i == across(a, b)) return corners_[index_at(a + (i > 0), b, nx_ + 1)];
     return across_[index_at(a, b, nx_)] + static_cast<std::uint32_t>(i - 1);
   }
-  std::uint32_t on_down(int a, int b, int i) const
-  {
+  std::uint32_t on_down(int a, int b, int i) const {
     if (i == 0 || i == down(a, b)) return corners_[index_at(a, b + (i > 0), nx_ + 1)];
     return down_[index_at(a, b, nx_ + 1)] + static_cast<std::uint32_t>(i - 1);
   }
 
-  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, Part part)
-  {
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, Part part) {
     solid_.mesh.triangles.emplace_back(a, b, c);
     solid_.parts.push_back(part);
   }
 
-  void make_facets()
-  {
+  void make_facets() {
     std::vector<std::uint32_t> inside, ring;
     for (int row = 0; row < ny_; ++row)
       for (int column = 0; column < nx_; ++column) {
         const int k = of(column, row);
         inside.clear();
         for (int v = 1; v < k; ++v)
-          for (int u = 1; u < k; ++u) inside.push_back(add(column + static_cast<double>(u) / k, row + static_cast<double>(v) / k));
+          for (int u = 1; u < k; ++u)
+            inside.push_back(add(column + static_cast<double>(u) / k, row + static_cast<double>(v) / k));
         const auto [top, right, bottom, left] = sides(column, row);
-        const auto at = [&, top = top, right = right, bottom = bottom, left = left](int u, int v) { // clang 14 captures no bindings
+        const auto at = [&, top = top, right = right, bottom = bottom,
+                         left = left](int u, int v) { // clang 14 captures no bindings
           if (v == 0) return on_across(column, row, u * (top / k));
           if (v == k) return on_across(column, row + 1, u * (bottom / k));
           if (u == 0) return on_down(column, row, v * (left / k));
@@ -137,24 +131,26 @@ private:
             ring.assign(1, at(u, v));
             for (int i = 1; v == 0 && i < top / k; ++i) ring.push_back(on_across(column, row, u * (top / k) + i));
             ring.push_back(at(u + 1, v));
-            for (int i = 1; u + 1 == k && i < right / k; ++i) ring.push_back(on_down(column + 1, row, v * (right / k) + i));
+            for (int i = 1; u + 1 == k && i < right / k; ++i)
+              ring.push_back(on_down(column + 1, row, v * (right / k) + i));
             ring.push_back(at(u + 1, v + 1));
-            for (int i = bottom / k - 1; v + 1 == k && i > 0; --i) ring.push_back(on_across(column, row + 1, u * (bottom / k) + i));
+            for (int i = bottom / k - 1; v + 1 == k && i > 0; --i)
+              ring.push_back(on_across(column, row + 1, u * (bottom / k) + i));
             ring.push_back(at(u, v + 1));
             for (int i = left / k - 1; u == 0 && i > 0; --i) ring.push_back(on_down(column, row, v * (left / k) + i));
             const std::uint32_t middle = add(column + (u + 0.5) / k, row + (v + 0.5) / k);
-            for (std::size_t i = 0; i < ring.size(); ++i) triangle(middle, ring[i], ring[(i + 1) % ring.size()], Part::facet);
+            for (std::size_t i = 0; i < ring.size(); ++i)
+              triangle(middle, ring[i], ring[(i + 1) % ring.size()], Part::facet);
           }
       }
   }
 
-  /// Of a rectangle: the sides, down from the front's rim, and the front: strips along y, one a column, so that rays find their triangle
-  /// soon.
-  void make_rim()
-  {
+  /// Of a rectangle: the sides, down from the front's rim, and the front: strips along y, one a column, so that rays
+  /// find their triangle soon.
+  void make_rim() {
     const auto front = [&](int a, int b) {
-      solid_.mesh.positions.emplace_back(a * grid_.facet().x - layout_.size.x / 2, layout_.size.y / 2 - b * grid_.facet().y,
-                                         layout_.thickness);
+      solid_.mesh.positions.emplace_back(a * grid_.facet().x - layout_.size.x / 2,
+                                         layout_.size.y / 2 - b * grid_.facet().y, layout_.thickness);
       return static_cast<std::uint32_t>(solid_.mesh.positions.size() - 1);
     };
     std::vector<std::uint32_t> upper, lower, left, right; // of the front
@@ -162,9 +158,11 @@ private:
     for (int a = 0; a <= nx_; ++a) lower.push_back(front(a, ny_));
     for (int b = 0; b <= ny_; ++b) left.push_back(b == 0 ? upper.front() : b == ny_ ? lower.front() : front(0, b));
     for (int b = 0; b <= ny_; ++b) right.push_back(b == 0 ? upper.back() : b == ny_ ? lower.back() : front(nx_, b));
-    const auto side = [&](std::uint32_t from, std::uint32_t to, int count, const auto& point, bool turned) { // from, to: at the front
+    const auto side = [&](std::uint32_t from, std::uint32_t to, int count, const auto& point,
+                          bool turned) { // from, to: at the front
       for (int i = 0; i < count; ++i)
-        turned ? triangle(from, point(i), point(i + 1), Part::side) : triangle(from, point(i + 1), point(i), Part::side);
+        turned ? triangle(from, point(i), point(i + 1), Part::side)
+               : triangle(from, point(i + 1), point(i), Part::side);
       turned ? triangle(from, point(count), to, Part::side) : triangle(from, to, point(count), Part::side);
     };
     for (int a = 0; a < nx_; ++a) {
@@ -194,8 +192,7 @@ private:
     }
   }
 
-  void measure()
-  {
+  void measure() {
     solid_.lowest = std::numeric_limits<double>::infinity();
     solid_.highest = -solid_.lowest;
     const scene::Mesh& mesh = solid_.mesh;
@@ -204,7 +201,8 @@ private:
                        c = mesh.positions[mesh.triangles[t].z], across = glm::cross(b - a, c - a);
       solid_.lowest = std::min({solid_.lowest, a.z, b.z, c.z});
       solid_.highest = std::max({solid_.highest, a.z, b.z, c.z});
-      solid_.steepest_deg = std::max(solid_.steepest_deg, glm::degrees(std::atan2(glm::length(glm::dvec2(across)), std::abs(across.z))));
+      solid_.steepest_deg =
+          std::max(solid_.steepest_deg, glm::degrees(std::atan2(glm::length(glm::dvec2(across)), std::abs(across.z))));
     }
     for (std::size_t i = 0; i < layout_.facet_count(); ++i) {
       const Surface::At at = surface_.at(layout_.middle(i));
@@ -223,20 +221,18 @@ private:
 
 } // namespace
 
-Layout mesh_layout(Layout layout)
-{
+Layout mesh_layout(Layout layout) {
   constexpr int most = 4096; // across and down
   const glm::dvec2 facet = layout.facet();
   for (const int axis : {0, 1}) {
     const int times = most / layout.facets[axis];
-    layout.facets[axis] *=
-        static_cast<int>(std::clamp(std::round(facet[axis] / facet[1 - axis]), 1.0, std::max(1.0, static_cast<double>(times))));
+    layout.facets[axis] *= static_cast<int>(
+        std::clamp(std::round(facet[axis] / facet[1 - axis]), 1.0, std::max(1.0, static_cast<double>(times))));
   }
   return layout;
 }
 
-std::vector<int> mesh_parts(const Layout& of, const Surface& surface, double mesh_error)
-{
+std::vector<int> mesh_parts(const Layout& of, const Surface& surface, double mesh_error) {
   const Layout layout = mesh_layout(of);
   std::vector<double> misses(layout.facet_count()); // of facets in one part, in cells
   const double side = std::max(layout.facet().x, layout.facet().y) / std::min(layout.cell().x, layout.cell().y);
@@ -245,7 +241,8 @@ std::vector<int> mesh_parts(const Layout& of, const Surface& surface, double mes
       if (part_within(layout, layout.middle(i), layout.facet()) == 0) continue;
       for (const glm::dvec2& corner : {glm::dvec2(0, 0), {-0.5, -0.5}, {0.5, -0.5}, {-0.5, 0.5}, {0.5, 0.5}}) {
         const Surface::At at = surface.at(layout.middle(i) + corner * layout.facet());
-        const double moves = std::abs(layout.n - 1) * (1 + glm::dot(at.gradient, at.gradient)) * (layout.distances.front() + at.z);
+        const double moves =
+            std::abs(layout.n - 1) * (1 + glm::dot(at.gradient, at.gradient)) * (layout.distances.front() + at.z);
         misses[i] = std::max(misses[i], moves * largest_stretch(at.curvature) * side / 2);
       }
     }
@@ -267,22 +264,19 @@ std::vector<int> mesh_parts(const Layout& of, const Surface& surface, double mes
   return parts;
 }
 
-std::uint64_t count_triangles(const Layout& layout, const std::vector<int>& parts)
-{
+std::uint64_t count_triangles(const Layout& layout, const std::vector<int>& parts) {
   return SmoothBuilder(layout, Surface(layout.size, Grid::Zero(2, 2)), parts).triangles();
 }
 
-void refuse_mesh(const Place& own, double mesh_error, std::uint64_t triangles)
-{
+void refuse_mesh(const Place& own, double mesh_error, std::uint64_t triangles) {
   throw bad_input(own / "mesh_error",
-                  fmt::format("is {}, for which the lens takes some {} million triangles, an STL of {:.3g} GB", mesh_error,
-                              triangles / 1'000'000, static_cast<double>(stl_bytes(triangles)) / 1e9),
+                  fmt::format("is {}, for which the lens takes some {} million triangles, an STL of {:.3g} GB",
+                              mesh_error, triangles / 1'000'000, static_cast<double>(stl_bytes(triangles)) / 1e9),
                   fmt::format("expected one of at most {:.3g} GB", static_cast<double>(most_stl_bytes) / 1e9),
                   "choose a larger mesh_error or fewer cells");
 }
 
-Solid make_smooth_solid(const Layout& layout, const Surface& surface, const std::vector<int>& parts)
-{
+Solid make_smooth_solid(const Layout& layout, const Surface& surface, const std::vector<int>& parts) {
   return SmoothBuilder(layout, surface, parts).build();
 }
 

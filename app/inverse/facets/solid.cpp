@@ -16,8 +16,8 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Heights closer than corners_join are made equal, and also those closer than this part of the height: a post cuts a stretch into four,
-/// and each must be some steps of single precision long.
+/// Heights closer than corners_join are made equal, and also those closer than this part of the height: a post cuts a
+/// stretch into four, and each must be some steps of single precision long.
 constexpr double tells_apart = 0x1p-19;
 
 /// A vertex of the mesh, with its height in double precision.
@@ -28,13 +28,15 @@ struct Vertex {
 
 /// A vertical line where four facets meet, and the vertices on it.
 ///
-/// Each of the four facets ends at a height of its own, and a wall stands between each two neighbours. Along the line the walls' ends
-/// overlap; for every stretch of it to be an edge of two walls, a wall's end has vertices wherever another one begins or ends. One case
-/// remains. Where two facets across from each other are both higher than the two others, all four walls share the stretch between. There
-/// they are joined in pairs by edges of their own, told apart by one vertex more: at the lower end around the higher facets, at the upper
-/// end around the lower ones. So the surface does not touch itself in a vertex either.
+/// Each of the four facets ends at a height of its own, and a wall stands between each two neighbours. Along the line
+/// the walls' ends overlap; for every stretch of it to be an edge of two walls, a wall's end has vertices wherever
+/// another one begins or ends. One case remains. Where two facets across from each other are both higher than the two
+/// others, all four walls share the stretch between. There they are joined in pairs by edges of their own, told apart
+/// by one vertex more: at the lower end around the higher facets, at the upper end around the lower ones. So the
+/// surface does not touch itself in a vertex either.
 ///
-/// Facets around are counted counter-clockwise seen from above (+z): 0 is at +x +y. Wall k stands between facets k and k + 1.
+/// Facets around are counted counter-clockwise seen from above (+z): 0 is at +x +y. Wall k stands between facets k and
+/// k + 1.
 struct Post {
   std::array<Vertex, 4> ends; ///< of each facet around; equal heights are one vertex
   /// Where all four walls share a stretch: vertices that pair them, ascending, and a low facet; the other is low + 2.
@@ -42,22 +44,19 @@ struct Post {
   std::optional<std::size_t> low;
 };
 
-void join_close_heights(std::array<double, 4>& heights, double joins)
-{
+void join_close_heights(std::array<double, 4>& heights, double joins) {
   std::array<std::size_t, 4> order{0, 1, 2, 3};
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return heights[a] < heights[b]; });
   for (std::size_t i = 1; i < 4; ++i)
     if (heights[order[i]] - heights[order[i - 1]] < joins) heights[order[i]] = heights[order[i - 1]];
 }
 
-Vertex add_vertex(const glm::dvec2& at, double z, scene::Mesh& mesh)
-{
+Vertex add_vertex(const glm::dvec2& at, double z, scene::Mesh& mesh) {
   mesh.positions.emplace_back(glm::vec3(glm::dvec3(at, z)));
   return {z, static_cast<std::uint32_t>(mesh.positions.size() - 1)};
 }
 
-void pair_walls(Post& post, const glm::dvec2& at, scene::Mesh& mesh)
-{
+void pair_walls(Post& post, const glm::dvec2& at, scene::Mesh& mesh) {
   for (const std::size_t low : {std::size_t{0}, std::size_t{1}}) {
     const double bottom = std::max(post.ends[low].z, post.ends[low + 2].z),
                  top = std::min(post.ends[low + 1].z, post.ends[(low + 3) % 4].z);
@@ -70,9 +69,9 @@ void pair_walls(Post& post, const glm::dvec2& at, scene::Mesh& mesh)
   }
 }
 
-/// Heights that are closer than `joins` become one, so that no triangle is thinner than single precision can tell. at: x and y.
-Post make_post(const glm::dvec2& at, std::array<double, 4> heights, double joins, scene::Mesh& mesh)
-{
+/// Heights that are closer than `joins` become one, so that no triangle is thinner than single precision can tell. at:
+/// x and y.
+Post make_post(const glm::dvec2& at, std::array<double, 4> heights, double joins, scene::Mesh& mesh) {
   join_close_heights(heights, joins);
   Post post;
   for (std::size_t f = 0; f < 4; ++f) {
@@ -85,8 +84,7 @@ Post make_post(const glm::dvec2& at, std::array<double, 4> heights, double joins
 }
 
 /// A wall's end from the bottom to the top, both ends included; one vertex where there is no wall.
-std::vector<Vertex> end_of_wall(const Post& post, std::size_t wall)
-{
+std::vector<Vertex> end_of_wall(const Post& post, std::size_t wall) {
   Vertex low = post.ends[wall], high = post.ends[(wall + 1) % 4];
   if (low.id == high.id) return {low};
   if (low.z > high.z) std::swap(low, high);
@@ -101,21 +99,20 @@ std::vector<Vertex> end_of_wall(const Post& post, std::size_t wall)
     if (is_of(*post.low + 2)) all.push_back(post.pairs[2]);
   }
   std::sort(all.begin(), all.end(), [](const Vertex& p, const Vertex& q) { return p.z < q.z; });
-  all.erase(std::unique(all.begin(), all.end(), [](const Vertex& p, const Vertex& q) { return p.id == q.id; }), all.end());
+  all.erase(std::unique(all.begin(), all.end(), [](const Vertex& p, const Vertex& q) { return p.id == q.id; }),
+            all.end());
   return all;
 }
 
 class Builder {
 public:
   Builder(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights)
-      : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y)
-  {
+      : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y) {
     for (std::size_t i = 0; i < slopes.size(); ++i)
       solid_.facets.push_back({slopes[i], facet_gradient(slopes[i], layout.n, layout.sines_on(i)), heights[i]});
   }
 
-  Solid build()
-  {
+  Solid build() {
     make_posts();
     make_walls();
     for (int row = 0; row < ny_; ++row)
@@ -131,29 +128,30 @@ private:
 
   bool is_facet(int column, int row) const { return column >= 0 && row >= 0 && column < nx_ && row < ny_; }
 
-  /// Of the corner of a facet that lies at +-half from its middle; beside the object the front's height, which makes sides of walls.
-  double height(int column, int row, const glm::dvec2& half) const
-  {
+  /// Of the corner of a facet that lies at +-half from its middle; beside the object the front's height, which makes
+  /// sides of walls.
+  double height(int column, int row, const glm::dvec2& half) const {
     if (!is_facet(column, row)) return layout_.thickness;
     const Facet& facet = solid_.facets[index_at(column, row, nx_)];
     return facet.height + glm::dot(facet.gradient, half);
   }
 
-  glm::dvec2 place(int a, int b) const
-  {
+  glm::dvec2 place(int a, int b) const {
     const glm::dvec2 facet = layout_.facet();
     return {a * facet.x - layout_.size.x / 2, layout_.size.y / 2 - b * facet.y};
   }
 
   const Post& post(int a, int b) const { return posts_[index_at(a, b, nx_ + 1)]; }
 
-  void make_posts()
-  {
+  void make_posts() {
     const glm::dvec2 half = layout_.facet() / 2.0;
     double farthest = 0;
-    for (const Facet& f : solid_.facets) farthest = std::max(farthest, std::abs(f.height) + glm::dot(glm::abs(f.gradient), half));
-    const double closest = std::max(corners_join * std::min(layout_.facet().x, layout_.facet().y), tells_apart * farthest);
-    const std::array<glm::dvec2, 4> corner{glm::dvec2{-half.x, -half.y}, {half.x, -half.y}, {half.x, half.y}, {-half.x, half.y}};
+    for (const Facet& f : solid_.facets)
+      farthest = std::max(farthest, std::abs(f.height) + glm::dot(glm::abs(f.gradient), half));
+    const double closest =
+        std::max(corners_join * std::min(layout_.facet().x, layout_.facet().y), tells_apart * farthest);
+    const std::array<glm::dvec2, 4> corner{
+        glm::dvec2{-half.x, -half.y}, {half.x, -half.y}, {half.x, half.y}, {-half.x, half.y}};
     posts_.reserve(index_at(0, ny_ + 1, nx_ + 1));
     solid_.lowest = std::numeric_limits<double>::infinity();
     solid_.highest = -solid_.lowest;
@@ -171,20 +169,17 @@ private:
     for (const Facet& f : solid_.facets) lean(f.gradient);
   }
 
-  void lean(const glm::dvec2& gradient)
-  {
+  void lean(const glm::dvec2& gradient) {
     solid_.steepest_deg = std::max(solid_.steepest_deg, glm::degrees(std::atan(glm::length(gradient))));
   }
 
-  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, Part part)
-  {
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, Part part) {
     solid_.mesh.triangles.emplace_back(a, b, c);
     solid_.parts.push_back(part);
   }
 
   /// Between two vertical lines; seen from the side where `a` is at the left, it faces the viewer unless it is turned.
-  void strip(const std::vector<Vertex>& a, const std::vector<Vertex>& b, bool turned, Part part)
-  {
+  void strip(const std::vector<Vertex>& a, const std::vector<Vertex>& b, bool turned, Part part) {
     std::size_t i = 0, k = 0;
     while (i + 1 < a.size() || k + 1 < b.size()) {
       const bool on_a = k + 1 == b.size() || (i + 1 < a.size() && a[i + 1].z <= b[k + 1].z);
@@ -195,12 +190,11 @@ private:
     }
   }
 
-  /// The wall over the line from post a to post b, at whose right hand (seen from above) facet p ends at ap and bp, and facet q at the
-  /// left at aq and bq. Its air is on the side of the higher facet. Where the facets' edges cross, it has two parts. Returns the vertex
-  /// of the crossing.
-  std::optional<Vertex> wall(const Post& a, const Post& b, std::size_t wall_a, std::size_t wall_b, std::array<Vertex, 4> ends,
-                             const glm::dvec2& at_a, const glm::dvec2& at_b, Part part)
-  {
+  /// The wall over the line from post a to post b, at whose right hand (seen from above) facet p ends at ap and bp, and
+  /// facet q at the left at aq and bq. Its air is on the side of the higher facet. Where the facets' edges cross, it
+  /// has two parts. Returns the vertex of the crossing.
+  std::optional<Vertex> wall(const Post& a, const Post& b, std::size_t wall_a, std::size_t wall_b,
+                             std::array<Vertex, 4> ends, const glm::dvec2& at_a, const glm::dvec2& at_b, Part part) {
     const auto [ap, aq, bp, bq] = ends;
     const double height_a = ap.z - aq.z, height_b = bp.z - bq.z;
     if (part == Part::wall) measure(height_a, height_b, glm::length(at_b - at_a));
@@ -218,37 +212,33 @@ private:
   }
 
   /// A wall that is over_a high at one end and over_b at the other; of different signs where the facets' edges cross.
-  void measure(double height_a, double height_b, double length)
-  {
+  void measure(double height_a, double height_b, double length) {
     const double a = std::abs(height_a), b = std::abs(height_b);
     solid_.highest_wall = std::max({solid_.highest_wall, a, b});
     if (a + b > 0) solid_.wall_area += length / 2 * (height_a * height_b >= 0 ? a + b : (a * a + b * b) / (a + b));
   }
 
-  Part part_between(int column, int row, int other_column, int other_row) const
-  {
+  Part part_between(int column, int row, int other_column, int other_row) const {
     return is_facet(column, row) && is_facet(other_column, other_row) ? Part::wall : Part::side;
   }
 
-  void make_walls()
-  {
+  void make_walls() {
     for (int b = 0; b < ny_; ++b) // down from each post: wall 2 of the upper one, wall 0 of the lower one
       for (int a = 0; a <= nx_; ++a) {
         const Post &up = post(a, b), &down = post(a, b + 1);
-        down_.push_back(wall(up, down, 2, 0, {up.ends[2], up.ends[3], down.ends[1], down.ends[0]}, place(a, b), place(a, b + 1),
-                             part_between(a - 1, b, a, b)));
+        down_.push_back(wall(up, down, 2, 0, {up.ends[2], up.ends[3], down.ends[1], down.ends[0]}, place(a, b),
+                             place(a, b + 1), part_between(a - 1, b, a, b)));
       }
     for (int b = 0; b <= ny_; ++b) // across: wall 3 of the left one, wall 1 of the right one
       for (int a = 0; a < nx_; ++a) {
         const Post &left = post(a, b), &right = post(a + 1, b);
-        across_.push_back(wall(left, right, 3, 1, {left.ends[3], left.ends[0], right.ends[2], right.ends[1]}, place(a, b), place(a + 1, b),
-                               part_between(a, b, a, b - 1)));
+        across_.push_back(wall(left, right, 3, 1, {left.ends[3], left.ends[0], right.ends[2], right.ends[1]},
+                               place(a, b), place(a + 1, b), part_between(a, b, a, b - 1)));
       }
   }
 
   /// A fan about the facet's middle, clockwise seen from above: it faces down.
-  void make_facet(int column, int row)
-  {
+  void make_facet(int column, int row) {
     std::vector<std::uint32_t> ring;
     const auto corner = [&](int a, int b, std::size_t f) { ring.push_back(post(a, b).ends[f].id); };
     const auto crossing = [&](const std::optional<Vertex>& vertex) {
@@ -266,23 +256,21 @@ private:
     fan(glm::dvec3(layout_.middle(facet), solid_.facets[facet].height), ring, Part::facet);
   }
 
-  void fan(const glm::dvec3& middle, const std::vector<std::uint32_t>& ring, Part part)
-  {
+  void fan(const glm::dvec3& middle, const std::vector<std::uint32_t>& ring, Part part) {
     const auto id = static_cast<std::uint32_t>(solid_.mesh.positions.size());
     solid_.mesh.positions.emplace_back(glm::vec3(middle));
     for (std::size_t i = 0; i < ring.size(); ++i) triangle(id, ring[i], ring[(i + 1) % ring.size()], part);
   }
 
   /// Of a post on the rim, whose facets beside the object end at the front's height.
-  std::uint32_t at_front(int a, int b) const
-  {
+  std::uint32_t at_front(int a, int b) const {
     for (std::size_t f = 0;; ++f)
       if (!is_facet(a + around[f].x, b + around[f].y)) return post(a, b).ends[f].id;
   }
 
-  /// Strips along y, one a column, so that rays find their triangle soon; the first and the last have the vertices of their sides.
-  void make_front()
-  {
+  /// Strips along y, one a column, so that rays find their triangle soon; the first and the last have the vertices of
+  /// their sides.
+  void make_front() {
     const auto side = [&](int a) {
       std::vector<Vertex> ascending; // along y, which stands for the height here
       const int step = a == 0 || a == nx_ ? 1 : ny_;
@@ -301,14 +289,12 @@ private:
 
 } // namespace
 
-Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights)
-{
+Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights) {
   if (layout.draft > 0) return make_drafted_solid(layout, slopes, heights);
   return Builder(layout, slopes, heights).build();
 }
 
-Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes)
-{
+Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes) {
   return make_solid(layout, slopes, heights_of(layout, slopes));
 }
 

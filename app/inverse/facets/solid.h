@@ -32,8 +32,8 @@ struct Solid {
   double relief() const { return highest - lowest; }
 };
 
-/// Every edge has two triangles, which pass it in opposite directions, and every triangle has an area: see Post in solid.cpp.
-/// heights: z of the facets' middles; as the layout says where they are left out.
+/// Every edge has two triangles, which pass it in opposite directions, and every triangle has an area: see Post in
+/// solid.cpp. heights: z of the facets' middles; as the layout says where they are left out.
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights);
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 

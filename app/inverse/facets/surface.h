@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights on a grid as a smooth surface: a bicubic spline through them. Its second derivatives are continuous, and so is the light that it
-// sends, whose density follows from them.
+// Heights on a grid as a smooth surface: a bicubic spline through them. Its second derivatives are continuous, and so
+// is the light that it sends, whose density follows from them.
 #pragma once
 #include "inverse/poisson.h"
 
 namespace nephroid::inverse {
 
-/// A cubic spline through a value a node, along columns and along rows, with quadratic pieces at the rim. Lengths are in nodes.
+/// A cubic spline through a value a node, along columns and along rows, with quadratic pieces at the rim. Lengths are
+/// in nodes.
 class Spline {
 public:
   /// At least two nodes either way.
@@ -29,19 +30,17 @@ class Surface {
 public:
   /// size: of the object. corners: z, row by row from the top, one more across and down than facets.
   Surface(const glm::dvec2& size, const Grid& corners)
-      : spline_(corners), size_(size), facet_(size / glm::dvec2(corners.cols() - 1, corners.rows() - 1))
-  {
-  }
+      : spline_(corners), size_(size), facet_(size / glm::dvec2(corners.cols() - 1, corners.rows() - 1)) {}
 
   struct At {
     double z = 0;
     glm::dvec2 gradient{0};
     glm::dmat2 curvature{0}; ///< second derivatives
   };
-  At at(const glm::dvec2& p) const
-  {
+  At at(const glm::dvec2& p) const {
     const Spline::At found = spline_.at({(p.x + size_.x / 2) / facet_.x, (size_.y / 2 - p.y) / facet_.y});
-    const glm::dvec3 c = found.curvature / glm::dvec3(facet_.x * facet_.x, -facet_.x * facet_.y, facet_.y * facet_.y); // rows go down
+    const glm::dvec3 c =
+        found.curvature / glm::dvec3(facet_.x * facet_.x, -facet_.x * facet_.y, facet_.y * facet_.y); // rows go down
     return {found.value, found.gradient / glm::dvec2(facet_.x, -facet_.y), {c.x, c.y, c.y, c.z}};
   }
 

@@ -20,16 +20,14 @@ struct Top {
   double at(const glm::dvec2& p) const { return height + glm::dot(gradient, p - middle); }
 };
 
-Top top_of(const Layout& layout, const Solid& solid, int column, int row)
-{
+Top top_of(const Layout& layout, const Solid& solid, int column, int row) {
   const std::size_t i = index_at(column, row, layout.facets.x);
   return {layout.middle(i), layout.facet() / 2.0, -solid.facets[i].gradient, -solid.facets[i].height};
 }
 
-/// How deep the middle of a ball over p may go before the ball meets the facet's edge: greatest over the edge of its height plus
-/// sqrt(radius^2 - distance^2). across: the axis that the edge is at `side` of.
-double over_edge(const Top& top, const glm::dvec2& p, double radius, int across, double side)
-{
+/// How deep the middle of a ball over p may go before the ball meets the facet's edge: greatest over the edge of its
+/// height plus sqrt(radius^2 - distance^2). across: the axis that the edge is at `side` of.
+double over_edge(const Top& top, const glm::dvec2& p, double radius, int across, double side) {
   const int along = 1 - across;
   glm::dvec2 foot = p;
   foot[across] = top.middle[across] + side * top.half[across];
@@ -44,8 +42,7 @@ double over_edge(const Top& top, const glm::dvec2& p, double radius, int across,
 }
 
 /// The same of all of the facet.
-double over_facet(const Top& top, const glm::dvec2& p, double radius)
-{
+double over_facet(const Top& top, const glm::dvec2& p, double radius) {
   const double length = std::sqrt(1 + glm::dot(top.gradient, top.gradient));
   const glm::dvec2 touches = glm::abs(p + radius / length * top.gradient - top.middle);
   if (touches.x <= top.half.x && touches.y <= top.half.y) return top.at(p) + radius * length;
@@ -55,15 +52,15 @@ double over_facet(const Top& top, const glm::dvec2& p, double radius)
 
 } // namespace
 
-double unreached_part(const Layout& layout, const Solid& solid, double radius)
-{
+double unreached_part(const Layout& layout, const Solid& solid, double radius) {
   constexpr int most_a_side = 64, least_points = 8;
   const std::vector<std::size_t> sample = some_facets(layout, most_a_side);
   const int points = std::max(least_points, 512 / std::max(layout.facets.x, layout.facets.y));
   const double slack = 1e-9 * radius;
   std::vector<std::size_t> unreached(sample.size());
   for_blocks(sample.size(), [&](std::size_t s) {
-    const int column = static_cast<int>(sample[s]) % layout.facets.x, row = static_cast<int>(sample[s]) / layout.facets.x;
+    const int column = static_cast<int>(sample[s]) % layout.facets.x,
+              row = static_cast<int>(sample[s]) / layout.facets.x;
     const Top own = top_of(layout, solid, column, row);
     std::vector<Top> around;
     for (int y = std::max(0, row - 1); y <= std::min(layout.facets.y - 1, row + 1); ++y)
@@ -72,20 +69,21 @@ double unreached_part(const Layout& layout, const Solid& solid, double radius)
     const double length = std::sqrt(1 + glm::dot(own.gradient, own.gradient));
     for (int y = 0; y < points; ++y)
       for (int x = 0; x < points; ++x) {
-        const glm::dvec2 q = own.middle + own.half * ((glm::dvec2(x, y) + 0.5) * 2.0 / static_cast<double>(points) - 1.0),
+        const glm::dvec2 q = own.middle +
+                             own.half * ((glm::dvec2(x, y) + 0.5) * 2.0 / static_cast<double>(points) - 1.0),
                          p = q - radius / length * own.gradient; // the ball that touches q has its middle over p
         const double middle = own.at(q) + radius / length;
-        unreached[s] +=
-            std::any_of(around.begin(), around.end(), [&](const Top& other) { return over_facet(other, p, radius) > middle + slack; }) ? 1
-                                                                                                                                       : 0;
+        unreached[s] += std::any_of(around.begin(), around.end(),
+                                    [&](const Top& other) { return over_facet(other, p, radius) > middle + slack; })
+                            ? 1
+                            : 0;
       }
   });
   const auto count = static_cast<double>(std::accumulate(unreached.begin(), unreached.end(), std::size_t{0}));
   return count / (static_cast<double>(sample.size()) * points * points);
 }
 
-Valley tightest_valley(const Layout& layout, const Surface& surface)
-{
+Valley tightest_valley(const Layout& layout, const Surface& surface) {
   constexpr double flat = 1e-6; // of a curvature in 1 / mm
   Valley tightest;
   for (std::size_t i = 0; i < layout.facet_count(); ++i) {
@@ -95,7 +93,8 @@ Valley tightest_valley(const Layout& layout, const Surface& surface)
     const double length2 = 1 + glm::dot(at.gradient, at.gradient);
     const glm::dmat2 first = glm::dmat2(1) + glm::outerProduct(at.gradient, at.gradient),
                      shape = glm::inverse(first) * (-at.curvature / std::sqrt(length2));
-    const double mean = (shape[0][0] + shape[1][1]) / 2, most = mean + std::sqrt(std::max(0.0, mean * mean - glm::determinant(shape)));
+    const double mean = (shape[0][0] + shape[1][1]) / 2,
+                 most = mean + std::sqrt(std::max(0.0, mean * mean - glm::determinant(shape)));
     if (most > flat && 1 / most < tightest.radius) tightest = {1 / most, layout.middle(i)};
   }
   return tightest;

@@ -32,15 +32,15 @@ constexpr double worth = 0.02;
 glm::dvec2 domain_of(const Layout& layout) { return glm::max(layout.size, layout.receiver); }
 
 /// Parts of a facet along a side, in which the light of the surface is seen.
-int parts_of_facet(const Layout& layout)
-{
+int parts_of_facet(const Layout& layout) {
   const glm::dvec2 a_cell = layout.facet() / layout.cell();
   return std::clamp(static_cast<int>(std::ceil(3 * std::max(a_cell.x, a_cell.y))), 1, 4);
 }
 
-/// What a centred rectangle of so many cells brings to each cell of a grid over the domain, by the parts in which they overlap.
-Grid on_grid(const Layout& layout, int grid_cells, const glm::dvec2& rectangle, const glm::ivec2& cells, const std::vector<double>& values)
-{
+/// What a centred rectangle of so many cells brings to each cell of a grid over the domain, by the parts in which they
+/// overlap.
+Grid on_grid(const Layout& layout, int grid_cells, const glm::dvec2& rectangle, const glm::ivec2& cells,
+             const std::vector<double>& values) {
   const glm::dvec2 domain = domain_of(layout);
   const double cell = std::max(domain.x, domain.y) / grid_cells;
   const auto overlaps = [&](int axis) { // [cell][cell of the grid]: part of the first; x to the right, y down
@@ -63,8 +63,7 @@ Grid on_grid(const Layout& layout, int grid_cells, const glm::dvec2& rectangle, 
 }
 
 /// As spread() blurs what falls on cells evenly: 1/8, 3/4, 1/8 along either axis.
-Grid blurred(const Grid& light)
-{
+Grid blurred(const Grid& light) {
   const auto along_rows = [](const Grid& of) {
     Grid result = 0.75 * of;
     const Eigen::Index last = of.cols() - 1;
@@ -77,8 +76,7 @@ Grid blurred(const Grid& light)
   return along_rows(along_rows(light).transpose()).transpose();
 }
 
-std::vector<double> flat_powers(const Layout& layout)
-{
+std::vector<double> flat_powers(const Layout& layout) {
   std::vector<double> powers(layout.facet_count(), 1);
   for (std::size_t i = 0; i < layout.incoming().size(); ++i) powers[i] = layout.incoming()[i].power;
   return powers;
@@ -87,15 +85,15 @@ std::vector<double> flat_powers(const Layout& layout)
 } // namespace
 
 Lens::Lens(const Layout& layout, const Target& target, double mesh_error, Place settings)
-    : layout_(layout), target_(target), mesh_error_(mesh_error), settings_(std::move(settings)), domain_(domain_of(layout)), fine_(layout),
+    : layout_(layout), target_(target), mesh_error_(mesh_error), settings_(std::move(settings)),
+      domain_(domain_of(layout)), fine_(layout),
       transport_(on_grid(layout, transport_cells(layout), layout.size, layout.facets, flat_powers(layout)),
                  on_grid(layout, transport_cells(layout), layout.receiver, layout.cells, target)),
       wanted_(blurred(on_grid(layout, most_cells(layout), layout.receiver, layout.cells, target))),
       heights_of_(layout.facets.x + 1, layout.facets.y + 1, layout.facet()),
       flow_of_(static_cast<int>(wanted_.cols()), static_cast<int>(wanted_.rows()), {1, 1}),
-      heights_(Grid::Zero(layout.facets.y + 1, layout.facets.x + 1)), best_heights_(heights_), surface_(layout.size, heights_),
-      slopes_(layout.facet_count())
-{
+      heights_(Grid::Zero(layout.facets.y + 1, layout.facets.x + 1)), best_heights_(heights_),
+      surface_(layout.size, heights_), slopes_(layout.facet_count()) {
   fine_.facets *= parts_of_facet(layout);
   fine_.free_heights = true; // no wall stands in the light
   if (fine_.light.facets) {
@@ -103,32 +101,32 @@ Lens::Lens(const Layout& layout, const Target& target, double mesh_error, Place 
     for (std::size_t i = 0; i < fine_.facet_count(); ++i) {
       const glm::dvec2 p = fine_.middle(i);
       Incoming& in = fine_.light.facets->emplace_back(incoming_at(p));
-      if (const double facet = part_within(layout, layout.middle(facet_at(p)), layout.facet()); layout.round && facet > 0)
+      if (const double facet = part_within(layout, layout.middle(facet_at(p)), layout.facet());
+          layout.round && facet > 0)
         in.power *= part_within(fine_, p, fine_.facet()) / facet;
     }
   }
   see();
 }
 
-std::uint64_t Lens::bytes(const Layout& layout)
-{
+std::uint64_t Lens::bytes(const Layout& layout) {
   constexpr std::uint64_t grids = 24; // of the transport, the flow, and of light that is added up in blocks
-  const auto parts = static_cast<std::uint64_t>(parts_of_facet(layout)), cells = static_cast<std::uint64_t>(most_cells(layout));
+  const auto parts = static_cast<std::uint64_t>(parts_of_facet(layout)),
+             cells = static_cast<std::uint64_t>(most_cells(layout));
   const std::uint64_t bytes_a_node = sizeof(double) + sizeof(glm::dvec2) + (layout.light.facets ? sizeof(Incoming) : 0);
   return layout.facet_count() * parts * parts * bytes_a_node + grids * sizeof(double) * cells * cells;
 }
 
 /// The facet about a point, or the nearest one.
-std::size_t Lens::facet_at(const glm::dvec2& p) const
-{
-  const glm::ivec2 column_row((p.x + layout_.size.x / 2) / layout_.facet().x, (layout_.size.y / 2 - p.y) / layout_.facet().y);
+std::size_t Lens::facet_at(const glm::dvec2& p) const {
+  const glm::ivec2 column_row((p.x + layout_.size.x / 2) / layout_.facet().x,
+                              (layout_.size.y / 2 - p.y) / layout_.facet().y);
   const glm::ivec2 inside = glm::clamp(column_row, glm::ivec2(0), layout_.facets - 1);
   return index_at(inside.x, inside.y, layout_.facets.x);
 }
 
 /// Of light on a point of the surface, by the facet about it.
-Incoming Lens::incoming_at(const glm::dvec2& p, double height) const
-{
+Incoming Lens::incoming_at(const glm::dvec2& p, double height) const {
   if (!layout_.light.facets) return {};
   const std::size_t facet = facet_at(p);
   Incoming in = layout_.incoming()[facet];
@@ -137,29 +135,27 @@ Incoming Lens::incoming_at(const glm::dvec2& p, double height) const
 }
 
 /// Where the transport sends the light that leaves at p, on the receiver.
-glm::dvec2 Lens::goal(const glm::dvec2& p) const
-{
+glm::dvec2 Lens::goal(const glm::dvec2& p) const {
   const glm::dvec2 cell = domain_ / transport_.cells();
   const glm::dvec2 to = cell * transport_.map(glm::dvec2(p.x + domain_.x / 2, domain_.y / 2 - p.y) / cell);
   return {to.x - domain_.x / 2, domain_.y / 2 - to.y};
 }
 
 /// Where the surface sends the light that leaves at p.
-glm::dvec2 Lens::landing(const glm::dvec2& p, const Surface::At& at) const
-{
+glm::dvec2 Lens::landing(const glm::dvec2& p, const Surface::At& at) const {
   return p + facet_slope(at.gradient, layout_.n, incoming_at(p, at.z).sines) * (layout_.distances.front() + at.z);
 }
 
-/// The surface's heights, changed so that it is as steep in the middles of the facets' edges as it has to be to send their light to its
-/// goal, along each edge and in the sense of least squares.
-Grid Lens::bent(const std::function<glm::dvec2(const glm::dvec2&, const Surface::At&)>& goal_of) const
-{
+/// The surface's heights, changed so that it is as steep in the middles of the facets' edges as it has to be to send
+/// their light to its goal, along each edge and in the sense of least squares.
+Grid Lens::bent(const std::function<glm::dvec2(const glm::dvec2&, const Surface::At&)>& goal_of) const {
   const glm::dvec2 facet = layout_.facet();
   const double distance = layout_.distances.front();
   const auto lacks = [&](double column, double row) { // by how much the surface is not steep enough
     const glm::dvec2 p(column * facet.x - layout_.size.x / 2, layout_.size.y / 2 - row * facet.y);
     const Surface::At at = surface_.at(p);
-    const glm::dvec2 sines = incoming_at(p, at.z).sines, slope = (goal_of(p, at) - p) / std::max(distance + at.z, 0.01 * distance);
+    const glm::dvec2 sines = incoming_at(p, at.z).sines,
+                     slope = (goal_of(p, at) - p) / std::max(distance + at.z, 0.01 * distance);
     return facet_gradient(nearest_reachable(slope, layout_.n, sines, layout_.steepest), layout_.n, sines) - at.gradient;
   };
   const Eigen::Index rows = heights_.rows(), columns = heights_.cols();
@@ -182,8 +178,7 @@ Grid Lens::bent(const std::function<glm::dvec2(const glm::dvec2&, const Surface:
 }
 
 /// Of the surface within the outline: at the facets' corners, those beside a round one being moved onto it.
-glm::dvec2 Lens::lowest_highest(const Grid& heights) const
-{
+glm::dvec2 Lens::lowest_highest(const Grid& heights) const {
   if (!layout_.round) return {heights.minCoeff(), heights.maxCoeff()};
   const Surface surface(layout_.size, heights);
   glm::dvec2 most(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
@@ -196,21 +191,21 @@ glm::dvec2 Lens::lowest_highest(const Grid& heights) const
   return most;
 }
 
-void Lens::set_heights(Grid heights)
-{
+void Lens::set_heights(Grid heights) {
   heights_ = std::move(heights);
   surface_ = Surface(layout_.size, heights_);
 }
 
 /// Where the corners of the facets' parts send their light, in cells of the finest grid, row by row.
-std::vector<glm::dvec2> Lens::corners_land() const
-{
-  const std::size_t columns = static_cast<std::size_t>(fine_.facets.x) + 1, rows = static_cast<std::size_t>(fine_.facets.y) + 1;
+std::vector<glm::dvec2> Lens::corners_land() const {
+  const std::size_t columns = static_cast<std::size_t>(fine_.facets.x) + 1,
+                    rows = static_cast<std::size_t>(fine_.facets.y) + 1;
   const glm::dvec2 cell = domain_ / glm::dvec2(wanted_.cols(), wanted_.rows());
   std::vector<glm::dvec2> corners(rows * columns);
   for_ranges(rows, 16, [&](std::size_t, const Range& range) {
     for (std::size_t i = range.begin * columns; i < range.end * columns; ++i) {
-      const glm::dvec2 p = glm::dvec2(i % columns, i / columns) * fine_.facet() * glm::dvec2(1, -1) + layout_.size * glm::dvec2(-0.5, 0.5);
+      const glm::dvec2 p = glm::dvec2(i % columns, i / columns) * fine_.facet() * glm::dvec2(1, -1) +
+                           layout_.size * glm::dvec2(-0.5, 0.5);
       const glm::dvec2 to = landing(p, surface_.at(p));
       corners[i] = glm::dvec2(to.x + domain_.x / 2, domain_.y / 2 - to.y) / cell;
     }
@@ -219,9 +214,9 @@ std::vector<glm::dvec2> Lens::corners_land() const
 }
 
 /// The light of the surface, as that of its facets' parts.
-void Lens::see()
-{
-  const std::size_t columns = static_cast<std::size_t>(fine_.facets.x), rows = static_cast<std::size_t>(fine_.facets.y), blocks = 8;
+void Lens::see() {
+  const std::size_t columns = static_cast<std::size_t>(fine_.facets.x), rows = static_cast<std::size_t>(fine_.facets.y),
+                    blocks = 8;
   std::vector<std::vector<std::vector<double>>> light(blocks, {std::vector<double>(layout_.cell_count())});
   sent_by_.resize(fine_.facets.y, fine_.facets.x);
   const double part = static_cast<double>(layout_.facet_count()) / static_cast<double>(fine_.facet_count());
@@ -245,10 +240,9 @@ void Lens::see()
   sent_ = sent_by_.sum();
 }
 
-/// Light flows from where there is too much of it: along the gradient of the solution of Poisson's equation, as fast as what is there lets
-/// it.
-void Lens::correct()
-{
+/// Light flows from where there is too much of it: along the gradient of the solution of Poisson's equation, as fast as
+/// what is there lets it.
+void Lens::correct() {
   Grid there = spread(sent_by_, corners_land(), wanted_.rows(), wanted_.cols());
   there *= wanted_.sum() / there.sum();
   const Grid potential = flow_of_.solve(wanted_ - there);
@@ -259,18 +253,19 @@ void Lens::correct()
   set_heights(bent([&](const glm::dvec2& p, const Surface::At& at) {
     const glm::dvec2 to = landing(p, at);
     if (layout_.is_beside(p)) return to; // there is no light to move
-    const glm::dvec2 on_grid = glm::clamp(glm::dvec2(to.x + domain_.x / 2, domain_.y / 2 - to.y) / cell - 0.5, glm::dvec2(0), cells - 1.0);
+    const glm::dvec2 on_grid =
+        glm::clamp(glm::dvec2(to.x + domain_.x / 2, domain_.y / 2 - to.y) / cell - 0.5, glm::dvec2(0), cells - 1.0);
     const glm::dvec2 move = flow.at(on_grid).gradient * (share_ / std::max(least, amount.at(on_grid).value));
     return to + move * cell * glm::dvec2(1, -1);
   }));
 }
 
-void Lens::advance()
-{
+void Lens::advance() {
   if (moved_ < moves) {
     transport_.advance();
     if (++moved_ < moves) return;
-    for (int round = 0; round < rounds; ++round) set_heights(bent([&](const glm::dvec2& p, const Surface::At&) { return goal(p); }));
+    for (int round = 0; round < rounds; ++round)
+      set_heights(bent([&](const glm::dvec2& p, const Surface::At&) { return goal(p); }));
   } else
     correct();
   ++steps_;
@@ -289,8 +284,7 @@ void Lens::advance()
 
 double Lens::fraction_done() const { return moved_ < moves ? moved_ / static_cast<double>(moves) : 0; }
 
-std::vector<double> Lens::heights() const
-{
+std::vector<double> Lens::heights() const {
   std::vector<double> middles;
   for (std::size_t i = 0; i < slopes_.size(); ++i) middles.push_back(surface_.at(layout_.middle(i)).z);
   return middles;
@@ -299,8 +293,7 @@ std::vector<double> Lens::heights() const
 /// Of the thickness, and of the way to the receiver: as with free heights, a tenth is left.
 constexpr double most_of_thickness = 0.9;
 
-Solid Lens::solid() const
-{
+Solid Lens::solid() const {
   const double reach = this->reach(); // and as far below z = 0
   const auto refuse = [&](const Place& where, double value) {
     throw bad_input(where, fmt::format("is {} mm, and half of the lens's relief is {:.4g} mm", value, reach),
@@ -308,7 +301,8 @@ Solid Lens::solid() const
                     "choose a larger value or a receiver further away");
   };
   if (reach > most_of_thickness * layout_.thickness) refuse(settings_ / "thickness_mm", layout_.thickness);
-  if (reach > most_of_thickness * layout_.distances.front()) refuse(settings_ / "receivers" / 0 / "distance_mm", layout_.distances.front());
+  if (reach > most_of_thickness * layout_.distances.front())
+    refuse(settings_ / "receivers" / 0 / "distance_mm", layout_.distances.front());
   if (reach > layout_.band)
     throw bad_input(settings_, fmt::format("the lens's relief is {:.4g} mm", 2 * reach),
                     fmt::format("'max_relief_mm' and 'min_thickness_mm' leave {:.4g} mm", 2 * layout_.band),
@@ -326,15 +320,15 @@ Solid Lens::solid() const
 
 void Lens::show(job::Snapshot& made) const { made.scalars.push_back({"lens", "astray", transport_.astray()}); }
 
-void Lens::state(State& state)
-{
+void Lens::state(State& state) {
   transport_.state(state);
   state.value(moved_);
   state.value(steps_);
   state.value(stale_);
   state.value(share_);
   state.value(best_);
-  for (Grid* const grid : {&heights_, &best_heights_}) state.items(std::span(grid->data(), static_cast<std::size_t>(grid->size())));
+  for (Grid* const grid : {&heights_, &best_heights_})
+    state.items(std::span(grid->data(), static_cast<std::size_t>(grid->size())));
   if (!state.is_read()) return;
   constexpr double farthest = 1e7; // mm
   if (!(heights_.array().abs() < farthest).all() || !(best_heights_.array().abs() < farthest).all())

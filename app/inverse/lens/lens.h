@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One picture by a smooth surface: where the light has to go, heights whose slopes send it there, then what these lack put right.
+// One picture by a smooth surface: where the light has to go, heights whose slopes send it there, then what these lack
+// put right.
 #pragma once
 #include "base/bytes.h"
 #include "base/place.h"
@@ -13,8 +14,9 @@
 
 namespace nephroid::inverse {
 
-/// For one receiver. The first step is the optimal transport and the surface that follows from it. Each further one corrects the surface
-/// by the light that it sends: where there is too much, light flows to where it lacks, as a solution of Poisson's equation says.
+/// For one receiver. The first step is the optimal transport and the surface that follows from it. Each further one
+/// corrects the surface by the light that it sends: where there is too much, light flows to where it lacks, as a
+/// solution of Poisson's equation says.
 class Lens final : public Method {
 public:
   /// The layout and the target outlive it. settings: where they stand, for what solid() refuses.

@@ -12,13 +12,13 @@
 namespace nephroid::inverse {
 namespace {
 
-/// A step grows or shrinks by this where it gains more, or less, than these parts of what the gradient promises. Each side has a step of
-/// its own: with one for both, that of the brighter picture's side overshoots.
+/// A step grows or shrinks by this where it gains more, or less, than these parts of what the gradient promises. Each
+/// side has a step of its own: with one for both, that of the brighter picture's side overshoots.
 constexpr double grows = 1.25, shrinks = 0.8, much = 0.75, little = 0.25;
 
-/// min over j of (cell (i - j))^2 / 2 + f(j) for every i: the lower envelope of parabolas (Felzenszwalb and Huttenlocher 2012).
-void lower_envelope(const double* f, double* out, int count, double cell)
-{
+/// min over j of (cell (i - j))^2 / 2 + f(j) for every i: the lower envelope of parabolas (Felzenszwalb and
+/// Huttenlocher 2012).
+void lower_envelope(const double* f, double* out, int count, double cell) {
   std::vector<int> of(static_cast<std::size_t>(count));
   std::vector<double> begins(static_cast<std::size_t>(count) + 1);
   const double curvature = cell * cell;
@@ -44,21 +44,20 @@ void lower_envelope(const double* f, double* out, int count, double cell)
   }
 }
 
-/// Of a potential at the corner between four cells, in the unit of the potential over that of `cell`; on the rim that of the nearest
-/// corner inside.
-glm::dvec2 gradient_at(const Grid& u, int column, int row, double cell)
-{
+/// Of a potential at the corner between four cells, in the unit of the potential over that of `cell`; on the rim that
+/// of the nearest corner inside.
+glm::dvec2 gradient_at(const Grid& u, int column, int row, double cell) {
   const int right = std::clamp(column, 1, static_cast<int>(u.cols()) - 1), left = right - 1;
   const int down = std::clamp(row, 1, static_cast<int>(u.rows()) - 1), up = down - 1;
   return {(u(up, right) + u(down, right) - u(up, left) - u(down, left)) / (2 * cell),
           (u(down, left) + u(down, right) - u(up, left) - u(up, right)) / (2 * cell)};
 }
 
-void deposit(Grid& into, const glm::dvec2& p, double light)
-{
+void deposit(Grid& into, const glm::dvec2& p, double light) {
   const double x = std::clamp(p.x - 0.5, 0.0, static_cast<double>(into.cols() - 1));
   const double y = std::clamp(p.y - 0.5, 0.0, static_cast<double>(into.rows() - 1));
-  const auto i = std::min(static_cast<Eigen::Index>(x), into.cols() - 2), k = std::min(static_cast<Eigen::Index>(y), into.rows() - 2);
+  const auto i = std::min(static_cast<Eigen::Index>(x), into.cols() - 2),
+             k = std::min(static_cast<Eigen::Index>(y), into.rows() - 2);
   const double u = x - static_cast<double>(i), v = y - static_cast<double>(k);
   into(k, i) += light * (1 - u) * (1 - v);
   into(k, i + 1) += light * u * (1 - v);
@@ -73,8 +72,7 @@ constexpr double most_samples = 32;
 
 } // namespace
 
-Grid conjugate(const Grid& f, double cell)
-{
+Grid conjugate(const Grid& f, double cell) {
   const auto rows = static_cast<int>(f.rows()), columns = static_cast<int>(f.cols());
   Grid along(rows, columns), turned(columns, rows), result(columns, rows);
   for_blocks(static_cast<std::size_t>(rows), [&](std::size_t row) {
@@ -90,8 +88,7 @@ Grid conjugate(const Grid& f, double cell)
   return result.transpose();
 }
 
-Grid spread(const Grid& light, const std::vector<glm::dvec2>& corners, Eigen::Index rows, Eigen::Index columns)
-{
+Grid spread(const Grid& light, const std::vector<glm::dvec2>& corners, Eigen::Index rows, Eigen::Index columns) {
   constexpr Eigen::Index most_blocks = 8; // each has a grid of its own
   const Eigen::Index blocks = std::min(most_blocks, light.rows()), across = light.cols() + 1;
   std::vector<Grid> parts(static_cast<std::size_t>(blocks));
@@ -109,7 +106,8 @@ Grid spread(const Grid& light, const std::vector<glm::dvec2>& corners, Eigen::In
         const int samples = static_cast<int>(std::clamp(std::ceil(2 * std::max(wide.x, wide.y)), 1.0, most_samples));
         const double part = light(y, x) / (samples * samples);
         for (int k = 0; k < samples * samples; ++k) {
-          const double u = (k % samples + 0.5) / samples, v = (k / samples + 0.5) / samples; // NOLINT(bugprone-integer-division)
+          const double u = (k % samples + 0.5) / samples,
+                       v = (k / samples + 0.5) / samples; // NOLINT(bugprone-integer-division)
           deposit(into, glm::mix(glm::mix(upper[0], upper[1], u), glm::mix(lower[0], lower[1], u), v), part);
         }
       }
@@ -122,8 +120,7 @@ Grid spread(const Grid& light, const std::vector<glm::dvec2>& corners, Eigen::In
 namespace {
 
 /// Light of `from` where x -> x - gradient(potential)(x) brings it. cell: side of a cell.
-Grid pushed(const Grid& from, const Grid& potential, double cell)
-{
+Grid pushed(const Grid& from, const Grid& potential, double cell) {
   const auto rows = static_cast<int>(from.rows()), columns = static_cast<int>(from.cols());
   std::vector<glm::dvec2> corners;
   corners.reserve(index_at(0, rows + 1, columns + 1));
@@ -135,24 +132,21 @@ Grid pushed(const Grid& from, const Grid& potential, double cell)
 } // namespace
 
 Transport::Transport(Grid from, Grid to)
-    : from_(std::move(from)), to_(std::move(to)), cell_(1.0 / static_cast<double>(std::max(from_.rows(), from_.cols()))),
-      poisson_(static_cast<int>(from_.cols()), static_cast<int>(from_.rows()), {cell_, cell_}), phi_{Grid::Zero(from_.rows(),
-                                                                                                                from_.cols())},
-      psi_(phi_)
-{
+    : from_(std::move(from)), to_(std::move(to)),
+      cell_(1.0 / static_cast<double>(std::max(from_.rows(), from_.cols()))),
+      poisson_(static_cast<int>(from_.cols()), static_cast<int>(from_.rows()), {cell_, cell_}),
+      phi_{Grid::Zero(from_.rows(), from_.cols())}, psi_(phi_) {
   const double area = cell_ * cell_;
   from_ /= from_.sum() * area;
   to_ /= to_.sum() * area;
   phi_.step = psi_.step = 8 / std::max(from_.maxCoeff(), to_.maxCoeff());
 }
 
-double Transport::value() const
-{
+double Transport::value() const {
   return cell_ * cell_ * (phi_.potential.cwiseProduct(to_).sum() + psi_.potential.cwiseProduct(from_).sum());
 }
 
-void Transport::move(Side& side, const Grid& wanted, const Grid& arrived, Side& other)
-{
+void Transport::move(Side& side, const Grid& wanted, const Grid& arrived, Side& other) {
   const double before = value();
   const Grid lack = wanted - arrived, direction = poisson_.solve(lack);
   side.potential += side.step * direction;
@@ -165,16 +159,14 @@ void Transport::move(Side& side, const Grid& wanted, const Grid& arrived, Side& 
     side.step *= shrinks;
 }
 
-void Transport::advance()
-{
+void Transport::advance() {
   const Grid arrived = pushed(from_, psi_.potential, cell_);
   astray_ = cell_ * cell_ * (arrived - to_).cwiseAbs().sum() / 2;
   move(phi_, to_, arrived, psi_);
   move(psi_, from_, pushed(to_, phi_.potential, cell_), phi_);
 }
 
-glm::dvec2 Transport::map(const glm::dvec2& p) const
-{
+glm::dvec2 Transport::map(const glm::dvec2& p) const {
   const int x = std::clamp(static_cast<int>(p.x), 0, static_cast<int>(from_.cols()) - 1);
   const int y = std::clamp(static_cast<int>(p.y), 0, static_cast<int>(from_.rows()) - 1);
   const glm::dvec2 at = p - glm::dvec2(x, y);
@@ -182,8 +174,7 @@ glm::dvec2 Transport::map(const glm::dvec2& p) const
   return p - glm::mix(glm::mix(way(0, 0), way(1, 0), at.x), glm::mix(way(0, 1), way(1, 1), at.x), at.y);
 }
 
-void Transport::state(State& state)
-{
+void Transport::state(State& state) {
   for (Side* const side : {&phi_, &psi_}) {
     state.items(values(side->potential));
     state.value(side->step);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where light has to go so that one picture becomes another on the shortest ways: optimal transport, whose map is the gradient of a
-// potential. So it is the one way that a smooth surface can bend light (Schwartzburg et al. 2014, "High-contrast computational caustic
-// design").
+// Where light has to go so that one picture becomes another on the shortest ways: optimal transport, whose map is the
+// gradient of a potential. So it is the one way that a smooth surface can bend light (Schwartzburg et al. 2014,
+// "High-contrast computational caustic design").
 #pragma once
 #include "base/bytes.h"
 #include "inverse/poisson.h"
@@ -12,9 +12,10 @@
 
 namespace nephroid::inverse {
 
-/// The back-and-forth method (Jacobs and Leger 2020, "A fast approach to optimal transport"): steps along the gradient of the dual
-/// problem, by turns in its two potentials, in the metric in which the gradient is a solution of Poisson's equation. Lengths are in parts
-/// of the grid's longer side; both pictures are on the same grid of square cells and have the same sum.
+/// The back-and-forth method (Jacobs and Leger 2020, "A fast approach to optimal transport"): steps along the gradient
+/// of the dual problem, by turns in its two potentials, in the metric in which the gradient is a solution of Poisson's
+/// equation. Lengths are in parts of the grid's longer side; both pictures are on the same grid of square cells and
+/// have the same sum.
 class Transport {
 public:
   Transport(Grid from, Grid to);
@@ -45,8 +46,8 @@ private:
   double astray_ = 1;
 };
 
-/// Light of quads whose corners land at these places, in cells of the result, which spreads each sample over the four cells about it.
-/// corners: row by row, one more across and down than `light`. Light beside the result goes to its rim.
+/// Light of quads whose corners land at these places, in cells of the result, which spreads each sample over the four
+/// cells about it. corners: row by row, one more across and down than `light`. Light beside the result goes to its rim.
 Grid spread(const Grid& light, const std::vector<glm::dvec2>& corners, Eigen::Index rows, Eigen::Index columns);
 
 /// min over y of |x - y|^2 / 2 - f(y), over the middles of cells.

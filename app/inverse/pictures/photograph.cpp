@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture file as light a cell. It is read some rows at a time, so that 20000 x 12000 pixels take no more memory than a small picture.
+// A picture file as light a cell. It is read some rows at a time, so that 20000 x 12000 pixels take no more memory than
+// a small picture.
 #include "inverse/pictures/photograph.h"
 
 #include "image/image.h"
@@ -20,8 +21,7 @@ struct CellCoverage {
 };
 
 /// Of each pixel in the order of the file, which lie in the middle of the cells. pixel: its side in cells.
-std::vector<CellCoverage> covered_by(int pixels, bool backwards, double pixel, int cells)
-{
+std::vector<CellCoverage> covered_by(int pixels, bool backwards, double pixel, int cells) {
   std::vector<CellCoverage> all;
   for (int i = 0; i < pixels; ++i) {
     const double low = (backwards ? pixels - 1 - i : i) * pixel + (cells - pixels * pixel) / 2, high = low + pixel;
@@ -36,39 +36,41 @@ std::vector<CellCoverage> covered_by(int pixels, bool backwards, double pixel, i
 /// Where the pixels of a file lie on the receiver. Exif's orientations 5 to 8 have the file's rows upright.
 struct FileRaster {
   bool turned = false;
-  glm::dvec2 half{0};                 ///< of the whole picture's size, millimetres
+  glm::dvec2 half{0};                      ///< of the whole picture's size, millimetres
   std::vector<CellCoverage> columns, rows; ///< of the file; turned: its columns cover rows of cells
 };
 
-FileRaster place_of(const Layout& layout, const glm::ivec2& file, int orientation)
-{
+FileRaster place_of(const Layout& layout, const glm::ivec2& file, int orientation) {
   FileRaster place;
   place.turned = orientation >= 5;
   const glm::dvec2 upright = place.turned ? glm::dvec2(file.y, file.x) : glm::dvec2(file);
   const double millimetres = std::min(layout.receiver.x / upright.x, layout.receiver.y / upright.y);
   const glm::dvec2 pixel = millimetres / layout.cell();
   place.half = upright * millimetres / 2.0;
-  const auto is = [&](std::initializer_list<int> list) { return std::find(list.begin(), list.end(), orientation) != list.end(); };
+  const auto is = [&](std::initializer_list<int> list) {
+    return std::find(list.begin(), list.end(), orientation) != list.end();
+  };
   const bool columns_back = is({2, 3, 7, 8}), rows_back = is({3, 4, 6, 7});
   place.columns = covered_by(file.x, columns_back, pixel[place.turned ? 1 : 0], layout.cells[place.turned ? 1 : 0]);
   place.rows = covered_by(file.y, rows_back, pixel[place.turned ? 0 : 1], layout.cells[place.turned ? 0 : 1]);
   return place;
 }
 
-/// Luminance of linear sRGB. Integers are encoded, and hide what is transparent; colours of floats are multiplied by their alpha already.
+/// Luminance of linear sRGB. Integers are encoded, and hide what is transparent; colours of floats are multiplied by
+/// their alpha already.
 class Luminance {
 public:
-  Luminance()
-  {
+  Luminance() {
     for (std::size_t i = 0; i < decoded_.size(); ++i)
-      decoded_[i] = static_cast<float>(image::decoded_srgb(static_cast<double>(i) / static_cast<double>(decoded_.size() - 1)));
+      decoded_[i] =
+          static_cast<float>(image::decoded_srgb(static_cast<double>(i) / static_cast<double>(decoded_.size() - 1)));
   }
 
-  std::vector<double> of(const image::Image& rows, const std::string& name) const
-  {
+  std::vector<double> of(const image::Image& rows, const std::string& name) const {
     const image::Rgb rgb = image::rgb_of(rows, name);
     const std::size_t stride = rows.channels.size();
-    const auto alpha = static_cast<std::size_t>(std::find(rows.channels.begin(), rows.channels.end(), "A") - rows.channels.begin());
+    const auto alpha =
+        static_cast<std::size_t>(std::find(rows.channels.begin(), rows.channels.end(), "A") - rows.channels.begin());
     std::vector<double> values(rgb.values.size() / 3);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const auto linear = [&](std::size_t channel) {
@@ -85,8 +87,7 @@ public:
 
 private:
   /// Files have 8 or 16 bits; some have more, whose values lie between two of the table.
-  double decoded(float value) const
-  {
+  double decoded(float value) const {
     return decoded_[static_cast<std::size_t>(std::lround(value * static_cast<float>(decoded_.size() - 1)))];
   }
 
@@ -94,15 +95,13 @@ private:
 };
 
 /// From 0 at the edge to 1 at `width` and further from it, as smooth as a cosine.
-double fade(double from_edge, double width)
-{
+double fade(double from_edge, double width) {
   return width > 0 ? 0.5 - 0.5 * std::cos(glm::pi<double>() * std::clamp(from_edge / width, 0.0, 1.0)) : 1;
 }
 
 } // namespace
 
-Target photograph(const std::filesystem::path& file, const Picture& picture, const Layout& layout)
-{
+Target photograph(const std::filesystem::path& file, const Picture& picture, const Layout& layout) {
   const Luminance luminance;
   Target target(layout.cell_count());
   std::optional<FileRaster> place;
@@ -128,18 +127,22 @@ Target photograph(const std::filesystem::path& file, const Picture& picture, con
       for (std::size_t k = 0; k < covered.parts.size(); ++k)
         for (std::size_t i = 0; i < along.size(); ++i) {
           const int across = covered.first + static_cast<int>(k), cell = static_cast<int>(i);
-          target[turned ? index_at(across, cell, layout.cells.x) : index_at(cell, across, layout.cells.x)] += covered.parts[k] * along[i];
+          target[turned ? index_at(across, cell, layout.cells.x) : index_at(cell, across, layout.cells.x)] +=
+              covered.parts[k] * along[i];
         }
     }
   });
-  if (high == 0) throw bad_input(file.string(), "is black all over or transparent", "expected a picture with some light in it");
+  if (high == 0)
+    throw bad_input(file.string(), "is black all over or transparent", "expected a picture with some light in it");
   if (low == high)
-    throw bad_input(file.string(), "is one grey all over", "expected a picture with an outline", "for a disc of light use a drawing");
+    throw bad_input(file.string(), "is one grey all over", "expected a picture with an outline",
+                    "for a disc of light use a drawing");
   const auto [black, white] = picture.levels;
   const double most = std::pow(high, picture.tone), edge = picture.vignette * std::min(place->half.x, place->half.y);
   for (std::size_t c = 0; c < target.size(); ++c) {
     const glm::dvec2 from_edge = place->half - glm::abs(layout.middle_of_cell(c));
-    target[c] = std::clamp((target[c] / most - black) / (white - black), 0.0, 1.0) * fade(from_edge.x, edge) * fade(from_edge.y, edge);
+    target[c] = std::clamp((target[c] / most - black) / (white - black), 0.0, 1.0) * fade(from_edge.x, edge) *
+                fade(from_edge.y, edge);
   }
   return target;
 }

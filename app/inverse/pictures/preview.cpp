@@ -20,12 +20,13 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Steps towards the best light: after so many the next ones gain less than a hundredth. Large pictures have to do with fewer, so that a
-/// plan is made in a second.
+/// Steps towards the best light: after so many the next ones gain less than a hundredth. Large pictures have to do with
+/// fewer, so that a plan is made in a second.
 constexpr std::size_t step_limit = 60, fewest_steps = 8, most_products = 400'000'000;
 /// A picture that is further off at best is worth a word, in rel_l2.
 constexpr double far_off = 0.1;
-/// A cell that wants so many times the light of an even picture asks for strong lenses; with the background that is advised it is `bright`.
+/// A cell that wants so many times the light of an even picture asks for strong lenses; with the background that is
+/// advised it is `bright`.
 constexpr double very_bright = 8, bright = 4;
 /// A lens that takes more of the thickness than this is worth a word.
 constexpr double deep = 0.5;
@@ -41,8 +42,7 @@ struct AxisBlur {
   Smear x, y;
 };
 
-AxisBlur smears_of(const Layout& layout, std::size_t receiver)
-{
+AxisBlur smears_of(const Layout& layout, std::size_t receiver) {
   const glm::ivec2 at = layout.cells / 2;
   const glm::dvec2 to = layout.middle_of_cell(index_at(at.x, at.y, layout.cells.x));
   const auto turn = [&](std::size_t facet) {
@@ -52,11 +52,12 @@ AxisBlur smears_of(const Layout& layout, std::size_t receiver)
   const std::vector<std::size_t> facets = some_facets(layout, 64);
   const std::size_t facet =
       *std::min_element(facets.begin(), facets.end(), [&](std::size_t a, std::size_t b) { return turn(a) < turn(b); });
-  const glm::dvec2 slope = nearest_reachable((to + layout.offset(receiver) - layout.middle(facet)) / layout.distances[receiver], layout.n,
-                                             layout.sines_on(facet));
+  const glm::dvec2 slope =
+      nearest_reachable((to + layout.offset(receiver) - layout.middle(facet)) / layout.distances[receiver], layout.n,
+                        layout.sines_on(facet));
   const Footprint print = footprint(layout, facet, slope, receiver);
   AxisBlur smears{{print.x0 - at.x, std::vector<double>(static_cast<std::size_t>(print.columns))},
-                {print.y0 - at.y, std::vector<double>(static_cast<std::size_t>(print.rows))}};
+                  {print.y0 - at.y, std::vector<double>(static_cast<std::size_t>(print.rows))}};
   for (int k = 0; k < print.rows; ++k)
     for (int i = 0; i < print.columns; ++i) {
       const double part = print.cells[index_at(i, k, print.columns)];
@@ -67,8 +68,8 @@ AxisBlur smears_of(const Layout& layout, std::size_t receiver)
 }
 
 /// Along one axis; back: from where light falls to where it was aimed. Light beside the receiver is left out.
-std::vector<double> smeared(const std::vector<double>& light, const glm::ivec2& cells, const Smear& smear, int axis, bool back)
-{
+std::vector<double> smeared(const std::vector<double>& light, const glm::ivec2& cells, const Smear& smear, int axis,
+                            bool back) {
   std::vector<double> result(light.size());
   const int length = cells[axis], lines = cells[1 - axis];
   for (int line = 0; line < lines; ++line)
@@ -84,14 +85,13 @@ std::vector<double> smeared(const std::vector<double>& light, const glm::ivec2& 
   return result;
 }
 
-std::vector<double> smeared(const std::vector<double>& light, const glm::ivec2& cells, const AxisBlur& smears, bool back)
-{
+std::vector<double> smeared(const std::vector<double>& light, const glm::ivec2& cells, const AxisBlur& smears,
+                            bool back) {
   return smeared(smeared(light, cells, smears.x, 0, back), cells, smears.y, 1, back);
 }
 
 /// The nearest values that are not negative and sum to 1: all of them less the same, by Newton's steps.
-void make_light(std::vector<double>& values)
-{
+void make_light(std::vector<double>& values) {
   constexpr int most_steps = 20;
   double less = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_steps; ++i) {
@@ -109,11 +109,12 @@ void make_light(std::vector<double>& values)
 }
 
 /// Over an even picture.
-double brightest(const Target& target) { return *std::max_element(target.begin(), target.end()) * static_cast<double>(target.size()); }
+double brightest(const Target& target) {
+  return *std::max_element(target.begin(), target.end()) * static_cast<double>(target.size());
+}
 
 /// Of the light of one facet, in millimetres: of a box with its variance over cells.
-double width(const Smear& smear, double cell)
-{
+double width(const Smear& smear, double cell) {
   double sum = 0, first = 0, second = 0;
   for (std::size_t i = 0; i < smear.parts.size(); ++i) {
     const double at = smear.first + static_cast<double>(i);
@@ -126,15 +127,13 @@ double width(const Smear& smear, double cell)
 
 } // namespace
 
-Layout blurring_layout(const Settings& settings, Layout layout)
-{
+Layout blurring_layout(const Settings& settings, Layout layout) {
   constexpr double smaller = 256;
   if (settings.method == Settings::Method::lens) layout.size /= smaller;
   return layout;
 }
 
-Target best_possible(const Layout& layout, const Target& target, std::size_t receiver)
-{
+Target best_possible(const Layout& layout, const Target& target, std::size_t receiver) {
   const AxisBlur smears = smears_of(layout, receiver);
   const std::size_t taps = smears.x.parts.size() + smears.y.parts.size();
   if (taps <= 2) return target;
@@ -142,7 +141,8 @@ Target best_possible(const Layout& layout, const Target& target, std::size_t rec
   const glm::ivec2 rim(smears.x.parts.size() / 2, smears.y.parts.size() / 2), cells = layout.cells + 2 * rim;
   const auto for_receiver = [&](const auto& use) {
     for (int y = 0; y < layout.cells.y; ++y)
-      for (int x = 0; x < layout.cells.x; ++x) use(index_at(x, y, layout.cells.x), index_at(x + rim.x, y + rim.y, cells.x));
+      for (int x = 0; x < layout.cells.x; ++x)
+        use(index_at(x, y, layout.cells.x), index_at(x + rim.x, y + rim.y, cells.x));
   };
   std::vector<double> aimed(index_at(0, cells.y, cells.x));
   for_receiver([&](std::size_t cell, std::size_t at) { aimed[at] = target[cell]; });
@@ -169,18 +169,18 @@ Target best_possible(const Layout& layout, const Target& target, std::size_t rec
   return best;
 }
 
-std::vector<Target> best_possible(const Layout& layout, const std::vector<Target>& targets)
-{
+std::vector<Target> best_possible(const Layout& layout, const std::vector<Target>& targets) {
   std::vector<Target> best(targets.size());
   for_blocks(targets.size(), [&](std::size_t j) { best[j] = best_possible(layout, targets[j], j); });
   return best;
 }
 
-double estimated_relief(const Layout& layout, const Target& target)
-{
+double estimated_relief(const Layout& layout, const Target& target) {
   constexpr int most = 32;
   Layout coarse = layout;
-  const auto reduced = [](const glm::ivec2& from) { return glm::max(from * most / std::max({from.x, from.y, most}), 2); };
+  const auto reduced = [](const glm::ivec2& from) {
+    return glm::max(from * most / std::max({from.x, from.y, most}), 2);
+  };
   coarse.facets = reduced(layout.facets);
   coarse.cells = reduced(layout.cells);
   coarse.light.facets = light_on_facets(coarse);
@@ -191,58 +191,61 @@ double estimated_relief(const Layout& layout, const Target& target)
   return lens.relief();
 }
 
-std::vector<std::string> picture_notes(const Settings& settings, const Layout& layout, const std::vector<Target>& targets,
-                                       const std::vector<Target>& best)
-{
+std::vector<std::string> picture_notes(const Settings& settings, const Layout& layout,
+                                       const std::vector<Target>& targets, const std::vector<Target>& best) {
   std::vector<std::string> notes;
   for (std::size_t j = 0; j < targets.size(); ++j) {
     const bool photograph = settings.receivers[j].picture.type == Picture::Type::file;
     if (const double off = cost_of(targets[j], best[j], 1).rel_l2; off > far_off) {
       const AxisBlur smears = smears_of(blurring_layout(settings, layout), j);
-      notes.push_back(
-          fmt::format("picture {} comes hardly closer than {:.2f} (rel_l2): a facet's light is {:.3g} x {:.3g} mm wide there, a "
-                      "cell {:.3g} x {:.3g} mm; choose fewer cells, more facets or less blur",
-                      j + 1, off, width(smears.x, layout.cell().x), width(smears.y, layout.cell().y), layout.cell().x, layout.cell().y));
+      notes.push_back(fmt::format(
+          "picture {} comes hardly closer than {:.2f} (rel_l2): a facet's light is {:.3g} x {:.3g} mm wide there, a "
+          "cell {:.3g} x {:.3g} mm; choose fewer cells, more facets or less blur",
+          j + 1, off, width(smears.x, layout.cell().x), width(smears.y, layout.cell().y), layout.cell().x,
+          layout.cell().y));
     }
     if (const double times = brightest(targets[j]); photograph && times > very_bright)
-      notes.push_back(fmt::format("picture {} is dark: all light goes to its bright parts, the brightest gets {:.0f} times that of an even "
-                                  "picture, and the object is steep for it; a 'background' of {:.2f} more makes that {}",
-                                  j + 1, times, (1 / bright - 1 / times) / (1 - 1 / times), bright));
+      notes.push_back(fmt::format(
+          "picture {} is dark: all light goes to its bright parts, the brightest gets {:.0f} times that of an even "
+          "picture, and the object is steep for it; a 'background' of {:.2f} more makes that {}",
+          j + 1, times, (1 / bright - 1 / times) / (1 - 1 / times), bright));
   }
   const bool one_photograph = targets.size() == 1 && settings.receivers[0].picture.type == Picture::Type::file;
   if (settings.method == Settings::Method::assign && one_photograph)
-    notes.push_back(
-        "flat facets cast patches of their own size, which a photograph shows as grain or rings; for one picture choose the method 'lens'");
+    notes.push_back("flat facets cast patches of their own size, which a photograph shows as grain or rings; for one "
+                    "picture choose the method 'lens'");
   if (settings.method == Settings::Method::lens)
     if (const double relief = estimated_relief(layout, targets[0]); relief > deep * layout.thickness)
-      notes.push_back(
-          fmt::format("the lens becomes some {:.2g} mm deep, and the object is {} mm thick: {:.2g} mm are left at its thinnest; "
-                      "choose a receiver further away, a brighter 'background' or a larger thickness_mm",
-                      relief, layout.thickness, std::max(0.0, layout.thickness - relief / 2)));
+      notes.push_back(fmt::format(
+          "the lens becomes some {:.2g} mm deep, and the object is {} mm thick: {:.2g} mm are left at its thinnest; "
+          "choose a receiver further away, a brighter 'background' or a larger thickness_mm",
+          relief, layout.thickness, std::max(0.0, layout.thickness - relief / 2)));
   return notes;
 }
 
-std::vector<std::string> workshop_notes(const Settings& settings, const Layout& layout)
-{
+std::vector<std::string> workshop_notes(const Settings& settings, const Layout& layout) {
   constexpr double much_light = 0.02, few_layers = 4;
   if (settings.method == Settings::Method::lens) return {};
   std::vector<std::string> notes;
-  // A facet like many: it sends light a quarter of the nearest receiver beside that one's middle. Its walls are about as high as it rises.
-  const double slope = std::min(std::hypot(glm::length(layout.receiver) / std::sqrt(2.0) / 4, glm::length(layout.offset(0))) /
-                                    layout.distances.front(),
-                                usable_slope(layout)),
+  // A facet like many: it sends light a quarter of the nearest receiver beside that one's middle. Its walls are about
+  // as high as it rises.
+  const double slope = std::min(
+                   std::hypot(glm::length(layout.receiver) / std::sqrt(2.0) / 4, glm::length(layout.offset(0))) /
+                       layout.distances.front(),
+                   usable_slope(layout)),
                steepness = glm::length(facet_gradient({slope, 0}, layout.n)), rise = steepness * layout.facet().x,
                walls = layout.free_heights ? 1.0 / 3 : 1; // of that height, measured
   // Four walls; to each the facet gives half of the wall's height times the draft's tangent.
   if (const double light = 2 * layout.draft * steepness * walls; light > much_light)
-    notes.push_back(fmt::format("walls that lean by {} degrees take some {:.0f} % of the light, which the search does not know; choose "
-                                "receivers further away, a smaller draft_deg or free heights",
-                                settings.draft_deg, 100 * light));
+    notes.push_back(fmt::format(
+        "walls that lean by {} degrees take some {:.0f} % of the light, which the search does not know; choose "
+        "receivers further away, a smaller draft_deg or free heights",
+        settings.draft_deg, 100 * light));
   if (settings.layer_mm && rise < few_layers * *settings.layer_mm)
-    notes.push_back(
-        fmt::format("a facet that sends light a quarter of receiver 1 beside its middle rises by {:.2g} mm, {:.2g} layers of {} mm; choose "
-                    "thinner layers or fewer facets",
-                    rise, rise / *settings.layer_mm, *settings.layer_mm));
+    notes.push_back(fmt::format("a facet that sends light a quarter of receiver 1 beside its middle rises by {:.2g} "
+                                "mm, {:.2g} layers of {} mm; choose "
+                                "thinner layers or fewer facets",
+                                rise, rise / *settings.layer_mm, *settings.layer_mm));
   return notes;
 }
 

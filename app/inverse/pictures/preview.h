@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be said of pictures before anything is designed: how close to them an object of these facets comes at best, and what will go
-// wrong.
+// What can be said of pictures before anything is designed: how close to them an object of these facets comes at best,
+// and what will go wrong.
 #pragma once
 #include "inverse/layout.h"
 #include "inverse/settings.h"
@@ -12,15 +12,17 @@ namespace nephroid::inverse {
 /// The layout, as light blurs its pictures: a lens gathers the light of its facets, whose size then blurs nothing.
 Layout blurring_layout(const Settings& settings, Layout layout);
 
-/// The closest to a target that so many facets could cast, were it their only picture, to within a tenth: any light a cell that is not
-/// negative, each smeared by the footprint of a facet that hardly bends it. So the size of facets, the sun, roughness and dispersion are in
-/// it; that pictures fight is not. Least squares, by FISTA (Beck and Teboulle 2009). Sums to 1.
+/// The closest to a target that so many facets could cast, were it their only picture, to within a tenth: any light a
+/// cell that is not negative, each smeared by the footprint of a facet that hardly bends it. So the size of facets, the
+/// sun, roughness and dispersion are in it; that pictures fight is not. Least squares, by FISTA (Beck and Teboulle
+/// 2009). Sums to 1.
 Target best_possible(const Layout& layout, const Target& target, std::size_t receiver);
 std::vector<Target> best_possible(const Layout& layout, const std::vector<Target>& targets);
 
-/// Sentences on what these pictures come to: details that no facet is small enough for, dark photographs, rings, a deep lens.
-std::vector<std::string> picture_notes(const Settings& settings, const Layout& layout, const std::vector<Target>& targets,
-                                       const std::vector<Target>& best);
+/// Sentences on what these pictures come to: details that no facet is small enough for, dark photographs, rings, a deep
+/// lens.
+std::vector<std::string> picture_notes(const Settings& settings, const Layout& layout,
+                                       const std::vector<Target>& targets, const std::vector<Target>& best);
 
 /// How deep a lens for this picture becomes, in millimetres: that of a coarse one.
 double estimated_relief(const Layout& layout, const Target& target);

@@ -14,20 +14,20 @@
 namespace nephroid::inverse {
 namespace {
 
-bool in_bar(const glm::dvec2& p, double length, double width) { return std::abs(p.x) < length / 2 && std::abs(p.y) < width / 2; }
+bool in_bar(const glm::dvec2& p, double length, double width) {
+  return std::abs(p.x) < length / 2 && std::abs(p.y) < width / 2;
+}
 
 /// Bars along x, one above the other.
-bool in_bars(const Picture& picture, const glm::dvec2& p)
-{
+bool in_bars(const Picture& picture, const glm::dvec2& p) {
   for (int i = 0; i < picture.count; ++i)
     if (in_bar({p.x, p.y - (2 * i - (picture.count - 1)) * picture.width}, picture.length, picture.width)) return true;
   return false;
 }
 
-/// Its first point is up. Between a point and the valley beside it the edge is a straight line: with the point at angle 0 and the valley
-/// at beta, p is inside where it is on the middle's side of the line through both.
-bool in_star(const Picture& picture, const glm::dvec2& p)
-{
+/// Its first point is up. Between a point and the valley beside it the edge is a straight line: with the point at angle
+/// 0 and the valley at beta, p is inside where it is on the middle's side of the line through both.
+bool in_star(const Picture& picture, const glm::dvec2& p) {
   const double beta = glm::pi<double>() / picture.count;
   const double turned = std::atan2(-p.x, p.y);
   const double angle = std::abs(turned - 2 * beta * std::round(turned / (2 * beta))), r = glm::length(p);
@@ -37,15 +37,13 @@ bool in_star(const Picture& picture, const glm::dvec2& p)
 }
 
 /// How much of a spot of this radius is left at p: 1 in its middle, falling as a bell.
-double spot(const glm::dvec2& p, const glm::dvec2& middle, const glm::dvec2& radius)
-{
+double spot(const glm::dvec2& p, const glm::dvec2& middle, const glm::dvec2& radius) {
   const glm::dvec2 d = (p - middle) / radius;
   return std::exp(-glm::dot(d, d));
 }
 
 /// A ball of radius 1 in grey levels, lit from the left above as Lambert's law has it, with two eyes and a mouth.
-double face(const glm::dvec2& p)
-{
+double face(const glm::dvec2& p) {
   const double r2 = glm::dot(p, p);
   if (r2 >= 1) return 0;
   const glm::dvec3 light = glm::normalize(glm::dvec3(-0.5, 0.6, 0.9));
@@ -56,28 +54,29 @@ double face(const glm::dvec2& p)
 }
 
 /// Where p lies in a drawing that is not turned.
-glm::dvec2 turned_back(const Picture& picture, const glm::dvec2& p)
-{
+glm::dvec2 turned_back(const Picture& picture, const glm::dvec2& p) {
   const double turn = glm::radians(picture.turn_deg), c = std::cos(turn), s = std::sin(turn);
   return {c * p.x + s * p.y, c * p.y - s * p.x};
 }
 
-/// Brightness 0..1 of a drawing at p, without its background; p in parts of the receiver's shorter side from its middle, y up.
-/// half: the receiver's half width and height in the same parts.
-double brightness(const Picture& picture, const glm::dvec2& p, const glm::dvec2& half)
-{
+/// Brightness 0..1 of a drawing at p, without its background; p in parts of the receiver's shorter side from its
+/// middle, y up. half: the receiver's half width and height in the same parts.
+double brightness(const Picture& picture, const glm::dvec2& p, const glm::dvec2& half) {
   using Type = Picture::Type;
   const double r = glm::length(p);
   const glm::dvec2 turned = turned_back(picture, p);
   if (picture.type == Type::disc) return r < picture.radius ? 1 : 0;
   if (picture.type == Type::ring) return r < picture.radius && r >= picture.inner ? 1 : 0;
   if (picture.type == Type::cross)
-    return in_bar(turned, picture.length, picture.width) || in_bar({turned.y, turned.x}, picture.length, picture.width) ? 1 : 0;
+    return in_bar(turned, picture.length, picture.width) || in_bar({turned.y, turned.x}, picture.length, picture.width)
+               ? 1
+               : 0;
   if (picture.type == Type::bars) return in_bars(picture, turned) ? 1 : 0;
   if (picture.type == Type::star) return in_star(picture, turned) ? 1 : 0;
   if (picture.type == Type::face) return face(turned / picture.radius);
   const double turn = glm::radians(picture.turn_deg);
-  const double reach = half.x * std::abs(std::cos(turn)) + half.y * std::abs(std::sin(turn)); // of the receiver along the gradient
+  const double reach =
+      half.x * std::abs(std::cos(turn)) + half.y * std::abs(std::sin(turn)); // of the receiver along the gradient
   return std::clamp((turned.x / reach + 1) / 2, 0.0, 1.0);
 }
 
@@ -89,8 +88,7 @@ glm::dvec2 half_receiver(const Layout& layout) { return layout.receiver / shorte
 
 /// brightness(p): 0..1, p in parts of the receiver's shorter side from its middle, y up.
 template <class F>
-Target draw(const Layout& layout, const F& brightness_at)
-{
+Target draw(const Layout& layout, const F& brightness_at) {
   Target target;
   const glm::dvec2 cell = layout.cell() / shorter_side(layout), half = half_receiver(layout);
   for (int y = 0; y < layout.cells.y; ++y)
@@ -106,32 +104,31 @@ Target draw(const Layout& layout, const F& brightness_at)
   return target;
 }
 
-Target draw_words(const Picture& picture, const Layout& layout, const Place& where)
-{
+Target draw_words(const Picture& picture, const Layout& layout, const Place& where) {
   constexpr int height = 256; // finer than any cell, so that the cells' mean is that of the letters
   const image::Image words = image::text_picture(picture.text, height, where / "text");
   const double pixels = words.width / picture.length; // in the receiver's shorter side
   return draw(layout, [&](const glm::dvec2& p) {
     const glm::dvec2 turned = turned_back(picture, p);
-    const double x = std::floor(turned.x * pixels + words.width / 2.0), y = std::floor(words.height / 2.0 - turned.y * pixels);
+    const double x = std::floor(turned.x * pixels + words.width / 2.0),
+                 y = std::floor(words.height / 2.0 - turned.y * pixels);
     const bool inside = x >= 0 && y >= 0 && x < words.width && y < words.height;
     return inside ? words.data[index_at(static_cast<int>(x), static_cast<int>(y), words.width)] : 0.0;
   });
 }
 
-Target brightness_of(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where)
-{
+Target brightness_of(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where) {
   if (picture.type == Picture::Type::text) return draw_words(picture, layout, where);
   if (picture.type == Picture::Type::qr) return qr_cells(picture.text, layout.cells, where / "text");
   if (picture.type != Picture::Type::file)
-    return draw(layout, [&, half = half_receiver(layout)](const glm::dvec2& p) { return brightness(picture, p, half); });
+    return draw(layout,
+                [&, half = half_receiver(layout)](const glm::dvec2& p) { return brightness(picture, p, half); });
   return photograph(finder.find(picture.file, where), picture, layout);
 }
 
 } // namespace
 
-Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where)
-{
+Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where) {
   Target target = brightness_of(picture, layout, finder, where);
   if (std::all_of(target.begin(), target.end(), [](double t) { return t == 0; }))
     throw bad_input(where, "leaves every cell of the receiver dark",
@@ -143,8 +140,7 @@ Target make_target(const Picture& picture, const Layout& layout, const FileFinde
   return target;
 }
 
-std::vector<Target> make_targets(const preset::Preset& preset, const Layout& layout)
-{
+std::vector<Target> make_targets(const preset::Preset& preset, const Layout& layout) {
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   const Place where = Place(preset.source) / "inverse" / "receivers";
   std::vector<Target> targets;

@@ -20,14 +20,16 @@ struct Source {
   std::vector<double> parts;
 };
 
-std::vector<Source> sources(int cells, double scale, double shift)
-{
+std::vector<Source> sources(int cells, double scale, double shift) {
   std::vector<Source> all;
   for (int i = 0; i < cells; ++i) {
-    const auto old = [&](double at) { return std::clamp((at - (0.5 + shift) * cells) / scale + 0.5 * cells, 0.0, double(cells)); };
+    const auto old = [&](double at) {
+      return std::clamp((at - (0.5 + shift) * cells) / scale + 0.5 * cells, 0.0, double(cells));
+    };
     const double low = old(i), high = old(i + 1);
     Source source{static_cast<int>(low), {}};
-    for (int k = source.first; k < high; ++k) source.parts.push_back((std::min(high, k + 1.0) - std::max(low, double(k))) * scale);
+    for (int k = source.first; k < high; ++k)
+      source.parts.push_back((std::min(high, k + 1.0) - std::max(low, double(k))) * scale);
     all.push_back(std::move(source));
   }
   return all;
@@ -42,8 +44,7 @@ struct OtherReceiver {
 class Projection {
 public:
   Projection(const Layout& layout, const std::vector<SamplingTarget>& aims, const std::vector<Margin>& margins)
-      : layout_(layout), aims_(aims), margins_(margins)
-  {
+      : layout_(layout), aims_(aims), margins_(margins) {
     for (const std::size_t facet : some_facets(layout, facets_a_side)) {
       facets_.push_back(layout.middle(facet));
       sines_.push_back(layout.sines_on(facet));
@@ -51,8 +52,7 @@ public:
   }
 
   /// Light through a lit cell of picture `a`. Empty: the cell is not missing.
-  std::vector<OtherReceiver> through(std::size_t a, std::size_t cell) const
-  {
+  std::vector<OtherReceiver> through(std::size_t a, std::size_t cell) const {
     const glm::dvec2 to = layout_.middle_of_cell(cell);
     std::vector<OtherReceiver> met(aims_.size());
     for (std::size_t i = 0; i < facets_.size(); ++i) {
@@ -81,8 +81,7 @@ private:
 
 } // namespace
 
-std::vector<double> moved(const Target& picture, const Layout& layout, double scale, const glm::dvec2& shift)
-{
+std::vector<double> moved(const Target& picture, const Layout& layout, double scale, const glm::dvec2& shift) {
   const std::vector<Source> x = sources(layout.cells.x, scale, shift.x), y = sources(layout.cells.y, scale, shift.y);
   const auto columns = static_cast<std::size_t>(layout.cells.x);
   std::vector<double> made;
@@ -92,8 +91,9 @@ std::vector<double> moved(const Target& picture, const Layout& layout, double sc
       double sum = 0;
       for (std::size_t k = 0; k < row.parts.size(); ++k)
         for (std::size_t i = 0; i < column.parts.size(); ++i)
-          sum += row.parts[k] * column.parts[i] *
-                 picture[(static_cast<std::size_t>(row.first) + k) * columns + static_cast<std::size_t>(column.first) + i];
+          sum +=
+              row.parts[k] * column.parts[i] *
+              picture[(static_cast<std::size_t>(row.first) + k) * columns + static_cast<std::size_t>(column.first) + i];
       made.push_back(sum);
     }
   const double most = *std::max_element(made.begin(), made.end());
@@ -103,8 +103,7 @@ std::vector<double> moved(const Target& picture, const Layout& layout, double sc
 }
 
 /// First along columns, then along rows: exact, since a squared distance is a sum of both.
-Margin margin_of(const std::vector<double>& picture, const Layout& layout)
-{
+Margin margin_of(const std::vector<double>& picture, const Layout& layout) {
   const auto columns = static_cast<std::size_t>(layout.cells.x), rows = static_cast<std::size_t>(layout.cells.y);
   std::vector<std::size_t> in_column(picture.size(), nowhere); // row of the nearest lit cell of the column
   for (std::size_t x = 0; x < columns; ++x) {
@@ -120,13 +119,15 @@ Margin margin_of(const std::vector<double>& picture, const Layout& layout)
       if (lit != nowhere && (nearest == nowhere || lit - y < y - nearest)) nearest = lit;
     }
   }
-  Margin margin{std::vector<double>(picture.size(), std::numeric_limits<double>::infinity()), std::vector<std::size_t>(picture.size())};
+  Margin margin{std::vector<double>(picture.size(), std::numeric_limits<double>::infinity()),
+                std::vector<std::size_t>(picture.size())};
   for_blocks(rows, [&](std::size_t y) {
     for (std::size_t x = 0; x < columns; ++x)
       for (std::size_t other = 0; other < columns; ++other) {
         const std::size_t row = in_column[y * columns + other];
         if (row == nowhere) continue;
-        const double across = static_cast<double>(x) - static_cast<double>(other), down = static_cast<double>(y) - static_cast<double>(row);
+        const double across = static_cast<double>(x) - static_cast<double>(other),
+                     down = static_cast<double>(y) - static_cast<double>(row);
         const double squared = across * across + down * down;
         if (squared >= margin.distance[y * columns + x]) continue;
         margin.distance[y * columns + x] = squared;
@@ -137,8 +138,7 @@ Margin margin_of(const std::vector<double>& picture, const Layout& layout)
   return margin;
 }
 
-std::vector<double> extended(const std::vector<double>& picture, const Margin& margin, double cells)
-{
+std::vector<double> extended(const std::vector<double>& picture, const Margin& margin, double cells) {
   std::vector<double> made = picture;
   for (std::size_t i = 0; i < made.size(); ++i)
     if (margin.distance[i] > 0 && margin.distance[i] <= cells)
@@ -146,8 +146,8 @@ std::vector<double> extended(const std::vector<double>& picture, const Margin& m
   return made;
 }
 
-std::vector<MissingLight> needs_of(const Layout& layout, const std::vector<SamplingTarget>& aims, const std::vector<Margin>& margins)
-{
+std::vector<MissingLight> needs_of(const Layout& layout, const std::vector<SamplingTarget>& aims,
+                                   const std::vector<Margin>& margins) {
   const Projection projection(layout, aims, margins);
   std::vector<MissingLight> needs(aims.size());
   std::vector<OtherReceiver> sums(aims.size());

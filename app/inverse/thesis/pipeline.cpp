@@ -22,16 +22,16 @@ double sum_of(const std::vector<double>& values) { return std::accumulate(values
 } // namespace
 
 Annealer::Annealer(std::vector<AnnealedParameter> knobs, const Cooling& cooling, double cost)
-    : knobs_(std::move(knobs)), cooling_(cooling), cost_(cost), lowest_cost_(cost)
-{
+    : knobs_(std::move(knobs)), cooling_(cooling), cost_(cost), lowest_cost_(cost) {
   for (const AnnealedParameter& knob : knobs_) values_.push_back(knob.start);
   lowest_ = values_;
 }
 
-double Annealer::temperature() const { return cooling_.temperature * std::pow(cooling_.factor, done_ / cooling_.moves); }
+double Annealer::temperature() const {
+  return cooling_.temperature * std::pow(cooling_.factor, done_ / cooling_.moves);
+}
 
-const std::vector<double>& Annealer::propose(std::mt19937_64 random)
-{
+const std::vector<double>& Annealer::propose(std::mt19937_64 random) {
   proposed_ = values_;
   for (std::size_t i = 0; i < knobs_.size(); ++i) {
     const AnnealedParameter& knob = knobs_[i];
@@ -41,8 +41,7 @@ const std::vector<double>& Annealer::propose(std::mt19937_64 random)
   return proposed_;
 }
 
-bool Annealer::decide(double cost)
-{
+bool Annealer::decide(double cost) {
   const double rise = cost - cost_;
   const bool taken = rise <= 0 || chance_ < std::exp(-rise / temperature()); // at 0: exp(-inf), never
   ++done_;
@@ -56,8 +55,7 @@ bool Annealer::decide(double cost)
   return true;
 }
 
-void Annealer::state(State& state)
-{
+void Annealer::state(State& state) {
   state.items(values_);
   state.items(lowest_);
   state.value(cost_);
@@ -66,15 +64,13 @@ void Annealer::state(State& state)
   state.value(accepted_);
 }
 
-std::int64_t Pipeline::trials_of(const Thesis& settings)
-{
+std::int64_t Pipeline::trials_of(const Thesis& settings) {
   return 1 + 2 * std::int64_t{settings.cycles} * settings.moves + settings.corrections;
 }
 
 Pipeline::Pipeline(const Layout& layout, const std::vector<Target>& targets, const Thesis& settings, std::uint64_t seed)
     : layout_(layout), targets_(targets), settings_(settings), seed_(seed), reach_(2 * targets.size()),
-      light_(targets.size(), std::vector<double>(layout.cell_count()))
-{
+      light_(targets.size(), std::vector<double>(layout.cell_count())) {
   sizes_ = settings_.adjust == Thesis::Adjust::convergence ? std::vector<double>{1} : std::vector<double>();
   if (settings_.adjust == Thesis::Adjust::each)
     for (std::size_t j = 0; j < targets.size(); ++j) sizes_.insert(sizes_.end(), {1, 0, 0, 1});
@@ -84,8 +80,7 @@ Pipeline::Pipeline(const Layout& layout, const std::vector<Target>& targets, con
 }
 
 /// D: the pictures with other sizes, places and distances.
-void Pipeline::adjust(const std::vector<double>& values)
-{
+void Pipeline::adjust(const std::vector<double>& values) {
   wanted_.clear();
   pictures_.clear();
   for (std::size_t j = 0; j < targets_.size(); ++j) {
@@ -104,12 +99,14 @@ void Pipeline::adjust(const std::vector<double>& values)
 }
 
 /// Of the annealing in hand, from where it starts.
-std::optional<Annealer> Pipeline::annealer() const
-{
+std::optional<Annealer> Pipeline::annealer() const {
   const Thesis& s = settings_;
-  const auto about = [](double start, double step, double limit) { return AnnealedParameter{start, step, start - limit, start + limit}; };
+  const auto about = [](double start, double step, double limit) {
+    return AnnealedParameter{start, step, start - limit, start + limit};
+  };
   std::vector<AnnealedParameter> knobs;
-  if (stage_ == Stage::annealing_1 && s.adjust == Thesis::Adjust::convergence) knobs = {about(1, s.size_step, s.size_limit)};
+  if (stage_ == Stage::annealing_1 && s.adjust == Thesis::Adjust::convergence)
+    knobs = {about(1, s.size_step, s.size_limit)};
   if (stage_ == Stage::annealing_1 && s.adjust == Thesis::Adjust::each)
     for (std::size_t j = 0; j < targets_.size(); ++j)
       knobs.insert(knobs.end(), {about(1, s.size_step, s.size_limit), about(0, s.shift_step, s.shift_limit),
@@ -122,19 +119,18 @@ std::optional<Annealer> Pipeline::annealer() const
   return Annealer(std::move(knobs), {s.temperature, s.cooling, s.cycles, s.moves}, lowest_);
 }
 
-void Pipeline::find_needs()
-{
+void Pipeline::find_needs() {
   margins_.clear();
   for (const SamplingTarget& aim : wanted_) margins_.push_back(margin_of(aim.picture, layout_));
   needs_ = needs_of(layout_, wanted_, margins_);
 }
 
-/// (5.3): scales every cell by what is wanted over what was received, both as parts of their sums. A cell that receives nothing gets the
-/// largest factor; one that is to receive nothing has nothing to scale.
-void Pipeline::correct(const std::vector<std::vector<double>>& received)
-{
+/// (5.3): scales every cell by what is wanted over what was received, both as parts of their sums. A cell that receives
+/// nothing gets the largest factor; one that is to receive nothing has nothing to scale.
+void Pipeline::correct(const std::vector<std::vector<double>>& received) {
   for (std::size_t j = 0; j < pictures_.size(); ++j) {
-    const double wanted_sum = sum_of(wanted_[j].picture), received_sum = sum_of(received[j]), limit = settings_.ratio_limit;
+    const double wanted_sum = sum_of(wanted_[j].picture), received_sum = sum_of(received[j]),
+                 limit = settings_.ratio_limit;
     for (std::size_t i = 0; i < pictures_[j].size(); ++i) {
       const double wanted = wanted_[j].picture[i] * received_sum, there = received[j][i] * wanted_sum;
       pictures_[j][i] *= there > 0 ? std::clamp(wanted / there, 1 / limit, limit) : limit;
@@ -145,34 +141,31 @@ void Pipeline::correct(const std::vector<std::vector<double>>& received)
 }
 
 /// What light is aimed at: the pictures, extended and overshot (5.4).
-std::vector<SamplingTarget> Pipeline::aims() const
-{
+std::vector<SamplingTarget> Pipeline::aims() const {
   std::vector<SamplingTarget> all = wanted_;
   for (std::size_t j = 0; j < all.size(); ++j) {
     all[j].picture = pictures_[j];
     if (needs_.empty()) continue;
     all[j].picture = extended(pictures_[j], margins_[j], reach_[j] * needs_[j].extension);
-    all[j].beside = reach_[all.size() + j] * needs_[j].overshoot * *std::max_element(pictures_[j].begin(), pictures_[j].end());
+    all[j].beside =
+        reach_[all.size() + j] * needs_[j].overshoot * *std::max_element(pictures_[j].begin(), pictures_[j].end());
   }
   return all;
 }
 
-void Pipeline::begin_trial()
-{
+void Pipeline::begin_trial() {
   const std::mt19937_64 random = numbers_of(~seed_, static_cast<std::uint64_t>(trials_));
   if (stage_ == Stage::annealing_1) adjust(annealer_->propose(random));
   if (stage_ == Stage::annealing_2) reach_ = annealer_->propose(random);
   trial_.emplace(layout_, aims(), settings_, seed_);
 }
 
-void Pipeline::advance()
-{
+void Pipeline::advance() {
   trial_->advance();
   if (trial_->finished()) end_trial();
 }
 
-double Pipeline::cost_of_drawn(const TrialResult& drawn) const
-{
+double Pipeline::cost_of_drawn(const TrialResult& drawn) const {
   double sum = 0;
   for (std::size_t j = 0; j < wanted_.size(); ++j) {
     const bool left = sum_of(wanted_[j].picture) > 0; // else it was moved off its receiver
@@ -181,15 +174,13 @@ double Pipeline::cost_of_drawn(const TrialResult& drawn) const
   return sum / static_cast<double>(wanted_.size());
 }
 
-void Pipeline::keep(TrialResult drawn, double cost)
-{
+void Pipeline::keep(TrialResult drawn, double cost) {
   best_ = std::move(drawn);
   lowest_ = cost;
   light_all(layout_, best_.slopes, heights(), light_);
 }
 
-void Pipeline::end_trial()
-{
+void Pipeline::end_trial() {
   TrialResult drawn = trial_->drawn();
   trial_.reset();
   ++trials_;
@@ -201,20 +192,19 @@ void Pipeline::end_trial()
   }
   const bool gains = annealer_ ? annealer_->decide(cost) : stage_ == Stage::sampling || idle_ == 0;
   if (gains) keep(std::move(drawn), cost);
-  history_.push_back({static_cast<double>(stage_), temperature, cost, lowest_, static_cast<double>(annealer_ ? annealer_->accepted() : 0),
+  history_.push_back({static_cast<double>(stage_), temperature, cost, lowest_,
+                      static_cast<double>(annealer_ ? annealer_->accepted() : 0),
                       static_cast<double>(annealer_ ? annealer_->refused() : 0)});
   while (stage_ != Stage::done && stage_ended()) begin_next_stage();
   if (stage_ != Stage::done) begin_trial();
 }
 
-bool Pipeline::stage_ended() const
-{
+bool Pipeline::stage_ended() const {
   if (annealer_) return annealer_->finished();
   return stage_ == Stage::sampling || rounds_ >= settings_.corrections || idle_ >= settings_.patience;
 }
 
-void Pipeline::begin_next_stage()
-{
+void Pipeline::begin_next_stage() {
   costs_[static_cast<std::size_t>(stage_)] = lowest_;
   if (stage_ == Stage::annealing_1) {
     sizes_ = annealer_->lowest();
@@ -229,17 +219,17 @@ void Pipeline::begin_next_stage()
   annealer_ = annealer();
 }
 
-std::uint64_t Pipeline::tried() const
-{
+std::uint64_t Pipeline::tried() const {
   return static_cast<std::uint64_t>(trials_) * layout_.facet_count() + (trial_ ? trial_->tried() : 0);
 }
 
 std::vector<Cost> Pipeline::costs() const { return costs_of(targets_, light_, light_sent(layout_, best_.slopes)); }
 
-void Pipeline::show(job::Snapshot& snapshot) const
-{
+void Pipeline::show(job::Snapshot& snapshot) const {
   static constexpr const char* names[stages] = {"sampling", "annealing_1", "annealing_2", "correction"};
-  const auto add = [&](std::string name, double value) { snapshot.scalars.push_back({"thesis", std::move(name), value}); };
+  const auto add = [&](std::string name, double value) {
+    snapshot.scalars.push_back({"thesis", std::move(name), value});
+  };
   for (std::size_t i = 0; i < std::min(stages, static_cast<std::size_t>(stage_)); ++i) {
     add(fmt::format("cost_{}", names[i]), costs_[i]);
     if (i > 0) add(fmt::format("gain_{}", names[i]), costs_[i - 1] - costs_[i]);
@@ -252,8 +242,8 @@ void Pipeline::show(job::Snapshot& snapshot) const
     add(fmt::format("overshoot_{}", j + 1), reach_[needs_.size() + j] * needs_[j].overshoot);
   }
   if (best_.dark > 0)
-    snapshot.warnings.push_back(
-        fmt::format("{} can send light nowhere where all pictures are lit, and stay flat", counted(best_.dark, "facet")));
+    snapshot.warnings.push_back(fmt::format("{} can send light nowhere where all pictures are lit, and stay flat",
+                                            counted(best_.dark, "facet")));
   job::Curve curve{"annealing", {"trial", "stage", "temperature", "cost", "lowest", "accepted", "refused"}, {}};
   for (std::size_t i = 0; i < history_.size(); ++i) {
     const Row& r = history_[i];
@@ -262,8 +252,7 @@ void Pipeline::show(job::Snapshot& snapshot) const
   snapshot.curves.push_back(std::move(curve));
 }
 
-void Pipeline::state(State& state)
-{
+void Pipeline::state(State& state) {
   state.value(stage_);
   state.value(trials_);
   state.list(sizes_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis' pipeline (chapter 5): draws from the joint probability of the pictures, two annealings that adjust these, and the
-// correction of their intensity.
+// The thesis' pipeline (chapter 5): draws from the joint probability of the pictures, two annealings that adjust these,
+// and the correction of their intensity.
 #pragma once
 #include "inverse/method.h"
 #include "inverse/thesis/adjust.h"
@@ -35,8 +35,8 @@ public:
   double temperature() const; ///< of the move in hand
   /// All knobs moved at once. The same random numbers propose the same.
   const std::vector<double>& propose(std::mt19937_64 random);
-  /// Takes the proposal where its cost is no higher than that of the values in hand, else with probability exp(-rise / temperature).
-  /// True where it is the lowest so far.
+  /// Takes the proposal where its cost is no higher than that of the values in hand, else with probability exp(-rise /
+  /// temperature). True where it is the lowest so far.
   bool decide(double cost);
 
   const std::vector<double>& lowest() const { return lowest_; } ///< values of the lowest cost
@@ -57,9 +57,10 @@ private:
   std::int64_t done_ = 0, accepted_ = 0;
 };
 
-/// A step is a trial: all facets drawn, and their cost (5.2) against the adjusted pictures. The first has the pictures as they are. A
-/// stage ends with what had its lowest cost; the object gets the first draw of that. Trials share their random numbers, so that a cost
-/// depends on what is tried alone. Facets send light from their middles and all alike, as the thesis has it.
+/// A step is a trial: all facets drawn, and their cost (5.2) against the adjusted pictures. The first has the pictures
+/// as they are. A stage ends with what had its lowest cost; the object gets the first draw of that. Trials share their
+/// random numbers, so that a cost depends on what is tried alone. Facets send light from their middles and all alike,
+/// as the thesis has it.
 class Pipeline final : public Method {
 public:
   /// The layout and the targets outlive it. Facets begin flat.
@@ -110,18 +111,19 @@ private:
   Thesis settings_;
   std::uint64_t seed_;
   // What is tried.
-  std::vector<SamplingTarget> wanted_;     ///< D: in the first annealing the proposal, later what that found
-  std::vector<Margin> margins_; ///< of wanted_, from the second annealing on
-  std::vector<MissingLight> needs_;     ///< the same
+  std::vector<SamplingTarget> wanted_; ///< D: in the first annealing the proposal, later what that found
+  std::vector<Margin> margins_;        ///< of wanted_, from the second annealing on
+  std::vector<MissingLight> needs_;    ///< the same
   std::optional<Trial> trial_;
   // The state.
   Stage stage_ = Stage::sampling;
   std::int64_t trials_ = 0;
   std::optional<Annealer> annealer_;
-  std::vector<double> sizes_;                 ///< what the first annealing found
-  std::vector<double> reach_;                 ///< k and o of all pictures: the proposal, later what the second annealing found
-  std::vector<std::vector<double>> pictures_; ///< what light is aimed at, before it is extended: wanted_, later corrected
-  std::int64_t rounds_ = 0, idle_ = 0;        ///< of the correction: done, and without a gain
+  std::vector<double> sizes_; ///< what the first annealing found
+  std::vector<double> reach_; ///< k and o of all pictures: the proposal, later what the second annealing found
+  std::vector<std::vector<double>>
+      pictures_;                       ///< what light is aimed at, before it is extended: wanted_, later corrected
+  std::int64_t rounds_ = 0, idle_ = 0; ///< of the correction: done, and without a gain
   TrialResult best_;
   double lowest_ = 1;                  ///< its cost
   std::array<double, stages> costs_{}; ///< each stage's lowest

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Columns and rows of the lattice in which some picture is dark all along are left out, and no product is kept: a row's sum is, and a
-// draw computes its row again.
+// Columns and rows of the lattice in which some picture is dark all along are left out, and no product is kept: a row's
+// sum is, and a draw computes its row again.
 #include "inverse/thesis/sampler.h"
 
 #include "base/parallel.h"
@@ -34,8 +34,7 @@ struct Sampler::Lattice {
 };
 
 Sampler::Sampler(const Layout& layout, const std::vector<SamplingTarget>& aims, const Thesis& settings)
-    : layout_(layout), directions_(settings.directions), sampling_(settings.sampling)
-{
+    : layout_(layout), directions_(settings.directions), sampling_(settings.sampling) {
   const int columns = layout.cells.x + 2, rows = layout.cells.y + 2;
   for (const SamplingTarget& aim : aims) {
     distances_.push_back(aim.distance);
@@ -56,8 +55,7 @@ Sampler::Sampler(const Layout& layout, const std::vector<SamplingTarget>& aims, 
   }
 }
 
-Sampler::Axis Sampler::axis(std::size_t facet, int along) const
-{
+Sampler::Axis Sampler::axis(std::size_t facet, int along) const {
   const double from = layout_.middle(facet)[along], half = layout_.receiver[along] / 2;
   const double limit = layout_.light.facets ? std::numeric_limits<double>::infinity() : usable_slope(layout_);
   double low = limit, high = -limit;
@@ -74,7 +72,8 @@ Sampler::Axis Sampler::axis(std::size_t facet, int along) const
     std::uint32_t hits = 0;
     bool dark = false;
     for (std::size_t j = 0; j < distances_.size() && !dark; ++j) {
-      const double at = from + slope * distances_[j], cell = (along == 0 ? at + half : half - at) / layout_.cell()[along];
+      const double at = from + slope * distances_[j],
+                   cell = (along == 0 ? at + half : half - at) / layout_.cell()[along];
       const bool hit = cell >= 0 && cell < layout_.cells[along];
       if (hit) hits |= std::uint32_t{1} << j;
       cells[j] = hit ? static_cast<int>(cell) + 1 : 0;
@@ -88,10 +87,10 @@ Sampler::Axis Sampler::axis(std::size_t facet, int along) const
   return made;
 }
 
-double Sampler::product(const Lattice& lattice, std::size_t column, std::size_t row) const
-{
+double Sampler::product(const Lattice& lattice, std::size_t column, std::size_t row) const {
   if ((lattice.x.hits[column] & lattice.y.hits[row]) == 0) return 0;
-  if (!reachable({lattice.x.slopes[column], lattice.y.slopes[row]}, layout_.n, lattice.sines, layout_.steepest)) return 0;
+  if (!reachable({lattice.x.slopes[column], lattice.y.slopes[row]}, layout_.n, lattice.sines, layout_.steepest))
+    return 0;
   double product = 1;
   for (std::size_t j = 0; j < padded_.size(); ++j)
     product *= padded_[j][index_at(lattice.x.cells[j][column], lattice.y.cells[j][row], layout_.cells.x + 2)];
@@ -99,25 +98,26 @@ double Sampler::product(const Lattice& lattice, std::size_t column, std::size_t 
 }
 
 /// The same for all of a row.
-void Sampler::multiply_row(const Lattice& lattice, std::size_t row, std::vector<double>& products) const
-{
+void Sampler::multiply_row(const Lattice& lattice, std::size_t row, std::vector<double>& products) const {
   const std::size_t across = lattice.x.slopes.size();
   const double y = lattice.y.slopes[row];
   const std::uint32_t hits = lattice.y.hits[row];
   products.resize(across);
   for (std::size_t i = 0; i < across; ++i) {
-    products[i] =
-        (hits & lattice.x.hits[i]) != 0 && reachable({lattice.x.slopes[i], y}, layout_.n, lattice.sines, layout_.steepest) ? 1.0 : 0.0;
+    products[i] = (hits & lattice.x.hits[i]) != 0 &&
+                          reachable({lattice.x.slopes[i], y}, layout_.n, lattice.sines, layout_.steepest)
+                      ? 1.0
+                      : 0.0;
   }
   for (std::size_t j = 0; j < padded_.size(); ++j) {
-    const double* const cells = padded_[j].data() + static_cast<std::ptrdiff_t>(lattice.y.cells[j][row]) * (layout_.cells.x + 2);
+    const double* const cells =
+        padded_[j].data() + static_cast<std::ptrdiff_t>(lattice.y.cells[j][row]) * (layout_.cells.x + 2);
     const int* const cell = lattice.x.cells[j].data();
     for (std::size_t i = 0; i < across; ++i) products[i] *= cells[cell[i]];
   }
 }
 
-Sampler::Lattice Sampler::lattice(std::size_t facet) const
-{
+Sampler::Lattice Sampler::lattice(std::size_t facet) const {
   Lattice made{axis(facet, 0), axis(facet, 1), {}, 0, layout_.sines_on(facet)};
   std::vector<double> products;
   double sum = 0;
@@ -132,8 +132,7 @@ Sampler::Lattice Sampler::lattice(std::size_t facet) const
   return made;
 }
 
-Draws Sampler::draw(std::size_t facet, int count, std::mt19937_64& random) const
-{
+Draws Sampler::draw(std::size_t facet, int count, std::mt19937_64& random) const {
   const Lattice all = lattice(facet);
   Draws draws;
   if (all.most <= 0) return draws;
@@ -147,7 +146,8 @@ Draws Sampler::draw(std::size_t facet, int count, std::mt19937_64& random) const
   };
   const auto exact = [&] {
     const double to = uniform(random) * all.sums.back();
-    const auto row = static_cast<std::size_t>(std::upper_bound(all.sums.begin(), all.sums.end(), to) - all.sums.begin());
+    const auto row =
+        static_cast<std::size_t>(std::upper_bound(all.sums.begin(), all.sums.end(), to) - all.sums.begin());
     multiply_row(all, row, products);
     double sum = row > 0 ? all.sums[row - 1] : 0;
     std::size_t column = 0;
@@ -165,8 +165,7 @@ Draws Sampler::draw(std::size_t facet, int count, std::mt19937_64& random) const
   return draws;
 }
 
-std::vector<glm::dvec2> flat_slopes(const Layout& layout)
-{
+std::vector<glm::dvec2> flat_slopes(const Layout& layout) {
   std::vector<glm::dvec2> slopes(layout.facet_count());
   for (std::size_t i = 0; i < slopes.size(); ++i) slopes[i] = flat_slope(layout.sines_on(i));
   return slopes;
@@ -174,12 +173,9 @@ std::vector<glm::dvec2> flat_slopes(const Layout& layout)
 
 Trial::Trial(const Layout& layout, const std::vector<SamplingTarget>& aims, const Thesis& settings, std::uint64_t seed)
     : layout_(layout), settings_(settings), seed_(seed), sampler_(layout, aims, settings),
-      counts_(aims.size(), std::vector<std::uint32_t>(layout.cell_count())), slopes_(flat_slopes(layout))
-{
-}
+      counts_(aims.size(), std::vector<std::uint32_t>(layout.cell_count())), slopes_(flat_slopes(layout)) {}
 
-void Trial::advance()
-{
+void Trial::advance() {
   const std::size_t count = std::min(piece, layout_.facet_count() - next_), receivers = counts_.size();
   std::vector<Draws> found(count);
   for_ranges(count, turn, [&](std::size_t, Range range) {
@@ -199,8 +195,7 @@ void Trial::advance()
   next_ += count;
 }
 
-TrialResult Trial::drawn() const
-{
+TrialResult Trial::drawn() const {
   TrialResult drawn{{}, slopes_, dark_};
   for (const auto& counts : counts_) {
     drawn.light.emplace_back(counts.begin(), counts.end());
@@ -209,8 +204,7 @@ TrialResult Trial::drawn() const
   return drawn;
 }
 
-void Trial::state(State& state)
-{
+void Trial::state(State& state) {
   state.value(next_);
   for (auto& counts : counts_) state.items(counts);
   state.items(slopes_);

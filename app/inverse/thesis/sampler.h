@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The joint probability of a facet's slope (thesis 5.1), draws from it, and what light aimed at some pictures makes of them by many draws
-// of every facet (thesis 5.2, "cost computation").
+// The joint probability of a facet's slope (thesis 5.1), draws from it, and what light aimed at some pictures makes of
+// them by many draws of every facet (thesis 5.2, "cost computation").
 #pragma once
 #include "base/bytes.h"
 #include "inverse/layout.h"
@@ -23,8 +23,9 @@ struct Draws {
   std::vector<int> cells; ///< [draw][aim]; -1: beside the receiver
 };
 
-/// A slope's probability is the product of what all pictures have where the facet's middle sends light with it. Slopes are those of a
-/// lattice over all that lead to a receiver and that the index can bend by; one that misses all receivers has probability 0.
+/// A slope's probability is the product of what all pictures have where the facet's middle sends light with it. Slopes
+/// are those of a lattice over all that lead to a receiver and that the index can bend by; one that misses all
+/// receivers has probability 0.
 class Sampler {
 public:
   Sampler(const Layout& layout, const std::vector<SamplingTarget>& aims, const Thesis& settings);
@@ -42,7 +43,8 @@ private:
 
   const Layout& layout_;
   std::vector<double> distances_;
-  std::vector<std::vector<double>> padded_; ///< pictures with a rim of one cell that has `beside`; all light beside counts as in cell 0
+  std::vector<std::vector<double>>
+      padded_; ///< pictures with a rim of one cell that has `beside`; all light beside counts as in cell 0
   std::vector<std::vector<char>> lit_columns_, lit_rows_; ///< of these: whether any cell is above 0
   int directions_;
   Thesis::Sampling sampling_;

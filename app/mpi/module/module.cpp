@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only file that knows MPI: a module that ranks.cpp loads.
 //
-// Nobody waits for others' work inside of MPI: its waits spin on a core, which a rank beside it could use, and never end where a rank has
-// died. So such a call is begun, asked after at times, and in between it is seen whether the others are still there.
+// Nobody waits for others' work inside of MPI: its waits spin on a core, which a rank beside it could use, and never
+// end where a rank has died. So such a call is begun, asked after at times, and in between it is seen whether the
+// others are still there.
 #include "base/error.h"
 #include "base/files.h"
 #include "mpi/ranks.h"
@@ -28,19 +29,18 @@ using Clock = std::chrono::steady_clock;
 
 struct Rank {
   char host[MPI_MAX_PROCESSOR_NAME] = {};
-  std::size_t boot = 0; ///< of its machine's kernel: two machines' names may be alike, and containers of one have several
-  ino_t processes = 0;  ///< the name space of its process' number: containers have their own
+  std::size_t boot =
+      0; ///< of its machine's kernel: two machines' names may be alike, and containers of one have several
+  ino_t processes = 0; ///< the name space of its process' number: containers have their own
   pid_t process = 0;
 };
 
-ino_t own_processes()
-{
+ino_t own_processes() {
   struct stat status {};
   return ::stat("/proc/self/ns/pid", &status) == 0 ? status.st_ino : 0;
 }
 
-std::size_t own_boot()
-{
+std::size_t own_boot() {
   try {
     return std::hash<std::string>()(read_file("/proc/sys/kernel/random/boot_id"));
   } catch (const Error&) {
@@ -56,11 +56,11 @@ constexpr int ask = 1, answer = 2;
 
 class MpiRanks final : public Ranks {
 public:
-  MpiRanks()
-  {
+  MpiRanks() {
     int given = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given); // distribute() talks on a thread of its own
-    if (given < MPI_THREAD_SERIALIZED) throw failed("MPI", "its threads cannot take turns", {}, "use a build of Open MPI with threads");
+    if (given < MPI_THREAD_SERIALIZED)
+      throw failed("MPI", "its threads cannot take turns", {}, "use a build of Open MPI with threads");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
     ranks_.resize(static_cast<std::size_t>(size_));
@@ -73,33 +73,29 @@ public:
     MPI_Allgather(&own, sizeof own, MPI_BYTE, ranks_.data(), sizeof own, MPI_BYTE, MPI_COMM_WORLD);
   }
   /// Of a run that failed, abort() is the end.
-  ~MpiRanks() override
-  {
+  ~MpiRanks() override {
     if (std::uncaught_exceptions() == 0) MPI_Finalize();
   }
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
   std::string name() const override { return name_of(rank_); }
-  int number_on_host() const override
-  {
-    return static_cast<int>(std::count_if(ranks_.begin(), ranks_.begin() + rank_, [&](const Rank& other) { return is_on_host(other); }));
+  int number_on_host() const override {
+    return static_cast<int>(
+        std::count_if(ranks_.begin(), ranks_.begin() + rank_, [&](const Rank& other) { return is_on_host(other); }));
   }
 
-  void all_reduce_sum(std::span<std::int64_t> numbers) override
-  {
+  void all_reduce_sum(std::span<std::int64_t> numbers) override {
     in_pieces(numbers, [](std::int64_t* piece, int count, MPI_Request* request) {
       return MPI_Iallreduce(MPI_IN_PLACE, piece, count, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD, request);
     });
   }
-  void all_reduce_or(std::span<std::byte> bytes) override
-  {
+  void all_reduce_or(std::span<std::byte> bytes) override {
     in_pieces(bytes, [](std::byte* piece, int count, MPI_Request* request) {
       return MPI_Iallreduce(MPI_IN_PLACE, piece, count, MPI_BYTE, MPI_BOR, MPI_COMM_WORLD, request);
     });
   }
-  void broadcast(std::span<std::byte> bytes) override
-  {
+  void broadcast(std::span<std::byte> bytes) override {
     in_pieces(bytes, [](std::byte* piece, int count, MPI_Request* request) {
       return MPI_Ibcast(piece, count, MPI_BYTE, 0, MPI_COMM_WORLD, request);
     });
@@ -107,8 +103,7 @@ public:
 
   Communicator::Traffic traffic() const override { return traffic_; }
 
-  void distribute(std::int64_t count, const std::function<void(std::int64_t)>& work) override
-  {
+  void distribute(std::int64_t count, const std::function<void(std::int64_t)>& work) override {
     try {
       rank_ == 0 ? distribute_as_root(count, work) : work_for_root(work);
     } catch (const Error& error) {
@@ -117,23 +112,22 @@ public:
     }
   }
 
-  [[noreturn]] void abort(int exit_code) override
-  {
+  [[noreturn]] void abort(int exit_code) override {
     MPI_Abort(MPI_COMM_WORLD, exit_code);
     std::_Exit(exit_code);
   }
 
 private:
   const Rank& own() const { return ranks_[static_cast<std::size_t>(rank_)]; }
-  bool is_on_host(const Rank& other) const
-  {
+  bool is_on_host(const Rank& other) const {
     return own().boot != 0 ? other.boot == own().boot : std::string_view(other.host) == own().host;
   }
-  std::string name_of(int rank) const { return fmt::format("rank {} on {}", rank, ranks_[static_cast<std::size_t>(rank)].host); }
+  std::string name_of(int rank) const {
+    return fmt::format("rank {} on {}", rank, ranks_[static_cast<std::size_t>(rank)].host);
+  }
 
   /// Rank 0 hands out numbers beside its own work.
-  void distribute_as_root(std::int64_t count, const std::function<void(std::int64_t)>& work)
-  {
+  void distribute_as_root(std::int64_t count, const std::function<void(std::int64_t)>& work) {
     std::atomic<std::int64_t> next = 0;
     std::atomic<bool> has_failed = false;
     std::exception_ptr thrown;
@@ -167,8 +161,7 @@ private:
     if (thrown) std::rethrow_exception(thrown);
   }
 
-  void work_for_root(const std::function<void(std::int64_t)>& work)
-  {
+  void work_for_root(const std::function<void(std::int64_t)>& work) {
     while (true) {
       std::int64_t number = no_more;
       MPI_Request request = MPI_REQUEST_NULL;
@@ -182,8 +175,7 @@ private:
 
   /// MPI counts in int.
   template <class T, class Begin>
-  void in_pieces(std::span<T> items, const Begin& begin)
-  {
+  void in_pieces(std::span<T> items, const Begin& begin) {
     constexpr std::size_t most = 1 << 26;
     traffic_.bytes += items.size_bytes();
     for (std::size_t at = 0; at < items.size(); at += most) {
@@ -196,8 +188,7 @@ private:
     }
   }
 
-  void wait(MPI_Request& request)
-  {
+  void wait(MPI_Request& request) {
     wait_until([&] {
       int done = 0;
       MPI_Test(&request, &done, MPI_STATUS_IGNORE);
@@ -206,8 +197,7 @@ private:
   }
 
   template <class IsDone>
-  void wait_until(const IsDone& is_done)
-  {
+  void wait_until(const IsDone& is_done) {
     const Clock::time_point began = Clock::now();
     Clock::time_point looked = began;
     while (!is_done()) {
@@ -223,12 +213,12 @@ private:
   }
 
   /// Those whose processes this one can see; mpirun itself sees to the others.
-  void require_others() const
-  {
+  void require_others() const {
     for (int rank = 0; rank < size_; ++rank) {
       const Rank& other = ranks_[static_cast<std::size_t>(rank)];
       if (!is_on_host(other) || other.processes != own().processes || ::kill(other.process, 0) == 0) continue;
-      throw failed(name_of(rank), fmt::format("process {} has died, and {} waits for it", other.process, name_of(rank_)), {},
+      throw failed(name_of(rank),
+                   fmt::format("process {} has died, and {} waits for it", other.process, name_of(rank_)), {},
                    "go on with --resume, from the last checkpoint if there is one");
     }
   }
@@ -241,4 +231,6 @@ private:
 } // namespace
 } // namespace nephroid::mpi
 
-extern "C" __attribute__((visibility("default"))) nephroid::mpi::Ranks* nephroid_open_ranks() { return new nephroid::mpi::MpiRanks; }
+extern "C" __attribute__((visibility("default"))) nephroid::mpi::Ranks* nephroid_open_ranks() {
+  return new nephroid::mpi::MpiRanks;
+}

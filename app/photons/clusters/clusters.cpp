@@ -17,14 +17,14 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Gauss-Legendre nodes and weights on 0..1. The integrands are analytic up to a distance of about 1 degree from the end of the
-/// interval, so that 64 nodes leave an error below 1e-8 of the integral at n next to 1, and rounding elsewhere.
+/// Gauss-Legendre nodes and weights on 0..1. The integrands are analytic up to a distance of about 1 degree from the
+/// end of the interval, so that 64 nodes leave an error below 1e-8 of the integral at n next to 1, and rounding
+/// elsewhere.
 struct Quadrature {
   static constexpr int count = 64;
   std::array<double, count> node{}, weight{};
 
-  Quadrature()
-  {
+  Quadrature() {
     for (int i = 0; i < count; ++i) {
       double x = std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5)), slope = 0;
       for (int newton = 0; newton < 8; ++newton) {
@@ -41,8 +41,7 @@ struct Quadrature {
 };
 
 /// The integral over u = 0..end (radians) of asin(ratio sin u), in square radians.
-double arc_integral(double ratio, double end)
-{
+double arc_integral(double ratio, double end) {
   static const Quadrature quadrature;
   double sum = 0;
   for (std::size_t i = 0; i < quadrature.node.size(); ++i)
@@ -50,12 +49,14 @@ double arc_integral(double ratio, double end)
   return sum * end;
 }
 
-// Theta by the thesis' bicubic patches (4.5)-(4.14): the surface d theta2 / d lambda over wavelength and angle of incidence is
-// cut into patches of 1 nm by 1 degree, each a bicubic polynomial, and a wavelength's Theta is the volume below its 89 patches.
+// Theta by the thesis' bicubic patches (4.5)-(4.14): the surface d theta2 / d lambda over wavelength and angle of
+// incidence is cut into patches of 1 nm by 1 degree, each a bicubic polynomial, and a wavelength's Theta is the volume
+// below its 89 patches.
 constexpr int angle_count = last_angle_deg + 1; ///< 0..89 degrees
 
-/// Appendix A.2: a = M^-1 Psi. Columns: psi at the corners (0,0), (1,0), (0,1), (1,1) of (wavelength, angle), then psi_lambda,
-/// psi_theta and psi_lambda_theta at the same corners. Rows: a_00, a_10, a_20, a_30, a_01, ... a_33 of (4.8).
+/// Appendix A.2: a = M^-1 Psi. Columns: psi at the corners (0,0), (1,0), (0,1), (1,1) of (wavelength, angle), then
+/// psi_lambda, psi_theta and psi_lambda_theta at the same corners. Rows: a_00, a_10, a_20, a_30, a_01, ... a_33 of
+/// (4.8).
 constexpr std::array<std::array<int, 16>, 16> m_inverse{{
     {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
     {0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
@@ -75,9 +76,9 @@ constexpr std::array<std::array<int, 16>, 16> m_inverse{{
     {4, -4, -4, 4, 2, 2, -2, -2, 2, -2, 2, -2, 1, 1, 1, 1},
 }};
 
-/// The volume below a patch is a^T b = (M^-T b)^T Psi with b_ij = 1 / ((i + 1)(j + 1)) (4.12, 4.13): one weight a corner value.
-constexpr std::array<double, 16> volume_weights()
-{
+/// The volume below a patch is a^T b = (M^-T b)^T Psi with b_ij = 1 / ((i + 1)(j + 1)) (4.12, 4.13): one weight a
+/// corner value.
+constexpr std::array<double, 16> volume_weights() {
   std::array<double, 16> weights{};
   for (std::size_t row = 0; row < 16; ++row) {
     const std::size_t i = row % 4, j = row / 4;
@@ -102,15 +103,13 @@ private:
 
 /// (value(i + 1) - value(i - 1)) / 2, and one-sided at both ends.
 template <class Value>
-double difference(std::size_t i, std::size_t count, Value value)
-{
+double difference(std::size_t i, std::size_t count, Value value) {
   const std::size_t low = i == 0 ? 0 : i - 1, high = std::min(i + 1, count - 1);
   return high == low ? 0 : (value(high) - value(low)) / static_cast<double>(high - low);
 }
 
 /// (4.3) in degrees a nanometre, with n' by differences in the sorted order.
-Grid angle_derivative(std::span<const double> n)
-{
+Grid angle_derivative(std::span<const double> n) {
   Grid psi(n.size());
   for (std::size_t i = 0; i < n.size(); ++i) {
     const double slope = difference(i, n.size(), [&](std::size_t k) { return n[k]; });
@@ -122,8 +121,7 @@ Grid angle_derivative(std::span<const double> n)
   return psi;
 }
 
-Grid wavelength_difference(const Grid& grid)
-{
+Grid wavelength_difference(const Grid& grid) {
   Grid result(grid.wavelengths());
   for (std::size_t i = 0; i < grid.wavelengths(); ++i)
     for (std::size_t j = 0; j < angle_count; ++j)
@@ -131,11 +129,11 @@ Grid wavelength_difference(const Grid& grid)
   return result;
 }
 
-Grid angle_difference(const Grid& grid)
-{
+Grid angle_difference(const Grid& grid) {
   Grid result(grid.wavelengths());
   for (std::size_t i = 0; i < grid.wavelengths(); ++i)
-    for (std::size_t j = 0; j < angle_count; ++j) result(i, j) = difference(j, angle_count, [&](std::size_t k) { return grid(i, k); });
+    for (std::size_t j = 0; j < angle_count; ++j)
+      result(i, j) = difference(j, angle_count, [&](std::size_t k) { return grid(i, k); });
   return result;
 }
 
@@ -143,33 +141,34 @@ using Wavelengths = std::array<int, optics::wavelength_count>;
 /// One past the last member of each group, in the sorted order.
 using Ends = std::vector<std::size_t>;
 
-void check_input(const optics::Spectrum& n, double threshold_deg)
-{
+void check_input(const optics::Spectrum& n, double threshold_deg) {
   if (!(threshold_deg > 0 && threshold_deg < 90))
-    throw bad_input("clusters", fmt::format("the threshold is {} degrees", threshold_deg), "expected above 0 and below 90");
+    throw bad_input("clusters", fmt::format("the threshold is {} degrees", threshold_deg),
+                    "expected above 0 and below 90");
   for (int i = 0; i < optics::wavelength_count; ++i) {
     const double value = n[static_cast<std::size_t>(i)];
     if (!std::isfinite(value) || !(value > 0))
-      throw bad_input("clusters", fmt::format("the index of refraction is {} at {} nm", value, optics::wavelength_nm(i)),
+      throw bad_input("clusters",
+                      fmt::format("the index of refraction is {} at {} nm", value, optics::wavelength_nm(i)),
                       "expected a number above 0");
   }
 }
 
-Wavelengths by_falling_n(const optics::Spectrum& n)
-{
+Wavelengths by_falling_n(const optics::Spectrum& n) {
   Wavelengths order{};
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, [&](int a, int b) { return n[static_cast<std::size_t>(a)] > n[static_cast<std::size_t>(b)]; });
+  std::ranges::stable_sort(
+      order, [&](int a, int b) { return n[static_cast<std::size_t>(a)] > n[static_cast<std::size_t>(b)]; });
   return order;
 }
 
-/// Fills each group from the left as far as the bound allows. A group may be used when it is one wavelength or sums to at most
-/// h. No division into contiguous groups has fewer: every contiguous part of a usable group is usable, because Theta >= 0. Let
-/// our k-th group end at g_k and that of any other division at o_k. Then g_k >= o_k, by induction over k: where o_k > g_(k-1), the
-/// wavelengths g_(k-1) + 1 .. o_k are a part of the other's k-th group (as o_(k-1) <= g_(k-1)), so they are usable, and ours,
-/// which starts at the same wavelength and goes as far as it can, reaches o_k at least. So ours is through no later.
-Ends packed_from_the_left(const std::vector<double>& theta, double h)
-{
+/// Fills each group from the left as far as the bound allows. A group may be used when it is one wavelength or sums to
+/// at most h. No division into contiguous groups has fewer: every contiguous part of a usable group is usable, because
+/// Theta >= 0. Let our k-th group end at g_k and that of any other division at o_k. Then g_k >= o_k, by induction over
+/// k: where o_k > g_(k-1), the wavelengths g_(k-1) + 1 .. o_k are a part of the other's k-th group (as o_(k-1) <=
+/// g_(k-1)), so they are usable, and ours, which starts at the same wavelength and goes as far as it can, reaches o_k
+/// at least. So ours is through no later.
+Ends packed_from_the_left(const std::vector<double>& theta, double h) {
   Ends ends;
   double sum = 0;
   for (std::size_t i = 0; i < theta.size(); ++i) {
@@ -184,10 +183,9 @@ Ends packed_from_the_left(const std::vector<double>& theta, double h)
   return ends;
 }
 
-/// Algorithm 4.1 as printed: merge the two neighbouring free clusters with the smallest sum, again and again, while that sum is
-/// at most h. A wavelength whose own Theta reaches h is final from the start.
-Ends merged_pairwise(const std::vector<double>& theta, double h)
-{
+/// Algorithm 4.1 as printed: merge the two neighbouring free clusters with the smallest sum, again and again, while
+/// that sum is at most h. A wavelength whose own Theta reaches h is final from the start.
+Ends merged_pairwise(const std::vector<double>& theta, double h) {
   struct Group {
     double theta;
     std::size_t end;
@@ -212,15 +210,13 @@ Ends merged_pairwise(const std::vector<double>& theta, double h)
   return ends;
 }
 
-Ends one_by_one()
-{
+Ends one_by_one() {
   Ends ends(optics::wavelength_count);
   std::iota(ends.begin(), ends.end(), std::size_t{1});
   return ends;
 }
 
-Cluster make_cluster(std::span<const int> members, std::span<const double> theta, const optics::Spectrum& n)
-{
+Cluster make_cluster(std::span<const int> members, std::span<const double> theta, const optics::Spectrum& n) {
   Cluster cluster;
   cluster.wavelengths.assign(members.begin(), members.end());
   double sum = 0;
@@ -232,18 +228,16 @@ Cluster make_cluster(std::span<const int> members, std::span<const double> theta
 
 } // namespace
 
-double refraction_integral_deg2(double n)
-{
+double refraction_integral_deg2(double n) {
   constexpr double end = last_angle_deg * degree;
   if (n >= 1) return arc_integral(1 / n, end) / (degree * degree);
-  // Below 1 the integrand has an infinite slope at the critical angle and stays at 90 degrees beyond it. Integrating by parts
-  // exchanges the axes, and the inverse theta1 = asin(n sin theta2) is smooth.
+  // Below 1 the integrand has an infinite slope at the critical angle and stays at 90 degrees beyond it. Integrating by
+  // parts exchanges the axes, and the inverse theta1 = asin(n sin theta2) is smooth.
   const double theta2_end = std::asin(std::min(1.0, std::sin(end) / n));
   return (end * theta2_end - arc_integral(n, theta2_end)) / (degree * degree);
 }
 
-std::vector<double> theta_exact(std::span<const double> n)
-{
+std::vector<double> theta_exact(std::span<const double> n) {
   std::vector<double> theta(n.size() - 1);
   double before = refraction_integral_deg2(n[0]);
   for (std::size_t i = 0; i < theta.size(); ++i) {
@@ -254,23 +248,24 @@ std::vector<double> theta_exact(std::span<const double> n)
   return theta;
 }
 
-// The corner derivatives are finite differences of psi on the grid, as the thesis takes them (appendix A.1, last paragraph), so
-// that a staircase gives a large figure and not an infinite one. They approximate, with s = sin theta1, c = cos theta1,
-//   psi_theta        = -c n n' / (n^2 - s^2)^(3/2)                                                                 (A.2)
-//   psi_lambda_theta = -c (n^3 n'' - s^2 n n'' - s^2 n'^2 - 2 n^2 n'^2) / (n^2 - s^2)^(5/2)                        (A.3)
+// The corner derivatives are finite differences of psi on the grid, as the thesis takes them (appendix A.1, last
+// paragraph), so that a staircase gives a large figure and not an infinite one. They approximate, with s = sin theta1,
+// c = cos theta1,
+//   psi_theta        = -c n n' / (n^2 - s^2)^(3/2) (A.2) psi_lambda_theta = -c (n^3 n'' - s^2 n n'' - s^2 n'^2 - 2 n^2
+//   n'^2) / (n^2 - s^2)^(5/2)                        (A.3)
 // (A.3) has lost its operators in print. It follows from (A.2): d/d lambda of n n' (n^2 - s^2)^(-3/2) is
 // ((n n'' + n'^2) (n^2 - s^2) - 3 n^2 n'^2) (n^2 - s^2)^(-5/2).
-std::vector<double> theta_patches(std::span<const double> n)
-{
+std::vector<double> theta_patches(std::span<const double> n) {
   std::vector<double> theta = theta_exact(n);
   // The patch of step i reads psi at i - 1 .. i + 2; all of these need n >= 1, where (4.3) is finite up to 89 degrees.
-  const auto from_one = static_cast<std::size_t>(std::ranges::find_if(n, [](double value) { return value < 1; }) - n.begin());
+  const auto from_one =
+      static_cast<std::size_t>(std::ranges::find_if(n, [](double value) { return value < 1; }) - n.begin());
   const std::size_t steps = from_one == n.size() ? theta.size() : from_one - std::min<std::size_t>(from_one, 2);
   if (steps == 0) return theta;
 
   constexpr std::array<double, 16> weights = volume_weights();
-  const Grid psi = angle_derivative(n.first(from_one)), psi_lambda = wavelength_difference(psi), psi_theta = angle_difference(psi),
-             psi_both = wavelength_difference(psi_theta);
+  const Grid psi = angle_derivative(n.first(from_one)), psi_lambda = wavelength_difference(psi),
+             psi_theta = angle_difference(psi), psi_both = wavelength_difference(psi_theta);
   const Grid* const values[] = {&psi, &psi_lambda, &psi_theta, &psi_both};
   for (std::size_t i = 0; i < steps; ++i) {
     double volume = 0;
@@ -283,8 +278,7 @@ std::vector<double> theta_patches(std::span<const double> n)
   return theta;
 }
 
-Clustering cluster_wavelengths(const optics::Spectrum& n, double threshold_deg, ClusterMethod method)
-{
+Clustering cluster_wavelengths(const optics::Spectrum& n, double threshold_deg, ClusterMethod method) {
   check_input(n, threshold_deg);
   const Wavelengths order = by_falling_n(n);
   std::vector<double> sorted_n;
@@ -304,21 +298,22 @@ Clustering cluster_wavelengths(const optics::Spectrum& n, double threshold_deg, 
   result.total_theta_deg2 = std::accumulate(theta.begin(), theta.end(), 0.0);
   std::size_t begin = 0;
   for (std::size_t end : ends) {
-    result.clusters.push_back(make_cluster(std::span(order).subspan(begin, end - begin), std::span(theta).subspan(begin, end - begin), n));
+    result.clusters.push_back(
+        make_cluster(std::span(order).subspan(begin, end - begin), std::span(theta).subspan(begin, end - begin), n));
     begin = end;
   }
   return result;
 }
 
-std::vector<std::vector<int>> common_refinement(std::span<const Clustering> clusterings)
-{
+std::vector<std::vector<int>> common_refinement(std::span<const Clustering> clusterings) {
   // The group of each wavelength so far; every clustering splits it by (group so far, cluster).
   Wavelengths group{};
   for (const Clustering& clustering : clusterings) {
     std::map<std::pair<int, std::size_t>, int> names;
     Wavelengths cluster_of{};
     for (std::size_t c = 0; c < clustering.clusters.size(); ++c)
-      for (int index : clustering.clusters[c].wavelengths) cluster_of[static_cast<std::size_t>(index)] = static_cast<int>(c);
+      for (int index : clustering.clusters[c].wavelengths)
+        cluster_of[static_cast<std::size_t>(index)] = static_cast<int>(c);
     for (std::size_t i = 0; i < group.size(); ++i)
       group[i] = names.try_emplace({group[i], cluster_of[i]}, static_cast<int>(names.size())).first->second;
   }

@@ -26,9 +26,11 @@ struct Strategy {
 };
 constexpr Strategy strategies[] = {
     {Choice::automatic, Strategy::By::light,
-     "photons are allocated by the variance that is measured while that gains enough, else by what the eye makes of each cluster's light"},
+     "photons are allocated by the variance that is measured while that gains enough, else by what the eye makes of "
+     "each cluster's light"},
     {Choice::power, Strategy::By::light, "photons are allocated by what the eye makes of each cluster's light"},
-    {Choice::variance, Strategy::By::light, "photons are allocated by the variance that is measured: spectral.effort is variance"},
+    {Choice::variance, Strategy::By::light,
+     "photons are allocated by the variance that is measured: spectral.effort is variance"},
     {Choice::importance, Strategy::By::wavelength, "clusters matter by light, luminosity and surroundings (4.15)"},
     {Choice::radziszewski, Strategy::By::wavelength, "clusters matter by 1 / cosh^2(0.0072 (lambda - 538))"},
     {Choice::equal, Strategy::By::alike, "every cluster has the same work: spectral.effort is equal"},
@@ -36,16 +38,14 @@ constexpr Strategy strategies[] = {
 };
 
 /// Layers and progressive photon mapping measure no variance.
-const Strategy& strategy_of(const Settings& settings)
-{
+const Strategy& strategy_of(const Settings& settings) {
   const bool measures = !settings.relight && settings.estimator != Settings::Estimator::sppm;
   const Choice choice = settings.effort == Choice::automatic && !measures ? Choice::power : settings.effort;
   return *std::ranges::find(strategies, choice, &Strategy::choice);
 }
 
 /// [light][cluster] flat.
-std::vector<double> by_power(const std::vector<double>& watts, const tracing::WavelengthTables& tables)
-{
+std::vector<double> by_power(const std::vector<double>& watts, const tracing::WavelengthTables& tables) {
   std::vector<double> weights;
   for (std::size_t l = 0; l < watts.size(); ++l)
     for (std::size_t c = 0; c < tables.clusters.size(); ++c)
@@ -54,8 +54,7 @@ std::vector<double> by_power(const std::vector<double>& watts, const tracing::Wa
 }
 
 /// Of each cluster.
-std::vector<double> watts_in_clusters(const std::vector<double>& watts, const tracing::WavelengthTables& tables)
-{
+std::vector<double> watts_in_clusters(const std::vector<double>& watts, const tracing::WavelengthTables& tables) {
   std::vector<double> sums(tables.clusters.size(), 0);
   for (std::size_t l = 0; l < watts.size(); ++l)
     for (std::size_t c = 0; c < sums.size(); ++c) sums[c] += watts[l] * tables.share[l][c];
@@ -64,8 +63,7 @@ std::vector<double> watts_in_clusters(const std::vector<double>& watts, const tr
 
 /// Each cluster's importance, shared by the lights in proportion to their watts in it.
 std::vector<double> by_importance(const std::vector<double>& importance, const std::vector<double>& watts,
-                                  const tracing::WavelengthTables& tables)
-{
+                                  const tracing::WavelengthTables& tables) {
   const std::vector<double> sums = watts_in_clusters(watts, tables);
   std::vector<double> weights;
   for (std::size_t l = 0; l < watts.size(); ++l)
@@ -75,8 +73,7 @@ std::vector<double> by_importance(const std::vector<double>& importance, const s
 }
 
 /// Of each cluster the sum over lights, divided by the largest; 1 where all are 0.
-std::vector<double> cluster_sums(const std::vector<double>& weights, std::size_t clusters)
-{
+std::vector<double> cluster_sums(const std::vector<double>& weights, std::size_t clusters) {
   std::vector<double> sums(clusters, 0);
   for (std::size_t i = 0; i < weights.size(); ++i) sums[i % clusters] += weights[i];
   const double largest = sums.empty() ? 0 : *std::ranges::max_element(sums);
@@ -84,15 +81,14 @@ std::vector<double> cluster_sums(const std::vector<double>& weights, std::size_t
   return sums;
 }
 
-bool caustics_are_possible(const scene::Scene& scene, const std::vector<double>& watts)
-{
+bool caustics_are_possible(const scene::Scene& scene, const std::vector<double>& watts) {
   const tracing::ObjectCounts objects = tracing::count_objects(scene);
-  return objects.diffuse > 0 && !caustic_objects(scene).empty() && std::ranges::any_of(watts, [](double w) { return w > 0; });
+  return objects.diffuse > 0 && !caustic_objects(scene).empty() &&
+         std::ranges::any_of(watts, [](double w) { return w > 0; });
 }
 
 /// What of the work of equal clusters is done.
-std::string work_left(const std::vector<double>& importance)
-{
+std::string work_left(const std::vector<double>& importance) {
   const double sum = std::accumulate(importance.begin(), importance.end(), 0.0);
   return fmt::format("{:.0f} % of the iterations of clusters that all matter alike",
                      100 * sum / static_cast<double>(std::max<std::size_t>(importance.size(), 1)));
@@ -101,8 +97,7 @@ std::string work_left(const std::vector<double>& importance)
 } // namespace
 
 ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
-                                  const std::vector<double>& watts, const tracing::WavelengthTables& tables)
-{
+                                  const std::vector<double>& watts, const tracing::WavelengthTables& tables) {
   const std::size_t clusters = tables.clusters.size();
   const Strategy& strategy = strategy_of(settings);
   if (strategy.by == Strategy::By::light) {
@@ -114,8 +109,8 @@ ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& 
   if (strategy.by == Strategy::By::wavelength && caustics_are_possible(scene, watts)) {
     const optics::Spectrum u = wavelength_importance(settings, scene, bvh).u;
     importance = cluster_importance(u, tables.clusters, settings.importance.cluster);
-    // What the nine points see is not all that caustics fall on. So that the picture is right on average, a cluster with light has at
-    // least one photon a pass, or one iteration of all.
+    // What the nine points see is not all that caustics fall on. So that the picture is right on average, a cluster
+    // with light has at least one photon a pass, or one iteration of all.
     constexpr double least = 1e-9;
     const std::vector<double> lit = watts_in_clusters(watts, tables);
     for (std::size_t c = 0; c < clusters; ++c)
@@ -124,13 +119,13 @@ ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& 
   return {by_importance(importance, watts, tables), importance};
 }
 
-plan::Pass effort_pass(const Settings& settings, const std::vector<double>& importance)
-{
+plan::Pass effort_pass(const Settings& settings, const std::vector<double>& importance) {
   const Strategy& strategy = strategy_of(settings);
   const bool matters = strategy.by == Strategy::By::wavelength;
   if (settings.effort == Choice::importance && !settings.importance.geometry)
     return {"importance", true, "clusters matter by light, luminosity and materials (4.15): " + work_left(importance)};
-  return {"importance", matters, matters ? fmt::format("{}: {}", strategy.reason, work_left(importance)) : std::string(strategy.reason)};
+  return {"importance", matters,
+          matters ? fmt::format("{}: {}", strategy.reason, work_left(importance)) : std::string(strategy.reason)};
 }
 
 } // namespace nephroid::photons

@@ -17,14 +17,19 @@ constexpr std::size_t bins_x = GUIDE_BINS_X, bins_y = GUIDE_BINS_Y, bins_z = GUI
 /// The part of the photons that is spread evenly whatever was learned: a cell that looked dark may not be.
 constexpr double even_part = 0.15;
 
-/// The mean with the neighbours, weights 1 2 1, over the second and the third number; the third goes round, as it is an angle.
-std::vector<double> blurred(std::span<const double> values)
-{
+/// The mean with the neighbours, weights 1 2 1, over the second and the third number; the third goes round, as it is an
+/// angle.
+std::vector<double> blurred(std::span<const double> values) {
   const auto pass = [](std::span<const double> from, std::size_t bins, std::size_t stride, bool wraps) {
     std::vector<double> to(from.size());
     for (std::size_t i = 0; i < from.size(); ++i) {
       const std::size_t bin = i / stride % bins, first = i - bin * stride;
-      const std::size_t below = bin > 0 ? bin - 1 : wraps ? bins - 1 : bin, above = bin + 1 < bins ? bin + 1 : wraps ? 0 : bin;
+      const std::size_t below = bin > 0 ? bin - 1
+                                : wraps ? bins - 1
+                                        : bin,
+                        above = bin + 1 < bins ? bin + 1
+                                : wraps        ? 0
+                                               : bin;
       to[i] = 0.25 * from[first + below * stride] + 0.5 * from[i] + 0.25 * from[first + above * stride];
     }
     return to;
@@ -33,8 +38,7 @@ std::vector<double> blurred(std::span<const double> values)
 }
 
 /// The sums of groups of `size` values.
-std::vector<double> sums(std::span<const double> values, std::size_t size)
-{
+std::vector<double> sums(std::span<const double> values, std::size_t size) {
   std::vector<double> result;
   for (std::size_t i = 0; i < values.size(); i += size)
     result.push_back(std::accumulate(values.begin() + i, values.begin() + i + size, 0.0));
@@ -42,8 +46,7 @@ std::vector<double> sums(std::span<const double> values, std::size_t size)
 }
 
 /// Appends the cdf of each group of `size` values.
-void append_cdfs(const std::vector<double>& values, std::size_t size, std::vector<float>& table)
-{
+void append_cdfs(const std::vector<double>& values, std::size_t size, std::vector<float>& table) {
   for (std::size_t i = 0; i < values.size(); i += size) {
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(i);
     const std::vector<float> cdf = tracing::exact_cdf({first, first + static_cast<std::ptrdiff_t>(size)});
@@ -53,8 +56,7 @@ void append_cdfs(const std::vector<double>& values, std::size_t size, std::vecto
 
 } // namespace
 
-std::vector<shared::DeviceEmitter> make_emitters(const std::vector<PhotonSource>& sources, unsigned photons)
-{
+std::vector<shared::DeviceEmitter> make_emitters(const std::vector<PhotonSource>& sources, unsigned photons) {
   std::vector<double> weights;
   for (const PhotonSource& source : sources) weights.push_back(source.weight);
   const std::vector<unsigned> counts = allocate_photons(weights, photons);
@@ -72,8 +74,7 @@ std::vector<shared::DeviceEmitter> make_emitters(const std::vector<PhotonSource>
   return emitters;
 }
 
-std::vector<unsigned> allocate_photons(const std::vector<double>& weights, unsigned photons)
-{
+std::vector<unsigned> allocate_photons(const std::vector<double>& weights, unsigned photons) {
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   const auto positive = static_cast<unsigned>(std::ranges::count_if(weights, [](double w) { return w > 0; }));
   std::vector<unsigned> counts(weights.size(), 0);
@@ -91,11 +92,11 @@ std::vector<unsigned> allocate_photons(const std::vector<double>& weights, unsig
   return counts;
 }
 
-void number_photons(std::vector<shared::DeviceEmitter>& emitters)
-{
+void number_photons(std::vector<shared::DeviceEmitter>& emitters) {
   unsigned first = 0;
   for (auto begin = emitters.begin(); begin != emitters.end();) {
-    const auto end = std::find_if(begin, emitters.end(), [&](const shared::DeviceEmitter& e) { return e.light != begin->light; });
+    const auto end =
+        std::find_if(begin, emitters.end(), [&](const shared::DeviceEmitter& e) { return e.light != begin->light; });
     const unsigned light_first = first;
     for (auto e = begin; e != end; ++e) {
       e->first_photon = first;
@@ -109,21 +110,18 @@ void number_photons(std::vector<shared::DeviceEmitter>& emitters)
   }
 }
 
-unsigned count_photons(const std::vector<shared::DeviceEmitter>& emitters)
-{
+unsigned count_photons(const std::vector<shared::DeviceEmitter>& emitters) {
   return emitters.empty() ? 0 : emitters.back().first_photon + emitters.back().photon_count;
 }
 
-void advance_sequence(shared::DeviceEmitter& emitter, std::uint64_t photons)
-{
+void advance_sequence(shared::DeviceEmitter& emitter, std::uint64_t photons) {
   const std::uint64_t at = (std::uint64_t{emitter.sequence_start_high} << 32 | emitter.sequence_start) + photons;
   emitter.sequence_start = static_cast<std::uint32_t>(at);
   emitter.sequence_start_high = static_cast<std::uint32_t>(at >> 32);
 }
 
 NeymanAllocation::NeymanAllocation(std::vector<shared::DeviceEmitter> emitters)
-    : emitters_(std::move(emitters)), squares_(emitters_.size(), 0), photons_(emitters_.size(), 0)
-{
+    : emitters_(std::move(emitters)), squares_(emitters_.size(), 0), photons_(emitters_.size(), 0) {
   const double photons = count_photons(emitters_);
   for (const shared::DeviceEmitter& emitter : emitters_) {
     initial_counts_.push_back(emitter.photon_count);
@@ -131,16 +129,15 @@ NeymanAllocation::NeymanAllocation(std::vector<shared::DeviceEmitter> emitters)
   }
 }
 
-bool NeymanAllocation::is_due(std::int64_t pass) const
-{
+bool NeymanAllocation::is_due(std::int64_t pass) const {
   return pass >= 2 && pass > first_iteration_ && std::has_single_bit(static_cast<std::uint64_t>(pass));
 }
 
-// A photon of an emitter with n of them adds v = Phi f / n, so the sum of v^2 over the n photons of a pass is Phi^2 E[f^2] / n, and n times
-// that estimates V = Phi^2 E[f^2].
-void NeymanAllocation::reallocate(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves)
-{
-  // The part of the photons that stays as it was allocated first, whatever was measured: a variance that few photons measured may be far off.
+// A photon of an emitter with n of them adds v = Phi f / n, so the sum of v^2 over the n photons of a pass is Phi^2
+// E[f^2] / n, and n times that estimates V = Phi^2 E[f^2].
+void NeymanAllocation::reallocate(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves) {
+  // The part of the photons that stays as it was allocated first, whatever was measured: a variance that few photons
+  // measured may be far off.
   constexpr double first_part = 0.1;
   const double passes = static_cast<double>(pass - first_iteration_);
   std::vector<double> deviation(emitters_.size());
@@ -157,7 +154,8 @@ void NeymanAllocation::reallocate(std::int64_t pass, std::span<const std::int64_
   const double total = std::accumulate(deviation.begin(), deviation.end(), 0.0);
   std::vector<double> weights = initial_shares_;
   if (total > 0)
-    for (std::size_t e = 0; e < weights.size(); ++e) weights[e] = first_part * initial_shares_[e] + (1 - first_part) * deviation[e] / total;
+    for (std::size_t e = 0; e < weights.size(); ++e)
+      weights[e] = first_part * initial_shares_[e] + (1 - first_part) * deviation[e] / total;
   assign(pass, allocate_photons(weights, photons_per_pass), halves);
 }
 
@@ -165,19 +163,18 @@ void NeymanAllocation::restore_initial(std::int64_t pass, unsigned halves) { ass
 
 double NeymanAllocation::gain() const { return last_variance_ > 0 ? first_variance_ / last_variance_ : 1; }
 
-void NeymanAllocation::assign(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves)
-{
+void NeymanAllocation::assign(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves) {
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
     shared::DeviceEmitter& emitter = emitters_[e];
-    advance_sequence(emitter, static_cast<std::uint64_t>(pass - first_iteration_) / halves * emitter.light_photon_count);
+    advance_sequence(emitter,
+                     static_cast<std::uint64_t>(pass - first_iteration_) / halves * emitter.light_photon_count);
     emitter.photon_count = counts[e];
   }
   number_photons(emitters_);
   first_iteration_ = pass;
 }
 
-void NeymanAllocation::state(tracing::State& state)
-{
+void NeymanAllocation::state(tracing::State& state) {
   state.value(first_iteration_);
   state.value(first_variance_);
   state.value(last_variance_);
@@ -186,18 +183,17 @@ void NeymanAllocation::state(tracing::State& state)
   state.items(std::span(photons_));
 }
 
-EmissionGuide::EmissionGuide(std::size_t lights) : squares_(lights * cells, 0), samples_(lights * cells, 0)
-{
+EmissionGuide::EmissionGuide(std::size_t lights) : squares_(lights * cells, 0), samples_(lights * cells, 0) {
   const std::vector<std::int64_t> dark(lights * cells, 0);
   chance_.assign(lights * cells, 1.0 / cells);
   learn(dark, std::vector<double>(lights, 0), 0);
 }
 
-// A photon of a cell that comes `density` times as often as evenly counts 1 / density; of n photons of the light it adds v = f / (n
-// density). The cell gets n density / GUIDE_CELLS of them, so a pass' sum of v^2 there is E[f^2] / (n density GUIDE_CELLS), and n density
-// times that estimates E[f^2] / GUIDE_CELLS. Allocations are weighed by the cell's number of photons.
-void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const double> photons, double passes)
-{
+// A photon of a cell that comes `density` times as often as evenly counts 1 / density; of n photons of the light it
+// adds v = f / (n density). The cell gets n density / GUIDE_CELLS of them, so a pass' sum of v^2 there is E[f^2] / (n
+// density GUIDE_CELLS), and n density times that estimates E[f^2] / GUIDE_CELLS. Allocations are weighed by the cell's
+// number of photons.
+void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const double> photons, double passes) {
   table_.clear();
   for (std::size_t l = 0; l < photons.size(); ++l) {
     const std::size_t first = l * cells;
@@ -221,8 +217,7 @@ void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const
   }
 }
 
-void EmissionGuide::state(tracing::State& state)
-{
+void EmissionGuide::state(tracing::State& state) {
   for (std::vector<double>* values : {&chance_, &squares_, &samples_}) state.items(std::span(*values));
   state.items(std::span(table_));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// u(lambda) = l(lambda) ybar(lambda) sum_i m_i(lambda) L_i ghat_i, (4.15), divided by its largest value. i runs over the materials that
-// diffuse or mirror light. m_i(lambda) is the largest reflectance over all directions (4.1.2); that of a mirror here is the same in each.
+// u(lambda) = l(lambda) ybar(lambda) sum_i m_i(lambda) L_i ghat_i, (4.15), divided by its largest value. i runs over
+// the materials that diffuse or mirror light. m_i(lambda) is the largest reflectance over all directions (4.1.2); that
+// of a mirror here is the same in each.
 #include "photons/effort/importance.h"
 
 #include "scene/ray.h"
@@ -19,10 +20,9 @@ using optics::Spectrum;
 using optics::wavelength_count;
 using Type = scene::Material::Type;
 
-/// The corners of the box about an object, and its centre. The corners are drawn in by a thousandth: an object that stands on
-/// a floor has corners of its box in the floor, and they are to see it.
-std::array<glm::dvec3, 9> viewpoints(const scene::Scene& scene, const scene::Object& object)
-{
+/// The corners of the box about an object, and its centre. The corners are drawn in by a thousandth: an object that
+/// stands on a floor has corners of its box in the floor, and they are to see it.
+std::array<glm::dvec3, 9> viewpoints(const scene::Scene& scene, const scene::Object& object) {
   const auto [low, high] = scene::bounds_of(scene, object);
   const glm::dvec3 centre = 0.5 * (low + high), half = 0.999 * 0.5 * (high - low);
   std::array<glm::dvec3, 9> points;
@@ -35,12 +35,13 @@ std::array<glm::dvec3, 9> viewpoints(const scene::Scene& scene, const scene::Obj
 /// Rays in all: enough for a share's error of some tenths of a percent, in a few milliseconds.
 constexpr int rays_per_scene = 9 * 2048, least_rays_per_point = 16;
 
-/// ghat: how often rays from the nine points of every caustic object hit each material, [material]. Every object counts alike, large or
-/// small. Rays pass what refracts: light does too. Where mirrors throw the caustics, rays pass these as well: their own points lie inside.
-std::vector<double> seen_materials(const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<int>& throwers)
-{
+/// ghat: how often rays from the nine points of every caustic object hit each material, [material]. Every object counts
+/// alike, large or small. Rays pass what refracts: light does too. Where mirrors throw the caustics, rays pass these as
+/// well: their own points lie inside.
+std::vector<double> seen_materials(const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<int>& throwers) {
   std::vector<bool> passed(scene.objects.size());
-  for (std::size_t i = 0; i < passed.size(); ++i) passed[i] = material_of(scene, scene.objects[i]).type == Type::dielectric;
+  for (std::size_t i = 0; i < passed.size(); ++i)
+    passed[i] = material_of(scene, scene.objects[i]).type == Type::dielectric;
   for (const int i : throwers) passed[static_cast<std::size_t>(i)] = true;
   const auto counts = [&](std::uint32_t primitive) { return !passed[scene.object_of_primitive[primitive]]; };
 
@@ -63,17 +64,16 @@ std::vector<double> seen_materials(const scene::Scene& scene, const scene::Bvh& 
 }
 
 /// ghat = 1 for all that objects are made of and that sends light on to the eye.
-std::vector<double> used_materials(const scene::Scene& scene)
-{
+std::vector<double> used_materials(const scene::Scene& scene) {
   std::vector<double> used(scene.materials.size(), 0);
   for (const scene::Object& object : scene.objects)
-    if (!is_empty(object) && material_of(scene, object).type != Type::dielectric) used[static_cast<std::size_t>(object.material)] = 1;
+    if (!is_empty(object) && material_of(scene, object).type != Type::dielectric)
+      used[static_cast<std::size_t>(object.material)] = 1;
   return used;
 }
 
 /// Of each W of each light, towards those of `receivers` that it can reach.
-std::vector<double> parts_towards(const scene::Scene& scene, const std::vector<scene::Sphere>& receivers)
-{
+std::vector<double> parts_towards(const scene::Scene& scene, const std::vector<scene::Sphere>& receivers) {
   std::vector<double> parts;
   for (scene::Light light : scene.lights) {
     light.power_w = light.irradiance_w_m2 = 1;
@@ -86,8 +86,7 @@ std::vector<double> parts_towards(const scene::Scene& scene, const std::vector<s
 }
 
 /// l: the spectra of the lights, each by its watts.
-Spectrum sum_of(std::span<const scene::Light> lights, const std::vector<double>& parts)
-{
+Spectrum sum_of(std::span<const scene::Light> lights, const std::vector<double>& parts) {
   const std::vector<double> power = watts(lights, parts);
   Spectrum sum{};
   for (std::size_t i = 0; i < lights.size(); ++i)
@@ -95,8 +94,7 @@ Spectrum sum_of(std::span<const scene::Light> lights, const std::vector<double>&
   return sum;
 }
 
-double luminance(const Spectrum& light, const Spectrum& reflectance)
-{
+double luminance(const Spectrum& light, const Spectrum& reflectance) {
   const Spectrum& eye = optics::cie_1931().y;
   double sum = 0;
   for (std::size_t w = 0; w < light.size(); ++w) sum += light[w] * reflectance[w] * eye[w];
@@ -104,32 +102,30 @@ double luminance(const Spectrum& light, const Spectrum& reflectance)
 }
 
 /// Divides by the largest value. False where all are 0.
-bool normalise(Spectrum& u)
-{
+bool normalise(Spectrum& u) {
   const double largest = *std::ranges::max_element(u);
   if (!(largest > 0)) return false;
   for (double& value : u) value /= largest;
   return true;
 }
 
-Error nothing_matters(const std::string& file, const std::string& reason)
-{
+Error nothing_matters(const std::string& file, const std::string& reason) {
   return bad_input(Place(file) / "spectral" / "effort", "the importance (4.15) is 0 at every wavelength: " + reason,
                    "expected a light on the caustic objects and something around them that reflects it",
                    "change the scene, or choose another effort");
 }
 
 /// Why (4.15) is 0 everywhere, given what is not.
-std::string reason_for_nothing(bool lit, const std::vector<Surrounding>& surroundings, bool geometry)
-{
+std::string reason_for_nothing(bool lit, const std::vector<Surrounding>& surroundings, bool geometry) {
   if (!lit) return "no light sends power towards the caustic objects";
   if (!surroundings.empty()) return "nothing around the caustic objects reflects a wavelength that the lights have";
-  return geometry ? "the caustic objects see nothing that diffuses or mirrors light" : "no object diffuses or mirrors light";
+  return geometry ? "the caustic objects see nothing that diffuses or mirrors light"
+                  : "no object diffuses or mirrors light";
 }
 
-WavelengthImportance importance_of_surroundings(bool geometry, const ImportanceGeometry& where, std::span<const scene::Light> lights,
-                                                std::span<const scene::Material> materials, const std::string& file)
-{
+WavelengthImportance importance_of_surroundings(bool geometry, const ImportanceGeometry& where,
+                                                std::span<const scene::Light> lights,
+                                                std::span<const scene::Material> materials, const std::string& file) {
   if (!where.caustics) throw nothing_matters(file, "no object is of glass or a mirror");
   const Spectrum light = sum_of(lights, where.towards);
   Spectrum perfect;
@@ -152,8 +148,7 @@ WavelengthImportance importance_of_surroundings(bool geometry, const ImportanceG
 }
 
 /// Radziszewski, Boryczko and Alda 2009 found this fit to what wavelengths contribute to luminance; it is 1 at 538 nm.
-Spectrum importance_of_radziszewski()
-{
+Spectrum importance_of_radziszewski() {
   Spectrum u;
   for (int w = 0; w < wavelength_count; ++w)
     u[static_cast<std::size_t>(w)] = std::pow(std::cosh(0.0072 * (optics::wavelength_nm(w) - 538)), -2);
@@ -161,8 +156,7 @@ Spectrum importance_of_radziszewski()
 }
 
 /// What the eye makes of the light alone, wherever it goes.
-Spectrum importance_of_light(const ImportanceGeometry& where, std::span<const scene::Light> lights)
-{
+Spectrum importance_of_light(const ImportanceGeometry& where, std::span<const scene::Light> lights) {
   const optics::ColourMatching& eye = optics::cie_1931();
   Spectrum u = sum_of(lights, where.anywhere);
   for (std::size_t w = 0; w < u.size(); ++w) u[w] *= (eye.x[w] + eye.y[w] + eye.z[w]) / 3;
@@ -172,26 +166,24 @@ Spectrum importance_of_light(const ImportanceGeometry& where, std::span<const sc
 
 } // namespace
 
-std::vector<int> caustic_objects(const scene::Scene& scene)
-{
+std::vector<int> caustic_objects(const scene::Scene& scene) {
   std::vector<int> objects;
   for (const Type type : {Type::dielectric, Type::mirror}) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
-      if (!is_empty(scene.objects[i]) && material_of(scene, scene.objects[i]).type == type) objects.push_back(static_cast<int>(i));
+      if (!is_empty(scene.objects[i]) && material_of(scene, scene.objects[i]).type == type)
+        objects.push_back(static_cast<int>(i));
     if (!objects.empty()) break;
   }
   return objects;
 }
 
-std::vector<double> watts(std::span<const scene::Light> lights, const std::vector<double>& parts)
-{
+std::vector<double> watts(std::span<const scene::Light> lights, const std::vector<double>& parts) {
   std::vector<double> result;
   for (std::size_t i = 0; i < lights.size(); ++i) result.push_back(parts[i] * scene::radiometric(lights[i]));
   return result;
 }
 
-ImportanceGeometry whereabouts(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh)
-{
+ImportanceGeometry whereabouts(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh) {
   const std::vector<int> throwers = caustic_objects(scene);
   std::vector<scene::Sphere> receivers;
   for (const int i : throwers) receivers.push_back(scene.objects[static_cast<std::size_t>(i)].bounds);
@@ -205,37 +197,31 @@ ImportanceGeometry whereabouts(const Settings& settings, const scene::Scene& sce
   return where;
 }
 
-WavelengthImportance wavelength_importance(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh)
-{
-  return wavelength_importance(settings, whereabouts(settings, scene, bvh), scene.lights, scene.materials, scene.source);
+WavelengthImportance wavelength_importance(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh) {
+  return wavelength_importance(settings, whereabouts(settings, scene, bvh), scene.lights, scene.materials,
+                               scene.source);
 }
 
-WavelengthImportance wavelength_importance(const Settings& settings, const ImportanceGeometry& where, std::span<const scene::Light> lights,
-                                           std::span<const scene::Material> materials, const std::string& file)
-{
+WavelengthImportance wavelength_importance(const Settings& settings, const ImportanceGeometry& where,
+                                           std::span<const scene::Light> lights,
+                                           std::span<const scene::Material> materials, const std::string& file) {
   using Effort = Settings::Effort;
   WavelengthImportance result;
   switch (settings.effort) {
   case Effort::importance:
     return importance_of_surroundings(settings.importance.geometry, where, lights, materials, file);
-  case Effort::radziszewski:
-    result.u = importance_of_radziszewski();
-    break;
+  case Effort::radziszewski: result.u = importance_of_radziszewski(); break;
   case Effort::automatic:
   case Effort::power:
-  case Effort::variance:
-    result.u = importance_of_light(where, lights);
-    break;
+  case Effort::variance: result.u = importance_of_light(where, lights); break;
   case Effort::equal:
-  case Effort::random:
-    result.u.fill(1);
-    break;
+  case Effort::random: result.u.fill(1); break;
   }
   return result;
 }
 
-std::vector<double> cluster_importance(const Spectrum& u, std::span<const std::vector<int>> clusters, photons::Importance::Cluster which)
-{
+std::vector<double> cluster_importance(const Spectrum& u, std::span<const std::vector<int>> clusters,
+                                       photons::Importance::Cluster which) {
   std::vector<double> result;
   for (const std::vector<int>& cluster : clusters) {
     double largest = 0, sum = 0;
@@ -243,15 +229,15 @@ std::vector<double> cluster_importance(const Spectrum& u, std::span<const std::v
       largest = std::max(largest, u[static_cast<std::size_t>(w)]);
       sum += u[static_cast<std::size_t>(w)];
     }
-    result.push_back(which == photons::Importance::Cluster::maximum ? largest : sum / static_cast<double>(cluster.size()));
+    result.push_back(which == photons::Importance::Cluster::maximum ? largest
+                                                                    : sum / static_cast<double>(cluster.size()));
   }
   return result;
 }
 
-// It grows by at most 1 although u passes is rounded: u (p + 1) <= u p + 1, and rounding to double keeps the order of numbers and leaves
-// integers as they are.
-std::int64_t iterations(double importance, std::int64_t passes)
-{
+// It grows by at most 1 although u passes is rounded: u (p + 1) <= u p + 1, and rounding to double keeps the order of
+// numbers and leaves integers as they are.
+std::int64_t iterations(double importance, std::int64_t passes) {
   return static_cast<std::int64_t>(std::ceil(importance * static_cast<double>(passes)));
 }
 

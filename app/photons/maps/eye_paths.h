@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths from the eye in steps of some pixels: kernels/photons/view.cl finds where they end, the caller gathers photons there.
+// Paths from the eye in steps of some pixels: kernels/photons/view.cl finds where they end, the caller gathers photons
+// there.
 #pragma once
 #include "kernels/photons/photon_map_types.h"
 #include "photons/tables/device_world.h"
@@ -18,11 +19,11 @@ public:
       : world_(world), begin_(pixels == Pixels::all ? 0 : world.pixels.count),
         size_(pixels == Pixels::all ? world.pixels.count : static_cast<std::uint32_t>(world.pixels.glass.size())),
         points_(world.context, "visible points", point_count(world.tables.camera)),
-        view_(compute::Program(world.context, "photons/view.cl", world.defines).kernel("view")), slices_(size_, 1024)
-  {
-  }
+        view_(compute::Program(world.context, "photons/view.cl", world.defines).kernel("view")), slices_(size_, 1024) {}
   /// What it takes on the device.
-  static std::uint64_t bytes(const shared::DeviceCamera& camera) { return point_count(camera) * sizeof(shared::VisiblePoint); }
+  static std::uint64_t bytes(const shared::DeviceCamera& camera) {
+    return point_count(camera) * sizeof(shared::VisiblePoint);
+  }
 
   /// The paths that a pixel has in a pass, and how many it had before, in all and in this half of the film.
   struct Paths {
@@ -31,19 +32,19 @@ public:
   /// The paths of each of the next pixels, one after the other: gather(first, count) queues kernels for each; first: in
   /// DeviceWorld::pixels. cluster: see view.cl. True when all pixels are done.
   template <class Gather>
-  bool advance(shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster, const Gather& gather)
-  {
+  bool advance(shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster, const Gather& gather) {
     if (size_ == 0) return true;
     return slices_.advance(world_.context.communicator(), size_, static_cast<std::int64_t>(points_.size()),
-                       [&](std::uint32_t done, std::uint32_t count) {
-                         const std::uint32_t first = begin_ + done;
-                         for (std::uint32_t path = 0; path < paths.count; ++path) {
-                           trace(world_.tables.camera, seed, pass, {paths.count, paths.before + path, paths.before_in_half + path}, cluster,
-                                world_.pixels.on_device, first, count);
-                           gather(first, count);
-                         }
-                         world_.context.finish();
-                       });
+                           [&](std::uint32_t done, std::uint32_t count) {
+                             const std::uint32_t first = begin_ + done;
+                             for (std::uint32_t path = 0; path < paths.count; ++path) {
+                               trace(world_.tables.camera, seed, pass,
+                                     {paths.count, paths.before + path, paths.before_in_half + path}, cluster,
+                                     world_.pixels.on_device, first, count);
+                               gather(first, count);
+                             }
+                             world_.context.finish();
+                           });
   }
 
   /// Stage::warm_up for its kernel.
@@ -58,9 +59,8 @@ public:
   void state(tracing::State& state) { slices_.state(state); }
 
   /// Queues the next path of each of `count` of the camera's pixels, into points().
-  void trace(const shared::DeviceCamera& camera, shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster,
-            const compute::Buffer<std::uint32_t>& pixels, std::uint32_t first, std::uint32_t count)
-  {
+  void trace(const shared::DeviceCamera& camera, shared::uint2 seed, std::uint32_t pass, const Paths& paths,
+             int cluster, const compute::Buffer<std::uint32_t>& pixels, std::uint32_t first, std::uint32_t count) {
     world_.queue(view_, std::max(count, 1u), 64,
                  {{"cluster_cdf", world_.buffers.cluster_cdf},
                   {"points", points_},
@@ -79,9 +79,9 @@ public:
 
 private:
   /// About as many as make work for a step.
-  static std::size_t point_count(const shared::DeviceCamera& camera)
-  {
-    return std::min<std::size_t>(1 << 16, static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
+  static std::size_t point_count(const shared::DeviceCamera& camera) {
+    return std::min<std::size_t>(1 << 16,
+                                 static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
   }
 
   DeviceWorld& world_;

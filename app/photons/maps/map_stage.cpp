@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics seen through glass or in a mirror: paths from the eye gather the photons that the photon stage has splatted elsewhere and
-// stored. The radius shrinks from pass to pass and is the same for all pixels (Knaus and Zwicker 2011), so each pass is an estimate of
-// its own, and the film adds them up like any other's.
+// Caustics seen through glass or in a mirror: paths from the eye gather the photons that the photon stage has splatted
+// elsewhere and stored. The radius shrinks from pass to pass and is the same for all pixels (Knaus and Zwicker 2011),
+// so each pass is an estimate of its own, and the film adds them up like any other's.
 #include "base/counted.h"
 #include "photons/maps/eye_paths.h"
 #include "photons/maps/photon_map.h"
@@ -21,36 +21,32 @@ namespace {
 class MapStage final : public Stage {
 public:
   MapStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
-      : world_(world), map_(world.map.value()), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha),
-        paths_(world.tables.eye_paths), eye_(world, EyePaths::Pixels::glass), film_(world.zeroed("film photon maps", world.film_size())),
-        preview_film_(world.preview_film()),
-        gather_(compute::Program(world.context, "photons/gather.cl", world.defines).kernel("gather_to_film"))
-  {
-  }
+      : world_(world), map_(world.map.value()), first_radius_(first_map_radius(settings, scene)),
+        alpha_(settings.sppm.alpha), paths_(world.tables.eye_paths), eye_(world, EyePaths::Pixels::glass),
+        film_(world.zeroed("film photon maps", world.film_size())), preview_film_(world.preview_film()),
+        gather_(compute::Program(world.context, "photons/gather.cl", world.defines).kernel("gather_to_film")) {}
 
   const char* name() const override { return "photon maps"; }
   double fraction_done() const override { return eye_.fraction_done(); }
-  void share_work(const Noise& noise) override
-  {
+  void share_work(const Noise& noise) override {
     double sum = 0;
     for (const std::uint32_t pixel : world_.pixels.glass)
       for (std::size_t c = 0; c < 3; ++c) sum += noise.of(3 * std::size_t{pixel} + c);
     const double work = static_cast<double>(noise.passes) * paths_ * work_through_glass * eye_.size();
     if (work > 0)
-      paths_ = static_cast<std::uint32_t>(std::clamp(std::round(paths_ * std::sqrt(sum / work / noise.photon_gain)), 1.0, 64.0));
+      paths_ = static_cast<std::uint32_t>(
+          std::clamp(std::round(paths_ * std::sqrt(sum / work / noise.photon_gain)), 1.0, 64.0));
   }
 
   /// Over no photon and no pixel.
-  void warm_up(const Communicator& /*communicator*/) override
-  {
+  void warm_up(const Communicator& /*communicator*/) override {
     map_.build(first_radius_, 0);
     eye_.warm_up();
     gather(film_, world_.pixels.count, 0, first_radius_, world_.tables.batches, world_.pixels.on_device, 0, 0);
   }
 
   /// In the photons of the first batches, within a radius that grows with the blocks.
-  bool advance_preview() override
-  {
+  bool advance_preview() override {
     const PreviewBlocks& preview = world_.preview;
     const shared::DeviceCamera camera = world_.preview_camera();
     const auto count = static_cast<std::uint32_t>(preview.glass.size());
@@ -62,23 +58,21 @@ public:
       Partition(world_.context.communicator(), count).for_own(0, count, [&](std::int64_t begin, std::int64_t own) {
         const auto from = static_cast<std::uint32_t>(begin), blocks = static_cast<std::uint32_t>(own);
         eye_.trace(camera, world_.seed, 0, {preview_paths, path, path}, -1, preview.glass, from, blocks);
-        gather(preview_film_, static_cast<std::uint32_t>(camera.width * camera.height), path % 2, radius, preview.batches, preview.glass, from,
-               blocks);
+        gather(preview_film_, static_cast<std::uint32_t>(camera.width * camera.height), path % 2, radius,
+               preview.batches, preview.glass, from, blocks);
       });
     }
     world_.context.finish();
     return true;
   }
 
-  void develop_preview(job::Picture& picture) override
-  {
+  void develop_preview(job::Picture& picture) override {
     const double scale = world_.tables.caustic_scale * world_.white;
     const auto samples = [](std::size_t) { return std::array{1.0, 1.0}; };
     tracing::add_layer("caustic", {world_.context.all_reduced_sum(preview_film_), scale, samples}, picture);
   }
 
-  bool advance(std::int64_t pass) override
-  {
+  bool advance(std::int64_t pass) override {
     const double radius = first_radius_ * map_radius_factor(pass, alpha_);
     if (sorted_pass_ != pass) map_.build(radius, world_.tables.photons_per_pass());
     sorted_pass_ = pass;
@@ -91,16 +85,17 @@ public:
     return complete;
   }
 
-  void develop(std::int64_t passes, bool done, job::Picture& picture) override
-  {
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override {
     const std::int64_t complete = passes + (done ? 1 : 0);
-    const std::uint32_t next = eye_.done() > 0 ? world_.pixels.glass[static_cast<std::size_t>(eye_.done())] : 0; // in the pass in hand
+    const std::uint32_t next =
+        eye_.done() > 0 ? world_.pixels.glass[static_cast<std::size_t>(eye_.done())] : 0; // in the pass in hand
     const auto samples = [=](std::size_t pixel) { return tracing::halves_of(complete + (pixel < next ? 1 : 0), 0); };
-    tracing::add_layer("caustic", {world_.context.all_reduced_sum(film_), world_.tables.caustic_scale * world_.white, samples}, picture);
+    tracing::add_layer("caustic",
+                       {world_.context.all_reduced_sum(film_), world_.tables.caustic_scale * world_.white, samples},
+                       picture);
   }
 
-  void state(tracing::State& state) override
-  {
+  void state(tracing::State& state) override {
     eye_.state(state);
     state.value(paths_);
     state.value(before_);
@@ -116,11 +111,12 @@ private:
   static constexpr std::uint32_t preview_paths = 4;
 
   /// picture: pixels of the film. batches: of photons that are in the map.
-  void gather(const compute::Buffer<std::int64_t>& film, std::uint32_t picture, std::uint32_t pass, double radius, unsigned batches,
-              const compute::Buffer<std::uint32_t>& pixels, std::uint32_t first, std::uint32_t count)
-  {
+  void gather(const compute::Buffer<std::int64_t>& film, std::uint32_t picture, std::uint32_t pass, double radius,
+              unsigned batches, const compute::Buffer<std::uint32_t>& pixels, std::uint32_t first,
+              std::uint32_t count) {
     const RunTables& t = world_.tables;
-    const double quanta = photon_scale(t.photons_per_batch, t.light_towards_targets_w), metres = radius * t.scene.metres_per_unit;
+    const double quanta = photon_scale(t.photons_per_batch, t.light_towards_targets_w),
+                 metres = radius * t.scene.metres_per_unit;
     gather_.run(std::max(count, 1u), 64, map_.arguments(),
                 {{"points", eye_.points()},
                  {"film", film},
@@ -131,7 +127,8 @@ private:
                  {"first", first},
                  {"count", count},
                  {"radius", static_cast<float>(radius)},
-                 {"film_per_quantum", static_cast<float>(t.caustic_scale / quanta / batches / std::pow(std::numbers::pi * metres, 2))}});
+                 {"film_per_quantum",
+                  static_cast<float>(t.caustic_scale / quanta / batches / std::pow(std::numbers::pi * metres, 2))}});
   }
 
   DeviceWorld& world_;
@@ -145,33 +142,36 @@ private:
   std::int64_t sorted_pass_ = -1; ///< whose photons the grid has
 };
 
-plan::Pass map_pass(const PlanInput& input)
-{
+plan::Pass map_pass(const PlanInput& input) {
   const char* const name = "photon maps";
   if (input.settings.relight)
-    return {name, false, "spectral.relight is true: layers are kept of splats, not of photon maps", "/spectral/relight", false};
+    return {name, false, "spectral.relight is true: layers are kept of splats, not of photon maps", "/spectral/relight",
+            false};
   if (!input.caustics.runs) return {name, false, "there are no caustics to gather"};
   const bool sees = tracing::may_see_glass_or_mirror(input.scene);
   if (input.settings.estimator == Settings::Estimator::splat)
     return {name, false,
-            fmt::format("spectral.estimator is splat: {}",
-                        sees ? "what glass and mirrors show of caustics is left out" : "the camera sees no glass and no mirror")};
+            fmt::format("spectral.estimator is splat: {}", sees ? "what glass and mirrors show of caustics is left out"
+                                                                : "the camera sees no glass and no mirror")};
   if (!sees)
-    return tracing::not_needed(name, input.leave_out.photon_maps, "the camera sees no glass and no mirror, so every caustic is splatted");
+    return tracing::not_needed(name, input.leave_out.photon_maps,
+                               "the camera sees no glass and no mirror, so every caustic is splatted");
   return tracing::needed(
-      name, fmt::format("caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
-                        map_radius(input.settings, input.scene), counted(input.tables.eye_paths, "path")));
+      name,
+      fmt::format(
+          "caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
+          map_radius(input.settings, input.scene), counted(input.tables.eye_paths, "path")));
 }
 
-PlanPart plan_maps(const PlanInput& input)
-{
+PlanPart plan_maps(const PlanInput& input) {
   PlanPart part = plan_gathering(input, map_pass(input), input.tables.photons_per_pass());
   const bool runs = part.passes[0].runs;
   if (runs) part.buffers.push_back({"film photon maps", input.film_bytes()});
-  // Wavelengths of a cluster in one pass, as photons and eye paths of one wavelength need each other: so many that a pass has 32 in all,
-  // for a picture of a few wavelengths has a cast.
+  // Wavelengths of a cluster in one pass, as photons and eye paths of one wavelength need each other: so many that a
+  // pass has 32 in all, for a picture of a few wavelengths has a cast.
   const int clusters = std::max(static_cast<int>(input.tables.wavelengths.clusters.size()), 1);
-  part.defines = {{"NEPHROID_PASS_BANDS", std::to_string(runs && jitter_pass(input).runs ? std::max(1, 32 / clusters) : 1)}};
+  part.defines = {
+      {"NEPHROID_PASS_BANDS", std::to_string(runs && jitter_pass(input).runs ? std::max(1, 32 / clusters) : 1)}};
   return part;
 }
 

@@ -20,12 +20,12 @@ constexpr unsigned scan_blocks = 256;
 /// At least one bucket a photon, so that few cells share one.
 std::uint32_t bucket_mask(std::uint32_t slots) { return std::bit_ceil(std::max(slots, 1024u)) - 1; }
 
-/// Eight photons are read at a time, up to seven of them beyond the last, and eight are written there that fit no search.
+/// Eight photons are read at a time, up to seven of them beyond the last, and eight are written there that fit no
+/// search.
 std::uint32_t stride(std::uint32_t slots) { return (slots + 15) / 8 * 8; }
 
 /// Of the pixels, the share that shows glass or a mirror first, by some four thousand of them.
-double bent_share(const scene::Scene& scene, const scene::Bvh& bvh)
-{
+double bent_share(const scene::Scene& scene, const scene::Bvh& bvh) {
   if (!scene.camera.inside.empty()) return 1;
   const int width = scene.camera.width, height = scene.camera.height,
             step = std::max(1, static_cast<int>(std::sqrt(width * 1.0 * height) / 64));
@@ -33,28 +33,30 @@ double bent_share(const scene::Scene& scene, const scene::Bvh& bvh)
   for (int row = step / 2; row < height; row += step)
     for (int column = step / 2; column < width; column += step, ++rays) {
       const int object = surfaces_of_pixel(scene, bvh, scene.camera, column, row, 1).first.object;
-      bent += object >= 0 && material_of(scene, scene.objects[static_cast<std::size_t>(object)]).type != scene::Material::Type::diffuse;
+      bent += object >= 0 && material_of(scene, scene.objects[static_cast<std::size_t>(object)]).type !=
+                                 scene::Material::Type::diffuse;
     }
   return static_cast<double>(bent) / rays;
 }
 
 /// Width of what a pixel covers at the distance of the scene's middle.
-double pixel_width(const scene::Camera& camera, const scene::Sphere& bounds)
-{
+double pixel_width(const scene::Camera& camera, const scene::Sphere& bounds) {
   const double distance = std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius);
   return 2 * distance * camera.tan_y / camera.height;
 }
 
 } // namespace
 
-double photon_scale(std::uint32_t photons, double watts) { return tracing::power_of_two_below(std::exp2(12) * photons / watts); }
+double photon_scale(std::uint32_t photons, double watts) {
+  return tracing::power_of_two_below(std::exp2(12) * photons / watts);
+}
 
 PhotonMap::PhotonMap(const mpi::RankContext& context, std::uint32_t slots, const compute::Defines& defines)
-    : context_(context), stored_(context, "photons", slots), starts_(context, "photon grid", bucket_mask(slots) + GRID_BLOCK + 1),
+    : context_(context), stored_(context, "photons", slots),
+      starts_(context, "photon grid", bucket_mask(slots) + GRID_BLOCK + 1),
       block_sums_(context, "photon grid blocks", scan_blocks),
       positions_(context, "sorted photon positions", 3 * std::size_t{stride(slots)}),
-      values_(context, "sorted photons", 4 * std::size_t{stride(slots)})
-{
+      values_(context, "sorted photons", 4 * std::size_t{stride(slots)}) {
   grid_.bucket_mask = bucket_mask(slots);
   grid_.stride = stride(slots);
   stored_.fill_zero();
@@ -70,14 +72,12 @@ PhotonMap::PhotonMap(const mpi::RankContext& context, std::uint32_t slots, const
   scatter_ = program.kernel("scatter_photons");
 }
 
-std::uint64_t PhotonMap::bytes(std::uint32_t slots)
-{
-  return std::uint64_t{slots} * sizeof(shared::StoredPhoton) + (std::uint64_t{bucket_mask(slots)} + GRID_BLOCK + 1 + scan_blocks) * 4 +
-         std::uint64_t{stride(slots)} * 7 * 4;
+std::uint64_t PhotonMap::bytes(std::uint32_t slots) {
+  return std::uint64_t{slots} * sizeof(shared::StoredPhoton) +
+         (std::uint64_t{bucket_mask(slots)} + GRID_BLOCK + 1 + scan_blocks) * 4 + std::uint64_t{stride(slots)} * 7 * 4;
 }
 
-void PhotonMap::build(double cell_edge, std::uint32_t slots)
-{
+void PhotonMap::build(double cell_edge, std::uint32_t slots) {
   grid_.inverse_cell = static_cast<float>(1 / cell_edge);
   if (!context_.communicator().is_alone()) stored_.write(context_.all_reduced_or(stored_));
   starts_.fill_zero();
@@ -85,24 +85,28 @@ void PhotonMap::build(double cell_edge, std::uint32_t slots)
   sum_.run(scan_blocks, 16, {{"counts", starts_}, {"sums", block_sums_}, {"grid", grid_}});
   scan_.run(scan_blocks, 16, {{"counts", starts_}, {"sums", block_sums_}, {"grid", grid_}});
   scatter_.run(std::max(slots, 8u), 64,
-               {{"stored", stored_}, {"ends", starts_}, {"positions", positions_}, {"values", values_}, {"grid", grid_}, {"slots", slots}});
+               {{"stored", stored_},
+                {"ends", starts_},
+                {"positions", positions_},
+                {"values", values_},
+                {"grid", grid_},
+                {"slots", slots}});
 }
 
-unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsigned photons_per_pass)
-{
+unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsigned photons_per_pass) {
   constexpr double most = 64, share_of_work = 1.0 / 3; // a path takes about twice as long as a photon
   if (!tracing::may_see_glass_or_mirror(scene)) return 1;
   const double pixels = static_cast<double>(scene.camera.pixels()) * bent_share(scene, bvh);
   return static_cast<unsigned>(std::clamp(share_of_work * photons_per_pass / std::max(pixels, 1.0), 1.0, most));
 }
 
-PlanPart plan_gathering(const PlanInput& input, plan::Pass pass, std::uint32_t photons)
-{
+PlanPart plan_gathering(const PlanInput& input, plan::Pass pass, std::uint32_t photons) {
   PlanPart part{.passes = {std::move(pass)}};
   if (!part.passes[0].runs) return part;
   const std::size_t objects = input.scene.objects.size(), clusters = input.tables.wavelengths.clusters.size();
   if (2 * clusters * objects > MAX_PHOTON_GROUPS)
-    throw bad_input(Place(input.scene.source) / "scene" / "objects", fmt::format("{} objects in {} wavelength clusters", objects, clusters),
+    throw bad_input(Place(input.scene.source) / "scene" / "objects",
+                    fmt::format("{} objects in {} wavelength clusters", objects, clusters),
                     fmt::format("photon maps tell {} surfaces in clusters apart", int{MAX_PHOTON_GROUPS}),
                     "choose spectral.estimator splat, or a larger threshold_deg");
   const std::uint64_t stored = photons * sizeof(shared::StoredPhoton);
@@ -113,39 +117,38 @@ PlanPart plan_gathering(const PlanInput& input, plan::Pass pass, std::uint32_t p
   return part;
 }
 
-double first_map_radius(const Settings& settings, const scene::Scene& scene)
-{
+double first_map_radius(const Settings& settings, const scene::Scene& scene) {
   return settings.sppm.radius ? *settings.sppm.radius : 2 * pixel_width(scene.camera, tracing::scene_bounds(scene));
 }
 
-std::string map_radius(const Settings& settings, const scene::Scene& scene)
-{
+std::string map_radius(const Settings& settings, const scene::Scene& scene) {
   return fmt::format("from {:.3g} units around a visible point", first_map_radius(settings, scene));
 }
 
-std::string map_radius_note(const Settings& settings, const scene::Scene& scene)
-{
-  const double radius = first_map_radius(settings, scene), alpha = settings.sppm.alpha, shrunk = radius * std::sqrt(alpha);
+std::string map_radius_note(const Settings& settings, const scene::Scene& scene) {
+  const double radius = first_map_radius(settings, scene), alpha = settings.sppm.alpha,
+               shrunk = radius * std::sqrt(alpha);
   const scene::Sphere bounds = tracing::scene_bounds(scene);
   const double pixel = pixel_width(scene.camera, bounds), least = pixel / 16;
   if (settings.estimator == Settings::Estimator::sppm && radius >= least && shrunk < least)
-    return fmt::format(
-        "spectral.sppm.alpha: {:.3g} shrinks a radius from {:.3g} to {:.3g} pixels at its first photons, and hardly another one "
-        "lies so near: caustics grow darker from pass to pass; choose 0.667 or so",
-        alpha, radius / pixel, shrunk / pixel);
+    return fmt::format("spectral.sppm.alpha: {:.3g} shrinks a radius from {:.3g} to {:.3g} pixels at its first "
+                       "photons, and hardly another one "
+                       "lies so near: caustics grow darker from pass to pass; choose 0.667 or so",
+                       alpha, radius / pixel, shrunk / pixel);
   if (!settings.sppm.radius) return "";
   const auto note = [&](const char* consequence) {
-    return fmt::format("spectral.sppm.radius: {} units are {:.3g} pixels: {}; choose about {:.3g}, two pixels, or leave it out", radius,
-                       radius / pixel, consequence, 2 * pixel);
+    return fmt::format(
+        "spectral.sppm.radius: {} units are {:.3g} pixels: {}; choose about {:.3g}, two pixels, or leave it out",
+        radius, radius / pixel, consequence, 2 * pixel);
   };
   if (radius > 32 * pixel || (radius > bounds.radius && radius > 2 * pixel))
     return note("caustics are blurred away, and gathering is slow");
   return radius < least ? note("hardly a photon lies so near, and caustics are black but for rare bright dots") : "";
 }
 
-double map_radius_factor(std::int64_t pass, double alpha)
-{
-  // The product of (k + alpha) / (k + 1) over k = 1 .. pass is Gamma(pass + 1 + alpha) / Gamma(1 + alpha) / Gamma(pass + 2).
+double map_radius_factor(std::int64_t pass, double alpha) {
+  // The product of (k + alpha) / (k + 1) over k = 1 .. pass is Gamma(pass + 1 + alpha) / Gamma(1 + alpha) / Gamma(pass
+  // + 2).
   const auto p = static_cast<double>(pass);
   return std::exp(0.5 * (std::lgamma(p + 1 + alpha) - std::lgamma(1 + alpha) - std::lgamma(p + 2)));
 }

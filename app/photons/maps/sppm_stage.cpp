@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stochastic progressive photon mapping (Hachisuka and Jensen 2009) as the thesis uses it (4.1): a run of its own for each cluster, with
-// statistics of its own for every pixel. The runs take turns: a cluster of importance u has ceil(u p) iterations after p passes. With
-// effort `random` (thesis figure 1.5) one cluster a pass is drawn, and all share one run, in which it counts for all.
+// Stochastic progressive photon mapping (Hachisuka and Jensen 2009) as the thesis uses it (4.1): a run of its own for
+// each cluster, with statistics of its own for every pixel. The runs take turns: a cluster of importance u has ceil(u
+// p) iterations after p passes. With effort `random` (thesis figure 1.5) one cluster a pass is drawn, and all share one
+// run, in which it counts for all.
 #include "optics/colour.h"
 #include "photons/effort/emitters.h"
 #include "photons/effort/importance.h"
@@ -41,10 +42,9 @@ class SppmStage final : public Stage {
 public:
   SppmStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), photons_(static_cast<std::uint32_t>(settings.photons_per_pass)),
-        random_(settings.effort == Settings::Effort::random), alpha_(settings.sppm.alpha), first_radius_(first_map_radius(settings, scene)),
-        map_(world.context, photons_, world.defines), eye_(world, EyePaths::Pixels::all), unused_(world.context, "unused", 0),
-        no_guide_(world.context, "unused", 0)
-  {
+        random_(settings.effort == Settings::Effort::random), alpha_(settings.sppm.alpha),
+        first_radius_(first_map_radius(settings, scene)), map_(world.context, photons_, world.defines),
+        eye_(world, EyePaths::Pixels::all), unused_(world.context, "unused", 0), no_guide_(world.context, "unused", 0) {
     compute::Defines defines = world.photon_defines();
     defines["NEPHROID_SPLAT"] = std::to_string(0);
     defines["NEPHROID_STORE"] = std::to_string(1);
@@ -59,23 +59,21 @@ public:
 
   const char* name() const override { return "photon maps"; }
   double fraction_done() const override { return static_cast<double>(at_.cluster) / cluster_count(); }
-  std::uint64_t photons_per_pass() const override
-  {
+  std::uint64_t photons_per_pass() const override {
     const std::vector<double>& u = world_.tables.importance;
-    return static_cast<std::uint64_t>(std::llround(photons_ * (random_ ? 1.0 : std::accumulate(u.begin(), u.end(), 0.0))));
+    return static_cast<std::uint64_t>(
+        std::llround(photons_ * (random_ ? 1.0 : std::accumulate(u.begin(), u.end(), 0.0))));
   }
 
   /// Its state may be gigabytes, so nothing is saved: kernels run over no photon and no pixel.
-  void warm_up(const Communicator& /*communicator*/) override
-  {
+  void warm_up(const Communicator& /*communicator*/) override {
     send_photons(0, {});
     map_.build(first_radius_, 0);
     eye_.warm_up();
     gather_photons(eye_.points(), 0, 0, 0, 1);
   }
 
-  bool advance(std::int64_t pass) override
-  {
+  bool advance(std::int64_t pass) override {
     to_next_turn(pass);
     if (at_.cluster < cluster_count()) {
       if (!at_.sent)
@@ -91,13 +89,14 @@ public:
     return true;
   }
 
-  void develop(std::int64_t passes, bool done, job::Picture& picture) override
-  {
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override {
     compute::Buffer<float> sums(world_.context, "radiance", 3 * std::size_t{pixel_count()});
     sums.fill_zero();
     const double metres = world_.tables.scene.metres_per_unit, power = world_.tables.power_unit;
     const auto per_iteration = [&](std::int64_t count) {
-      return count > 0 ? static_cast<float>(power / (static_cast<double>(count) * std::pow(std::numbers::pi * metres, 2))) : 0.0f;
+      return count > 0
+                 ? static_cast<float>(power / (static_cast<double>(count) * std::pow(std::numbers::pi * metres, 2)))
+                 : 0.0f;
     };
     for (int run = 0; run < static_cast<int>(runs_.size()); ++run) {
       const std::int64_t before = iterations_of(run, passes), after = iterations_of(run, passes + 1);
@@ -120,30 +119,32 @@ public:
     communicator.all_reduce_or(std::as_writable_bytes(std::span(xyz)));
     std::vector<float>& caustic = tracing::layer_of(picture, "caustic").rgb;
     for (std::size_t i = 0; i < xyz.size(); i += 3) {
-      const optics::Colour rgb = optics::xyz_to_linear_srgb({xyz[i] / world_.white, xyz[i + 1] / world_.white, xyz[i + 2] / world_.white});
+      const optics::Colour rgb =
+          optics::xyz_to_linear_srgb({xyz[i] / world_.white, xyz[i + 1] / world_.white, xyz[i + 2] / world_.white});
       for (std::size_t c = 0; c < 3; ++c) caustic[i + c] += static_cast<float>(rgb[c]);
     }
     picture.error_draw.clear(); // there are no two halves: what a radius has become hangs on all photons
   }
 
-  void report(std::int64_t passes, bool done, Energy& energy) override
-  {
+  void report(std::int64_t passes, bool done, Energy& energy) override {
     OutcomeWatts watts{};
     for (int run = 0; run < static_cast<int>(runs_.size()); ++run) {
       const bool in_hand = !done && (random_ || run == at_.cluster);
       const bool had = done || (!random_ && run < at_.cluster) || (in_hand && at_.sent);
-      const double count = static_cast<double>(iterations_of(run, passes + (had ? 1 : 0))) + (in_hand && !at_.sent ? slices_.fraction_done() : 0);
+      const double count = static_cast<double>(iterations_of(run, passes + (had ? 1 : 0))) +
+                           (in_hand && !at_.sent ? slices_.fraction_done() : 0);
       if (count <= 0) continue;
       const OutcomeWatts run_watts =
-          outcome_watts(world_.context.all_reduced_sum(runs_[static_cast<std::size_t>(run)].energy), world_.tables.energy_scale, count);
+          outcome_watts(world_.context.all_reduced_sum(runs_[static_cast<std::size_t>(run)].energy),
+                        world_.tables.energy_scale, count);
       const double share = random_ ? cluster_count() : 1; // a run that all clusters share draws one of them for all
-      for (std::size_t i = 0; i < watts.size(); ++i) watts[i] += i == OUTCOME_REFUSED ? run_watts[i] : share * run_watts[i];
+      for (std::size_t i = 0; i < watts.size(); ++i)
+        watts[i] += i == OUTCOME_REFUSED ? run_watts[i] : share * run_watts[i];
     }
     energy.caustics = balance_of(watts);
   }
 
-  void state(tracing::State& state) override
-  {
+  void state(tracing::State& state) override {
     state.value(at_);
     slices_.state(state);
     eye_.state(state);
@@ -163,67 +164,66 @@ private:
   };
 
   int cluster_count() const { return world_.tables.scene.cluster_count; }
-  std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(world_.tables.camera.width * world_.tables.camera.height); }
+  std::uint32_t pixel_count() const {
+    return static_cast<std::uint32_t>(world_.tables.camera.width * world_.tables.camera.height);
+  }
   Partition own_pixels() const { return {world_.context.communicator(), pixel_count()}; }
   ClusterRun& run_of(int cluster) { return runs_[random_ ? 0 : static_cast<std::size_t>(cluster)]; }
 
   /// Iterations of a cluster's run in `passes` passes.
-  std::int64_t iterations_of(int cluster, std::int64_t passes) const
-  {
+  std::int64_t iterations_of(int cluster, std::int64_t passes) const {
     return random_ ? passes : iterations(world_.tables.importance[static_cast<std::size_t>(cluster)], passes);
   }
 
-  bool has_turn(int cluster, std::int64_t pass) const
-  {
+  bool has_turn(int cluster, std::int64_t pass) const {
     if (random_) return cluster == drawn_cluster(pass);
     return iterations_of(cluster, pass + 1) > iterations_of(cluster, pass);
   }
 
   /// Of effort `random`: uniform, by seed and pass alone.
-  int drawn_cluster(std::int64_t pass) const
-  {
+  int drawn_cluster(std::int64_t pass) const {
     std::seed_seq seeds{world_.seed.x, world_.seed.y, static_cast<std::uint32_t>(pass)};
     return static_cast<int>(std::mt19937_64(seeds)() % static_cast<std::uint64_t>(cluster_count()));
   }
 
-  void to_next_turn(std::int64_t pass)
-  {
+  void to_next_turn(std::int64_t pass) {
     while (at_.cluster < cluster_count() && !has_turn(at_.cluster, pass)) ++at_.cluster;
   }
 
   /// Runs count their own iterations, so each has random numbers of its own by its seed.
-  shared::uint2 seed_of(int cluster) const
-  {
+  shared::uint2 seed_of(int cluster) const {
     return {world_.seed.x, world_.seed.y ^ static_cast<std::uint32_t>(cluster + 1) * 0x9E3779B9u};
   }
 
-  ClusterRun make_run()
-  {
+  ClusterRun make_run() {
     ClusterRun run{{world_.context, "progressive statistics", pixel_count()}, world_.zeroed("energy", OUTCOME_COUNT)};
     start_.run(pixel_count(), 64,
-               {{"statistics", run.statistics}, {"pixels", pixel_count()}, {"radius2", static_cast<float>(first_radius_ * first_radius_)}});
+               {{"statistics", run.statistics},
+                {"pixels", pixel_count()},
+                {"radius2", static_cast<float>(first_radius_ * first_radius_)}});
     return run;
   }
 
-  ClusterPhotons make_sender(int cluster) const
-  {
+  ClusterPhotons make_sender(int cluster) const {
     const RunTables& t = world_.tables;
     const auto c = static_cast<std::size_t>(cluster);
     std::vector<PhotonSource> sources;
     double weights = 0;
     for (std::size_t l = 0; l < t.lights.size(); ++l) {
       const double share = t.wavelengths.share[l][c];
-      sources.push_back({t.towards_targets_w[l] * tracing::worth(t.wavelengths.seen[l][c], share), static_cast<int>(l), cluster, share});
+      sources.push_back({t.towards_targets_w[l] * tracing::worth(t.wavelengths.seen[l][c], share), static_cast<int>(l),
+                         cluster, share});
       weights += sources.back().weight;
     }
     std::vector<shared::DeviceEmitter> emitters = make_emitters(sources, photons_);
     for (shared::DeviceEmitter& emitter : emitters)
       emitter.sequence = static_cast<std::uint32_t>(cluster); // clusters are runs of their own
-    return {{world_.context, "emitters of a cluster", emitters}, static_cast<int>(emitters.size()), photon_scale(photons_, weights)};
+    return {{world_.context, "emitters of a cluster", emitters},
+            static_cast<int>(emitters.size()),
+            photon_scale(photons_, weights)};
   }
 
-  void send_photons(std::int64_t pass, const tracing::PhotonSlice& slice)
-  {
+  void send_photons(std::int64_t pass, const tracing::PhotonSlice& slice) {
     const int cluster = std::min(at_.cluster, cluster_count() - 1);
     const ClusterPhotons& sender = senders_[static_cast<std::size_t>(cluster)];
     const RunTables& t = world_.tables;
@@ -250,9 +250,8 @@ private:
   }
 
   /// items: work items, at least one; of them `count` gather.
-  void gather_photons(const compute::Buffer<shared::VisiblePoint>& points, std::uint32_t first_pixel, std::uint32_t count, int cluster,
-                      std::size_t items)
-  {
+  void gather_photons(const compute::Buffer<shared::VisiblePoint>& points, std::uint32_t first_pixel,
+                      std::uint32_t count, int cluster, std::size_t items) {
     const double weight = random_ ? cluster_count() : 1;
     const double unit = weight / (senders_[static_cast<std::size_t>(cluster)].photon_scale * world_.tables.power_unit);
     gather_.run(items, 64, map_.arguments(),
@@ -264,21 +263,23 @@ private:
                  {"unit", static_cast<float>(unit)}});
   }
 
-  bool send(std::int64_t pass)
-  {
+  bool send(std::int64_t pass) {
     if (slices_.at_start()) map_.stored().fill_zero(); // each photon is one rank's to store
-    return slices_.advance(world_.context.communicator(), photons_, [&](const tracing::PhotonSlice& slice) { send_photons(pass, slice); });
+    return slices_.advance(world_.context.communicator(), photons_,
+                           [&](const tracing::PhotonSlice& slice) { send_photons(pass, slice); });
   }
 
-  bool gather(std::int64_t pass)
-  {
+  bool gather(std::int64_t pass) {
     const std::int64_t iteration = iterations_of(at_.cluster, pass);
     // Pixels without photons keep the first radius, and a search may be as wide as 3 cells.
-    if (!sorted_) map_.build(std::max(first_radius_ * map_radius_factor(iteration, alpha_), 0.34 * first_radius_), photons_);
+    if (!sorted_)
+      map_.build(std::max(first_radius_ * map_radius_factor(iteration, alpha_), 0.34 * first_radius_), photons_);
     sorted_ = true;
-    return eye_.advance(
-        seed_of(at_.cluster), static_cast<std::uint32_t>(iteration), {1, static_cast<std::uint32_t>(iteration), 0}, at_.cluster,
-        [&](std::uint32_t first_pixel, std::uint32_t count) { gather_photons(eye_.points(), first_pixel, count, at_.cluster, count); });
+    return eye_.advance(seed_of(at_.cluster), static_cast<std::uint32_t>(iteration),
+                        {1, static_cast<std::uint32_t>(iteration), 0}, at_.cluster,
+                        [&](std::uint32_t first_pixel, std::uint32_t count) {
+                          gather_photons(eye_.points(), first_pixel, count, at_.cluster, count);
+                        });
   }
 
   DeviceWorld& world_;
@@ -297,23 +298,23 @@ private:
   bool sorted_ = false; ///< the grid has this iteration's photons
 };
 
-plan::Pass sppm_pass(const PlanInput& input)
-{
+plan::Pass sppm_pass(const PlanInput& input) {
   const char* const name = "photon maps";
   if (!input.caustics.runs) return {name, false, "there are no caustics to gather"};
   return {name, true,
-          fmt::format("spectral.estimator is sppm: every caustic is gathered, {}, {}", map_radius(input.settings, input.scene),
-                      input.settings.effort == Settings::Effort::random ? "one cluster a pass in shared statistics"
-                                                                        : "with statistics of each pixel in each cluster")};
+          fmt::format(
+              "spectral.estimator is sppm: every caustic is gathered, {}, {}", map_radius(input.settings, input.scene),
+              input.settings.effort == Settings::Effort::random ? "one cluster a pass in shared statistics"
+                                                                : "with statistics of each pixel in each cluster")};
 }
 
-PlanPart plan_sppm(const PlanInput& input)
-{
+PlanPart plan_sppm(const PlanInput& input) {
   PlanPart part = plan_gathering(input, sppm_pass(input), static_cast<std::uint32_t>(input.settings.photons_per_pass));
   // A pass has one cluster's turn after the other, with one wavelength each.
   part.defines = {{"NEPHROID_PASS_BANDS", "1"}};
   if (!part.passes[0].runs) return part;
-  const std::uint64_t runs = input.settings.effort == Settings::Effort::random ? 1 : input.tables.wavelengths.clusters.size();
+  const std::uint64_t runs =
+      input.settings.effort == Settings::Effort::random ? 1 : input.tables.wavelengths.clusters.size();
   part.buffers.push_back({"statistics of pixels", runs * input.pixels() * sizeof(shared::PixelStatistics)});
   part.buffers.push_back({"radiance", 3 * input.pixels() * sizeof(float)});
   return part;

@@ -18,9 +18,9 @@ struct ReflectorCount {
   int reflector = 0, count = 0;
 };
 
-void add_samples(const ReflectorSurvey& survey, int x, int y, int weight, std::vector<ReflectorCount>& list)
-{
-  const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(survey.width) + static_cast<std::size_t>(x);
+void add_samples(const ReflectorSurvey& survey, int x, int y, int weight, std::vector<ReflectorCount>& list) {
+  const std::size_t pixel =
+      static_cast<std::size_t>(y) * static_cast<std::size_t>(survey.width) + static_cast<std::size_t>(x);
   const auto samples = static_cast<std::size_t>(survey.samples);
   for (const int reflector : survey.seen.subspan(pixel * samples, samples)) {
     if (reflector < 0) continue;
@@ -36,26 +36,25 @@ void add_samples(const ReflectorSurvey& survey, int x, int y, int weight, std::v
 int own_weight(const ReflectorSurvey& survey) { return 1 + 8 * survey.samples; }
 
 /// What a pixel sees, by falling count; of equal ones the smaller number first.
-void count_reflectors(const ReflectorSurvey& survey, int x, int y, std::vector<ReflectorCount>& list)
-{
+void count_reflectors(const ReflectorSurvey& survey, int x, int y, std::vector<ReflectorCount>& list) {
   list.clear();
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)
       if (x + dx >= 0 && x + dx < survey.width && y + dy >= 0 && y + dy < survey.height)
         add_samples(survey, x + dx, y + dy, dx == 0 && dy == 0 ? own_weight(survey) : 1, list);
-  std::ranges::sort(list, [](const ReflectorCount& a, const ReflectorCount& b) { return a.count != b.count ? a.count > b.count : a.reflector < b.reflector; });
+  std::ranges::sort(list, [](const ReflectorCount& a, const ReflectorCount& b) {
+    return a.count != b.count ? a.count > b.count : a.reflector < b.reflector;
+  });
 }
 
 constexpr std::size_t spare_cells = 8192; // small pictures may have edges everywhere
 
-std::size_t pixel_count(const shared::DeviceCamera& camera)
-{
+std::size_t pixel_count(const shared::DeviceCamera& camera) {
   return static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
 }
 
 /// Numbers the cells reflector by reflector.
-void number_cells(int reflector_count, LayerCells& result)
-{
+void number_cells(int reflector_count, LayerCells& result) {
   std::vector<int> next(static_cast<std::size_t>(reflector_count) + 1, 0);
   for (const shared::LayerCell& cell : result.cells) ++next[static_cast<std::size_t>(cell.reflector) + 1];
   for (int r = 0; r < reflector_count; ++r) {
@@ -68,8 +67,8 @@ void number_cells(int reflector_count, LayerCells& result)
 
 /// factors(half, layer): what a layer's colours are multiplied by in the two pictures.
 template <class Factors>
-LayerFilmWeights make_weights(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves, Factors factors)
-{
+LayerFilmWeights make_weights(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves,
+                              Factors factors) {
   const auto r_count = static_cast<std::size_t>(reflectors);
   const std::size_t layers = r_count > 0 ? colours.size() / r_count : 0;
   std::vector<std::array<double, 6>> exact;
@@ -91,38 +90,41 @@ LayerFilmWeights make_weights(std::span<const std::array<double, 3>> colours, in
   return weights;
 }
 
-PlanPart plan_relighting(const PlanInput& input)
-{
+PlanPart plan_relighting(const PlanInput& input) {
   if (!input.settings.relight) return {};
   const std::size_t lights = input.tables.lights.size(), clusters = input.tables.wavelengths.clusters.size();
   const std::string split =
       input.tables.wavelengths.attenuator_count > 0
-          ? fmt::format("; in a cluster, what a material leaves of two wavelengths differs by at most {}", largest_loss_difference)
+          ? fmt::format("; in a cluster, what a material leaves of two wavelengths differs by at most {}",
+                        largest_loss_difference)
           : "";
-  return {.passes = {{"relighting", true,
-                      fmt::format("{} of {} in {} are kept apart, so that spectra and powers can change; dark ones too, for which "
-                                  "half of the photons go to every cluster alike{}",
-                                  counted(lights * clusters, "layer"), counted(lights, "light"), counted(clusters, "wavelength cluster"),
-                                  split),
-                      "/spectral/relight", true}},
-          .buffers = {{"survey and weighing", input.pixels() * SURVEY_PLACES * (1 + SURVEY_PATHS) * sizeof(int)}}};
+  return {
+      .passes = {{"relighting", true,
+                  fmt::format(
+                      "{} of {} in {} are kept apart, so that spectra and powers can change; dark ones too, for which "
+                      "half of the photons go to every cluster alike{}",
+                      counted(lights * clusters, "layer"), counted(lights, "light"),
+                      counted(clusters, "wavelength cluster"), split),
+                  "/spectral/relight", true}},
+      .buffers = {{"survey and weighing", input.pixels() * SURVEY_PLACES * (1 + SURVEY_PATHS) * sizeof(int)}}};
 }
 
 } // namespace
 
-LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, EmptyPixel unseen)
-{
+LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, EmptyPixel unseen) {
   const std::size_t pixels = static_cast<std::size_t>(survey.width) * static_cast<std::size_t>(survey.height);
   std::vector<std::vector<ReflectorCount>> seen(pixels);
   std::size_t longest = 0;
   for (std::size_t i = 0; i < pixels; ++i) {
     std::vector<ReflectorCount> list;
     count_reflectors(survey, static_cast<int>(i) % survey.width, static_cast<int>(i) / survey.width, list);
-    if (list.empty() && unseen == EmptyPixel::a_cell && survey.reflector_count > 0) list.push_back({i > 0 ? seen[i - 1][0].reflector : 0, 0});
+    if (list.empty() && unseen == EmptyPixel::a_cell && survey.reflector_count > 0)
+      list.push_back({i > 0 ? seen[i - 1][0].reflector : 0, 0});
     longest = std::max(longest, list.size());
     seen[i] = std::move(list);
   }
-  // Every pixel gets its first reflector before any gets its second, and what it sees itself before what its neighbours see.
+  // Every pixel gets its first reflector before any gets its second, and what it sees itself before what its neighbours
+  // see.
   std::vector<std::size_t> kept(pixels, 0);
   std::size_t left = most;
   for (const int fewest : {own_weight(survey), 0})
@@ -140,23 +142,21 @@ LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, Emp
   return result;
 }
 
-std::size_t padded_cells(std::size_t cells, int reflector_count)
-{
+std::size_t padded_cells(std::size_t cells, int reflector_count) {
   // Each reflector leaves at most one block less than full.
   const std::size_t blocks = cells / LAYER_BLOCK + static_cast<std::size_t>(std::max(reflector_count, 1));
   return LAYER_BLOCK * blocks;
 }
 
-std::size_t unbent_cells(const shared::DeviceCamera& camera)
-{
+std::size_t unbent_cells(const shared::DeviceCamera& camera) {
   const std::size_t pixels = pixel_count(camera);
   return pixels + pixels / 4 + spare_cells;
 }
 
-std::size_t bent_cells(const shared::DeviceCamera& camera, std::span<const scene::Sphere> spheres)
-{
+std::size_t bent_cells(const shared::DeviceCamera& camera, std::span<const scene::Sphere> spheres) {
   const auto vec = [](const shared::float4& v) { return glm::vec3(v.x, v.y, v.z); };
-  const glm::vec3 position = vec(camera.position), right = vec(camera.right), up = vec(camera.up), forward = vec(camera.forward);
+  const glm::vec3 position = vec(camera.position), right = vec(camera.right), up = vec(camera.up),
+                  forward = vec(camera.forward);
   const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
   const std::size_t pixels = pixel_count(camera);
   // Cells go to neighbours too, and places are anywhere in a pixel: about two pixels beyond a sphere.
@@ -171,7 +171,8 @@ std::size_t bent_cells(const shared::DeviceCamera& camera, std::span<const scene
   std::size_t bent = camera.inside.latest != 0 ? pixels : 0;
   for (int pixel = 0; bent < pixels && pixel < camera.width * camera.height; ++pixel) {
     const int column = pixel % camera.width, row = pixel / camera.width;
-    const float x = 2 * (static_cast<float>(column) + 0.5f) / width - 1, y = 1 - 2 * (static_cast<float>(row) + 0.5f) / height;
+    const float x = 2 * (static_cast<float>(column) + 0.5f) / width - 1,
+                y = 1 - 2 * (static_cast<float>(row) + 0.5f) / height;
     const glm::vec3 way = glm::normalize(forward + x * camera.tan_x * right + y * camera.tan_y * up);
     if (std::ranges::any_of(spheres, [&](const scene::Sphere& sphere) { return may_see(way, sphere); })) ++bent;
   }
@@ -180,22 +181,20 @@ std::size_t bent_cells(const shared::DeviceCamera& camera, std::span<const scene
 
 static_assert(sizeof(LayerWeight) == 6 * sizeof(float), "the weights as kernels/photons/relight_weigh.cl reads them");
 
-LayerFilm::LayerFilm(const mpi::RankContext& context, const std::string& name, const LayerCells& cells, std::size_t layers,
-                     std::size_t halves, const compute::Defines& defines)
+LayerFilm::LayerFilm(const mpi::RankContext& context, const std::string& name, const LayerCells& cells,
+                     std::size_t layers, std::size_t halves, const compute::Defines& defines)
     : context_(context), layers_(layers), halves_(halves), pixels_(cells.first.size() - 1), cell_count_(cells.count()),
       first_(context, name + ": cells of each pixel", cells.first),
-      reflector_of_block_(context, name + ": reflectors", cells.reflector_of_block), cells_(context, name + ": cells", cells.cells),
-      sums_(context, name, halves * layers * cell_count_), weighed_(context, name + ": weighed", 6 * cell_count_),
-      pictures_(context, name + ": pictures", 6 * pixels_)
-{
+      reflector_of_block_(context, name + ": reflectors", cells.reflector_of_block),
+      cells_(context, name + ": cells", cells.cells), sums_(context, name, halves * layers * cell_count_),
+      weighed_(context, name + ": weighed", 6 * cell_count_), pictures_(context, name + ": pictures", 6 * pixels_) {
   const compute::Program program(context, "photons/relight_weigh.cl", defines);
   weigh_ = program.kernel("weigh");
   gather_ = program.kernel("gather_cells");
   sums_.fill_zero();
 }
 
-std::array<std::vector<float>, 2> LayerFilm::weigh(const LayerFilmWeights& by)
-{
+std::array<std::vector<float>, 2> LayerFilm::weigh(const LayerFilmWeights& by) {
   std::array<std::vector<float>, 2> pictures;
   for (std::vector<float>& picture : pictures) picture.resize(3 * pixels_);
   if (cell_count_ == 0) return pictures;
@@ -213,9 +212,12 @@ std::array<std::vector<float>, 2> LayerFilm::weigh(const LayerFilmWeights& by)
               {"reflector_of_block", reflector_of_block_},
               {"weights", weights_},
               {"weighed", weighed_}});
-  gather_.run(
-      pixels_, 64,
-      {{"first", first_}, {"cells", cells_}, {"weighed", weighed_}, {"pixel_count", static_cast<int>(pixels_)}, {"pictures", pictures_}});
+  gather_.run(pixels_, 64,
+              {{"first", first_},
+               {"cells", cells_},
+               {"weighed", weighed_},
+               {"pixel_count", static_cast<int>(pixels_)},
+               {"pictures", pictures_}});
   if (!communicator.is_root()) sums_.fill_zero(); // rank 0 has them
   const std::size_t bytes = 3 * pixels_ * sizeof(float);
   pictures_.RawBuffer::read(pictures[0].data(), bytes, 0);
@@ -226,8 +228,7 @@ std::array<std::vector<float>, 2> LayerFilm::weigh(const LayerFilmWeights& by)
   return pictures;
 }
 
-std::vector<LayerSums> LayerFilm::pixel(std::size_t index) const
-{
+std::vector<LayerSums> LayerFilm::pixel(std::size_t index) const {
   std::vector<LayerSums> cells;
   std::array<int, 2> range{};
   first_.RawBuffer::read(range.data(), sizeof(range), index * sizeof(int));
@@ -246,9 +247,8 @@ std::vector<LayerSums> LayerFilm::pixel(std::size_t index) const
   return cells;
 }
 
-LayerFilmWeights mean_and_draw(std::span<const std::array<double, 3>> colours, std::span<const HalfCounts> counts, int reflectors,
-                               std::size_t halves, double quanta_per_unit)
-{
+LayerFilmWeights mean_and_draw(std::span<const std::array<double, 3>> colours, std::span<const HalfCounts> counts,
+                               int reflectors, std::size_t halves, double quanta_per_unit) {
   return make_weights(colours, reflectors, halves, [&](std::size_t half, std::size_t layer) -> std::array<double, 2> {
     const auto [a, b] = counts[layer];
     if (a + b <= 0) return {0, 0};
@@ -259,8 +259,8 @@ LayerFilmWeights mean_and_draw(std::span<const std::array<double, 3>> colours, s
   });
 }
 
-LayerFilmWeights half_sums(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves, double quanta_per_unit)
-{
+LayerFilmWeights half_sums(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves,
+                           double quanta_per_unit) {
   return make_weights(colours, reflectors, halves, [&](std::size_t half, std::size_t) -> std::array<double, 2> {
     return half == 0 ? std::array{1 / quanta_per_unit, 0.0} : std::array{0.0, 1 / quanta_per_unit};
   });
@@ -268,17 +268,15 @@ LayerFilmWeights half_sums(std::span<const std::array<double, 3>> colours, int r
 
 const RunPart relighting_part{plan_relighting};
 
-void plan_layer_film(const char* name, std::size_t layers, std::size_t cells, const PlanInput& input, PlanPart& part)
-{
+void plan_layer_film(const char* name, std::size_t layers, std::size_t cells, const PlanInput& input, PlanPart& part) {
   const std::uint64_t padded = padded_cells(cells, input.tables.wavelengths.reflector_count), pixels = input.pixels();
   part.buffers.push_back({name, sizeof(std::int64_t) * input.halves() * layers * padded});
   // Where the cells are, and two weighed pictures by cell and by pixel.
-  part.buffers.push_back(
-      {"survey and weighing", padded * sizeof(shared::LayerCell) + pixels * sizeof(int) + 6 * sizeof(float) * (padded + pixels)});
+  part.buffers.push_back({"survey and weighing", padded * sizeof(shared::LayerCell) + pixels * sizeof(int) +
+                                                     6 * sizeof(float) * (padded + pixels)});
 }
 
-const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene)
-{
+const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene) {
   if (world.relighting) return *world.relighting;
   const RunTables& tables = world.tables;
   world.relighting = std::make_shared<Relighting>();
@@ -286,8 +284,10 @@ const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene)
   relighting.light = layer_light(scene, world.white);
   relighting.weights = layer_weights(relighting.light, tables.wavelengths);
   const FlatLight flat = flat_light(tables.wavelengths);
-  relighting.mean_reflectance = compute::Buffer<float>(world.context, "mean reflectances", std::span(flat.mean_reflectance));
-  relighting.luminance_share = compute::Buffer<float>(world.context, "luminance of each cluster", std::span(flat.luminance_share));
+  relighting.mean_reflectance =
+      compute::Buffer<float>(world.context, "mean reflectances", std::span(flat.mean_reflectance));
+  relighting.luminance_share =
+      compute::Buffer<float>(world.context, "luminance of each cluster", std::span(flat.luminance_share));
 
   const int width = tables.camera.width, height = tables.camera.height, reflectors = tables.wavelengths.reflector_count;
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -296,14 +296,14 @@ const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene)
   compute::Kernel survey = compute::Program(world.context, "photons/relight_direct.cl", world.defines).kernel("survey");
   world.run(survey, pixels, 64, {{"camera", tables.camera}, {"seed", world.seed}, {"unbent", unbent}, {"bent", bent}});
   const std::vector<int> seen = unbent.read(), seen_bent = bent.read();
-  relighting.unbent = make_layer_cells({seen, width, height, SURVEY_PLACES, reflectors}, unbent_cells(tables.camera), EmptyPixel::a_cell);
+  relighting.unbent = make_layer_cells({seen, width, height, SURVEY_PLACES, reflectors}, unbent_cells(tables.camera),
+                                       EmptyPixel::a_cell);
   relighting.bent = make_layer_cells({seen_bent, width, height, SURVEY_PLACES * SURVEY_PATHS, reflectors},
                                      bent_cells(tables.camera, tables.spheres), EmptyPixel::no_cell);
   return relighting;
 }
 
-void change_light(Relighting& relighting, DeviceWorld& world, LayerLight light)
-{
+void change_light(Relighting& relighting, DeviceWorld& world, LayerLight light) {
   relighting.weights = layer_weights(light, world.tables.wavelengths);
   relighting.light = std::move(light);
   ++relighting.changes;

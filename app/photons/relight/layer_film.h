@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film of layers (kernels/photons/layers.h): which cells it has, on the host, its sums on the device, and the pictures that are weighed
-// of it. A cell is a pixel with one reflector that it sees.
-// What the stages of a run that keeps layers share: the light as it is now, and which cells the films have (thesis 6.2.2).
+// A film of layers (kernels/photons/layers.h): which cells it has, on the host, its sums on the device, and the
+// pictures that are weighed of it. A cell is a pixel with one reflector that it sees. What the stages of a run that
+// keeps layers share: the light as it is now, and which cells the films have (thesis 6.2.2).
 #pragma once
 #include "compute/compute.h"
 #include "kernels/photons/layer_types.h"
 #include "kernels/tracing/shared_types.h"
+#include "mpi/rank_context.h"
 #include "photons/plan_part.h"
 #include "photons/relight/layer_light.h"
 #include "photons/tables/device_world.h"
 #include "scene/scene.h"
-#include "mpi/rank_context.h"
 #include "tracing/state.h"
 
 #include <array>
@@ -26,7 +26,9 @@ struct LayerCells {
   std::vector<int> first;               ///< [pixel + 1] in `cells`
   std::vector<shared::LayerCell> cells; ///< of each pixel, the reflector that it sees most at the beginning
   std::vector<int> reflector_of_block;  ///< cells of one reflector fill whole blocks of LAYER_BLOCK
-  std::size_t count() const { return LAYER_BLOCK * reflector_of_block.size(); } ///< numbers of cells, those that nothing uses included
+  std::size_t count() const {
+    return LAYER_BLOCK * reflector_of_block.size();
+  } ///< numbers of cells, those that nothing uses included
 };
 
 /// What a survey saw.
@@ -37,17 +39,18 @@ struct ReflectorSurvey {
   int reflector_count = 0;
 };
 
-/// A cell for each pixel and reflector that the pixel or one of its eight neighbours sees: what is at an edge may be in the pixel beside.
-/// most: at most so many; then what pixels see least goes first. EmptyPixel::a_cell: also a pixel that sees nothing has one, where there are
-/// reflectors at all (then `most` is at least the number of pixels).
+/// A cell for each pixel and reflector that the pixel or one of its eight neighbours sees: what is at an edge may be in
+/// the pixel beside. most: at most so many; then what pixels see least goes first. EmptyPixel::a_cell: also a pixel
+/// that sees nothing has one, where there are reflectors at all (then `most` is at least the number of pixels).
 enum class EmptyPixel { no_cell, a_cell };
 LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, EmptyPixel unseen);
 
 /// The most that LayerCells::count() can be for so many cells.
 std::size_t padded_cells(std::size_t cells, int reflector_count);
 
-/// How many cells a camera's films may have, known before anything is surveyed: one a pixel and a quarter more for edges; of what is seen
-/// through glass and mirrors two a pixel that may see `spheres`, which enclose all glass and mirrors. Both have some thousand more.
+/// How many cells a camera's films may have, known before anything is surveyed: one a pixel and a quarter more for
+/// edges; of what is seen through glass and mirrors two a pixel that may see `spheres`, which enclose all glass and
+/// mirrors. Both have some thousand more.
 std::size_t unbent_cells(const shared::DeviceCamera& camera);
 std::size_t bent_cells(const shared::DeviceCamera& camera, std::span<const scene::Sphere> spheres);
 
@@ -56,8 +59,8 @@ struct LayerWeight {
   std::array<float, 3> first{}, second{};
 };
 
-/// The weights of a whole film, times 2^-exponent: the largest is about 1. A light of 1e-30 W over the quanta of a film would leave weights
-/// of single precision's last digits.
+/// The weights of a whole film, times 2^-exponent: the largest is about 1. A light of 1e-30 W over the quanta of a film
+/// would leave weights of single precision's last digits.
 struct LayerFilmWeights {
   std::vector<LayerWeight> weights; ///< [reflector][half][layer]
   int exponent = 0;
@@ -73,8 +76,8 @@ class LayerFilm {
 public:
   LayerFilm() = default;
   /// Holds halves x layers sums a cell, all 0.
-  LayerFilm(const mpi::RankContext& context, const std::string& name, const LayerCells& cells, std::size_t layers, std::size_t halves,
-            const compute::Defines& defines);
+  LayerFilm(const mpi::RankContext& context, const std::string& name, const LayerCells& cells, std::size_t layers,
+            std::size_t halves, const compute::Defines& defines);
 
   std::size_t layers() const { return layers_; }
   /// The kernel arguments LAYER_FILM_ARGUMENTS.
@@ -104,13 +107,15 @@ private:
 /// What the halves of one layer had: samples or photons.
 using HalfCounts = std::array<double, 2>;
 
-/// Weights for weigh(): the first picture is the mean over both halves of `colours` [layer][reflector] times what is in the film, the
-/// second the draw of its error (job::Picture::error_draw). counts: [layer]; a layer that had none counts nothing.
-LayerFilmWeights mean_and_draw(std::span<const std::array<double, 3>> colours, std::span<const HalfCounts> counts, int reflectors,
-                               std::size_t halves, double quanta_per_unit);
+/// Weights for weigh(): the first picture is the mean over both halves of `colours` [layer][reflector] times what is in
+/// the film, the second the draw of its error (job::Picture::error_draw). counts: [layer]; a layer that had none counts
+/// nothing.
+LayerFilmWeights mean_and_draw(std::span<const std::array<double, 3>> colours, std::span<const HalfCounts> counts,
+                               int reflectors, std::size_t halves, double quanta_per_unit);
 
 /// Weights for weigh(): the first picture is the sum over the first half, the second over the other.
-LayerFilmWeights half_sums(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves, double quanta_per_unit);
+LayerFilmWeights half_sums(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves,
+                           double quanta_per_unit);
 
 struct Relighting {
   LayerLight light;
@@ -120,13 +125,15 @@ struct Relighting {
   compute::Buffer<float> mean_reflectance, luminance_share; ///< FlatLight
 };
 
-/// DeviceWorld::relighting; the first call surveys what the camera sees on the device. world: of make_run_tables for the scene.
+/// DeviceWorld::relighting; the first call surveys what the camera sees on the device. world: of make_run_tables for
+/// the scene.
 const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene);
 
 /// From now on the light is another one; the energy counters begin anew, but for refused contributions.
 void change_light(Relighting& relighting, DeviceWorld& world, LayerLight light);
 
-/// Adds a film of so many cells to the plan: its sums by their name, its cells and the pictures that are weighed of it by theirs.
+/// Adds a film of so many cells to the plan: its sums by their name, its cells and the pictures that are weighed of it
+/// by theirs.
 void plan_layer_film(const char* name, std::size_t layers, std::size_t cells, const PlanInput& input, PlanPart& part);
 
 } // namespace nephroid::photons

@@ -14,16 +14,17 @@ namespace {
 
 using optics::Colour;
 
-std::size_t reflectors(const tracing::WavelengthTables& tables) { return static_cast<std::size_t>(tables.reflector_count); }
+std::size_t reflectors(const tracing::WavelengthTables& tables) {
+  return static_cast<std::size_t>(tables.reflector_count);
+}
 
-double reflectance(const tracing::WavelengthTables& tables, std::size_t reflector, int wavelength)
-{
-  return static_cast<double>(tables.reflectance[reflector * optics::wavelength_count + static_cast<std::size_t>(wavelength)]);
+double reflectance(const tracing::WavelengthTables& tables, std::size_t reflector, int wavelength) {
+  return static_cast<double>(
+      tables.reflectance[reflector * optics::wavelength_count + static_cast<std::size_t>(wavelength)]);
 }
 
 /// Of each cluster of a light of 1 W.
-std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const tracing::WavelengthTables& tables)
-{
+std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const tracing::WavelengthTables& tables) {
   const optics::ColourMatching& eye = optics::cie_1931();
   std::vector<double> sums;
   for (const std::vector<int>& cluster : tables.clusters) {
@@ -36,32 +37,31 @@ std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const tracin
   return sums;
 }
 
-/// The parts become half of what they are of their sum, and get an equal part of the other half each; those that are `never` get nothing.
-std::vector<double> half_evenly(std::vector<double> parts, const std::vector<bool>& never)
-{
+/// The parts become half of what they are of their sum, and get an equal part of the other half each; those that are
+/// `never` get nothing.
+std::vector<double> half_evenly(std::vector<double> parts, const std::vector<bool>& never) {
   const double total = std::accumulate(parts.begin(), parts.end(), 0.0);
   const auto count = static_cast<double>(std::ranges::count(never, false));
-  for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = never[i] ? 0 : (total > 0 ? parts[i] / total : 0) + 1 / count;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    parts[i] = never[i] ? 0 : (total > 0 ? parts[i] / total : 0) + 1 / count;
   return parts;
 }
 
-scene::Scene with_unit_lights(const scene::Scene& scene)
-{
+scene::Scene with_unit_lights(const scene::Scene& scene) {
   scene::Scene unit = scene;
-  for (scene::Light& light : unit.lights) (light.type == preset::Light::Type::directional ? light.irradiance_w_m2 : light.power_w) = 1;
+  for (scene::Light& light : unit.lights)
+    (light.type == preset::Light::Type::directional ? light.irradiance_w_m2 : light.power_w) = 1;
   return unit;
 }
 
 } // namespace
 
-double LayerLight::strongest() const
-{
+double LayerLight::strongest() const {
   const double most = power.empty() ? 0 : *std::ranges::max_element(power);
   return most > 0 ? most : 1;
 }
 
-LayerLight layer_light(const scene::Scene& scene, double white)
-{
+LayerLight layer_light(const scene::Scene& scene, double white) {
   LayerLight light;
   for (const scene::Light& l : scene.lights) {
     light.spectra.push_back(l.spectrum);
@@ -71,20 +71,19 @@ LayerLight layer_light(const scene::Scene& scene, double white)
   return light;
 }
 
-LayerLight layer_light(const preset::Preset& preset)
-{
+LayerLight layer_light(const preset::Preset& preset) {
   LayerLight light;
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i) {
     const preset::Light& l = preset.scene.lights[i];
-    light.spectra.push_back(scene::make_light_spectrum(l.spectrum, Place(preset.source) / "scene" / "lights" / i / "spectrum"));
+    light.spectra.push_back(
+        scene::make_light_spectrum(l.spectrum, Place(preset.source) / "scene" / "lights" / i / "spectrum"));
     light.power.push_back(l.type == preset::Light::Type::directional ? l.irradiance_w_m2 : l.power_w);
   }
   light.white = preset.white.value();
   return light;
 }
 
-LayerWeights layer_weights(const LayerLight& light, const tracing::WavelengthTables& tables)
-{
+LayerWeights layer_weights(const LayerLight& light, const tracing::WavelengthTables& tables) {
   const optics::ColourMatching& eye = optics::cie_1931();
   LayerWeights weights;
   for (std::size_t l = 0; l < light.spectra.size(); ++l) {
@@ -107,13 +106,12 @@ LayerWeights layer_weights(const LayerLight& light, const tracing::WavelengthTab
   return weights;
 }
 
-void add_radiance(const LayerLight& light, const tracing::WavelengthTables& tables, std::size_t light_index, int cluster, int reflector,
-                  double value, std::vector<double>& radiance)
-{
+void add_radiance(const LayerLight& light, const tracing::WavelengthTables& tables, std::size_t light_index,
+                  int cluster, int reflector, double value, std::vector<double>& radiance) {
   const auto add = [&](int index) {
     const auto w = static_cast<std::size_t>(index); // a step of the grid is a nanometre
-    radiance[w] +=
-        value * light.power[light_index] * light.spectra[light_index][w] * reflectance(tables, static_cast<std::size_t>(reflector), index);
+    radiance[w] += value * light.power[light_index] * light.spectra[light_index][w] *
+                   reflectance(tables, static_cast<std::size_t>(reflector), index);
   };
   if (cluster >= 0)
     for (const int w : tables.clusters[static_cast<std::size_t>(cluster)]) add(w);
@@ -121,8 +119,7 @@ void add_radiance(const LayerLight& light, const tracing::WavelengthTables& tabl
     for (int w = 0; w < optics::wavelength_count; ++w) add(w);
 }
 
-FlatLight flat_light(const tracing::WavelengthTables& tables)
-{
+FlatLight flat_light(const tracing::WavelengthTables& tables) {
   const optics::ColourMatching& eye = optics::cie_1931();
   const double luminance = std::accumulate(eye.y.begin(), eye.y.end(), 0.0);
   FlatLight flat;
@@ -138,14 +135,14 @@ FlatLight flat_light(const tracing::WavelengthTables& tables)
   }
   for (std::size_t r = 0; r < reflectors(tables); ++r) {
     double sum = 0;
-    for (int w = 0; w < optics::wavelength_count; ++w) sum += reflectance(tables, r, w) * eye.y[static_cast<std::size_t>(w)];
+    for (int w = 0; w < optics::wavelength_count; ++w)
+      sum += reflectance(tables, r, w) * eye.y[static_cast<std::size_t>(w)];
     flat.mean_reflectance.push_back(static_cast<float>(sum / luminance));
   }
   return flat;
 }
 
-std::vector<shared::DeviceEmitter> layer_emitters(const LayerLight& light, const RunTables& tables, unsigned photons)
-{
+std::vector<shared::DeviceEmitter> layer_emitters(const LayerLight& light, const RunTables& tables, unsigned photons) {
   const std::vector<std::vector<int>>& clusters = tables.wavelengths.clusters;
   std::vector<PhotonSource> sources;
   std::vector<double> parts;
@@ -165,8 +162,7 @@ std::vector<shared::DeviceEmitter> layer_emitters(const LayerLight& light, const
   return make_emitters(sources, photons);
 }
 
-std::vector<float> layer_cluster_cdf(const LayerLight& light, const tracing::WavelengthTables& tables)
-{
+std::vector<float> layer_cluster_cdf(const LayerLight& light, const tracing::WavelengthTables& tables) {
   std::vector<double> parts(tables.clusters.size(), 0);
   for (std::size_t l = 0; l < light.spectra.size(); ++l) {
     const std::vector<double> worth = cluster_worth(light.spectra[l], tables);
@@ -176,16 +172,14 @@ std::vector<float> layer_cluster_cdf(const LayerLight& light, const tracing::Wav
   return tracing::exact_cdf_from_zero(parts);
 }
 
-double layer_energy_scale(const LayerLight& light, const RunTables& tables)
-{
+double layer_energy_scale(const LayerLight& light, const RunTables& tables) {
   double watts = 0;
   for (std::size_t l = 0; l < light.power.size(); ++l) watts += tables.towards_targets_w[l] * light.power[l];
   return tracing::energy_scale(watts);
 }
 
-RunTables make_run_tables(const preset::Preset& preset, const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
-                          tracing::LeaveOut leave_out)
-{
+RunTables make_run_tables(const preset::Preset& preset, const Settings& settings, const scene::Scene& scene,
+                          const scene::Bvh& bvh, tracing::LeaveOut leave_out) {
   if (!settings.relight) return make_lit_tables(settings, scene, bvh, leave_out);
   leave_out.dark_lights = leave_out.unlit_wavelengths = false;
   RunTables tables = make_lit_tables(settings, with_unit_lights(scene), bvh, leave_out);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light that layers are weighed by (kernels/photons/layers.h), which may change while a run goes on, and by how much; and what a run
-// that keeps layers does differently: unit lights, and work allocated so that it serves lights to come. On the host, without OpenCL.
+// The light that layers are weighed by (kernels/photons/layers.h), which may change while a run goes on, and by how
+// much; and what a run that keeps layers does differently: unit lights, and work allocated so that it serves lights to
+// come. On the host, without OpenCL.
 #pragma once
 #include "optics/colour.h"
 #include "photons/settings.h"
@@ -33,10 +34,10 @@ struct LayerWeights {
 };
 LayerWeights layer_weights(const LayerLight& light, const tracing::WavelengthTables& tables);
 
-/// Adds to radiance [wavelength], W m^-2 sr^-1 nm^-1, what a layer of this value is where a reflector is seen. cluster: of
-/// WavelengthTables::clusters; -1: all wavelengths.
-void add_radiance(const LayerLight& light, const tracing::WavelengthTables& tables, std::size_t light_index, int cluster, int reflector,
-                  double value, std::vector<double>& radiance);
+/// Adds to radiance [wavelength], W m^-2 sr^-1 nm^-1, what a layer of this value is where a reflector is seen. cluster:
+/// of WavelengthTables::clusters; -1: all wavelengths.
+void add_radiance(const LayerLight& light, const tracing::WavelengthTables& tables, std::size_t light_index,
+                  int cluster, int reflector, double value, std::vector<double>& radiance);
 
 /// What kernels ask of reflectors where a pixel's survey missed one.
 struct FlatLight {
@@ -45,17 +46,18 @@ struct FlatLight {
 };
 FlatLight flat_light(const tracing::WavelengthTables& tables);
 
-/// make_lit_tables of what a run renders: where it keeps layers, every light has 1 W (W m^-2), none and no wavelength is left out for
-/// being dark, and photons and paths through glass are allocated as layer_emitters and layer_cluster_cdf say. Throws as make_lit_tables.
-RunTables make_run_tables(const preset::Preset& preset, const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
-                          tracing::LeaveOut leave_out);
+/// make_lit_tables of what a run renders: where it keeps layers, every light has 1 W (W m^-2), none and no wavelength
+/// is left out for being dark, and photons and paths through glass are allocated as layer_emitters and
+/// layer_cluster_cdf say. Throws as make_lit_tables.
+RunTables make_run_tables(const preset::Preset& preset, const Settings& settings, const scene::Scene& scene,
+                          const scene::Bvh& bvh, tracing::LeaveOut leave_out);
 
 /// Energy quanta per W (W m^-2) as RunTables::energy_scale, for the light's power rather than the tables' unit lights.
 double layer_energy_scale(const LayerLight& light, const RunTables& tables);
 
-/// Half of the work goes by what the eye makes of the present light, and half to every cluster alike, for lights to come.
-/// DeviceEmitter::share is the cluster's part of the light's power, in units of LayerLight::strongest(). tables: of unit lights. Every
-/// light that reaches a target has an emitter for every cluster, whatever its power.
+/// Half of the work goes by what the eye makes of the present light, and half to every cluster alike, for lights to
+/// come. DeviceEmitter::share is the cluster's part of the light's power, in units of LayerLight::strongest(). tables:
+/// of unit lights. Every light that reaches a target has an emitter for every cluster, whatever its power.
 std::vector<shared::DeviceEmitter> layer_emitters(const LayerLight& light, const RunTables& tables, unsigned photons);
 /// [cluster + 1]: which cluster a path through glass takes.
 std::vector<float> layer_cluster_cdf(const LayerLight& light, const tracing::WavelengthTables& tables);

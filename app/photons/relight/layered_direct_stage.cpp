@@ -15,58 +15,56 @@ class LayeredDirectStage final : public Stage {
 public:
   LayeredDirectStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), relighting_(relighting_of(world, scene)), pixel_samples_(*settings.pixel_samples),
-        unbent_(world.context, "film direct", relighting_.unbent, world.tables.lights.size(), world.halves, world.defines),
+        unbent_(world.context, "film direct", relighting_.unbent, world.tables.lights.size(), world.halves,
+                world.defines),
         bent_(world.context, "film direct through glass", relighting_.bent,
               world.tables.lights.size() * world.tables.wavelengths.clusters.size(), world.halves, world.defines),
         cluster_cdf_(world.context, "cluster choice", world.tables.wavelengths.cluster_cdf),
         kernel_(compute::Program(world.context, "photons/relight_direct.cl", world.defines).kernel("direct")),
-        rows_(world.tables.camera.height, 16)
-  {
-  }
+        rows_(world.tables.camera.height, 16) {}
 
   const char* name() const override { return "direct"; }
   std::int64_t passes() const override { return pixel_samples_; }
   double fraction_done() const override { return rows_.fraction_done(); }
 
-  bool advance(std::int64_t pass) override
-  {
+  bool advance(std::int64_t pass) override {
     if (std::exchange(chosen_for_, relighting_.changes) != relighting_.changes)
       cluster_cdf_.write(layer_cluster_cdf(relighting_.light, world_.tables.wavelengths));
-    return rows_.advance(world_.context.communicator(), world_.tables.camera.height, world_.tables.camera.height,
-                      [&](std::uint32_t first_row, std::uint32_t rows) {
-                        const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
-                        world_.run(kernel_, pixels, 64,
-                                   {{"cluster_cdf", cluster_cdf_},
-                                    {"mean_reflectance", relighting_.mean_reflectance},
-                                    {"luminance_share", relighting_.luminance_share},
-                                    {"unbent_first", unbent_.first()},
-                                    {"unbent_cells", unbent_.cells()},
-                                    {"unbent_sums", unbent_.sums()},
-                                    {"unbent_layer_count", unbent_.layer_count()},
-                                    {"bent_first", bent_.first()},
-                                    {"bent_cells", bent_.cells()},
-                                    {"bent_sums", bent_.sums()},
-                                    {"bent_layer_count", bent_.layer_count()},
-                                    {"energy", world_.energy},
-                                    {"camera", world_.tables.camera},
-                                    {"seed", world_.seed},
-                                    {"frame", static_cast<std::uint32_t>(pass)},
-                                    {"first_row", static_cast<int>(first_row)},
-                                    {"row_count", static_cast<int>(rows)},
-                                    {"film_scale", world_.on_device(world_.tables.direct_scale)},
-                                    // A sample through glass adds to one cell as often as it has paths.
-                                    {"film_limit", static_cast<float>(world_.tables.direct_limit / paths_through_glass)}});
-                      });
+    return rows_.advance(
+        world_.context.communicator(), world_.tables.camera.height, world_.tables.camera.height,
+        [&](std::uint32_t first_row, std::uint32_t rows) {
+          const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
+          world_.run(kernel_, pixels, 64,
+                     {{"cluster_cdf", cluster_cdf_},
+                      {"mean_reflectance", relighting_.mean_reflectance},
+                      {"luminance_share", relighting_.luminance_share},
+                      {"unbent_first", unbent_.first()},
+                      {"unbent_cells", unbent_.cells()},
+                      {"unbent_sums", unbent_.sums()},
+                      {"unbent_layer_count", unbent_.layer_count()},
+                      {"bent_first", bent_.first()},
+                      {"bent_cells", bent_.cells()},
+                      {"bent_sums", bent_.sums()},
+                      {"bent_layer_count", bent_.layer_count()},
+                      {"energy", world_.energy},
+                      {"camera", world_.tables.camera},
+                      {"seed", world_.seed},
+                      {"frame", static_cast<std::uint32_t>(pass)},
+                      {"first_row", static_cast<int>(first_row)},
+                      {"row_count", static_cast<int>(rows)},
+                      {"film_scale", world_.on_device(world_.tables.direct_scale)},
+                      // A sample through glass adds to one cell as often as it has paths.
+                      {"film_limit", static_cast<float>(world_.tables.direct_limit / paths_through_glass)}});
+        });
   }
 
-  void develop(std::int64_t passes, bool done, job::Picture& picture) override
-  {
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override {
     const int reflectors = world_.tables.wavelengths.reflector_count;
     const double quanta = world_.tables.direct_scale;
-    const std::array<std::vector<float>, 2> straight =
-                                                unbent_.weigh(half_sums(relighting_.weights.whole, reflectors, world_.halves, quanta)),
-                                            through =
-                                                bent_.weigh(half_sums(relighting_.weights.clusters, reflectors, world_.halves, quanta));
+    const std::array<std::vector<float>, 2> straight = unbent_.weigh(half_sums(relighting_.weights.whole, reflectors,
+                                                                               world_.halves, quanta)),
+                                            through = bent_.weigh(half_sums(relighting_.weights.clusters, reflectors,
+                                                                            world_.halves, quanta));
     std::vector<float>& rgb = tracing::layer_of(picture, "direct").rgb;
     const std::size_t row_length = 3 * static_cast<std::size_t>(picture.width);
     for (std::size_t row = 0; row < static_cast<std::size_t>(picture.height); ++row) {
@@ -81,28 +79,28 @@ public:
     }
   }
 
-  bool add_spectrum(std::int64_t passes, bool done, job::PixelSpectrum& to) override
-  {
+  bool add_spectrum(std::int64_t passes, bool done, job::PixelSpectrum& to) override {
     std::vector<double>& radiance =
-        to.layers.emplace_back(job::PixelSpectrum::Layer{"direct", std::vector<double>(optics::wavelength_count)}).radiance;
+        to.layers.emplace_back(job::PixelSpectrum::Layer{"direct", std::vector<double>(optics::wavelength_count)})
+            .radiance;
     const auto [x, y] = to.pixel;
     const auto [a, b] = samples_of_row(static_cast<std::size_t>(y), passes, done);
     const double unit = a + b > 0 ? 1 / ((a + b) * world_.tables.direct_scale) : 0;
     const int clusters = static_cast<int>(world_.tables.wavelengths.clusters.size());
-    const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(world_.tables.camera.width) + static_cast<std::size_t>(x);
+    const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(world_.tables.camera.width) +
+                       static_cast<std::size_t>(x);
     for (const LayerFilm* film : {&unbent_, &bent_})
       for (const LayerSums& seen : film->pixel(pixel))
         for (std::size_t i = 0; i < seen.sums.size(); ++i) {
           const auto layer = static_cast<int>(i % film->layers());
           const int light = film == &bent_ ? layer / clusters : layer, cluster = film == &bent_ ? layer % clusters : -1;
-          add_radiance(relighting_.light, world_.tables.wavelengths, static_cast<std::size_t>(light), cluster, seen.reflector,
-                       seen.sums[i] * unit, radiance);
+          add_radiance(relighting_.light, world_.tables.wavelengths, static_cast<std::size_t>(light), cluster,
+                       seen.reflector, seen.sums[i] * unit, radiance);
         }
     return true;
   }
 
-  void state(tracing::State& state) override
-  {
+  void state(tracing::State& state) override {
     rows_.state(state);
     unbent_.state(state);
     bent_.state(state);
@@ -110,10 +108,10 @@ public:
 
 private:
   /// Of each half of the film.
-  std::array<double, 2> samples_of_row(std::size_t row, std::int64_t passes, bool done) const
-  {
+  std::array<double, 2> samples_of_row(std::size_t row, std::int64_t passes, bool done) const {
     const bool sampled = done || static_cast<std::int64_t>(row) < rows_.done();
-    return passes >= pixel_samples_ ? tracing::halves_of(pixel_samples_, 0) : tracing::halves_of(passes, sampled ? 1 : 0);
+    return passes >= pixel_samples_ ? tracing::halves_of(pixel_samples_, 0)
+                                    : tracing::halves_of(passes, sampled ? 1 : 0);
   }
 
   DeviceWorld& world_;
@@ -126,14 +124,14 @@ private:
   tracing::PixelSlices rows_;
 };
 
-PlanPart plan_layered_direct(const PlanInput& input)
-{
+PlanPart plan_layered_direct(const PlanInput& input) {
   PlanPart part{.passes = direct_stage.plan(input).passes};
   if (!part.passes[0].runs) return part;
   const RunTables& tables = input.tables;
   const std::size_t lights = tables.lights.size(), clusters = tables.wavelengths.clusters.size();
   plan_layer_film("film direct", lights, unbent_cells(tables.camera), input, part);
-  plan_layer_film("film direct through glass", lights * clusters, bent_cells(tables.camera, tables.spheres), input, part);
+  plan_layer_film("film direct through glass", lights * clusters, bent_cells(tables.camera, tables.spheres), input,
+                  part);
   return part;
 }
 

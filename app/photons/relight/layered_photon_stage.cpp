@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caustic layer, kept as layers: kernels/photons/relight_photons.cl. Every photon of a layer counts alike, so photons may be dealt
-// anew when the light changes, and what was sent before stays as good as it was.
+// The caustic layer, kept as layers: kernels/photons/relight_photons.cl. Every photon of a layer counts alike, so
+// photons may be dealt anew when the light changes, and what was sent before stays as good as it was.
 #include "photons/effort/emitters.h"
 #include "photons/relight/layer_film.h"
 #include "photons/stage.h"
@@ -15,11 +15,12 @@ namespace {
 class LayeredPhotonStage final : public Stage {
 public:
   LayeredPhotonStage(DeviceWorld& world, const scene::Scene& scene, const Settings&)
-      : world_(world), relighting_(relighting_of(world, scene)), emitters_(world.tables.emitters), sent_(emitters_.size()),
-        film_(world.context, "film caustic", relighting_.unbent, world.tables.lights.size() * cluster_count(), world.halves, world.defines),
-        // A photon with the power of all lights on a surface as far away as the scene's middle has 2^16 quanta, see set_scales.
-        scale_(world.tables.caustic_scale / world.tables.photons_per_batch)
-  {
+      : world_(world), relighting_(relighting_of(world, scene)), emitters_(world.tables.emitters),
+        sent_(emitters_.size()), film_(world.context, "film caustic", relighting_.unbent,
+                                       world.tables.lights.size() * cluster_count(), world.halves, world.defines),
+        // A photon with the power of all lights on a surface as far away as the scene's middle has 2^16 quanta, see
+        // set_scales.
+        scale_(world.tables.caustic_scale / world.tables.photons_per_batch) {
     kernel_ = compute::Program(world.context, "photons/relight_photons.cl", world.photon_defines()).kernel("photons");
   }
 
@@ -28,62 +29,65 @@ public:
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_batch; }
   bool counts_energy() const override { return true; }
 
-  bool advance(std::int64_t pass) override
-  {
+  bool advance(std::int64_t pass) override {
     take_light(pass);
     at_.half = static_cast<std::size_t>(pass) % world_.halves;
-    const bool complete = slices_.advance(world_.context.communicator(), world_.tables.photons_per_batch, [&](const tracing::PhotonSlice& slice) {
-      world_.send(kernel_, slice, pass,
-                  {{"targets", world_.buffers.targets},
-                   {"emitters", world_.emitters},
-                   {"film_first", film_.first()},
-                   {"film_cells", film_.cells()},
-                   {"film_sums", film_.sums()},
-                   {"film_layer_count", film_.layer_count()},
-                   {"mean_reflectance", relighting_.mean_reflectance},
-                   {"energy", world_.energy},
-                   {"seed", world_.seed},
-                   {"first_iteration", static_cast<std::uint32_t>(at_.first_iteration)},
-                   {"film_scale", world_.on_device(scale_)},
-                   {"energy_scale", static_cast<float>(world_.tables.energy_scale * relighting_.light.strongest())}});
-    });
+    const bool complete = slices_.advance(
+        world_.context.communicator(), world_.tables.photons_per_batch, [&](const tracing::PhotonSlice& slice) {
+          world_.send(
+              kernel_, slice, pass,
+              {{"targets", world_.buffers.targets},
+               {"emitters", world_.emitters},
+               {"film_first", film_.first()},
+               {"film_cells", film_.cells()},
+               {"film_sums", film_.sums()},
+               {"film_layer_count", film_.layer_count()},
+               {"mean_reflectance", relighting_.mean_reflectance},
+               {"energy", world_.energy},
+               {"seed", world_.seed},
+               {"first_iteration", static_cast<std::uint32_t>(at_.first_iteration)},
+               {"film_scale", world_.on_device(scale_)},
+               {"energy_scale", static_cast<float>(world_.tables.energy_scale * relighting_.light.strongest())}});
+        });
     if (complete)
       for (std::size_t e = 0; e < emitters_.size(); ++e) sent_[e][at_.half] += emitters_[e].photon_count;
     return complete;
   }
 
-  void develop(std::int64_t, bool, job::Picture& picture) override
-  {
+  void develop(std::int64_t, bool, job::Picture& picture) override {
     const std::vector<HalfCounts> counts = photons_of_layers();
     for (std::size_t e = 0; e < emitters_.size(); ++e)
-      if (const HalfCounts& layer = counts[layer_of_emitter(e)]; layer[0] <= 0 || layer[1] <= 0) picture.error_draw.clear();
+      if (const HalfCounts& layer = counts[layer_of_emitter(e)]; layer[0] <= 0 || layer[1] <= 0)
+        picture.error_draw.clear();
     if (world_.halves == 1) picture.error_draw.clear();
     const int reflectors = world_.tables.wavelengths.reflector_count;
-    const auto [mean, draw] = film_.weigh(mean_and_draw(relighting_.weights.clusters, counts, reflectors, world_.halves, scale_));
+    const auto [mean, draw] =
+        film_.weigh(mean_and_draw(relighting_.weights.clusters, counts, reflectors, world_.halves, scale_));
     std::vector<float>& rgb = tracing::layer_of(picture, "caustic").rgb;
     for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] += mean[i];
     for (std::size_t i = 0; i < picture.error_draw.size(); ++i) picture.error_draw[i] += draw[i];
   }
 
-  bool add_spectrum(std::int64_t, bool, job::PixelSpectrum& to) override
-  {
+  bool add_spectrum(std::int64_t, bool, job::PixelSpectrum& to) override {
     std::vector<double>& radiance =
-        to.layers.emplace_back(job::PixelSpectrum::Layer{"caustic", std::vector<double>(optics::wavelength_count)}).radiance;
+        to.layers.emplace_back(job::PixelSpectrum::Layer{"caustic", std::vector<double>(optics::wavelength_count)})
+            .radiance;
     const std::vector<HalfCounts> counts = photons_of_layers();
     const auto [x, y] = to.pixel;
-    const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(world_.tables.camera.width) + static_cast<std::size_t>(x);
+    const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(world_.tables.camera.width) +
+                       static_cast<std::size_t>(x);
     for (const LayerSums& seen : film_.pixel(pixel))
       for (std::size_t i = 0; i < seen.sums.size(); ++i) {
         const std::size_t layer = i % film_.layers();
         if (const double sent = counts[layer][0] + counts[layer][1]; sent > 0)
-          add_radiance(relighting_.light, world_.tables.wavelengths, layer / cluster_count(), static_cast<int>(layer % cluster_count()),
-                       seen.reflector, seen.sums[i] / (sent * scale_), radiance);
+          add_radiance(relighting_.light, world_.tables.wavelengths, layer / cluster_count(),
+                       static_cast<int>(layer % cluster_count()), seen.reflector, seen.sums[i] / (sent * scale_),
+                       radiance);
       }
     return true;
   }
 
-  void state(tracing::State& state) override
-  {
+  void state(tracing::State& state) override {
     bool allocated = allocated_ == relighting_.changes;
     state.value(at_);
     state.value(allocated);
@@ -98,25 +102,23 @@ public:
 
 private:
   struct Position {
-    std::size_t half = 0;        ///< of the film, that the pass in hand adds to
+    std::size_t half = 0;             ///< of the film, that the pass in hand adds to
     std::int64_t first_iteration = 0; ///< from which on photons are allocated as they are
   };
 
   std::size_t cluster_count() const { return world_.tables.wavelengths.clusters.size(); }
-  std::size_t layer_of_emitter(std::size_t emitter) const
-  {
-    return static_cast<std::size_t>(emitters_[emitter].light) * cluster_count() + static_cast<std::size_t>(emitters_[emitter].cluster);
+  std::size_t layer_of_emitter(std::size_t emitter) const {
+    return static_cast<std::size_t>(emitters_[emitter].light) * cluster_count() +
+           static_cast<std::size_t>(emitters_[emitter].cluster);
   }
 
   /// How many of an emitter's photons of the pass in hand are done.
-  double sent_in_hand(const shared::DeviceEmitter& emitter) const
-  {
+  double sent_in_hand(const shared::DeviceEmitter& emitter) const {
     return slices_.done_of(emitter.first_photon + emitter.photon_count) - slices_.done_of(emitter.first_photon);
   }
 
   /// [layer], with the part of the pass in hand.
-  std::vector<HalfCounts> photons_of_layers() const
-  {
+  std::vector<HalfCounts> photons_of_layers() const {
     std::vector<HalfCounts> counts(film_.layers(), HalfCounts{0, 0});
     for (std::size_t e = 0; e < emitters_.size(); ++e) {
       HalfCounts& layer = counts[layer_of_emitter(e)];
@@ -127,8 +129,7 @@ private:
   }
 
   /// Photons of a light to one half of the film, in the complete passes.
-  std::uint64_t sent_by(int light, std::size_t half) const
-  {
+  std::uint64_t sent_by(int light, std::size_t half) const {
     std::uint64_t sum = 0;
     for (std::size_t e = 0; e < emitters_.size(); ++e)
       if (emitters_[e].light == light) sum += sent_[e][half];
@@ -136,11 +137,11 @@ private:
   }
 
   /// A new light's powers count in the energy balance at once; photons are allocated by it from the next pass on.
-  void take_light(std::int64_t pass)
-  {
+  void take_light(std::int64_t pass) {
     const bool reallocates = slices_.at_start() && allocated_ != relighting_.changes;
     if (!reallocates && shared_ == relighting_.changes) return;
-    const std::vector<shared::DeviceEmitter> now = layer_emitters(relighting_.light, world_.tables, world_.tables.photons_per_batch);
+    const std::vector<shared::DeviceEmitter> now =
+        layer_emitters(relighting_.light, world_.tables, world_.tables.photons_per_batch);
     for (std::size_t e = 0; e < emitters_.size(); ++e) {
       emitters_[e].share = now[e].share;
       if (!reallocates) continue;
@@ -160,8 +161,9 @@ private:
   DeviceWorld& world_;
   const Relighting& relighting_;
   std::vector<shared::DeviceEmitter> emitters_;
-  std::vector<std::array<std::uint64_t, 2>> sent_; ///< [emitter]: photons of the complete passes to each half of the film
-  std::uint64_t shared_ = 0, allocated_ = 0;           ///< Relighting::changes when shares and counts were last taken
+  std::vector<std::array<std::uint64_t, 2>>
+      sent_;                                 ///< [emitter]: photons of the complete passes to each half of the film
+  std::uint64_t shared_ = 0, allocated_ = 0; ///< Relighting::changes when shares and counts were last taken
   LayerFilm film_;
   double scale_; ///< quanta per W m^-2 sr^-1, of one photon that has a layer's whole power
   compute::Kernel kernel_;
@@ -169,8 +171,7 @@ private:
   tracing::PhotonSlices slices_;
 };
 
-PlanPart plan_layered_photons(const PlanInput& input)
-{
+PlanPart plan_layered_photons(const PlanInput& input) {
   PlanPart part = photon_stage.plan(input);
   part.buffers.clear();
   if (input.caustics.runs)

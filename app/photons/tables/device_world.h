@@ -26,7 +26,7 @@ struct PixelLists {
 /// The newest of a run's previews.
 struct PreviewBlocks {
   Blocks blocks{0, 0, 0};               ///< edge 0: there is none
-  unsigned batches = 0;                  ///< of photons, of the first pass
+  unsigned batches = 0;                 ///< of photons, of the first pass
   compute::Buffer<std::uint32_t> glass; ///< blocks that may show glass or a mirror
 };
 
@@ -40,32 +40,31 @@ struct DeviceWorld : tracing::World {
   compute::Buffer<shared::DeviceEmitter> emitters{};
   PixelLists pixels{};
   PreviewBlocks preview{};
-  std::optional<PhotonMap> map{};           ///< that photons which are splatted go to as well, where a stage gathers them
+  std::optional<PhotonMap> map{}; ///< that photons which are splatted go to as well, where a stage gathers them
   std::shared_ptr<Relighting> relighting{}; ///< where layers are kept for another light
 
   /// The number of 64-bit sums of a film of XYZ.
-  std::size_t film_size() const
-  {
-    return std::size_t{3} * halves * static_cast<std::size_t>(tables.camera.width) * static_cast<std::size_t>(tables.camera.height);
+  std::size_t film_size() const {
+    return std::size_t{3} * halves * static_cast<std::size_t>(tables.camera.width) *
+           static_cast<std::size_t>(tables.camera.height);
   }
   /// The run's camera with a pixel for each block of the preview.
-  shared::DeviceCamera preview_camera() const
-  {
+  shared::DeviceCamera preview_camera() const {
     shared::DeviceCamera camera = tables.camera;
     camera.width = preview.blocks.across();
     camera.height = preview.blocks.down();
     return camera;
   }
   /// Of the preview, empty where there is none.
-  compute::Buffer<std::int64_t> preview_film() const
-  {
-    const auto blocks =
-        preview.blocks.edge > 0 ? static_cast<std::size_t>(preview.blocks.across()) * static_cast<std::size_t>(preview.blocks.down()) : 0;
+  compute::Buffer<std::int64_t> preview_film() const {
+    const auto blocks = preview.blocks.edge > 0 ? static_cast<std::size_t>(preview.blocks.across()) *
+                                                      static_cast<std::size_t>(preview.blocks.down())
+                                                : 0;
     return zeroed("preview", std::size_t{3} * halves * blocks);
   }
   /// Runs a kernel that sends a slice of the photons of a pass.
-  void send(compute::Kernel& kernel, const tracing::PhotonSlice& slice, std::int64_t iteration, std::initializer_list<compute::Argument> own)
-  {
+  void send(compute::Kernel& kernel, const tracing::PhotonSlice& slice, std::int64_t iteration,
+            std::initializer_list<compute::Argument> own) {
     run_photons(kernel, slice.count, own,
                 {{"camera", tables.camera},
                  {"iteration", static_cast<std::uint32_t>(iteration)},

@@ -17,16 +17,14 @@ namespace {
 using std::numbers::pi;
 
 /// Two batches make the halves of a preview, so they are short: some 15 ms on two cores.
-unsigned batches_per_pass(const Settings& settings)
-{
+unsigned batches_per_pass(const Settings& settings) {
   constexpr int photons_a_batch = 1 << 13, most = 32;
   if (settings.relight || settings.estimator == Settings::Estimator::sppm) return 1;
   return static_cast<unsigned>(std::clamp(settings.photons_per_pass / photons_a_batch, 1, most));
 }
 
 /// weights: ClusterShares::photons.
-std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, const tracing::WavelengthTables& tables)
-{
+std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, const tracing::WavelengthTables& tables) {
   std::vector<PhotonSource> sources;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const std::size_t l = i / tables.clusters.size(), c = i % tables.clusters.size();
@@ -35,10 +33,9 @@ std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, con
   return sources;
 }
 
-/// The direct film gets 2^24 quanta for a surface that the light reaches from the scene's radius, and a limit that the pixel's samples
-/// cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches.
-void set_scales(const scene::Scene& scene, int pixel_samples, RunTables& tables)
-{
+/// The direct film gets 2^24 quanta for a surface that the light reaches from the scene's radius, and a limit that the
+/// pixel's samples cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches.
+void set_scales(const scene::Scene& scene, int pixel_samples, RunTables& tables) {
   const double metres = scene.metres_per_unit, radius = tracing::scene_bounds(scene).radius;
   tables.caustic_scale = tracing::splat_scale(scene, tables.photons_per_batch, tables.light_towards_targets_w);
   double irradiance = 0;
@@ -51,14 +48,15 @@ void set_scales(const scene::Scene& scene, int pixel_samples, RunTables& tables)
 
 } // namespace
 
-RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh, const tracing::LeaveOut& leave_out)
-{
+RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
+                          const tracing::LeaveOut& leave_out) {
   RunTables tables;
-  static_cast<tracing::SceneTables&>(tables) = tracing::make_scene_tables(scene, scene_clusters(settings, scene), leave_out);
+  static_cast<tracing::SceneTables&>(tables) =
+      tracing::make_scene_tables(scene, scene_clusters(settings, scene), leave_out);
   ClusterShares shares = make_cluster_shares(settings, scene, bvh, tables.towards_targets_w, tables.wavelengths);
   tables.batches = batches_per_pass(settings);
-  tables.emitters =
-      make_emitters(photon_sources(shares.photons, tables.wavelengths), static_cast<unsigned>(settings.photons_per_pass) / tables.batches);
+  tables.emitters = make_emitters(photon_sources(shares.photons, tables.wavelengths),
+                                  static_cast<unsigned>(settings.photons_per_pass) / tables.batches);
   tables.importance = std::move(shares.importance);
   tables.photons_per_batch = count_photons(tables.emitters);
   tables.eye_paths = eye_paths_a_pass(scene, bvh, tables.photons_per_pass());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// nephroid_mesh_reader FILE CPU_SECONDS MEMORY_BYTES: the only program that links Assimp. It is one of its own because corrupt files
-// make Assimp crash, loop for ever or ask for all memory: Assimp 5.2's PLY and glTF readers overrun the stack on some.
-// The answer on standard output: why the file is refused (empty: it is not), positions, normals, triangles, and one number, of the
-// mended normals; each as its 64-bit count and then the items, as they lie in memory.
+// nephroid_mesh_reader FILE CPU_SECONDS MEMORY_BYTES: the only program that links Assimp. It is one of its own because
+// corrupt files make Assimp crash, loop for ever or ask for all memory: Assimp 5.2's PLY and glTF readers overrun the
+// stack on some. The answer on standard output: why the file is refused (empty: it is not), positions, normals,
+// triangles, and one number, of the mended normals; each as its 64-bit count and then the items, as they lie in memory.
 #include "scene/mesh_parts.h"
 
 #include <assimp/Importer.hpp>
@@ -26,32 +26,31 @@
 namespace nephroid::scene {
 namespace {
 
-glm::dmat4 to_glm(const aiMatrix4x4& m)
-{
+glm::dmat4 to_glm(const aiMatrix4x4& m) {
   return {{m.a1, m.b1, m.c1, m.d1}, {m.a2, m.b2, m.c2, m.d2}, {m.a3, m.b3, m.c3, m.d3}, {m.a4, m.b4, m.c4, m.d4}};
 }
 
 bool is_finite(const aiVector3D& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// What the triangulation relies on. The messages have no file name: load_mesh() adds it.
-void check(const aiScene& scene)
-{
+void check(const aiScene& scene) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[m];
     for (unsigned i = 0; i < part.mNumVertices; ++i)
-      if (!is_finite(part.mVertices[i])) throw std::runtime_error(fmt::format("vertex {} has a coordinate that is not a finite number", i));
+      if (!is_finite(part.mVertices[i]))
+        throw std::runtime_error(fmt::format("vertex {} has a coordinate that is not a finite number", i));
     for (unsigned f = 0; f < part.mNumFaces; ++f)
       for (unsigned i = 0; i < part.mFaces[f].mNumIndices; ++i)
         if (part.mFaces[f].mIndices[i] >= part.mNumVertices)
-          throw std::runtime_error(
-              fmt::format("face {} names vertex {} of {}", f, static_cast<int>(part.mFaces[f].mIndices[i]), part.mNumVertices));
+          throw std::runtime_error(fmt::format("face {} names vertex {} of {}", f,
+                                               static_cast<int>(part.mFaces[f].mIndices[i]), part.mNumVertices));
   }
 }
 
-void append(Mesh& mesh, const aiMesh& part, const glm::dmat4& transform, bool with_normals)
-{
+void append(Mesh& mesh, const aiMesh& part, const glm::dmat4& transform, bool with_normals) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  if (std::uint64_t{first} + part.mNumVertices > 3 * max_triangles || mesh.triangles.size() + part.mNumFaces > max_triangles)
+  if (std::uint64_t{first} + part.mNumVertices > 3 * max_triangles ||
+      mesh.triangles.size() + part.mNumFaces > max_triangles)
     throw std::runtime_error(fmt::format("more than {} triangles", max_triangles));
   const glm::dmat3 linear(transform);
   const glm::dmat3 normal_transform = glm::transpose(glm::inverse(linear));
@@ -73,16 +72,14 @@ void append(Mesh& mesh, const aiMesh& part, const glm::dmat4& transform, bool wi
   }
 }
 
-void append(Mesh& mesh, const aiScene& scene, const aiNode& node, const glm::dmat4& parent, bool with_normals)
-{
+void append(Mesh& mesh, const aiScene& scene, const aiNode& node, const glm::dmat4& parent, bool with_normals) {
   const glm::dmat4 transform = parent * to_glm(node.mTransformation);
   for (unsigned i = 0; i < node.mNumMeshes; ++i) append(mesh, *scene.mMeshes[node.mMeshes[i]], transform, with_normals);
   for (unsigned i = 0; i < node.mNumChildren; ++i) append(mesh, scene, *node.mChildren[i], transform, with_normals);
 }
 
 /// Joins equal vertices and removes those that no triangle uses.
-void join_vertices(Mesh& mesh)
-{
+void join_vertices(Mesh& mesh) {
   const std::vector<std::uint32_t> first = first_equal_vertex(mesh, true);
   constexpr std::uint32_t unused = ~0u;
   std::vector<std::uint32_t> new_index(mesh.positions.size(), unused);
@@ -102,10 +99,9 @@ void join_vertices(Mesh& mesh)
   mesh = std::move(joined);
 }
 
-/// A file's normal that is missing, or lies on the other side of the surface than its triangles say, would bend light the wrong
-/// way: the mean of the triangles at that vertex takes its place.
-void mend_normals(Mesh& mesh)
-{
+/// A file's normal that is missing, or lies on the other side of the surface than its triangles say, would bend light
+/// the wrong way: the mean of the triangles at that vertex takes its place.
+void mend_normals(Mesh& mesh) {
   std::vector<std::uint32_t> itself(mesh.positions.size());
   for (std::uint32_t i = 0; i < itself.size(); ++i) itself[i] = i;
   const std::vector<glm::vec3> means = mean_normals(mesh, itself);
@@ -117,15 +113,13 @@ void mend_normals(Mesh& mesh)
 }
 
 /// STL stores a facet's normal, from which Assimp makes vertex normals that are not meant to be smooth.
-bool is_stl(const Assimp::Importer& importer)
-{
+bool is_stl(const Assimp::Importer& importer) {
   const int index = importer.GetPropertyInteger("importerIndex", -1);
   const aiImporterDesc* format = index < 0 ? nullptr : importer.GetImporterInfo(static_cast<std::size_t>(index));
   return format != nullptr && std::string_view(format->mFileExtensions) == "stl";
 }
 
-Mesh read(Assimp::Importer& importer, const char* file)
-{
+Mesh read(Assimp::Importer& importer, const char* file) {
   const aiScene* scene = importer.ReadFile(file, 0);
   if (scene == nullptr) {
     const std::string reason = importer.GetErrorString();
@@ -149,8 +143,7 @@ Mesh read(Assimp::Importer& importer, const char* file)
   return mesh;
 }
 
-void lower_limit(__rlimit_resource_t resource, rlim_t value)
-{
+void lower_limit(__rlimit_resource_t resource, rlim_t value) {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0) return;
   limit.rlim_cur = std::min(value, limit.rlim_cur); // RLIM_INFINITY is the largest value
@@ -158,17 +151,16 @@ void lower_limit(__rlimit_resource_t resource, rlim_t value)
 }
 
 /// The address space that this process has: the first number of /proc/self/statm. Under sanitizers it is terabytes.
-rlim_t address_space_bytes()
-{
+rlim_t address_space_bytes() {
   rlim_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
 /// So that every way of going wrong ends this process, by a signal that says which.
-void set_limits(unsigned cpu_seconds, rlim_t memory_bytes)
-{
-  for (int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL); // sanitizers have handlers of their own
+void set_limits(unsigned cpu_seconds, rlim_t memory_bytes) {
+  for (int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+    std::signal(signal, SIG_DFL); // sanitizers have handlers of their own
   lower_limit(RLIMIT_CORE, 0);
   lower_limit(RLIMIT_CPU, cpu_seconds);
   lower_limit(RLIMIT_AS, address_space_bytes() + memory_bytes);
@@ -177,8 +169,7 @@ void set_limits(unsigned cpu_seconds, rlim_t memory_bytes)
 }
 
 template <class Items>
-void put(std::FILE* answer, const Items& items)
-{
+void put(std::FILE* answer, const Items& items) {
   const std::uint64_t count = items.size();
   std::fwrite(&count, sizeof count, 1, answer);
   std::fwrite(items.data(), sizeof *items.data(), count, answer);
@@ -187,8 +178,7 @@ void put(std::FILE* answer, const Items& items)
 } // namespace
 } // namespace nephroid::scene
 
-int main(int count, char** arguments)
-{
+int main(int count, char** arguments) {
   using namespace nephroid::scene;
   if (count != 4) {
     std::fputs("usage: nephroid_mesh_reader FILE CPU_SECONDS MEMORY_BYTES\n", stderr);
@@ -212,5 +202,6 @@ int main(int count, char** arguments)
   put(answer, mesh.normals);
   put(answer, mesh.triangles);
   put(answer, std::array{mesh.mended_normals});
-  _exit(std::fflush(answer) == 0 ? 0 : 1); // nothing is given back: it takes time, and a corrupt file may have damaged it
+  _exit(std::fflush(answer) == 0 ? 0
+                                 : 1); // nothing is given back: it takes time, and a corrupt file may have damaged it
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pictures by the real engine against closed forms of irradiance and power. Noise is judged in standard deviations that follow
-// from the number of photons or samples, so that a check fails with no seed by chance.
+// Small pictures by the real engine against closed forms of irradiance and power. Noise is judged in standard
+// deviations that follow from the number of photons or samples, so that a check fails with no seed by chance.
 #include "check/device_arrays.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
@@ -19,8 +19,7 @@ namespace {
 using std::numbers::pi;
 
 /// A white floor under a point light; the camera looks straight down on 1 m x 1 m of it.
-preset::Preset lit_floor(int resolution, double camera_height, std::uint64_t seed)
-{
+preset::Preset lit_floor(int resolution, double camera_height, std::uint64_t seed) {
   preset::Preset p = empty_preset(resolution);
   p.seed = seed;
   p.scene.camera.position = {0, camera_height, 0};
@@ -40,14 +39,14 @@ preset::Preset lit_floor(int resolution, double camera_height, std::uint64_t see
 struct PixelTruth {
   double irradiance = 0, variance = 0;
 };
-PixelTruth pixel_truth(const preset::Light& light, int resolution, int row, int column)
-{
+PixelTruth pixel_truth(const preset::Light& light, int resolution, int row, int column) {
   constexpr int places = 8;
   PixelTruth truth;
   double squares = 0;
   for (int i = 0; i < places * places; ++i) {
     const int place_x = i % places, place_z = i / places;
-    const double x = (column + (place_x + 0.5) / places) / resolution - 0.5, z = (row + (place_z + 0.5) / places) / resolution - 0.5;
+    const double x = (column + (place_x + 0.5) / places) / resolution - 0.5,
+                 z = (row + (place_z + 0.5) / places) / resolution - 0.5;
     const double d = std::hypot(light.position[0] - x, light.position[1], light.position[2] - z);
     const double e = light.power_w / (4 * pi) * light.position[1] / (d * d * d);
     truth.irradiance += e / (places * places);
@@ -57,22 +56,23 @@ PixelTruth pixel_truth(const preset::Light& light, int resolution, int row, int 
   return truth;
 }
 
-/// How far a layer is from the truth: of the sum over all pixels, and of the pixels each by itself as chi-square, both in sigma.
+/// How far a layer is from the truth: of the sum over all pixels, and of the pixels each by itself as chi-square, both
+/// in sigma.
 struct Distance {
   double sum_error = 0, pixel_error = 0, ratio = 1;
   double worst() const { return std::abs(sum_error) > std::abs(pixel_error) ? sum_error : pixel_error; }
 };
 /// variance(truth): of a pixel's measured irradiance.
 template <class Variance>
-Distance distance(const job::Snapshot& snapshot, const char* name, const preset::Preset& p, const Variance& variance)
-{
+Distance distance(const job::Snapshot& snapshot, const char* name, const preset::Preset& p, const Variance& variance) {
   const int size = p.scene.camera.resolution[0];
   const double y_of_light = optics::to_xyz(optics::illuminant("E"))[1];
   double sum = 0, truth_sum = 0, variance_sum = 0, chi2 = 0;
   for (int row = 0; row < size; ++row)
     for (int column = 0; column < size; ++column) {
       const PixelTruth truth = pixel_truth(p.scene.lights[0], size, row, column);
-      // A white surface under E has the radiance E / pi. Single precision and the grid of places add 3e-5 to each pixel.
+      // A white surface under E has the radiance E / pi. Single precision and the grid of places add 3e-5 to each
+      // pixel.
       const double e = luminance(layer(snapshot, name), size, row, column) / y_of_light * pi, v = variance(truth);
       sum += e;
       truth_sum += truth.irradiance;
@@ -80,43 +80,45 @@ Distance distance(const job::Snapshot& snapshot, const char* name, const preset:
       chi2 += (e - truth.irradiance) * (e - truth.irradiance) / (v + std::pow(3e-5 * truth.irradiance, 2));
     }
   const double pixels = double(size) * size;
-  return {(sum - truth_sum) / std::sqrt(variance_sum + std::pow(1e-5 * truth_sum, 2)), (chi2 - pixels) / std::sqrt(2 * pixels),
-          sum / truth_sum};
+  return {(sum - truth_sum) / std::sqrt(variance_sum + std::pow(1e-5 * truth_sum, 2)),
+          (chi2 - pixels) / std::sqrt(2 * pixels), sum / truth_sum};
 }
 
-Result direct_light(const compute::Context& context, std::uint64_t seed)
-{
+Result direct_light(const compute::Context& context, std::uint64_t seed) {
   preset::Preset p = lit_floor(32, 2, seed);
   spectral::settings(p).direct = true;
   spectral::settings(p).caustic = false;
   constexpr int samples = 32;
   p.stop.passes = spectral::settings(p).pixel_samples = samples;
-  const Distance d = distance(render(p, context), "direct", p, [](const PixelTruth& t) { return t.variance / samples; });
-  return judged(d.worst(), 6, "sigma",
-                fmt::format("a floor under a point light, 32 x 32 pixels, against P cos(theta) / (4 pi d^2): ratio {:.6f}", d.ratio));
+  const Distance d =
+      distance(render(p, context), "direct", p, [](const PixelTruth& t) { return t.variance / samples; });
+  return judged(
+      d.worst(), 6, "sigma",
+      fmt::format("a floor under a point light, 32 x 32 pixels, against P cos(theta) / (4 pi d^2): ratio {:.6f}",
+                  d.ratio));
 }
 
-/// The light sits in a ball of n = 1, which bends and reflects nothing: its photons, each of P / N, must make the very picture that
-/// direct light makes, and a pixel of the area A gets a Poisson count of N E A / P of them.
-Result through_nothing(const compute::Context& context, std::uint64_t seed)
-{
+/// The light sits in a ball of n = 1, which bends and reflects nothing: its photons, each of P / N, must make the very
+/// picture that direct light makes, and a pixel of the area A gets a Poisson count of N E A / P of them.
+Result through_nothing(const compute::Context& context, std::uint64_t seed) {
   preset::Preset p = lit_floor(16, 0.5, seed);
   p.scene.materials["nothing"] = glass(1);
   p.scene.objects.push_back(object("ball", ball(0.3), "nothing", at({0.1, 1, -0.2})));
   spectral::settings(p).photons_per_pass = 1 << 19;
-  const double photon_w = p.scene.lights[0].power_w / spectral::settings(p).photons_per_pass, pixel_area = 1.0 / (16 * 16);
-  const Distance d = distance(render(p, context), "caustic", p, [&](const PixelTruth& t) { return t.irradiance * photon_w / pixel_area; });
-  return judged(
-      d.worst(), 6, "sigma",
-      fmt::format("photons through a ball of n = 1, 16 x 16 pixels and their sum, against the direct light of a point: ratio {:.4f}",
-                  d.ratio));
+  const double photon_w = p.scene.lights[0].power_w / spectral::settings(p).photons_per_pass,
+               pixel_area = 1.0 / (16 * 16);
+  const Distance d = distance(render(p, context), "caustic", p,
+                              [&](const PixelTruth& t) { return t.irradiance * photon_w / pixel_area; });
+  return judged(d.worst(), 6, "sigma",
+                fmt::format("photons through a ball of n = 1, 16 x 16 pixels and their sum, against the direct light "
+                            "of a point: ratio {:.4f}",
+                            d.ratio));
 }
 
-/// The same under a sky of one colour above and black below, which gives a white floor its own colour: what the ball hides of it comes
-/// through the ball. Half a sky is drawn by its peaks, too. Each channel's mean over the pixels, in standard errors by their own scatter
-/// about the truth.
-Result sky_through_nothing(const compute::Context& context, std::uint64_t seed)
-{
+/// The same under a sky of one colour above and black below, which gives a white floor its own colour: what the ball
+/// hides of it comes through the ball. Half a sky is drawn by its peaks, too. Each channel's mean over the pixels, in
+/// standard errors by their own scatter about the truth.
+Result sky_through_nothing(const compute::Context& context, std::uint64_t seed) {
   preset::Preset p = lit_floor(16, 0.5, seed);
   p.scene.lights.clear();
   p.scene.objects[0] = object("floor", quad(3, 3), "white");
@@ -145,23 +147,23 @@ Result sky_through_nothing(const compute::Context& context, std::uint64_t seed)
   }
   for (int c = 0; c < 3; ++c)
     if (const double z = sums[c] / std::sqrt(squares[c]); std::abs(z) > std::abs(worst)) worst = z;
-  return judged(
-      worst, 6, "sigma",
-      fmt::format(
-          "a floor under half a sky of one colour, {:.3f} of its light through a ball of n = 1, against the sky's colour: ratio {:.4f}",
-          hidden, 1 + sums[1] * 3 / static_cast<double>(direct.size())));
+  return judged(worst, 6, "sigma",
+                fmt::format("a floor under half a sky of one colour, {:.3f} of its light through a ball of n = 1, "
+                            "against the sky's colour: ratio {:.4f}",
+                            hidden, 1 + sums[1] * 3 / static_cast<double>(direct.size())));
 }
 
-/// A pencil on a mirror that is not grey, then onto a screen: of every wavelength its reflectance is left, and no chance is in it.
-Result coloured_mirror(const compute::Context& context, std::uint64_t seed)
-{
+/// A pencil on a mirror that is not grey, then onto a screen: of every wavelength its reflectance is left, and no
+/// chance is in it.
+Result coloured_mirror(const compute::Context& context, std::uint64_t seed) {
   preset::Preset p = empty_preset(16);
   p.seed = seed;
   p.scene.materials["mirror"].type = preset::Material::Type::mirror;
   p.scene.materials["mirror"].reflectance.type = preset::Reflectance::Type::patch;
   p.scene.materials["mirror"].reflectance.patch = "blue sky";
   p.scene.materials["white"] = white();
-  p.scene.objects = {object("mirror", quad(1, 1), "mirror"), object("screen", quad(10, 10), "white", at({2, 0, 0}, {0, 0, 90}))};
+  p.scene.objects = {object("mirror", quad(1, 1), "mirror"),
+                     object("screen", quad(10, 10), "white", at({2, 0, 0}, {0, 0, 90}))};
   p.scene.lights = {pencil({-1, 1, 0}, {1, -1, 0}, 0.5)};
   p.scene.lights[0].spectrum = {};
   p.scene.lights[0].spectrum.illuminant = "D65";
@@ -171,15 +173,14 @@ Result coloured_mirror(const compute::Context& context, std::uint64_t seed)
   const optics::Spectrum light = optics::illuminant("D65"), patch = optics::colorchecker_patch("blue sky");
   double truth = 0;
   for (std::size_t i = 0; i < light.size(); ++i) truth += light[i] * patch[i];
-  return judged(
-      e.deposited_w / e.emitted_w - truth, 5e-6, "",
-      fmt::format("daylight after a mirror of blue sky's reflectance: {:.6f} of its power is left, against the sum over 401 wavelengths",
-                  e.deposited_w / e.emitted_w));
+  return judged(e.deposited_w / e.emitted_w - truth, 5e-6, "",
+                fmt::format("daylight after a mirror of blue sky's reflectance: {:.6f} of its power is left, against "
+                            "the sum over 401 wavelengths",
+                            e.deposited_w / e.emitted_w));
 }
 
 /// Smooth and faceted glass, a mirror that absorbs, a floor that does not catch everything.
-preset::Preset everything(std::uint64_t seed)
-{
+preset::Preset everything(std::uint64_t seed) {
   preset::Preset p = empty_preset(32);
   p.seed = seed;
   p.unit = preset::Preset::Unit::cm;
@@ -193,7 +194,8 @@ preset::Preset everything(std::uint64_t seed)
   const preset::Shape diamond{.type = preset::Shape::Type::brilliant, .radius = 1};
   p.scene.objects = {object("ball", ball(1), "glass", at({-1.5, 1.5, 0})),
                      object("diamond", diamond, "glass", at({1.5, 1.5, 0}, {20, 0, 15})),
-                     object("mirror", quad(2, 2), "mirror", at({0, 1.5, -2}, {75, 0, 0})), object("floor", quad(12, 12), "white")};
+                     object("mirror", quad(2, 2), "mirror", at({0, 1.5, -2}, {75, 0, 0})),
+                     object("floor", quad(12, 12), "white")};
   p.scene.objects[0].normals = preset::Object::Normals::smooth;
   p.scene.lights.resize(1);
   p.scene.lights[0].position = {0.5, 6, 3};
@@ -207,34 +209,34 @@ preset::Preset everything(std::uint64_t seed)
 }
 
 /// Counted in whole quanta, so nothing but the last conversion to watts rounds.
-Result energy(const compute::Context& context, std::uint64_t seed)
-{
+Result energy(const compute::Context& context, std::uint64_t seed) {
   const photons::EnergyBalance e = photons::energy_of(render(everything(seed), context));
   const double off = (e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w - 1;
-  const bool all_there = e.deposited_w > 0 && e.missed_w > 0 && e.absorbed_w > 0 && e.escaped_w > 0 && e.refused_contributions == 0;
-  return judged(
-      all_there ? off : 1, 1e-12, "",
-      fmt::format("of {:.4f} W, {:.4f} deposited, {:.4f} missed, {:.4f} absorbed, {:.4f} escaped, {:.4f} lost; {} contributions refused",
-                  e.emitted_w, e.deposited_w, e.missed_w, e.absorbed_w, e.escaped_w, e.lost_w, e.refused_contributions));
+  const bool all_there =
+      e.deposited_w > 0 && e.missed_w > 0 && e.absorbed_w > 0 && e.escaped_w > 0 && e.refused_contributions == 0;
+  return judged(all_there ? off : 1, 1e-12, "",
+                fmt::format("of {:.4f} W, {:.4f} deposited, {:.4f} missed, {:.4f} absorbed, {:.4f} escaped, {:.4f} "
+                            "lost; {} contributions refused",
+                            e.emitted_w, e.deposited_w, e.missed_w, e.absorbed_w, e.escaped_w, e.lost_w,
+                            e.refused_contributions));
 }
 
 /// Steps are cut by the clock, so two runs differ in how their work is cut, and in how the device's threads meet.
-Result same_bits(const compute::Context& context, std::uint64_t seed)
-{
+Result same_bits(const compute::Context& context, std::uint64_t seed) {
   const job::Snapshot first = render(everything(seed), context), second = render(everything(seed), context);
   double differ = 0;
   for (std::size_t i = 0; i < first.picture->rgb.size(); ++i) differ += first.picture->rgb[i] != second.picture->rgb[i];
   const job::Snapshot other = render(everything(seed + 1), context);
   if (first.picture->rgb == other.picture->rgb) differ = static_cast<double>(first.picture->rgb.size());
-  return judged(differ, 0, "numbers",
-                fmt::format("of {} of a picture, those that a second run with the same seed changes; another seed changes them",
-                            first.picture->rgb.size()));
+  return judged(
+      differ, 0, "numbers",
+      fmt::format("of {} of a picture, those that a second run with the same seed changes; another seed changes them",
+                  first.picture->rgb.size()));
 }
 
 } // namespace
 
-Checks radiometry_checks()
-{
+Checks radiometry_checks() {
   return {{"picture: direct light of a point", direct_light},
           {"picture: photons through nothing", through_nothing},
           {"picture: a sky through nothing", sky_through_nothing},

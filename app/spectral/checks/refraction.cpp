@@ -16,8 +16,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 /// The share of a pencil that reaches the floor below the objects of `p`, in sigma of the count from `truth`.
-double z_of_transmitted(const compute::Context& context, preset::Preset p, double truth)
-{
+double z_of_transmitted(const compute::Context& context, preset::Preset p, double truth) {
   constexpr int photons = 1 << 17;
   p.scene.materials["white"] = white();
   p.scene.objects.push_back(object("floor", quad(400, 400), "white", at({0, -1, 0})));
@@ -28,9 +27,9 @@ double z_of_transmitted(const compute::Context& context, preset::Preset p, doubl
   return (e.deposited_w / e.emitted_w - truth) / std::sqrt(truth * (1 - truth) / photons);
 }
 
-/// A pencil of 0.01 degrees crosses a plate of 40 m x 1 mm x 40 m. It starts 0.1 m before, so that it is narrow at grazing angles, too.
-Result plate(const compute::Context& context, std::uint64_t seed)
-{
+/// A pencil of 0.01 degrees crosses a plate of 40 m x 1 mm x 40 m. It starts 0.1 m before, so that it is narrow at
+/// grazing angles, too.
+Result plate(const compute::Context& context, std::uint64_t seed) {
   constexpr double n = 1.5;
   double worst = 0;
   for (const double theta_deg : {0.0, 40.0, 56.31, 70.0, 80.0, 86.0}) {
@@ -43,14 +42,14 @@ Result plate(const compute::Context& context, std::uint64_t seed)
     const double z = z_of_transmitted(context, std::move(p), plate_transmittance(theta_deg * degree, n));
     worst = std::abs(z) <= std::abs(worst) ? worst : z;
   }
-  return judged(worst, 6, "sigma",
-                "transmittance at 0, 40, 56.3, 70, 80 and 86 degrees, the farthest from (1 - R) / (1 + R) with Fresnel's R");
+  return judged(
+      worst, 6, "sigma",
+      "transmittance at 0, 40, 56.3, 70, 80 and 86 degrees, the farthest from (1 - R) / (1 + R) with Fresnel's R");
 }
 
-/// Four interfaces instead of two, without interference: T = (1 - R) / (1 + 3 R). Above them a hole through glass, which its priority
-/// makes one: light enters it before the glass that it is in.
-Result plates_in_one(const compute::Context& context, std::uint64_t seed)
-{
+/// Four interfaces instead of two, without interference: T = (1 - R) / (1 + 3 R). Above them a hole through glass,
+/// which its priority makes one: light enters it before the glass that it is in.
+Result plates_in_one(const compute::Context& context, std::uint64_t seed) {
   preset::Preset p = empty_preset(16);
   p.seed = seed;
   p.scene.materials["glass"] = glass(1.8);
@@ -62,7 +61,8 @@ Result plates_in_one(const compute::Context& context, std::uint64_t seed)
   p.scene.lights = {pencil({0, 1, 0}, {0, -1, 0}, 0.05)};
   const double r = std::pow(0.8 / 2.8, 2);
   return judged(z_of_transmitted(context, std::move(p), (1 - r) / (1 + 3 * r)), 6, "sigma",
-                "transmittance of glass of n = 1.8 with a hole through it, above a slab with air inside, against (1 - R) / (1 + 3 R)");
+                "transmittance of glass of n = 1.8 with a hole through it, above a slab with air inside, against (1 - "
+                "R) / (1 + 3 R)");
 }
 
 /// A camera before the screen z = screen_z that sees the light which lands on it along y = 0: columns are x.
@@ -71,8 +71,7 @@ struct Screen {
   double distance_y, distance_z; ///< of the camera from the screen's middle
   static constexpr int columns = 1024, rows = 64;
 
-  void put_into(preset::Preset& p) const
-  {
+  void put_into(preset::Preset& p) const {
     const double middle = (x_first + x_last) / 2, distance = std::hypot(distance_y, distance_z);
     p.scene.camera.resolution = {columns, rows};
     p.scene.camera.position = {middle, distance_y, z + distance_z};
@@ -83,9 +82,9 @@ struct Screen {
   }
   double column(double x) const { return (x - x_first) / (x_last - x_first) * columns; }
 
-  /// The column of the light's centre within 6 columns of the brightest: what is reflected inside the glass lands elsewhere.
-  double landing(const job::Layer& picture) const
-  {
+  /// The column of the light's centre within 6 columns of the brightest: what is reflected inside the glass lands
+  /// elsewhere.
+  double landing(const job::Layer& picture) const {
     double flux[columns] = {};
     for (int row = 0; row < rows; ++row)
       for (int i = 0; i < columns; ++i) flux[i] += luminance(picture, columns, row, i);
@@ -99,21 +98,22 @@ struct Screen {
   }
 };
 
-/// Half a pixel: a pencil of 0.005 degrees is some pixels wide, and the centre of its thousands of photons is known better than that.
-Result off_by(double worst_pixels, std::string detail) { return judged(worst_pixels, 0.5, "pixels", std::move(detail)); }
+/// Half a pixel: a pencil of 0.005 degrees is some pixels wide, and the centre of its thousands of photons is known
+/// better than that.
+Result off_by(double worst_pixels, std::string detail) {
+  return judged(worst_pixels, 0.5, "pixels", std::move(detail));
+}
 
 /// N-SF11 by Schott's Sellmeier formula, and by the same coefficients here.
 constexpr double sf11_b[] = {1.73759695, 0.313747346, 1.89878101}, sf11_c[] = {0.013188707, 0.0623068142, 155.23629};
-double sf11(double nm)
-{
+double sf11(double nm) {
   const double l2 = nm * nm * 1e-6;
   double n2 = 1;
   for (int i = 0; i < 3; ++i) n2 += sf11_b[i] * l2 / (l2 - sf11_c[i]);
   return std::sqrt(n2);
 }
 
-Result prism(const compute::Context& context, std::uint64_t seed)
-{
+Result prism(const compute::Context& context, std::uint64_t seed) {
   constexpr double side = 0.1, incidence = 62 * degree, screen_z = -1;
   const auto path = [&](double nm) { return prism_path(side, incidence, sf11(nm), screen_z); };
   const double blue = path(400).landing_x, red = path(700).landing_x, margin = 0.15 * (red - blue);
@@ -125,7 +125,8 @@ Result prism(const compute::Context& context, std::uint64_t seed)
   material.dispersion.type = preset::Dispersion::Type::sellmeier;
   material.dispersion.b.assign(std::begin(sf11_b), std::end(sf11_b));
   material.dispersion.c_um2.assign(std::begin(sf11_c), std::end(sf11_c));
-  p.scene.objects.push_back(object("prism", {.type = preset::Shape::Type::prism, .height = side, .side = side}, "glass"));
+  p.scene.objects.push_back(
+      object("prism", {.type = preset::Shape::Type::prism, .height = side, .side = side}, "glass"));
   spectral::settings(p).method = photons::Settings::Method::brute_force;
   spectral::settings(p).photons_per_pass = 1 << 14;
   double worst = 0;
@@ -135,13 +136,14 @@ Result prism(const compute::Context& context, std::uint64_t seed)
     const double off = screen.landing(layer(render(p, context), "caustic")) - screen.column(truth.landing_x);
     worst = std::abs(off) <= std::abs(worst) ? worst : off;
   }
-  return off_by(worst, fmt::format("five wavelengths through 60 degrees of N-SF11 onto a screen 1 m behind, the farthest from Snell's "
-                                   "place; {:.0f} pixels from violet to red",
-                                   screen.column(red) - screen.column(blue)));
+  return off_by(
+      worst,
+      fmt::format("five wavelengths through 60 degrees of N-SF11 onto a screen 1 m behind, the farthest from Snell's "
+                  "place; {:.0f} pixels from violet to red",
+                  screen.column(red) - screen.column(blue)));
 }
 
-Result ball_lens(const compute::Context& context, std::uint64_t seed)
-{
+Result ball_lens(const compute::Context& context, std::uint64_t seed) {
   constexpr double radius = 0.05, n = 1.5, screen_z = -4 * radius;
   preset::Preset p = empty_preset();
   p.seed = seed;
@@ -154,18 +156,18 @@ Result ball_lens(const compute::Context& context, std::uint64_t seed)
   double worst = 0;
   for (const double height : {0.05, 0.2, 0.4, 0.6, 0.75}) {
     p.scene.lights = {pencil({height * radius, 0, 4 * radius}, {0, 0, -1}, 0.005)};
-    const double off =
-        screen.landing(layer(render(p, context), "caustic")) - screen.column(ball_lens_landing(radius, height * radius, n, screen_z));
+    const double off = screen.landing(layer(render(p, context), "caustic")) -
+                       screen.column(ball_lens_landing(radius, height * radius, n, screen_z));
     worst = std::abs(off) <= std::abs(worst) ? worst : off;
   }
-  return off_by(worst, "rays at 0.05 to 0.75 radii of a ball of n = 1.5 onto a screen 4 radii behind it, the farthest from the ray trace "
+  return off_by(worst, "rays at 0.05 to 0.75 radii of a ball of n = 1.5 onto a screen 4 radii behind it, the farthest "
+                       "from the ray trace "
                        "whose paraxial focus is n R / (2 (n - 1))");
 }
 
 } // namespace
 
-Checks refraction_checks()
-{
+Checks refraction_checks() {
   return {{"plate: Fresnel's transmittance", plate},
           {"plate: air inside glass", plates_in_one},
           {"prism: wavelengths where Snell says", prism},

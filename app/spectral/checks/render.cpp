@@ -16,9 +16,10 @@ namespace {
 constexpr int stack = 64; ///< entries: what nearly all trees of checks and tests need at most
 
 /// Programs are built for what nearly all scenes need, and for more where one needs more.
-void share_programs(compute::Defines& defines)
-{
-  const auto at_least = [&](const char* name, int value) { defines[name] = std::to_string(std::max(std::stoi(defines[name]), value)); };
+void share_programs(compute::Defines& defines) {
+  const auto at_least = [&](const char* name, int value) {
+    defines[name] = std::to_string(std::max(std::stoi(defines[name]), value));
+  };
   at_least("NEPHROID_BVH_STACK", stack);
   at_least("NEPHROID_ELLIPSOIDS", 1);
 }
@@ -26,30 +27,26 @@ void share_programs(compute::Defines& defines)
 using Point = glm::dvec2; // (x, z)
 
 /// Where a ray crosses the line through a and b.
-Point crossing(const Point& o, const Point& d, const Point& a, const Point& b)
-{
+Point crossing(const Point& o, const Point& d, const Point& a, const Point& b) {
   const Point e = b - a;
   const double t = ((a.x - o.x) * e.y - (a.y - o.y) * e.x) / (d.x * e.y - d.y * e.x);
   return o + t * d;
 }
 
 /// Snell's law in the plane: unit direction d, unit normal n against it.
-Point refracted(const Point& d, const Point& n, double eta)
-{
+Point refracted(const Point& d, const Point& n, double eta) {
   const double c = -glm::dot(d, n), t = std::sqrt(1 - eta * eta * (1 - c * c));
   return eta * d + (eta * c - t) * n;
 }
 
 } // namespace
 
-double plate_transmittance(double theta, double n)
-{
+double plate_transmittance(double theta, double n) {
   const double r = optics::fresnel_reflectance(std::cos(theta), 1, n);
   return (1 - r) / (1 + r);
 }
 
-PrismPath prism_path(double side, double incidence, double n, double screen_z)
-{
+PrismPath prism_path(double side, double incidence, double n, double screen_z) {
   const double c = std::cos(std::numbers::pi / 6), s = 0.5;
   const Point apex{0, side * c / 2}, left{-side / 2, -side * c / 2}, right{side / 2, -side * c / 2};
   const Point into{c, -s}, right_normal{c, s}; // into: against the entry face's normal
@@ -62,25 +59,22 @@ PrismPath prism_path(double side, double incidence, double n, double screen_z)
   return {from.x, from.y, direction.x, direction.y, exit.x + (screen_z - exit.y) / out.y * out.x};
 }
 
-double ball_lens_landing(double radius, double height, double n, double screen_z)
-{
+double ball_lens_landing(double radius, double height, double n, double screen_z) {
   const double a = std::asin(height / radius), b = std::asin(height / radius / n), d = 2 * (a - b);
   if (d == 0) return height;
   const double focus = radius * std::sin(a) / std::sin(d);
   return (focus + screen_z) * std::tan(d);
 }
 
-photons::RunTables device_tables(const preset::Preset& preset)
-{
+photons::RunTables device_tables(const preset::Preset& preset) {
   const scene::Scene scene = scene::load_scene(preset);
   return photons::make_lit_tables(spectral::settings(preset), scene, scene::build_bvh(scene.geometry), {});
 }
 
-std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::LeaveOut leave_out, const compute::Context& context,
-                                      const ChangeScene& change)
-{
-  leave_out.occlusion = leave_out.light_types = leave_out.mirrors = leave_out.bending = leave_out.attenuation = leave_out.smooth_normals =
-      false;
+std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::LeaveOut leave_out,
+                                      const compute::Context& context, const ChangeScene& change) {
+  leave_out.occlusion = leave_out.light_types = leave_out.mirrors = leave_out.bending = leave_out.attenuation =
+      leave_out.smooth_normals = false;
   scene::Scene scene = scene::load_scene(preset);
   if (change) change(scene);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
@@ -89,8 +83,7 @@ std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::Lea
   return photons::make_job(preset, scene, bvh, plan, context);
 }
 
-job::Snapshot render(const preset::Preset& preset, const compute::Context& context, const ChangeScene& change)
-{
+job::Snapshot render(const preset::Preset& preset, const compute::Context& context, const ChangeScene& change) {
   const auto job = general_job(preset, {}, context, change);
   while (!job->finished()) job->advance();
   return job->snapshot();

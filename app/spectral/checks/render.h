@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pictures by the real engine and its tables, for checks, what checks and tests read off a picture, and closed forms of geometrical
-// optics that they hold pictures against, in double precision.
+// Small pictures by the real engine and its tables, for checks, what checks and tests read off a picture, and closed
+// forms of geometrical optics that they hold pictures against, in double precision.
 #pragma once
 #include "base/error.h"
 #include "check/check.h"
@@ -18,12 +18,12 @@
 
 namespace nephroid::check {
 
-/// A run of engine 1 with the general kernels rather than those made for the scene: so all checks together build two programs, which is
-/// most of their time on a device whose compiler has not seen them. Tests compare the two kinds. leave_out: of what is no kernel's code.
-/// change: of the preset's scene, if any.
+/// A run of engine 1 with the general kernels rather than those made for the scene: so all checks together build two
+/// programs, which is most of their time on a device whose compiler has not seen them. Tests compare the two kinds.
+/// leave_out: of what is no kernel's code. change: of the preset's scene, if any.
 using ChangeScene = std::function<void(scene::Scene&)>;
-std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::LeaveOut leave_out, const compute::Context& context,
-                                      const ChangeScene& change = {});
+std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::LeaveOut leave_out,
+                                      const compute::Context& context, const ChangeScene& change = {});
 
 /// general_job to the preset's end.
 job::Snapshot render(const preset::Preset& preset, const compute::Context& context, const ChangeScene& change = {});
@@ -32,27 +32,25 @@ job::Snapshot render(const preset::Preset& preset, const compute::Context& conte
 photons::RunTables device_tables(const preset::Preset& preset);
 
 /// The layer of that name, which must be there: throws failed else.
-inline const job::Layer& layer(const job::Snapshot& snapshot, std::string_view name)
-{
+inline const job::Layer& layer(const job::Snapshot& snapshot, std::string_view name) {
   for (const job::Layer& candidate : snapshot.picture->layers)
     if (candidate.name == name) return candidate;
   throw failed("check", "no layer " + std::string(name));
 }
 
 /// The luminance Y of a pixel of a layer; width: of the picture.
-inline double luminance(const job::Layer& layer, int width, int row, int column)
-{
+inline double luminance(const job::Layer& layer, int width, int row, int column) {
   const std::size_t i = 3 * static_cast<std::size_t>(row * width + column);
   return optics::linear_srgb_to_xyz({layer.rgb[i], layer.rgb[i + 1], layer.rgb[i + 2]})[1];
 }
 
-/// Of a plane-parallel plate in air, theta in radians, without absorption, all reflections inside added up. Of light that meets it R is
-/// reflected at the first face; of the 1 - R that go in, 1 - R leave at the second face and R go back, and so on:
-/// T = (1 - R)^2 (1 + R^2 + R^4 + ...) = (1 - R) / (1 + R).
+/// Of a plane-parallel plate in air, theta in radians, without absorption, all reflections inside added up. Of light
+/// that meets it R is reflected at the first face; of the 1 - R that go in, 1 - R leave at the second face and R go
+/// back, and so on: T = (1 - R)^2 (1 + R^2 + R^4 + ...) = (1 - R) / (1 + R).
 double plate_transmittance(double theta, double n);
 
-/// Light through a prism of apex angle 60 degrees, apex at +z, its cross section in (x, z) about the origin, n inside, 1 outside. It comes
-/// from the left, `incidence` radians from the entry face's normal, towards that face's middle.
+/// Light through a prism of apex angle 60 degrees, apex at +z, its cross section in (x, z) about the origin, n inside,
+/// 1 outside. It comes from the left, `incidence` radians from the entry face's normal, towards that face's middle.
 struct PrismPath {
   double from_x, from_z; ///< a point before the prism, 2 sides away from the face
   double direction_x, direction_z;
@@ -60,13 +58,13 @@ struct PrismPath {
 };
 PrismPath prism_path(double side, double incidence, double n, double screen_z);
 
-/// Light along -z at x = height falls on a ball of the radius about the origin and, twice refracted, crosses the plane z = screen_z at the
-/// x that is returned. screen_z <= -radius.
+/// Light along -z at x = height falls on a ball of the radius about the origin and, twice refracted, crosses the plane
+/// z = screen_z at the x that is returned. screen_z <= -radius.
 ///
-/// sin a = h / R, sin b = sin a / n. The light is turned by a - b at each of the two surfaces, d = 2 (a - b) in all, towards the axis. In
-/// the triangle of the ball's centre, the exit and the crossing of the axis the angle at the crossing is d, and the ray passes the centre
-/// at a distance of R sin a (the exit angle is a again): it crosses the axis at f = R sin a / sin d behind the centre. For h -> 0 that is
-/// the paraxial focus n R / (2 (n - 1)).
+/// sin a = h / R, sin b = sin a / n. The light is turned by a - b at each of the two surfaces, d = 2 (a - b) in all,
+/// towards the axis. In the triangle of the ball's centre, the exit and the crossing of the axis the angle at the
+/// crossing is d, and the ray passes the centre at a distance of R sin a (the exit angle is a again): it crosses the
+/// axis at f = R sin a / sin d behind the centre. For h -> 0 that is the paraxial focus n R / (2 (n - 1)).
 double ball_lens_landing(double radius, double height, double n, double screen_z);
 
 /// The checks of engine 1 by subject: its tables, its lights, and small pictures against closed forms.

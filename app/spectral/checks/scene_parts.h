@@ -8,11 +8,11 @@
 
 namespace nephroid::check {
 
-/// A preset in metres with nothing in it but a camera. Its caustics are splatted only, which has closed forms: glass and mirrors in view
-/// show none. Its photons are independent of each other, so that their numbers have the variance of chance: a low-discrepancy sequence
-/// spreads them more evenly, and whoever tests against that variance would find it too small.
-inline preset::Preset empty_preset(int resolution = 64)
-{
+/// A preset in metres with nothing in it but a camera. Its caustics are splatted only, which has closed forms: glass
+/// and mirrors in view show none. Its photons are independent of each other, so that their numbers have the variance of
+/// chance: a low-discrepancy sequence spreads them more evenly, and whoever tests against that variance would find it
+/// too small.
+inline preset::Preset empty_preset(int resolution = 64) {
   preset::Preset p;
   p.name = "test";
   p.unit = preset::Preset::Unit::m;
@@ -27,16 +27,14 @@ inline preset::Preset empty_preset(int resolution = 64)
   return p;
 }
 
-inline preset::Material mirror(double reflectance)
-{
+inline preset::Material mirror(double reflectance) {
   preset::Material m;
   m.type = preset::Material::Type::mirror;
   m.reflectance.value = reflectance;
   return m;
 }
 
-inline preset::Material glass(double n)
-{
+inline preset::Material glass(double n) {
   preset::Material m;
   m.type = preset::Material::Type::dielectric;
   m.dispersion.type = preset::Dispersion::Type::constant;
@@ -44,16 +42,14 @@ inline preset::Material glass(double n)
   return m;
 }
 
-inline preset::Material white(double reflectance = 1)
-{
+inline preset::Material white(double reflectance = 1) {
   preset::Material m;
   m.reflectance.value = reflectance;
   return m;
 }
 
 inline preset::Object object(const std::string& name, const preset::Shape& shape, const std::string& material,
-                             const preset::Transform& transform = {})
-{
+                             const preset::Transform& transform = {}) {
   preset::Object o;
   o.name = name;
   o.shape = shape;
@@ -66,22 +62,19 @@ inline preset::Shape quad(double x, double z) { return {.type = preset::Shape::T
 
 inline preset::Shape box(double x, double y, double z) { return {.type = preset::Shape::Type::box, .size = {x, y, z}}; }
 
-inline preset::Transform at(preset::Vec3 translate, preset::Vec3 rotate_deg = {0, 0, 0})
-{
+inline preset::Transform at(preset::Vec3 translate, preset::Vec3 rotate_deg = {0, 0, 0}) {
   return {.rotate_deg = rotate_deg, .translate = translate};
 }
 
 /// A cylinder as high as wide: the one shape with interpolated normals.
-inline preset::Shape rod(double radius, int segments)
-{
+inline preset::Shape rod(double radius, int segments) {
   return {.type = preset::Shape::Type::cylinder, .radius = radius, .height = 2 * radius, .segments = segments};
 }
 
 inline preset::Shape ball(double radius) { return {.type = preset::Shape::Type::sphere, .radius = radius}; }
 
 /// A single wavelength.
-inline preset::LightSpectrum line(double nm)
-{
+inline preset::LightSpectrum line(double nm) {
   preset::LightSpectrum s;
   s.type = preset::LightSpectrum::Type::lines;
   s.table = {{nm, 1}};
@@ -89,8 +82,8 @@ inline preset::LightSpectrum line(double nm)
 }
 
 /// A narrow beam of one wavelength.
-inline preset::Light pencil(const preset::Vec3& from, const preset::Vec3& direction, double half_angle_deg, double nm = 550)
-{
+inline preset::Light pencil(const preset::Vec3& from, const preset::Vec3& direction, double half_angle_deg,
+                            double nm = 550) {
   preset::Light light;
   light.type = preset::Light::Type::spot;
   light.position = from;

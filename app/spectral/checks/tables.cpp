@@ -21,8 +21,7 @@ using std::numbers::pi;
 using Int4 = std::array<int, 4>; // light, cluster, reflector, attenuator
 
 /// Daylight through dispersive glass onto a patch that is not grey.
-tracing::WavelengthTables tables()
-{
+tracing::WavelengthTables tables() {
   preset::Preset p = empty_preset();
   preset::Material dispersive = glass(1.7);
   dispersive.dispersion.type = preset::Dispersion::Type::cauchy;
@@ -37,9 +36,8 @@ tracing::WavelengthTables tables()
 }
 
 /// What attenuated_sum gives for every cluster at every length of glass with absorption `coefficient` in 1/m.
-std::vector<float4> sums(const compute::Context& context, const tracing::WavelengthTables& t, const std::vector<float>& coefficient,
-                         const std::vector<float>& lengths)
-{
+std::vector<float4> sums(const compute::Context& context, const tracing::WavelengthTables& t,
+                         const std::vector<float>& coefficient, const std::vector<float>& lengths) {
   std::vector<Int4> which;
   std::vector<float> crossed;
   for (const float length : lengths)
@@ -49,37 +47,40 @@ std::vector<float4> sums(const compute::Context& context, const tracing::Wavelen
     }
   const compute::Buffer<float4> out(context, "sums", which.size());
   run_kernel(context, "attenuated", which.size(),
-           {{"first", compute::Buffer(context, "first", t.cluster_first)},
-            {"wavelengths", compute::Buffer(context, "wavelengths", t.cluster_wavelengths)},
-            {"coefficient", compute::Buffer(context, "coefficient", coefficient)},
-            {"light_xyz", compute::Buffer(context, "light", t.light_xyz)},
-            {"reflectance", compute::Buffer(context, "reflectance", t.reflectance)},
-            {"in", compute::Buffer(context, "which", which)},
-            {"lengths", compute::Buffer(context, "lengths", crossed)},
-            {"out", out}});
+             {{"first", compute::Buffer(context, "first", t.cluster_first)},
+              {"wavelengths", compute::Buffer(context, "wavelengths", t.cluster_wavelengths)},
+              {"coefficient", compute::Buffer(context, "coefficient", coefficient)},
+              {"light_xyz", compute::Buffer(context, "light", t.light_xyz)},
+              {"reflectance", compute::Buffer(context, "reflectance", t.reflectance)},
+              {"in", compute::Buffer(context, "which", which)},
+              {"lengths", compute::Buffer(context, "lengths", crossed)},
+              {"out", out}});
   return out.read();
 }
 
 double relative(double got, double truth) { return std::abs(got / truth - 1); }
 
-Result whole_spectrum(const compute::Context& context, std::uint64_t)
-{
+Result whole_spectrum(const compute::Context& context, std::uint64_t) {
   const tracing::WavelengthTables t = tables();
   double x = 0, y = 0, z = 0, share = 0;
-  for (const float4& s : sums(context, t, std::vector<float>(optics::wavelength_count), {0})) x += s.x, y += s.y, z += s.z, share += s.w;
+  for (const float4& s : sums(context, t, std::vector<float>(optics::wavelength_count), {0}))
+    x += s.x, y += s.y, z += s.z, share += s.w;
   optics::Spectrum reflected = optics::illuminant("D65");
   const optics::Spectrum patch = optics::colorchecker_patch("orange");
   for (std::size_t i = 0; i < reflected.size(); ++i) reflected[i] *= patch[i];
   const optics::Colour truth = optics::to_xyz(reflected);
-  const double worst = std::max({relative(x, truth[0]), relative(y, truth[1]), relative(z, truth[2]), relative(share, 1)});
-  return judged(worst, 2e-6, "",
-                fmt::format("daylight on an orange patch summed over {} clusters: share and XYZ, against 401 wavelengths on the host",
-                            t.clusters.size()));
+  const double worst =
+      std::max({relative(x, truth[0]), relative(y, truth[1]), relative(z, truth[2]), relative(share, 1)});
+  return judged(
+      worst, 2e-6, "",
+      fmt::format(
+          "daylight on an orange patch summed over {} clusters: share and XYZ, against 401 wavelengths on the host",
+          t.clusters.size()));
 }
 
-/// Terms are positive, so a sum is as exact as its terms: an exponent e is off by a few e 2^-24, here up to 18, and so is exp(-e).
-Result beer_lambert(const compute::Context& context, std::uint64_t)
-{
+/// Terms are positive, so a sum is as exact as its terms: an exponent e is off by a few e 2^-24, here up to 18, and so
+/// is exp(-e).
+Result beer_lambert(const compute::Context& context, std::uint64_t) {
   const tracing::WavelengthTables t = tables();
   std::vector<float> coefficient;
   for (int i = 0; i < optics::wavelength_count; ++i) {
@@ -97,7 +98,8 @@ Result beer_lambert(const compute::Context& context, std::uint64_t)
         const auto i = static_cast<std::size_t>(w);
         const double left = std::exp(-double(coefficient[i]) * length), rho = t.reflectance[i];
         const float4& l = t.light_xyz[i];
-        truth[0] += left * rho * l.x, truth[1] += left * rho * l.y, truth[2] += left * rho * l.z, truth[3] += left * l.w;
+        truth[0] += left * rho * l.x, truth[1] += left * rho * l.y, truth[2] += left * rho * l.z,
+            truth[3] += left * l.w;
       }
       const float4& s = got[item++];
       for (const double error : {relative(s.x, truth[0]), relative(s.y, truth[1]), relative(s.w, truth[3])})
@@ -106,11 +108,12 @@ Result beer_lambert(const compute::Context& context, std::uint64_t)
     }
   return judged(
       worst, 1e-5, "",
-      fmt::format("what {} clusters keep after 0.1 mm to 1.5 m of absorbing glass, against exp(-4 pi k s / lambda)", t.clusters.size()));
+      fmt::format("what {} clusters keep after 0.1 mm to 1.5 m of absorbing glass, against exp(-4 pi k s / lambda)",
+                  t.clusters.size()));
 }
 
-// kernels/tracing/emission.h: what the photons of a light carry towards spheres adds up to the power that the light sends there, where the
-// spheres overlap, too. In standard deviations of the photons' own spread.
+// kernels/tracing/emission.h: what the photons of a light carry towards spheres adds up to the power that the light
+// sends there, where the spheres overlap, too. In standard deviations of the photons' own spread.
 
 constexpr std::size_t photon_count = 1 << 17;
 
@@ -120,27 +123,29 @@ struct Photon {
 };
 
 /// Photons of the preset's light towards spheres about its place: x, y, z from there, radius.
-std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, const preset::Light& light, std::vector<float4> spheres)
-{
+std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, const preset::Light& light,
+                         std::vector<float4> spheres) {
   preset::Preset p = empty_preset();
   p.scene.materials["glass"] = glass(1.5);
   p.scene.materials["white"] = white();
-  p.scene.objects = {object("ball", ball(1), "glass", at({0, 0, 0})), object("wall", quad(20, 20), "white", at({0, -2, 0}))};
+  p.scene.objects = {object("ball", ball(1), "glass", at({0, 0, 0})),
+                     object("wall", quad(20, 20), "white", at({0, -2, 0}))};
   p.scene.lights = {light};
   photons::RunTables tables = device_tables(p);
   shared::DeviceLight& on_host = tables.lights.at(0);
   std::vector<shared::DeviceTarget> targets;
-  for (const float4& s : spheres) targets.push_back({{s.x + on_host.position.x, s.y + on_host.position.y, s.z + on_host.position.z, s.w}});
+  for (const float4& s : spheres)
+    targets.push_back({{s.x + on_host.position.x, s.y + on_host.position.y, s.z + on_host.position.z, s.w}});
   on_host.first_target = 0;
   on_host.target_count = static_cast<int>(targets.size());
   const compute::Buffer<float4> out(context, "photons", 2 * photon_count);
   run_kernel(context, "emissions", photon_count,
-           {{"lights", compute::Buffer(context, "lights", tables.lights)},
-            {"light", 0},
-            {"targets", compute::Buffer(context, "targets", targets)},
-            {"scene", tables.scene},
-            {"seed", device_seed(seed)},
-            {"out", out}});
+             {{"lights", compute::Buffer(context, "lights", tables.lights)},
+              {"light", 0},
+              {"targets", compute::Buffer(context, "targets", targets)},
+              {"scene", tables.scene},
+              {"seed", device_seed(seed)},
+              {"out", out}});
   const std::vector<float4> got = out.read();
   std::vector<Photon> photons;
   for (std::size_t i = 0; i < got.size(); i += 2)
@@ -148,10 +153,10 @@ std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, co
   return photons;
 }
 
-/// How far the mean of `values` is from the truth, in standard errors, to which single precision adds 2e-6 of the truth.
+/// How far the mean of `values` is from the truth, in standard errors, to which single precision adds 2e-6 of the
+/// truth.
 template <class Value>
-double z_of(const std::vector<Photon>& photons, const Value& value, double truth)
-{
+double z_of(const std::vector<Photon>& photons, const Value& value, double truth) {
   double sum = 0, squares = 0;
   const auto count = static_cast<double>(photons.size());
   for (const Photon& photon : photons) {
@@ -171,32 +176,32 @@ const std::vector<float4> three_spheres{{0, 0, 3, 1}, {0.2f, 0, 6, 0.5f}, {-2, 0
 
 Result judged_in_sigma(double z, std::string detail) { return judged(z, 6, "sigma", std::move(detail)); }
 
-Result point(const compute::Context& context, std::uint64_t seed)
-{
+Result point(const compute::Context& context, std::uint64_t seed) {
   preset::Light light;
   light.position = {0, 8, 0};
   light.power_w = 7;
   const double truth = 7 * (one_minus_cos(1 / 3.0) + one_minus_cos(0.25)) / 2;
-  return judged_in_sigma(z_of(emit(context, seed, light, three_spheres), watts_of, truth),
-                  fmt::format("{} photons towards three spheres, one in another's shadow, against power times their solid angle over 4 pi",
-                              photon_count));
+  return judged_in_sigma(
+      z_of(emit(context, seed, light, three_spheres), watts_of, truth),
+      fmt::format(
+          "{} photons towards three spheres, one in another's shadow, against power times their solid angle over 4 pi",
+          photon_count));
 }
 
-/// Steradians that two cones share, of half angles a and b with `between` their axes: for every angle t from the second's axis, the part
-/// of the circle that the first holds, by the midpoint rule.
-double shared_steradians(double a, double b, double between)
-{
+/// Steradians that two cones share, of half angles a and b with `between` their axes: for every angle t from the
+/// second's axis, the part of the circle that the first holds, by the midpoint rule.
+double shared_steradians(double a, double b, double between) {
   constexpr int steps = 20000;
   double sum = 0;
   for (int i = 0; i < steps; ++i) {
-    const double t = (i + 0.5) / steps * b, least = (std::cos(a) - std::cos(t) * std::cos(between)) / (std::sin(t) * std::sin(between));
+    const double t = (i + 0.5) / steps * b,
+                 least = (std::cos(a) - std::cos(t) * std::cos(between)) / (std::sin(t) * std::sin(between));
     sum += 2 * std::acos(std::clamp(least, -1.0, 1.0)) * std::sin(t) * b / steps;
   }
   return sum;
 }
 
-Result spot(const compute::Context& context, std::uint64_t seed)
-{
+Result spot(const compute::Context& context, std::uint64_t seed) {
   preset::Light wide, narrow;
   wide.type = narrow.type = preset::Light::Type::spot;
   wide.position = narrow.position = {0, 8, 0};
@@ -204,31 +209,32 @@ Result spot(const compute::Context& context, std::uint64_t seed)
   wide.power_w = narrow.power_w = 7;
   wide.half_angle_deg = 60;
   narrow.half_angle_deg = 5;
-  // The wide cone holds the first two spheres and its edge goes through the third; the narrow one lies inside the first and is sent as it
-  // is.
+  // The wide cone holds the first two spheres and its edge goes through the third; the narrow one lies inside the first
+  // and is sent as it is.
   const std::vector<float4> spheres{three_spheres[0], three_spheres[1], {-std::sqrt(3.0f), 0, 1, 0.5f}};
   const double cone = 2 * pi * (1 - std::cos(pi / 3)), apart = shared_steradians(pi / 3, std::asin(0.25), pi / 3);
-  const double z = z_of(emit(context, seed, wide, spheres), watts_of, 7 * (2 * pi * one_minus_cos(1 / 3.0) + apart) / cone);
+  const double z =
+      z_of(emit(context, seed, wide, spheres), watts_of, 7 * (2 * pi * one_minus_cos(1 / 3.0) + apart) / cone);
   const double z_narrow = z_of(emit(context, seed, narrow, spheres), watts_of, 7);
   return judged_in_sigma(std::abs(z) > std::abs(z_narrow) ? z : z_narrow,
-                  "a cone of 60 degrees about three spheres, one across its edge, and one of 5 degrees inside a sphere, against power "
-                  "times the part of the cone");
+                         "a cone of 60 degrees about three spheres, one across its edge, and one of 5 degrees inside a "
+                         "sphere, against power "
+                         "times the part of the cone");
 }
 
-Result directional(const compute::Context& context, std::uint64_t seed)
-{
+Result directional(const compute::Context& context, std::uint64_t seed) {
   preset::Light light;
   light.type = preset::Light::Type::directional;
   light.direction = {0, -0.8, 0.6};
   light.irradiance_w_m2 = 3;
   // The second sphere lies in the first one's shadow, the third apart.
   const double truth = 3 * pi * (1 + 0.49);
-  return judged_in_sigma(z_of(emit(context, seed, light, {{0, 0, 0, 1}, {0, -2.4f, 1.8f, 0.5f}, {5, 0, 0, 0.7f}}), watts_of, truth),
-                  "photons towards three spheres, one in another's shadow, against irradiance times the area of the shadow");
+  return judged_in_sigma(
+      z_of(emit(context, seed, light, {{0, 0, 0, 1}, {0, -2.4f, 1.8f, 0.5f}, {5, 0, 0, 0.7f}}), watts_of, truth),
+      "photons towards three spheres, one in another's shadow, against irradiance times the area of the shadow");
 }
 
-Result area(const compute::Context& context, std::uint64_t seed)
-{
+Result area(const compute::Context& context, std::uint64_t seed) {
   preset::Light light;
   light.type = preset::Light::Type::area;
   light.position = {0, 8, 0};
@@ -241,13 +247,12 @@ Result area(const compute::Context& context, std::uint64_t seed)
   const double z_cosine = z_of(
       photons, [](const Photon& p) { return -p.watts * p.direction[1]; }, 7 * 2.0 / 3);
   return judged_in_sigma(std::abs(z) > std::abs(z_cosine) ? z : z_cosine,
-                  "photons in all directions, against the whole power and a mean cosine of 2/3");
+                         "photons in all directions, against the whole power and a mean cosine of 2/3");
 }
 
 } // namespace
 
-Checks table_checks()
-{
+Checks table_checks() {
   return {{"spectra: clusters add up to the light", whole_spectrum},
           {"spectra: absorption after Beer and Lambert", beer_lambert},
           {"emission: point light", point},

@@ -14,19 +14,18 @@
 namespace nephroid::ui {
 namespace {
 
-/// A log axis that follows the run reaches down to this part of the largest value: what is missed may be 1e-14, by rounding alone.
+/// A log axis that follows the run reaches down to this part of the largest value: what is missed may be 1e-14, by
+/// rounding alone.
 constexpr double log_range = 1e-4;
 
 using Ends = std::array<double, 2>;
 
-void widen(Ends& ends, const std::vector<double>& values)
-{
+void widen(Ends& ends, const std::vector<double>& values) {
   for (const double value : values) ends = {std::min(ends[0], value), std::max(ends[1], value)};
 }
 
 /// Ends with some room; where there is nothing, 0..1 or a decade.
-Ends with_room(const Ends& ends, bool log)
-{
+Ends with_room(const Ends& ends, bool log) {
   if (ends[0] > ends[1]) return log ? Ends{0.1, 1} : Ends{0, 1};
   if (log) return {std::max(ends[0] / 1.25, log_range * ends[1]), ends[1] * 1.25};
   const double room = std::max({0.05 * (ends[1] - ends[0]), 1e-3 * std::abs(ends[1]), 1e-9});
@@ -35,8 +34,7 @@ Ends with_room(const Ends& ends, bool log)
 
 } // namespace
 
-HistoryLines history_lines(const job::Curve& curve, const HistoryPlotStyle& look)
-{
+HistoryLines history_lines(const job::Curve& curve, const HistoryPlotStyle& look) {
   const auto found = std::find(curve.columns.begin(), curve.columns.end(), "seconds");
   const auto seconds = static_cast<std::size_t>(found - curve.columns.begin());
   const std::size_t over = look.seconds && found != curve.columns.end() ? seconds : 0;
@@ -54,8 +52,7 @@ HistoryLines history_lines(const job::Curve& curve, const HistoryPlotStyle& look
   return history;
 }
 
-void HistoryPlot::draw(const HistoryLines& lines, bool log, float height)
-{
+void HistoryPlot::draw(const HistoryLines& lines, bool log, float height) {
   constexpr double none = std::numeric_limits<double>::infinity();
   if (log != log_ || lines.x != x_) follows_ = true; // other axes
   log_ = log;
@@ -71,10 +68,12 @@ void HistoryPlot::draw(const HistoryLines& lines, bool log, float height)
   ImPlot::SetupAxes(lines.x.c_str(), lines.name.c_str());
   if (log) {
     ImPlot::SetupAxisScale(ImAxis_Y1, ImPlotScale_Log10);
-    if (const auto ticks = measure::round_levels(y[0], y[1]); ticks.size() > 1 && ticks.size() < 10) set_up_ticks(ImAxis_Y1, ticks);
+    if (const auto ticks = measure::round_levels(y[0], y[1]); ticks.size() > 1 && ticks.size() < 10)
+      set_up_ticks(ImAxis_Y1, ticks);
   }
   if (follows_) ImPlot::SetupAxesLimits(x[0], x[1], y[0], y[1], ImPlotCond_Always);
-  ImPlot::SetupLegend(ImPlotLocation_North, ImPlotLegendFlags_Outside | ImPlotLegendFlags_Horizontal); // lines end at the right
+  ImPlot::SetupLegend(ImPlotLocation_North,
+                      ImPlotLegendFlags_Outside | ImPlotLegendFlags_Horizontal); // lines end at the right
   ImPlot::SetupFinish();
   for (const HistoryLine& line : lines.lines) {
     if (line.x.empty()) continue;

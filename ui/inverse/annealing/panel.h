@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Annealing" of engine 3: how the search goes, what every receiver shows, and where the light of a facet goes. Distances are
-// dragged in it, and the search goes on from where it was.
+// The panel "Annealing" of engine 3: how the search goes, what every receiver shows, and where the light of a facet
+// goes. Distances are dragged in it, and the search goes on from where it was.
 #pragma once
 #include "inverse/layout.h"
 #include "inverse/settings.h"
@@ -15,7 +15,8 @@ struct ImVec2;
 
 namespace nephroid::ui {
 
-/// The curves of a run (job::Curve) as lines over sweeps, moves or seconds: the cost, and whatever else an engine notes about its search.
+/// The curves of a run (job::Curve) as lines over sweeps, moves or seconds: the cost, and whatever else an engine notes
+/// about its search.
 struct HistoryLine {
   std::string name; ///< its column
   std::vector<double> x, y;
@@ -32,7 +33,8 @@ struct HistoryPlotStyle {
   bool seconds = false; ///< drawn over the column "seconds" where the curve has one; else over the curve's first
 };
 
-/// Every column of a curve but its first and "seconds". What is not finite is left out, and on a log axis what is not above 0.
+/// Every column of a curve but its first and "seconds". What is not finite is left out, and on a log axis what is not
+/// above 0.
 HistoryLines history_lines(const job::Curve& curve, const HistoryPlotStyle& look);
 
 class HistoryPlot {

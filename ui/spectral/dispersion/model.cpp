@@ -26,8 +26,7 @@ constexpr double lowest_nm = 100, highest_nm = 1500; ///< and how far at most wh
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Wavelengths to draw: every nanometre of the grid, every fifth beyond it. low, high: of the control points.
-std::vector<double> wavelengths_of_line(double low_nm, double high_nm)
-{
+std::vector<double> wavelengths_of_line(double low_nm, double high_nm) {
   const double low = std::max(lowest_nm, std::min(low_nm, optics::first_nm - beyond_nm));
   const double high = std::min(highest_nm, std::max(high_nm, optics::last_nm + beyond_nm));
   std::vector<double> nm;
@@ -38,12 +37,12 @@ std::vector<double> wavelengths_of_line(double low_nm, double high_nm)
   return nm;
 }
 
-void make_lines(const optics::DispersionCurve& data, optics::Extrapolation outside, GlassCurve& glass_curve)
-{
+void make_lines(const optics::DispersionCurve& data, optics::Extrapolation outside, GlassCurve& glass_curve) {
   const auto ends = glass_curve.points ? glass_curve.data_nm : std::array<double, 2>{optics::first_nm, optics::last_nm};
   glass_curve.line_nm = wavelengths_of_line(ends[0], ends[1]);
   for (const double nm : glass_curve.line_nm) {
-    const bool refused = outside == optics::Extrapolation::refuse && (nm < glass_curve.data_nm[0] || nm > glass_curve.data_nm[1]);
+    const bool refused =
+        outside == optics::Extrapolation::refuse && (nm < glass_curve.data_nm[0] || nm > glass_curve.data_nm[1]);
     const optics::IndexSample sample = refused ? optics::IndexSample{} : data.sample(nm, outside);
     glass_curve.line_n.push_back(sample.n.value_or(nan));
     if (data.k) glass_curve.line_k.push_back(sample.k.value_or(nan));
@@ -51,8 +50,7 @@ void make_lines(const optics::DispersionCurve& data, optics::Extrapolation outsi
 }
 
 /// The dielectrics that objects are made of.
-std::vector<std::string> used_dielectrics(const preset::Preset& preset)
-{
+std::vector<std::string> used_dielectrics(const preset::Preset& preset) {
   std::vector<std::string> used = dielectrics(preset);
   std::erase_if(used, [&](const std::string& name) {
     return std::none_of(preset.scene.objects.begin(), preset.scene.objects.end(),
@@ -62,14 +60,15 @@ std::vector<std::string> used_dielectrics(const preset::Preset& preset)
 }
 
 /// theta2 = asin(sin theta1 / n) at theta1 = 45 degrees; 90 degrees beyond the critical angle.
-double angle_at_45_deg(double n) { return std::asin(std::min(1.0, std::numbers::sqrt2 / 2 / n)) * 180 / std::numbers::pi; }
+double angle_at_45_deg(double n) {
+  return std::asin(std::min(1.0, std::numbers::sqrt2 / 2 / n)) * 180 / std::numbers::pi;
+}
 
 double mean_angle_deg(double n) { return photons::refraction_integral_deg2(n) / photons::last_angle_deg; }
 
 /// angle: of refraction, as a function of n, falling.
 template <class Angle>
-Spread spread_of(const photons::Clustering& clustering, const optics::Spectrum& n, Angle angle)
-{
+Spread spread_of(const photons::Clustering& clustering, const optics::Spectrum& n, Angle angle) {
   Spread spread;
   for (const photons::Cluster& cluster : clustering.clusters) {
     const double highest = n[static_cast<std::size_t>(cluster.wavelengths.front())];
@@ -84,16 +83,16 @@ Spread spread_of(const photons::Clustering& clustering, const optics::Spectrum& 
 
 } // namespace
 
-ControlPoint readable_point(const ControlPoint& point) { return {std::round(point[0] * 100) / 100, std::round(point[1] * 1e6) / 1e6}; }
+ControlPoint readable_point(const ControlPoint& point) {
+  return {std::round(point[0] * 100) / 100, std::round(point[1] * 1e6) / 1e6};
+}
 
-std::vector<ControlPoint> sorted_points(const preset::Dispersion& dispersion)
-{
+std::vector<ControlPoint> sorted_points(const preset::Dispersion& dispersion) {
   if (dispersion.type != preset::Dispersion::Type::points) return {};
   return sorted_rows(dispersion.table);
 }
 
-preset::Dispersion with_points(const preset::Dispersion& before, std::vector<ControlPoint> points)
-{
+preset::Dispersion with_points(const preset::Dispersion& before, std::vector<ControlPoint> points) {
   preset::Dispersion dispersion;
   dispersion.type = preset::Dispersion::Type::points;
   dispersion.table = std::move(points);
@@ -101,15 +100,13 @@ preset::Dispersion with_points(const preset::Dispersion& before, std::vector<Con
   return dispersion;
 }
 
-ControlPoint snapped(ControlPoint point, ControlPoint step)
-{
+ControlPoint snapped(ControlPoint point, ControlPoint step) {
   for (std::size_t i = 0; i < 2; ++i)
     if (step[i] > 0) point[i] = std::round(point[i] / step[i]) * step[i];
   return point;
 }
 
-FittedPoints fit_points(const optics::Spectrum& n, double tolerance, std::size_t most)
-{
+FittedPoints fit_points(const optics::Spectrum& n, double tolerance, std::size_t most) {
   const auto point = [&](int index) {
     // Seven decimals are as much as any table has.
     const double value = std::round(n[static_cast<std::size_t>(index)] * 1e7) / 1e7;
@@ -119,7 +116,8 @@ FittedPoints fit_points(const optics::Spectrum& n, double tolerance, std::size_t
   FittedPoints fitted;
   fitted.points = {point(0), point(optics::wavelength_count - 1)};
   while (true) {
-    const optics::Spectrum fitted_n = optics::sample_n(optics::control_points(fitted.points), optics::Extrapolation::hold);
+    const optics::Spectrum fitted_n =
+        optics::sample_n(optics::control_points(fitted.points), optics::Extrapolation::hold);
     int worst = 0;
     fitted.greatest_deviation = 0;
     for (int i = 0; i < optics::wavelength_count; ++i) {
@@ -131,8 +129,7 @@ FittedPoints fit_points(const optics::Spectrum& n, double tolerance, std::size_t
   }
 }
 
-ClusterFigures figures_of(photons::Clustering clustering, const optics::Spectrum& n)
-{
+ClusterFigures figures_of(photons::Clustering clustering, const optics::Spectrum& n) {
   ClusterFigures figures;
   figures.saving = static_cast<double>(optics::wavelength_count) / static_cast<double>(clustering.clusters.size());
   figures.at_45 = spread_of(clustering, n, angle_at_45_deg);
@@ -141,8 +138,8 @@ ClusterFigures figures_of(photons::Clustering clustering, const optics::Spectrum
   return figures;
 }
 
-GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const Place& where)
-{
+GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source,
+                            const Place& where) {
   GlassCurve glass_curve;
   glass_curve.points = dispersion.type == preset::Dispersion::Type::points;
   try {
@@ -162,19 +159,18 @@ GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::str
   return glass_curve;
 }
 
-bool DispersionModel::update_curve(const preset::Preset& preset, const std::string& material)
-{
+bool DispersionModel::update_curve(const preset::Preset& preset, const std::string& material) {
   const preset::Dispersion& dispersion = preset.scene.materials.at(material).dispersion;
   const auto found = glasses_.find(material);
-  if (found != glasses_.end() && found->second.dispersion == dispersion && found->second.source == preset.source) return false;
+  if (found != glasses_.end() && found->second.dispersion == dispersion && found->second.source == preset.source)
+    return false;
   const Place where = Place(preset.source) / "scene" / "materials" / material / "dispersion";
   glasses_[material] = {dispersion, preset.source, make_glass_curve(dispersion, preset.source, where)};
   ++curves_made_;
   return true;
 }
 
-void DispersionModel::update(const preset::Preset& preset, const std::string& material)
-{
+void DispersionModel::update(const preset::Preset& preset, const std::string& material) {
   if (material_ == material && preset_ == preset) return;
   const photons::Settings& settings = spectral::settings(preset);
   std::erase_if(glasses_, [&](const auto& glass) { return !preset.scene.materials.contains(glass.first); });
@@ -186,18 +182,19 @@ void DispersionModel::update(const preset::Preset& preset, const std::string& ma
   method_ = settings.method;
   if (error_.empty())
     for (std::size_t c = 0; c < chosen().clustering.clusters.size(); ++c)
-      for (const int index : chosen().clustering.clusters[c].wavelengths) cluster_of_[static_cast<std::size_t>(index)] = c;
+      for (const int index : chosen().clustering.clusters[c].wavelengths)
+        cluster_of_[static_cast<std::size_t>(index)] = c;
   combine(preset);
   preset_ = preset;
 }
 
-void DispersionModel::cluster()
-{
+void DispersionModel::cluster() {
   error_ = curve_->error;
   if (!error_.empty()) return;
   try {
     for (const photons::ClusterMethod method : methods)
-      figures_[static_cast<std::size_t>(method)] = figures_of(photons::cluster_wavelengths(curve_->n, threshold_deg_, method), curve_->n);
+      figures_[static_cast<std::size_t>(method)] =
+          figures_of(photons::cluster_wavelengths(curve_->n, threshold_deg_, method), curve_->n);
     ++clusterings_made_;
   } catch (const std::exception& error) {
     error_ = error.what();
@@ -205,15 +202,15 @@ void DispersionModel::cluster()
 }
 
 /// By the engine's own rule, which asks for each object's index of refraction only.
-void DispersionModel::combine(const preset::Preset& preset)
-{
+void DispersionModel::combine(const preset::Preset& preset) {
   clusters_of_run_.reset();
   const photons::Settings& settings = spectral::settings(preset);
   scene::Scene outline;
   for (const std::string& name : used_dielectrics(preset)) {
     update_curve(preset, name);
     const GlassCurve& glass = glasses_.at(name).curve;
-    if (!glass.error.empty() || (settings.relight && glass.has_k)) return; // layers also hang on the lengths of paths in what absorbs
+    if (!glass.error.empty() || (settings.relight && glass.has_k))
+      return; // layers also hang on the lengths of paths in what absorbs
     outline.objects.emplace_back().material = static_cast<int>(outline.materials.size());
     scene::Material& material = outline.materials.emplace_back();
     material.type = scene::Material::Type::dielectric;

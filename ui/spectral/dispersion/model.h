@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the panel "Dispersion" shows, kept as long as the fields it comes from stay as they are: one dielectric's curve, its clusters
-// by every method and what they mean; and what a person does to it: control points are moved, added and removed, a curve becomes control
-// points. No Dear ImGui here.
+// What the panel "Dispersion" shows, kept as long as the fields it comes from stay as they are: one dielectric's curve,
+// its clusters by every method and what they mean; and what a person does to it: control points are moved, added and
+// removed, a curve becomes control points. No Dear ImGui here.
 #pragma once
 #include "base/place.h"
 #include "optics/wavelength.h"
@@ -33,8 +33,8 @@ struct FittedPoints {
   std::vector<ControlPoint> points;
   double greatest_deviation = 0; ///< of n at the 401 wavelengths
 };
-/// Few control points whose monotone cubic comes to within `tolerance` of n, at most `most` (>= 2): from both ends on, one more where
-/// the deviation is greatest.
+/// Few control points whose monotone cubic comes to within `tolerance` of n, at most `most` (>= 2): from both ends on,
+/// one more where the deviation is greatest.
 FittedPoints fit_points(const optics::Spectrum& n, double tolerance = 1e-4, std::size_t most = 40);
 
 struct GlassCurve {
@@ -50,8 +50,8 @@ struct GlassCurve {
 /// where: the field's FILE#/json/pointer, for messages. Whatever is wrong becomes the curve's error.
 GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const Place& where);
 
-/// By how much the refraction angle differs inside a cluster: between the rays of its highest and its lowest n, which all go the way
-/// of the mean. A cluster of one wavelength has none.
+/// By how much the refraction angle differs inside a cluster: between the rays of its highest and its lowest n, which
+/// all go the way of the mean. A cluster of one wavelength has none.
 struct Spread {
   double mean_deg = 0;     ///< over the 401 wavelengths, each with its cluster's
   double greatest_deg = 0; ///< of all clusters
@@ -59,8 +59,8 @@ struct Spread {
 
 struct ClusterFigures {
   photons::Clustering clustering;
-  double saving = 1;  ///< 401 / clusters: how many times fewer paths than brute force
-  Spread at_45;       ///< at an angle of incidence of 45 degrees
+  double saving = 1;       ///< 401 / clusters: how many times fewer paths than brute force
+  Spread at_45;            ///< at an angle of incidence of 45 degrees
   Spread mean_over_angles; ///< the mean over 0..89 degrees of incidence, which is what the threshold alpha is about
 };
 
@@ -69,19 +69,23 @@ ClusterFigures figures_of(photons::Clustering clustering, const optics::Spectrum
 
 class DispersionModel {
 public:
-  /// Makes anew what does not fit the preset any more; idle frames cost a comparison. Throws nothing. material: a dielectric of it.
+  /// Makes anew what does not fit the preset any more; idle frames cost a comparison. Throws nothing. material: a
+  /// dielectric of it.
   void update(const preset::Preset& preset, const std::string& material);
 
   const GlassCurve& curve() const { return *curve_; }
   /// Empty where there are clusters, else why not.
   const std::string& error() const { return error_; }
   /// In the order of photons::Settings::Method; only without an error().
-  const ClusterFigures& figures(photons::ClusterMethod method) const { return figures_[static_cast<std::size_t>(method)]; }
+  const ClusterFigures& figures(photons::ClusterMethod method) const {
+    return figures_[static_cast<std::size_t>(method)];
+  }
   /// Of the preset's method: the clusters of the curve, and which of them each wavelength is in.
   const ClusterFigures& chosen() const { return figures(method_); }
   const std::array<std::size_t, optics::wavelength_count>& cluster_of() const { return cluster_of_; }
-  /// How many the run has: of all glasses that objects are made of, by brute force of step_nm neighbours, with differentials as they
-  /// need them. Nothing where no object is made of glass, one of the curves has an error, or layers for another light absorb.
+  /// How many the run has: of all glasses that objects are made of, by brute force of step_nm neighbours, with
+  /// differentials as they need them. Nothing where no object is made of glass, one of the curves has an error, or
+  /// layers for another light absorb.
   std::optional<std::size_t> clusters_of_run() const { return clusters_of_run_; }
 
   /// How often each was made, for tests.

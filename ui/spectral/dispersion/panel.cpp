@@ -22,32 +22,28 @@ using Type = preset::Dispersion::Type;
 constexpr double far_nm = 200; ///< control points farther beyond the 401 wavelengths do not widen the axis
 
 /// Where n comes from, in a few words.
-std::string source_text(const preset::Dispersion& dispersion, const GlassCurve& curve)
-{
+std::string source_text(const preset::Dispersion& dispersion, const GlassCurve& curve) {
   const std::string range = fmt::format("{:.6g}..{:.6g} nm", curve.data_nm[0], curve.data_nm[1]);
   switch (dispersion.type) {
-  case Type::constant:
-    return fmt::format("constant: n = {:.6g} at every wavelength", dispersion.n);
+  case Type::constant: return fmt::format("constant: n = {:.6g} at every wavelength", dispersion.n);
   case Type::file:
-    return fmt::format("file {}{}", std::filesystem::path(dispersion.file).filename().string(), curve.data_nm[1] > 0 ? ": " + range : "");
-  case Type::sellmeier:
-    return "formula: Sellmeier with " + counted(dispersion.b.size(), "term");
-  case Type::cauchy:
-    return "formula: Cauchy with " + counted(dispersion.coefficients.size(), "coefficient");
-  case Type::table:
-    return fmt::format("table of {}, {}", counted(dispersion.table.size(), "row"), range);
-  case Type::points:
-    break;
+    return fmt::format("file {}{}", std::filesystem::path(dispersion.file).filename().string(),
+                       curve.data_nm[1] > 0 ? ": " + range : "");
+  case Type::sellmeier: return "formula: Sellmeier with " + counted(dispersion.b.size(), "term");
+  case Type::cauchy: return "formula: Cauchy with " + counted(dispersion.coefficients.size(), "coefficient");
+  case Type::table: return fmt::format("table of {}, {}", counted(dispersion.table.size(), "row"), range);
+  case Type::points: break;
   }
   return fmt::format("{} control points, {}", dispersion.table.size(), range);
 }
 
-std::string spread_text(const Spread& spread) { return fmt::format("{:.3f} / {:.3f}", spread.mean_deg, spread.greatest_deg); }
+std::string spread_text(const Spread& spread) {
+  return fmt::format("{:.3f} / {:.3f}", spread.mean_deg, spread.greatest_deg);
+}
 
 } // namespace
 
-void DispersionPanel::draw(const Context& context)
-{
+void DispersionPanel::draw(const Context& context) {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   const std::vector<std::string> names = dielectrics(*context.preset());
   if (names.empty()) return draw_hint(colour::quiet_text, corner, size, "No material of this preset is a dielectric");
@@ -69,8 +65,7 @@ void DispersionPanel::draw(const Context& context)
 }
 
 /// Takes over what the preset says now. Another material leaves no point selected.
-void DispersionPanel::follow(const Context& context)
-{
+void DispersionPanel::follow(const Context& context) {
   const preset::Preset& preset = *context.preset();
   const std::string material = shown_dielectric(preset, context.view_state.material);
   model_.update(preset, material);
@@ -83,8 +78,7 @@ void DispersionPanel::follow(const Context& context)
   fitted_text_.clear();
 }
 
-void DispersionPanel::draw_toolbar(const Context& context, const std::vector<std::string>& names)
-{
+void DispersionPanel::draw_toolbar(const Context& context, const std::vector<std::string>& names) {
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
   {
     Combo list("##material", shown_);
@@ -98,14 +92,14 @@ void DispersionPanel::draw_toolbar(const Context& context, const std::vector<std
   if (places_.button("Make editable", "Make editable")) make_editable(context);
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled | ImGuiHoveredFlags_DelayNormal))
-    ImGui::SetTooltip("%s", editable ? "It is made of control points: drag them"
-                            : model_.curve().has_k
-                                ? "Control points that reproduce n at 380..780 nm. They have no k: the glass will not absorb"
-                                : "Control points that reproduce n at 380..780 nm");
+    ImGui::SetTooltip("%s",
+                      editable ? "It is made of control points: drag them"
+                      : model_.curve().has_k
+                          ? "Control points that reproduce n at 380..780 nm. They have no k: the glass will not absorb"
+                          : "Control points that reproduce n at 380..780 nm");
 }
 
-void DispersionPanel::draw_points_row(const Context& context)
-{
+void DispersionPanel::draw_points_row(const Context& context) {
   if (ImGui::Button("All")) {
     const bool has = !points_.empty();
     axis_.show_all(std::max(has ? points_.front()[0] : optics::first_nm, optics::first_nm - far_nm),
@@ -122,34 +116,34 @@ void DispersionPanel::draw_points_row(const Context& context)
                    fmt::format("Dragged points keep to a grid: 1 nm, and {:.6g} of n at this zoom", plot_.grid()[1]));
   ImGui::SameLine();
   const double nm = middle_of_widest_gap(points_);
-  const auto index = static_cast<std::size_t>(std::clamp(std::lround(nm) - optics::first_nm, 0L, optics::wavelength_count - 1L));
+  const auto index =
+      static_cast<std::size_t>(std::clamp(std::lround(nm) - optics::first_nm, 0L, optics::wavelength_count - 1L));
   const double n = model_.curve().error.empty() ? model_.curve().n[index] : points_.front()[1];
   follow_rows(context, draw_row_buttons({nm, n}, editor_.marked(), places_));
 }
 
-void DispersionPanel::draw_plot(const Context& context)
-{
+void DispersionPanel::draw_plot(const Context& context) {
   const float em = ImGui::GetFontSize(), free = ImGui::GetContentRegionAvail().y - ImGui::GetStyle().ItemSpacing.y;
   const float below = below_plot_ > 0 ? below_plot_ : 11 * em;
   const bool absorbs = context.preset()->scene.materials.at(shown_).absorption;
-  RowGesture gesture = plot_.draw({&model_, points_, editor_.marked(), sorted_, absorbs}, axis_, std::max(free - below, 10 * em));
+  RowGesture gesture =
+      plot_.draw({&model_, points_, editor_.marked(), sorted_, absorbs}, axis_, std::max(free - below, 10 * em));
   if (snap_) gesture.to = snapped(gesture.to, plot_.grid());
   follow_rows(context, gesture);
 }
 
-void DispersionPanel::follow_rows(const Context& context, const RowGesture& gesture)
-{
+void DispersionPanel::follow_rows(const Context& context, const RowGesture& gesture) {
   if (const auto edit = editor_.follow(gesture, points_, point_rules, context.commands)) edit_points(context, *edit);
 }
 
-void DispersionPanel::edit_points(const Context& context, const RowsEdit& edit) const
-{
-  const auto change = [&](preset::Preset& p) { p.scene.materials.at(shown_).dispersion = with_points(dispersion_, edit.rows); };
+void DispersionPanel::edit_points(const Context& context, const RowsEdit& edit) const {
+  const auto change = [&](preset::Preset& p) {
+    p.scene.materials.at(shown_).dispersion = with_points(dispersion_, edit.rows);
+  };
   context.edit(fmt::format("{} of {}", edit.label, shown_), change, edit.gesture, edit.live);
 }
 
-void DispersionPanel::make_editable(const Context& context)
-{
+void DispersionPanel::make_editable(const Context& context) {
   const FittedPoints fitted = fit_points(model_.curve().n);
   fitted_ = with_points(dispersion_, fitted.points);
   fitted_text_ = fmt::format("they reproduce {} within {:.1g} of n", model_.curve().name, fitted.greatest_deviation);
@@ -159,16 +153,16 @@ void DispersionPanel::make_editable(const Context& context)
 }
 
 /// The run's method is the one that is not greyed.
-void DispersionPanel::draw_methods(const Context& context) const
-{
+void DispersionPanel::draw_methods(const Context& context) const {
   if (!ImGui::BeginTable("methods", 5, ImGuiTableFlags_SizingStretchProp)) return;
   heading_cell("Method", "How wavelengths are grouped (spectral.method); the run's is not greyed");
   heading_cell("Clusters", "Groups of wavelengths that share one path each");
   heading_cell("Saving", "401 wavelengths / clusters: so many times fewer paths than one for each wavelength");
-  heading_cell("At 45 deg",
-               "By how many degrees the refraction angle differs inside a cluster at 45 degrees of incidence: mean over the wavelengths / "
-               "greatest");
-  heading_cell("0..89 deg", "The same as the mean over 0 to 89 degrees of incidence, which spectral.threshold_deg is about");
+  heading_cell("At 45 deg", "By how many degrees the refraction angle differs inside a cluster at 45 degrees of "
+                            "incidence: mean over the wavelengths / "
+                            "greatest");
+  heading_cell("0..89 deg",
+               "The same as the mean over 0 to 89 degrees of incidence, which spectral.threshold_deg is about");
   for (const auto& choice : preset::choices<photons::ClusterMethod>) {
     const ClusterFigures& figures = model_.figures(choice.value);
     const std::string name(choice.name == "brute_force" ? "brute force" : choice.name);
@@ -186,8 +180,7 @@ void DispersionPanel::draw_methods(const Context& context) const
   ImGui::EndTable();
 }
 
-void DispersionPanel::draw_bias(const Context& context) const
-{
+void DispersionPanel::draw_bias(const Context& context) const {
   const Spread& spread = model_.chosen().at_45;
   std::string text;
   if (spectral::settings(*context.preset()).jitter)
@@ -197,9 +190,10 @@ void DispersionPanel::draw_bias(const Context& context) const
   else
     text = fmt::format("Bias: rays of a cluster go one way that differ by up to {:.2g} degrees", spread.greatest_deg);
   draw_wrapped(colour::quiet_text, text);
-  if (const auto clusters = model_.clusters_of_run(); clusters && *clusters != model_.chosen().clustering.clusters.size())
-    draw_wrapped(colour::quiet_text,
-                 fmt::format("The run has {}: those of all its glasses, step_nm and differentials", counted(*clusters, "cluster")));
+  if (const auto clusters = model_.clusters_of_run();
+      clusters && *clusters != model_.chosen().clustering.clusters.size())
+    draw_wrapped(colour::quiet_text, fmt::format("The run has {}: those of all its glasses, step_nm and differentials",
+                                                 counted(*clusters, "cluster")));
 }
 
 } // namespace nephroid::ui

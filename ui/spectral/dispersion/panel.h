@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Dispersion": a dielectric's n(lambda) with control points to drag, its wavelength clusters, how many each method needs and
-// how far they may bend light wrong. Everything follows the mouse.
+// The panel "Dispersion": a dielectric's n(lambda) with control points to drag, its wavelength clusters, how many each
+// method needs and how far they may bend light wrong. Everything follows the mouse.
 #pragma once
 #include "ui/spectral/dispersion/model.h"
 #include "ui/widgets/panel.h"
@@ -17,8 +17,8 @@ struct DispersionContents {
   bool absorbs = true;                    ///< whether k is used
 };
 
-/// n over wavelength or in sorted order, the clusters as coloured bands below it, k on an axis of its own, control points that can be
-/// dragged.
+/// n over wavelength or in sorted order, the clusters as coloured bands below it, k on an axis of its own, control
+/// points that can be dragged.
 class DispersionPlot {
 public:
   /// In the window's free width; height in pixels.

@@ -27,8 +27,7 @@ struct Columns {
   std::array<int, optics::wavelength_count> wavelength{}; ///< indices 0..400
 };
 
-Columns columns_of(const DispersionModel& model, bool sorted)
-{
+Columns columns_of(const DispersionModel& model, bool sorted) {
   Columns columns;
   std::size_t at = 0;
   const auto add = [&](int wavelength) {
@@ -45,9 +44,8 @@ Columns columns_of(const DispersionModel& model, bool sorted)
 }
 
 /// The ends of what is shown of n between two ends of the x axis, with a margin.
-std::array<double, 2> ends_of_n(const DispersionContents& contents, const std::vector<double>& x, const std::vector<double>& n,
-                                const std::array<double, 2>& x_ends)
-{
+std::array<double, 2> ends_of_n(const DispersionContents& contents, const std::vector<double>& x,
+                                const std::vector<double>& n, const std::array<double, 2>& x_ends) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   const auto take = [&](double at, double value) {
     if (at < x_ends[0] || at > x_ends[1] || !std::isfinite(value)) return;
@@ -62,36 +60,35 @@ std::array<double, 2> ends_of_n(const DispersionContents& contents, const std::v
   return {low - 1.5 * margin, high + margin}; // more room below, where the bands are
 }
 
-ImPlotSpec curve_spec(ImU32 colour, float width)
-{
+ImPlotSpec curve_spec(ImU32 colour, float width) {
   ImPlotSpec spec = line_spec(colour, width);
   spec.Flags |= int{ImPlotItemFlags_NoLegend} | ImPlotLineFlags_SkipNaN;
   return spec;
 }
 
-void plot_line(const char* label, const std::vector<double>& x, const std::vector<double>& y, ImU32 colour, std::size_t first,
-               std::size_t count)
-{
+void plot_line(const char* label, const std::vector<double>& x, const std::vector<double>& y, ImU32 colour,
+               std::size_t first, std::size_t count) {
   const std::string under = std::string(label) + " outline";
-  ImPlot::PlotLine(under.c_str(), x.data() + first, y.data() + first, static_cast<int>(count), curve_spec(colour::outline, 4));
+  ImPlot::PlotLine(under.c_str(), x.data() + first, y.data() + first, static_cast<int>(count),
+                   curve_spec(colour::outline, 4));
   ImPlot::PlotLine(label, x.data() + first, y.data() + first, static_cast<int>(count), curve_spec(colour, 2));
 }
 
 /// The line in full colour where there is data and a quiet one where it is extrapolated or held.
-void plot_curve(const char* label, const GlassCurve& curve, const std::vector<double>& y, ImU32 colour)
-{
+void plot_curve(const char* label, const GlassCurve& curve, const std::vector<double>& y, ImU32 colour) {
   const auto& x = curve.line_nm;
   plot_line(label, x, y, colour::quiet_on_dark, 0, x.size());
-  const auto first = std::lower_bound(x.begin(), x.end(), curve.data_nm[0]), last = std::upper_bound(first, x.end(), curve.data_nm[1]);
+  const auto first = std::lower_bound(x.begin(), x.end(), curve.data_nm[0]),
+             last = std::upper_bound(first, x.end(), curve.data_nm[1]);
   const std::string inside = std::string(label) + " data";
   if (last - first > 1)
-    plot_line(inside.c_str(), x, y, colour, static_cast<std::size_t>(first - x.begin()), static_cast<std::size_t>(last - first));
+    plot_line(inside.c_str(), x, y, colour, static_cast<std::size_t>(first - x.begin()),
+              static_cast<std::size_t>(last - first));
 }
 
-/// Below the curve in each cluster's colour, and an opaque strip at the foot. Where the mouse is at a wavelength (not -1), the other
-/// clusters are pale.
-void draw_bands(const DispersionModel& model, const Columns& columns, int under_mouse)
-{
+/// Below the curve in each cluster's colour, and an opaque strip at the foot. Where the mouse is at a wavelength (not
+/// -1), the other clusters are pale.
+void draw_bands(const DispersionModel& model, const Columns& columns, int under_mouse) {
   ImDrawList& list = *ImPlot::GetPlotDrawList();
   const float foot = ImPlot::GetPlotPos().y + ImPlot::GetPlotSize().y, strip = std::round(foot - 10 * scale());
   const std::size_t highlighted = under_mouse < 0 ? 0 : model.cluster_of()[static_cast<std::size_t>(under_mouse)];
@@ -110,18 +107,18 @@ void draw_bands(const DispersionModel& model, const Columns& columns, int under_
 }
 
 /// Where nothing is rendered.
-void shade_beyond()
-{
+void shade_beyond() {
   const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
-  const float left = ImPlot::PlotToPixels(optics::first_nm - 0.5, 0).x, right = ImPlot::PlotToPixels(optics::last_nm + 0.5, 0).x;
+  const float left = ImPlot::PlotToPixels(optics::first_nm - 0.5, 0).x,
+              right = ImPlot::PlotToPixels(optics::last_nm + 0.5, 0).x;
   ImDrawList& list = *ImPlot::GetPlotDrawList();
   if (left > corner.x) list.AddRectFilled(corner, {std::min(left, corner.x + size.x), corner.y + size.y}, beyond);
-  if (right < corner.x + size.x) list.AddRectFilled({std::max(right, corner.x), corner.y}, {corner.x + size.x, corner.y + size.y}, beyond);
+  if (right < corner.x + size.x)
+    list.AddRectFilled({std::max(right, corner.x), corner.y}, {corner.x + size.x, corner.y + size.y}, beyond);
 }
 
 /// "400..412, 430..431 nm" of a cluster; the first few where it is in many pieces.
-std::string stretches(const DispersionModel& model, std::size_t cluster)
-{
+std::string stretches(const DispersionModel& model, std::size_t cluster) {
   constexpr int shown = 4;
   std::string text;
   int count = 0;
@@ -129,15 +126,16 @@ std::string stretches(const DispersionModel& model, std::size_t cluster)
     const auto& of = model.cluster_of();
     for (next = i + 1; next < of.size() && of[next] == of[i];) ++next;
     if (of[i] != cluster || ++count > shown) continue;
-    const int first = optics::wavelength_nm(static_cast<int>(i)), last = optics::wavelength_nm(static_cast<int>(next) - 1);
-    text += (text.empty() ? "" : ", ") + (first == last ? fmt::format("{}", first) : fmt::format("{}..{}", first, last));
+    const int first = optics::wavelength_nm(static_cast<int>(i)),
+              last = optics::wavelength_nm(static_cast<int>(next) - 1);
+    text +=
+        (text.empty() ? "" : ", ") + (first == last ? fmt::format("{}", first) : fmt::format("{}..{}", first, last));
   }
   if (count > shown) text += fmt::format(" and {} more", count - shown);
   return text + " nm";
 }
 
-void draw_values(const DispersionModel& model, int wavelength)
-{
+void draw_values(const DispersionModel& model, int wavelength) {
   if (!ImGui::BeginTooltip()) return;
   const auto index = static_cast<std::size_t>(wavelength);
   const GlassCurve& curve = model.curve();
@@ -154,40 +152,37 @@ void draw_values(const DispersionModel& model, int wavelength)
 }
 
 /// Its index, or -1; also while a button is held, when the person looks at something else.
-int wavelength_under_mouse(const Columns& columns)
-{
-  const double column =
-      ImPlot::IsPlotHovered() && !ImGui::IsAnyMouseDown() ? std::round(ImPlot::GetPlotMousePos().x) - columns.x.front() : -1;
+int wavelength_under_mouse(const Columns& columns) {
+  const double column = ImPlot::IsPlotHovered() && !ImGui::IsAnyMouseDown()
+                            ? std::round(ImPlot::GetPlotMousePos().x) - columns.x.front()
+                            : -1;
   return column >= 0 && column < optics::wavelength_count ? columns.wavelength[static_cast<std::size_t>(column)] : -1;
 }
 
 std::string point_text(const ControlPoint& point) { return fmt::format("{:.6g} nm, n = {:.6g}", point[0], point[1]); }
 
 /// k is not negative; the axis goes on below 0 to keep its line off the bands' strip.
-int write_k(double value, char* text, int size, void*)
-{
+int write_k(double value, char* text, int size, void*) {
   return value < 0 ? std::snprintf(text, static_cast<std::size_t>(size), "%s", "")
                    : std::snprintf(text, static_cast<std::size_t>(size), "%.2g", value);
 }
 
 /// The axis of k, at the right.
-void set_up_k(const DispersionContents& contents)
-{
+void set_up_k(const DispersionContents& contents) {
   const std::vector<double>& k = contents.model->curve().line_k;
   double most = 1e-12;
   for (const double value : k)
     if (std::isfinite(value)) most = std::max(most, value);
-  set_up_fixed_axis(ImAxis_Y2, contents.absorbs ? "extinction coefficient k" : "extinction coefficient k (not used)", -0.15 * most,
-                    1.1 * most, ImPlotAxisFlags_AuxDefault | ImPlotAxisFlags_NoMenus);
+  set_up_fixed_axis(ImAxis_Y2, contents.absorbs ? "extinction coefficient k" : "extinction coefficient k (not used)",
+                    -0.15 * most, 1.1 * most, ImPlotAxisFlags_AuxDefault | ImPlotAxisFlags_NoMenus);
   ImPlot::SetupAxisFormat(ImAxis_Y2, write_k);
 }
 
 } // namespace
 
-std::uint32_t cluster_colour(std::size_t cluster)
-{
-  // Steps of the golden ratio round the circle of hues keep any few successive ones far apart; the brightness tells those that come
-  // near to each other again, after 8 and 13 steps.
+std::uint32_t cluster_colour(std::size_t cluster) {
+  // Steps of the golden ratio round the circle of hues keep any few successive ones far apart; the brightness tells
+  // those that come near to each other again, after 8 and 13 steps.
   constexpr double golden = 0.6180339887498949;
   const double hue = std::fmod(0.58 + golden * static_cast<double>(cluster), 1.0);
   constexpr float brightness[] = {0.95f, 0.68f, 0.82f}, saturation[] = {0.62f, 0.75f, 0.45f};
@@ -196,8 +191,7 @@ std::uint32_t cluster_colour(std::size_t cluster)
   return ImGui::ColorConvertFloat4ToU32({r, g, b, 1});
 }
 
-RowGesture DispersionPlot::draw(const DispersionContents& contents, WavelengthAxis& axis, float height)
-{
+RowGesture DispersionPlot::draw(const DispersionContents& contents, WavelengthAxis& axis, float height) {
   const DispersionModel& model = *contents.model;
   const GlassCurve& curve = model.curve();
   const bool clustered = model.error().empty(), sorted = contents.sorted && clustered;
@@ -216,7 +210,8 @@ RowGesture DispersionPlot::draw(const DispersionContents& contents, WavelengthAx
     set_up_fixed_axis(ImAxis_X1, "rank by falling n", x_ends[0], x_ends[1], ImPlotAxisFlags_Lock);
   } else
     axis.set_up();
-  const std::array<double, 2> n_ends = handles_.held() ? area_.y : ends_of_n(contents, x, n, x_ends); // a held axis does not run away
+  const std::array<double, 2> n_ends =
+      handles_.held() ? area_.y : ends_of_n(contents, x, n, x_ends); // a held axis does not run away
   set_up_fixed_axis(ImAxis_Y1, "index of refraction n", n_ends[0], n_ends[1], ImPlotAxisFlags_NoMenus);
   if (has_k) set_up_k(contents);
   ImPlot::SetupFinish();
@@ -242,12 +237,12 @@ RowGesture DispersionPlot::draw(const DispersionContents& contents, WavelengthAx
   if (under_mouse >= 0 && !handles_.over_row()) draw_values(model, under_mouse);
   const bool hovered = ImPlot::IsPlotHovered();
   ImPlot::EndPlot();
-  if (hovered && !sorted && contents.points.empty() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) axis.show_all();
+  if (hovered && !sorted && contents.points.empty() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+    axis.show_all();
   return gesture;
 }
 
-ControlPoint DispersionPlot::grid() const
-{
+ControlPoint DispersionPlot::grid() const {
   const double wanted = (area_.y[1] - area_.y[0]) / 40, decimal = std::pow(10, std::floor(std::log10(wanted)));
   const double steps = wanted / decimal; // 1 .. 10
   return {1, decimal * (steps <= 1 ? 1 : steps <= 2 ? 2 : steps <= 5 ? 5 : 10)};

@@ -28,8 +28,7 @@ namespace {
 using optics::Spectrum;
 using optics::wavelength_count;
 
-LightCurve make_curve(const preset::LightSpectrum& spectrum)
-{
+LightCurve make_curve(const preset::LightSpectrum& spectrum) {
   LightCurve curve;
   try {
     curve.spectrum = scene::make_light_spectrum(spectrum, {});
@@ -41,8 +40,7 @@ LightCurve make_curve(const preset::LightSpectrum& spectrum)
 }
 
 /// How a light looks to (4.15): where it stands does not matter.
-scene::Light without_place(const preset::Light& light, const LightCurve& curve)
-{
+scene::Light without_place(const preset::Light& light, const LightCurve& curve) {
   scene::Light scene_light;
   scene_light.type = light.type;
   const bool directional = light.type == preset::Light::Type::directional;
@@ -53,16 +51,14 @@ scene::Light without_place(const preset::Light& light, const LightCurve& curve)
 }
 
 /// Encoded for the display; what it cannot show is clipped.
-std::array<double, 3> display(const optics::Colour& linear)
-{
+std::array<double, 3> display(const optics::Colour& linear) {
   std::array<double, 3> encoded{};
   for (std::size_t i = 0; i < 3; ++i) encoded[i] = optics::srgb_encode(std::clamp(linear[i], 0.0, 1.0));
   return encoded;
 }
 
 /// Its colour under D65 with white = 1.
-std::array<double, 3> colour_of(const Spectrum& reflectance)
-{
+std::array<double, 3> colour_of(const Spectrum& reflectance) {
   static const Spectrum d65 = optics::illuminant("D65");
   static const double white = optics::to_xyz(d65)[1];
   Spectrum reflected{};
@@ -71,15 +67,16 @@ std::array<double, 3> colour_of(const Spectrum& reflectance)
 }
 
 /// Materials and objects, as load_scene has them. Throws Error where a file cannot be read or a name is of no material.
-void read_materials(const preset::Preset& preset, scene::Scene& outline)
-{
+void read_materials(const preset::Preset& preset, scene::Scene& outline) {
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   std::vector<std::string> warnings; // the run's plan has them
   for (const auto& [name, material] : preset.scene.materials)
-    outline.materials.push_back(scene::make_material(name, material, finder, Place("scene/materials/" + name), warnings));
+    outline.materials.push_back(
+        scene::make_material(name, material, finder, Place("scene/materials/" + name), warnings));
   for (const preset::Object& object : preset.scene.objects) {
     const auto found = preset.scene.materials.find(object.material);
-    if (found == preset.scene.materials.end()) throw bad_input({}, fmt::format("there is no material '{}'", object.material));
+    if (found == preset.scene.materials.end())
+      throw bad_input({}, fmt::format("there is no material '{}'", object.material));
     scene::Object scene_object;
     scene_object.material = static_cast<int>(std::distance(preset.scene.materials.begin(), found));
     scene_object.triangle_count = 1; // of those that nobody looks at here
@@ -88,15 +85,15 @@ void read_materials(const preset::Preset& preset, scene::Scene& outline)
 }
 
 /// What the clusters of a scene hang on.
-auto grouping(const photons::Settings& settings)
-{
-  return std::tuple(settings.method, settings.threshold_deg, settings.step_nm, settings.differentials, settings.relight);
+auto grouping(const photons::Settings& settings) {
+  return std::tuple(settings.method, settings.threshold_deg, settings.step_nm, settings.differentials,
+                    settings.relight);
 }
 
 /// Of each cluster, as the engine allocates its work.
-std::vector<double> importance_of(const photons::Settings& settings, const Spectrum& u, const tracing::WavelengthTables& tables,
-                                  const scene::Scene& outline, const std::vector<double>& watts)
-{
+std::vector<double> importance_of(const photons::Settings& settings, const Spectrum& u,
+                                  const tracing::WavelengthTables& tables, const scene::Scene& outline,
+                                  const std::vector<double>& watts) {
   using Effort = photons::Settings::Effort;
   if (settings.effort == Effort::importance || settings.effort == Effort::radziszewski)
     return photons::cluster_importance(u, tables.clusters, settings.importance.cluster);
@@ -105,8 +102,8 @@ std::vector<double> importance_of(const photons::Settings& settings, const Spect
 
 } // namespace
 
-std::shared_ptr<const SeenByGlass> SeenByGlass::of(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
-{
+std::shared_ptr<const SeenByGlass> SeenByGlass::of(const preset::Preset& preset, const scene::Scene& scene,
+                                                   const scene::Bvh& bvh) {
   auto seen = std::make_shared<SeenByGlass>();
   for (const scene::Material& material : scene.materials) seen->materials.push_back(material.name);
   if (!scene.lights.empty() && is_environment(scene.lights.back())) seen->environment = scene.lights.back();
@@ -116,8 +113,7 @@ std::shared_ptr<const SeenByGlass> SeenByGlass::of(const preset::Preset& preset,
   return seen;
 }
 
-std::int64_t Spectra::iterations() const
-{
+std::int64_t Spectra::iterations() const {
   return std::accumulate(clusters.begin(), clusters.end(), std::int64_t{0},
                          [](std::int64_t sum, const ClusterWork& cluster) { return sum + cluster.iterations; });
 }
@@ -126,8 +122,7 @@ std::int64_t Spectra::brute_force() const { return wavelength_count * passes; }
 
 std::int64_t Spectra::equal_effort() const { return std::ssize(clusters) * passes; }
 
-const Spectra& SpectraMaker::update(const preset::Preset& preset, const std::shared_ptr<const SeenByGlass>& seen)
-{
+const Spectra& SpectraMaker::update(const preset::Preset& preset, const std::shared_ptr<const SeenByGlass>& seen) {
   const bool saw_the_same = seen_ == seen || (seen_ && seen && *seen_ == *seen);
   seen_ = seen;
   if (preset_ && *preset_ == preset && saw_the_same) return spectra_;
@@ -141,21 +136,22 @@ const Spectra& SpectraMaker::update(const preset::Preset& preset, const std::sha
   return spectra_;
 }
 
-void SpectraMaker::make_lights(const preset::Scene& now)
-{
+void SpectraMaker::make_lights(const preset::Scene& now) {
   std::vector<LightCurve> curves;
   for (std::size_t i = 0; i < now.lights.size(); ++i) {
-    const bool known = preset_ && i < preset_->scene.lights.size() && preset_->scene.lights[i].spectrum == now.lights[i].spectrum;
+    const bool known =
+        preset_ && i < preset_->scene.lights.size() && preset_->scene.lights[i].spectrum == now.lights[i].spectrum;
     curves.push_back(known ? spectra_.lights[i] : make_curve(now.lights[i].spectrum));
   }
   spectra_.lights = std::move(curves);
   outline_.lights.clear();
-  for (std::size_t i = 0; i < now.lights.size(); ++i) outline_.lights.push_back(without_place(now.lights[i], spectra_.lights[i]));
-  if (now.environment && now.environment->lights && seen_ && seen_->environment) outline_.lights.push_back(*seen_->environment);
+  for (std::size_t i = 0; i < now.lights.size(); ++i)
+    outline_.lights.push_back(without_place(now.lights[i], spectra_.lights[i]));
+  if (now.environment && now.environment->lights && seen_ && seen_->environment)
+    outline_.lights.push_back(*seen_->environment);
 }
 
-void SpectraMaker::make_materials(const preset::Preset& now)
-{
+void SpectraMaker::make_materials(const preset::Preset& now) {
   if (preset_ && preset_->source == now.source && preset_->scene.materials == now.scene.materials &&
       preset_->scene.objects == now.scene.objects)
     return;
@@ -182,16 +178,18 @@ void SpectraMaker::make_materials(const preset::Preset& now)
   }
 }
 
-void SpectraMaker::make_groups(const preset::Preset& now)
-{
-  if (preset_ && !spectral::settings(now).relight && grouping(spectral::settings(*preset_)) == grouping(spectral::settings(now)) &&
+void SpectraMaker::make_groups(const preset::Preset& now) {
+  if (preset_ && !spectral::settings(now).relight &&
+      grouping(spectral::settings(*preset_)) == grouping(spectral::settings(now)) &&
       preset_->scene.materials == now.scene.materials && preset_->scene.objects == now.scene.objects)
     return;
   groups_.clear();
   groups_error_.clear();
   if (!materials_error_.empty()) return;
-  if (spectral::settings(now).relight) { // they hang on the lengths of paths in what absorbs, which the outline does not know
-    if (seen_ && seen_->materials == spectra_.materials && grouping(seen_->settings) == grouping(spectral::settings(now)))
+  if (spectral::settings(now)
+          .relight) { // they hang on the lengths of paths in what absorbs, which the outline does not know
+    if (seen_ && seen_->materials == spectra_.materials &&
+        grouping(seen_->settings) == grouping(spectral::settings(now)))
       groups_ = seen_->clusters;
     else
       groups_error_ = "the clusters are not known before a run of this preset is ready";
@@ -205,34 +203,34 @@ void SpectraMaker::make_groups(const preset::Preset& now)
 }
 
 /// Whether what the glass was seen to see is what u hangs on now.
-bool SpectraMaker::is_of_this_scene(const photons::Settings& settings) const
-{
-  if (!seen_ || seen_->materials != spectra_.materials || seen_->whereabouts.towards.size() != outline_.lights.size()) return false;
-  const bool rays = settings.effort == photons::Settings::Effort::importance && settings.importance.geometry && seen_->whereabouts.caustics;
+bool SpectraMaker::is_of_this_scene(const photons::Settings& settings) const {
+  if (!seen_ || seen_->materials != spectra_.materials || seen_->whereabouts.towards.size() != outline_.lights.size())
+    return false;
+  const bool rays = settings.effort == photons::Settings::Effort::importance && settings.importance.geometry &&
+                    seen_->whereabouts.caustics;
   return !rays || !seen_->whereabouts.seen.empty();
 }
 
-void SpectraMaker::make_importance(const preset::Preset& now)
-{
+void SpectraMaker::make_importance(const preset::Preset& now) {
   spectra_.importance = {};
   spectra_.why_no_u = materials_error_.empty() ? groups_error_ : materials_error_;
   for (std::size_t i = 0; i < spectra_.lights.size(); ++i)
-    if (!spectra_.lights[i].error.empty()) spectra_.why_no_u = fmt::format("light {}: {}", i + 1, spectra_.lights[i].error);
+    if (!spectra_.lights[i].error.empty())
+      spectra_.why_no_u = fmt::format("light {}: {}", i + 1, spectra_.lights[i].error);
   if (!spectra_.why_no_u.empty()) return;
   if (!is_of_this_scene(spectral::settings(now))) {
     spectra_.why_no_u = "what the glass sees is not known before a run of this preset is ready";
     return;
   }
   try {
-    spectra_.importance =
-        photons::wavelength_importance(spectral::settings(now), seen_->whereabouts, outline_.lights, outline_.materials, {});
+    spectra_.importance = photons::wavelength_importance(spectral::settings(now), seen_->whereabouts, outline_.lights,
+                                                         outline_.materials, {});
   } catch (const Error& error) {
     spectra_.why_no_u = error.text();
   }
 }
 
-void SpectraMaker::make_clusters(const preset::Preset& now)
-{
+void SpectraMaker::make_clusters(const preset::Preset& now) {
   spectra_.passes = now.stop.passes.value_or(preset::default_passes);
   spectra_.clusters.clear();
   spectra_.cluster_of.fill(-1);
@@ -250,7 +248,8 @@ void SpectraMaker::make_clusters(const preset::Preset& now)
   if (now.leave_out) lit = tracing::lit_wavelengths(outline_);
   std::vector<shared::DeviceMaterial> unused;
   const tracing::WavelengthTables tables = tracing::make_wavelength_tables(outline_, lights, groups_, lit, unused);
-  const std::vector<double> importance = importance_of(spectral::settings(now), spectra_.importance.u, tables, outline_, watts);
+  const std::vector<double> importance =
+      importance_of(spectral::settings(now), spectra_.importance.u, tables, outline_, watts);
   for (std::size_t c = 0; c < tables.clusters.size(); ++c) {
     ClusterWork work{tables.clusters[c], importance[c], photons::iterations(importance[c], spectra_.passes)};
     for (const int w : work.wavelengths) spectra_.cluster_of[static_cast<std::size_t>(w)] = static_cast<int>(c);
@@ -258,12 +257,12 @@ void SpectraMaker::make_clusters(const preset::Preset& now)
   }
 }
 
-std::string to_csv(const Spectra& spectra)
-{
+std::string to_csv(const Spectra& spectra) {
   std::string csv = "wavelength_nm";
   for (std::size_t i = 0; i < spectra.lights.size(); ++i) csv += fmt::format(",light {}", i + 1);
   csv += ",luminosity";
-  for (const ReflectanceCurve& curve : spectra.reflectances) csv += fmt::format(",{}", in_csv("reflectance of " + curve.material));
+  for (const ReflectanceCurve& curve : spectra.reflectances)
+    csv += fmt::format(",{}", in_csv("reflectance of " + curve.material));
   csv += ",u,cluster,iterations\n";
   for (std::size_t w = 0; w < wavelength_count; ++w) {
     csv += std::to_string(optics::wavelength_nm(static_cast<int>(w)));
@@ -272,13 +271,14 @@ std::string to_csv(const Spectra& spectra)
     for (const ReflectanceCurve& curve : spectra.reflectances) csv += fmt::format(",{}", curve.reflectance[w]);
     const int cluster = spectra.cluster_of[w];
     csv += spectra.why_no_u.empty() ? fmt::format(",{}", spectra.importance.u[w]) : ",";
-    csv += cluster < 0 ? ",,\n" : fmt::format(",{},{}\n", cluster + 1, spectra.clusters[static_cast<std::size_t>(cluster)].iterations);
+    csv += cluster < 0
+               ? ",,\n"
+               : fmt::format(",{},{}\n", cluster + 1, spectra.clusters[static_cast<std::size_t>(cluster)].iterations);
   }
   return csv;
 }
 
-std::array<double, 3> wavelength_colour(int index)
-{
+std::array<double, 3> wavelength_colour(int index) {
   const auto w = static_cast<std::size_t>(index);
   const optics::ColourMatching& eye = optics::cie_1931();
   optics::Colour linear = optics::xyz_to_linear_srgb({eye.x[w], eye.y[w], eye.z[w]});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the panel "Spectra" shows of a preset: curves on the 401 wavelengths, u(lambda) and iterations a cluster,
-// made anew where what they hang on changed; and edits of the rows of a light's spectrum (light_edits.cpp). No Dear ImGui.
+// made anew where what they hang on changed; and edits of the rows of a light's spectrum (light_edits.cpp). No Dear
+// ImGui.
 #pragma once
 #include "optics/wavelength.h"
 #include "photons/effort/importance.h"
@@ -10,8 +11,8 @@
 
 namespace nephroid::ui {
 
-/// What u(lambda) and clusters hang on of where a loaded scene's things are. It takes meshes and rays, so it comes with a run
-/// (SceneFacts); panels do the rest.
+/// What u(lambda) and clusters hang on of where a loaded scene's things are. It takes meshes and rays, so it comes with
+/// a run (SceneFacts); panels do the rest.
 struct SeenByGlass {
   std::vector<std::string> materials;      ///< names of Scene::materials, in whose order the shares are
   std::optional<scene::Light> environment; ///< where it is a light
@@ -21,7 +22,8 @@ struct SeenByGlass {
   bool operator==(const SeenByGlass&) const = default;
 
   /// Traces rays only where the preset's effort asks for them.
-  static std::shared_ptr<const SeenByGlass> of(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
+  static std::shared_ptr<const SeenByGlass> of(const preset::Preset& preset, const scene::Scene& scene,
+                                               const scene::Bvh& bvh);
 };
 
 struct LightCurve {
@@ -44,11 +46,11 @@ struct ClusterWork {
 };
 
 struct Spectra {
-  std::vector<LightCurve> lights;                         ///< one a light of the preset
-  std::vector<ReflectanceCurve> reflectances;             ///< of the materials that objects use and that have one
-  photons::WavelengthImportance importance;               ///< of the preset's effort; all 0 where why_no_u is not empty
-  std::string why_no_u;                                   ///< why there is none, a sentence for a person
-  std::vector<ClusterWork> clusters;                      ///< empty where there are none; ordered by their smallest wavelength
+  std::vector<LightCurve> lights;             ///< one a light of the preset
+  std::vector<ReflectanceCurve> reflectances; ///< of the materials that objects use and that have one
+  photons::WavelengthImportance importance;   ///< of the preset's effort; all 0 where why_no_u is not empty
+  std::string why_no_u;                       ///< why there is none, a sentence for a person
+  std::vector<ClusterWork> clusters;          ///< empty where there are none; ordered by their smallest wavelength
   std::array<int, optics::wavelength_count> cluster_of{}; ///< index into clusters; -1: of none
   std::vector<std::string> materials;                     ///< every one: what Surrounding::material points into
 
@@ -60,8 +62,9 @@ struct Spectra {
 
 class SpectraMaker {
 public:
-  /// The spectra of a preset; nothing is made anew where neither it nor `seen` changed. seen: null before a run has brought it.
-  /// No Error leaves it: what is wrong is said in the result. Files are read where a material that names one changed.
+  /// The spectra of a preset; nothing is made anew where neither it nor `seen` changed. seen: null before a run has
+  /// brought it. No Error leaves it: what is wrong is said in the result. Files are read where a material that names
+  /// one changed.
   const Spectra& update(const preset::Preset& preset, const std::shared_ptr<const SeenByGlass>& seen);
   const Spectra& spectra() const { return spectra_; }
   /// How often anything was made anew.
@@ -85,10 +88,11 @@ private:
   std::uint64_t updates_ = 0;
 };
 
-/// Every curve as CSV: wavelength_nm, a column a light (sums to 1), luminosity, a column a reflectance, u, cluster, iterations.
+/// Every curve as CSV: wavelength_nm, a column a light (sums to 1), luminosity, a column a reflectance, u, cluster,
+/// iterations.
 std::string to_csv(const Spectra& spectra);
-/// The preset's colour of a whole wavelength: what the eye makes of it, as bright as the display can show without the colours that it
-/// has not, fading towards the ends as the eye does. sRGB encoded, 0..1.
+/// The preset's colour of a whole wavelength: what the eye makes of it, as bright as the display can show without the
+/// colours that it has not, fading towards the ends as the eye does. sRGB encoded, 0..1.
 std::array<double, 3> wavelength_colour(int index);
 
 /// (nm, relative power)
@@ -99,8 +103,8 @@ bool has_rows(const preset::LightSpectrum& spectrum);
 /// Its largest power; 1 where that is 0 or there are no rows.
 double largest_power(const preset::LightSpectrum& spectrum);
 
-/// The spectrum as a table with a row every 20 nm of 380..780, relative to the largest. What has no power, or is wrong, becomes rows of
-/// power 1.
+/// The spectrum as a table with a row every 20 nm of 380..780, relative to the largest. What has no power, or is wrong,
+/// becomes rows of power 1.
 preset::LightSpectrum as_table(const preset::LightSpectrum& spectrum);
 
 /// The rows by rising wavelength, as ui/widgets/rows.h expects them.
@@ -109,7 +113,8 @@ preset::LightSpectrum sorted(preset::LightSpectrum spectrum);
 RowRules row_rules(const preset::LightSpectrum& spectrum);
 /// A row in figures that a person reads: to 0.1 nm, the power to 4 figures.
 PowerRow readable(const PowerRow& row);
-/// Between those rows that are farthest apart within 380..780 nm, with the power that a table has there; a line with half the largest.
+/// Between those rows that are farthest apart within 380..780 nm, with the power that a table has there; a line with
+/// half the largest.
 PowerRow in_widest_gap(const preset::LightSpectrum& spectrum);
 
 } // namespace nephroid::ui

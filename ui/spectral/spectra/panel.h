@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Spectra": the spectra of the lights, the eye's luminosity, reflectances, u(lambda) of (4.15) and the iterations
-// of each cluster, on the wavelength axis that the panel "Dispersion" has too. The rows of a light's spectrum
-// are edited here.
+// The panel "Spectra": the spectra of the lights, the eye's luminosity, reflectances, u(lambda) of (4.15) and the
+// iterations of each cluster, on the wavelength axis that the panel "Dispersion" has too. The rows of a light's
+// spectrum are edited here.
 #pragma once
 #include "ui/spectral/spectra/curves.h"
 #include "ui/widgets/panel.h"
@@ -23,7 +23,8 @@ namespace spectra_colour {
 inline constexpr std::uint32_t light = IM_COL32(255, 206, 112, 255), luminosity = IM_COL32(132, 204, 146, 255);
 inline constexpr std::uint32_t u = IM_COL32(206, 158, 255, 255); ///< most walls are white
 inline constexpr std::uint32_t iterations = colour::accent;
-inline constexpr std::uint32_t rim = IM_COL32(132, 132, 132, 255); ///< about what is in a dark colour, so that it is seen on the plot
+inline constexpr std::uint32_t rim =
+    IM_COL32(132, 132, 132, 255); ///< about what is in a dark colour, so that it is seen on the plot
 bool is_dark(std::uint32_t colour);
 /// As bytes for the display.
 std::uint32_t of(const std::array<double, 3>& srgb);
@@ -37,8 +38,8 @@ struct SpectraPlotContents {
   std::optional<std::size_t> selected;           ///< the row of it that is marked
 };
 
-/// Curves between 0 and 1 and, below, the iterations of each cluster, over one wavelength axis. The rows of the light that is edited are
-/// points that can be dragged.
+/// Curves between 0 and 1 and, below, the iterations of each cluster, over one wavelength axis. The rows of the light
+/// that is edited are points that can be dragged.
 class SpectraPlot {
 public:
   /// In the window's free width; height in pixels.
