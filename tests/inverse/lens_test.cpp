@@ -4,6 +4,7 @@
 #include "inverse/judge.h"
 #include "inverse/lens/lens.h"
 #include "inverse/light.h"
+#include "tests/support/render.h"
 #include "tests/support/saved_jobs.h"
 
 #include <glm/gtc/constants.hpp>
