@@ -111,9 +111,12 @@ inline preset::Preset random_preset(std::uint64_t seed) {
     if (p.scene.environment) p.scene.environment->lights = false;
   }
   const bool estimates = p.measure.estimate && spectral::settings(p).estimator != photons::Settings::Estimator::sppm;
-  if (!estimates && !p.reference) p.stop.error.reset();                               // nothing would measure it
-  if (p.reference && p.reference->type == Reference::Type::file) p.animation.reset(); // a picture is of one frame
-  if (p.animation) {                                                                  // fields are those of frame 0
+  if (!estimates && !p.reference) p.stop.error.reset(); // nothing would measure it
+  if (p.reference && p.reference->type == Reference::Type::file) {
+    p.animation.reset();              // a picture is of one frame
+    if (!p.white) p.white.emplace(1); // and has a white of its own
+  }
+  if (p.animation) { // fields are those of frame 0
     p.animation->tracks.clear();
     p.animation->tracks.push_back(
         {"scene.camera.fov_deg", Track::Interpolation::smooth, {{3, {p.scene.camera.fov_deg}}, {7, {50.0 / 3}}}});

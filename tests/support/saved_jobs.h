@@ -11,9 +11,12 @@ namespace nephroid::test {
 template <class Writer = ByteSink, class Saver>
 std::vector<std::byte> saved(Saver& saver) {
   ByteStore store;
-  if constexpr (std::is_same_v<Writer, ByteSink>)
+  if constexpr (std::is_same_v<Writer, ByteSink>) {
     saver.save(store);
-  else {
+  } else if constexpr (std::is_same_v<Writer, State>) {
+    State to(store);
+    saver.state(to);
+  } else {
     Writer to(store, Communicator());
     saver.state(to);
   }
@@ -24,9 +27,12 @@ std::vector<std::byte> saved(Saver& saver) {
 template <class Reader = ByteSource, class Loader>
 bool load(Loader& loader, std::span<const std::byte> bytes) {
   StoredBytes stored(bytes, "checkpoint");
-  if constexpr (std::is_same_v<Reader, ByteSource>)
+  if constexpr (std::is_same_v<Reader, ByteSource>) {
     loader.load(stored);
-  else {
+  } else if constexpr (std::is_same_v<Reader, State>) {
+    State from(stored);
+    loader.state(from);
+  } else {
     Reader from(stored, Communicator());
     loader.state(from);
   }
