@@ -4,16 +4,28 @@
 namespace nephroid::tracing {
 namespace {
 
-#define PLUS_BYTES(type, name, words) +bytes_of(from.name)
+#define ADD_BYTES(type, name, words) bytes += bytes_of(from.name);
 #define UPLOAD(type, name, words) buffers.name = compute::Buffer(context, words, from.name);
 
 std::uint64_t wavelength_bytes(const WavelengthTables& from) {
-  return 0 WAVELENGTH_TABLES(PLUS_BYTES) COLOUR_TABLES(PLUS_BYTES);
+  std::uint64_t bytes = 0;
+  WAVELENGTH_TABLES(ADD_BYTES)
+  COLOUR_TABLES(ADD_BYTES)
+  return bytes;
 }
 
-std::uint64_t stretch_bytes(const StretchTables& from) { return 0 STRETCH_TABLES(PLUS_BYTES); }
+std::uint64_t stretch_bytes(const StretchTables& from) {
+  std::uint64_t bytes = 0;
+  STRETCH_TABLES(ADD_BYTES)
+  return bytes;
+}
 
-std::uint64_t object_bytes(const SceneTables& from) { return 0 OBJECT_TABLES(PLUS_BYTES) TARGET_TABLES(PLUS_BYTES); }
+std::uint64_t object_bytes(const SceneTables& from) {
+  std::uint64_t bytes = 0;
+  OBJECT_TABLES(ADD_BYTES)
+  TARGET_TABLES(ADD_BYTES)
+  return bytes;
+}
 
 void upload_objects(const compute::Context& context, const SceneTables& from, SceneBuffers& buffers) {
   OBJECT_TABLES(UPLOAD)

@@ -97,7 +97,7 @@ inline Effect uses(Handles::Tool tool) {
           [tool](Desk& d) { return d.view_state().handles.tool == tool; }};
 }
 inline Effect toggles(bool Handles::*member) {
-  return {{}, [member](Desk& d) { return d.view_state().handles.*member != d.before.chosen.handles.*member; }};
+  return {{}, [member](Desk& d) { return d.view_state().handles.*member != d.before.view_state.handles.*member; }};
 }
 
 inline void add_select_and_camera(Effects& all) {
@@ -122,7 +122,7 @@ inline void add_select_and_camera(Effects& all) {
   all["Nudge nearer"] = nudges(2, 1);
 
   all["Bookmark this camera"] = {
-      {}, [](Desk& d) { return d.view_state().bookmarks.size() == d.before.chosen.bookmarks.size() + 1; }};
+      {}, [](Desk& d) { return d.view_state().bookmarks.size() == d.before.view_state.bookmarks.size() + 1; }};
   const auto bookmark_nine = [](Desk& d) {
     std::vector<Bookmark> bookmarks;
     for (int bookmark = 1; bookmark <= 9; ++bookmark)

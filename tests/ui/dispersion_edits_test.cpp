@@ -90,7 +90,7 @@ TEST(DispersionFigures, TheSpreadIsTheDifferenceOfTheAngles) {
   const double at_45 = (std::asin(std::sqrt(0.5) / 1.5) - std::asin(std::sqrt(0.5) / 1.6)) * 180 / std::numbers::pi;
   EXPECT_NEAR(figures.at_45.greatest_deg, at_45, 1e-12);
   EXPECT_NEAR(figures.at_45.mean_deg, at_45, 1e-12);
-  EXPECT_NEAR(figures.over_angles.greatest_deg, mean_angle(1.5) - mean_angle(1.6), 1e-6);
+  EXPECT_NEAR(figures.mean_over_angles.greatest_deg, mean_angle(1.5) - mean_angle(1.6), 1e-6);
   EXPECT_EQ(figures.saving, 401);
 }
 
@@ -99,13 +99,13 @@ TEST(DispersionFigures, InsideAClusterTheMeanSpreadIsBelowTheThreshold) {
     const optics::Spectrum n = glass(name);
     for (const double threshold : {0.01, 0.05, 0.5}) {
       const ClusterFigures optimal = figures_of(photons::cluster_wavelengths(n, threshold, ClusterMethod::optimal), n);
-      EXPECT_LE(optimal.over_angles.greatest_deg, threshold) << name;
-      EXPECT_LE(optimal.over_angles.mean_deg, optimal.over_angles.greatest_deg) << name;
-      EXPECT_GT(optimal.over_angles.mean_deg, 0) << name;
+      EXPECT_LE(optimal.mean_over_angles.greatest_deg, threshold) << name;
+      EXPECT_LE(optimal.mean_over_angles.mean_deg, optimal.mean_over_angles.greatest_deg) << name;
+      EXPECT_GT(optimal.mean_over_angles.mean_deg, 0) << name;
     }
     const ClusterFigures each = figures_of(photons::cluster_wavelengths(n, 0.05, ClusterMethod::brute_force), n);
     EXPECT_EQ(each.at_45.greatest_deg, 0);
-    EXPECT_EQ(each.over_angles.mean_deg, 0);
+    EXPECT_EQ(each.mean_over_angles.mean_deg, 0);
     EXPECT_EQ(each.saving, 1);
   }
 }

@@ -220,8 +220,8 @@ TEST(LooksOfASession, AreKept) {
   session.view_state.view_settings.tone = ToneCurve::false_colour;
   session.view_state.view_settings.false_colour = LuminanceRange{0.25, 64};
   const std::string text = SessionText().of(session);
-  EXPECT_EQ(parse_session(text, "session.json").chosen.view_settings, session.view_state.view_settings);
-  EXPECT_EQ(parse_session(SessionText().of({}), "session.json").chosen.view_settings, ViewSettings{});
+  EXPECT_EQ(parse_session(text, "session.json").view_state.view_settings, session.view_state.view_settings);
+  EXPECT_EQ(parse_session(SessionText().of({}), "session.json").view_state.view_settings, ViewSettings{});
   std::string other = text;
   other.replace(other.find("false_colour"), 5, "wrong");
   EXPECT_ANY_THROW(parse_session(other, "session.json"));
