@@ -11,8 +11,8 @@ namespace nephroid::tracing {
 inline constexpr std::size_t max_targets = MAX_TARGETS;
 
 /// At most max_targets spheres that hold all dielectric and mirror objects. With one sphere about a bunny, two of three
-/// photons miss the bunny. So an object is cut into pieces, each with its own sphere, as long as that makes the shadow
-/// of all spheres smaller. Empty without such objects.
+/// photons miss the bunny. So an object is cut into pieces, each with its own sphere, as long as that makes the
+/// spheres' shadow smaller. Empty without such objects.
 std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene);
 
 /// One sphere about the whole scene and every light, so that a light sends its photons wherever it shines.

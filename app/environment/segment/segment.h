@@ -90,9 +90,9 @@ struct Cut {
   Moments first_moments, second_moments;
 };
 
-/// thesis: the more equal halves across and down are found, and those with the smaller Dev (3.2) are taken. variance:
-/// the two parts have the least variance together. Among equally good cuts, the one nearest to the middle of the longer
-/// side is taken. Nothing for one texel.
+/// thesis: of the most equal halves across and along, those with the smaller Dev (3.2) are taken. variance: the two
+/// parts have the least variance together. Among equally good cuts, the one nearest to the middle of the longer side is
+/// taken. Nothing for one texel.
 std::optional<Cut> best_cut(const WeighedCube& cube, int face, const Rect& rect, SegmentMethod method);
 
 } // namespace nephroid::environment
