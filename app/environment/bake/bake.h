@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an object does to parallel light from each of some directions: caustic spheres (thesis 3.1).
+// Caustic spheres: what an object does to parallel light from each of several directions (thesis 3.1).
 //
 // A texel of a sphere stores the power through it over its solid angle, for light of 1 W/m^2. This is E r^2, where E is
 // the irradiance on the sphere itself, that is on a surface that faces the middle. The texel also stores the mean way

@@ -10,7 +10,7 @@
 
 namespace nephroid::environment {
 
-// How a preset may differ from another for a run to go on, in parts.
+// The ways in which a preset may differ from another for a run to go on.
 
 /// The preset with another's values that a renderer can adopt: camera, turn of the environment, segmentation, white.
 preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other);
