@@ -18,8 +18,7 @@
 // Direct light without noise: the environment lights surfaces by its smooth part, with shadows of a few lights.
 #define LAYER_SMOOTH 3
 
-// How much a receiver's distance may differ from that of a flat surface, as a part of that distance, and of a texel's
-// width.
+// How much a receiver's distance may differ from a flat surface's, as a part of that, and of a texel's width.
 #define DISTANCE_TOLERANCE 0.02f
 
 typedef struct {

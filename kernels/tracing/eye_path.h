@@ -45,9 +45,9 @@ static inline Arrival arrive_from(const DeviceLight* light, float3 position, flo
   return arrival;
 }
 
-// The four numbers of sample `sample` of an area light or the environment at a pixel. A frame takes `paths` samples.
-// The samples of one half of the film follow a sequence; the halves are independent. Sets 0 and 1 of a sequence belong
-// to photons.
+// The four numbers of sample `sample` of an area light or the environment at a pixel. A pass takes `paths` samples. The
+// samples of one half of the film follow a sequence; the halves are independent. Sets 0 and 1 of a sequence belong to
+// photons.
 static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sample, uint paths, uint pixel) {
 #if NEPHROID_LOW_DISCREPANCY
   const uint frame = sample / paths, index = frame / NEPHROID_FILM_HALVES * paths + sample % paths;
@@ -72,7 +72,7 @@ static inline float irradiance_of(const World* world, int light_index, const Pat
 }
 
 // Four numbers for sample `sample` of a pixel. They come from a sequence as in light_numbers, with `paths` samples a
-// frame, or are plain random numbers where paths is 0. block: which four.
+// pass, or are plain random numbers where paths is 0. block: which four.
 static inline float4 eye_numbers(uint2 seed, uint sample, uint paths, uint pixel, uint block, uint stream) {
 #if NEPHROID_LOW_DISCREPANCY
   if (paths > 0u) {

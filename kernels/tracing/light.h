@@ -20,7 +20,7 @@ static inline bool is_light(const DeviceLight* light, int type) {
 // The light that a path carries from a lamp or from a texel of the environment.
 typedef struct {
   int light;  // index into the table
-  float3 rgb; // environment: the part of each primary's spectrum in a photon's power; else unused
+  float3 rgb; // environment: how much of each primary's spectrum a photon's power carries; else unused
 } Source;
 
 // Whether a unit direction away from a spot lies in its cone. |d - axis|^2 / 2 = 1 - cos keeps narrow cones exact.
