@@ -29,7 +29,7 @@ preset::Preset ball_preset(std::uint64_t seed) {
   return preset;
 }
 
-/// The bright spot behind the ball, its rim, what it reflects: near the ball, where rays cross, and far away.
+/// Checks the bright spot behind the ball, its rim and its reflections: near the ball, where rays cross, and far away.
 check::Result ball_in_parallel_light(const compute::Context& context, std::uint64_t seed) {
   const glm::dvec3 light = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
   BakeTask task = make_task(ball_preset(seed));
@@ -69,13 +69,13 @@ glm::dvec2 crossing(const optics::BallRay& ray, double r) {
 
 std::vector<double> ball_map(const SphereMap& map, const glm::dvec3& light, double r, const RaysOfHeight& rays_of,
                              int rings, int azimuths) {
-  constexpr double pi = std::numbers::pi, size2 = 4; // of a ball of radius 1
+  constexpr double pi = std::numbers::pi, size2 = 4; // for a ball of radius 1
   const glm::dvec3 x = glm::normalize(
                        glm::cross(light, std::abs(light.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0))),
                    y = glm::cross(light, x);
   std::vector<double> texels(map.texels());
   for (int i = 0; i < rings; ++i) {
-    const double h = (i + 0.5) / rings, power = 2 * pi * h / rings / azimuths; // of 1 W/m^2
+    const double h = (i + 0.5) / rings, power = 2 * pi * h / rings / azimuths; // for 1 W/m^2
     for (const optics::BallRay& ray : rays_of(h)) {
       const glm::dvec2 at = crossing(ray, r);
       for (int k = 0; k < azimuths; ++k) {

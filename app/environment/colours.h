@@ -8,8 +8,8 @@
 
 namespace nephroid::environment {
 
-/// [401]: what a wavelength of white light is in linear sRGB; all together are (1, 1, 1). An environment's colours
-/// stand for spectra of the three primaries (optics/colour.h), so white is the sum of these.
+/// [401]: each wavelength of white light in linear sRGB; their sum is (1, 1, 1). An environment's colours stand for
+/// spectra of the three primaries (optics/colour.h), so white is the sum of these.
 std::vector<shared::float4> white_light();
 
 /// [row of the lights' tables][reflector]: what a reflector sends back of a light, linear sRGB.
@@ -18,8 +18,8 @@ std::vector<shared::float4> lit_colours(const tracing::WavelengthTables& tables)
 /// [reflector][primary]: what a reflector sends back of a primary's spectrum, linear sRGB.
 std::vector<shared::float4> reflected_primaries(const tracing::WavelengthTables& tables);
 
-/// [channel][401]: chances of wavelengths, by how much white light of that wavelength is in the channel where that is
-/// positive. So what glass does not bend has no noise of colours.
+/// [channel][401]: the running sums of each wavelength's chance, which is its share of white light in the channel,
+/// where positive. So what glass does not bend has no noise of colours.
 std::vector<float> channel_cdf();
 
 } // namespace nephroid::environment

@@ -62,7 +62,7 @@ bool adoptable(const preset::Preset& before, const preset::Preset& now) {
   if (before.scene.camera.resolution != now.scene.camera.resolution ||
       before.scene.objects.size() != now.scene.objects.size() || may_be_lit(before) != may_be_lit(now))
     return false;
-  // What is baked together may not move apart.
+  // Objects baked together may not move against each other.
   const auto is_caster = [&](const preset::Object& object) { return casts(before, object); };
   const std::vector<preset::Object>& objects = before.scene.objects;
   const bool alone = std::ranges::count_if(objects, is_caster) == 1;

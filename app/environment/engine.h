@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine 2, caustics under environment light (thesis chapter 3): what glass and mirrors do to light is baked once, from
+// Engine 2, caustics under environment light (thesis chapter 3). What glass and mirrors do to light is baked once, from
 // a few directions.
 #pragma once
 #include "engine/engine.h"
@@ -8,8 +8,8 @@ namespace nephroid::environment {
 
 extern const engine::Engine engine;
 
-/// Whether a job of `before` goes on with `now`, with the same bake: only the camera, light, where objects stand, the
-/// medium, `cast`, the segmentation, white, name or description differ.
+/// Whether a job of `before` goes on with `now` and the same bake: only the camera, light, places of objects, the
+/// medium, `cast`, the segmentation, white, name or description may differ.
 bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
 } // namespace nephroid::environment

@@ -32,7 +32,7 @@ public:
       : context_(context), preset_(preset), width_(preset.scene.camera.resolution[0]),
         height_(preset.scene.camera.resolution[1]), sphere_white_(plan.render ? 0.2 : preset.white.value()),
         stop_(preset.stop),
-        // Where there is no light the bake is all, and the preset's passes are directions.
+        // Without light the job only bakes, and the preset's passes are directions.
         baking_(plan.task, plan.key, plan.bake_file, !plan.bakes,
                 !plan.render && stop_.passes ? static_cast<std::size_t>(*stop_.passes) : plan.task->directions.size(),
                 context),
@@ -49,7 +49,7 @@ public:
     if (renderer()) renderer()->renew_tree();
     const bool photons_next = wants_photons(),
                rests = !renderer() || (!photons_next && renderer()->passes() >= most_passes());
-    bakes_next_ = !baking_.is_complete() && (rests || !bakes_next_); // else by turns
+    bakes_next_ = !baking_.is_complete() && (rests || !bakes_next_); // else they take turns
     if (bakes_next_)
       timed(bake_seconds_, [&] { bake(); });
     else if (photons_next)
@@ -79,7 +79,7 @@ public:
 
   job::Snapshot snapshot() override {
     job::Snapshot snapshot;
-    if (!renderer() || renderer()->passes() > 0 || finished()) // not before the first picture, which it would hold up
+    if (!renderer() || renderer()->passes() > 0 || finished()) // would hold up the first picture
       spheres_.update(baking_.bake(), width_, height_, sphere_white_);
     snapshot.picture = renderer() ? picture() : spheres_.all();
     snapshot.stands_in = view_ && !renderer();
@@ -108,7 +108,7 @@ public:
     if (renderer()) state_of_picture(state);
   }
 
-  /// A bake that was complete is in its file, or is baked again.
+  /// A complete bake is in its file; without the file it is baked again.
   void load(ByteSource& source) override {
     tracing::State state(source, context_.communicator());
     double bake_seconds = 0, render_seconds = 0;
@@ -118,7 +118,7 @@ public:
     state.value(complete);
     if (complete && !baking_.is_complete()) return read_to_end(source);
     if (!complete) {
-      if (baking_.is_complete()) { // another run has finished it since
+      if (baking_.is_complete()) { // another run has completed it since
         if (view_) view_->end();
         baking_.begin_anew();
         if (refines()) begin_view();
@@ -130,16 +130,16 @@ public:
     render_seconds_ = render_seconds;
   }
 
-  /// While the object is baked, the change waits until it is rendered. After one that failed there is no renderer to go
-  /// on with.
+  /// While the object is baked, the change waits until it is rendered. After a change that failed there is no renderer
+  /// to go on with.
   bool adopt(const preset::Preset& preset) override {
     if (!view_ || ((baking_.is_complete() || refines()) && !renderer()) || !engine::adoptable(preset_, preset))
       return false;
     const preset::Preset turned = with_view_of(preset_, preset);
     const bool relit =
         turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
-    if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown
-    if (renderer() && view_->show(preset)) {                          // another picture begins
+    if (relit && !has_light(scene::load_scene(preset))) return false; // without light only the bake is shown
+    if (renderer() && view_->show(preset)) {                          // begins another picture
       photons_.end();
       bake_seconds_ = render_seconds_ = photon_seconds_ = 0;
     }
@@ -165,7 +165,7 @@ private:
   bool wants_photons() const { return refines() && photons_.wants_turn(renderer()->passes(), most_passes()); }
   std::int64_t most_passes() const { return passes_ >= 0 ? passes_ : preset::max_passes; }
 
-  /// Of the whole picture.
+  /// The passes of the whole picture.
   std::int64_t passes() const {
     if (!renderer()) return 0;
     return photons_.has_begun() ? std::min(renderer()->passes(), photons_.complete_passes()) : renderer()->passes();
@@ -178,7 +178,6 @@ private:
     begin_view();
   }
 
-  /// Shows what there is to show.
   void begin_view() {
     if (!view_) return;
     if (!renderer()) view_->begin(preset_);
@@ -195,8 +194,8 @@ private:
     const auto part = [&](double passes) {
       return passes_ > 0 ? std::min(passes / static_cast<double>(passes_), 1.0) : 0;
     };
-    const double rendered = std::min((part(seen) + part(sent)) / 2, 0.999); // maps of photons come last
-    // A bake takes about as long as all passes.
+    const double rendered = std::min((part(seen) + part(sent)) / 2, 0.999); // photon maps come last
+    // A bake is taken to last as long as all passes.
     p.fraction = !baking_.is_complete() ? 0.5 * baking_.fraction_done()
                  : bake_seconds_ > 0    ? 0.5 + 0.5 * rendered
                                         : rendered;
@@ -211,7 +210,7 @@ private:
     p.fraction = baking_.fraction_done() * static_cast<double>(directions) / static_cast<double>(p.steps);
   }
 
-  /// Of a picture that lacks spheres, which come, or light.
+  /// The caption of a picture that lacks light, or spheres that are to come.
   std::string caption() const {
     if (!view_) return "There is no light: the object's caustic spheres, as far as they are baked";
     if (!renderer()) return "The object is baked first: its caustic spheres, as far as they are";
@@ -252,7 +251,7 @@ private:
     photons_.state(state, *view_);
   }
 
-  /// As the panel Environment has them.
+  /// Adds the lights for the panel Environment.
   void add_lights(job::Snapshot& snapshot) const {
     snapshot.curves.push_back(
         {"lights", {"light", "azimuth_deg", "elevation_deg", "red", "green", "blue", "visible"}, {}});
@@ -270,13 +269,13 @@ private:
   }
 
   mpi::RankContext context_;
-  preset::Preset preset_; ///< the newest
+  preset::Preset preset_; ///< the newest preset
   int width_, height_;
-  double sphere_white_; ///< of the pictures of spheres
+  double sphere_white_; ///< white for the pictures of spheres
   preset::Stop stop_;
-  std::int64_t passes_ = -1; ///< of the renderer; -1: until the time is over
+  std::int64_t passes_ = -1; ///< the renderer's most; -1: until the time is over
   Baking baking_;
-  std::optional<SceneView> view_; ///< where there is light
+  std::optional<SceneView> view_; ///< empty without light
   JoinedPhotons photons_;
   SpherePictures spheres_;
   bool bakes_next_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run of engine 2: the object is baked, or its bake is read; then the scene is rendered.
+// The job of engine 2: the object is baked, or its bake is read; then the scene is rendered.
 #pragma once
 #include "environment/plan.h"
 #include "job/job.h"
@@ -9,8 +9,8 @@
 
 namespace nephroid::environment {
 
-/// Reads the bake where the plan has one, else bakes; then renders until the preset's stop. Where there is no light the
-/// bake is all, and a pass of the stop is a direction. Throws failed where the device has not enough memory.
+/// Reads the bake where the plan has one, else bakes. Then renders until the preset's stop. Without light the job only
+/// bakes, and a pass of the stop is a direction. Throws failed where the device has not enough memory.
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan,
                                    const mpi::RankContext& context);
 

@@ -11,7 +11,7 @@
 namespace nephroid::environment {
 namespace {
 
-/// It is this engine's to stop, and the halves are what photons are mixed by.
+/// This engine decides when to stop, and mixes photons by their halves.
 preset::Preset without_stop(preset::Preset preset) {
   preset.stop = {};
   preset.measure.estimate = true;
@@ -25,7 +25,7 @@ photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& 
   photons.direct = photons.background = false;
   photons.caustic = settings(preset).cast;
   photons::RunPlan plan = photons::make_plan(without_stop(preset), photons, scene, bvh, {.all = preset.leave_out});
-  plan.has_previews = false; // the spheres make it
+  plan.has_previews = false; // the spheres make the preview
   return plan;
 }
 
@@ -83,7 +83,7 @@ void JoinedPhotons::state(tracing::State& state, const SceneView& view) {
   state.value(has_run);
   has_planned_ = has_run && has_planned_;
   if (!has_run) return run_.reset();
-  if (!run_) advance(view); // which begins
+  if (!run_) advance(view); // begins the run
   run_->state(state);
 }
 

@@ -16,7 +16,7 @@
 namespace nephroid::environment {
 namespace {
 
-/// fault: bake_file_fault.
+/// fault: from bake_file_fault().
 plan::Pass bake_pass(const EnvironmentPlan& plan, const Settings& s, const std::optional<std::string>& fault) {
   if (!fault)
     return {"bake", false, fmt::format("{} has it: the same object, material and settings", plan.bake_file.string())};
@@ -32,7 +32,7 @@ plan::Pass colours_pass(const BakeTask& task) {
                         : "all wavelengths go the same way and lose alike: one channel"};
 }
 
-/// Of the omissions of kernels those that photons on their way through the object have.
+/// The code omissions that concern photons on their way through the object.
 std::vector<plan::Pass> code_passes(const preset::Preset& preset, const BakeTask& task) {
   static constexpr std::array<std::string_view, 4> names{"mirrors", "bending", "attenuation", "smooth normals"};
   std::vector<plan::Pass> passes = tracing::code_omissions(tracing::LeaveOut{.all = preset.leave_out},
@@ -42,7 +42,7 @@ std::vector<plan::Pass> code_passes(const preset::Preset& preset, const BakeTask
   return passes;
 }
 
-/// Whether a person can see caustics at all, and by what light.
+/// Rows that say whether caustics are visible at all, and by which light.
 std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTask* render) {
   const Settings& s = settings(preset);
   if (!render) return {{"view", false, "the scene has no light: only the spheres are shown"}};
@@ -74,7 +74,7 @@ std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTa
   return passes;
 }
 
-/// Whether photons join, and how.
+/// Rows that say whether photons join, and how.
 std::vector<plan::Pass> photon_passes(const Settings& s, const photons::RunPlan* photons) {
   const char* const field = "/environment/refine";
   if (!s.refine)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of engine 2 as the preset knows them, and what one of their fields cannot say alone. What needs the
-// scene is refused by the plan (bake/caster.cpp).
+// The settings of engine 2 as a section of the preset, and the checks that involve several fields. The plan makes those
+// that need the scene (bake/caster.cpp).
 #include "environment/settings.h"
 
 #include "environment/bake/bake.h"

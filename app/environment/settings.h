@@ -11,22 +11,22 @@ namespace nephroid::environment {
 
 struct Settings {
   enum class Radii { quadratic, uniform };
-  std::vector<std::string> objects{}; ///< that are baked together; empty: all of glass and all mirrors
-  int directions = 26;                ///< that light is baked from: 26, 98 or 386
-  int spheres = 16;                   ///< about the objects
-  Radii radii = Radii::quadratic;     ///< how they grow
-  double reach = 4;                   ///< radius of the largest, in largest sides of the box about the object
+  std::vector<std::string> objects{}; ///< names of the objects baked together; empty: all glass and mirrors
+  int directions = 26;                ///< how many directions light is baked from: 26, 98 or 386
+  int spheres = 16;                   ///< how many spheres are about the objects
+  Radii radii = Radii::quadratic;     ///< how the radii grow
+  double reach = 4;                   ///< the largest radius, in largest sides of the box about the object
   int resolution = 360;               ///< texels across and down the map of a sphere: 360 are as many as 512 x 256
-  int photons = 160000;               ///< that are sent from each direction
+  int photons = 160000;               ///< photons from each direction
   int lights = 24;                    ///< q: how many lights the map is cut into
   SegmentMethod segmentation = SegmentMethod::variance;
   double threshold = 1e-7; ///< a region with no more than this part of the map's light is no light
   bool refine = true;      ///< photons join the spheres
   bool cast = true;        ///< caustics on surfaces
   enum class Phase { henyey_greenstein, rayleigh };
-  double extinction = 0;                  ///< of the medium around the object, 1 / unit; 0: there is none
-  double albedo = 1;                      ///< which part of what is taken is scattered, 0..1
-  Phase phase = Phase::henyey_greenstein; ///< where that goes
+  double extinction = 0;                  ///< the extinction of the medium around the object, 1 / unit; 0: no medium
+  double albedo = 1;                      ///< the part of the extinction that is scattering, 0..1
+  Phase phase = Phase::henyey_greenstein; ///< the directions of scattered light
   double anisotropy = 0;                  ///< henyey_greenstein: the mean cosine, -.95 to .95
   bool operator==(const Settings&) const = default;
 };
@@ -34,7 +34,7 @@ struct Settings {
 /// The settings of this engine, as a preset knows them.
 const preset::SettingsType& settings_type();
 
-/// Of a preset of this engine.
+/// The settings in a preset of this engine.
 inline Settings& settings(preset::Preset& preset) { return preset.settings.as<Settings>(); }
 inline const Settings& settings(const preset::Preset& preset) { return preset.settings.as<Settings>(); }
 

@@ -14,10 +14,10 @@ namespace nephroid::environment {
 namespace {
 
 constexpr int picture_width = 512, picture_height = 256;
-/// A sphere in a sheet is at least so wide, in pixels, and a sheet has at most so many each way.
+/// The least width of a sphere in a sheet, in pixels, and the most spheres across or down a sheet.
 constexpr int least_width = 200, most_cells = 6;
 constexpr int gap = 4;
-constexpr float grey = 0.02f; ///< that parts black spheres
+constexpr float grey = 0.02f; ///< sets black spheres apart
 
 std::vector<std::size_t> spread(std::size_t count, int fit) {
   const std::size_t shown = std::min(count, static_cast<std::size_t>(std::clamp(fit, 1, most_cells)));
@@ -26,7 +26,7 @@ std::vector<std::size_t> spread(std::size_t count, int fit) {
   return chosen;
 }
 
-/// Mean of a few places in each pixel, for a pixel has several texels.
+/// Takes the mean of a few places in each pixel, because a pixel covers several texels.
 std::vector<float> latitude_longitude(const Bake& bake, std::size_t direction, std::size_t sphere, int width,
                                       int height, double white) {
   constexpr int places = 2;

@@ -31,9 +31,9 @@ void add_layer(const std::string& name, const Film& film, job::Picture& picture)
   std::vector<float>& error_draw = picture.error_draw;
   const bool halves = film.sums.size() == 6 * pixels;
   const std::int64_t* first = film.sums.data();
-  const std::int64_t* second = halves ? first + 3 * pixels : first; // where there is one image, its weight below is 0
+  const std::int64_t* second = halves ? first + 3 * pixels : first; // with one image, its weight below is 0
   if (!halves) error_draw.clear();
-  std::array<double, 2> samples{-1, -1}; // of the pixel before: most have as many
+  std::array<double, 2> samples{-1, -1}; // the pixel before's: most pixels have as many
   double mean = 0, mean_a = 0, mean_b = 0;
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     if (const std::array<double, 2> counts = film.samples(pixel); counts != samples) {

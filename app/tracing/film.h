@@ -11,19 +11,19 @@
 
 namespace nephroid::tracing {
 
-/// The largest contribution, in quanta: a film takes any number of them. FILM_LIMIT of kernels/tracing/film.h.
+/// The largest contribution in quanta, FILM_LIMIT of kernels/tracing/film.h. A film takes any number of contributions.
 inline constexpr double film_limit = 0x1p42;
 
 /// What a device added up.
 struct Film {
   std::vector<std::int64_t> sums; ///< [half][pixel of the picture][3]: XYZ radiance in quanta, added up over samples
   double quanta_per_unit = 1;     ///< quanta of what becomes 1 in the picture
-  /// How many samples, or rounds or passes of photons, the sums of a pixel hold: the even and the odd ones. A film
-  /// without halves has all of them in one image.
+  /// How many samples, batches or passes of photons the sums of a pixel hold, in each half. A film without halves has
+  /// all of them in one image.
   std::function<std::array<double, 2>(std::size_t pixel)> samples;
 };
 
-/// The picture's layer of that name, which is made, black, where there is none yet.
+/// The picture's layer of that name; a black one is made where there is none yet.
 job::Layer& layer_of(job::Picture& picture, const std::string& name);
 
 /// Adds the mean of the samples, 0 where there is none, to layer_of(picture, name). Where the film has two halves a and
@@ -31,7 +31,7 @@ job::Layer& layer_of(job::Picture& picture, const std::string& name);
 /// draw is cleared; a draw that is clear stays so.
 void add_layer(const std::string& name, const Film& film, job::Picture& picture);
 
-/// Even and odd ones of `passes` complete passes or rounds, and `part` of the next: what the halves of a film have had.
+/// How many passes or batches each half of a film has after `passes` complete ones and `part` of the next.
 std::array<double, 2> halves_of(std::int64_t passes, double part);
 
 } // namespace nephroid::tracing

@@ -26,7 +26,7 @@ bool is_dielectric(const scene::Scene& scene, const scene::Object& object) {
   return material_of(scene, object).type == scene::Material::Type::dielectric;
 }
 
-/// Whether any glass that an object is of has an index other than 1.
+/// Whether the glass of any object has an index other than 1.
 bool anything_bends(const scene::Scene& scene) {
   return std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
     const optics::Spectrum& n = material_of(scene, object).n;
@@ -43,7 +43,7 @@ bool may_be_in_view(const scene::Scene& scene, const scene::Object& object) {
   scene::for_each_corner(scene, object, [&](const glm::dvec3& p) {
     const glm::dvec3 way = p - eye;
     const double z = glm::dot(way, forward), x = glm::dot(way, right), y = glm::dot(way, up);
-    // Single precision decides which pixel a point is in: what is outside by less counts as inside.
+    // Single precision decides which pixel a point is in, so a point outside by less than this counts as inside.
     const double margin = 1e-4 * glm::length(way);
     const double outside[] = {x - c.tan_x * z, -x - c.tan_x * z, y - c.tan_y * z, -y - c.tan_y * z, -z};
     for (std::size_t side = 0; side < beyond.size(); ++side) beyond[side] = beyond[side] && outside[side] > margin;
@@ -51,8 +51,8 @@ bool may_be_in_view(const scene::Scene& scene, const scene::Object& object) {
   return std::ranges::none_of(beyond, [](bool b) { return b; });
 }
 
-/// Whether the camera sees all that is in its view: flat objects only, with the camera and all the others on one side
-/// of each.
+/// Whether the camera sees all that is in its view: all objects are flat, with the camera and the other objects on one
+/// side of each.
 bool nothing_blocks_the_view(const scene::Scene& scene) {
   const glm::dvec3 eye = scene.camera.position;
   std::vector<std::size_t> seen;
@@ -158,7 +158,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
   const unsigned types = light_type_bits(scene);
   const bool bends = anything_bends(scene), blocked = !nothing_blocks_the_view(scene);
   CodeOmissions omissions;
-  // Adds a pass, and says whether its code is there.
+  // Adds a row, and returns whether its code is compiled.
   const auto has = [&](plan::Pass pass) {
     omissions.passes.push_back(std::move(pass));
     return omissions.passes.back().runs;
@@ -186,7 +186,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types)},
       {"NEPHROID_MIRRORS", flag(mirrors)},
       {"NEPHROID_BENDING", flag(bending)},
-      // Without materials that attenuate, one place for none of them: the code is there and does nothing.
+      // Without materials that attenuate there is one place all the same: the code is compiled and does nothing.
       {"NEPHROID_ATTENUATORS", std::to_string(attenuation ? std::max(attenuators, 1) : 0)},
       {"NEPHROID_SMOOTH", flag(smooth)}};
   return omissions;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene does not need: the facts that decide it, and the plan's passes that say so.
+// What a scene does not need: the facts that decide it, and the plan's rows that say so.
 #pragma once
 #include "plan/plan.h"
 #include "tracing/scene_tables.h"
@@ -11,7 +11,7 @@
 namespace nephroid::tracing {
 
 bool has_power(const scene::Light& light);
-/// [401]: which wavelengths a light with power has; all of them where no light has power.
+/// [401]: whether any light with power has the wavelength; true for all where no light has power.
 std::vector<bool> lit_wavelengths(const scene::Scene& scene);
 
 /// How many objects there are of each kind.
@@ -20,7 +20,7 @@ struct ObjectCounts {
 };
 ObjectCounts count_objects(const scene::Scene& scene);
 
-/// False only where no object of glass and no mirror is in the camera's view, and none encloses the camera.
+/// False only where no glass object or mirror is in the camera's view or encloses the camera.
 bool may_see_glass_or_mirror(const scene::Scene& scene);
 
 /// Rows of the plan for what may be left out. What the scene needs runs; what it does not need runs where nothing is
@@ -28,7 +28,7 @@ bool may_see_glass_or_mirror(const scene::Scene& scene);
 plan::Pass needed(const std::string& name, std::string reason);
 plan::Pass not_needed(const std::string& name, bool leave_out, std::string reason);
 
-/// What the tables of a scene do without. Rows only for what the scene has and does not need. targets:
+/// What the tables of a scene leave out: rows only for what the scene has and does not need. targets:
 /// SceneTables::spheres.
 std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene,
                                        const std::vector<scene::Sphere>& targets);
@@ -38,7 +38,7 @@ struct CodeOmissions {
   std::vector<plan::Pass> passes;
   std::map<std::string, std::string> defines; ///< -D flags
 };
-/// attenuators: materials that take light away.
+/// attenuators: the number of materials with losses.
 CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scene, int attenuators);
 
 } // namespace nephroid::tracing

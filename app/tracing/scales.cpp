@@ -45,7 +45,7 @@ std::vector<float> exact_cdf(const std::vector<double>& weights) {
   constexpr double quanta = 0x1p24;
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   if (!weights.empty() && !(total > 0)) return exact_cdf(std::vector<double>(weights.size(), 1.0));
-  // One quantum each, so that nothing is left out by rounding, and the rest in proportion.
+  // Each weight gets one quantum, so that rounding leaves none out, and the rest in proportion.
   const auto positive = static_cast<double>(std::ranges::count_if(weights, [](double w) { return w > 0; }));
   std::vector<float> cdf;
   double sum = 0, ones = 0;

@@ -23,7 +23,7 @@ using LightType = preset::Light::Type;
 static_assert(int(LightType::point) == LIGHT_POINT && int(LightType::spot) == LIGHT_SPOT &&
               int(LightType::directional) == LIGHT_DIRECTIONAL && int(LightType::area) == LIGHT_AREA);
 
-/// where: of the camera or light that the dielectrics enclose. Throws bad_input there for more than a path can carry.
+/// where: the camera or light that the dielectrics enclose. Throws bad_input there for more than a path can carry.
 shared::Media to_media(const std::vector<int>& inside, const Place& where) {
   if (inside.size() > MEDIA_DEPTH)
     throw bad_input(where, fmt::format("is inside {} dielectric objects", inside.size()),
@@ -51,7 +51,7 @@ shared::DeviceLight device_light(const scene::Light& light, double power_unit, c
   return out;
 }
 
-/// Appends the spheres to the table of targets, unless an earlier light has the very same ones.
+/// Appends the spheres to the table of targets, unless an earlier light has the same ones.
 void set_targets(shared::DeviceLight& light, const std::vector<scene::Sphere>& spheres, SceneTables& tables) {
   std::vector<shared::DeviceTarget> list;
   for (const scene::Sphere& sphere : spheres) list.push_back({to_float4(sphere.centre, sphere.radius)});
@@ -65,16 +65,16 @@ void set_targets(shared::DeviceLight& light, const std::vector<scene::Sphere>& s
   light.target_count = static_cast<int>(list.size());
 }
 
-/// All targets of the scene: where photons go whatever the light.
+/// All targets of the scene, for any light.
 std::vector<scene::Sphere> scene_targets(const LeaveOut& leave_out, const scene::Scene& scene) {
   std::vector<scene::Sphere> targets;
   if (leave_out.stray_photons) targets = caustic_targets(scene);
-  // Photons that are asked for where nothing needs them have nothing to aim at.
+  // Photons that run where nothing needs them have nothing to aim at.
   if (!leave_out.stray_photons || (targets.empty() && !leave_out.photons)) return {everything(scene)};
   return targets;
 }
 
-/// Adds the light, its targets, and what it sends towards them.
+/// Adds the light, its targets, and the power that it sends towards them.
 void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, const scene::Scene& scene,
                const LeaveOut& leave_out, SceneTables& tables) {
   const auto number = static_cast<int>(&light - scene.lights.data());
@@ -94,14 +94,14 @@ double choose_power_unit(const scene::Scene& scene) {
   return power_of_two_below(strongest);
 }
 
-/// What peaks have to hold of the environment's flux: more than rounding.
+/// The least part of the environment's flux that peaks hold: more than rounding.
 constexpr double least_peaks = 1e-6;
 
 double chance(const std::vector<float>& cdf, std::size_t i) {
   return double(cdf[i]) - (i > 0 ? double(cdf[i - 1]) : 0.0);
 }
 
-/// The chance of each row in `rows`, of its texels after them.
+/// The flux of rows, and the chances of the texels in each.
 struct Flux {
   std::vector<double> rows;               ///< [row] grey above the floor, times steradians
   std::vector<std::vector<float>> texels; ///< [row] exact_cdf
@@ -121,12 +121,12 @@ Flux flux_by_rows(const scene::Environment& environment, double floor) {
   return flux;
 }
 
-/// A number of the object and its primitive's kind, as a kernel finds them in a w.
+/// The object's number and the primitive's kind, as a kernel reads them from a w.
 float tag(int object, int kind) { return std::bit_cast<float>(object << 2 | kind); }
 
 shared::float4 with(const glm::vec3& v, float w) { return {v.x, v.y, v.z, w}; }
 
-/// Two words of 21 bits a coordinate, in units of 2^-20: the lowest bits are x, then come y and z.
+/// Packs 21 bits a coordinate, in units of 2^-20, into two words: the lowest bits are x, then come y and z.
 std::array<float, 2> packed_normal(const glm::vec3& normal) {
   constexpr float unit = 0x1p20f;
   const glm::uvec3 q(glm::ivec3(glm::clamp(glm::round(normal * unit), -unit, unit - 1)) & 0x1fffff);
@@ -147,7 +147,7 @@ shared::DevicePrimitive device_triangle(const scene::Mesh& mesh, const glm::uvec
             {first[0], first[1], second[0], second[1]}};
   }
   const glm::vec3 normal(glm::normalize(glm::cross(glm::dvec3(ab), glm::dvec3(ac))));
-  // As triangle_offset of kernels/tracing/surface.h.
+  // The formula of triangle_offset of kernels/tracing/surface.h.
   const float offset = 0x1p-21f * largest(glm::max(glm::abs(a), glm::max(glm::abs(ab), glm::abs(ac))));
   return {with(a, tag(object, PRIMITIVE_FLAT)), with(ab, 0), with(ac, 0), with(normal, offset)};
 }
@@ -266,7 +266,7 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
   tables.scene.light_count = static_cast<int>(tables.lights.size());
   tables.scene.cluster_count = static_cast<int>(tables.wavelengths.clusters.size());
   tables.scene.metres_per_unit = static_cast<float>(scene.metres_per_unit);
-  // Enough from any place on the disc of any target, also of the one about everything.
+  // This is far enough from any place on the disc of any target, also of the one about everything.
   tables.scene.outside_distance =
       2.5f * std::max(scene_bounds(scene).radius, leave_out.stray_photons ? 0.0f : everything(scene).radius);
   tables.scene.max_surfaces = 32;

@@ -11,14 +11,14 @@
 
 namespace nephroid::tracing {
 
-/// How much work fits into a step, learned from the steps before.
+/// How much work fits into a slice, learned from the slices before.
 class SliceSize {
 public:
   explicit SliceSize(double start) : amount_(start) {}
-  /// As rank 0 has learned it.
+  /// Rank 0's amount, for all ranks.
   double amount(const Communicator& communicator) { return amount_ = communicator.broadcast(amount_); }
-  /// Calls work(), which does `amount` of it, and learns from the time it took: a little at a time, because the first
-  /// step of a kernel also compiles it, and the rows of a picture differ.
+  /// Calls work(), which does `amount`, and learns from the time it took. It learns a little at a time, because the
+  /// first slice of a kernel also compiles it, and the rows of a picture differ.
   template <class Work>
   void timed(double amount, const Work& work) {
     using Clock = std::chrono::steady_clock;
@@ -36,15 +36,15 @@ private:
 /// The pixels of a pass, or its rows.
 class PixelSlices {
 public:
-  /// size: how many a pass has to begin with. first_slice: how many the first step has.
+  /// size: how many the first pass has. first_slice: how many the first slice has.
   PixelSlices(std::int64_t size, std::int64_t first_slice) : size_(size), amount_(static_cast<double>(first_slice)) {}
 
   double fraction_done() const { return size_ > 0 ? static_cast<double>(done_) / static_cast<double>(size_) : 0; }
-  /// Of the pass in hand.
+  /// How many of the pass in hand are done.
   std::int64_t done() const { return done_; }
 
-  /// Calls work(first, count) for the next pixels (or rows) of the pass in hand, which has `size`; at most `most` at a
-  /// time, and of these for what is this rank's (Partition). True when the pass is complete.
+  /// Calls work(first, count) for this rank's part (Partition) of the next slice of the pass in hand. The pass has
+  /// `size` pixels (or rows), a slice at most `most`. True when the pass is complete.
   template <class Work>
   bool advance(const Communicator& communicator, std::int64_t size, std::int64_t most, const Work& work) {
     size_ = size;
@@ -71,7 +71,7 @@ private:
   SliceSize amount_;
 };
 
-/// Of the photons of a pass: `offset`, offset + stride, ..., `count` of them.
+/// The photons `offset`, offset + stride, ... of a pass, `count` of them.
 struct PhotonSlice {
   std::uint32_t offset = 0, stride = 1, count = 0;
 };
@@ -84,10 +84,10 @@ public:
   std::uint32_t done_of(std::uint32_t photons) const {
     return photons / at_.slices * at_.slice + std::min(photons % at_.slices, at_.slice);
   }
-  /// Whether the next step is the first of a pass.
+  /// Whether the next slice is the first of a pass.
   bool at_start() const { return at_.slice == 0; }
 
-  /// Calls work(slice) for the next of `photons` photons, of which each rank has some. True when the pass is complete.
+  /// Calls work(slice) for this rank's part of the next slice of `photons` photons. True when the pass is complete.
   template <class Work>
   bool advance(const Communicator& communicator, std::uint32_t photons, const Work& work) {
     const double amount = photons_a_slice_.amount(communicator);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a checkpoint holds of a device: its buffers piece by piece, without the pieces that are all 0. So no second film
-// is held on the host, and an empty film takes no room.
+// A device's buffers in a checkpoint, piece by piece, without the pieces that are all 0. So the host holds no second
+// film, and an empty film takes no room.
 #pragma once
 #include "base/bytes.h"
 #include "base/communicator.h"
@@ -15,13 +15,13 @@
 
 namespace nephroid::tracing {
 
-/// nephroid::State with the buffers of a device. Those of the ranks are one buffer there, whatever their number is.
+/// nephroid::State with the buffers of a device. The ranks' buffers are one buffer there, whatever the number of ranks.
 class State : public nephroid::State {
 public:
   State(ByteSink& to, const Communicator& communicator) : nephroid::State(to), communicator_(communicator) {}
   State(ByteSource& from, const Communicator& communicator) : nephroid::State(from), communicator_(communicator) {}
 
-  /// Sums that every rank adds to (mpi::RankContext::all_reduced_sum): what was loaded is rank 0's.
+  /// Sums that every rank adds to (mpi::RankContext::all_reduced_sum). What is loaded goes to rank 0.
   void buffer(compute::Buffer<std::int64_t>& buffer) {
     in_pieces(buffer, [&](std::size_t) {
       if (is_read() && !communicator_.is_root()) std::ranges::fill(piece_, std::byte{0});
@@ -30,15 +30,14 @@ public:
             {reinterpret_cast<std::int64_t*>(piece_.data()), piece_.size() / sizeof(std::int64_t)});
     });
   }
-  /// What one of the ranks has written each item of, and the others have 0 (mpi::RankContext::all_reduced_or): what was
-  /// loaded all of them have.
+  /// Items that one rank has written and others have 0 (mpi::RankContext::all_reduced_or). All get what is loaded.
   template <class T>
   void joined(compute::Buffer<T>& buffer) {
     in_pieces(buffer, [&](std::size_t) {
       if (to_) communicator_.all_reduce_or(piece_);
     });
   }
-  /// Several values of each item of `partition` (Partition::clear_others); others' than a rank's own are of no account.
+  /// Several values for each item of `partition`. Only a rank's own items count (Partition::clear_others).
   template <class T>
   void owned(compute::Buffer<T>& buffer, const Partition& partition, std::size_t values_an_item) {
     if (to_ && !communicator_.is_alone()) {
@@ -50,7 +49,7 @@ public:
   }
 
 private:
-  /// work(at) comes between reading a piece from the device and writing it there.
+  /// Calls work(at) between reading a piece from its source and writing it.
   template <class T, class Work>
   void in_pieces(compute::Buffer<T>& buffer, const Work& work) {
     constexpr std::size_t piece_bytes = 1 << 18;
@@ -69,7 +68,7 @@ private:
     }
   }
 
-  /// The first byte is 0 and each is as the one before.
+  /// Tests that the first byte is 0 and each equals the one before.
   bool all_zero() const {
     return piece_[0] == std::byte{0} && std::memcmp(piece_.data(), piece_.data() + 1, piece_.size() - 1) == 0;
   }

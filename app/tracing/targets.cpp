@@ -45,9 +45,10 @@ std::pair<Piece, Piece> halves(const scene::Mesh& mesh, Triangles triangles) {
   return {std::move(first), std::move(second)};
 }
 
-/// Spheres about slices of an ellipsoid across its longest half axis a, as many as it is longer than thick. In lengths
-/// of a, a slice from x to x + w lies within w a / 2 of its middle along the axis, and within sqrt(1 - x'^2) of the
-/// next longest half axis off it, where x' is the slice's least distance from the centre.
+/// Spheres about slices of an ellipsoid across its longest half axis a; the longer it is for its thickness, the more
+/// slices. With x in lengths of a, a slice from x to x + w lies within w a / 2 of its middle along the axis. It lies
+/// within sqrt(1 - x'^2) times the next longest half axis off the axis, where x' is the slice's least distance from the
+/// centre.
 std::vector<scene::Sphere> slices(const scene::Ellipsoid& ellipsoid) {
   std::array<glm::dvec3, 3> axes{ellipsoid.half_axes[0], ellipsoid.half_axes[1], ellipsoid.half_axes[2]};
   std::ranges::sort(axes, [](const glm::dvec3& a, const glm::dvec3& b) { return glm::length(a) > glm::length(b); });
@@ -92,15 +93,15 @@ scene::Sphere everything(const scene::Scene& scene) {
       for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)})
         points.push_back(light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v));
   const auto [low, high] = box_about(points);
-  // Larger than need be, so that rounding leaves no light on its surface or outside; not a point where there is only
-  // one.
+  // The sphere is larger than it needs to be, so that rounding leaves no light on its surface or outside. It is not a
+  // point where there is only one point.
   return {0.5f * (low + high), std::max(0.51f * glm::length(high - low), 1e-3f)};
 }
 
 bool reaches(const scene::Light& light, const scene::Sphere& sphere) {
   const glm::dvec3 way = glm::dvec3(sphere.centre) - glm::dvec3(light.position);
   const double distance = glm::length(way), along = glm::dot(way, glm::dvec3(light.direction));
-  // Kernels tell directions in single precision: what is outside by less than these is kept.
+  // Kernels compute directions in single precision, so a sphere outside by less than these is kept.
   constexpr double angle_margin = 1e-3, length_margin = 1e-4;
   if (light.type == preset::Light::Type::area) return along + sphere.radius + length_margin * distance > 0;
   if (light.type != preset::Light::Type::spot || distance <= sphere.radius) return true;
@@ -115,7 +116,7 @@ double towards_targets_w(const scene::Light& light, const std::vector<scene::Sph
   for (const scene::Sphere& target : targets) {
     const double distance2 = std::pow(glm::length(glm::dvec3(target.centre) - glm::dvec3(light.position)), 2);
     const double radius2 = double(target.radius) * target.radius;
-    const double sine2 = radius2 / distance2; // 1 - cos = sin^2 / (1 + cos), which does not vanish for a far target
+    const double sine2 = radius2 / distance2; // 1 - cos = sin^2 / (1 + cos), which stays above 0 for a far target
     steradians += sine2 >= 1 ? 4 * pi : 2 * pi * sine2 / (1 + std::sqrt(1 - sine2));
     square_metres += pi * radius2 * metres_per_unit * metres_per_unit;
   }
@@ -129,9 +130,8 @@ double towards_targets_w(const scene::Light& light, const std::vector<scene::Sph
   return light.power_w * std::min(1.0, steradians / (4 * pi));
 }
 
-// The mean over directions of the area that the spheres' shadows cover together. Each shadow is a disc; points spread
-// evenly over it count by 1 / (number of discs over the point), so the union is measured once. Points are Vogel's
-// sunflower.
+// Each sphere's shadow is a disc. Points spread evenly over it (Vogel's sunflower) count by 1 / (number of discs over
+// the point), so the union is measured once.
 double mean_shadow(const std::vector<scene::Sphere>& spheres) {
   constexpr int directions = 32, points = 64;
   constexpr double pi = std::numbers::pi, golden_angle = pi * 0.7639320225002103; // pi (3 - sqrt 5)
@@ -190,7 +190,7 @@ std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene) {
     *widest = std::move(first);
     pieces.push_back(std::move(second));
     const double shadow = mean_shadow(spheres_of(pieces));
-    // A sphere more costs every photon a little, so it has to make the shadow smaller by more than the estimate's
+    // One more sphere costs every photon a little, so it must make the shadow smaller by more than the estimate's
     // error.
     if (shadow < 0.97 * best_shadow) {
       best = spheres_of(pieces);

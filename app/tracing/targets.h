@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where photons are sent: spheres that together enclose every caustic object, as tightly as a few spheres can.
+// Targets: spheres that together enclose every caustic object, as tightly as a few spheres can.
 #pragma once
 #include "kernels/tracing/shared_types.h"
 #include "scene/scene.h"
@@ -10,24 +10,23 @@ namespace nephroid::tracing {
 
 inline constexpr std::size_t max_targets = MAX_TARGETS;
 
-/// At most max_targets spheres that hold all dielectric and mirror objects. Two of three photons towards one sphere
-/// about a bunny miss the bunny. So an object is cut into pieces, each with its own sphere, as long as that makes the
-/// shadow of all spheres smaller. Empty where there is no such object.
+/// At most max_targets spheres that hold all dielectric and mirror objects. With one sphere about a bunny, two of three
+/// photons miss the bunny. So an object is cut into pieces, each with its own sphere, as long as that makes the
+/// spheres' shadow smaller. Empty without such objects.
 std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene);
 
 /// One sphere about the whole scene and every light, so that a light sends its photons wherever it shines.
 scene::Sphere everything(const scene::Scene& scene);
 
-/// Whether the light can send anything towards a point of the sphere: not where the sphere is outside of a spot's cone
+/// Whether the light can send anything towards a point of the sphere. False where the sphere is outside a spot's cone
 /// or behind an area light. True in doubt.
 bool reaches(const scene::Light& light, const scene::Sphere& sphere);
 
-/// Watts of the light that start towards the targets; targets that overlap count twice, which is good enough for
-/// allocating photons.
+/// The power in W that the light sends towards the targets. Where targets overlap it counts twice, which is good enough
+/// for the allocation.
 double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit);
 
-/// The area of the shadow that the spheres cast together, as a mean over directions, in square units; estimated to
-/// about 2 %.
+/// The area of the shadow that the spheres cast together: the mean over directions, in square units, to about 2 %.
 double mean_shadow(const std::vector<scene::Sphere>& spheres);
 
 } // namespace nephroid::tracing

@@ -29,7 +29,7 @@ std::vector<bool> used_materials(const scene::Scene& scene) {
   return used;
 }
 
-/// A mirror that reflects nothing: exp(-200) is 0 in single precision.
+/// The coefficient of a mirror that reflects nothing: exp(-200) is 0 in single precision.
 constexpr double blackest = 200;
 
 /// Rows of the reflectance and attenuation tables, one for each material that needs one.
@@ -107,7 +107,7 @@ const float* reflectance_row(const WavelengthTables& tables, int reflector) {
   return tables.reflectance.data() + static_cast<std::size_t>(reflector) * wavelength_count;
 }
 
-/// What a photon may carry, one row of light_xyz, reflected_xyz and reflected_xyz_all.
+/// Adds one row of light_xyz, reflected_xyz and reflected_xyz_all, a spectrum that a photon may carry.
 void add_spectrum_rows(const Spectrum& spectrum, const std::vector<int>& all, WavelengthTables& tables) {
   for (const int w : all) tables.light_xyz.push_back(to_float4(reflected(spectrum, nullptr, {w})));
   for (const std::vector<int>& cluster : tables.clusters)
@@ -117,8 +117,7 @@ void add_spectrum_rows(const Spectrum& spectrum, const std::vector<int>& all, Wa
     tables.reflected_xyz_all.push_back(to_float4(reflected(spectrum, reflectance_row(tables, r), all)));
 }
 
-/// Photons are allocated by a light's spectrum and carry it too, but for those of the environment, which carry three
-/// parts.
+/// Photons are allocated by a light's spectrum and carry it too. Only the environment's carry three parts.
 void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTables& tables) {
   const std::vector<int> all = optics::all_wavelengths();
   for (const scene::Light* light : lights) {
@@ -144,7 +143,7 @@ void add_cluster_cdf(const std::vector<const scene::Light*>& lights, WavelengthT
   tables.cluster_cdf = exact_cdf_from_zero(weights);
 }
 
-/// A cdf of each cluster, one after the other, by the worth of the members' light.
+/// Adds a cdf for each cluster, by the worth of its members' light.
 void add_wavelength_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables) {
   for (const std::vector<int>& cluster : tables.clusters) {
     std::vector<double> weights;
@@ -164,7 +163,7 @@ void add_wavelength_cdf(const std::vector<const scene::Light*>& lights, Waveleng
 constexpr std::size_t middle_wavelength = 200; // 580 nm
 constexpr double jump_ratio = 8;
 
-/// The curves of all glass that an object is of and that disperses, each once.
+/// The curves of all glass that disperses and that an object has, each once.
 std::vector<const Spectrum*> dispersive_curves(const scene::Scene& scene) {
   std::vector<const Spectrum*> curves;
   for (const scene::Object& object : scene.objects) {
@@ -177,7 +176,7 @@ std::vector<const Spectrum*> dispersive_curves(const scene::Scene& scene) {
   return curves;
 }
 
-/// s at every wavelength, from 580 nm.
+/// s at every wavelength, counted from 580 nm.
 Spectrum parameter(const scene::Scene& scene) {
   const std::vector<const Spectrum*> curves = dispersive_curves(scene);
   Spectrum s{};
@@ -187,7 +186,7 @@ Spectrum parameter(const scene::Scene& scene) {
   return s;
 }
 
-/// s[to] - s[from] of neighbours, 0 across a jump; beyond the ends as long as the step before.
+/// s[to] - s[from] for neighbours; 0 across a jump. Beyond the ends it is as long as the step before.
 double arm(const Spectrum& s, int from, int to) {
   const auto step = [&](int lower) {
     return s[static_cast<std::size_t>(lower) + 1] - s[static_cast<std::size_t>(lower)];
@@ -201,7 +200,7 @@ double arm(const Spectrum& s, int from, int to) {
   return to > from ? step(lower) : -step(lower);
 }
 
-/// Least squares of n over s, of the wavelengths of a cluster and their neighbours.
+/// The slope of n over s by least squares, over a cluster's wavelengths and their neighbours.
 double slope(const Spectrum& n, const Spectrum& s, const std::vector<int>& cluster) {
   const int low = std::max(*std::ranges::min_element(cluster) - 1, 0),
             high = std::min(*std::ranges::max_element(cluster) + 1, wavelength_count - 1);
@@ -274,7 +273,7 @@ StretchTables make_stretch_tables(const scene::Scene& scene, const std::vector<s
   }
   for (const std::vector<int>& cluster : clusters) {
     double mean = 0;
-    std::vector<double> ends; // of the light of those that are lit
+    std::vector<double> ends; // the ends of the arms of lit wavelengths
     for (const int w : cluster) {
       mean += s[static_cast<std::size_t>(w)] / static_cast<double>(cluster.size());
       if (!lit[static_cast<std::size_t>(w)]) continue;

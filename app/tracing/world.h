@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene on a device: the tables of scene_tables.h there, and how kernels are run in it.
+// A scene on a device: the tables of scene_tables.h, and how kernels run in it.
 #pragma once
 #include "compute/compute.h"
 #include "mpi/rank_context.h"
@@ -31,7 +31,7 @@ std::uint64_t sky_bytes(const SceneTables& tables);
 std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh,
                                                  const SceneTables& tables);
 
-/// Of the tables those that say where surfaces are; the others stay. Throws failed where the device has not enough
+/// Uploads the tables that say where surfaces are, and leaves the others. Throws failed where the device has not enough
 /// memory.
 void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh,
                      SceneBuffers& buffers);
@@ -61,31 +61,31 @@ struct World {
     kernel.run(global, local, arguments, own);
   }
 
-  /// The same, and waits for it, so that a slice's time is that of its work (slices.h). Slices of several launches
-  /// queue() and wait once.
+  /// Queues a kernel and waits for it, so that a slice's time is that of its work (slices.h). Slices of several
+  /// launches queue() and wait once.
   void run(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own,
            std::initializer_list<compute::Argument> more = {}) {
     queue(kernel, global, local, own, more);
     context.finish();
   }
 
-  /// Photons that one work item follows, one after the other. Several on a CPU, where it pays that an item adds up its
-  /// own sums first.
+  /// How many photons one work item follows, one after the other. A CPU has several, because it pays there that an item
+  /// adds up its own sums first.
   unsigned photons_per_item() const { return context.device().type == "cpu" ? 16 : 1; }
-  /// For a kernel that run_photons runs.
+  /// The defines of a kernel that run_photons runs.
   compute::Defines photon_defines() const {
     compute::Defines result = defines;
     result["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item());
     return result;
   }
-  /// As run, with items for `count` photons, and one at least.
+  /// Does what run does, with items for `count` photons, and at least one.
   void run_photons(compute::Kernel& kernel, std::uint32_t count, std::initializer_list<compute::Argument> own,
                    std::initializer_list<compute::Argument> more = {}) {
     run(kernel, std::max(1u, (count + photons_per_item() - 1) / photons_per_item()), 32, own, more);
   }
 };
 
-/// The scene and tree are copied to the device; they need not outlive the call. defines: of the plan. Throws as upload.
+/// Copies the scene and tree to the device; they need not outlive the call. defines: the plan's. Throws as upload does.
 World make_world(const mpi::RankContext& context, const scene::Scene& scene, const scene::Bvh& bvh,
                  const SceneTables& tables, const compute::Defines& defines, std::uint64_t seed);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of kernels/*.h over arrays, one item each: how `nephroid check` (app/check) and tests hold them against
-// the host. Nothing is computed here that the headers do not compute, but for built_ins, which asks the device's own
-// functions.
+// Runs the functions of kernels/*.h over arrays, one item each, so that `nephroid check` (app/check) and tests hold
+// them against the host. Only built_ins computes something else: it runs the device's own functions.
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/fresnel.h"
 #include "kernels/tracing/media.h"
@@ -14,7 +13,7 @@ enum {
   FUNCTION_DIFFERENCE
 };
 
-// x y - z w as four separate roundings allow: what the signs of bvh.h's edge functions rest on.
+// x y - z w with each operation rounded, on which the signs of bvh.h's edge functions rest.
 static inline float difference_of_products(float4 a) {
 #pragma OPENCL FP_CONTRACT OFF
   const float first = a.x * a.y, second = a.z * a.w;
@@ -76,8 +75,8 @@ kernel void directions(global const float4* in, global float4* out, uint count) 
   out[2 * i + 1] = (float4)(cos_t < 0.0f ? (float3)(0.0f) : refract_through(d, n, cos_i, cos_t, in[i].w), cos_t);
 }
 
-// One walk an item through nested objects. A step k >= 0 enters object k, ~k leaves it. After each: the medium, -1 air,
-// or -2 where the list of media is full.
+// Each item walks through nested objects. A step k >= 0 enters object k, ~k leaves it. mediums: after each step the
+// medium, -1 for air, or -2 where the list of media is full.
 kernel void media_walks(global const DeviceObject* objects, global const int* steps, global int* mediums,
                         int steps_each, uint count) {
   const uint walk = get_global_id(0);
@@ -94,7 +93,7 @@ kernel void media_walks(global const DeviceObject* objects, global const int* st
   }
 }
 
-// in: light, cluster, reflector, attenuator. lengths: what was crossed of the attenuator.
+// in: light, cluster, reflector, attenuator. lengths: the length crossed in the attenuator.
 kernel void attenuated(global const int* first, global const int* wavelengths, global const float* coefficient,
                        global const float4* light_xyz, global const float* reflectance, global const int4* in,
                        global const float* lengths, global float4* out, uint count) {
@@ -110,7 +109,7 @@ kernel void attenuated(global const int* first, global const int* wavelengths, g
   out[i] = attenuated_sum(&tables, &losses, in[i].x, in[i].y, in[i].z);
 }
 
-// Photon i of a light: origin and watts, then direction.
+// out: for photon i of a light origin and watts, then direction.
 kernel void emissions(global const DeviceLight* lights, int light, global const DeviceTarget* targets,
                       DeviceScene scene, uint2 seed, global float4* out, uint count) {
   const uint i = get_global_id(0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exact sums of film.h over arrays, for app/check and tests. NEPHROID_CHECK_HALVES builds them the way a device
-// without 64-bit atomics does.
+// The exact sums of film.h over arrays, for app/check and tests. NEPHROID_CHECK_HALVES builds them as for a device
+// without 64-bit atomics.
 #ifdef NEPHROID_CHECK_HALVES
 #undef NEPHROID_INT64_ATOMICS
 #endif

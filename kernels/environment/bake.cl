@@ -11,27 +11,26 @@
 #ifndef NEPHROID_PHOTONS_PER_ITEM
 #define NEPHROID_PHOTONS_PER_ITEM 1
 #endif
-// Of a map: 3 for linear sRGB, 1 where all wavelengths go the same way and lose alike.
+// A map's channels: 3 for linear sRGB, 1 where all wavelengths go the same way with the same losses.
 #ifndef NEPHROID_CHANNELS
 #define NEPHROID_CHANNELS 3
 #endif
 
 typedef struct {
-  // [sphere][texel][channel], and after a texel's channels power times the way it goes, in parts of STEEPEST: what a
-  // photon adds to lies together.
+  // [sphere][texel]: the texel's channels, then power times the way it goes, over STEEPEST. A photon's sums lie
+  // together.
   volatile __global long* film;
   __global const float* radii; // ascending
-  int count, side;              // of the spheres; of a map
+  int count, side;              // how many spheres; texels across a map
 } Spheres;
 
-// What a photon carries in quanta, by channel.
+// A photon's power in quanta.
 typedef struct {
   long channels[NEPHROID_CHANNELS];
   float power;
 } Carried;
 
-// Power through a sphere at a slant is more light across its way than power straight through: by 1 / cosine, which is
-// held to this.
+// Power that crosses a sphere at a slant is more light across its way, by 1 / cosine, which is held to this.
 #define STEEPEST 8.0f
 
 // way: unit.
@@ -47,8 +46,8 @@ static inline void mark_texel(const Spheres* spheres, int sphere, float3 place, 
   add_exactly(sums + NEPHROID_CHANNELS + 2, convert_long_rte(across.z));
 }
 
-// Marks each crossing of the way from `origin` up to `distance` along the unit vector `direction`. The way is nearest
-// to the middle at `foot`, and a sphere of radius r is crossed sqrt(r^2 - foot^2) before and after that.
+// Marks the spheres that a way of length `distance` from `origin` along the unit vector `direction` crosses. The way is
+// nearest to the middle at `foot`, and crosses a sphere of radius r sqrt(r^2 - foot^2) before and after that.
 static inline void mark_spheres(const Spheres* spheres, float3 origin, float3 direction, float distance,
                                 const Carried* carried) {
   const float to_foot = -dot(origin, direction);
@@ -64,12 +63,12 @@ static inline void mark_spheres(const Spheres* spheres, float3 origin, float3 di
   }
 }
 
-// What is left of the path's power, 0..1.
+// The part of the path's power that is left, 0..1.
 static inline float left_of(const World* world, const Path* path, const Band* band) {
   return wavelength_left(&world->tables, &path->losses, band->wavelength < 0 ? 0 : band->wavelength);
 }
 
-// light_rgb: [401] what a wavelength of white light is in linear sRGB; all of them together are (1, 1, 1).
+// light_rgb: [401] each wavelength of white light in linear sRGB; their sum is (1, 1, 1).
 static inline Carried carried_by(__global const float4* light_rgb, const Band* band, float power) {
   Carried carried;
   carried.power = power;
@@ -84,8 +83,8 @@ static inline Carried carried_by(__global const float4* light_rgb, const Band* b
   return carried;
 }
 
-// Photons first .. first + count - 1 of a direction, whose number is its stream of random numbers. scale: quanta a
-// watt. energy counts the power, not its colour.
+// Sends photons first .. first + count - 1 of a direction, whose number keys its random numbers. scale: quanta a watt.
+// energy: sums of power, without colour.
 __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const float4* light_rgb,
                    __global const float* radii, volatile __global long* film,
                    volatile __global long* energy, // [OUTCOME_COUNT]
@@ -113,8 +112,8 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
     for (int surface_number = 0; surface_number <= scene.max_surfaces; ++surface_number) {
       const Hit hit = next_hit(&world, &path);
       const bool leaves = hit.primitive == NEPHROID_NO_PRIMITIVE;
-      // What meets nothing more is outside, also of a mesh with a hole that it came in by its surface and out by the
-      // hole.
+      // A photon that meets nothing more is outside, even of an open mesh that it entered by the surface and left by
+      // the hole.
       if (met && (leaves || is_in_air(&path.media))) {
         const Carried carried = carried_by(light_rgb, &band, power * left_of(&world, &path, &band));
         mark_spheres(&spheres, path.origin, path.direction, leaves ? INFINITY : hit.t, &carried);

@@ -25,8 +25,8 @@ __kernel void cast(__global const ushort* stored, __global const ushort* ways, _
   vstore3(caustic, (size_t)texel, caustics);
 }
 
-// Light in the air, all sets in one (Algorithm 3.5): compiled_air in spheres.h. Of all texels of all spheres in their
-// stored form, whose maps have side x side texels. object_x, y, z: the object's axes in the scene.
+// Adds up the light in the air of all sets (Algorithm 3.5), for compiled_air in spheres.h, in all stored texels of all
+// spheres. side: texels across the maps. object_x, y, z: the object's axes in the scene.
 __kernel void compile_air(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of,
                           __global const float* radii, __global const DeviceEightSets* sets, int eights,
                           DeviceSpheres spheres, float4 object_x, float4 object_y, float4 object_z, int side,

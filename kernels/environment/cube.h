@@ -28,7 +28,7 @@ static inline CubePoint cube_point(float3 d) {
   return p;
 }
 
-// Not of unit length.
+// The result is not of unit length.
 static inline float3 cube_direction(int face, float s, float t) {
   switch (face) {
   case 0: return (float3)(1.0f, -t, -s);
@@ -40,7 +40,7 @@ static inline float3 cube_direction(int face, float s, float t) {
   }
 }
 
-// Unit, of a texel's middle.
+// The unit direction of a texel's middle.
 static inline float3 cube_texel_direction(uint texel, int size) {
   const uint face_texels = (uint)(size * size), face = texel / face_texels, rest = texel % face_texels;
   const float s = (2.0f * (float)(rest % (uint)size) + 1.0f) / (float)size - 1.0f;
@@ -56,8 +56,7 @@ static inline uint cube_texel(float3 direction, int size) {
   return (uint)((p.face * size + y) * size + x);
 }
 
-// The four texels about a direction with their bilinear weights. Beyond the border of a face its outermost texels go
-// on.
+// The four texels about a direction with their bilinear weights. A face's outermost texels continue beyond its border.
 typedef struct {
   uint texels[4];
   float weights[4];

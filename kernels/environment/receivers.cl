@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands around the caustic object: how far it is from the object's middle to the first surface, in the texels of
-// a cube that some path from the eye needs; and that surface's unit normal, on the side that the middle is on. The tree
-// is that of the scene without the object.
+// What stands around the caustic object: the distance from the object's middle to the first surface, in texels of a
+// cube that some path from the eye needs, and that surface's unit normal on the middle's side. The tree is that of the
+// scene without the object.
 #include "kernels/environment/cube.h"
 #include "kernels/tracing/world.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the pixels' paths end: at a diffuse surface or at the environment, straight or through glass and mirrors. What
-// light is there is shade.cl's: while only light changes, ends stay.
+// Where the pixels' paths end: at a diffuse surface or at the environment, straight or through glass and mirrors.
+// shade.cl adds the light there. While only light changes, ends stay.
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
 #include "kernels/tracing/camera.h"
@@ -12,8 +12,8 @@ static inline DeviceEnd nowhere(void) {
   return end;
 }
 
-// Where a path ends. first: what it meets next, where that is known. weight: linear sRGB. likelier: of reflection and
-// refraction on its way.
+// Traces a path to its end. first: its next hit, where known. weight: linear sRGB. likelier: the path takes the
+// likelier of reflection and refraction.
 static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, bool known, const Band* band,
                                float3 weight, uint2 seed, uint sample, uint pixel, bool likelier) {
   DeviceEnd end = nowhere();
@@ -36,25 +36,25 @@ static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, 
   return end;
 }
 
-// The receiver's texels that shade.cl will look at.
+// Marks the receivers' texels that shade.cl will read.
 static inline void want(const DeviceEnd* end, float4 middle, int size, __global int* states) {
   if (end->throughput.w != (float)END_SURFACE) return;
   const CubeTexels four = cube_texels(end->place.xyz - middle.xyz, size);
   for (int i = 0; i < 4; ++i)
     if (states[four.texels[i]] == RECEIVER_UNSEEN)
-      states[four.texels[i]] = RECEIVER_WANTED; // others may write the same
+      states[four.texels[i]] = RECEIVER_WANTED; // other items may write the same
 }
 
-// How much of the light glass reflects where a path has met it: from the directions before and after. n_ratio: of
-// indices, near over far.
+// The part of light that glass reflects, from a path's directions before and after. n_ratio: index of refraction, near
+// over far.
 static inline float reflected_share(float3 direction, float3 reflected, float n_ratio) {
   const float3 normal = normalize(reflected - direction);
   const float cos_i = -dot(direction, normal), cos_t = refracted_cosine(cos_i, n_ratio);
   return cos_t < 0.0f ? 1.0f : fresnel_reflectance(cos_i, cos_t, n_ratio, 1.0f);
 }
 
-// The band of a path that is for one channel of the picture: a wavelength that is drawn by how much of white light of
-// that channel it is. channel_cdf: [channel][401].
+// The band of a path for one channel of the picture: a wavelength drawn by its share of white light in that channel.
+// channel_cdf: [channel][401].
 static inline Band band_of_channel(__global const float* channel_cdf, int channel, float u) {
 #if NEPHROID_JITTER
   const Band band = {0, choose(channel_cdf + channel * WAVELENGTH_COUNT, WAVELENGTH_COUNT, u), 1.0f};
@@ -64,8 +64,8 @@ static inline Band band_of_channel(__global const float* channel_cdf, int channe
 #endif
 }
 
-// Takes a path from the eye on from the glass or mirror that it meets first, where it is reflected or goes through.
-// weight: linear sRGB of the channel. False where there is no such way.
+// Continues a path from the eye at the glass or mirror that it meets first. reflected: whether it is reflected or goes
+// through. weight: linear sRGB of the channel. False where there is no such way.
 static inline bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, int channel,
                               bool reflected, float3* weight) {
   const Surface surface = surface_at(&world->geometry, *hit);
@@ -76,7 +76,7 @@ static inline bool first_bend(const World* world, Path* path, const Hit* hit, co
   float n_through = 1.0f, n_reflected = 1.0f;
   const bool goes_on = bend_path(world, path, hit->primitive, &surface, &material, band, 1.0f, &n_through);
   const bool reflects = bend_path(world, &other, hit->primitive, &surface, &material, band, 0.0f, &n_reflected);
-  // A mirror, total reflection and glass that does not bend have one way on.
+  // A mirror, total reflection and glass that does not bend leave one way.
   const bool two_ways = dot(path->direction, surface.geometric) * dot(other.direction, surface.geometric) < 0.0f;
   const float share = two_ways ? reflected_share(direction, other.direction, n_through) : 0.0f;
   if (reflected) {
@@ -89,10 +89,10 @@ static inline bool first_bend(const World* world, Path* path, const Hit* hit, co
   return goes_on;
 }
 
-// Paths for each square of block x block pixels, first .. first + count - 1 counted row after row; ends: ENDS_OF_PIXEL
-// for each. A pixel that first sees glass follows both what it reflects and what it lets through; that in three colours
-// where glass parts them. In a coarse picture, of larger squares, paths take the likelier way at the surfaces after
-// that: one that did not would stand out as a square.
+// Traces the paths of blocks first .. first + count - 1 of block x block pixels, row after row. ends: ENDS_OF_PIXEL for
+// each. A pixel that first sees glass follows both reflection and the way through, this one in three colours where
+// glass parts them. In a coarse picture, of larger blocks, paths take the likelier way at later surfaces, because one
+// that did not would stand out as a block.
 __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global DeviceEnd* ends, __global int* states,
                   int size, float4 middle, DeviceCamera camera, uint2 seed, uint pass, int block, uint first,
                   uint count) {
@@ -112,7 +112,7 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
   SET_ASIDE float3 outwards = path.direction;
   SET_ASIDE float u = coarse ? 0.5f : golden_place(seed, pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
   for (int i = 0; i < ENDS_OF_PIXEL; ++i) {
-    // All colours are reflected alike, nearly as much, so one of them is followed: the last end is its.
+    // All colours are reflected the same way and nearly as much, so one of them is followed. It has the last end.
     const int channel = i < ENDS_OF_PIXEL - 1 ? i : (ENDS_OF_PIXEL - 1) / 2;
     Band band = whole_cluster(0);
     Path way = path_from_eye(&camera, outwards);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light the pixels' paths bring from their ends (see.cl): the environment itself; on a surface its direct light
-// and that of lamps, and caustics from the cube of receivers.
+// The light that the pixels' paths bring from their ends (see.cl): the environment itself; on a surface direct light of
+// the environment and lamps, and caustics from the cube of receivers.
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
 #include "kernels/tracing/background.h"
@@ -18,20 +18,20 @@
 // Direct light without noise: the environment lights surfaces by its smooth part, with shadows of a few lights.
 #define LAYER_SMOOTH 3
 
-// A part of the expected distance, and of a texel's width, by which a receiver's distance may differ from what it
-// should be were the surface flat there.
+// How much a receiver's distance may differ from a flat surface's, as a part of that, and of a texel's width.
 #define DISTANCE_TOLERANCE 0.02f
 
 typedef struct {
   float4 middle;
-  int size; // of the cube's faces, in texels
+  int size; // texels along an edge of the cube's faces
   __global const float* distances;
   __global const float* caustics;   // E r^2 on the surface: [texel][3]
-  __global const float* parts_seen; // of the environment's light: [texel][3]
+  __global const float* parts_seen; // parts of the environment's light: [texel][3]
 } Receivers;
 
-// Irradiance on a surface by the caustics: linear sRGB, 0 where something else hides it from the object. *seen: of the
-// environment's light, 1 there. Of the four texels about it those count that see the same surface.
+// The caustics' irradiance on a surface in linear sRGB, and in *seen the part of the environment's light that it gets.
+// They are 0 and 1 where something hides it from the object. Of the four texels about it, those that see the same
+// surface count.
 static inline float3 caustic_irradiance(const Receivers* receivers, const DeviceEnd* end, float3* seen) {
   *seen = (float3)(1.0f);
   const float3 way = end->place.xyz - receivers->middle.xyz;
@@ -56,7 +56,7 @@ static inline float3 caustic_irradiance(const Receivers* receivers, const Device
   return sum / (weights * distance * distance);
 }
 
-// Irradiance of the environment on a surface with the normal n, without shadows: the polynomial of
+// The environment's irradiance on a surface with the normal n, without shadows: the polynomial of
 // app/environment/segment/irradiance.h. polynomial: factors of 1, x, y, z, xx, yy, zz, xy, yz, zx.
 static inline float3 smooth_irradiance(__global const float4* polynomial, float3 n) {
   __global const float4* p = polynomial;
@@ -65,15 +65,15 @@ static inline float3 smooth_irradiance(__global const float4* polynomial, float3
   return max(sum.xyz, 0.0f);
 }
 
-// Linear sRGB that a reflector sends back of light of a colour. reflected_rgb: [reflector][primary].
+// What a reflector sends back of light of a colour, linear sRGB. reflected_rgb: [reflector][primary].
 static inline float3 reflected_colour(__global const float4* reflected_rgb, int reflector, float3 rgb) {
   __global const float4* of = reflected_rgb + 3 * reflector;
   return rgb.x * of[0].xyz + rgb.y * of[1].xyz + rgb.z * of[2].xyz;
 }
 
-// Radiance of a surface by what reaches it unbent, linear sRGB; *smooth: of the layer smooth. seen: which part of the
-// environment's light is for that. lit_rgb: [row of the lights' tables][reflector]. sequence: of the numbers that
-// places in the environment are drawn by, of which a pass takes one.
+// The radiance of a surface by light that reaches it unbent, linear sRGB. *smooth: the same for the layer smooth, with
+// the part `seen` of the environment's light. lit_rgb: [row of the lights' tables][reflector]. sequence: which numbers
+// draw places in the environment; a pass takes one.
 static inline float3 direct_radiance(const World* world, const DeviceEnd* end, __global const float4* lit_rgb,
                                      __global const float4* reflected_rgb, __global const float4* irradiance,
                                      float power_unit, uint2 seed, uint pass, uint sequence, float3 seen,
@@ -86,7 +86,7 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
   surface.geometric = end->geometric.xyz;
   surface.shading = end->shading.xyz;
   Path path;
-  path.direction = -surface.geometric; // all that is asked of the path is on which side it arrives
+  path.direction = -surface.geometric; // only the side that the path arrives on is read
   float3 sampled = (float3)(0.0f), sum = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {
     __global const float4* row = lit_rgb + l * world->scene.reflector_count + reflector;
@@ -108,7 +108,7 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
   return NEPHROID_COARSE ? *smooth : sampled / PI_F;
 }
 
-// Adds to the sums of the pixels of each square, or begins them anew. sums: [layer][pixel][3].
+// Adds to the sums of each block's pixels, or begins them anew. sums: [layer][pixel][3].
 __kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global const float* texels,
                     DeviceBackground texels_size, float radiance, __global const float4* lit_rgb,
                     __global const float4* reflected_rgb, __global const float4* irradiance, float power_unit,

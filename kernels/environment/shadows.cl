@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which part of the environment's light reaches what stands around the caustic object, in texels of the cube of
-// receivers: each of the few lights that it is cut into is seen or hidden. The tree is that of the whole scene: light
-// that the object bends is its caustic's.
+// The part of the environment's light that reaches what stands around the caustic object, in texels of the cube of
+// receivers. Each of the few lights that it is cut into is seen or hidden. The tree is that of the whole scene, because
+// light that the object bends belongs to its caustic.
 #include "kernels/environment/cube.h"
 #include "kernels/tracing/world.h"
 
-// How far off a receiver its shadow rays begin, as a part of its distance: beyond the rounding of both.
+// The offset of shadow rays from a receiver, as a part of its distance: beyond the rounding of both.
 #define OFF_RECEIVER 1e-4f
 
-// list: texels. facing: as receivers.cl has them. sky_lights: of each the unit direction to it, then its flux, linear
+// list: texels. facing: from receivers.cl. sky_lights: for each light the unit direction to it, then its flux in linear
 // sRGB. parts_seen: [texel][3].
 __kernel void shadows(WORLD_ARGUMENTS, __global const uint* list, uint first, uint count, int size, float4 middle,
                       __global const float* distances, __global const float4* facing, __global const float4* sky_lights,
@@ -21,7 +21,7 @@ __kernel void shadows(WORLD_ARGUMENTS, __global const uint* list, uint first, ui
   if (!(distance < INFINITY)) return;
   const float3 normal = facing[texel].xyz,
                from = middle.xyz + distance * (cube_texel_direction(texel, size) + OFF_RECEIVER * normal);
-  float3 all = (float3)(FLT_MIN), seen = all; // of the dark all is seen
+  float3 all = (float3)(FLT_MIN), seen = all; // not 0, so that the dark is seen in full
   for (int l = 0; l < light_count; ++l) {
     const float3 direction = sky_lights[2 * l].xyz,
                  irradiance = fmax(dot(normal, direction), 0.0f) * sky_lights[2 * l + 1].xyz;

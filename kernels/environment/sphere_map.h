@@ -6,7 +6,7 @@
 
 #include "kernels/tracing/light.h"
 
-// The texel, row after row, of a map of side x side texels, of a direction of any length but 0.
+// The texel of a direction, row after row, in a map of side x side texels. direction: any length but 0.
 static inline int sphere_texel(float3 direction, int side) {
   const float3 d = fabs(direction) / length(direction);
   // sqrt(1 - |z|) without its cancellation near the poles.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks up caustic spheres: E r^2 in a direction from the object's middle at a distance, between spheres and between
-// texels. E r^2 goes on unchanged beyond the largest sphere, where light has left the object's neighbourhood and thins
-// out by the inverse square.
+// Looks up caustic spheres: E r^2 in a direction and at a distance from the object's middle, interpolated between
+// spheres and between texels. Beyond the largest sphere E r^2 stays, because light that has left the object thins out
+// by the inverse square.
 #ifndef NEPHROID_SPHERES_H
 #define NEPHROID_SPHERES_H
 
@@ -12,7 +12,7 @@
 #define NEPHROID_CHANNELS 3
 #endif
 
-// Between which spheres a distance lies: `part` of the way from sphere `lower` to `upper`.
+// The spheres that a distance lies between: `part` of the way from sphere `lower` to `upper`.
 typedef struct {
   int lower, upper;
   float part;
@@ -27,17 +27,17 @@ static inline Shell shell_at(__global const float* radii, int count, float dista
   return shell;
 }
 
-// Nearer to the middle than the smallest sphere E stays as it is there: what light does inside is not known, and r^2
-// goes to 0.
+// The factor of E r^2 within the smallest sphere. E stays that of the sphere, because light inside is not known, and
+// r^2 goes to 0.
 static inline float held(__global const float* radii, float distance) {
   const float part = fmin(distance / radii[0], 1.0f);
   return part * part;
 }
 
-// Where a unit vector is in a sphere's map, in texels from the middle of the border's outermost texel: rounded down
-// these are the column and the row of the first of the four texels about it, what is left is how far it is to the
-// others. atan(t) / (pi / 2) is a polynomial within 1e-5 (Abramowitz and Stegun 4.4.49), a hundredth of a texel; atan2
-// itself would take a third of all time. REAL: float, or float8 for eight vectors at once.
+// The place of a unit vector in a sphere's map, in texels from the middle of the border's outermost texel. Its whole
+// part is the column and the row of the first of the four texels about it, its fraction the weight of the others.
+// atan(t) / (pi / 2) is a polynomial within 1e-5 (Abramowitz and Stegun 4.4.49), a hundredth of a texel; atan2 would
+// take a third of all time. REAL: float, or float8 for eight vectors at once.
 #define DEFINE_STORED_PLACE(NAME, REAL)                                                                                \
   static inline void NAME(REAL x, REAL y, REAL z, float side, REAL* column, REAL* row)                                 \
   {                                                                                                                    \
@@ -53,8 +53,8 @@ static inline float held(__global const float* radii, float distance) {
   }
 DEFINE_STORED_PLACE(stored_place, float)
 
-// The texel of a map of side x side that a texel of its stored form shows, whose border has what is over the edge:
-// there the square goes on at the same edge, from its other end.
+// The texel of a map of side x side that a texel of its stored form repeats. The stored form's border has what is over
+// the edge: there the square goes on at the same edge, from its other end.
 static inline int texel_of_stored(int stored, int side) {
   const int stride = side + 2, last = side - 1, column = stored % stride - 1, row = stored / stride - 1;
   const bool across = column < 0 || column > last, down = row < 0 || row > last;
@@ -62,18 +62,18 @@ static inline int texel_of_stored(int stored, int side) {
   return (across ? last - y : y) * side + (down ? last - x : x);
 }
 
-// What the kernels look up. Maps are in their stored form, direction after direction. Numbers are stored as the upper
-// halves of floats: nine bits are more than the photons' noise leaves, and no device takes long over them.
+// Maps in their stored form, direction after direction. Numbers are stored as the upper 16 bits of floats. Their nine
+// bits are more than the photons' noise leaves certain, and every device reads them fast.
 typedef struct {
   __global const ushort* stored; // [map][texel][channel]
-  __global const ushort* ways;   // [map][texel], numbers of way_of
+  __global const ushort* ways;   // [map][texel]: indices into way_of
   __global const float4* way_of; // unit vectors
 } Maps;
 
-// Light that crosses a sphere at more of a slant is held to that.
+// The least cosine between a sphere's normal and its light's way that counts.
 #define LEAST_COSINE 0.125f
 
-// The texels about a place of a map in its stored form, whose middles it lies between.
+// The texels of a map in its stored form that a place lies between.
 typedef struct {
   size_t texels[4];
   float weights[4];
@@ -105,7 +105,7 @@ static inline float3 stored_between(__global const ushort* map, const FourTexels
   return sum;
 }
 
-// Of one set's spheres, in their stored form.
+// E r^2 of one set in stored units.
 static inline float3 stored_between_spheres(__global const ushort* set, const DeviceSpheres* spheres,
                                             const FourTexels* four, Shell shell) {
   const size_t map_items = NEPHROID_CHANNELS * (size_t)((spheres->side + 2) * (spheres->side + 2));
@@ -113,7 +113,7 @@ static inline float3 stored_between_spheres(__global const ushort* set, const De
   return lower + shell.part * (stored_between(set + (size_t)shell.upper * map_items, four) - lower);
 }
 
-// Of set k of eight.
+// Row `row` of the rotation of set k of eight.
 static inline float3 row_of_set(__global const DeviceEightSets* eight, int k, int row) {
   return (float3)(eight->to_bake[3 * row][k], eight->to_bake[3 * row + 1][k], eight->to_bake[3 * row + 2][k]);
 }
@@ -125,14 +125,14 @@ static inline float3 flux_of_set(__global const DeviceEightSets* eight, int k) {
   return (float3)(eight->flux[0][k], eight->flux[1][k], eight->flux[2][k]);
 }
 
-// What a set has in a unit direction of the scene, in the set's coordinates.
+// The light of a set in a unit direction of the scene, in the set's coordinates.
 typedef struct {
   float3 outwards; // the direction
-  float3 way;      // that the light goes in the nearest texel
-  float3 stored;   // between spheres and between texels
+  float3 way;      // the light's way in the nearest texel
+  float3 stored;   // E r^2 in stored units, interpolated
 } SetLight;
 
-// Of set k of eight.
+// The light of set k of eight.
 static inline SetLight light_of_set(const Maps* maps, const DeviceSpheres* spheres,
                                     __global const DeviceEightSets* eight, int k, float3 direction, Shell shell) {
   SetLight light;
@@ -147,8 +147,8 @@ static inline SetLight light_of_set(const Maps* maps, const DeviceSpheres* spher
 
 #ifdef NEPHROID_GPU
 // E r^2 of all sets, linear sRGB, on a surface that lies in a unit direction from the middle and has a unit normal on
-// the object's side. beyond: 0 up to the largest sphere, towards 1 far from it (spheres_eight.h). One set after the
-// other: eight side by side need more registers than there are.
+// the object's side. beyond: 0 up to the largest sphere, towards 1 far from it (spheres_eight.h). It takes one set
+// after the other, because eight side by side need more registers than there are.
 static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* spheres,
                                      __global const DeviceEightSets* sets, int eights, float3 direction, Shell shell,
                                      float beyond, float3 normal) {
@@ -167,16 +167,15 @@ static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* sphe
 #include "kernels/environment/spheres_eight.h"
 #endif
 
-// Light in the air at a place: of each set E r^2 across the way that its light goes there, instead of through the
-// sphere.
+// Light in the air at a place: the sum over sets of E r^2 across the way of the light, not through the sphere.
 typedef struct {
   float3 rgb; // linear sRGB
-  float3 way; // the mean way in the scene, weighted by luminance: shorter than that where light goes several ways
+  float3 way; // sum of ways in the scene times luminance; shorter than rgb's luminance where light goes several ways
 } AirLight;
 
 static inline float luminance_of(float3 rgb) { return dot(rgb, (float3)(0.2126f, 0.7152f, 0.0722f)); }
 
-// What set k of eight adds, in a unit direction of the scene.
+// Adds the light of set k of eight in a unit direction of the scene.
 static inline void add_air(AirLight* sum, const Maps* maps, const DeviceSpheres* spheres,
                            __global const DeviceEightSets* eight, int k, float3 direction, Shell shell) {
   const SetLight light = light_of_set(maps, spheres, eight, k, direction, shell);
@@ -188,7 +187,7 @@ static inline void add_air(AirLight* sum, const Maps* maps, const DeviceSpheres*
               (way.x * row_of_set(eight, k, 0) + way.y * row_of_set(eight, k, 1) + way.z * row_of_set(eight, k, 2));
 }
 
-// What compile_air has made of all sets: [sphere][texel of the stored form][6], in coordinates of the object.
+// Looks up what compile_air made of all sets: [sphere][stored texel][6], in the object's coordinates.
 static inline AirLight compiled_air(__global const float* air, const DeviceSpheres* spheres, float3 in_object,
                                     Shell shell) {
   const FourTexels four = four_texels(in_object, spheres->side);

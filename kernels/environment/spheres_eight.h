@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// caustic_of_sets of spheres.h for a CPU: eight sets side by side, as its vectors do best.
+// caustic_of_sets of spheres.h for a CPU: eight sets side by side, in its vectors.
 #ifndef NEPHROID_SPHERES_EIGHT_H
 #define NEPHROID_SPHERES_EIGHT_H
 
 DEFINE_STORED_PLACE(eight_stored_places, float8)
 
-// Two stored numbers that follow each other are read at once, the first in the lower half.
+// Reads two consecutive stored numbers at once, the first into the lower half.
 #define EIGHT_PAIRS(at, offset)                                                                                        \
   (uint8)(as_uint(vload2(0, at[0] + (offset))), as_uint(vload2(0, at[1] + (offset))),                                  \
           as_uint(vload2(0, at[2] + (offset))), as_uint(vload2(0, at[3] + (offset))),                                  \
@@ -19,7 +19,7 @@ typedef struct {
   float8 channels[NEPHROID_CHANNELS];
 } EightCaustics;
 
-// Between two texels that are beside each other, `offset` numbers after each of eight places.
+// Interpolates between two neighbouring texels, `offset` numbers after each of eight places.
 static inline EightCaustics between_columns(__global const ushort* const* at, size_t offset, float8 u) {
   EightCaustics caustics;
 #if NEPHROID_CHANNELS == 1
@@ -51,10 +51,10 @@ static inline float8 row_of_eight(__global const DeviceEightSets* eight, int row
          vload8(3 * row + 2, eight->to_bake[0]) * direction.z;
 }
 
-// Eight times E on a surface over E on the sphere, which faces the middle. x, y, z and normal_x, y, z: the way from the
-// middle and the surface's normal as each set has them. texels: of the maps. The light goes the way that it has in the
-// nearest texel. beyond: 0 up to the largest sphere, towards 1 far from it, where all light seems to come from the
-// middle; the factor goes from the way's to the middle's with it.
+// For eight sets, E on a surface over E on the sphere, which faces the middle. x, y, z and normal_x, y, z: the
+// direction from the middle and the surface's normal, in each set's coordinates. texels: the nearest texels of the
+// maps, which have the way of the light. beyond: 0 up to the largest sphere, towards 1 far from it, where all light
+// seems to come from the middle. It mixes the factor by the light's way with that by the direction from the middle.
 static inline float8 eight_factors(const Maps* maps, __global const DeviceEightSets* eight, size_t map, int8 texels,
                                    float8 x, float8 y, float8 z, float8 normal_x, float8 normal_y, float8 normal_z,
                                    float beyond) {
@@ -75,7 +75,7 @@ static inline float8 eight_factors(const Maps* maps, __global const DeviceEightS
 }
 
 // E r^2 of all sets, linear sRGB, on a surface that lies in a unit direction from the middle and has a unit normal on
-// the object's side. beyond: of eight_factors.
+// the object's side. beyond: as in eight_factors.
 static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* spheres,
                                      __global const DeviceEightSets* sets, int eights, float3 direction, Shell shell,
                                      float beyond, float3 normal) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Algorithm 3.4 of the thesis: which of the environment's directions are seen from points of the object.
+// Visibility of the environment's directions from points of the object (Algorithm 3.4 of the thesis).
 #include "kernels/tracing/world.h"
 
-// directions: unit, of the map before it is turned. points: a power of 2 of them. Neighbouring cells of a light are
-// looked at from points that are far from each other: an odd step near the golden ratio of 1024 meets each point once.
-// turned_x, turned_z: where that takes +x and +z; +y stays.
+// directions: unit, in the map before it is turned. points: their number is a power of 2. Neighbouring cells of a light
+// are tested from points that are far apart: an odd step near the golden ratio of 1024 meets each point once. turned_x,
+// turned_z: where the turn takes +x and +z; +y stays.
 __kernel void visible(WORLD_ARGUMENTS, __global const float4* directions, __global uchar* seen, uint count,
                       __global const float4* points, uint last_point, float4 turned_x, float4 turned_z) {
   const uint i = (uint)get_global_id(0);

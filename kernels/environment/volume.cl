@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Caustics in the air: light that the object sends out and that a thin medium scatters once, towards the eye (thesis
-// 3.2.1). Each path from the eye is walked in steps up to the first surface that it meets, within the largest caustic
-// sphere. What the medium takes of a step's light on the way to the eye is lost; surfaces and the environment keep
-// theirs.
+// 3.2.1). Each path from the eye is walked in steps up to its first surface, within the largest caustic sphere. The
+// medium dims a step's light on its way to the eye, but not the light of surfaces and the environment.
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 #include "kernels/tracing/camera.h"
@@ -10,17 +9,17 @@
 
 #define VOLUME_STEPS 128
 
-// Part of the light that is scattered into a steradian, by the cosine between the mean way before and the way after.
-// together: the length of the mean of unit ways, 1 where all are the same. Ways that lie about their mean as Henyey and
-// Greenstein's do make the first moment of the phase function smaller by that, and the second by its square.
+// The part of scattered light in a steradian, by the cosine between the mean way before and the way after. together:
+// the length of the mean of unit ways, 1 where all are the same. For ways that are spread about their mean as Henyey
+// and Greenstein's, the first moment of the phase function is smaller by that factor, the second by its square.
 static inline float phase_function(float cosine, float together, int rayleigh, float g) {
   if (rayleigh) return 1.0f / (4.0f * PI_F) * (1.0f + together * together * (0.75f * cosine * cosine - 0.25f));
   const float mean = together * g, base = 1.0f + mean * mean - 2.0f * mean * cosine; // Henyey and Greenstein 1941
   return (1.0f - mean * mean) / (4.0f * PI_F * base * sqrt(base));
 }
 
-// Of each square of block x block pixels. distances: of the whole cube of receivers. extinction: 1 / unit. sums:
-// [pixel][3].
+// Adds the light of each block of block x block pixels. distances: the whole cube of receivers'. extinction: 1 / unit.
+// sums: [pixel][3].
 __kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const float* radii, DeviceSpheres spheres,
                      float4 object_x, float4 object_y, float4 object_z, __global const float* distances, int size,
                      float4 middle, DeviceCamera camera, float extinction, float albedo, int rayleigh, float anisotropy,
@@ -37,7 +36,7 @@ __kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const 
   Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter));
   const Hit hit = next_hit(&world, &path);
 
-  // Where the path is within the largest sphere.
+  // The part of the path within the largest sphere.
   const float3 from_middle = path.origin - middle.xyz;
   const float largest = radii[spheres.count - 1], foot = -dot(from_middle, path.direction);
   const float3 nearest = from_middle + foot * path.direction;

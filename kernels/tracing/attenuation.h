@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a path loses on its way, wavelength by wavelength: Beer-Lambert absorption exp(-a s) in glass, a = 4 pi k /
-// lambda in 1/m and s in metres, and a mirror's reflectance as exp(-a s) with a = -ln(reflectance) and s the number of
-// reflections. A path carries the s of each. Where no material of the scene takes light away, NEPHROID_ATTENUATORS is 0
-// and all of this compiles to nothing.
+// The losses of a path, wavelength by wavelength: Beer-Lambert absorption exp(-a s) in glass, with a = 4 pi k / lambda
+// in 1/m and s in metres, and a mirror's reflectance as exp(-a s) with a = -ln(reflectance) and s the number of
+// reflections. A path carries the s of each. Where no material of the scene has losses, NEPHROID_ATTENUATORS is 0 and
+// all of this compiles to nothing.
 #ifndef NEPHROID_ATTENUATION_H
 #define NEPHROID_ATTENUATION_H
 
@@ -33,7 +33,7 @@ static inline Losses no_losses(void) {
   return losses;
 }
 
-// attenuator: a row of the table, or -1 for what takes nothing away. length: metres of glass, or 1 for a reflection.
+// attenuator: a row of the table, or -1 for a material without losses. length: metres of glass, or 1 for a reflection.
 static inline void lose(Losses* losses, int attenuator, float length) {
 #if NEPHROID_ATTENUATORS > 0
   if (attenuator < 0) return;
@@ -46,7 +46,7 @@ static inline void lose(Losses* losses, int attenuator, float length) {
 #endif
 }
 
-// What is left of one wavelength: exp(-a s).
+// The part of one wavelength that is left: exp(-a s).
 static inline float wavelength_left(const SpectralTables* tables, const Losses* losses, int wavelength) {
 #if NEPHROID_ATTENUATORS > 0
   if (!losses->any) return 1.0f;
@@ -59,8 +59,8 @@ static inline float wavelength_left(const SpectralTables* tables, const Losses* 
 #endif
 }
 
-// Sum over the cluster's wavelengths of light * what is left * reflectance (reflector -1: 1): xyz; w: without (xbar,
-// ybar, zbar) and reflectance, so the share of the light's power that is left.
+// xyz: the sum over the cluster's wavelengths of light * part left * reflectance (1 for reflector -1) * (xbar, ybar,
+// zbar). w: the sum of light * part left, which is the share of the light's power that is left.
 static inline float4 attenuated_sum(const SpectralTables* tables, const Losses* losses, int light, int cluster,
                                     int reflector) {
   float4 sum = (float4)(0.0f);

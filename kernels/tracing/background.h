@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment as a latitude-longitude picture at infinity: its colour in a direction, and what the eye makes of one
-// wavelength of it. The picture knows colours; glass bends and absorbs wavelengths. So a colour stands for a spectrum:
-// the sum of fixed spectra of the three sRGB primaries (app/optics/colour.h).
+// The environment as a latitude-longitude picture at infinity: its colour in a direction, and that colour's XYZ at one
+// wavelength. The picture has colours, but glass bends and absorbs wavelengths. So a colour stands for a spectrum, the
+// sum of the fixed spectra of the three sRGB primaries (app/optics/colour.h).
 #ifndef NEPHROID_BACKGROUND_H
 #define NEPHROID_BACKGROUND_H
 
@@ -18,11 +18,11 @@ static inline float3 texel_at(const Background* b, int row, int column) {
   return vload3((size_t)row * (size_t)b->size.width + (size_t)column, b->texels);
 }
 
-// Linear sRGB in a direction. Bilinear between the middles of texels; columns go on around, the first and the last row
-// are held.
+// Linear sRGB in a direction, bilinear between the middles of texels. Columns go on around; the first and the last row
+// are repeated beyond the picture.
 static inline float3 background_rgb(const Background* b, float3 direction) {
-  // From the middle of the picture, -z, to its right, +x. What is turned about +y to the left is looked up farther to
-  // the right.
+  // The azimuth goes from the middle of the picture, -z, to its right, +x. A map that is turned to the left about +y is
+  // looked up farther to the right.
   const float azimuth = atan2(direction.x, -direction.z) / (2.0f * PI_F) + 0.5f + b->size.turns;
   const float zenith = atan2(sqrt(direction.x * direction.x + direction.z * direction.z), direction.y) / PI_F;
   const float x = (azimuth - floor(azimuth)) * (float)b->size.width - 0.5f;
@@ -31,14 +31,14 @@ static inline float3 background_rgb(const Background* b, float3 direction) {
   const int column = left < 0.0f ? b->size.width - 1 : min((int)left, b->size.width - 1);
   const int next_column = column + 1 < b->size.width ? column + 1 : 0;
   const int row = (int)top, next_row = min(row + 1, b->size.height - 1);
-  // a + t (b - a) is exact where a and b are the same.
+  // a + t (b - a) is exact where a and b are equal.
   const float3 a = texel_at(b, row, column), c = texel_at(b, next_row, column);
   const float3 upper = a + right_part * (texel_at(b, row, next_column) - a),
                lower = c + right_part * (texel_at(b, next_row, next_column) - c);
   return upper + lower_part * (lower - upper);
 }
 
-// XYZ that one wavelength of a colour's spectrum has in it; wavelength WAVELENGTH_COUNT: all of them.
+// The XYZ of one wavelength of a colour's spectrum. wavelength: WAVELENGTH_COUNT for all of them.
 static inline float3 background_xyz(const Background* b, float3 rgb, int wavelength) {
   __global const float4* primary = b->primary_xyz + 3 * wavelength;
   return rgb.x * primary[0].xyz + rgb.y * primary[1].xyz + rgb.z * primary[2].xyz;

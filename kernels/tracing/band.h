@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which wavelengths a path stands for: a whole cluster, at the cluster's mean index of refraction (thesis 4.1), or with
-// NEPHROID_JITTER one wavelength of it, drawn for each path (with photon maps few for a pass: pass_band.h), that speaks
-// for all. The first is biased, the second is not.
+// The wavelengths of a path: a whole cluster, at the cluster's mean index of refraction (thesis 4.1), which is biased.
+// Or with NEPHROID_JITTER one wavelength that stands for its cluster, which is not. It is drawn for each path; with
+// photon maps a few are drawn for a pass (pass_band.h).
 #ifndef NEPHROID_BAND_H
 #define NEPHROID_BAND_H
 
@@ -15,7 +15,7 @@
 typedef struct {
   int cluster;    // -1: all wavelengths, which go the same way where nothing is bent
   int wavelength; // 0..400; -1: the whole cluster
-  float weight;   // of a single wavelength: 1 / its probability in the cluster
+  float weight;   // for a single wavelength: 1 / its probability in the cluster
 } Band;
 
 static inline Band whole_cluster(int cluster) {

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Closest and any hit of a ray with triangles and ellipsoids in a bounding volume hierarchy of 8 children a node
-// (app/scene/bvh.cpp builds it). One ray a work item; the 8 boxes of a node and the 4 triangles of a block are tested
-// at once, as float8 and float4.
+// (app/scene/bvh.cpp builds it). A work item has one ray. The 8 boxes of a node and the 4 triangles of a block are
+// tested at once, as float8 and float4.
 //
 // Node, 64 floats: for each axis 8 lower, then 8 upper bounds (48 floats), then 8 children as ints, then 8 unused.
-//   A child >= 0 is a node; < 0 is a leaf: ~child = first block << 4 | blocks of ellipsoids << 2 | blocks of triangles,
-// which come
-//   first. A missing child has an empty box.
+//   A child >= 0 is a node. A child < 0 is a leaf: ~child = first block << 4 | blocks of ellipsoids << 2 | blocks of
+//   triangles, which come first. A missing child has an empty box.
 // Block of triangles, 40 floats: x, y, z of the first vertex of 4 triangles, of the second, of the third (36 floats),
-// then 4 triangle ids
-//   as ints. A missing triangle has its three vertices in one point.
-// Block of ellipsoids, 40 floats: 3 of 13 floats, its centre, the rows of the matrix that takes a way from there to the
-// unit sphere, and
-//   the primitive's id as an int; NEPHROID_NO_PRIMITIVE: a missing one.
+//   then 4 triangle ids as ints. A missing triangle has its three vertices in one point.
+// Block of ellipsoids, 40 floats: 3 of 13 floats, which are its centre, the rows of the matrix that takes a vector from
+//   there to the unit sphere, and the primitive's id as an int; NEPHROID_NO_PRIMITIVE: a missing one.
 //
-// What is exact. A vertex is moved into the ray's space by the same operations for every triangle it belongs to, and
-// the sign of an edge function is never wrong, only sometimes zero, and zero counts as inside: a ray cannot pass
+// What is exact. A vertex is moved into the ray's space by the same operations for every triangle that it belongs to.
+// The sign of an edge function is never wrong, only sometimes zero, and zero counts as inside. So a ray cannot pass
 // between two triangles that share an edge (Woop, Benthin and Wald 2013, "Watertight ray/triangle intersection"). Boxes
-// are grown by more than every rounding error of the tests, so the tree loses no primitive. Of hits at the same
-// distance the lowest primitive id wins: the answer depends on the mesh and the ray alone, not on how the tree was
+// are grown by more than every rounding error of the tests, so the tree loses no primitive. Among hits at the same
+// distance the lowest primitive id wins, so the answer depends on the mesh and the ray alone, not on how the tree was
 // built.
 #ifndef NEPHROID_BVH_H
 #define NEPHROID_BVH_H
@@ -28,7 +25,7 @@
 #define NEPHROID_BVH_STACK 96
 #endif
 
-// 0: there are triangles only.
+// 0: all primitives are triangles.
 #ifndef NEPHROID_ELLIPSOIDS
 #define NEPHROID_ELLIPSOIDS 1
 #endif
@@ -51,14 +48,14 @@ typedef struct {
   float t;        // distance in lengths of the direction; the t_max given where nothing was hit
   float u, v; // barycentric: the point is (1 - u - v) v0 + u v1 + v v2; of an ellipsoid: of its point (u, v, w) on the
               // unit sphere
-  uint primitive; // of a triangle, or counted on from their number of an ellipsoid, or NEPHROID_NO_PRIMITIVE
+  uint primitive; // number of the triangle; ellipsoids count on from the triangles; or NEPHROID_NO_PRIMITIVE
 #if NEPHROID_ELLIPSOIDS
   float w;
 #endif
 } Hit;
 
-// Bit i: lane i of a vector comparison is true. One instruction on x86 processors, 15 % of a traversal's time;
-// NEPHROID_BVH_PORTABLE leaves that out, for tests of what other devices run.
+// A mask: bit i is set where lane i of a vector comparison is true. On x86 processors it is one instruction, which
+// saves 15 % of a traversal's time. NEPHROID_BVH_PORTABLE leaves that out, to test what other devices run.
 #if defined(NEPHROID_CPU) && defined(__AVX__) && defined(__has_builtin) && !defined(NEPHROID_BVH_PORTABLE)
 #if __has_builtin(__builtin_ia32_movmskps256) && __has_builtin(__builtin_ia32_movmskps)
 #define BVH_MOVEMASK
@@ -82,12 +79,13 @@ static inline int bvh_mask4(int4 m) {
 #endif
 static inline int bvh_lowest_bit(int mask) { return 31 - clz(mask & -mask); }
 
-// Of numbers or vectors that may be infinite, as an empty box and the t_max of a ray without an end are: there min and
-// max are undefined (OpenCL 1.2, 6.12.4). fmin and fmax are not, but also care for NaN, which costs 20 to 40 % here.
+// The minimum and maximum of numbers or vectors that may be infinite, as an empty box and the t_max of an endless ray
+// are. min and max are undefined there (OpenCL 1.2, 6.12.4). fmin and fmax also handle NaN, which costs 20 to 40 %
+// here.
 #define BVH_MIN(a, b) ((a) < (b) ? (a) : (b))
 #define BVH_MAX(a, b) ((a) > (b) ? (a) : (b))
 
-// A ray as both tests want it.
+// A ray as the tests of boxes and primitives read it.
 typedef struct {
   float3 inverse;             // 1 / direction, finite
   float3 near, far;           // origin / direction, rounded so that boxes only ever grow
@@ -100,15 +98,15 @@ typedef struct {
 #endif
 } BvhRay;
 
-// The components of a along the axes kx, ky, kz, which follow each other. Not by index, for which a GPU would put the
-// vector into memory.
+// The components of a along the consecutive axes kx, ky, kz. They are not read by index, because a GPU would put the
+// vector into memory for that.
 static inline float3 bvh_axes(float3 a, int kz) { return kz == 0 ? a.yzx : kz == 1 ? a.zxy : a; }
 
-// Where a ray from afar passes the scene's middle, at which small objects are: writes its nearest point to the middle
-// and returns how far that is, in lengths of the direction; 0: the ray does not come from afar. Rounding errors, and
-// with them the slack of bvh_ray, grow with the origin's distance: boxes of an object smaller than 2^-20 of it would
-// all overlap, and the ray would test every triangle. One fused multiply-add is exact to rounding of its small result,
-// so the point lies on the line as exactly as single precision can say.
+// Finds where a ray from afar passes the scene's middle, where small objects are. Writes its point nearest to the
+// middle and returns how far that is, in lengths of the direction; 0: the ray does not come from afar. Rounding errors,
+// and with them the slack of bvh_ray, grow with the origin's distance: boxes of an object smaller than 2^-20 of it
+// would all overlap, and the ray would test every triangle. One fused multiply-add rounds only its small result, so the
+// point lies on the line as exactly as single precision allows.
 static inline float bvh_approach(float3 o, float3 d, float3* nearest) {
   const float way = -dot(o, d) / dot(d, d);
   *nearest = fma((float3)(way), d, o);
@@ -122,8 +120,8 @@ static inline float bvh_inverse(float d) { return 1.0f / copysign(BVH_MAX(fabs(d
 static inline BvhRay bvh_ray(float3 o, float3 d) {
   BvhRay r;
   r.inverse = (float3)(bvh_inverse(d.x), bvh_inverse(d.y), bvh_inverse(d.z));
-  // Growing every box by `slack` covers the rounding of this test and of the triangle test, as far as they come from
-  // the origin; what comes from the triangles' own coordinates is in the tree's boxes already.
+  // Growing every box by `slack` covers the rounding of this test and of the triangle test that comes from the origin.
+  // Rounding that comes from the triangles' own coordinates is in the tree's boxes already.
   const float slack = 0x1p-20f * BVH_MAX(BVH_MAX(fabs(o.x), fabs(o.y)), fabs(o.z));
   const float3 grow = fabs(r.inverse) * slack;
   r.near = o * r.inverse + grow;
@@ -164,7 +162,7 @@ static inline int bvh_boxes(global const float* node, const BvhRay* r, float t_m
   return bvh_mask8(first <= last);
 }
 
-// One block of 4 triangles. Returns the mask of those hit within (t_min, t_max], with distance and barycentrics.
+// Tests a block of 4 triangles. Returns the mask of those hit within (t_min, t_max], with distance and barycentrics.
 static inline int bvh_triangles(global const float* block, const BvhRay* r, float t_min, float t_max, float4* t,
                                 float4* u, float4* v) {
 // A fused multiply-add would round one of the two products of an edge function and not the other, and its sign could be
@@ -190,17 +188,17 @@ static inline int bvh_triangles(global const float* block, const BvhRay* r, floa
 }
 
 #if NEPHROID_ELLIPSOIDS
-// What takes a way from the centre to the unit sphere.
+// Takes a vector from the ellipsoid's centre to the unit sphere's space.
 static inline float3 bvh_to_unit_sphere(global const float* ellipsoid, float3 way) {
   return (float3)(dot(vload3(1, ellipsoid), way), dot(vload3(2, ellipsoid), way), dot(vload3(3, ellipsoid), way));
 }
 
-// An ellipsoid: true where it is hit within (t_min, t_max]; *unit becomes the place on the unit sphere. The ray is cut
-// at its point nearest to the centre first, so that neither the origin's distance nor a small half chord costs
+// Tests an ellipsoid: true where it is hit within (t_min, t_max]; *unit becomes the place on the unit sphere. The ray
+// is cut at its point nearest to the centre first, so that neither the origin's distance nor a small half chord costs
 // precision (Haines, Günther and Akenine-Möller 2019, "Precision improvements for ray/sphere intersection"): with l the
 // nearest point of the line to the unit sphere's centre and e the direction there, |l + s e| = 1 at s = +-sqrt((1 -
-// l^2) / e^2). leaves: the ray starts on it, so one of its two hits is that; the other lies ahead where the middle
-// between them does.
+// l^2) / e^2). leaves: the ray starts on the ellipsoid, so one of its two hits is the start. The other lies ahead where
+// the middle between them does.
 static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r, float t_min, float t_max, bool leaves,
                                  float* t, float3* unit) {
   const float3 from_centre = r->origin - vload3(0, ellipsoid);
@@ -208,7 +206,7 @@ static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r,
   const float3 nearest = bvh_to_unit_sphere(ellipsoid, fma((float3)(way), r->direction, from_centre));
   const float3 e = bvh_to_unit_sphere(ellipsoid, r->direction);
   const float inverse = 1.0f / dot(e, e);
-  const float rest = -dot(nearest, e) * inverse; // 0 in a sphere
+  const float rest = -dot(nearest, e) * inverse; // 0 for a sphere
   const float3 l = fma((float3)(rest), e, nearest);
   const float left = 1.0f - dot(l, l);
   if (!(left > 0.0f)) return false;
@@ -224,8 +222,8 @@ static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r,
 #if NEPHROID_BVH_SCALAR
 #include "kernels/tracing/bvh_scalar.h"
 #else
-// The closest hit with t_min < t <= t_max, other than with triangle `skip` or where the ray leaves ellipsoid `skip`. No
-// hit: t is t_max.
+// The closest hit with t_min < t <= t_max, without triangle `skip` and the place where the ray leaves ellipsoid `skip`.
+// No hit: t is t_max.
 static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min,
                               float t_max, uint skip) {
   Hit hit = {t_max, 0.0f, 0.0f, NEPHROID_NO_PRIMITIVE};
@@ -245,7 +243,7 @@ static inline Hit bvh_closest(global const float* nodes, global const float* blo
       mask &= mask - 1;
       at = children[child];
       if (mask == 0) continue;
-      // Go on with the nearest; the others wait, the farthest at the bottom.
+      // The traversal goes on with the nearest child. The others wait, the farthest at the bottom.
       float entries[8];
       vstore8(entry, 0, entries);
       float nearest = entries[child];
@@ -325,7 +323,7 @@ static inline Hit bvh_closest(global const float* nodes, global const float* blo
 #endif
 }
 
-// Whether anything other than what bvh_closest skips is hit with t_min < t <= t_max.
+// Whether anything is hit with t_min < t <= t_max; skips what bvh_closest skips.
 static inline bool bvh_any(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min,
                            float t_max, uint skip) {
 #if BVH_LEAF_ONLY
@@ -374,10 +372,9 @@ static inline bool bvh_any(global const float* nodes, global const float* blocks
 #define BVH_FIRST_PART 0.75f
 #define BVH_SECOND_PART 0.5f
 
-// The closest hit with t_min < t <= t_max, other than with `skip`, the triangle or ellipsoid that the ray leaves
-// (NEPHROID_NO_PRIMITIVE: none); an ellipsoid is met again on its far side.
-// The direction need not be of unit length, but neither zero nor smaller than 1e-15. t_min may be negative: a ray from
-// afar is known more exactly by a point of it near what it is sent to.
+// The closest hit with t_min < t <= t_max. skip: the triangle or ellipsoid that the ray leaves, or
+// NEPHROID_NO_PRIMITIVE; an ellipsoid is met again on its far side. The direction need not be of unit length, but must
+// not be shorter than 1e-15. t_min may be negative, because a point near its goal defines a ray from afar more exactly.
 static inline Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin,
                               float3 direction, float t_min, float t_max, uint skip) {
   float3 nearest;
@@ -396,7 +393,7 @@ static inline Hit closest_hit(global const float* nodes, global const float* blo
   }
 }
 
-// Whether anything other than `skip`, as above, is hit with 0 < t <= t_max.
+// Whether anything but `skip` (as in closest_hit) is hit with 0 < t <= t_max.
 static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin,
                            float3 direction, float t_max, uint skip) {
   float3 nearest;

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The traversal of bvh.h for devices whose work items have no vectors: one box and one triangle at a time, with few
-// registers. A level of the tree that waits is a node and which of its children are still to be looked at, 5 bytes; of
-// those the nearest is found anew each time, against the distance of the closest hit so far. Bit for bit the same hits.
+// registers. A level of the tree that waits is a node and the mask of its children still to be visited, 5 bytes. The
+// nearest is found anew each time, within the closest hit so far. Hits are the same bit for bit.
 #ifndef NEPHROID_BVH_SCALAR_H
 #define NEPHROID_BVH_SCALAR_H
 
-// Levels of the tree that may wait: at least Bvh::depth.
+// The levels of the tree that may wait: at least Bvh::depth.
 #ifndef NEPHROID_BVH_DEPTH
 #define NEPHROID_BVH_DEPTH 96
 #endif
 
-// Of the children `left` of a node, as a mask, the nearest whose box the ray meets within [t_min, t]; -1: none. That
-// child, and those that are missed, are taken from `left`.
+// The nearest child in the mask `left` whose box the ray meets within [t_min, t]; -1: none. Removes it and missed ones.
 static inline int bvh_nearest(global const float* node, const BvhRay* r, float t_min, float t, int* left) {
   int nearest = -1;
   float nearest_entry = INFINITY;
@@ -35,7 +34,7 @@ static inline int bvh_nearest(global const float* node, const BvhRay* r, float t
   return nearest;
 }
 
-// bvh_triangles of the triangle at `corner`, a lane of a block.
+// bvh_triangles for one triangle; corner: its lane of a block.
 static inline bool bvh_triangle(global const float* corner, const BvhRay* r, float t_min, float t_max, float* t,
                                 float* u, float* v) {
 #pragma OPENCL FP_CONTRACT OFF
@@ -56,7 +55,7 @@ static inline bool bvh_triangle(global const float* corner, const BvhRay* r, flo
   return *t > t_min && *t <= t_max;
 }
 
-// What of a leaf is hit before `hit` becomes it.
+// Replaces `hit` by a nearer hit in a leaf, if there is one.
 static inline void bvh_leaf(global const float* blocks, int leaf, const BvhRay* ray, float t_min, uint skip, Hit* hit) {
   const int first = ~leaf >> 4, triangles = 4 * (~leaf & 3);
   for (int i = 0; i < triangles; ++i) {
@@ -88,7 +87,7 @@ static inline void bvh_leaf(global const float* blocks, int leaf, const BvhRay* 
 #endif
 }
 
-// Of a traversal that stops at any hit: the first that it finds.
+// any: the traversal stops at the first hit that it finds.
 static inline Hit bvh_hit(global const float* nodes, global const float* blocks, int root, const BvhRay* ray,
                           float t_min, float t_max, uint skip, bool any) {
   Hit hit = {t_max, 0.0f, 0.0f, NEPHROID_NO_PRIMITIVE};

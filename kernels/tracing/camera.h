@@ -14,16 +14,16 @@ static inline float3 primary_direction(const DeviceCamera* camera, int column, i
                    (y * camera->tan_y) * camera->up.xyz);
 }
 
-// A number in [0, 1) for path `path` of `paths` in a frame: steps of the golden ratio, so that those of a pixel spread
-// evenly. Even and odd frames each have a start of their own and count by themselves: they are independent, as the
-// film's two halves have to be.
+// A number in [0, 1) for path `path` of `paths` in a frame: steps of the golden ratio, so that a pixel's numbers spread
+// evenly. Even and odd frames have starts and counts of their own, so that they are independent, as the film's two
+// halves must be.
 static inline float golden_place(uint2 seed, uint frame, uint path, uint paths, uint pixel, uint stream) {
   const uint half_of_frames = frame & 1u, step = (frame >> 1) * paths + path;
   const uint start = philox4x32((uint4)(pixel, half_of_frames, 0u, stream), seed).x;
   return (float)((start + step * 2654435769u) >> 8) * 0x1p-24f;
 }
 
-// Which cluster a path takes. cdf: [cluster + 1], the first 0.
+// The cluster of a path. cdf: [cluster + 1], the first 0.
 static inline int choose_cluster(__global const float* cdf, int count, uint2 seed, uint frame, uint path, uint paths,
                                  uint pixel, uint stream) {
   return choose(cdf + 1, count, golden_place(seed, frame, path, paths, pixel, stream));

@@ -3,10 +3,10 @@
 // surface as ray differentials are (Igehy 1999, "Tracing ray differentials"), with the wavelength in the place of the
 // pixel (Elek et al. 2014, "Spectral ray differentials").
 //
-// They are taken with respect to one parameter s of the wavelength (app/tracing/wavelength_tables.h): a prime is d/ds
-// below, and n' = dn/ds of every material is given. With s the wavelength in nm a path moves by P' a nanometre; with s
-// the index n itself, by P' a unit of n. Emission does not depend on the wavelength, so every path starts with P' = 0
-// and D' = 0. Which surfaces a path meets, and whether it is reflected there, is held fixed.
+// They are taken with respect to one parameter s of the wavelength (app/tracing/wavelength_tables.h). A prime is d/ds,
+// and n' = dn/ds of every material is given. Where s is the wavelength in nm, a path moves by P' a nanometre; where s
+// is the index n itself, by P' a unit of n. Emission does not depend on the wavelength, so every path starts with P' =
+// 0 and D' = 0. The surfaces that a path meets, and whether they reflect it, are held fixed.
 #ifndef NEPHROID_DIFFERENTIAL_H
 #define NEPHROID_DIFFERENTIAL_H
 
@@ -53,8 +53,8 @@ static inline float3 refracted_differential(float3 direction, float3 d_direction
 // N' of the interpolated normal N = m / |m|, m = n_0 + u (n_1 - n_0) + v (n_2 - n_0), as its place moves by P' in the
 // triangle:
 //   P' = u' e_1 + v' e_2 gives u' and v', m' = u' (n_1 - n_0) + v' (n_2 - n_0), and N' = (m' - (m'.N) N) / |m|.
-// Of an ellipsoid N = g / |g| with g = M^T M (P - centre), so g' = M^T M P' and N' = (g' - (g'.N) N) / |g|: P' / R in a
-// sphere. position: on the primitive. The normal is the one that points outwards.
+// An ellipsoid has N = g / |g| with g = M^T M (P - centre), so g' = M^T M P' and N' = (g' - (g'.N) N) / |g|, which is
+// P' / R for a sphere. position: on the primitive. The normal points outwards.
 static inline float3 normal_differential(const DevicePrimitive* primitive, float3 position, float3 d_position) {
 #if NEPHROID_ELLIPSOIDS
   if (is_ellipsoid(primitive)) {
@@ -77,15 +77,15 @@ static inline float3 normal_differential(const DevicePrimitive* primitive, float
   return (d_mixed - dot(d_mixed, normal) * normal) / size;
 }
 
-// To a surface that the path's way meets at `distance`.
+// Carries the derivatives to a surface that the path meets at `distance`.
 static inline void differential_to_surface(Differential* d, float3 direction, float distance, const Surface* surface) {
 #if NEPHROID_DIFFERENTIALS
   d->position = transferred(d, direction, distance, surface->geometric);
 #endif
 }
 
-// Across a bend at that surface. direction: before it; n_i, n_t and their n': before and after an interface, all the
-// same at a mirror.
+// Carries them across a bend at that surface. direction: before the bend. n_i, n_t and their n': before and after an
+// interface, equal at a mirror.
 static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint primitive,
                                              const Surface* surface, float3 direction, const Bend* bend, float n_i,
                                              float n_t, float d_n_i, float d_n_t) {

@@ -10,8 +10,8 @@
 
 typedef struct {
   float3 origin, direction; // the photon flies along origin + t direction, t > -behind
-  float behind;             // the light is this far behind the origin, which lies beside a small target: see aim
-  float watts; // of the light's whole spectrum that this photon carries, times the number of photons; 0: not emitted
+  float behind;             // the light is this far behind the origin, which may lie at a small target: see aim
+  float watts; // power of the whole spectrum that this photon carries, times the number of photons; 0: not emitted
 } Emission;
 
 // Two vectors that make an orthonormal frame with the unit vector n (Duff et al. 2017).
@@ -33,8 +33,8 @@ static inline float3 cosine_direction(float3 n, float u, float v) {
   return normalize(x * (radius * cosine_phi) + y * (radius * sine_phi) + n * sqrt(1.0f - u));
 }
 
-// Uniform in the cone about axis with 1 - cos(half angle) = one_minus_cos, which stays exact for far and small targets:
-// the direction's part along the axis is 1 - *below, and *aside is the rest of it.
+// A direction uniform in the cone about axis with 1 - cos(half angle) = one_minus_cos, which stays exact for far and
+// small targets. Its part along the axis is 1 - *below, and *aside is the rest.
 static inline float3 sample_cone(float3 axis, float one_minus_cos, float u, float v, float* below, float3* aside) {
   float3 x, y;
   make_frame(axis, &x, &y);
@@ -46,7 +46,7 @@ static inline float3 sample_cone(float3 axis, float one_minus_cos, float u, floa
   return normalize(*aside + axis * (1.0f - *below));
 }
 
-// 1 - cos of the half angle under which a sphere is seen from a point; 2 from inside.
+// 1 - cos of a sphere's half angle as seen from a point; 2 from inside.
 static inline float one_minus_cos_of(float4 sphere, float3 from) {
   const float3 way = sphere.xyz - from;
   const float distance2 = dot(way, way), radius2 = sphere.w * sphere.w;
@@ -69,7 +69,7 @@ static inline bool meets_sphere(float4 sphere, float3 from, const Emission* phot
 // back to the light.
 static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 random, Emission* photon) {
   const float3 way = centre - from;
-  const float distance2 = dot(way, way); // 0 in the very middle of a target, where any axis will do
+  const float distance2 = dot(way, way); // 0 in the middle of a target, where any axis will do
   const float3 axis = distance2 > 0.0f ? normalize(way) : (float3)(0.0f, 0.0f, 1.0f);
   float below;
   float3 aside;
@@ -81,7 +81,7 @@ static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 r
   photon->origin = centre + photon->behind * aside;
 }
 
-// A photon from a point towards the targets: its line is written to *photon. Returns 1 / density in steradians.
+// Sends a photon from a point towards the targets: writes its line to *photon. Returns 1 / density in steradians.
 static inline float sample_targets(__global const DeviceTarget* targets, int target_count, float3 from, float4 random,
                                    Emission* photon) {
   float one_minus_cos[MAX_TARGETS];
@@ -167,8 +167,8 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
   return emission;
 }
 
-// targets: the whole table, of which a light has its own list. Of the environment: as source_of (world.h) has turned it
-// for one photon.
+// targets: the whole table, in which a light has its own list. light: the environment as source_of (world.h) turns it
+// into a light for one photon.
 static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
                             float4 random, float2 place) {
   targets += light->first_target;

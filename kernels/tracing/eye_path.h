@@ -13,9 +13,10 @@
 // or a mirror takes this many paths a sample.
 #define PATHS_THROUGH_GLASS 4u
 
-// Irradiance in W m^-2 that a light of the whole spectrum gives a surface point, without shadows; the way to it and how
-// far: I cos(theta) / d^2 with the intensity I = P / (4 pi) of a point, P / (its cone's solid angle) of a spot, and P
-// cos(theta') / pi of an area light, of which one place stands for all; E cos(theta) of directional light.
+// The irradiance in W m^-2 that a light's whole spectrum gives a surface point, without shadows, and the way to the
+// light. It is I cos(theta) / d^2, with the intensity I = P / (4 pi) of a point, P / (its cone's solid angle) of a
+// spot, and P cos(theta') / pi of an area light, where one place stands for all. It is E cos(theta) for directional
+// light.
 typedef struct {
   float irradiance;
   float3 direction;
@@ -44,8 +45,8 @@ static inline Arrival arrive_from(const DeviceLight* light, float3 position, flo
   return arrival;
 }
 
-// The four numbers of sample `sample` of an area light or the environment at a pixel, which takes `paths` of them a
-// frame. Those of one half of the film follow a sequence; the halves are independent. Sets 0 and 1 of a sequence are of
+// The four numbers of sample `sample` of an area light or the environment at a pixel. A pass takes `paths` samples. The
+// samples of one half of the film follow a sequence; the halves are independent. Sets 0 and 1 of a sequence belong to
 // photons.
 static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sample, uint paths, uint pixel) {
 #if NEPHROID_LOW_DISCREPANCY
@@ -56,8 +57,7 @@ static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sa
 #endif
 }
 
-// Irradiance that a light sends unbent to the side of a surface that a path arrives at; 0 where something is in its
-// way.
+// The irradiance of a light's unbent light on the side of a surface that a path arrives at; 0 where something hides it.
 static inline float irradiance_of(const World* world, int light_index, const Path* path, const Surface* surface,
                                   uint triangle, uint2 seed, uint sample, uint paths, uint pixel) {
   const DeviceLight light = world->lights[light_index];
@@ -71,8 +71,8 @@ static inline float irradiance_of(const World* world, int light_index, const Pat
   return is_blocked(world, from, arrival.direction, arrival.distance, triangle) ? 0.0f : arrival.irradiance;
 }
 
-// Four numbers for sample `sample` of a pixel, which takes `paths` of them a frame: of a sequence, as light_numbers; or
-// plain ones, where paths is 0. block: which four.
+// Four numbers for sample `sample` of a pixel. They come from a sequence as in light_numbers, with `paths` samples a
+// pass, or are plain random numbers where paths is 0. block: which four.
 static inline float4 eye_numbers(uint2 seed, uint sample, uint paths, uint pixel, uint block, uint stream) {
 #if NEPHROID_LOW_DISCREPANCY
   if (paths > 0u) {
@@ -83,10 +83,10 @@ static inline float4 eye_numbers(uint2 seed, uint sample, uint paths, uint pixel
   return random4(seed, sample, pixel, block, stream);
 }
 
-// What the environment sends unbent to the side of a surface that a path arrives at, as irradiance times Source::rgb.
-// Two shadow rays, one drawn by the map's peaks and one by the cosine, weighted by the balance heuristic (Veach 1997,
-// 9.2.2): each radiance * cosine over the sum of both densities. The first finds a sun, the second is exact where the
-// sky is even; without peaks it is the only one.
+// The irradiance times Source::rgb of the environment's unbent light on the side of a surface that a path arrives at.
+// It takes two shadow rays, one drawn by the map's peaks and one by the cosine, weighted by the balance heuristic
+// (Veach 1997, 9.2.2): each adds radiance * cosine over the sum of both densities. The first finds a sun, the second is
+// exact where the sky is even. Without peaks it is the only one.
 static inline float3 sky_irradiance(const World* world, int light_index, const Path* path, const Surface* surface,
                                     uint triangle, uint2 seed, uint sample, uint paths, uint pixel) {
   const DeviceLight light = world->lights[light_index];
@@ -107,17 +107,17 @@ static inline float3 sky_irradiance(const World* world, int light_index, const P
   return light.radiometric * sum;
 }
 
-// Whether a path from the eye has met a diffuse surface at once: then all wavelengths went the same way.
+// Whether a path from the eye met a diffuse surface at once, so that all wavelengths went the same way.
 static inline bool is_unbent(const World* world, const DeviceCamera* camera, const Hit* first) {
   const int object = object_of_primitive(&world->geometry, first->primitive);
   return material_of(world, object).type == MATERIAL_DIFFUSE && is_in_air(&camera->inside);
 }
 
-// Takes a path on through glass and mirrors in one band to a diffuse surface or out of the scene. known: `hit` is what
-// it meets next. `hit` and, of a diffuse surface, `surface` become those of its end. Returns by what the radiance there
-// has to be multiplied, 0 where the path is lost: radiance over n^2 is what a path keeps (Nicodemus 1963, "Radiance").
-// stream: of the numbers that choose between reflection and refraction. likelier: the path takes the likelier of the
-// two everywhere, for a preview without noise.
+// Continues a path through glass and mirrors in one band to a diffuse surface or out of the scene. known: `hit` is its
+// next hit. `hit` and, at a diffuse surface, `surface` become those of its end. Returns the factor of the radiance
+// there, 0 where the path is lost: a path keeps radiance over n^2 (Nicodemus 1963, "Radiance"). stream: for the numbers
+// that choose between reflection and refraction. likelier: the path takes the likelier of the two everywhere, for a
+// preview without noise.
 IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool known, const Band* band, uint2 seed,
                          uint sample, uint paths, uint pixel, uint stream, bool likelier, Surface* surface) {
   float radiance_scale = 1.0f;
@@ -141,7 +141,7 @@ IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool k
   return 0.0f;
 }
 
-// The same to a diffuse surface only: 0 where the path leaves the scene.
+// trace_to_diffuse to a diffuse surface only: 0 where the path leaves the scene.
 IN_PLACE float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample,
                              uint paths, uint pixel, uint stream, Surface* surface) {
   const float radiance_scale =

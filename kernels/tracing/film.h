@@ -4,8 +4,8 @@
 #ifndef NEPHROID_FILM_H
 #define NEPHROID_FILM_H
 
-// A film has one image or, for an estimate of its error, two independent halves: [half][pixel][3]. Passes take
-// turns; where photons are splatted, the rounds of passes do, of which `pass` is then the number.
+// A film has one image or, for an estimate of its error, two independent halves: [half][pixel][3]. Iterations, which
+// are passes or batches of splatted photons, take turns.
 #ifndef NEPHROID_FILM_HALVES
 #define NEPHROID_FILM_HALVES 2
 #endif
@@ -13,8 +13,8 @@
 // One contribution may be at most 2^42 quanta: 2^20 of the largest still fit below 2^63.
 #define FILM_LIMIT 0x1p42f
 
-// The largest that the sample of that number may have, of which a pixel takes `enough` with a limit of their own and
-// any number more.
+// The limit of a contribution by the sample of that number. A pixel's first `enough` samples have `limit`; any further
+// ones have FILM_LIMIT too.
 static inline float limit_of_sample(uint number, uint enough, float limit) {
   return number < enough ? limit : fmin(limit, FILM_LIMIT);
 }
@@ -23,8 +23,8 @@ static inline float limit_of_sample(uint number, uint enough, float limit) {
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
 static inline void add_exactly(volatile __global long* sum, long value) { atom_add(sum, value); }
 #else
-// Two 32-bit halves with carry: adding modulo 2^64 is associative, so once all have added, the bits are those of the
-// sum.
+// Adds two 32-bit halves with carry. Adding modulo 2^64 is associative, so once all have added, the bits are those of
+// the sum.
 static inline void add_exactly(volatile __global long* sum, long value) {
   volatile __global uint* half_sum = (volatile __global uint*)sum;
   const uint low = (uint)value, before = atomic_add(half_sum, low);
@@ -34,14 +34,14 @@ static inline void add_exactly(volatile __global long* sum, long value) {
 }
 #endif
 
-// The image that a pass adds to.
+// The image that an iteration adds to.
 static inline volatile __global long* film_of_iteration(volatile __global long* film, uint iteration, int pixels) {
   return film + 3 * (size_t)pixels * (iteration % NEPHROID_FILM_HALVES);
 }
 
-// Adds xyz * scale to a pixel. dither: uniform in [0, 1); then a contribution of q quanta, however small, adds q in the
-// mean, where rounding to the nearest would lose all below a half. Returns false, and adds nothing, where that is not
-// finite or above `limit` quanta.
+// Adds xyz * scale to a pixel. dither: uniform in [0, 1). With it a contribution of q quanta, however small, adds q in
+// the mean, where rounding to the nearest would lose all below a half. Returns false, and adds nothing, for a
+// contribution that is not finite or above `limit` quanta.
 static inline bool film_add_dithered(volatile __global long* film, int pixel, float3 xyz, float scale, float limit,
                                      float dither) {
   const float3 quanta = xyz * scale;

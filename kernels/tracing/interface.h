@@ -12,10 +12,10 @@
 #define NEPHROID_BENDING 1
 #endif
 
-// media: where the path is. n_of: index of refraction by material, for the path's cluster.
-// choice: uniform in [0, 1), picks reflection with Fresnel's probability. Updates `media` where the path goes through.
-// *n_ratio: n on the near side over n on the far side, 1 for a reflected path.
-// Returns false where more than MEDIA_DEPTH media would enclose the path.
+// media: those that enclose the path; updated where it goes through. n_of: index of refraction by material, for the
+// path's cluster. choice: uniform in [0, 1), picks reflection with Fresnel's probability. *n_ratio: n on the near side
+// over n on the far side, 1 for a reflected path. Returns false where more than MEDIA_DEPTH media would enclose the
+// path.
 static inline bool cross_interface(Media* media, const Surface* surface, __global const DeviceObject* objects,
                                    __global const float* n_of, float3 direction, float choice, Bend* bend,
                                    float* n_ratio) {
@@ -39,7 +39,7 @@ static inline bool cross_interface(Media* media, const Surface* surface, __globa
 #else
   const bool bends = false;
 #endif
-  if (!bends) { // nothing changes here: one medium hides the other, or both are the same
+  if (!bends) { // nothing changes: one medium hides the other, or both are the same
     bend->direction = direction;
     bend->transmitted = bend->straight = true;
   } else

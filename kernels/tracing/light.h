@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both sides of light transport, emission and direct light, ask of a light.
+// Properties of a light that both emission and direct light need.
 #ifndef NEPHROID_LIGHT_H
 #define NEPHROID_LIGHT_H
 
@@ -7,8 +7,8 @@
 
 #define PI_F 3.14159265358979f
 
-// Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing, and no question is
-// asked where there is one type only.
+// Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing, and with one type
+// there is no test at all.
 #ifndef NEPHROID_LIGHT_TYPES
 #define NEPHROID_LIGHT_TYPES 31
 #endif
@@ -17,10 +17,10 @@ static inline bool is_light(const DeviceLight* light, int type) {
   return (NEPHROID_LIGHT_TYPES >> type & 1) != 0 && (NEPHROID_LIGHT_TYPES == 1 << type || light->type == type);
 }
 
-// The light that a path carries of a lamp or of a texel of the environment.
+// The light that a path carries from a lamp or from a texel of the environment.
 typedef struct {
-  int light;  // in the table
-  float3 rgb; // environment: how much of each primary's spectrum a photon's power stands for; else unused
+  int light;  // index into the table
+  float3 rgb; // environment: how much of each primary's spectrum a photon's power carries; else unused
 } Source;
 
 // Whether a unit direction away from a spot lies in its cone. |d - axis|^2 / 2 = 1 - cos keeps narrow cones exact.
@@ -29,7 +29,7 @@ static inline bool in_spot(const DeviceLight* light, float3 direction) {
   return 0.5f * dot(aside, aside) <= light->one_minus_cos;
 }
 
-// Whether a photon begins at a place of its own: on a rectangle, or in the environment.
+// Whether photons begin at different places: on a rectangle, or in the environment.
 static inline bool has_places(const DeviceLight* light) {
   return is_light(light, LIGHT_AREA) || is_light(light, LIGHT_ENVIRONMENT);
 }

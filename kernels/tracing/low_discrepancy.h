@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Low-discrepancy numbers: a Sobol sequence of four dimensions, scrambled as Owen (1995) has it by hashing (Burley
-// 2020, "Practical hash-based Owen scrambling"). Each number on its own is uniform in [0, 1); sequences with another
-// key are independent.
+// 2020, "Practical hash-based Owen scrambling"). Each number on its own is uniform in [0, 1); sequences with different
+// keys are independent.
 #ifndef NEPHROID_LOW_DISCREPANCY_H
 #define NEPHROID_LOW_DISCREPANCY_H
 
@@ -42,7 +42,7 @@ static inline uint reverse_bits(uint x) {
 }
 
 // A random permutation in which every bit depends on the lower bits only (Laine and Karras 2011; constants of Vegdahl
-// 2021): on a number with its bits in reverse this is Owen's scrambling, by the higher bits.
+// 2021). Applied to a number with its bits in reverse it is Owen's scrambling, by the higher bits.
 static inline uint4 permute_by_lower_bits(uint4 x, uint4 key) {
   x ^= x * 0x3d20adeau;
   x += key;
@@ -56,12 +56,11 @@ static inline uint4 reverse_bits4(uint4 x) {
   return (uint4)(reverse_bits(x.x), reverse_bits(x.y), reverse_bits(x.z), reverse_bits(x.w));
 }
 
-// Point `index` of four dimensions, in units of 2^-32. sequence: what it is for, part of the key; set: sets of one
+// Point `index` of four dimensions, in units of 2^-32. sequence: its purpose, part of the key. set: sets of one
 // sequence are independent of each other.
 static inline uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index) {
   const uint4 key = philox4x32((uint4)(sequence, set << 16 | STREAM_SOBOL), seed);
-  // The order of the points of every set but the first is shuffled by a key of its own, so that sets are not paired
-  // alike.
+  // Every set but the first shuffles the order of its points by a key of its own, so that sets are not paired alike.
   uint shuffled = index;
   if (set != 0u)
     shuffled =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nested dielectrics (Schmidt and Budge 2002): which objects enclose a path, and which of them is the medium there.
-// An object counts once for each of its surfaces that was entered and not left, so overlapping shells of one mesh act
-// as their union. The list is 128 bits of a path, not an array: a GPU keeps it in registers.
+// Nested dielectrics (Schmidt and Budge 2002): the objects that enclose a path, and the one of them that is the medium
+// there. An object counts once for each of its surfaces that was entered and not left, so overlapping shells of one
+// mesh act as their union. The list is 128 bits, not an array, so that a GPU keeps it in registers.
 #ifndef NEPHROID_MEDIA_H
 #define NEPHROID_MEDIA_H
 
@@ -13,7 +13,7 @@ static inline bool is_in_air(const Media* media) {
   return media->latest == 0ul;
 } // the earlier ones come after four others
 
-// The object that was entered last, which is not none.
+// The object that was entered last; the list must not be empty.
 static inline int latest_medium(const Media* media) { return (int)(media->latest & MEDIUM_MASK) - 1; }
 
 static inline Media without_latest(Media media) {
@@ -21,7 +21,7 @@ static inline Media without_latest(Media media) {
   return rest;
 }
 
-// The object whose material fills the place: the highest priority, of equals the one entered last; -1: air.
+// The object whose material fills the place: the one of highest priority, among equals the one entered last; -1: air.
 static inline int medium_object(const Media* media, __global const DeviceObject* objects) {
   int best = -1, best_priority = 0;
   for (Media rest = *media; !is_in_air(&rest); rest = without_latest(rest)) {
@@ -48,15 +48,15 @@ static inline bool enter_medium(Media* media, int object) {
   return true;
 }
 
-// Removes the latest entry of an object; nothing happens where it is not there (an open mesh).
+// Removes the latest entry of an object, if there is one (an open mesh may have none).
 static inline void leave_medium(Media* media, int object) {
   uint place = 0;
   Media rest = *media;
   for (; !is_in_air(&rest) && latest_medium(&rest) != object; rest = without_latest(rest)) place += MEDIUM_BITS;
   if (is_in_air(&rest)) return;
-  // Those entered after it stay where they are, the others move up by one.
+  // Objects entered after it keep their places, the others move up by one.
   const Media moved = without_latest(*media);
-  const ulong after = (1ul << (place & 63u)) - 1ul; // of the half that it is in
+  const ulong after = (1ul << (place & 63u)) - 1ul; // the later places in its half
   if (place < 64u) {
     media->latest = (media->latest & after) | (moved.latest & ~after);
     media->earlier = moved.earlier;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the photons of a launch ended, as sums in quanta of power: OUTCOME_*. Photons are added up near at hand before
-// anything goes to the counters in global memory, which all items share: on a CPU by each item, which follows several;
-// on a GPU by each work group, in local memory. Sums of whole numbers are the same in any order.
+// Where the photons of a launch ended, as sums in quanta of power: OUTCOME_*. The counters in global memory are shared
+// by all items, so photons are first added up nearby: on a CPU by each item, which follows several, on a GPU by each
+// work group in local memory. Sums of whole numbers are the same in any order.
 //
 //   OUTCOMES(outcomes);            at the top of a kernel that every item of a group leaves by its end
 //   add_outcome(outcomes, OUTCOME_LOST, quanta);

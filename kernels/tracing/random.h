@@ -7,13 +7,13 @@
 
 #include "kernels/tracing/registers.h"
 
-// Streams keep apart what is drawn for different ends with the same (iteration, index, dimension). No two kernels of a
-// run share one; the kernels of relighting (relight_*.cl) use those of the kernels that they replace.
+// Streams separate numbers for different purposes with the same (iteration, index, dimension). No two kernels of a run
+// share one; the kernels of relighting (relight_*.cl) use the streams of the kernels that they replace.
 #define STREAM_PHOTONS 0u                // photons.cl: index is the photon of a pass
 #define STREAM_CAMERA 1u                 // direct.cl, here and below: index is the pixel
 #define STREAM_CAMERA_LIGHT 2u           // places on area lights
 #define STREAM_CAMERA_CLUSTER 3u         // where a pixel starts among the clusters
-#define STREAM_CAMERA_WAVELENGTH 4u      // inside of a cluster
+#define STREAM_CAMERA_WAVELENGTH 4u      // a wavelength of a cluster
 #define STREAM_SOBOL 5u                  // low_discrepancy.h: how a sequence is scrambled
 #define STREAM_BACKGROUND 14u            // background.cl: index is the pixel
 #define STREAM_BACKGROUND_WAVELENGTH 15u // where a pixel starts in the spectrum
@@ -29,7 +29,7 @@
 #define STREAM_JUDGE 65u                 // inverse/judge.cl: iteration is the ray of a facet, index the facet
 
 static inline uint4 philox4x32(uint4 counter, uint2 key) {
-  ROLLED // else all keys are made once, and kept wherever a path goes
+  ROLLED // otherwise compilers make all keys once, and keep them along the path
   for (int round = 0; round < 10; ++round) {
     const ulong a = (ulong)counter.x * 0xD2511F53u;
     const ulong b = (ulong)counter.z * 0xCD9E8D57u;
@@ -45,8 +45,8 @@ static inline float4 random4(uint2 seed, uint iteration, uint index, uint block,
   return convert_float4(bits >> 8) * 0x1p-24f;
 }
 
-// One of several things by one random number. A cdf is as app/tracing/scales.h makes it: [count], the last 1.
-// The first with cdf > u, u in [0, 1).
+// Chooses one of several things by a random number u in [0, 1): the first with cdf > u. cdf: [count], the last 1
+// (app/tracing/scales.h).
 static inline int choose(__global const float* cdf, int count, float u) {
   int low = 0, high = count - 1;
   while (low < high) {
@@ -59,7 +59,7 @@ static inline int choose(__global const float* cdf, int count, float u) {
   return low;
 }
 
-// The chance of all before the chosen one; its own is cdf[chosen] less that.
+// The chance of all before the chosen one. Its own is cdf[chosen] less that.
 static inline float chance_before(__global const float* cdf, int chosen) { return chosen > 0 ? cdf[chosen - 1] : 0.0f; }
 
 #endif

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registers are few on a GPU. What keeps compilers from filling them there, and does nothing elsewhere.
+// Means to save registers, which are few on a GPU. They do nothing elsewhere.
 #ifndef NEPHROID_REGISTERS_H
 #define NEPHROID_REGISTERS_H
 
-// For what takes a World and is large: called as a function of its own it would need the World in memory, which kernels
-// have as arguments.
+// For a large function that takes a World. Without inlining it would need the World in memory, which kernels have as
+// arguments.
 #define IN_PLACE static inline __attribute__((always_inline))
 
-// ROLLED: a loop that stays one.
-// SET_ASIDE: what a path does not need until it has found its next hit. It waits in memory, for compilers also keep
-// what they can make of such numbers beforehand, as addresses in tables.
-// made_late: of a number, from which nothing is made before the loops that it stands in.
+// ROLLED: a loop that is not unrolled.
+// SET_ASIDE: a value that a path does not need until it has found its next hit. It waits in memory, because compilers
+// also keep what they compute from it early, such as addresses in tables.
+// made_late(number): the number, from which compilers compute nothing before the loops that use it.
 #ifdef NEPHROID_GPU
 #define ROLLED _Pragma("unroll 1")
 #define SET_ASIDE volatile

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of a scene, each on one line: TABLE(type of an item, name, words for messages). The host's vectors, the
-// buffers, their upload and the plan's memory (app/tracing), the kernels' arguments and the structs that these are read
-// from (world.h) follow from these lists. A new table is a line here and the code that fills it.
+// The tables of a scene, each on one line: TABLE(type of an item, name, words for messages). These lists make the
+// host's vectors, the buffers, their upload and the plan's memory (app/tracing), and the kernels' arguments and structs
+// (world.h). A new table is a line here and the code that fills it.
 #ifndef NEPHROID_SCENE_TABLE_TYPES_H
 #define NEPHROID_SCENE_TABLE_TYPES_H
 
@@ -20,8 +20,8 @@
   TABLE(DeviceMaterial, materials, "materials") \
   TABLE(DeviceLight, lights, "lights") /* without those that are left out */
 
-// A lamp has one row of light, the environment three, one for each primary (sky.h). Indices of refraction are 1 for
-// what is no dielectric.
+// A lamp has one row of light, the environment three, one for each primary (sky.h). The index of refraction of a
+// material that is no dielectric is 1.
 #define WAVELENGTH_TABLES(TABLE) \
   TABLE(int, cluster_first, "cluster starts") /* [cluster + 1]: where it begins in the next table */ \
   TABLE(int, cluster_wavelengths, "cluster wavelengths") /* indices 0..400, cluster after cluster */ \
@@ -39,8 +39,8 @@
   TABLE(float4, stretch_place, "stretch of each wavelength") /* [401]: s of it, of 1 nm below, of 1 nm above */ \
   TABLE(float4, stretch_span, "stretch of each cluster") /* [cluster]: s of its mean index; lowest, highest s */
 
-// The environment as a light: sky.h. Empty where it is none. The cdf is exact_cdf of the rows by flux, then of the
-// texels of each row, then the same by peaks, if it has any.
+// The environment as a light: sky.h. Empty where it is no light. The cdf is exact_cdf of the rows by flux, then of the
+// texels of each row. If there are peaks, the same follows for their flux.
 #define SKY_TABLES(TABLE) \
   TABLE(float, texel_cdf, "environment as a light, choice of a texel") \
   TABLE(float, texel_colour, "environment as a light") /* [row][column][3]: linear sRGB of a texel over grey */

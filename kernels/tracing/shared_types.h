@@ -20,7 +20,7 @@ struct alignas(8) uint2 {
 // 380..780 nm in steps of 1 nm: optics::wavelength_count.
 #define WAVELENGTH_COUNT 401
 
-// At most this many dielectrics may enclose one point: 128 bits of them.
+// At most this many dielectrics may enclose one point; they take 128 bits.
 #define MEDIA_DEPTH 8
 #define MEDIUM_BITS 16
 
@@ -42,9 +42,9 @@ struct alignas(8) uint2 {
 #define LIGHT_SPOT 1
 #define LIGHT_DIRECTIONAL 2
 #define LIGHT_AREA 3
-#define LIGHT_ENVIRONMENT 4 // the last of the lights, where there is one; of directional light but for what sky.h says
+#define LIGHT_ENVIRONMENT 4 // the last light, if there is one; as directional light but for what sky.h says
 
-// Where a photon ended: the energy counters, in quanta of power (RunTables::energy_scale), are in this order.
+// Where a photon ended. The energy counters, in quanta of power (RunTables::energy_scale), are in this order.
 #define OUTCOME_EMITTED 0   // sum of the next five
 #define OUTCOME_DEPOSITED 1 // on a diffuse surface after glass or a mirror
 #define OUTCOME_MISSED 2    // met no glass and no mirror: direct light
@@ -68,7 +68,7 @@ typedef struct {
 
 // The dielectric objects that enclose a point, each as its number + 1 in MEDIUM_BITS: media.h.
 typedef struct {
-  ulong latest, earlier; // the one entered last is lowest in `latest`; the four before the last four are in `earlier`
+  ulong latest, earlier; // the last four objects entered, the last one in the lowest bits; the four before
 } Media;
 
 typedef struct {
@@ -77,36 +77,36 @@ typedef struct {
   float4 edge_u;    // area: the full edges; environment: the mean colour of its photons
   float4 edge_v;
   int type;            // LIGHT_*
-  float one_minus_cos; // spot: of its half angle
-  float solid_angle;   // spot: of its cone, in steradians
+  float one_minus_cos; // spot: 1 - cos of its half angle
+  float solid_angle;   // spot: its cone's, in steradians
   float radiometric; // point, spot, area: power in W; directional: irradiance in W m^-2; environment: of all directions
                      // together
   Media inside;        // directional, environment: none
-  int first_target;    // in the table of targets: those that this light can reach
+  int first_target;    // the first of its targets in the table: those that this light can reach
   int target_count;
-  int number; // among the preset's lights: its random numbers do not depend on which others are left out
+  int number; // among the preset's lights, so that its random numbers do not depend on lights left out
   int padding;
 } DeviceLight;
 
-// A bounding sphere of a caustic object: photons are sent towards these only. The table has one list after the other,
-// one for each set of spheres that some light reaches.
+// A bounding sphere of a caustic object; photons are sent towards these only. The table has a list for each set of
+// spheres that some light reaches, one after the other.
 typedef struct {
   float4 centre_radius; // w: radius
 } DeviceTarget;
 
-// Photons of one wavelength cluster from one light. Photon i of a pass belongs to the last emitter with first_photon <=
-// i, or with low-discrepancy numbers to any emitter of the same light, each as often as its photon_count says
-// (photon_path.h). Those of a light follow each other.
+// The photons of one wavelength cluster from one light. The emitters of a light follow each other. Photon i of a pass
+// belongs to the last emitter with first_photon <= i, or with low-discrepancy numbers to any emitter of the same light,
+// each as often as its photon_count says (photon_path.h).
 typedef struct {
   uint first_photon;
   uint photon_count;
   int light;
   int cluster;
   float share;             // the cluster's share of the light's power, 0..1
-  uint light_first_photon; // of all emitters of this light together
+  uint light_first_photon; // for all emitters of this light together
   uint light_photon_count;
-  uint sequence;            // which low-discrepancy sequence those have,
-  uint sequence_start;      // and where in it each half of the film is: the photons of earlier allocations, lower
+  uint sequence;            // the low-discrepancy sequence of these photons,
+  uint sequence_start;      // and the place of each half of the film in it: the photons of earlier allocations, lower
   uint sequence_start_high; // and upper 32 bits
   int padding[2];
 } DeviceEmitter;
@@ -114,18 +114,18 @@ typedef struct {
 typedef struct {
   float4 position;
   float4 right, up, forward; // orthonormal
-  float tan_x, tan_y;        // of half the angle of view
+  float tan_x, tan_y;        // tangents of half the angle of view
   int width, height;         // pixels
   Media inside;
-  int receiver; // the object whose light is mapped, whatever stands before it; -1: an eye sees all
+  int receiver; // the object whose light is mapped, whatever hides it; -1: an eye sees all
   int padding[3];
 } DeviceCamera;
 
 // The environment's picture: see background.h and sky.h.
 typedef struct {
   int width, height; // texels
-  float turns;       // that the surroundings are turned about +y, counterclockwise as seen from above
-  int has_peaks;     // of a light: whether it is worth drawing by its peaks (sky.h)
+  float turns;       // turn of the picture about +y, counterclockwise as seen from above
+  int has_peaks;     // as a light: whether it is drawn by its peaks too (sky.h)
 } DeviceBackground;
 
 #define PRIMITIVE_FLAT 0
@@ -133,27 +133,27 @@ typedef struct {
 #define PRIMITIVE_ELLIPSOID 2
 #define PRIMITIVE_ELLIPSOID_INWARDS 3 // its normals look towards its centre
 
-// A triangle or ellipsoid as a hit reads it: 64 bytes, a line of a processor's cache. Of a smooth triangle `normal` and
-// then the w of edge_u and edge_v are the normals of its vertices, 8 bytes each (surface.h).
+// A triangle or ellipsoid as a hit reads it: 64 bytes, a line of a processor's cache. In a smooth triangle `normal` and
+// the w of edge_u and edge_v hold the normals of its vertices, 8 bytes each (surface.h).
 typedef struct {
-  float4 corner; // the first corner; of an ellipsoid its centre. w: as_int, the object's number << 2 | PRIMITIVE_*
-  float4 edge_u; // from there to the second corner; first row of the matrix to the unit sphere
-  float4 edge_v; // to the third corner; second row
-  float4 normal; // of a flat triangle: unit, outwards; w: how far a new ray starts from it. Of an ellipsoid: third row
+  float4 corner; // first corner; ellipsoid: its centre. w: as_int, the object's number << 2 | PRIMITIVE_*
+  float4 edge_u; // from there to the second corner; ellipsoid: first row of the matrix to the unit sphere
+  float4 edge_v; // to the third corner; ellipsoid: second row
+  float4 normal; // flat triangle: unit, outwards, w: how far a new ray starts from it; ellipsoid: third row
 } DevicePrimitive;
 
-// What every kernel needs of the scene as a whole.
+// The scene as a whole, for every kernel.
 typedef struct {
-  int root; // of the tree: bvh.h
+  int root; // the tree's root: bvh.h
   int material_count;
   int light_count;
   int cluster_count;
   int emitter_count;
   float metres_per_unit;
-  float outside_distance; // directional photons start this far before their target: outside of everything
-  int max_surfaces;       // that a path may meet before it counts as lost
+  float outside_distance; // directional photons start this far before their target, outside everything
+  int max_surfaces;       // surfaces that a path may meet before it counts as lost
   int reflector_count;
-  DeviceBackground sky_size; // of the environment as a light, if it is one
+  DeviceBackground sky_size; // the environment's as a light, if it is one
 } DeviceScene;
 
 #ifndef __OPENCL_C_VERSION__

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The environment as a light: parallel light from every texel of a latitude-longitude picture (background.h says where
 // a texel is seen). A row is drawn by its flux, radiance times solid angle, then a texel of the row, then a place in
-// the texel by solid angle: so every photon carries nearly as much, and a sun of a few texels gets the photons that are
-// its share.
+// the texel by solid angle. So every photon carries nearly the same power, and a sun of a few texels gets its share of
+// photons.
 //
-// A texel has one colour, and a colour stands for r, g and b times the fixed spectra of the three sRGB primaries, as
-// where the environment is seen. These are three rows of the tables of lights, from the environment's own on: what a
-// photon carries is a sum of three, and may be negative at a wavelength where a primary is. Flux counts colours by (r +
-// g + b) / 3.
+// A texel has one colour, which stands for r, g and b times the fixed spectra of the three sRGB primaries, as in
+// background.h. These are three rows of the tables of lights, from the environment's own on. A photon carries their
+// sum, which may be negative at a wavelength where a primary is. Flux counts colours by (r + g + b) / 3.
 //
-// Surfaces draw by the peaks alone, what is brighter than the mean over all directions: their second draw, by the
-// cosine, finds all else (Karlik et al. 2019, "MIS compensation").
+// Surfaces draw by the peaks alone, the light above the mean over all directions. Their second draw, by the cosine,
+// finds the rest (Karlik et al. 2019, "MIS compensation").
 #ifndef NEPHROID_SKY_H
 #define NEPHROID_SKY_H
 
@@ -23,13 +22,13 @@ typedef struct {
   DeviceBackground size;
 } Sky;
 
-// A direction with what comes from there: `density` is the chance of being drawn, a steradian. Radiance is colour *
-// density, of a sky whose grey light has 1 W m^-2 of all directions together.
+// A direction of the sky and its light. density: the chance of being drawn, per steradian. Radiance is rgb * density,
+// for a sky whose grey light has 1 W m^-2 from all directions together.
 typedef struct {
   float3 direction; // unit, to the sky
   float3 rgb;
   float density;
-  float peak_density; // the chance among the peaks, a steradian
+  float peak_density; // the same among the peaks
 } SkyPlace;
 
 static inline __global const float* cdf_of_peaks(const Sky* sky) {
@@ -54,8 +53,8 @@ static inline SkyPlace sky_texel(const Sky* sky, float3 direction, int row, int 
   return place;
 }
 
-// Where in its bin a number falls that has drawn it: in the middle of its 2^24th, so that bins of a few such numbers
-// have no side.
+// The place in its bin of a number that has drawn the bin. It is the middle of the number's 2^-24, so that bins of a
+// few such numbers have no preferred side.
 static inline float place_in_bin(__global const float* cdf, int bin, float number) {
   const float before = chance_before(cdf, bin);
   return (number + 0x1p-25f - before) / (cdf[bin] - before);
@@ -67,7 +66,7 @@ static inline SkyPlace sample_sky(const Sky* sky, __global const float* cdf, flo
   const int row = choose(cdf, height, place.x);
   __global const float* columns = cdf + height + (size_t)row * (size_t)width;
   const int column = choose(columns, width, place.y);
-  // 1 - |cos| of the zenith angle, uniform over the row, from the pole that is nearer: it stays exact there.
+  // 1 - |cos| of the zenith angle, uniform over the row. It is counted from the nearer pole, where it stays exact.
   const bool upper = 2 * row < height;
   const int from_pole = upper ? row : height - 1 - row;
   const float edge = sin(0.5f * PI_F * (float)from_pole / (float)height);
@@ -83,7 +82,7 @@ static inline SkyPlace sample_sky(const Sky* sky, __global const float* cdf, flo
   return sky_texel(sky, direction, row, column);
 }
 
-// The texel in a unit direction.
+// The texel that is seen in a unit direction.
 static inline SkyPlace sky_in(const Sky* sky, float3 direction) {
   const float azimuth = atan2(direction.x, -direction.z) / (2.0f * PI_F) + 0.5f + sky->size.turns;
   const float zenith = atan2(sqrt(direction.x * direction.x + direction.z * direction.z), direction.y) / PI_F;

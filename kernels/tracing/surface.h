@@ -35,8 +35,8 @@ static inline int object_of_primitive(const Geometry* geometry, uint primitive) 
   return as_int(geometry->primitives[primitive].corner.w) >> 2;
 }
 
-// A vertex normal of 21 bits a coordinate, in units of 2^-20, each moved to the top of a word. Its error is below that
-// of a mesh's file.
+// Unpacks a vertex normal of 21 bits a coordinate, in units of 2^-20, each moved to the top of a word. Its error is
+// below that in a mesh's file.
 static inline float3 unpacked_normal(float low, float high) {
   const uint x = as_uint(low), y = as_uint(high);
   return (float3)((float)(int)(x << 11), (float)(int)(x >> 21 << 11 | y << 22), (float)(int)(y >> 10 << 11)) * 0x1p-31f;
@@ -59,25 +59,24 @@ static inline float3 to_unit_sphere(const DevicePrimitive* ellipsoid, float3 way
   return (float3)(dot(ellipsoid->edge_u.xyz, way), dot(ellipsoid->edge_v.xyz, way), dot(ellipsoid->normal.xyz, way));
 }
 
-// M^T u with the rows m_i of the matrix M to the unit sphere: along the normal at the point that M takes to u.
+// M^T u, with the matrix M to the unit sphere. It is along the normal at the point that M takes to u.
 static inline float3 ellipsoid_gradient(const DevicePrimitive* ellipsoid, float3 unit) {
   return unit.x * ellipsoid->edge_u.xyz + unit.y * ellipsoid->edge_v.xyz + unit.z * ellipsoid->normal.xyz;
 }
 
-// The rows are perpendicular to each other, so what M takes to u is the sum of u_i m_i / |m_i|^2.
+// The point that M takes to u. The rows m_i of M are perpendicular, so it is the sum of u_i m_i / |m_i|^2.
 static inline float3 ellipsoid_point(const DevicePrimitive* ellipsoid, float3 unit) {
   const float3 x = ellipsoid->edge_u.xyz, y = ellipsoid->edge_v.xyz, z = ellipsoid->normal.xyz;
   const float3 along = unit / (float3)(dot(x, x), dot(y, y), dot(z, z));
   return ellipsoid->corner.xyz + along.x * x + along.y * y + along.z * z;
 }
 
-// -1 where the ellipsoid's normals look inwards.
+// 1, or -1 where the ellipsoid's normals point inwards.
 static inline float ellipsoid_side(const DevicePrimitive* ellipsoid) {
   return kind_of(ellipsoid) == PRIMITIVE_ELLIPSOID_INWARDS ? -1.0f : 1.0f;
 }
 
-// A ray that leaves an ellipsoid knows that it does (bvh_ellipsoid), so the offset need only be of the size of the
-// position's rounding.
+// bvh_ellipsoid knows when a ray leaves the ellipsoid, so the offset need only be as large as the position's rounding.
 static inline Surface ellipsoid_at(const DevicePrimitive* ellipsoid, float3 unit) {
   Surface surface;
   const float3 gradient = ellipsoid_gradient(ellipsoid, unit);
@@ -90,9 +89,9 @@ static inline Surface ellipsoid_at(const DevicePrimitive* ellipsoid, float3 unit
 }
 #endif
 
-// Both the interpolated point and the distance at which a ray meets a neighbour in the same plane are off by a few
-// 2^-24 of the triangle's largest coordinate. Starting farther away than that keeps a new ray from meeting the surface
-// that it leaves.
+// How far a new ray starts from a triangle, so that it does not meet the surface that it leaves. Both the interpolated
+// point and the distance at which a ray meets a neighbour in the same plane are off by a few 2^-24 of the triangle's
+// largest coordinate.
 static inline float triangle_offset(float3 corner, float3 edge_u, float3 edge_v) {
   const float3 size = max(fabs(corner), max(fabs(edge_u), fabs(edge_v)));
   return 0x1p-21f * max(max(size.x, size.y), size.z);
@@ -122,18 +121,18 @@ static inline Surface surface_at(const Geometry* geometry, Hit hit) {
   return surface;
 }
 
-// A start for a ray that leaves on the outer (side 1) or inner (side -1) side.
+// The start of a ray that leaves on the outer (side 1) or inner (side -1) side.
 static inline float3 start_on_side(const Surface* surface, float side) {
   return surface->position + side * surface->offset * surface->geometric;
 }
 
-// A photon near grazing may count as so many: where a facet gets next to nothing, and its shading normal says
-// otherwise, single photons would be bright specks. What is cut off is less than the light on a facet that arrives
-// within 3.6 degrees of it.
+// The limit of shading_ratio. Without it single photons near grazing would be bright specks where a facet gets next to
+// no light but its shading normal says otherwise. The light that is cut off is less than what arrives within 3.6
+// degrees of a facet.
 #define SHADING_RATIO_LIMIT 16.0f
 
-// What makes a photon's flux on a triangle the irradiance about the shading normal, by which direct.cl lights the
-// surface: the ratio of both cosines (Veach 1997, 5.3.2); 0 behind the shading normal's horizon.
+// The factor that makes a photon's flux on a triangle the irradiance about the shading normal, by which direct.cl
+// lights the surface. It is the ratio of both cosines (Veach 1997, 5.3.2), and 0 behind the shading normal's horizon.
 static inline float shading_ratio(const Surface* surface, float3 arriving) {
 #if NEPHROID_SMOOTH
   const float ratio = dot(arriving, surface->shading) / dot(arriving, surface->geometric);
@@ -146,15 +145,15 @@ static inline float shading_ratio(const Surface* surface, float3 arriving) {
 // What a mirror or dielectric does to a ray: the new direction, and whether the ray went through.
 typedef struct {
   float3 direction;
-  float3 normal;    // unit, on the side that the ray came from: what it was bent about
-  int near_material; // of an interface, before it and beyond it; -1: air
+  float3 normal;    // the normal of the bend: unit, on the side that the ray came from
+  int near_material; // materials before and beyond an interface; -1: air
   int far_material;
   bool transmitted;
   bool straight; // nothing bent it: the normal is not set
 } Bend;
 
-// normal: unit, on the side that the ray comes from. choice: uniform in [0, 1): below the reflectance the ray is
-// reflected.
+// normal: unit, on the side that the ray comes from. choice: uniform in [0, 1); the ray is reflected if it is below the
+// reflectance.
 static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t, float choice) {
   Bend bend;
   bend.normal = normal;

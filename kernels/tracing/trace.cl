@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays from a buffer, one an item: how tests and benchmarks reach the traversal of bvh.h. Engines call bvh.h directly.
+// Traces rays from a buffer, one an item, so that tests and benchmarks reach bvh.h. Engines call bvh.h directly.
 #include "kernels/tracing/bvh.h"
 
 typedef struct {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything of the scene that a path meets, in one struct, and a path's step through it.
+// All of the scene that a path meets, in one struct, and how a path goes through it.
 #ifndef NEPHROID_WORLD_H
 #define NEPHROID_WORLD_H
 
@@ -23,7 +23,7 @@ typedef struct {
   DeviceScene scene;
 } World;
 
-// What a World is made of, as kernel arguments.
+// A World's parts as kernel arguments.
 #define WORLD_ARGUMENTS WORLD_TABLES(TABLE_ARGUMENT) DeviceScene scene
 #define WORLD \
   {{GEOMETRY_TABLES(TABLE_VALUE) scene.root}, OBJECT_TABLES(TABLE_VALUE) {WAVELENGTH_TABLES(TABLE_VALUE)}, \
@@ -32,9 +32,9 @@ typedef struct {
 typedef struct {
   float3 origin, direction;
   uint skip;   // the triangle that the path leaves
-  Media media; // that enclose it
+  Media media; // the media that enclose it
   Losses losses;
-  float behind; // the path begins this far behind `origin`: 0 but on its first way (Emission)
+  float behind; // the path begins this far behind `origin` (Emission); 0 after its first hit
   Differential differential;
 } Path;
 
@@ -60,7 +60,7 @@ static inline DeviceMaterial material_of(const World* world, int object) {
   return world->materials[world->objects[object].material];
 }
 
-// The absorption of the medium that the path has crossed up to its next hit, `distance` from its origin.
+// Adds the absorption of the medium that the path crosses up to its next hit, `distance` from its origin.
 static inline void lose_in_medium(const World* world, Path* path, float distance) {
 #if NEPHROID_ATTENUATORS > 0
   const int medium = medium_object(&path->media, world->objects);
@@ -70,7 +70,7 @@ static inline void lose_in_medium(const World* world, Path* path, float distance
 #endif
 }
 
-// The index of refraction of each material.
+// [material]: the index of refraction.
 static inline __global const float* index_of_band(const World* world, const Band* band) {
 #if NEPHROID_JITTER
   if (band->wavelength >= 0) return world->tables.index_of_wavelength + band->wavelength * world->scene.material_count;
@@ -78,8 +78,8 @@ static inline __global const float* index_of_band(const World* world, const Band
   return world->tables.index_of_cluster + band->cluster * world->scene.material_count;
 }
 
-// The band of a path in a cluster. light: the one that its light comes from, or light_count for a path that any light
-// may end at; u in [0, 1) picks a wavelength by what the eye makes of the light's power.
+// The band of a path in a cluster. light: where its light comes from, or light_count for a path that any light may
+// reach. u: in [0, 1), picks a wavelength by the worth of the light (app/tracing/scales.h).
 static inline Band choose_band(const World* world, int light, int cluster, float u) {
 #if NEPHROID_JITTER
   const int first = world->tables.cluster_first[cluster], count = world->tables.cluster_first[cluster + 1] - first;
@@ -95,7 +95,7 @@ static inline Band choose_band(const World* world, int light, int cluster, float
 static inline void bend_differential(const World* world, Path* path, uint triangle, const Surface* surface,
                                      const Band* band, const Bend* bend) {
 #if NEPHROID_DIFFERENTIALS
-  // From the path's origin: where that is not the light itself (Emission), nothing depends on the wavelength yet.
+  // The distance is from the path's origin. If that is not the light (Emission), nothing depends on wavelength yet.
   differential_to_surface(&path->differential, path->direction, distance(path->origin, surface->position), surface);
   if (bend->straight) return;
   __global const float* n_of = index_of_band(world, band);
@@ -107,8 +107,8 @@ static inline void bend_differential(const World* world, Path* path, uint triang
 #endif
 }
 
-// Takes the path on from a mirror or dielectric that it hit. choice: uniform in [0, 1).
-// *n_ratio: n before over n after. False where the path is inside too many media.
+// Continues the path at a mirror or dielectric. choice: uniform in [0, 1). *n_ratio: n before over n after. False where
+// the path is inside too many media.
 static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface,
                              const DeviceMaterial* material, const Band* band, float choice, float* n_ratio) {
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
@@ -133,8 +133,8 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   return true;
 }
 
-// A light as one photon or shadow ray meets it, drawn by `place`, two numbers in [0, 1): of the environment *light
-// becomes directional light from one place.
+// A light for one photon or shadow ray. The environment becomes, in *light, directional light from one place, drawn by
+// `place`, two numbers in [0, 1).
 static inline Source source_of(const World* world, int index, float2 place, DeviceLight* light) {
   Source source = {index, (float3)(1.0f)};
   if (is_light(light, LIGHT_ENVIRONMENT)) {
@@ -145,7 +145,7 @@ static inline Source source_of(const World* world, int index, float2 place, Devi
   return source;
 }
 
-// Light of a mean colour.
+// A source with the light's mean colour.
 static inline Source mean_source(const World* world, int index) {
   const Source source = {index, world->lights[index].edge_u.xyz};
   return source;
@@ -178,7 +178,7 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
       .reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->scene.reflector_count + reflector];
 }
 
-// What a path in a band still carries of a light after its losses, if the light's power is 1: w: the power; xyz: what a
+// The light that a path in a band still carries after its losses, for a light of power 1. w: the power. xyz: what a
 // reflector sends back of it (-1: a white one).
 IN_PLACE float4 carried_light(const World* world, const Losses* losses, Source source, const Band* band, int reflector)
 {
@@ -199,7 +199,7 @@ static inline float row_share(const World* world, int light, const Band* band) {
   return attenuated_sum(&world->tables, &none, light, band->cluster, -1).w;
 }
 
-// The share of a light's power that a band begins with; cluster_share: of its whole cluster, of a lamp.
+// The share of a light's power that a band begins with. cluster_share: a lamp's share in the whole cluster.
 static inline float band_share(const World* world, Source source, const Band* band, float cluster_share) {
   if (is_of_environment(world, source.light))
     return source.rgb.x * row_share(world, source.light, band) +

@@ -26,7 +26,7 @@ glm::dvec2 with_signs(const glm::dvec2& size, const glm::dvec2& signs) {
 
 constexpr std::array<int, 3> counts{26, 98, 386};
 
-/// NAME.bake: a header, radii, where light went, light, ways, and a hash of everything before it.
+/// The header of NAME.bake. Then come radii, where light went, light, ways, and a hash of all of these.
 struct Header {
   std::array<char, 8> magic{'N', 'E', 'P', 'H', 'B', 'A', 'K', 'E'};
   std::uint64_t format = 4;
@@ -49,14 +49,14 @@ std::uint64_t length_of(const Header& h) {
          texels_of(h) * (h.channels + 1) * sizeof(std::uint16_t) + sizeof(std::uint64_t);
 }
 
-/// Whether a bake can have so many of everything. The length alone does not tell: products wrap around.
+/// Whether a bake can have the header's sizes. The length alone does not tell, because products wrap around.
 bool is_possible(const Header& h) {
-  constexpr std::uint64_t most = 1 << 12; // of spheres, and of texels across
+  constexpr std::uint64_t most = 1 << 12; // the most spheres, and texels across
   return std::ranges::count(direction_counts(), h.directions) == 1 && h.spheres > 0 && h.spheres <= most &&
          h.side > 0 && h.side <= most && (h.channels == 1 || h.channels == 3);
 }
 
-/// Reads the header. "" where all is right.
+/// Reads the header and returns its fault, "" where all is right.
 std::string fault_of(ByteSource& file, const BakeIdentity& identity, Header& header) {
   const Header ours;
   const std::uint64_t length = file.left();
@@ -135,7 +135,7 @@ std::vector<std::size_t> SphereMap::texels_of_stored() const {
 
 std::uint16_t upper_half(double value) {
   const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
-  return static_cast<std::uint16_t>((bits + 0x7fff + (bits >> 16 & 1)) >> 16); // to the nearest, ties to even
+  return static_cast<std::uint16_t>((bits + 0x7fff + (bits >> 16 & 1)) >> 16); // rounds to the nearest, ties to even
 }
 
 std::span<const int> direction_counts() { return counts; }
@@ -229,7 +229,7 @@ void write_bake(const fs::path& file, const BakeIdentity& identity, const Bake& 
   try {
     remove_oldest(file, most);
   } catch (const fs::filesystem_error&) {
-    // Another program may be removing them, too.
+    // Another program may be removing bakes, too.
   }
 }
 

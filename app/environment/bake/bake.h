@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an object does to parallel light from each of some directions: caustic spheres (thesis 3.1).
+// Caustic spheres: what an object does to parallel light from each of several directions (thesis 3.1).
 //
-// Stored is the power through a texel of a sphere over the texel's solid angle, for light of 1 W/m^2: E r^2, where E is
-// the irradiance on the sphere itself, so on a surface that faces the middle. And stored is the mean way that the light
-// goes there. A surface with another normal has E times the cosine between that and the way, over the cosine between
-// the sphere's and the way: exact where all light of a texel goes one way. (The thesis takes all light to come from the
-// middle. Under a low sun `environment/bunny` then has 30 % too much light on its floor.)
+// A texel of a sphere stores the power through it over its solid angle, for light of 1 W/m^2. This is E r^2, where E is
+// the irradiance on the sphere itself, that is on a surface that faces the middle. The texel also stores the mean way
+// that its light goes. A surface with another normal gets E cos(its normal, way) / cos(the sphere's normal, way), which
+// is exact where all light of a texel goes one way. (The thesis takes all light to come from the middle. Under a low
+// sun `environment/bunny` then has 30 % too much light on its floor.)
 #pragma once
 #include <glm/glm.hpp>
 
@@ -29,60 +29,60 @@ struct SphereMap {
   std::size_t texels() const { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
   double solid_angle() const {
     return 4 * std::numbers::pi / static_cast<double>(texels());
-  } ///< of a texel, in steradians
-  /// Row after row. direction: of any length but 0.
+  } ///< one texel's, in steradians
+  /// The number of the texel in a direction, row after row. direction: any length but 0.
   std::size_t texel(const glm::dvec3& direction) const;
   /// The unit direction of a texel's middle.
   glm::dvec3 direction(std::size_t texel) const;
 
-  /// In their stored form maps have a border of one more texel all around, with what is over the edge: there the square
-  /// goes on at the same edge, from its other end. So what lies between texels is looked up without a branch.
+  /// The stored form of a map has a border of one more texel all around, which holds what is over the edge: there the
+  /// square goes on at the same edge, from its other end. So lookups between texels need no branch.
   std::size_t stored_texels() const { return static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2); }
   std::size_t stored_texel(std::size_t texel) const; ///< where a texel is in the stored form
-  /// The texel that each of the stored form shows; texel_of_stored of kernels/environment/spheres.h, for all.
+  /// The texel that each texel of the stored form repeats: texel_of_stored of kernels/environment/spheres.h, for all.
   std::vector<std::size_t> texels_of_stored() const;
 };
 
-/// The upper half of the nearest float: what maps hold. Nine bits are more than the photons' noise leaves, and no
-/// device takes long over them.
+/// The upper 16 bits of the nearest float, which maps hold. Its nine bits are more than the photons' noise leaves
+/// certain, and every device reads them fast.
 std::uint16_t upper_half(double value);
 
-/// How many directions light may be baked from: points of a cube's surface, towards its middle (thesis 3.1). Each face
-/// is a square grid whose points on edges and corners it shares with its neighbours: 3 x 3 points a face are 26 in all
-/// (8 corners, 12 middles of edges, 6 of faces), 5 x 5 are 98, 9 x 9 are 386.
+/// The numbers of directions that light may be baked from. These are points of a cube's surface, towards its middle
+/// (thesis 3.1). Each face is a square grid whose points on edges and corners it shares with its neighbours: 3 x 3
+/// points a face are 26 in all (8 corners, 12 middles of edges, 6 of faces), 5 x 5 are 98, 9 x 9 are 386.
 std::span<const int> direction_counts();
 
-/// The points of a cube from -m to m, m = 1, 2 or 4, with whole coordinates: of x, y and z the last changes fastest.
-/// count: one of direction_counts().
+/// The surface points with whole coordinates of a cube from -m to m, m = 1, 2 or 4. z changes fastest, then y. count:
+/// one of direction_counts().
 std::vector<glm::ivec3> cube_points(int count);
 
-/// Unit, the way the light goes, of each of cube_points(count).
+/// The way the light goes from each of cube_points(count), a unit vector.
 std::vector<glm::dvec3> light_directions(int count);
 
-/// Where the light of one direction goes. Areas across it, in squares of Bake::size: of the light that meets the
-/// object, and of that the part that leaves it, that is absorbed, and that is lost after too many surfaces.
+/// Where the light of one direction goes, as areas across it in squares of Bake::size: the light that meets the object,
+/// and its parts that leave it, are absorbed, and are lost after too many surfaces.
 struct BakedDirection {
   double met = 0, sent = 0, absorbed = 0, lost = 0;
 };
 
 struct Bake {
   SphereMap map;
-  int channels = 1;                   ///< of a texel: 3: linear sRGB under white light; 1: all of that are alike
+  int channels = 1;                   ///< 3: a texel is linear sRGB under white light; 1: its three channels are equal
   double size = 1;                    ///< largest side of the box about the object
-  std::vector<double> radii;          ///< of the spheres, ascending
-  std::vector<glm::dvec3> directions; ///< all that light is to come from, unit, the way it goes
-  std::vector<BakedDirection> baked;  ///< the first of them
+  std::vector<double> radii;          ///< the spheres' radii, ascending
+  std::vector<glm::dvec3> directions; ///< all directions to bake: unit, the way the light goes
+  std::vector<BakedDirection> baked;  ///< for the directions done so far, the first ones
 
-  // As devices read them: [baked direction][sphere][texel of the stored form].
-  std::vector<std::uint16_t> light; ///< [channel] of each: upper halves of E r^2 over size^2
-  std::vector<std::uint16_t> ways;  ///< of way_map: the mean way of its light, weighted by light across it
+  // The layout is that of devices: [baked direction][sphere][texel of the stored form].
+  std::vector<std::uint16_t> light; ///< for each, [channel]: upper_half() of E r^2 over size^2
+  std::vector<std::uint16_t> ways;  ///< texels of way_map: the mean way of the light, weighted by its power
 
-  /// Numbers of unit vectors, some .8 degrees apart.
+  /// The unit vectors that `ways` numbers, about 0.8 degrees apart.
   static constexpr SphereMap way_map{256};
 
-  std::size_t direction_texels() const { return map.stored_texels() * radii.size(); } ///< of the stored form
+  std::size_t direction_texels() const { return map.stored_texels() * radii.size(); } ///< in the stored form
   std::size_t direction_items() const { return direction_texels() * static_cast<std::size_t>(channels); }
-  /// E r^2 over size^2, linear sRGB.
+  /// E r^2 over size^2 in a texel, linear sRGB.
   glm::dvec3 at(std::size_t direction, std::size_t sphere, std::size_t texel) const;
 };
 
@@ -94,18 +94,18 @@ struct BakeIdentity {
   std::uint64_t kernels = 0; ///< hash of the kernels' sources; 0 where they are not known yet
 };
 
-/// Empty where the user has no folder of caches.
+/// The bake's file; empty where the user has no folder of caches.
 std::filesystem::path bake_path(std::uint64_t key);
 
-/// Why the file cannot be used, as far as its first bytes and its length tell; "" where there is none, nothing where
-/// all is right.
+/// Why the file cannot be used, judged by its first bytes and its length. "" where there is no file, nothing where it
+/// can be used.
 std::optional<std::string> bake_file_fault(const std::filesystem::path& file, const BakeIdentity& identity);
 
 /// Throws bad_input, saying why, where the file cannot be used.
 Bake read_bake(const std::filesystem::path& file, const BakeIdentity& identity);
 
-/// Makes the folder. Throws failed where it cannot be written. Then removes the oldest bakes of the folder, until all
-/// together take no more than `most` bytes; the one just written stays.
+/// Makes the folder and writes the file. Throws failed where that is not possible. Then removes the oldest bakes of the
+/// folder until all take at most `most` bytes; the one just written stays.
 void write_bake(const std::filesystem::path& file, const BakeIdentity& identity, const Bake& bake,
                 std::uint64_t most = std::uint64_t{4} << 30);
 

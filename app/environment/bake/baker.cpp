@@ -14,8 +14,8 @@
 namespace nephroid::environment {
 namespace {
 
-/// Quanta that a photon with an equal share of all power has: far more than rounding takes, and 2^30 photons of 2^6
-/// times as much fit.
+/// The quanta of a photon with an equal share of all power. Rounding takes far less, and 2^30 photons of 2^6 times as
+/// much fit.
 constexpr double quanta_of_photon = 0x1p24;
 
 } // namespace
@@ -67,7 +67,7 @@ Baker::Baker(const BakeTask& task, const mpi::RankContext& context, std::size_t 
       bake_(task.empty_bake()), texels_(bake_.map.texels_of_stored()) {
   for (std::size_t i = 0; i < bake_.map.texels(); ++i)
     outward_.push_back(static_cast<std::uint16_t>(Bake::way_map.texel(bake_.map.direction(i))));
-  // As kernels/tracing/emission.h has it: photons are spread over the discs of all targets, which may overlap.
+  // kernels/tracing/emission.h spreads photons over the discs of all targets, which may overlap.
   double discs = 0;
   for (const scene::Sphere& target : task.tables.spheres) discs += std::numbers::pi * target.radius * target.radius;
   watts_ = discs * std::pow(task.caster.scene.metres_per_unit, 2); // 1 W/m^2
@@ -87,7 +87,7 @@ void Baker::advance() {
   const auto count = static_cast<std::uint32_t>(std::clamp<std::int64_t>(
       std::llround(photons_a_slice_.amount(communicator)), 1, std::int64_t{task_.photons} - sent_));
   const auto rank = static_cast<std::size_t>(communicator.rank()), number = bake_.baked.size() + rank;
-  // The light of the tables has power_unit W/m^2 as its unit.
+  // The unit of the tables' light is power_unit W/m^2.
   const auto scale = static_cast<float>(quanta_of_photon / watts_ * task_.tables.power_unit);
   photons_a_slice_.timed(count, [&] {
     if (rank >= at_once()) return;
@@ -165,7 +165,7 @@ void Baker::finish_directions() {
       std::chrono::duration<double>(now - std::exchange(began_, now)).count() / static_cast<double>(after - before);
 }
 
-/// Directions in hand begin anew.
+/// Begins the directions in hand anew.
 void Baker::clear() {
   film_.fill_zero();
   energy_.fill_zero();
@@ -173,7 +173,7 @@ void Baker::clear() {
 }
 
 void Baker::state(tracing::State& state) {
-  // What ranks have in hand is done again: any number of them may go on.
+  // The directions in hand are baked again, so that any number of ranks may go on.
   const bool is_alone = world_.context.communicator().is_alone();
   std::uint64_t baked = bake_.baked.size();
   std::uint32_t sent = is_alone ? sent_ : 0;

@@ -22,7 +22,7 @@ void Baking::advance() {
   if (!baker_->finished()) return;
   photons_ = baker_->photons();
   bake_ = baker_->take();
-  baker_.reset(); // its device memory is for others
+  baker_.reset(); // frees its device memory for others
   keep();
 }
 
@@ -37,7 +37,7 @@ double Baking::fraction_done() const {
                      static_cast<double>(task_->directions.size());
 }
 
-/// Ranks have rank 0's.
+/// All ranks get rank 0's bake.
 void Baking::read() {
   const Communicator& communicator = context_.communicator();
   try {

@@ -15,32 +15,32 @@ namespace nephroid::environment {
 
 class Baking {
 public:
-  /// key: of the bake. directions: how many it will be asked for. reads: the file is there and looks right; where it
-  /// turns out wrong, that is a warning. Throws as Baker.
+  /// key: the bake's. directions: how many will be baked. reads: the file is there and looks right; a file that turns
+  /// out wrong is a warning. Throws as Baker does.
   Baking(std::shared_ptr<const BakeTask> task, std::uint64_t key, std::filesystem::path file, bool reads,
          std::size_t directions, const mpi::RankContext& context);
 
   const BakeTask& task() const { return *task_; }
   bool is_complete() const { return bake_.has_value(); }
-  /// As far as it is. Another object once it is complete; that one stays.
+  /// What is baked so far. It becomes another object when the bake is complete, and stays that one.
   const Bake& bake() const { return bake_ ? *bake_ : baker_->bake(); }
 
-  /// One slice of about 30 ms, while it is not complete.
+  /// Bakes for one slice of about 30 ms. Only for a bake that is not complete.
   void advance();
-  /// Throws a complete bake away: what is baked is a state to be loaded.
+  /// Drops a complete bake, because a state is about to be loaded.
   void begin_anew();
 
   std::int64_t directions() const { return static_cast<std::int64_t>(bake().baked.size()); } ///< complete ones
   double fraction_done() const;                                                              ///< 0..1
-  /// That were sent here.
+  /// The photons that this run has sent.
   std::uint64_t photons() const { return bake_ ? photons_ : baker_->photons(); }
-  /// Until it is complete; nothing where that is not known.
+  /// The time until the bake is complete; nothing where that is not known.
   std::optional<double> seconds_left() const { return baker_->seconds_left(); }
   bool is_from_file() const { return is_from_file_; }
-  /// Of the file, a sentence each.
+  /// What is wrong with the file, a sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// Of a bake that is not complete.
+  /// Only for a bake that is not complete.
   void state(tracing::State& state) { baker_->state(state); }
 
 private:
@@ -52,10 +52,10 @@ private:
   std::filesystem::path file_;
   BakeIdentity identity_;
   std::size_t wanted_;
-  std::optional<Baker> baker_; ///< while it bakes
-  std::optional<Bake> bake_;   ///< when that is done
+  std::optional<Baker> baker_; ///< the bake in work; empty once it is complete
+  std::optional<Bake> bake_;   ///< the complete bake
   bool is_from_file_ = false;
-  std::uint64_t photons_ = 0; ///< that the finished bake took here
+  std::uint64_t photons_ = 0; ///< photons that this run sent for the complete bake
   std::vector<std::string> warnings_;
 };
 

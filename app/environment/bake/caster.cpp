@@ -47,11 +47,10 @@ std::size_t index_of(const preset::Preset& preset, const std::string& name, cons
   return static_cast<std::size_t>(found - objects.begin());
 }
 
-/// Without the rounding of what was computed in double, and without -0: what is turned and moved together keeps its
-/// bits.
+/// The value without rounding errors and -0, so that objects turned and moved together keep their bits.
 double rounded(double value) { return std::round(value * 1e9) * 1e-9 + 0.0; }
 
-/// Of an object in the frame of the first: its rotation R and translation T become R1^-1 R and R1^-1 (T - T1).
+/// An object's transform in the frame of the first: rotation R and translation T become R1^-1 R and R1^-1 (T - T1).
 preset::Transform in_frame(const preset::Transform& object, const preset::Transform& first) {
   const glm::dmat3 back = glm::transpose(scene::rotation(first.rotate_deg));
   const auto vector = [](const preset::Vec3& v) { return glm::dvec3(v[0], v[1], v[2]); };
@@ -59,7 +58,7 @@ preset::Transform in_frame(const preset::Transform& object, const preset::Transf
   glm::dmat3 turn = back * scene::rotation(object.rotate_deg);
   for (int column = 0; column < 3; ++column)
     for (int row = 0; row < 3; ++row) turn[column][row] = rounded(turn[column][row]);
-  // About x, then y, then z, so that the matrix is Z Y X, and glm names the angles in the order of this product.
+  // Turns are about x, then y, then z. So the matrix is Z Y X, and glm names the angles in this product's order.
   glm::dvec3 angles(0);
   glm::extractEulerAngleZYX(glm::dmat4(turn), angles.z, angles.y, angles.x);
   preset::Transform result = object;
@@ -71,7 +70,7 @@ preset::Transform in_frame(const preset::Transform& object, const preset::Transf
   return result;
 }
 
-/// The preset of these objects alone. Photons have the wavelengths of D65; white_light() says what each counts.
+/// A preset of these objects alone. Photons have the wavelengths of D65; white_light() gives the weight of each.
 preset::Preset alone(const preset::Preset& preset, const std::vector<std::size_t>& objects) {
   preset::Preset alone;
   alone.source = preset.source;
@@ -105,7 +104,7 @@ std::uint64_t hash_items(const T& items, std::uint64_t hash) {
   return hash_of({reinterpret_cast<const char*>(items.data()), items.size() * sizeof(Item)}, hash);
 }
 
-/// The point of a triangle nearest to the origin: in its plane where the foot lies in it, else on the nearest edge.
+/// The point of a triangle nearest to the origin: in its plane where the foot lies inside, else on an edge.
 glm::dvec3 nearest_point(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 normal = glm::cross(b - a, c - a);
   const auto beyond = [&](const glm::dvec3& p, const glm::dvec3& q) {
@@ -134,19 +133,19 @@ std::array<glm::dvec3, 3> corners(const scene::Scene& scene, std::uint32_t trian
   return {scene.geometry.positions[t.x], scene.geometry.positions[t.y], scene.geometry.positions[t.z]};
 }
 
-/// Where the middle is as seen from where the ellipsoid is the unit sphere.
+/// The middle in coordinates in which the ellipsoid is the unit sphere.
 glm::dvec3 middle_from(const scene::Ellipsoid& ellipsoid) {
   const auto rows = to_unit_sphere(ellipsoid);
   const glm::dvec3 way = -glm::dvec3(ellipsoid.centre);
   return {glm::dot(rows[0], way), glm::dot(rows[1], way), glm::dot(rows[2], way)};
 }
 
-/// What is |u| - 1 off the unit sphere is at least as many shortest half axes off the ellipsoid.
+/// A lower bound: a point |u| - 1 off the unit sphere is at least so many shortest half axes off the ellipsoid.
 double nearest_of(const scene::Ellipsoid& ellipsoid) {
   return scene::shortest_half_axis(ellipsoid) * std::abs(glm::length(middle_from(ellipsoid)) - 1);
 }
 
-/// Points of the ellipsoid, first the one towards the middle.
+/// Points of the ellipsoid, the one towards the middle first.
 std::vector<glm::dvec3> points_of(const scene::Ellipsoid& ellipsoid) {
   constexpr int count = 256;
   std::vector<glm::dvec3> points;
@@ -161,7 +160,7 @@ std::vector<glm::dvec3> points_of(const scene::Ellipsoid& ellipsoid) {
   return points;
 }
 
-/// Some points of it, first the one nearest to the middle.
+/// Some points of the piece, the one nearest to the middle first.
 std::vector<glm::dvec3> points_of(const scene::Scene& scene, const Piece& piece) {
   const std::size_t triangles = scene.geometry.triangles.size();
   if (piece.primitive >= triangles) return points_of(scene.geometry.ellipsoids[piece.primitive - triangles]);
@@ -174,7 +173,7 @@ bool encloses(const scene::Scene& scene, const scene::Bvh& bvh, std::size_t obje
   if (glm::distance(p, glm::dvec3(scene.objects[object].bounds.centre)) > scene.objects[object].bounds.radius)
     return false;
   static const glm::dvec3 direction =
-      glm::normalize(glm::dvec3(0.4713, 0.7921, -0.3877)); // along no edge that people draw
+      glm::normalize(glm::dvec3(0.4713, 0.7921, -0.3877)); // not along an edge that people draw
   const scene::CountsPrimitive of_object = [&](std::uint32_t primitive) {
     return scene.object_of_primitive[primitive] == object;
   };
@@ -190,7 +189,7 @@ bool encloses(const scene::Scene& scene, const scene::Bvh& bvh, std::size_t obje
   return inside;
 }
 
-/// Of the pieces that are not inside other glass; of all where there are no others.
+/// The least distance of pieces that are not inside other glass; of all pieces where every one is.
 double nearest_outside(const scene::Scene& scene, std::vector<Piece> pieces) {
   if (scene.objects.size() == 1) return std::ranges::min(pieces, {}, &Piece::nearest).nearest;
   std::ranges::sort(pieces, {}, &Piece::nearest);
@@ -294,7 +293,7 @@ std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster) {
   if (std::ranges::any_of(caster.scene.objects, &scene::Object::smooth)) hash = hash_items(mesh.normals, hash);
   for (const scene::Object& object : caster.scene.objects) {
     const scene::Material& material = material_of(caster.scene, object);
-    // Of priorities the order alone matters.
+    // Only the order of priorities matters.
     const auto rank = std::ranges::count_if(caster.scene.objects,
                                             [&](const scene::Object& o) { return o.priority < object.priority; });
     hash = hash_of(fmt::format("{} {} {} {} {} {}", object.triangle_count, object.ellipsoid_count,

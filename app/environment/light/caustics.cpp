@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t group = 32;
 
-/// [number]: the unit way of Bake::ways.
+/// [number in Bake::ways]: the unit way.
 std::vector<shared::float4> all_ways() {
   std::vector<shared::float4> ways;
   for (std::size_t i = 0; i < Bake::way_map.texels(); ++i)
@@ -18,7 +18,7 @@ std::vector<shared::float4> all_ways() {
   return ways;
 }
 
-/// Eight after eight. direction_texels: of all that are stored of one direction.
+/// The sets in groups of eight. direction_texels: how many stored texels a direction has.
 std::vector<shared::DeviceEightSets> eights_of(const std::vector<TurnedSet>& sets, std::size_t direction_texels) {
   std::vector<shared::DeviceEightSets> eights;
   for (std::size_t i = 0; i < (sets.size() + 7) / 8 * 8; ++i) {

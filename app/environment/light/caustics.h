@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A baked object under lights, on a device: E r^2 of all of them together, at points around it
+// A baked object under lights, on a device: the E r^2 of all lights together at points around it
 // (kernels/environment/cast.cl).
 #pragma once
 #include "compute/compute.h"
@@ -14,7 +14,7 @@
 
 namespace nephroid::environment {
 
-/// Texels of a cube of receivers that are to be lit: first .. first + count - 1 of a list.
+/// Texels of a cube of receivers to be lit: first .. first + count - 1 of a list.
 struct CastTexels {
   const compute::Buffer<std::uint32_t>* list; ///< numbers of texels
   std::uint32_t first, count;
@@ -22,9 +22,9 @@ struct CastTexels {
   const compute::Buffer<shared::float4>* normals; ///< [texel of the cube], unit, on the object's side
   const compute::Buffer<float>*
       caustics; ///< [texel of the cube][3], written: E r^2, linear sRGB, W/m^2 of Y times squared units
-  int size;     ///< of the cube's faces
+  int size;     ///< texels along an edge of the cube's faces
 
-  /// Of a kernel that lights them.
+  /// The arguments for a kernel that lights them.
   std::vector<compute::Argument> arguments() const {
     return {{"list", *list},           {"first", first},      {"count", count},       {"size", size},
             {"distances", *distances}, {"normals", *normals}, {"caustics", *caustics}};
@@ -36,9 +36,9 @@ public:
   /// bake outlives it. Throws failed where the device has not enough memory.
   Caustics(const Bake& bake, const compute::Context& context);
 
-  /// On a device.
+  /// Memory on the device.
   static std::uint64_t bytes(const Bake& bake);
-  /// Of what compile_air() makes.
+  /// Memory of what compile_air() makes.
   static std::uint64_t air_bytes(const Bake& bake, int side);
 
   /// rotation: from the bake's coordinates to the scene's.
@@ -46,7 +46,7 @@ public:
 
   void cast(const CastTexels& texels);
 
-  /// Of all calls of set_lights and cast so far.
+  /// The time that all calls of set_lights and cast have taken.
   double seconds() const { return seconds_; }
 
   /// Adds up the light in the air of all sets into one set of spheres (Algorithm 3.5), whose maps have side x side
@@ -61,21 +61,21 @@ public:
   };
   const Air& air() const { return air_; }
   const compute::Buffer<float>& radii() const { return radii_; }
-  int side() const { return spheres_.side; } ///< of the bake's maps
+  int side() const { return spheres_.side; } ///< the side of the bake's maps
 
 private:
   template <class Work>
   void timed(const Work& work);
 
   compute::Context context_;
-  int directions_; ///< of the bake
+  int directions_; ///< how many the bake has
   shared::DeviceSpheres spheres_{};
   compute::Buffer<std::uint16_t> stored_, ways_;
   compute::Buffer<shared::float4> way_of_; ///< [number of Bake::way_map]
   compute::Buffer<float> radii_;
   Air air_;
   compute::Buffer<shared::DeviceEightSets> sets_;
-  int used_eights_ = 0; ///< of the buffer's
+  int used_eights_ = 0; ///< how many items of sets_ are in use
   double seconds_ = 0;
   compute::Kernel cast_, compile_air_;
 };

@@ -13,7 +13,7 @@
 namespace nephroid::environment {
 namespace {
 
-/// Cells along an edge of the cube.
+/// The number of cells along an edge of the cube.
 int cells_of(int count) {
   const std::vector<glm::ivec3> points = cube_points(count);
   return 2 * points.back().x;
@@ -84,7 +84,7 @@ std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count) 
   return near;
 }
 
-// The real part of glm's quaternion is rounded off where the vectors are nearly opposite: its length is wrong there,
+// Where the vectors are nearly opposite, the real part of glm's quaternion is rounded off. Its length is wrong there,
 // but its axis is right.
 glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to) {
   return glm::mat3_cast(glm::normalize(glm::rotation(from, to)));

@@ -40,14 +40,14 @@ private:
 
   const scene::Scene& from_;
   scene::Scene& to_;
-  std::vector<std::uint32_t> places_; ///< of each vertex in the new scene
+  std::vector<std::uint32_t> places_; ///< each vertex's index in the new scene
 };
 
 bool is_one_of(const std::vector<std::size_t>& caster, std::size_t object) {
   return std::ranges::count(caster, object) > 0;
 }
 
-/// Without the caster, and with the others' new numbers.
+/// The objects without the caster, and with the others' new numbers.
 std::vector<int> renumbered(const std::vector<int>& objects, const std::vector<std::size_t>& caster) {
   std::vector<int> result;
   for (const int object : objects) {
@@ -94,7 +94,7 @@ std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings
     if (hidden == glm::dvec3(0)) continue;
     VisibleLight& left = visible[light];
     left.flux = glm::min(flux, left.flux);
-    // The samples' mean stands for the region's only nearly. So the difference that hiding makes is added to the
+    // The samples' mean direction is only nearly the region's. So the difference that hiding makes is added to the
     // region's own direction.
     const glm::dvec3 shift = all - hidden != glm::dvec3(0) && flux != glm::dvec3(0)
                                  ? glm::normalize(all - hidden) - glm::normalize(all)

@@ -15,20 +15,20 @@ namespace {
 
 constexpr std::size_t most_samples = std::size_t{1} << 18, most_samples_of_light = 1024;
 
-/// Of a face, in texels; the borders need not be whole.
+/// A rectangle of a face, in texels; its borders need not be whole.
 struct Cell {
   glm::dvec2 low{0}, high{0};
   double length(int axis) const { return high[axis] - low[axis]; }
 };
 
-/// Which of all cells it is: how often it was cut across and down, and its number from the left and from the top among
-/// cells cut like that.
+/// Identifies a cell: how often it was cut across and down, and its number from the left and from the top among cells
+/// cut alike.
 struct CellPlace {
   unsigned number[2] = {0, 0};
   int cuts[2] = {0, 0};
 };
 
-/// The lowest bits of a number in the opposite order.
+/// The lowest bits of a number in reverse order.
 unsigned mirrored(unsigned number, int bits) {
   unsigned result = 0;
   for (int i = 0; i < bits; ++i) result |= (number >> i & 1) << (bits - 1 - i);
@@ -37,7 +37,7 @@ unsigned mirrored(unsigned number, int bits) {
 
 class Sampler {
 public:
-  /// to: 2^halvings samples.
+  /// to: room for 2^halvings samples.
   Sampler(const CubeMap& cube, const Region& light, int halvings, LightSample* to)
       : cube_(cube), light_(light), halvings_(halvings), to_(to) {
     const Rect& r = light.rect;
@@ -51,7 +51,7 @@ public:
 private:
   double weight(int x, int y) const { return glm::dot(parts_, cube_.flux_of(cube_.texel(light_.face, x, y))); }
 
-  /// visit(x, y, how much of it lies in the cell) for each texel of it.
+  /// Calls visit(x, y, the part of the texel in the cell) for each texel of the cell.
   template <class Visit>
   static void for_each_texel(const Cell& cell, const Visit& visit) {
     const auto overlap = [&](int i, int axis) {
@@ -71,7 +71,7 @@ private:
     return sum;
   }
 
-  /// Where along an axis (0: x) the given part of the cell's weight lies before.
+  /// The place along an axis (0: x) before which the given part of the cell's weight lies.
   double quantile(const Cell& cell, int axis, double part) const {
     const int first = static_cast<int>(cell.low[axis]);
     std::vector<double> sums(static_cast<std::size_t>(std::ceil(cell.high[axis])) - static_cast<std::size_t>(first),
@@ -90,7 +90,7 @@ private:
     return sums[i] > 0 ? from + (to - from) * std::min(rest / sums[i], 1.0) : from;
   }
 
-  /// Cuts the cell across its longer side into two of equal weight, and those again.
+  /// Cuts the cell across its longer side into two of equal weight, and cuts those again.
   void halve(const Cell& cell, const CellPlace& place) {
     if (place.cuts[0] + place.cuts[1] == halvings_) {
       *to_++ = sample(cell, place);
@@ -116,7 +116,7 @@ private:
       return (mirrored(place.number[1 - axis], place.cuts[1 - axis]) + 0.5) / std::exp2(place.cuts[1 - axis]);
     };
     const double x = quantile(cell, 0, part(0));
-    Cell column = cell; // of texels, so that the sample is never in the dark between two lights
+    Cell column = cell; // a column of texels, so that the sample is not in the dark between two lights
     column.low.x = std::max(cell.low.x, std::floor(x));
     column.high.x = std::min(cell.high.x, std::floor(x) + 1);
     const double y = quantile(column, 1, part(1));
@@ -129,7 +129,7 @@ private:
   int halvings_;
   LightSample* to_;
   glm::dvec3 dropped_flux_{0};
-  glm::dvec3 parts_{0}; ///< what a texel weighs for its flux in each channel
+  glm::dvec3 parts_{0}; ///< the weight of flux in each channel
 };
 
 double part(double x) { return x - std::floor(x); }
@@ -138,7 +138,7 @@ using Corners = std::array<glm::dvec3, 3>;
 
 double area(const Corners& t) { return glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) / 2; }
 
-/// Thomsen's approximation, within 1.1 %.
+/// The area by Thomsen's approximation, within 1.1 %.
 double area(const scene::Ellipsoid& ellipsoid) {
   constexpr double p = 1.6075;
   const auto& axes = ellipsoid.half_axes;
@@ -146,7 +146,7 @@ double area(const scene::Ellipsoid& ellipsoid) {
   return 4 * std::numbers::pi * std::pow((std::pow(a * b, p) + std::pow(b * c, p) + std::pow(c * a, p)) / 3, 1 / p);
 }
 
-/// The i-th of an additive recurrence over the square, whose upper half is folded onto the lower.
+/// The i-th point of an additive recurrence over the square, whose upper half is folded onto the lower.
 glm::dvec3 point(const Corners& t, std::size_t i) {
   const double u = part(0.5 + 0.7548776662 * static_cast<double>(i)),
                v = part(0.5 + 0.5698402910 * static_cast<double>(i));
@@ -161,7 +161,7 @@ glm::dvec3 point(const scene::Ellipsoid& ellipsoid, std::size_t i, std::size_t c
   return result;
 }
 
-/// Calls triangle(Corners) and ellipsoid(Ellipsoid) for all of the objects.
+/// Calls triangle(Corners) and ellipsoid(Ellipsoid) for all pieces of the objects.
 template <class Triangle, class Ellipsoid>
 void for_each_piece(const scene::Scene& scene, const std::vector<std::size_t>& objects, const Triangle& triangle,
                     const Ellipsoid& ellipsoid) {
@@ -195,7 +195,7 @@ std::vector<glm::dvec3> surface_points(const scene::Scene& scene, const std::vec
   for_each_piece(scene, objects, add, add);
 
   std::vector<glm::dvec3> points;
-  // Each count-th of the area has a point, so small triangles share one.
+  // Each count-th part of the area has a point, so small triangles share one.
   const auto points_until = [&](double of_area) {
     before += of_area;
     return static_cast<std::size_t>(std::llround(before / total * static_cast<double>(count)));

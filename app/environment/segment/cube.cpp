@@ -11,22 +11,23 @@
 namespace nephroid::environment {
 namespace {
 
-/// Of the rectangle from the middle of a face to (s, t), with the sign of s t: the integral of (1 + s^2 + t^2)^(-3/2).
+/// The solid angle of the rectangle from the middle of a face to (s, t), with the sign of s t: the integral of (1 + s^2
+/// + t^2)^(-3/2).
 double solid_angle_to(double s, double t) { return std::atan(s * t / std::sqrt(1 + s * s + t * t)); }
 
 constexpr double pi = std::numbers::pi;
 constexpr int least_size = 128, most_size = 512;
 
-/// How many parts a texel has along one side. count: texels along that side of the map. parts_around: wanted at least
-/// along all of it. All of it has a multiple of `of` parts, so that a line between octants lies between parts.
+/// How many parts a texel has along one side. count: texels along that side of the map. parts_around: the least number
+/// for the whole side. That has a multiple of `of` parts, so that octants meet between parts.
 int parts_of(int count, double parts_around, int of) {
   int parts = std::max(1, static_cast<int>(std::ceil(parts_around / count)));
   while (static_cast<long long>(parts) * count % of != 0) ++parts;
   return parts;
 }
 
-/// A texel's parts are rectangles of longitude and latitude. Each gives its flux to the texel of the cube that its
-/// middle lies in. The width of a part is at most a quarter of the narrowest texel of the cube.
+/// Gives a map's flux to the cube. A texel's parts are rectangles of longitude and latitude, at most a quarter as wide
+/// as the narrowest texel of the cube. Each gives its flux to the texel of the cube that its middle lies in.
 class Scatter {
 public:
   Scatter(const scene::Environment& map, CubeMap& cube)
@@ -41,8 +42,8 @@ public:
     }
   }
 
-  /// quarter: of the map's width, 0..3; half: of its height. Its light goes to texels that no other octant's light goes
-  /// to, as the faces have an even size.
+  /// quarter: of the map's width, 0..3. half: of its height. As faces have an even size, no two octants add to the same
+  /// texel.
   void octant(int quarter, int half) const {
     const int columns = across_ * map_.width / 4, rows = down_ * map_.height / 2;
     for (int row = half * rows; row < (half + 1) * rows; ++row)
@@ -72,8 +73,8 @@ private:
   const scene::Environment& map_;
   CubeMap& cube_;
   int across_, down_;
-  std::vector<double> sines_, cosines_; ///< of the parts' azimuths, from -z to the right
-  std::vector<std::size_t> texels_;     ///< where in its row of the map a part's colour is
+  std::vector<double> sines_, cosines_; ///< sines and cosines of the parts' azimuths, from -z to the right
+  std::vector<std::size_t> texels_;     ///< [part]: the place of its colour in a row of the map
 };
 
 } // namespace
@@ -103,7 +104,7 @@ int cube_size(const scene::Environment& map) {
 
 CubeMap make_cube_map(const scene::Environment& map) {
   CubeMap cube{cube_size(map), {}};
-  cube.even = std::equal(map.rgb.begin() + 3, map.rgb.end(), map.rgb.begin()); // each texel is as the one before
+  cube.even = std::equal(map.rgb.begin() + 3, map.rgb.end(), map.rgb.begin()); // each texel equals the one before
   const auto size = static_cast<std::size_t>(cube.size);
   cube.flux.assign(size * size * 3 * face_count, 0.0);
   const Scatter scatter(map, cube);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cube seen from its centre: six square faces, which of their points a direction meets, and solid angles on them. And
-// the environment on these faces, which keep its light exactly.
+// A cube seen from its centre: six square faces, the point of them that a direction meets, and solid angles on them.
+// And the environment on these faces, which keep its light exactly.
 #pragma once
 #include "scene/environment.h"
 
@@ -25,9 +25,9 @@ struct CubePoint {
   double s = 0, t = 0;
 };
 
-/// Where the point is; not of unit length.
+/// The point's position, which is not of unit length.
 glm::dvec3 position(const CubePoint& point);
-/// The point that a direction from the centre meets. direction: of any length but 0.
+/// The point that a direction from the centre meets. direction: any length but 0.
 inline CubePoint met_point(const glm::dvec3& direction) {
   const double x = direction.x, y = direction.y, z = direction.z;
   const double across = std::abs(x), up = std::abs(y), along = std::abs(z);
@@ -54,7 +54,7 @@ inline int texel_of(double s, int size) {
   return i < size ? i : size - 1;
 }
 
-/// In sr, exact.
+/// The exact solid angle, in sr.
 double solid_angle(const Rect& rect, int size);
 
 struct CubeMap {
@@ -71,19 +71,19 @@ struct CubeMap {
   glm::dvec3 flux_of(std::size_t texel) const { return {flux[3 * texel], flux[3 * texel + 1], flux[3 * texel + 2]}; }
 };
 
-/// A texel in the middle of a face is about as wide as the map's at its equator: a quarter of the map's width, but 128
-/// to 512, and even.
+/// The size at which a texel in the middle of a face is about as wide as the map's at its equator: a quarter of the
+/// map's width, made even and held to 128 to 512.
 int cube_size(const scene::Environment& map);
 
-/// All light of the map, times its `radiance`. It is not turned by rotate_deg: what is made of the cube stays the same
-/// while the map turns.
+/// The cube has all light of the map, times its `radiance`. It is not turned by rotate_deg, so what is made from it
+/// stays the same while the map turns.
 CubeMap make_cube_map(const scene::Environment& map);
 
 /// Y of linear sRGB (IEC 61966-2-1).
 inline double luminance(const glm::dvec3& rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
 
-/// A direction in the cube as it is in the scene, where the map is turned about +y, counterclockwise as seen from
-/// above.
+/// The scene's direction for a direction in the cube. The scene has the map turned about +y, counterclockwise as seen
+/// from above.
 glm::dvec3 turned(const glm::dvec3& direction, double rotate_deg);
 
 } // namespace nephroid::environment

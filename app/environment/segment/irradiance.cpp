@@ -11,12 +11,12 @@
 namespace nephroid::environment {
 namespace {
 
-/// Of a block of texels: the sum of flux times unit direction, of each channel.
+/// The sum over a block of texels of flux times unit direction, for each channel.
 using AxisMoments = glm::dmat3;
 
-constexpr int blocks_along = 128; // of a face: a block is as small as a texel of the smallest cube
+constexpr int blocks_along = 128; // along a face: a block is as small as a texel of the smallest cube
 
-/// A block's light does not count as one direction's, so a plane is lit rightly by every block but those that it cuts.
+/// A block keeps the sum over its directions, so a plane gets the exact light of every block that it does not cut.
 std::vector<AxisMoments> blocks_of(const CubeMap& cube) {
   const int side = (cube.size + blocks_along - 1) / blocks_along;
   std::vector<AxisMoments> blocks;

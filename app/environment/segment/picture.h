@@ -12,9 +12,9 @@ struct SegmentPicture {
   std::vector<unsigned char> rgba; ///< row 0 at the top
 };
 
-/// The map as it is in its file, 1024 x 512, with its range made small enough for a screen.
+/// The map as in its file, 1024 x 512, with its range reduced to a screen's.
 SegmentPicture shown_map(const scene::Environment& map);
-/// The same with the borders of all regions as lines and the directions of the lights as discs.
+/// shown_map() with the borders of all regions as lines and the directions of the lights as discs.
 SegmentPicture segment_picture(const scene::Environment& map, const Segmentation& segmentation);
 
 } // namespace nephroid::environment

@@ -18,7 +18,7 @@ struct Piece {
   int face = 0;
   Rect rect;
   Moments moments;
-  double importance = 0; ///< of most importance is cut next
+  double importance = 0; ///< the piece with most is cut next
 
   auto place() const { return std::tuple(face, rect.y0, rect.x0); }
   bool operator<(const Piece& other) const {
@@ -59,7 +59,7 @@ private:
       pieces_.push(piece);
   }
 
-  /// A piece that cannot be cut, or of which no light would be left, is passed over.
+  /// Cuts the next piece. One that cannot be cut, or whose parts would both be dark, stays as it is.
   void cut_next() {
     const Piece piece = pieces_.top();
     pieces_.pop();
@@ -84,7 +84,7 @@ private:
 
   Region region_of(const Piece& piece) const {
     const Rect& r = piece.rect;
-    // Moments along s, t and outwards are a point of the face, scaled; a black piece has none, so it gets the middle of
+    // Moments along s, t and outwards are a scaled point of the face. A black piece has none, so it gets the middle of
     // its rectangle.
     const glm::dvec3 m = piece.moments.m1;
     const CubePoint centre = m.z > 0 ? CubePoint{piece.face, m.x / m.z, m.y / m.z}
@@ -116,15 +116,15 @@ private:
   const CubeMap& cube_;
   const SegmentSettings& settings_;
   WeighedCube weighed_;
-  double least_ = 0; ///< what weighs no more is no light
+  double least_ = 0; ///< a piece that weighs no more is no light
   std::priority_queue<Piece> pieces_;
   std::vector<Piece> done_, dropped_;
 };
 
-/// Rounding in sums of positive numbers, relative to them.
+/// The relative rounding of sums of positive numbers.
 constexpr double rounding = 1e-12;
 
-/// The best cut of one direction.
+/// The best cut in one direction.
 struct Candidate {
   int at = 0; ///< lines before the cut; 0: there is none
   double cost = 0;
@@ -135,12 +135,12 @@ double cost_of(const Moments& before, const Moments& after, SegmentMethod method
   return method == SegmentMethod::thesis ? std::abs(before.m0 - after.m0) : before.variance() + after.variance();
 }
 
-/// lines: the sums of rows or of columns. Both sides of a cut are sums of lines: a difference of larger sums would be
-/// rounding where there is hardly any light.
+/// lines: the sums of rows or of columns. Both sides of a cut are sums of lines, because a difference of larger sums
+/// would be mere rounding where there is hardly any light.
 Candidate best_between(const std::vector<Moments>& lines, SegmentMethod method) {
   const std::size_t count = lines.size();
   if (count < 2) return {};
-  std::vector<Moments> after(count); // [i]: of lines i and on
+  std::vector<Moments> after(count); // [i]: the sum of lines i and on
   after.back() = lines.back();
   for (std::size_t i = count - 1; i-- > 0;) (after[i] = after[i + 1]) += lines[i];
   std::vector<double> costs(count);
@@ -164,7 +164,7 @@ double squared_deviation(int across, int down) {
   return (aspect - 1) * (aspect - 1);
 }
 
-/// Dev (3.2) of two rectangles `side` wide, that have `at` and the rest of `length`.
+/// Dev (3.2) of two rectangles `side` wide, which share `length` as `at` and the rest.
 double deviation(int side, int length, int at) {
   return squared_deviation(side, at) + squared_deviation(side, length - at);
 }
@@ -189,7 +189,7 @@ Segmentation segment(const CubeMap& cube, const SegmentSettings& settings) {
 Segmentation even_segments(const CubeMap& cube, int lights) {
   int across = 1;
   while (face_count * across * across < lights) ++across;
-  const auto place = [&](int i) { // at equal angles, which gives about equal solid angles
+  const auto place = [&](int i) { // borders at equal angles have about equal solid angles
     const double angle = glm::radians(45.0) * (2.0 * i / across - 1);
     return static_cast<int>(std::lround((1 + std::tan(angle)) / 2 * cube.size));
   };

@@ -9,13 +9,13 @@
 
 namespace nephroid::environment {
 
-/// variance: M0 - |M1|^2 / M0, from a region's radiance M0 and the sum M1 of its radiance times direction, is what one
-/// direction leaves out. Of the region that has most of it, the cut is made that leaves least. thesis: the region of
-/// most radiance is cut into halves of equal radiance, in the direction that gives the squarer rectangles (3.2).
+/// variance: with a region's radiance M0 and the sum M1 of its radiance times direction, one direction leaves out M0 -
+/// |M1|^2 / M0. The region with most of that is cut where least of it is left. thesis: the region of most radiance is
+/// cut into halves of equal radiance, in the direction that gives the squarer rectangles (3.2).
 enum class SegmentMethod { variance, thesis };
 
-/// How much a texel's radiance counts: as its solid angle, or, as printed in the thesis, as every other texel's. For
-/// where regions are cut and which direction each has; their flux is exact either way.
+/// How much a texel's radiance counts: by its solid angle, or, as printed in the thesis, as much as any other texel's.
+/// This decides the cuts and the directions; the flux is exact either way.
 enum class SegmentWeights { solid_angle, texel };
 
 struct SegmentSettings {
@@ -27,7 +27,7 @@ struct SegmentSettings {
 };
 
 struct Region {
-  int face = 0; ///< of face_names
+  int face = 0; ///< index into face_names
   Rect rect;
   glm::dvec3 direction{0}; ///< unit; where its light comes from: the mean of its directions, weighted by radiance
   glm::dvec3 flux{0};      ///< radiance times solid angle, linear sRGB, W/m^2 of Y on a plane that faces it
@@ -36,18 +36,19 @@ struct Region {
 
 struct Segmentation {
   int cube_size = 0;
-  glm::dvec3 total_flux{0};    ///< of the cube map, and of all lights together
-  std::vector<Region> lights;  ///< by face, row and column of their first texel
-  std::vector<Region> dropped; ///< below the threshold: black, or its flux is counted in the nearest light's. With the
-                               ///< lights it tiles the cube.
+  glm::dvec3 total_flux{0};    ///< the flux of the cube map, and of all lights together
+  std::vector<Region> lights;  ///< ordered by face, row and column of their first texel
+  std::vector<Region> dropped; ///< regions below the threshold, black or with their flux added to the nearest light's;
+                               ///< with the lights they tile the cube
 };
 
-/// Radiance is luminance here. A region of one texel is passed over, so there are fewer lights where the lit texels are
-/// fewer, and none where the map is black. Throws bad_input at "q" for fewer than 6.
+/// Radiance is luminance here. A region of one texel is not cut, so there are fewer lights where fewer texels are lit,
+/// and none where the map is black. Throws bad_input at "q" for fewer than 6.
 Segmentation segment(const CubeMap& cube, const SegmentSettings& settings);
 
-/// What cutting makes of a map of one colour all around, without looking for cuts: each face in as many parts across as
-/// down, at equal angles. The fewest that are `lights` or more; for 6 and 24 the very lights that segment() makes.
+/// The lights of a map of one colour all around, without a search for cuts: each face has as many parts across as down,
+/// at equal angles. There are as few lights as possible, but at least `lights`. For 6 and 24 they are those of
+/// segment().
 Segmentation even_segments(const CubeMap& cube, int lights);
 
 /// Sums of weights and of weights times unit direction, in the face's own axes s, t and outwards.
@@ -60,11 +61,11 @@ struct Moments {
     m1 += other.m1;
     return *this;
   }
-  /// M0 - |M1|^2 / M0: the weights times their squared distances from their mean, summed. 0 where it is rounding.
+  /// M0 - |M1|^2 / M0: the sum of weights times squared distances from the mean. 0 where rounding is larger.
   double variance() const;
 };
 
-/// What each texel weighs, and its direction.
+/// The weight and the direction of each texel.
 class WeighedCube {
 public:
   WeighedCube(const CubeMap& cube, SegmentWeights weights);
@@ -81,7 +82,7 @@ private:
   int size_;
   std::size_t side_;
   std::vector<double> weights_;
-  std::vector<double> outwards_; ///< of one face: a texel's unit direction along the face's axis
+  std::vector<double> outwards_; ///< for one face: the component of a texel's unit direction along the face's axis
 };
 
 struct Cut {
@@ -89,9 +90,9 @@ struct Cut {
   Moments first_moments, second_moments;
 };
 
-/// By thesis: into the most equal halves across and along, of which the one with the smaller Dev (3.2) is taken. By
-/// variance: the two parts have the least variance together. Of cuts that are equally good, the one nearest to the
-/// middle, of the longer side. Nothing for one texel.
+/// thesis: of the most equal halves across and along, those with the smaller Dev (3.2) are taken. variance: the two
+/// parts have the least variance together. Among equally good cuts, the one nearest to the middle of the longer side is
+/// taken. Nothing for one texel.
 std::optional<Cut> best_cut(const WeighedCube& cube, int face, const Rect& rect, SegmentMethod method);
 
 } // namespace nephroid::environment

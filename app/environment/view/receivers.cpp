@@ -9,7 +9,7 @@
 namespace nephroid::environment {
 namespace {
 
-constexpr std::size_t square = 4; ///< texels across and down, of which a cube's size is a multiple
+constexpr std::size_t square = 4; ///< texels across and down; divides a cube's size
 
 std::size_t texels_of(int size) { return 6 * static_cast<std::size_t>(size) * static_cast<std::size_t>(size); }
 
@@ -38,8 +38,8 @@ void Receivers::forget() {
 
 void Receivers::find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle) {
   states_read_ = context_.all_reduced_or(states_);
-  // Square after square, as texels beside each other look up spheres beside each other: a sixth faster than row after
-  // row.
+  // Texels go square after square, because neighbouring texels look up neighbouring places of spheres. This is a sixth
+  // faster than row after row.
   const std::size_t size = static_cast<std::size_t>(size_);
   for (std::size_t top = 0; top < 6 * size; top += square)
     for (std::size_t left = 0; left < size; left += square)
@@ -93,7 +93,7 @@ bool Receivers::cast(const std::function<void(const CastTexels&)>& light) {
   return true;
 }
 
-/// Lets all ranks have what each has worked out of the list's newest.
+/// Gives all ranks the values that each has worked out of the list's newest texels.
 void Receivers::share(const Partition& partition, compute::Buffer<float>& values) const {
   if (context_.communicator().is_alone()) return;
   std::vector<float> all = values.read(), newest;

@@ -14,7 +14,7 @@ constexpr std::size_t surface_point_count = 1024;
 
 bool shines(const scene::Scene& scene) { return scene.environment && !scene.environment->is_black(); }
 
-/// Of the scene, whose environment is a light to this engine whatever `lights` says.
+/// The scene with its environment as a light, which it always is to this engine, whatever `lights` says.
 std::shared_ptr<const scene::Scene> lit_scene(const scene::Scene& scene) {
   auto lit = std::make_shared<scene::Scene>(scene);
   if (shines(scene) && !scene.environment->lights) {
@@ -41,7 +41,7 @@ const scene::Environment& backdrop(const scene::Scene& scene) {
 
 bool is_cut_evenly(const preset::Preset& preset, const CubeMap& cube) {
   const Settings& s = settings(preset);
-  return preset.leave_out && cube.even && 2 * s.lights * s.threshold < 1; // else regions would be dropped
+  return preset.leave_out && cube.even && 2 * s.lights * s.threshold < 1; // otherwise regions would be dropped
 }
 
 Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube) {

@@ -13,13 +13,13 @@
 namespace nephroid::environment {
 namespace {
 
-constexpr int block_of_coarse = 4;                          ///< pixels across and down a square that has one path
+constexpr int block_of_coarse = 4;                          ///< pixels across and down a block that has one path
 constexpr int coarse_receivers = 128, fine_receivers = 512; ///< texels along an edge of a face
 constexpr std::array<const char*, 4> layer_names{"background", "direct", "caustic", "smooth"};
 
 std::size_t ends_of_pixel(const RenderTask& task) { return task.coloured ? 4 : 2; } // ENDS_OF_PIXEL
 
-/// Of compiled spheres for a medium, by the bake's: what is added up along a path is soft.
+/// The map side of spheres compiled for a medium, for the bake's: light added up along a path is soft.
 int fine_side(int side) { return std::max(side / 2, 8); }
 int coarse_side(int side) { return std::max(side / 4, 8); }
 
@@ -116,7 +116,7 @@ void Renderer::light_up() {
     polynomial.push_back(tracing::to_float4(factor));
   irradiance_.write(polynomial);
   air_side_ = 0;
-  coarse_.forget(); // with what other cameras have seen
+  coarse_.forget(); // drops what other cameras have seen
   fine_.forget();
 }
 
@@ -145,7 +145,7 @@ void Renderer::compile_air(int side) {
 
 bool Renderer::cast(Receivers& receivers) {
   return receivers.cast([&](const CastTexels& texels) {
-    if (task_.settings.cast && caustics_) caustics_->cast(texels); // else they stay 0
+    if (task_.settings.cast && caustics_) caustics_->cast(texels); // otherwise they stay 0
     world_.run(shadows_, texels.count, 32,
                {{"list", *texels.list},
                 {"first", texels.first},
@@ -292,7 +292,7 @@ std::vector<Renderer::Layer> Renderer::layers() const {
     for_ranges(values, 1 << 14, [&](std::size_t, const Range& range) {
       for (std::size_t i = range.begin; i < range.end; ++i) {
         std::array<std::int64_t, 2> passes{(pass_ + 1) / 2, pass_ / 2};
-        // The pixels before these have had the pass in hand as well. The coarse picture is one sample.
+        // The first `ahead` pixels have the pass in hand as well. The coarse picture is one sample.
         if (i < 3 * ahead || pass_ == 0) passes[half()] = pass_ / 2 + 1;
         const std::array<double, 2> samples{static_cast<double>(passes[0]), static_cast<double>(passes[1])};
         const double count = samples[0] + samples[1], a = halves[0][i], b = samples[1] > 0 ? halves[1][i] : 0;
@@ -375,7 +375,7 @@ void Renderer::state(tracing::State& state) {
     if (task_.has_medium) state.owned(volume_sums_[half], own_pixels(), 3);
   }
   if (!state.is_read()) return;
-  // The ends of the pass in hand are found again, and the pixels that have had theirs are not shaded again.
+  // The ends of the pass in hand are found again. Pixels that are already shaded are not shaded again.
   stage_ = shaded_ ? Stage::compile_air : Stage::see;
   see_slices_ = tracing::PixelSlices(pixels(), 8192);
 }

@@ -51,7 +51,7 @@ bool SceneView::show(const preset::Preset& preset) {
   try {
     begins = go_on_with(preset);
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::bad_input) renderer_.reset(); // it is neither as it was nor as it shall be
+    if (error.kind() != ErrorKind::bad_input) renderer_.reset(); // it is changed in part
     throw;
   } catch (...) {
     renderer_.reset();
@@ -71,7 +71,7 @@ void SceneView::set_caustics_seconds(double seconds) {
 }
 
 void SceneView::make_renderer(const preset::Preset& preset) {
-  renderer_.reset(); // its device memory is for the next
+  renderer_.reset(); // frees its device memory for the next
   renderer_.emplace(*task_, preset.white.value(), preset.seed, context_);
   if (caustics_) renderer_->set_caustics(*caustics_);
 }

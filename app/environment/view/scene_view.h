@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run shows of its scene: a renderer that goes from one preset to the next, and begins again only where it must.
+// The view of a run's scene: a renderer that goes from one preset to the next, and begins again only where it must.
 #pragma once
 #include "environment/view/renderer.h"
 #include "mpi/rank_context.h"
@@ -10,18 +10,17 @@
 
 namespace nephroid::environment {
 
-// How a preset may differ from another for a run to go on, in parts.
+// The ways in which a preset may differ from another for a run to go on.
 
-/// The preset with what a renderer takes on as it goes: camera, turn of the environment, segmentation and white of
-/// another.
+/// The preset with another's values that a renderer can adopt: camera, turn of the environment, segmentation, white.
 preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other);
 
-/// The preset with objects turned and moved as in another.
+/// The preset with objects turned and moved as in another preset.
 preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset& other);
 
 class SceneView {
 public:
-  /// task: of the preset, with this caster, which outlives it.
+  /// task: the preset's, made with this caster. caster outlives the view.
   SceneView(const preset::Preset& preset, std::shared_ptr<const RenderTask> task, const Caster& caster,
             const mpi::RankContext& context)
       : shown_(preset), loaded_(preset), task_(std::move(task)), caster_(caster), context_(context) {}
@@ -31,19 +30,19 @@ public:
   Renderer* renderer() { return renderer_ ? &*renderer_ : nullptr; }
   const Renderer* renderer() const { return renderer_ ? &*renderer_ : nullptr; }
   void begin(const preset::Preset& preset);
-  /// Until begin() nothing is shown, and there are no caustics.
+  /// Drops the renderer and the caustics until begin().
   void end();
 
-  /// Goes on with a preset that is adoptable. Whether another picture begins. Throws bad_input where all stays as it
-  /// was; after any other exception there is no renderer.
+  /// Goes on with a preset that is adoptable. True where another picture begins. If it throws bad_input, all stays as
+  /// it was; after any other exception there is no renderer.
   bool show(const preset::Preset& preset);
   const preset::Preset& shown() const { return shown_; }
   double backdrop_rotate_deg() const { return shown_.scene.environment ? shown_.scene.environment->rotate_deg : 0; }
 
-  /// Caustics of a complete bake, which outlives it.
+  /// bake: complete; it outlives the view.
   void set_bake(const Bake& bake);
   bool has_caustics() const { return caustics_.has_value(); }
-  /// That caustics took since the picture began.
+  /// The time that caustics took since the picture began.
   double caustics_seconds() const { return caustics_ ? caustics_->seconds() - caustics_seconds_before_ : 0; }
 
   void state(tracing::State& state) { renderer_->state(state); }
@@ -54,13 +53,13 @@ private:
   bool go_on_with(const preset::Preset& preset);
   void make_renderer(const preset::Preset& preset);
 
-  preset::Preset shown_;  ///< by the renderer
-  preset::Preset loaded_; ///< what task_ is of
+  preset::Preset shown_;  ///< the preset that the renderer shows
+  preset::Preset loaded_; ///< the preset that task_ was made for
   std::shared_ptr<const RenderTask> task_;
   const Caster& caster_;
   mpi::RankContext context_;
   std::optional<Caustics> caustics_;
-  double caustics_seconds_before_ = 0; ///< of Caustics::seconds(), before the picture began
+  double caustics_seconds_before_ = 0; ///< Caustics::seconds() when the picture began
   std::optional<Renderer> renderer_;
 };
 
