@@ -32,12 +32,12 @@ glm::dvec2 place_of(MapLayout layout, const glm::dvec3& direction);
 
 using Colour = std::array<unsigned char, 3>;
 
-/// Of each pixel, row 0 at the top; black beside the cross. map: in latitude and longitude, as environment::shown_map
-/// makes it.
+/// The colour of each pixel, row 0 at the top; black beside the cross. map: in latitude and longitude, as
+/// environment::shown_map makes it.
 std::vector<Colour> colours_under(const MapPictureSize& size, const environment::SegmentPicture& map);
 /// The texel of the cube under each pixel's middle; -1 beside the cross. cube_size: as CubeMap::size.
 std::vector<int> texels_under(const MapPictureSize& size, int cube_size);
-/// Of each texel of the cube the index of its region: first the lights, then those that were dropped.
+/// The region index of each texel of the cube: first the lights, then the dropped regions.
 std::vector<int> regions_of_texels(const environment::Segmentation& segmentation);
 /// 4 bytes a pixel; transparent beside the cross. Of the first two, and with lines between the regions of the third;
 /// empty: without.
@@ -61,7 +61,7 @@ struct WantedMap {
   bool operator==(const WantedMap&) const = default;
 };
 
-/// Of a preset that has an environment.
+/// What the panel needs for a preset, which must have an environment.
 WantedMap wanted_map(const preset::Preset& preset, const MapPictureSize& picture);
 
 struct ReadMap {

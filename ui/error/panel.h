@@ -64,7 +64,7 @@ private:
   };
 
   void collect(const Context& context);
-  /// id: of a pinned run, 0 for the run in hand.
+  /// id: a pinned run's, or 0 for the run in hand.
   const RunLines& lines(std::uint64_t id, const std::shared_ptr<const job::History>& history);
   void draw_toolbar(const Context& context);
   void draw_pin(const Context& context, const PinnedRun& pin);
