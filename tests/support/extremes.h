@@ -52,7 +52,7 @@ inline Outcome both(const Outcome& a, const Outcome& b) {
 }
 
 struct Extreme {
-  std::string name;  ///< of the test: letters, digits
+  std::string name;  ///< the test's name: letters, digits
   std::string what;  ///< is extreme
   std::string truth; ///< how the right answer is known
   std::function<Outcome()> run;
