@@ -13,7 +13,7 @@ namespace nephroid::ui {
 struct PlottedRun {
   std::string name;
   std::uint32_t colour = 0;        ///< IM_COL32
-  float weight = 1.5f;             ///< of its line, in pixels at scale 1
+  float weight = 1.5f;             ///< the line's width, in pixels at scale 1
   const RunLines* lines = nullptr; ///< outlives the call
 };
 
