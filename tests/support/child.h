@@ -67,7 +67,7 @@ public:
     return ::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == pid_;
   }
 
-  /// So far.
+  /// The output so far.
   std::string out() const { return text_of(out_); }
 
   Ended wait() {

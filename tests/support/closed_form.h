@@ -103,10 +103,10 @@ inline double directional_photon_w(const preset::Preset& preset, double count) {
 /// How a picture compares with its truth where photons carry at most `photon_w`. A pixel that expects W watts then has
 /// at most the variance W photon_w: that of a Poisson count, times photon_w^2.
 struct Agreement {
-  double p = 1;        ///< of the worst pixel or of the sum, whichever is worse, after Bernstein and Sidak
-  double mean_z2 = 0;  ///< of the pixels: about 1 where all photons carry as much, less where some carry less
+  double p = 1;        ///< the p-value of the worst pixel or of the sum, whichever is worse, after Bernstein and Sidak
+  double mean_z2 = 0;  ///< the pixels' mean: about 1 where all photons carry as much, less where some carry less
   double z2_error = 0; ///< standard error of mean_z2: a Poisson count of mean m has z^2 of variance 2 + 1 / m
-  double ratio = 1;    ///< of the sums
+  double ratio = 1;    ///< the ratio of the sums
   double error = 0;    ///< standard error of the ratio
   int pixels = 0;
 };

@@ -19,7 +19,7 @@ inline Outcome near(double gave, double right, double tolerance) {
   return {fmt::format("{:.7g}", gave), fmt::format("{:.7g} &plusmn; {:.1g}", right, tolerance),
           std::abs(gave - right) <= tolerance};
 }
-/// Of `count` independent photons of equal power.
+/// A share of `count` independent photons of equal power.
 inline Outcome share(double gave, double right, double count) {
   return near(gave, right, sigmas * std::sqrt(std::max(right * (1 - right), 1 / count) / count));
 }
@@ -52,7 +52,7 @@ inline Outcome both(const Outcome& a, const Outcome& b) {
 }
 
 struct Extreme {
-  std::string name;  ///< of the test: letters, digits
+  std::string name;  ///< the test's name: letters, digits
   std::string what;  ///< is extreme
   std::string truth; ///< how the right answer is known
   std::function<Outcome()> run;

@@ -12,7 +12,7 @@ namespace nephroid::test {
 /// A mean over passes.
 struct Estimate {
   double mean = 0, variance = 0; ///< variance of the mean
-  double degrees = 1;            ///< of freedom of that
+  double degrees = 1;            ///< variance's degrees of freedom
   double error() const { return std::sqrt(variance); }
 };
 

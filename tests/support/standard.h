@@ -45,7 +45,7 @@ namespace fs = std::filesystem;
 
 namespace nephroid::test {
 
-/// Of this process, or of another clock: other work of the machine does not count.
+/// The time of this process, or of another clock: other work of the machine does not count.
 inline double processor_seconds(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID) {
   timespec now{};
   clock_gettime(clock, &now);

@@ -29,7 +29,7 @@ inline std::vector<double> block_means(const XyzPicture& picture, int edge) {
 
 struct StoredStatistics {
   struct Level {
-    std::vector<double> mean, variance; ///< of one render, 3 a block
+    std::vector<double> mean, variance; ///< one render's, 3 a block
   };
   std::array<Level, block_edges.size()> levels;
   int renders = 0;
@@ -154,7 +154,7 @@ inline StoredStatistics read_statistics(const fs::path& file) {
 
 /// What a fresh render's comparison gave.
 struct Comparison {
-  double block_p = 1;      ///< of the worst block of any size and channel, corrected after Sidak
+  double block_p = 1;      ///< the p-value of the worst block of any size and channel, corrected after Sidak
   std::string worst;       ///< where that is, in words
   double z2 = 1, z2_p = 1; ///< clipped_mean_z2 and its p-value
   std::vector<float> z;    ///< z of every pixel and channel, 0 where nothing varies

@@ -20,8 +20,8 @@ public:
     name_ = fmt::format(":{}", number.substr(0, number.size() - 1));
   }
 
-  /// Of a program that is to open its windows here. The OpenGL driver unloads itself at the end, so LeakSanitizer
-  /// cannot tell whose its memory was; the headless tests look for our leaks.
+  /// The environment of a program that opens its windows here. The OpenGL driver unloads itself at the end, so
+  /// LeakSanitizer cannot tell whose its memory was; the headless tests look for our leaks.
   Environment environment() const {
     const char* sanitizer = std::getenv("ASAN_OPTIONS");
     return {{"DISPLAY", name_},

@@ -22,7 +22,7 @@ std::string nothing_selected(C) { return "nothing is selected"; }
 
 void deselect(C c) { c.push(command::Select{}); }
 
-/// Of all that can be selected, and round again.
+/// Selects the next of all that can be selected, cyclically.
 template <int step>
 void select_next(C c) {
   const std::vector<Selection> all = selectable(*c.preset());

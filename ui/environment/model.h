@@ -32,12 +32,12 @@ glm::dvec2 place_of(MapLayout layout, const glm::dvec3& direction);
 
 using Colour = std::array<unsigned char, 3>;
 
-/// Of each pixel, row 0 at the top; black beside the cross. map: in latitude and longitude, as environment::shown_map
-/// makes it.
+/// The colour of each pixel, row 0 at the top; black beside the cross. map: in latitude and longitude, as
+/// environment::shown_map makes it.
 std::vector<Colour> colours_under(const MapPictureSize& size, const environment::SegmentPicture& map);
 /// The texel of the cube under each pixel's middle; -1 beside the cross. cube_size: as CubeMap::size.
 std::vector<int> texels_under(const MapPictureSize& size, int cube_size);
-/// Of each texel of the cube the index of its region: first the lights, then those that were dropped.
+/// The region index of each texel of the cube: first the lights, then the dropped regions.
 std::vector<int> regions_of_texels(const environment::Segmentation& segmentation);
 /// 4 bytes a pixel; transparent beside the cross. Of the first two, and with lines between the regions of the third;
 /// empty: without.
@@ -49,7 +49,7 @@ inline constexpr std::array quality_lights{6, 8, 12, 16, 24, 32, 48, 64, 128, 25
 
 /// Where a map comes from. How bright it is and how it is turned change nothing that is made of it.
 struct MapSource {
-  preset::Environment environment; ///< of radiance 1 and not turned
+  preset::Environment environment; ///< with radiance 1, not turned
   std::string preset;              ///< the preset's file: maps are looked for beside it
   bool operator==(const MapSource&) const = default;
 };
@@ -61,12 +61,12 @@ struct WantedMap {
   bool operator==(const WantedMap&) const = default;
 };
 
-/// Of a preset that has an environment.
+/// What the panel needs for a preset, which must have an environment.
 WantedMap wanted_map(const preset::Preset& preset, const MapPictureSize& picture);
 
 struct ReadMap {
   int width = 0, height = 0;           ///< texels of the file
-  environment::CubeMap cube;           ///< of radiance 1
+  environment::CubeMap cube;           ///< with radiance 1
   environment::SegmentPicture picture; ///< in latitude and longitude
   std::vector<std::string> warnings;   ///< a sentence each
 };
@@ -99,7 +99,7 @@ struct ShownMap {
   std::string error;               ///< why something of what was wanted is missing: one line; else empty
   std::shared_ptr<const ReadMap> map;
   std::shared_ptr<const CutMap> cut;
-  std::optional<double> cut_error; ///< of cut: relative error of the irradiance over normals
+  std::optional<double> cut_error; ///< relative error of cut's irradiance over normals
   std::shared_ptr<const MapPicture> picture;
   std::shared_ptr<const std::vector<glm::dvec3>> truth; ///< irradiance of the whole map
   std::array<Quality, 2> quality;                       ///< by SegmentMethod, with the default threshold
@@ -132,7 +132,7 @@ private:
 /// In the scene's frame.
 struct RegionFigures {
   double flux = 0;          ///< W/m^2 of Y on a plane that faces it
-  double share = 0;         ///< of all lights' flux together, 0..1
+  double share = 0;         ///< the part of all lights' flux, 0..1
   double azimuth_deg = 0;   ///< from -z to the right (+x), -180..180,
   double elevation_deg = 0; ///< and above the horizon; both in the scene
   double solid_angle_sr = 0;
@@ -145,8 +145,8 @@ struct RegionFigures {
 std::vector<RegionFigures> figures_of(const environment::Segmentation& segmentation, double radiance, double rotate_deg,
                                       const std::vector<double>& visible);
 
-/// Of a run's curve "lights", its column "visible": the part of each light that no occluder hides, 0..1, in the order
-/// of the segmentation. Empty where the snapshot has no such curve of so many lights, or a value is no such part.
+/// The column "visible" of a run's curve "lights": the part of each light that no occluder hides, 0..1, in the order of
+/// the segmentation. Empty where the snapshot has no such curve of so many lights, or a value is out of range.
 std::vector<double> visible_shares(const job::Snapshot& snapshot, std::size_t lights);
 
 /// rotate_deg, -180..180 and in tenths, after the mouse went `across` widths of the picture to the right. In latitude

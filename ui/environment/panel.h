@@ -104,7 +104,7 @@ private:
   MapLayout layout_ = MapLayout::latitude_longitude;
   EnvironmentModel model_;
   ShownMap shown_;
-  preset::Environment environment_; ///< of this frame
+  preset::Environment environment_; ///< this frame's
   bool cuts_ = false;               ///< the preset's engine cuts the map
   std::vector<RegionFigures> figures_;
   std::vector<std::size_t> by_flux_; ///< the lights among figures_, the brightest first

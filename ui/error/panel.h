@@ -13,7 +13,7 @@ namespace nephroid::ui {
 struct PlottedRun {
   std::string name;
   std::uint32_t colour = 0;        ///< IM_COL32
-  float weight = 1.5f;             ///< of its line, in pixels at scale 1
+  float weight = 1.5f;             ///< the line's width, in pixels at scale 1
   const RunLines* lines = nullptr; ///< outlives the call
 };
 
@@ -64,7 +64,7 @@ private:
   };
 
   void collect(const Context& context);
-  /// id: of a pinned run, 0 for the run in hand.
+  /// id: a pinned run's, or 0 for the run in hand.
   const RunLines& lines(std::uint64_t id, const std::shared_ptr<const job::History>& history);
   void draw_toolbar(const Context& context);
   void draw_pin(const Context& context, const PinnedRun& pin);

@@ -16,7 +16,7 @@ public:
   explicit InspectorPanel(WavelengthAxis& wavelengths) : axis_(wavelengths) {}
   void draw(const Context& context) override;
 
-  /// Of the region; null where there is none yet. For tests.
+  /// The region's statistics; null where there are none yet. For tests.
   const std::shared_ptr<const RegionStatistics>& statistics() const { return statistics_.newest(); }
 
 private:

@@ -59,7 +59,7 @@ struct RegionRequest {
 struct RegionStatistics {
   RegionRequest of;                        ///< its region is cut to the picture
   std::vector<PictureStatistics> pictures; ///< the run; where there is another: that and "difference"
-  Histogram histogram;                     ///< of the run and, where there is one, of the other
+  Histogram histogram;                     ///< counts of the run and, where there is one, the other
 };
 
 /// The part of a region that is in a picture; nothing where none is.

@@ -21,7 +21,7 @@ using preset::Json;
 struct Problem {
   std::string pointer; ///< the edit's
   std::string place;   ///< what is wrong, mostly the same
-  std::string text;    ///< of the error, without its place
+  std::string text;    ///< the error's text, without its place
 };
 
 class Draft {

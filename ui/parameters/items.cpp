@@ -136,7 +136,7 @@ void ItemRows::draw_items(const Outline& o, const Json& value, const std::string
   }
 }
 
-/// Of an item of a map, to be typed.
+/// Draws the name of a map's item, to be typed.
 void ItemRows::draw_name(const Json& items, const std::string& name, const std::string& pointer) {
   const std::string at = child_of(pointer, name), id = at + ":name";
   ImGui::TextDisabled("name");
@@ -149,7 +149,7 @@ void ItemRows::draw_name(const Json& items, const std::string& name, const std::
   if (values_.typed_at() == id && values_.wrong()) draw_wrapped(colour::error, values_.wrong()->text);
 }
 
-/// Of a map; what uses the name is renamed with it.
+/// Renames an item of a map, and all uses of the name.
 void ItemRows::rename(const std::string& map, const std::string& name, const std::string& to) {
   Json whole = form_.draft.value(), renamed = Json::object();
   Json& items = whole[Json::json_pointer(map)];

@@ -44,7 +44,7 @@ public:
   bool draw_label(const std::string& label, const std::string& pointer, bool leaf, bool changed);
   /// with_inner: also what is wrong further inside.
   void draw_problem(const std::string& pointer, bool with_inner);
-  /// Of the field that was under the mouse last; empty: none was.
+  /// The help of the field that was under the mouse last; empty: none was.
   const std::string& help() const { return help_; }
 
 private:

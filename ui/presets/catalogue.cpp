@@ -106,8 +106,8 @@ std::string text_of(const CatalogueEntry& e) {
   return fmt::format("{}\n{}\n{}\n{}", e.name, e.title, e.description, e.engine);
 }
 
-constexpr std::size_t most_bytes = 1 << 20; ///< of a file
-constexpr int most_pixels = 512;            ///< of its edge
+constexpr std::size_t most_bytes = 1 << 20; ///< the largest file that is read
+constexpr int most_pixels = 512;            ///< the longest edge
 
 } // namespace
 

@@ -13,7 +13,7 @@
 namespace nephroid::ui {
 namespace {
 
-/// Of what stands in for a picture.
+/// The colour of what stands in for a picture.
 ImU32 badge_of(std::string_view name) {
   engine::Introduction introduction;
   for (const engine::Engine* engine : engine::engines())

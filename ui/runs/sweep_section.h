@@ -31,7 +31,7 @@ struct SweepRange {
 /// Each as JSON. Throws bad_input at the field's key: no value or more than 10000, an end that the field may not have
 /// or that is no number, ends that a logarithm has not, values that are equal.
 std::vector<std::string> range_values(const NumberField& field, const SweepRange& range);
-/// Of numbers with commas or spaces between, typed as for --set. Throws as range_values.
+/// Reads numbers with commas or spaces between, typed as for --set. Throws as range_values.
 std::vector<std::string> typed_values(const NumberField& field, const std::string& text);
 
 class SweepSection {
@@ -55,7 +55,7 @@ private:
 
   std::shared_ptr<const preset::Preset> of_; ///< what fields_ are of
   std::vector<NumberField> fields_;
-  std::string filter_, key_; ///< of the field that is chosen
+  std::string filter_, key_; ///< words that filter the fields; the chosen key
   SweepRange range_;
   bool typed_ = false; ///< values are a list that is typed, else a range
   std::string text_;   ///< that list

@@ -31,7 +31,7 @@ struct DialogKind {
   Question question;
   const char* title;
   const char* proposal;                               ///< what a proposed name ends in; empty: no name is proposed
-  std::vector<std::string> endings;                   ///< of the files that it is about
+  std::vector<std::string> endings;                   ///< the endings of its files
   const char *hint = "", *note = "";                  ///< in the field for the name; below the list of files
   Command (*open)(const std::string& name) = nullptr; ///< what a chosen file is asked for
 };

@@ -53,7 +53,7 @@ private:
   std::string typed_;
   std::vector<Entry> entries_; ///< made when it opens
   std::vector<const Entry*> matches_;
-  std::size_t selected_ = 0; ///< of matches_
+  std::size_t selected_ = 0; ///< an index into matches_
 };
 
 } // namespace nephroid::ui

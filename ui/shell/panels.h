@@ -29,7 +29,7 @@ void check_layout(const std::string& name);
 
 /// The tabs that are in front, each as ImGuiWindow::TabId.
 using FrontTabs = std::vector<unsigned>;
-/// Of all panels that are seen now.
+/// The tabs of all panels that are seen now.
 FrontTabs panels_in_sight();
 /// Docks the picture at the left of the dock space of this id (an ImGuiID) and the other panels as tabs at its right.
 /// Inside of a frame, before the panels.

@@ -25,7 +25,7 @@ private:
   void draw_devices(TaskQueue& tasks);
 
   Thumbnails thumbnails_;
-  std::vector<std::filesystem::path> pictures_; ///< of the cards
+  std::vector<std::filesystem::path> pictures_; ///< the cards' pictures
   TaskKey asking_;
   std::optional<Devices> devices_; ///< nothing before drivers have answered, which may take seconds
 };

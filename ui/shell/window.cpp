@@ -174,7 +174,7 @@ private:
   std::size_t frames_ = 0;
   double last_draw_s_ = 0;
   Clock::time_point began_{}, previous_{}, driver_began_{};
-  Clock::duration driver_{}, driver_computed_{}, computed_before_{}, driver_computed_before_{}; ///< of this frame
+  Clock::duration driver_{}, driver_computed_{}, computed_before_{}, driver_computed_before_{}; ///< this frame's
   std::vector<double> draw_ms_; ///< of each frame, from the first event taken to the end: what the window itself costs
   std::filesystem::path file_;
   std::ofstream lines_;

@@ -47,13 +47,13 @@ private:
   void draw_dock_space(Workbench& workbench, const Context& context);
   void draw_panel(const Open& open, const Context& context);
 
-  std::string name_;                         ///< of the layout that was asked for; empty: each engine has its own
+  std::string name_;                         ///< the wanted layout's name; empty: each engine has its own
   std::optional<std::string> laid_out_for_;  ///< this engine
   std::array<float, 2> laid_out_size_{0, 0}; ///< in a window of this size,
   int frames_since_ = 0;                     ///< so many frames ago;
   int frames_laid_out_ = 0;                  ///< since the layout was applied
   std::string before_;                       ///< what it was before a person touched it
-  FrontTabs front_tabs_;                     ///< of the layout that was applied last
+  FrontTabs front_tabs_;                     ///< the front tabs of the newest layout
   /// Of which preset that was, and the panels that a person looked at when an edit of it changed its engine: they stay
   /// in front.
   std::shared_ptr<const preset::Preset> laid_out_opened_;

@@ -20,8 +20,8 @@
 
 namespace nephroid::ui {
 
-/// How linear values become what a display shows. standard: as image.png. filmic: for a wide range (state/tone.h).
-/// false_colour: of the luminance, logarithmic; exposure plays no part.
+/// How linear values become what a display shows. standard: as in image.png. filmic: for a wide range (state/tone.h).
+/// false_colour: the logarithm of the luminance in colours; the exposure plays no part.
 enum class ToneCurve { standard, filmic, false_colour };
 inline constexpr int tone_curves = 3;
 
@@ -35,46 +35,46 @@ struct LuminanceRange {
 struct ViewSettings {
   double exposure_stops = 0; ///< -20..20
   ToneCurve tone = ToneCurve::standard;
-  std::optional<LuminanceRange> false_colour = {}; ///< nothing: automatic_range of what is shown
-  bool fit = true;                    ///< the whole picture in the panel; zoom and centre are not used then
+  std::optional<LuminanceRange> false_colour = {}; ///< nothing: automatic_range of the shown picture
+  bool fit = true;                    ///< the whole picture is in the panel; zoom and centre are not used then
   double zoom = 1;                    ///< screen pixels a picture pixel
-  std::array<double, 2> centre{0, 0}; ///< the picture's point, in pixels, that is at the panel's middle
+  std::array<double, 2> centre{0, 0}; ///< the picture's point, in pixels, at the panel's middle
   bool operator==(const ViewSettings&) const = default;
 };
 
-/// How the View shows two pictures. split: both in one place, cut at a line that is dragged.
+/// How the View shows two pictures. split: both lie in one place, cut at a line that can be dragged.
 enum class Arrangement { single, split, side_by_side };
 
-/// What the View shows, what it holds that against, and how. Nothing here needs a new run.
+/// What the View shows, what that is compared with, and how. Nothing here needs a new run.
 struct Comparison {
   static constexpr std::uint64_t run_in_hand = ~std::uint64_t{0};
 
   std::uint64_t shown = 0; ///< a pinned run or picture (PinnedRun::id); 0: the run in hand
-  std::uint64_t pin = 0;   ///< what that is compared with: the same, or run_in_hand; 0: the reference
+  std::uint64_t pin = 0;   ///< the one to compare with: a pin, run_in_hand, or 0: the reference
   Arrangement arrangement = Arrangement::single;
-  double split = 0.5;      ///< where the line is, in parts of the picture's area of the panel, 0..1
+  double split = 0.5;      ///< where the line is, as a part of the picture's area in the panel, 0..1
   bool flip = false;       ///< the other picture is shown in place of the first
-  bool difference = false; ///< a map of their difference is shown; flip goes before it
+  bool difference = false; ///< a map of their difference is shown, unless flip is on
   measure::DifferenceMetric metric = measure::DifferenceMetric::lab;
   double scale = 0;  ///< the value at the end of the map's colours; 0: measure::colour_scale
-  std::string layer; ///< of both pictures; empty: all of their light
+  std::string layer; ///< the layer of both pictures; empty: all of their light
   bool operator==(const Comparison&) const = default;
-  /// Whether the distance of the two is wanted.
+  /// Whether the distance between the two is to be measured.
   bool measures() const { return shown != 0 || difference || arrangement != Arrangement::single; }
 };
 
-/// Pixels of the picture: from a column and row to before another.
+/// A rectangle of the picture's pixels; the end is not part of it.
 struct PixelRegion {
   std::array<int, 2> from{0, 0}, to{0, 0};
   bool operator==(const PixelRegion&) const = default;
 };
 
-// How a person set up the window: kept between runs of the program in one file.
+// How a person set up the window. One file keeps it between runs of the program.
 enum class Theme { dark, light };
 
-/// For the presets of one engine.
+/// The layout for the presets of one engine.
 struct EngineLayout {
-  std::string ini; ///< where the panels are, in Dear ImGui's words; empty: where the engine begins with them
+  std::string ini;              ///< where the panels are, in Dear ImGui's format; empty: the engine's initial layout
   std::set<std::string> closed; ///< names of panels (shell/panels.h)
   bool operator==(const EngineLayout&) const = default;
 };
@@ -83,12 +83,12 @@ struct Settings {
   static constexpr double smallest_text = 0.6, largest_text = 3;
 
   Theme theme = Theme::dark;
-  double text_size = 1;                        ///< times the display's own scale; smallest_text..largest_text
-  std::map<std::string, EngineLayout> engines; ///< by an engine's name
+  double text_size = 1;                        ///< a factor on the display's own scale; smallest_text..largest_text
+  std::map<std::string, EngineLayout> engines; ///< keyed by the engine's name
   bool operator==(const Settings&) const = default;
 };
 
-/// What a dialog is open for. unsaved: something waits for it (Workbench::waiting).
+/// What a dialog is open for. unsaved: a command waits for the answer (Workbench::waiting).
 enum class Question {
   none,
   open,
@@ -104,43 +104,41 @@ enum class Question {
 
 namespace command {
 
-/// A preset file, or the name of a shipped preset: asks first where there are unsaved changes, unless sure. A run's
-/// folder or a table
-/// (.csv) is pinned as PinFile does; dispersion data (.yml) is loaded as LoadDispersion does. A map (.exr, .hdr)
-/// becomes the environment, a picture what the engine makes of it, else it is opened as PinFile does; a mesh an object,
-/// glTF a preset of its own.
+/// Opens a preset file or a shipped preset by its name. Asks first where there are unsaved changes, unless sure. A
+/// run's folder or a table (.csv) is pinned as by PinFile; dispersion data (.yml) is loaded as by LoadDispersion. A map
+/// (.exr, .hdr) becomes the environment. A picture goes to the engine, or is pinned where the engine takes none. A mesh
+/// becomes an object, glTF a preset of its own.
 struct Open {
   std::string name;
   bool sure = false;
 };
-/// A latitude-longitude picture becomes the environment: one edit.
+/// Makes a latitude-longitude picture the environment, in one edit.
 struct OpenMap {
   std::string file;
 };
-/// A scene to begin with, in no file; asks first as Open does.
+/// Opens a scene to begin with, which has no file yet. Asks first as Open does.
 struct New {
   std::string preset; ///< as JSON
   bool sure = false;
 };
-/// The preset as it shall be. Edits of one gesture (same number, not 0) make one entry to undo. live: the gesture still
-/// lasts, so that a run may first show a picture before the next one replaces it.
+/// Sets the preset. Edits of one gesture (same number, not 0) make one entry to undo. live: the gesture still lasts, so
+/// a run may first show a picture before the next one replaces it.
 struct Edit {
   std::string label;
   preset::Preset preset;
   std::uint64_t gesture = 0;
   bool live = false;
-  bool was_read = false; ///< by the reader of presets: it has nothing to refuse
+  bool was_read = false; ///< the reader of presets has accepted it, so nothing is left to refuse
 };
-/// The sweep as it shall be: which fields take which values. An edit to undo; the run goes on, as its preset is the
-/// same.
+/// Sets the sweep: which fields take which values. It can be undone; the run goes on, as its preset is the same.
 struct SetSweep {
   std::string label;
   preset::Sweep sweep;
 };
-/// The sweep's runs one after the other in place of the run in hand (sweep_queue.h), and an end of that.
+/// Starts or stops the sweep's runs, which take the place of the run in hand one after the other (sweep_queue.h).
 struct StartSweep {};
 struct StopSweep {};
-/// The mouse was let go: nothing holds the newest edit's run back any more.
+/// The mouse button was released: the newest edit's run need not wait any more.
 struct EndGesture {};
 struct Undo {};
 struct Redo {};
@@ -152,7 +150,7 @@ struct Pause {
 struct SetViewSettings {
   ViewSettings view_settings;
 };
-/// Parts of the Comparison, one command each: two keys in one frame must not undo each other.
+/// Each part of the Comparison has its own command: two keys in one frame must not undo each other.
 struct Flip {
   bool on = true;
 };
@@ -173,68 +171,68 @@ struct ShowDifference {
   measure::DifferenceMetric metric = measure::DifferenceMetric::lab;
   double scale = 0; ///< as Comparison::scale
 };
-/// Which layer of the pictures is shown and compared: a name of job::Picture::layers; empty: all of their light.
+/// Chooses the layer to show and compare: a name of job::Picture::layers; empty: all of their light.
 struct ShowLayer {
   std::string layer;
 };
-/// The pixel (column, row) that the panel Inspector shows; nothing: none. It need not be in the picture, whose size may
-/// change.
+/// Chooses the pixel (column, row) that the panel Inspector shows; nothing: none. It may lie outside of the picture,
+/// whose size may change.
 struct InspectPixel {
   std::optional<std::array<int, 2>> pixel;
 };
-/// The pixels that the panel Inspector has statistics of; nothing, or none in it: no statistics.
+/// Chooses the pixels that the panel Inspector has statistics of. Without any, or with an empty region, it has none.
 struct SelectRegion {
   std::optional<PixelRegion> region;
 };
-/// What a panel shows in the View's picture: lines from point to point, in the preset's coordinates.
+/// Draws a panel's lines over the View's picture, from point to point, in the preset's coordinates.
 struct ShowLines {
   std::vector<std::vector<preset::Vec3>> lines;
 };
-/// Keeps the history and the picture of the run as they are now.
+/// Keeps the run's history and picture as they are now.
 struct PinRun {};
 struct ChangePin {
   std::uint64_t pin = 0;
-  std::string name;         ///< empty: stays as it was
+  std::string name;         ///< empty: the name stays
   std::uint32_t colour = 0; ///< IM_COL32
-  bool shown = true;        ///< in the plot
+  bool shown = true;        ///< the plot shows it
 };
-/// A picture, or the history of an earlier run: history.csv, or its folder, whose image.exr is then kept too. Read in
-/// the background.
+/// Pins a picture or the history of an earlier run: history.csv, or its folder, whose image.exr is then kept too. It is
+/// read in the background.
 struct PinFile {
   std::filesystem::path path;
-  bool show = false;                  ///< a picture is then shown in the View
-  std::optional<ChangePin> like = {}; ///< the name, colour and visibility that it had in an earlier session
+  bool show = false;                  ///< the View then shows the picture
+  std::optional<ChangePin> like = {}; ///< name, colour and visibility in an earlier session
 };
 struct Unpin {
   std::uint64_t pin = 0;
 };
-/// Which error the plot of error against time shows: a name of measure/metrics.h, with "masked_" for that of the mask.
+/// Chooses the error that the plot shows over time: a name of measure/metrics.h, with "masked_" for that of the mask.
 struct ChooseMetric {
   std::string metric;
 };
-/// Which dielectric of the preset the panel "Dispersion" shows; its name among the materials.
+/// Chooses the dielectric that the panel "Dispersion" shows, by its name among the materials.
 struct ChooseMaterial {
   std::string material;
 };
-/// Loads a refractiveindex.info file (a path, or the name of a shipped material) into the dielectric that is shown: one
+/// Loads a refractiveindex.info file (a path, or the name of a shipped material) into the shown dielectric, in one
 /// edit.
 struct LoadDispersion {
   std::string file;
 };
-/// What is selected, to be moved; and how it is moved.
+/// Chooses what is selected; SetHandles says how it is moved.
 struct Select {
   Selection selection;
 };
 struct SetHandles {
   Handles handles;
 };
-/// The newest edit was a nudge: one that follows soon goes into the same entry to undo.
+/// Notes that the newest edit was a nudge: one that follows soon goes into the same entry to undo.
 struct Nudged {
-  double at_s = -1e9;        ///< ImGui::GetTime
-  std::uint64_t gesture = 0; ///< its number; 0: there was none
+  double at_s = -1e9;        ///< a time of ImGui::GetTime
+  std::uint64_t gesture = 0; ///< the gesture's number; 0: there was none
   bool operator==(const Nudged&) const = default;
 };
-/// Of cameras. Going to one is an edit.
+/// Replaces the bookmarks of cameras. Going to one is an edit.
 struct SetBookmarks {
   std::vector<Bookmark> bookmarks;
 };
@@ -243,34 +241,35 @@ struct Ask {
 };
 struct SavePreset {
   std::filesystem::path file;
-  bool keep_parent = true; ///< where the preset has one (parent_to_keep): only what differs from it is written
+  bool keep_parent = true; ///< writes only what differs from the parent (parent_to_keep), where there is one
 };
-/// .png: as shown; .exr: linear, with layers.
+/// Saves the View's picture: .png as shown, .exr linear with layers.
 struct SavePicture {
   std::filesystem::path file;
 };
-/// Writes the files that a run made (job::Snapshot::files) into a new folder, in the background, and then opens the
-/// preset among them that shows what was found (engine::ResultView).
+/// Writes the files that a run made (job::Snapshot::files) into a new folder, in the background. Then it opens the
+/// preset among them that shows the result (engine::ResultView).
 struct OpenResult {
-  std::string file; ///< its name
+  std::string file; ///< the preset's file name
 };
-/// The report over the pinned runs and the present one (run_record.h), in the background.
+/// Writes the report over the pinned runs and the present one (run_record.h), in the background.
 struct WriteReport {
   std::filesystem::path file;
 };
 struct Dismiss {
   std::uint64_t message = 0;
 };
-/// What the window was at that was closed, or killed, last: asks first where there are unsaved changes, unless sure.
+/// Restores the session of the window that was closed or killed last. Asks first where there are unsaved changes,
+/// unless sure.
 struct ReopenSession {
   bool sure = false;
 };
-/// The preset as its file has it now, as an edit.
+/// Reads the preset's file again, as an edit.
 struct ReloadPreset {};
 struct ToggleHelp {};
-/// The panels of the engine in hand where they were at first, all of them open.
+/// Opens all panels of the engine in hand, in their initial places.
 struct ResetLayout {};
-/// What a person made of the layout for the presets of an engine.
+/// Keeps the layout that a person made for the presets of an engine.
 struct KeepLayout {
   std::string engine;
   std::string ini; ///< EngineLayout::ini
@@ -282,14 +281,14 @@ struct ShowPanel {
 };
 struct SetAppearance {
   Theme theme = Theme::dark;
-  double text_size = 1; ///< Settings::smallest_text..largest_text; beyond it stays at the end
+  double text_size = 1; ///< Settings::smallest_text..largest_text; clamped
 };
-/// Becomes a message: an error from a panel that could not go on, or a note that goes by itself.
+/// Becomes a message: an error from a panel that could not go on, or a note that disappears by itself.
 struct Report {
   std::string line;
   bool error = true;
 };
-/// Asks first where there are unsaved changes, unless sure.
+/// Ends the program. Asks first where there are unsaved changes, unless sure.
 struct Quit {
   bool sure = false;
 };

@@ -15,7 +15,7 @@
 namespace nephroid::ui {
 namespace {
 
-/// The values in the map's colours, by a table: there are far more pixels than colours that a display tells apart.
+/// Colours the values by a table, because there are far more pixels than colours that a display tells apart.
 std::vector<unsigned char> coloured(const std::vector<float>& values, double scale, bool is_signed) {
   constexpr int steps = 1024;
   std::vector<std::array<unsigned char, 3>> table;
@@ -29,7 +29,7 @@ std::vector<unsigned char> coloured(const std::vector<float>& values, double sca
   return rgba;
 }
 
-/// known: the values, where they are known from a map with another scale.
+/// known: values from a map with another scale; null: they must be computed.
 std::shared_ptr<const ShownDifference> coloured_map(const DifferenceRequest& request,
                                                     std::shared_ptr<const std::vector<float>> known) {
   auto map = std::make_shared<ShownDifference>();
@@ -47,7 +47,7 @@ std::shared_ptr<const ShownDifference> coloured_map(const DifferenceRequest& req
   return map;
 }
 
-/// Null where there is no layer of this name.
+/// The layer with this name; null where there is none.
 const job::Layer* find_layer(const std::vector<job::Layer>& layers, const std::string& name) {
   const auto found = std::ranges::find(layers, name, &job::Layer::name);
   return found == layers.end() ? nullptr : &*found;
@@ -115,7 +115,7 @@ Comparing::Side Comparing::side_of(const PinnedRun& pin) const {
           quoted};
 }
 
-/// Of the snapshot, which is there. Designs are compared by what they cast.
+/// The picture of the snapshot, which must exist. Designs are compared by the light that they cast.
 std::shared_ptr<const job::Picture> Comparing::run_picture() const {
   const job::Snapshot& snapshot = *run_.snapshot();
   return shows_run_alone() && snapshot.in_view ? snapshot.in_view : snapshot.picture;
@@ -143,14 +143,14 @@ Comparing::Side Comparing::other_side() const {
   return {.why_not = "the reference is not there yet"};
 }
 
-/// All of a picture or its layer, which is there. Other pixels have another owner.
+/// A picture, which must exist, or one of its layers. Other pixels have another owner.
 HeldPicture Comparing::held(const Side& side, const std::string& layer) {
   const job::Layer* found = layer.empty() ? nullptr : find_layer(*side.layers, layer);
   const std::vector<float>& rgb = found ? found->rgb : *side.rgb;
   return {std::shared_ptr<const void>(side.owner, &rgb), {side.width, side.height, rgb, side.name}};
 }
 
-/// Why it has no such layer; empty where it has it, or where none is asked for.
+/// Why the picture has no such layer; empty where it has it, or where none is asked for.
 std::string Comparing::why_no_layer(const Side& side, const std::string& layer) {
   if (!side.why_not.empty() || layer.empty() || find_layer(*side.layers, layer)) return side.why_not;
   if (side.layers->empty()) return fmt::format("{} has no layers, and \"{}\" is chosen", side.subject, layer);
@@ -222,7 +222,7 @@ void Comparing::update_metrics(TaskQueue::Clock::time_point now) {
   const bool another = picture.owner != measured_, against_another = other.owner != measured_against_;
   if (another || against_another) measured_since_ = now;
   if ((another && comparison_.shown != 0) || (against_another && comparison_.pin != Comparison::run_in_hand)) {
-    metrics_.forget(tasks_); // chosen by hand: what is in the making keeps nobody waiting
+    metrics_.forget(tasks_); // a person chose this: it need not wait for what is being made
     all_metrics_.forget(tasks_);
   }
   measured_ = picture.owner, measured_against_ = other.owner;

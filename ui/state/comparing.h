@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two pictures held against each other: the run in hand, or a pinned run or an opened picture in its place, and another
-// one of these or the reference. The map of their difference in false colour and their metrics are made beside the
-// frames: FLIP of a large picture takes seconds, a frame 16 ms.
+// Compares two pictures. The first is the run in hand, or a pinned run or opened picture in its place; the second is
+// another of these or the reference. Their map of differences in false colour and their metrics are made in the
+// background: FLIP of a large picture takes seconds, a frame 16 ms.
 #pragma once
 #include "measure/difference.h"
 #include "ui/state/commands.h"
@@ -18,7 +18,7 @@
 
 namespace nephroid::ui {
 
-/// A picture with whatever keeps its pixels alive.
+/// A picture with the owner of its pixels.
 struct HeldPicture {
   std::shared_ptr<const void> owner; ///< null: there is no picture
   measure::Pixels pixels;
@@ -32,54 +32,54 @@ struct DifferenceRequest {
 
 struct ShownDifference {
   DifferenceRequest of;
-  std::shared_ptr<const std::vector<float>> values; ///< a value a pixel; null where there is no map
-  std::vector<unsigned char> rgba;                  ///< 4 a pixel
+  std::shared_ptr<const std::vector<float>> values; ///< a value per pixel; null where there is no map
+  std::vector<unsigned char> rgba;                  ///< 4 bytes per pixel
   double scale = 1;                                 ///< the value at the end of the colours
   std::string error;                                ///< why there is no map
 };
 
-/// How far the picture is from the other one.
+/// The distances between the two pictures.
 struct ShownMetrics {
   HeldPicture picture, other;
   measure::Metrics metrics;
-  std::string error; ///< why there are none: a line
+  std::string error; ///< why there are none, in one line
 };
 
 class Comparing {
 public:
-  /// Both outlive it.
+  /// run and services outlive the object.
   Comparing(const RunInHand& run, Services& services) : run_(run), services_(services), tasks_(services.tasks) {}
 
   const PinnedRuns& pinned() const { return pinned_; }
   const Comparison& comparison() const { return comparison_; }
-  /// Whether the run's picture is shown, and nothing beside it or in its place.
+  /// Whether the View shows the run's picture alone.
   bool shows_run_alone() const {
     const Comparison& c = comparison_;
     return c.shown == 0 && c.arrangement == Arrangement::single && !c.flip && !c.difference;
   }
-  /// What is shown, with all of its layers: the run's, or that of the pinned run or opened picture that comparison()
+  /// The shown picture with all its layers: the run's, or that of the pinned run or opened picture that comparison()
   /// names. Null: none yet.
   std::shared_ptr<const job::Picture> source() const;
-  /// "this run", or the name of the pinned run or picture in quotes; and of what it is compared with, "Reference" too.
+  /// "this run", or the quoted name of the pinned run or picture. other_name() may also be "Reference".
   std::string name() const;
   std::string other_name() const;
-  /// source() or its layer that comparison() names; its owner is null where why_no_picture() is not empty.
+  /// source(), or the layer of it that comparison() names. Its owner is null where why_no_picture() is not empty.
   HeldPicture picture() const;
-  /// Why there is no such picture: a sentence without a full stop; else empty.
+  /// Why there is no such picture: a sentence without a full stop; empty where there is one.
   std::string why_no_picture() const;
-  /// The same of what it is compared with, of whatever size.
+  /// The picture that it is compared with, of any size, and why there is none.
   HeldPicture picture_beside() const;
   std::string why_none_beside() const;
-  /// picture_beside(), where the two have one size; else its owner is null.
+  /// picture_beside() where both have the same size; else its owner is null.
   HeldPicture other_picture() const;
-  /// Why the two cannot be held against each other: a sentence without a full stop; else empty.
+  /// Why the two cannot be compared: a sentence without a full stop; empty where they can.
   std::string why_not() const;
-  /// Whether they are the two that are compared now; of the run's picture an earlier one will do.
+  /// Whether these two are compared now. An earlier picture of the run counts too.
   bool are_compared(const HeldPicture& picture, const HeldPicture& other) const;
-  /// The newest map of differences that comparison() asked for; may be of an earlier snapshot. Null before the first.
+  /// The newest map of differences that comparison() asked for, perhaps of an earlier snapshot. Null before the first.
   const std::shared_ptr<const ShownDifference>& difference() const { return difference_.newest(); }
-  /// The newest quick metrics of the two, and those that a person sees (FLIP, IW-SSIM), which come when both pictures
-  /// have stayed for a second. May be of an earlier snapshot. Null before the first, and where comparison() wants none.
+  /// The newest metrics of the two. The perceptual ones (FLIP, IW-SSIM) follow when both pictures have stayed for a
+  /// second. They may be of an earlier snapshot. Null before the first, and where comparison() wants none.
   std::shared_ptr<const ShownMetrics> metrics() const { return fitting(metrics_); }
   std::shared_ptr<const ShownMetrics> all_metrics() const { return fitting(all_metrics_); }
 
@@ -94,29 +94,29 @@ public:
   void carry_out(const command::PinFile& c);
   void carry_out(const command::ChangePin& c) { pinned_.change(c.pin, c.name, c.colour, c.shown); }
   void carry_out(const command::Unpin& c);
-  /// Its id.
+  /// Pins a run and returns its id.
   std::uint64_t pin(PinnedRun run) { return pinned_.add(std::move(run)).id; }
-  /// Whether pins are being read.
+  /// Whether files to pin are being read.
   bool reads_pins() const { return tasks_.busy(pins_); }
-  /// The map is of another preset, whose run is shown.
+  /// Drops the map of another preset, whose run is shown.
   void forget() {
     difference_.forget(tasks_);
     comparison_.layer.clear();
     comparison_.shown = 0;
   }
-  /// Once a frame: asks for the map and the metrics of what is shown now.
+  /// Called once a frame: asks for the map and the metrics of what is shown now.
   void update(TaskQueue::Clock::time_point now);
 
 private:
-  /// A picture as one of the two: its pixels, its layers and what messages call it.
+  /// One of the two pictures: its pixels, its layers and its names in messages.
   struct Side {
     std::shared_ptr<const void> owner = {};
     int width = 0, height = 0;
     const std::vector<float>* rgb = nullptr;
     const std::vector<job::Layer>* layers = nullptr;
-    std::string name = {};    ///< "the run"; of a file its path
-    std::string subject = {}; ///< as a sentence begins: "the run's picture"
-    std::string why_not = {}; ///< there is none
+    std::string name = {};    ///< "the run", or a file's path
+    std::string subject = {}; ///< the subject of a sentence: "the run's picture"
+    std::string why_not = {}; ///< why there is no picture
   };
   Side side_of(const PinnedRun& pin) const;
   std::shared_ptr<const job::Picture> run_picture() const;
@@ -131,14 +131,14 @@ private:
 
   const RunInHand& run_;
   Services& services_;
-  TaskQueue& tasks_; ///< of those
+  TaskQueue& tasks_; ///< services_.tasks
   TaskKey pins_;
   PinnedRuns pinned_;
   Comparison comparison_;
   NewestResult<ShownDifference> difference_;
   NewestResult<ShownMetrics> metrics_, all_metrics_;
-  std::shared_ptr<const void> measured_, measured_against_; ///< the pictures that are measured now,
-  TaskQueue::Clock::time_point measured_since_{};           ///< and since when they have stayed
+  std::shared_ptr<const void> measured_, measured_against_; ///< the pictures that are measured now
+  TaskQueue::Clock::time_point measured_since_{};           ///< since when both have stayed
 };
 
 } // namespace nephroid::ui

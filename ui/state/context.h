@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a panel reads, and where what it asks for goes. Made anew for every frame.
+// What a panel reads, and where its commands go. A new one is made for every frame.
 #pragma once
 #include "ui/state/commands.h"
 #include "ui/state/comparing.h"
@@ -25,27 +25,28 @@ struct Context {
   const Comparing& comparing;
   const ViewState& view_state;
   const Settings& settings;
-  bool has_earlier_session; ///< that could be reopened
+  bool has_earlier_session; ///< there is an earlier session to reopen
   Commands& commands;
   const RecentFiles& recent;
   const SweepQueue& sweep;
-  TaskQueue& tasks; ///< for what takes longer than a frame
+  TaskQueue& tasks; ///< for work that takes longer than a frame
 
-  /// Null before a preset is opened.
+  /// The preset in hand; null before one is opened.
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }
-  /// What is selected of it.
+  /// The selection, as far as the preset has it.
   Selection selection() const { return in_preset(view_state.selection, preset()); }
-  /// Its engine. Where a preset is open.
+  /// The preset's engine. A preset must be open.
   std::string engine() const { return std::string(edits->current().settings.engine()); }
   void push(Command command) const { commands.push_back(std::move(command)); }
-  /// The look as the commands of this frame leave it: two keys in one frame must not undo each other.
+  /// The view settings after the commands of this frame: two keys in one frame must not undo each other.
   ViewSettings view_settings() const {
     for (auto c = commands.rbegin(); c != commands.rend(); ++c)
       if (const auto* set = std::get_if<command::SetViewSettings>(&*c)) return set->view_settings;
     return view_state.view_settings;
   }
   void note(std::string line) const { push(command::Report{std::move(line), false}); }
-  /// The preset as change(preset) makes it; gesture and live as in command::Edit. Where a preset is open.
+  /// Pushes an edit to the preset that change(preset) makes; gesture and live as in command::Edit. A preset must be
+  /// open.
   template <class Change>
   void edit(std::string label, Change change, std::uint64_t gesture = 0, bool live = false) const {
     preset::Preset edited = edits->current();

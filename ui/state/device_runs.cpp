@@ -8,10 +8,10 @@
 namespace nephroid::ui {
 namespace {
 
-constexpr std::chrono::milliseconds look_at_kernels_every{200}; ///< at the kernels folder
+constexpr std::chrono::milliseconds look_at_kernels_every{200}; ///< between two checks of the kernels folder
 
-/// What the run is measured against. The window shows a picture with or without one: what stands against it becomes a
-/// note. A recipe is not rendered here, because every edit of the scene asks for another one.
+/// The run's reference. The window shows a picture with or without one, so an obstacle becomes a note. A recipe is not
+/// rendered here, because every edit of the scene would need another one.
 std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prepared, const compute::Context& context,
                                                        std::vector<std::string>& notes) {
   try {
@@ -39,7 +39,7 @@ DeviceRuns::~DeviceRuns() = default;
 NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch) {
   if (reread_.exchange(false)) run_.prepared.reset();
   if (reopen_.exchange(false)) run_.device.close();
-  if (watcher_.joinable()) { // the sources are read below: what changed until here is in this run
+  if (watcher_.joinable()) { // the sources are read below, so changes until here are in this run
     const std::lock_guard lock(watching_);
     seen_ = compute::kernel_times(kernels_);
     changed_ = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the runs of the window's presets on a device. Keeps the device's context, with its built kernels, and the
-// loaded scene from one run to the next, so that moving the camera loads and builds nothing again. With a kernels
-// folder (--kernels) it watches that.
+// Makes the runs of the window's presets on a device. The device's context, with its built kernels, and the loaded
+// scene stay from one run to the next, so moving the camera loads and builds nothing again. A kernels folder
+// (--kernels) is watched.
 #pragma once
 #include "compute/compute.h"
 #include "run/ready.h"
@@ -16,19 +16,19 @@
 
 namespace nephroid::ui {
 
-/// What panels keep of a loaded scene; called on the worker's thread.
+/// Returns what panels keep of a loaded scene. Called on the worker's thread.
 using TakeFacts = SceneFacts (*)(const preset::Preset&, const std::shared_ptr<const run::LoadedScene>&);
 
 class DeviceRuns : public RunSource {
 public:
-  /// take_facts: null where no panel asks.
+  /// take_facts: null where no panel needs any.
   explicit DeviceRuns(compute::DeviceOptions device, TakeFacts take_facts = nullptr);
   ~DeviceRuns() override;
   /// Reads the scene and builds the job. Throws as run::make_ready.
   NewRun make(const preset::Preset& preset, const Watch& watch) override;
   void reread_files() override { reread_ = true; }
   void reopen_device() override { reopen_ = true; }
-  /// True once after a file in the kernels folder changed that the newest run was not built from.
+  /// True once after a file in the kernels folder has changed since the newest run was built.
   bool take_changed() override { return changed_.exchange(false); }
 
 private:
@@ -38,12 +38,12 @@ private:
   TakeFacts take_facts_;
   run::ReadyRun run_; ///< the newest one, without its job; the worker's thread only
   std::atomic<bool> changed_{false}, reread_{false}, reopen_{false};
-  std::mutex watching_; ///< held for a look at the folder
+  std::mutex watching_; ///< held while the folder is read
   std::optional<compute::KernelTimes>
-      seen_; ///< by the newest run or look, whichever is later; nothing before the first run
+      seen_; ///< by the newest run or the newest check, whichever is later; nothing before the first run
   std::condition_variable_any stopping_;
-  std::jthread watcher_; ///< a thread of its own: neither a frame nor a run waits for the folder's disk. Last: it uses
-                         ///< the others.
+  std::jthread watcher_; ///< has its own thread, so that no frame or run waits for the folder's disk. Last: it uses the
+                         ///< other members.
 };
 
 } // namespace nephroid::ui

@@ -16,8 +16,8 @@
 namespace nephroid::ui {
 namespace {
 
-/// With a map in place of its environment, as bright and as turned as that was. Whether the map can be read the run
-/// finds out.
+/// The preset with a map as its environment, as bright and as turned as the one before. The run finds out whether the
+/// map can be read.
 preset::Preset surrounded(preset::Preset preset, const std::string& map) {
   std::error_code ignored;
   preset::Environment environment;
@@ -52,7 +52,7 @@ void Document::close() {
 bool Document::take_over(preset::WithSweep read) {
   const std::string source = edits_->current().source;
   const bool is_other_run = read.preset != edits_->current();
-  if (!is_other_run && read.sweep == edits_->sweep()) return false; // as where this window wrote it
+  if (!is_other_run && read.sweep == edits_->sweep()) return false; // as after a save by this window
   edits_->push("reload " + std::filesystem::path(source).filename().string(), std::move(read.preset),
                std::move(read.sweep));
   edits_->mark_saved(source);
@@ -99,20 +99,20 @@ void Document::carry_out(const command::Edit& c) {
   }
 }
 
-/// Throws bad_input where the preset could not be read again: a number is out of its range, however it came there, or
+/// Throws bad_input where the preset could not be read again: a number is out of its range, wherever it came from, or
 /// two fields contradict each other.
 void Document::edit(const command::Edit& c) {
   if (!edits_) return;
-  services_.messages.dismiss(refused_edit_); // while the mouse drags there is a new one at every move
+  services_.messages.dismiss(refused_edit_); // a drag of the mouse makes a new one at every move
   preset::Preset edited = c.preset;
-  edited.provenance = {}; // what is wrong from now on is what was typed here, not what the file or an option gave
+  edited.provenance = {}; // errors from now on are about what was typed here, not about the file or an option
   if (!c.was_read) preset::with_overrides(edited, {});
   if (edited.settings.engine() != edits_->current().settings.engine()) note_left_out(edited.settings.engine());
   edits_->push(c.label, std::move(edited), c.gesture);
   run_.follow_edit(c.live);
 }
 
-/// What another engine takes away with the present one.
+/// Makes a note of what is lost when the engine changes.
 void Document::note_left_out(std::string_view engine) {
   auto json = preset::as_json(edits_->current());
   if (const auto keys = preset::take_foreign(json, engine); !keys.empty())
@@ -124,7 +124,7 @@ void Document::carry_out(const command::SetSweep& c) {
   edits_->push(c.label, edits_->current(), c.sweep);
 }
 
-/// The run follows, but where the step was about the sweep alone.
+/// Undoes or redoes. The run follows, unless only the sweep changed.
 void Document::step(bool (UndoStack::*by)()) {
   if (!edits_) return;
   const preset::Preset before = edits_->current();
@@ -137,16 +137,16 @@ void Document::carry_out(const command::Restart&) {
 
 void Document::carry_out(const command::Select& c) {
   view_state_.selection = in_preset(c.selection, preset());
-  view_state_.nudged.at_s = command::Nudged{}.at_s; // another thing is another entry to undo
+  view_state_.nudged.at_s = command::Nudged{}.at_s; // another selection is another entry to undo
 }
 
 void Document::carry_out(const command::InspectPixel& c) {
   view_state_.pixel = c.pixel;
-  if (c.pixel) view_state_.selection = {}; // the arrow keys are the pixel's now
+  if (c.pixel) view_state_.selection = {}; // the arrow keys now move the pixel
   run_.watch_spectrum(c.pixel);
 }
 
-/// Throws bad_input where there is no such file, or one that is no map: the dialog stays open then.
+/// Throws bad_input where the file does not exist or is no map: the dialog stays open then.
 void Document::carry_out(const command::OpenMap& c) {
   if (!edits_) return;
   if (kind_of(c.file) != FileKind::map)

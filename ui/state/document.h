@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The preset that is edited: its history, what changes it, and the run that follows each edit.
+// The preset in hand: its history, the edits, and the run that follows each of them.
 #pragma once
 #include "preset/read.h"
 #include "ui/state/files.h"
@@ -17,7 +17,7 @@ namespace nephroid::ui {
 
 class Document {
 public:
-  /// All outlive it.
+  /// run, view_state and services outlive the object.
   Document(RunInHand& run, ViewState& view_state, Services& services)
       : run_(run), view_state_(view_state), services_(services) {}
 
@@ -25,21 +25,21 @@ public:
   const UndoStack* edits() const { return edits_ ? &*edits_ : nullptr; }
   const preset::Preset* preset() const { return edits_ ? &edits_->current() : nullptr; }
   bool modified() const { return edits_ && edits_->modified(); }
-  /// Whether a mesh is being read that will be an object.
+  /// Whether a mesh that will become an object is being read.
   bool reads_mesh() const { return services_.tasks.busy(meshes_); }
 
-  /// The preset and its run from now on; another one was closed before.
+  /// Takes the preset and starts its run; the one before must be closed.
   void open(UndoStack edits);
-  /// Lets the preset go, and what was chosen of it.
+  /// Drops the preset and everything chosen in it.
   void close();
   void mark_saved(const std::filesystem::path& file) { edits_->mark_saved(file.string()); }
-  /// What its file has now becomes an edit that counts as saved. False where it is what is there already.
+  /// Makes the file's present contents an edit that counts as saved. False where the preset is the same already.
   bool take_over(preset::WithSweep read);
-  /// What the preset's engine makes of a picture's file. Throws bad_input where it has no place for it.
+  /// Gives a picture's file to the preset's engine. Throws bad_input where the engine has no use for it.
   void take_picture(const std::string& file);
-  /// The mesh becomes an object once it is read.
+  /// Reads the mesh and makes it an object.
   void read_mesh(const std::filesystem::path& file);
-  /// Once a frame, after RunInHand::update: the white that was fitted takes the place of "auto".
+  /// Called once a frame, after RunInHand::update: the fitted white replaces "auto".
   void update();
 
   void carry_out(const command::Edit& c);
@@ -62,7 +62,7 @@ private:
   ViewState& view_state_;
   Services& services_;
   std::optional<UndoStack> edits_;
-  std::uint64_t refused_edit_ = 0; ///< the message about the last edit that was refused
+  std::uint64_t refused_edit_ = 0; ///< the message about the last refused edit
   TaskKey meshes_;
 };
 

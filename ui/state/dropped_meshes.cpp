@@ -16,9 +16,9 @@
 namespace nephroid::ui {
 namespace {
 
-constexpr double part_of_view = 0.4; ///< of what the camera sees at its target: the new object's longest edge
+constexpr double part_of_view = 0.4; ///< the new object's longest edge, as a part of what the camera sees at its target
 
-/// The shorter side of what the camera sees in the plane of its target.
+/// The shorter side of the visible rectangle in the plane of the camera's target.
 double view_at_target(const preset::Camera& camera) {
   double square = 0;
   for (std::size_t i = 0; i < 3; ++i) square += std::pow(camera.target[i] - camera.position[i], 2);
@@ -68,8 +68,8 @@ WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh) {
   const double factor = with_digits(part_of_view * view_at_target(scene.camera) / longest, 3);
   const glm::dvec3 middle = 0.5 * mesh.box.low + 0.5 * mesh.box.high;
   const double size = factor * longest;
-  const int decimals =
-      size > 0 && std::isfinite(size) ? 3 - static_cast<int>(std::floor(std::log10(size))) : 0; // a thousandth of it
+  const int decimals = size > 0 && std::isfinite(size) ? 3 - static_cast<int>(std::floor(std::log10(size)))
+                                                       : 0; // a thousandth of the size
   for (std::size_t i = 0; i < 3; ++i) {
     object.transform.scale[i] = factor;
     object.transform.translate[i] = rounded(scene.camera.target[i] - factor * middle[static_cast<int>(i)], decimals);

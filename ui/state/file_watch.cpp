@@ -75,7 +75,7 @@ void DocumentFiles::carry_out(const command::ReloadPreset&) {
     messages_.note("the file has what is shown");
 }
 
-/// Another program wrote the preset's file.
+/// Follows the preset's file, which another program wrote.
 void DocumentFiles::follow_own_file() {
   const std::filesystem::path file = document_.preset()->source;
   try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The preset's file and those that it names, where another program writes them: the preset or its run follows. A thread
-// of its own looks for changes: no frame waits for a disk.
+// Watches the preset's file and those that it names. When another program writes one, the preset or its run follows. A
+// separate thread looks for changes, so no frame waits for a disk.
 #pragma once
 #include "preset/preset.h"
 #include "ui/state/document.h"
@@ -18,43 +18,43 @@
 
 namespace nephroid::ui {
 
-/// Tells which files of a preset were changed.
+/// Says which files of a preset have changed.
 class FileWatch {
 public:
   FileWatch();
-  /// The files of this preset from now on; null: none. just_read: what was written until now is known, as they were all
-  /// read; what is written from now on is not, however late the thread looks.
+  /// Watches the files of this preset; null: none. just_read: all of them were just read, so changes until now are
+  /// known; later changes are reported, however late the thread looks.
   void watch(std::shared_ptr<const preset::Preset> preset, bool just_read);
-  /// Those that were changed since the last call, and are not being written any more. A file that is gone is none,
-  /// until it is back.
+  /// The files that have changed since the last call and are not being written any more. A file that is gone counts
+  /// once it is back.
   std::vector<std::filesystem::path> take_changed();
 
 private:
-  /// When a file was written, and its bytes; nothing where it is not there.
+  /// When a file was written, and its size in bytes; nothing where it does not exist.
   using Stamp = std::optional<std::pair<std::filesystem::file_time_type, std::uintmax_t>>;
   struct Seen {
-    Stamp known; ///< what nobody needs to be told of any more
-    Stamp last;  ///< at the look before: a file that is being written differs from look to look
+    Stamp known; ///< the state that was reported or read
+    Stamp last;  ///< the state at the check before: a file that is being written differs from check to check
   };
   void poll(const std::stop_token& stop);
   static Stamp stamp_of(const std::filesystem::path& file);
 
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::shared_ptr<const preset::Preset> preset_;           ///< the newest that was asked for,
-  bool is_new_ = false;                                    ///< which the thread has not taken yet,
-  std::optional<std::filesystem::file_time_type> read_at_; ///< and when its files were read, where they were
+  std::shared_ptr<const preset::Preset> preset_;           ///< the newest preset to watch
+  bool is_new_ = false;                                    ///< the thread has not taken preset_ yet
+  std::optional<std::filesystem::file_time_type> read_at_; ///< when its files were read, where they were
   std::vector<std::filesystem::path> found_;
-  std::jthread thread_; ///< last: it uses the others
+  std::jthread thread_; ///< last: it uses the other members
 };
 
-/// Takes over what was changed.
+/// Follows the changed files.
 class DocumentFiles {
 public:
-  /// All outlive it.
+  /// The four parts outlive the object.
   DocumentFiles(Document& document, RunInHand& run, const SweepQueue& sweep, Messages& messages)
       : document_(document), run_(run), sweep_(sweep), messages_(messages) {}
-  /// Once a frame. Never waits for the disk but to read a preset that was changed.
+  /// Called once a frame. Waits for the disk only to read a preset that has changed.
   void update();
   void carry_out(const command::ReloadPreset&);
 
@@ -66,7 +66,8 @@ private:
   const SweepQueue& sweep_;
   Messages& messages_;
   FileWatch watch_;
-  std::shared_ptr<const preset::Preset> watched_, watched_from_; ///< whose files are watched, and as it was opened
+  std::shared_ptr<const preset::Preset> watched_, watched_from_; ///< the preset whose files are watched, and as it was
+                                                                 ///< opened
 };
 
 } // namespace nephroid::ui

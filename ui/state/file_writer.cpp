@@ -14,7 +14,7 @@
 
 namespace nephroid::ui {
 
-/// Writes a file after those before it; what write() answers becomes a note.
+/// Writes a file after the earlier ones. The text that write() returns becomes a note.
 void FileWriter::save(const std::filesystem::path& file, std::function<std::string()> write) {
   services_.tasks.start(writes_, {"saving " + file.string(), TaskKind::write}, std::move(write),
                         [this](const std::string& note) {
@@ -60,7 +60,7 @@ void FileWriter::carry_out(const command::SavePreset& c) {
   questions_.go_on();
 }
 
-/// Those of shipped presets are shipped.
+/// Shipped presets have shipped thumbnails.
 void FileWriter::save_thumbnail(const std::filesystem::path& preset) {
   const std::filesystem::path file = thumbnail_of(preset, recent_.thumbnails());
   if (!run_.snapshot() || file.empty() || !preset::shipped_name(preset).empty()) return;
@@ -81,7 +81,7 @@ void FileWriter::carry_out(const command::SavePicture& c) {
   save(c.file, [file = c.file, picture, shown = shown_picture()] { return save_picture(file, *picture, shown); });
 }
 
-/// What the View shows now.
+/// The picture or map that the View shows now.
 PictureToSave FileWriter::shown_picture() const {
   const Comparison& comparison = comparing_.comparison();
   const double white = document_.preset() ? document_.preset()->white.value_or(1) : 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files that the window writes, mostly beside the frames: presets, pictures, reports, what a run found, imported
-// scenes, the list of recent files.
+// Writes the window's files, mostly in the background: presets, pictures, reports, results of runs, imported scenes,
+// the list of recent files.
 #pragma once
 #include "ui/state/comparing.h"
 #include "ui/state/questions.h"
@@ -15,19 +15,19 @@ namespace nephroid::ui {
 
 class FileWriter {
 public:
-  /// All outlive it.
+  /// All arguments outlive the object.
   FileWriter(Document& document, const RunInHand& run, const Comparing& comparing, const ViewState& view_state,
              Questions& questions, Services& services)
       : document_(document), run_(run), comparing_(comparing), view_state_(view_state), questions_(questions),
         services_(services) {}
   const RecentFiles& recent() const { return recent_; }
-  /// From now on presets that are opened or saved are remembered there.
+  /// Sets where presets that are opened or saved are remembered.
   void remember(RecentFiles recent) { recent_ = std::move(recent); }
   void add_recent(const std::filesystem::path& file);
-  /// Makes a preset of another program's scene, in a folder of its own beside it, and opens that.
+  /// Imports another program's scene: makes a preset in a new folder beside it and opens that.
   void import_scene(const std::filesystem::path& file);
   bool busy() const { return services_.tasks.busy(writes_); }
-  /// Once a frame.
+  /// Called once a frame.
   void update();
 
   void carry_out(const command::SavePreset& c);

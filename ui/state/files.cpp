@@ -25,7 +25,7 @@ struct KnownKind {
   FileKind kind;
   std::string_view endings; ///< lower case, each followed by a space
   const char* what;
-  const char* remedy; ///< {} stands for the file's name, {1} for the engines that take pictures
+  const char* remedy; ///< {} stands for the file's name, {1} for the engines that use pictures
 };
 
 constexpr std::array kinds{
@@ -45,7 +45,7 @@ constexpr std::array kinds{
     KnownKind{FileKind::kernel, ".cl ", "is a kernel source", "start with --kernels and its folder"},
 };
 
-/// "inverse": the engines that take pictures.
+/// The engines that use pictures: "inverse".
 std::string engines_for_pictures() {
   std::string names;
   for (const engine::Engine* engine : engine::engines())
@@ -53,7 +53,7 @@ std::string engines_for_pictures() {
   return names;
 }
 
-/// Writes the PNG; returns what else is worth saying of it.
+/// Writes the PNG; returns a remark about it, or nothing.
 std::string write_shown(const fs::path& file, const PictureToSave& shown) {
   if (!shown.why_not.empty())
     throw failed(file.string(), "nothing to save: " + shown.why_not, "", "show the picture, then save it");
@@ -74,7 +74,7 @@ std::string write_shown(const fs::path& file, const PictureToSave& shown) {
   return fmt::format(", false colour of {:.3g} to {:.3g} W/m2/sr", tone.range.low, tone.range.high);
 }
 
-/// Null: of no kind but a preset's.
+/// The kind with this ending; null: only a preset can have it.
 const KnownKind* known_kind(const std::string& ending) {
   if (ending.empty()) return nullptr;
   const auto found = std::ranges::find_if(
@@ -82,8 +82,7 @@ const KnownKind* known_kind(const std::string& ending) {
   return found == kinds.end() ? nullptr : &*found;
 }
 
-/// Whether the first character that is no white space opens a JSON object. An empty file may become one: reading it
-/// says so.
+/// Whether the first character other than white space opens a JSON object. An empty file passes: the reader reports it.
 bool may_be_object(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   char first = '{';
@@ -135,7 +134,7 @@ fs::path free_name(const fs::path& path) {
 }
 
 fs::path make_new_folder(const fs::path& path) {
-  while (true) { // whoever makes another one at the same time has another name
+  while (true) { // another process that makes a folder at the same time gets another name
     std::error_code error;
     fs::path folder = free_name(path);
     if (fs::create_directory(folder, error)) return folder;

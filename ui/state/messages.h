@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program has to say to a person: errors stay until they are dismissed, notes go by themselves.
+// Messages to the person: errors stay until they are dismissed, notes disappear by themselves.
 #pragma once
 #include "base/error.h"
 #include "ui/state/commands.h"
@@ -15,11 +15,11 @@
 namespace nephroid::ui {
 
 struct Message {
-  std::uint64_t id = 0; ///< from 1, rising
+  std::uint64_t id = 0; ///< rises from 1
   bool error = true;
   std::string line;
   std::chrono::steady_clock::time_point since;
-  ErrorKind kind = ErrorKind::failed; ///< of an error
+  ErrorKind kind = ErrorKind::failed; ///< the kind, where it is an error
 };
 
 class Messages {
@@ -27,7 +27,7 @@ public:
   using Clock = std::chrono::steady_clock;
 
   const std::vector<Message>& all() const { return messages_; }
-  /// Of the newest that was said; 0 before the first.
+  /// The id of the newest message; 0 before the first.
   std::uint64_t newest() const { return newest_; }
   void note(std::string line) { say(false, std::move(line), ErrorKind::failed); }
   void error(std::string line, ErrorKind kind = ErrorKind::failed) { say(true, std::move(line), kind); }
@@ -40,18 +40,18 @@ public:
   void dismiss(std::uint64_t id) {
     std::erase_if(messages_, [&](const Message& m) { return m.id == id; });
   }
-  /// Errors up to this one, which what was opened since makes void.
+  /// Dismisses the errors up to this one: a preset opened since makes them void.
   void dismiss_errors_until(std::uint64_t id) {
     std::erase_if(messages_, [&](const Message& m) { return m.error && m.id <= id; });
   }
-  /// Once a frame: notes that were there for long enough go.
+  /// Called once a frame: removes notes that were shown for long enough.
   void expire(Clock::time_point now) {
     constexpr std::chrono::seconds lifetime{6};
     std::erase_if(messages_, [&](const Message& m) { return !m.error && now - m.since > lifetime; });
   }
 
 private:
-  /// The same thing again (a panel that fails every frame) is one message.
+  /// A repeated message (of a panel that fails every frame) appears once.
   void say(bool error, std::string line, ErrorKind kind) {
     if (std::any_of(messages_.begin(), messages_.end(),
                     [&](const Message& m) { return m.line == line && m.error == error; }))

@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t max_list_bytes = 1 << 20;
 
-/// Of an entry that makes sense; else nothing.
+/// Reads an entry; nothing where it is invalid.
 std::optional<RecentFile> entry_of(const Json& json) {
   if (!json.is_object() || !json.contains("file") || !json["file"].is_string()) return std::nullopt;
   RecentFile entry{json["file"].get<std::string>(), 0};
@@ -38,7 +38,7 @@ std::optional<RecentFile> entry_of(const Json& json) {
   return entry;
 }
 
-/// Throws Error where the list is none.
+/// Throws Error where the file is no list.
 std::vector<RecentFile> read_list(const fs::path& file) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return {};
@@ -109,7 +109,7 @@ void write_thumbnail(const fs::path& file, const job::Picture& picture, double e
   const auto index = [](int wide, int x, int y) {
     return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(wide) + static_cast<std::size_t>(x));
   };
-  // Each pixel is the mean of those that it covers.
+  // Each pixel is the mean of the pixels that it covers.
   std::vector<float> rgb(index(width, 0, height));
   const auto first = [](int i, int small, int large) { return static_cast<int>(std::int64_t{i} * large / small); };
   for (int y = 0; y < height; ++y)

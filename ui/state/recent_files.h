@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The preset files that were opened lately, over many sessions, and where the small pictures of presets are. The list
-// is one small JSON file, which may be missing, cut or somebody else's: then it is empty, and one note says so.
+// The preset files that were opened lately, over many sessions, and where presets' thumbnails are. The list is one
+// small JSON file. Where it is missing, cut or written by another program, the list is empty, and one note says so.
 #pragma once
 #include "job/job.h"
 
@@ -21,23 +21,23 @@ struct RecentFile {
 
 class RecentFiles {
 public:
-  static constexpr std::size_t limit = 30; ///< files kept
+  static constexpr std::size_t limit = 30; ///< the most files kept
 
-  /// Nothing is remembered beyond the session.
+  /// Remembers nothing beyond the session.
   RecentFiles() = default;
-  /// list: the file of the list, in a folder that is made when needed. thumbnails: the folder of pictures; either may
-  /// be empty.
+  /// list: the file of the list; its folder is made when needed. thumbnails: the folder of thumbnails. Either may be
+  /// empty.
   RecentFiles(std::filesystem::path list, std::filesystem::path thumbnails);
 
-  /// The newest first.
+  /// The files, the newest first.
   const std::vector<RecentFile>& all() const { return files_; }
-  /// Why the list is empty; empty where nothing went wrong. Once.
+  /// Returns once why the list is empty; empty where nothing went wrong.
   std::string take_note() { return std::exchange(note_, {}); }
-  /// Puts a file first.
+  /// Puts a file at the front.
   void add(const std::filesystem::path& file, std::int64_t now);
-  /// Writes the list as it is now. Throws failed.
+  /// Returns a function that writes the list as it is now. It throws failed.
   std::function<void()> writer() const;
-  /// The folder of pictures; empty: none are kept.
+  /// The folder of thumbnails; empty: none are kept.
   const std::filesystem::path& thumbnails() const { return thumbnails_; }
 
 private:
@@ -46,14 +46,14 @@ private:
   std::string note_;
 };
 
-/// The picture of a preset's file: presets/thumbnails/NAME.jpg of a shipped one, else one in this folder of thumbnails,
-/// which need not be there. Empty where there is none for it.
+/// The thumbnail of a preset's file: presets/thumbnails/NAME.jpg for a shipped one, else a path in this folder of
+/// thumbnails, where a file need not exist. Empty where there can be none.
 std::filesystem::path thumbnail_of(const std::filesystem::path& preset, const std::filesystem::path& thumbnails);
 
-/// Writes a small copy of the picture, as it is shown with this exposure, as PNG; makes the folder. Throws failed.
+/// Writes a small copy of the picture at this exposure as PNG; makes the folder. Throws failed.
 void write_thumbnail(const std::filesystem::path& file, const job::Picture& picture, double exposure_stops);
 
-/// The most that a thumbnail measures, in pixels.
+/// The largest size of a thumbnail in pixels.
 inline constexpr int thumbnail_width = 128, thumbnail_height = 96;
 
 } // namespace nephroid::ui

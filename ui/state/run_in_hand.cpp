@@ -6,11 +6,11 @@
 
 namespace nephroid::ui {
 
-/// Filled on the worker's thread when a run was made ready.
+/// The facts of a run, filled on the worker's thread when the run is prepared.
 struct RunInHand::Arrival {
   std::mutex mutex;
-  std::optional<NewRun> run;                    ///< nothing: not yet
-  std::shared_ptr<const preset::Preset> preset; ///< that it was made of
+  std::optional<NewRun> run;                    ///< nothing: not ready yet
+  std::shared_ptr<const preset::Preset> preset; ///< the preset of that run
 };
 
 void RunInHand::forget() {
@@ -36,7 +36,7 @@ std::function<std::unique_ptr<job::Job>()> RunInHand::maker() {
   };
 }
 
-/// What every way to another preset begins with.
+/// The common part of all changes to another preset.
 void RunInHand::take_over(const UndoStack& edits) {
   restart_wanted_ = snapshot_is_current_ = false;
   messages_.dismiss(failure_message_);
@@ -47,7 +47,7 @@ void RunInHand::take_over(const UndoStack& edits) {
 }
 
 void RunInHand::start(const UndoStack& edits) {
-  if (lent_) return; // take_back() starts it
+  if (lent_) return; // take_back() starts the run
   take_over(edits);
   begin();
 }
@@ -66,7 +66,7 @@ void RunInHand::take_back(const UndoStack* edits) {
   if (edits) start(*edits);
 }
 
-/// Whether what the run before has read, or still reads, is of use for the next. Else nobody waits for it.
+/// Whether the next run can use what the run before has read or is still reading. If not, it does not wait for it.
 bool RunInHand::loads_the_same() const {
   if (!arrival_) return false;
   const std::lock_guard lock(arrival_->mutex);
@@ -74,7 +74,7 @@ bool RunInHand::loads_the_same() const {
   return before.source == preset_->source && before.scene.objects == preset_->scene.objects;
 }
 
-/// The run of preset_.
+/// Starts the run of preset_.
 void RunInHand::begin() {
   const bool ends_preparation = reads_anew_ || kernels_changed_ || !loads_the_same();
   std::stop_source preparing_before = preparing_;
@@ -84,7 +84,7 @@ void RunInHand::begin() {
   arrival_ = std::make_shared<Arrival>();
   arrival_->preset = preset_;
   before_start_ = worker_.start(maker());
-  if (ends_preparation) preparing_before.request_stop(); // now: the worker knows that it is replaced
+  if (ends_preparation) preparing_before.request_stop(); // now, because the worker knows that it is replaced
   status_ = worker_.status();
 }
 
@@ -92,7 +92,7 @@ void RunInHand::adopt_or_start(const UndoStack& edits) {
   if (lent_) return;
   if (kernels_changed_ || !preset_ || !engine::adoptable(*preset_, edits.current())) return start(edits);
   take_over(edits);
-  newest_.reference.reset(); // it is of the old light
+  newest_.reference.reset(); // it belongs to the old light
   adoption_ = worker_.adopt(preset_, maker());
 }
 
@@ -118,7 +118,7 @@ void RunInHand::take_arrival() {
   const std::lock_guard lock(arrival_->mutex);
   if (!arrival_->run) return;
   newest_ = *std::exchange(arrival_->run, std::nullopt);
-  if (arrival_->preset != preset_) newest_.reference.reset(); // it is of another light
+  if (arrival_->preset != preset_) newest_.reference.reset(); // it belongs to another light
   if (!preset_->white && newest_.white) {
     preset::Preset fitted = *preset_;
     fitted.white = newest_.white;
@@ -126,8 +126,8 @@ void RunInHand::take_arrival() {
   }
 }
 
-/// Parts of a picture on black would hide the one of the run before: they are shown only where there is none, or the
-/// run is slow.
+/// Parts of a picture on black would hide the picture of the run before. They are shown only where there is none, or
+/// where the run is slow.
 bool RunInHand::is_worth_showing(const job::Snapshot& newest) {
   if (newest.progress.whole || !snapshot_ || shown_since_start_ || status_.state != job::State::running) return true;
   const auto now = std::chrono::steady_clock::now();
@@ -135,7 +135,7 @@ bool RunInHand::is_worth_showing(const job::Snapshot& newest) {
   return now - *parts_since_ > std::chrono::seconds(2);
 }
 
-/// True where there is a new one.
+/// Takes a newer snapshot; true where there is one.
 bool RunInHand::take_snapshot() {
   std::shared_ptr<const job::Snapshot> newest = worker_.snapshot();
   if (!newest || !newest->picture || newest == before_start_ || newest == snapshot_ || !is_worth_showing(*newest))
@@ -150,7 +150,7 @@ bool RunInHand::take_snapshot() {
 void RunInHand::report_failure() {
   if (status_.state != job::State::failed || status_.failures == reported_failure_) return;
   reported_failure_ = status_.failures;
-  source_.reopen_device(); // it may be gone; opening it takes a moment, and only after a failure
+  source_.reopen_device(); // it may be lost; opening it takes a moment, and only after a failure
   messages_.error(*status_.error);
   failure_message_ = messages_.newest();
 }
@@ -160,7 +160,7 @@ void RunInHand::update(const UndoStack* edits) {
   status_ = worker_.status();
   spectrum_ = worker_.spectrum();
   const bool is_new = take_snapshot();
-  take_arrival(); // it was left there before the run's first snapshot
+  take_arrival(); // the worker left it there before the run's first snapshot
   if (is_new && snapshot_->adoption >= adoption_)
     snapshot_origin_ = {preset_, newest_.plan, newest_.reference, newest_.device};
   report_failure();
@@ -173,9 +173,9 @@ void RunInHand::update(const UndoStack* edits) {
 }
 
 void RunInHand::start_if_wanted(const UndoStack& edits) {
-  // An edit replaces the run at once. While a gesture lasts, the run in hand may first show a picture: on a slow device
-  // every move of the mouse would otherwise throw away a run that has not shown anything yet, and nothing would be seen
-  // until the mouse rests.
+  // An edit replaces the run at once. While a gesture lasts, the run in hand may first show a picture. Otherwise, on a
+  // slow device, every move of the mouse would drop a run that has shown nothing yet, and no picture would appear until
+  // the mouse rests.
   const bool working = status_.state == job::State::preparing || status_.state == job::State::running;
   if (restart_wanted_ && !lent_ && (!gesture_lasts_ || !working || shown_since_start_)) adopt_or_start(edits);
 }

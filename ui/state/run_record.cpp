@@ -31,7 +31,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array text_files{"run.json", "plan.json", "preset.json"};
 
-/// The names of run.json's members are the engine's. Whatever is of another type is not known.
+/// The engine names run.json's members. A member of another type counts as unknown.
 void read_figures(const std::string& text, RunRecord& record) {
   const Json run = Json::parse(text, nullptr, false);
   if (!run.is_object()) return;
@@ -74,9 +74,9 @@ bool is_still_there(const RunRecord& record) {
   }
 }
 
-/// Removes what was written unless it is kept.
+/// Removes the written folder at its end, unless it is kept.
 struct Written {
-  fs::path folder; ///< claimed; empty while nothing was written
+  fs::path folder; ///< empty while nothing was written
   bool keep = false;
   ~Written() {
     std::error_code ignored;
@@ -136,7 +136,7 @@ std::shared_ptr<const RunRecord> read_record(const fs::path& folder) {
     record->preset = std::make_shared<const preset::Preset>(
         preset::parse_preset(record->texts["preset.json"], (folder / "preset.json").string()));
   } catch (const Error&) {
-    // of another version of the program, say: the run is shown without it
+    // perhaps of another version of the program: the run is shown without it
   }
   return record;
 }
@@ -173,7 +173,7 @@ void write_run_folder(const fs::path& folder, const PinnedRun& run, const std::s
     if (!further) snapshot.pictures.clear();
     return run::write_run(folder, prepared, origin.device, snapshot, origin.reference.get(), run.record->finished);
   }
-  // What was read, without what the folder had beside it.
+  // Writes what was read, without other files of the folder.
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw failed(folder.string(), "cannot be made: " + error.message());
@@ -207,7 +207,7 @@ std::string write_report(const fs::path& file, std::span<const PinnedRun> runs) 
   std::set<fs::path> seen;
   for (const PinnedRun* run : taken) {
     if (is_still_there(*run->record)) {
-      if (seen.insert(run->record->folder).second) folders.push_back(run->record->folder); // else pinned twice
+      if (seen.insert(run->record->folder).second) folders.push_back(run->record->folder); // else it was pinned twice
       continue;
     }
     if (written.folder.empty()) written.folder = make_new_folder(file.parent_path() / (file.stem().string() + "-runs"));

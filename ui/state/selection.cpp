@@ -100,8 +100,7 @@ std::string shown_dielectric(const preset::Preset& preset, const std::string& ch
 preset::Dispersion load_dispersion(const std::string& file, const std::string& preset_source) {
   preset::Dispersion dispersion;
   dispersion.type = preset::Dispersion::Type::file;
-  // A path means what it means to the shell that the program was started from; a name is looked for where a preset's
-  // is.
+  // A path is relative to the current folder, as in a shell. A name is looked up as in a preset.
   std::error_code ignored;
   const std::filesystem::path path = std::filesystem::absolute(file, ignored);
   dispersion.file = !file.empty() && is_there(path) ? path.string() : file;

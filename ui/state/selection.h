@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of the preset a person has picked: the thing that is moved with the mouse or the keys, and with which handles;
-// the dielectric that is shown; bookmarks of cameras, which are the window's and not the preset's.
+// What a person has picked in the preset: the selected thing and the handles that move it, and the shown dielectric.
+// Bookmarks of cameras belong to the window and not to the preset.
 #pragma once
 #include "preset/preset.h"
 
@@ -15,62 +15,63 @@ namespace nephroid::ui {
 struct Selection {
   enum class Kind { nothing, object, light, camera };
   Kind kind = Kind::nothing;
-  std::size_t index = 0; ///< of scene.objects or scene.lights; else 0
+  std::size_t index = 0; ///< an index into scene.objects or scene.lights; else 0
   bool operator==(const Selection&) const = default;
 };
 
-/// How what is selected is moved.
+/// How the selected thing is moved.
 struct Handles {
   enum class Tool { move, turn, scale };
   Tool tool = Tool::move;
-  bool own_axes = false; ///< along the axes of what is selected; false: along those of the scene
-  bool snap = false;     ///< in steps
+  bool own_axes = false; ///< moves along the axes of the selected thing; false: along those of the scene
+  bool snap = false;     ///< moves in steps
   bool shown = true;     ///< over the picture, with the lights' icons
   bool operator==(const Handles&) const = default;
 };
 
-/// Whether the preset has a scene that one can select something of; else it has a camera only.
+/// Whether the preset has a scene to select in; else it has a camera only.
 bool has_scene(const preset::Preset& preset);
-/// The selection as far as it is in the preset; nothing where it is not, and where there is no preset (null).
+/// The selection, as far as the preset has it; else, and without a preset (null), nothing.
 Selection in_preset(const Selection& selection, const preset::Preset* preset);
 /// All that can be selected: objects, lights, the camera; empty without a scene.
 std::vector<Selection> selectable(const preset::Preset& preset);
-/// "bunny", "object 2" where it has no name, "light 1 (spot)", "camera's target"; of what is in the preset. Empty for
+/// "bunny", "object 2" where it has no name, "light 1 (spot)", "camera's target". The preset must have it. Empty for
 /// nothing.
 std::string name_of(const preset::Preset& preset, const Selection& selection);
-/// The preset's unit of length, as its file has it: "mm".
+/// The preset's unit of length as its file has it: "mm".
 std::string unit_word(const preset::Preset& preset);
-/// Where its fields are: "/scene/objects/0". Empty for nothing.
+/// Where the fields of the selection are: "/scene/objects/0". Empty for nothing.
 std::string pointer_of(const Selection& selection);
 
-/// The wanted name, or the first of "NAME 2", "NAME 3", ... that is not taken(). pattern: of those, for fmt.
+/// The wanted name, or the first of "NAME 2", "NAME 3", ... that is not taken(). pattern: for the numbered names, as
+/// fmt has it.
 template <class PictureEdit>
 std::string untaken_name(const std::string& wanted, PictureEdit taken, const char* pattern = "{} {}") {
   std::string name = wanted;
   for (int number = 2; taken(name); ++number) name = fmt::format(fmt::runtime(pattern), wanted, number);
   return name;
 }
-/// To so many decimals; negative: to whole tens, hundreds. The nearest double to that decimal number, so that a file
-/// shows no more digits.
+/// Rounds to so many decimals; negative: to whole tens, hundreds. Returns the double nearest to that decimal number, so
+/// that a file shows no more digits.
 double rounded(double value, int decimals);
-/// To so many digits that count.
+/// Rounds to so many significant digits.
 double with_digits(double value, int digits);
-/// A place to look from.
+/// A camera position to return to.
 struct Bookmark {
   std::string name;
   preset::Camera camera;
   bool operator==(const Bookmark&) const = default;
 };
 
-/// "Prism 2": what the preset is called and the first number that no bookmark has with it.
+/// "Prism 2": the preset's name and the first number that no bookmark has with it.
 std::string new_bookmark_name(const preset::Preset& preset, const std::vector<Bookmark>& bookmarks);
 
-/// Those that objects are made of, in the order of the objects, then the others by name.
+/// The names of the dielectrics: first those of objects, in the order of the objects, then the others by name.
 std::vector<std::string> dielectrics(const preset::Preset& preset);
-/// The one that is shown where `chosen` was asked for: that, else the first; empty where there is none.
+/// The dielectric to show: `chosen` where the preset has it, else the first; empty where there is none.
 std::string shown_dielectric(const preset::Preset& preset, const std::string& chosen);
-/// A dispersion of a refractiveindex.info file: a path, or the name of a shipped material ("N-SF66"), for a preset from
-/// `preset_source`. Throws bad_input where it cannot be read or has no n at one of the 401 wavelengths.
+/// Reads a dispersion from a refractiveindex.info file: a path, or the name of a shipped material ("N-SF66"), for a
+/// preset from `preset_source`. Throws bad_input where it cannot be read or has no n at one of the 401 wavelengths.
 preset::Dispersion load_dispersion(const std::string& file, const std::string& preset_source);
 
 } // namespace nephroid::ui

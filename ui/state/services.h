@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every part of the workbench has at hand: where it says things, what runs beside the frames, and what comes after
-// a command.
+// What every part of the workbench uses: messages, background tasks, and commands that follow a command.
 #pragma once
 #include "ui/state/commands.h"
 #include "ui/state/messages.h"

@@ -30,7 +30,7 @@ struct NamedTone {
 constexpr std::array tone_names{NamedTone{ToneCurve::standard, "standard"}, NamedTone{ToneCurve::filmic, "filmic"},
                                 NamedTone{ToneCurve::false_colour, "false_colour"}};
 
-/// Dear ImGui trusts what it reads: whatever it did not write itself is refused here.
+/// Dear ImGui trusts what it reads, so text that it did not write itself is refused here.
 std::string checksum(const std::string& ini) { return fmt::format("{:016x}", hash_of(ini)); }
 
 double within(const Json& value, double low, double high) {
@@ -71,7 +71,7 @@ Bookmark read_bookmark(const Json& value) {
   return bookmark;
 }
 
-/// The entries about the current one.
+/// Keeps the entries around the current one.
 UndoStack::State trimmed(UndoStack::State state) {
   constexpr std::size_t most = Session::most_entries;
   auto& [opened, entries, index, saved] = state;
@@ -131,7 +131,7 @@ EngineLayout read_engine_layout(const Json& value) {
   return layout;
 }
 
-/// Calls read(value) of the text as JSON of this version. Whatever is wrong becomes one error.
+/// Calls read(value) with the text as JSON of this version. Every failure becomes one kind of error.
 template <class Read>
 auto read_kept(const std::string& text, int version, const Place& source, const std::string& what_is_wrong,
                const std::string& remedy, Read read) {
@@ -139,7 +139,7 @@ auto read_kept(const std::string& text, int version, const Place& source, const 
     const Json value = Json::parse(text);
     if (value.at("version") != Json(version)) throw std::out_of_range("it is of another version of the program");
     return read(value);
-  } catch (const std::exception& error) { // of the JSON library, or of the checks above
+  } catch (const std::exception& error) { // from the JSON library or the checks above
     throw bad_input(source, fmt::format("{} ({})", what_is_wrong, error.what()), "", remedy);
   }
 }
@@ -175,7 +175,7 @@ Settings parse_settings(const std::string& text, const std::string& source) {
                    });
 }
 
-/// A preset as JSON, and what makes it of the one before.
+/// A preset as JSON, and its difference from the one before.
 struct SessionText::Known {
   PresetPtr preset, before;
   Json json, patch;

@@ -20,12 +20,13 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr auto period = 1s;         ///< between two writes
-constexpr auto after_failure = 10s; ///< a full disk is not asked every second
+constexpr auto after_failure = 10s; ///< a full disk is not tried every second
 constexpr std::size_t most_earlier = 10;
-constexpr std::uintmax_t most_bytes = 64u << 20; ///< of a session that somebody may have put there
+constexpr std::uintmax_t most_bytes = 64u << 20; ///< the largest session that is read: a person may have put another
+                                                 ///< file there
 constexpr const char *session_name = "session.json", *settings_name = "settings.json", *lock_name = "lock";
 
-/// Null also where the file cannot be made.
+/// Locks the file; null where it is locked, or cannot be made.
 FileLock lock_file(const fs::path& file) {
   return lock_open_file(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
 }
@@ -37,7 +38,7 @@ std::string read_limited(const fs::path& file) {
   return read_file(file);
 }
 
-/// What the file says of itself; one that cannot be read counts as a killed window's, whose rest is worth a message.
+/// The header of the session's file. One that cannot be read counts as a killed window's: the rest deserves a message.
 SessionHeader header_of(const fs::path& file) {
   try {
     return parse_session_header(read_limited(file), file.string());
@@ -46,7 +47,7 @@ SessionHeader header_of(const fs::path& file) {
   }
 }
 
-/// Whole, or nothing of it: a folder that is there counts as kept.
+/// Writes the folder whole or not at all: a folder that exists counts as kept.
 void write_pin(const fs::path& folder, const PinnedRun& run) {
   try {
     write_run_folder(folder, run, {}, false);
@@ -62,12 +63,12 @@ void write_pin(const fs::path& folder, const PinnedRun& run) {
 
 /// The files of this window's session, whose lock it holds.
 struct SessionKeeper::Writer {
-  fs::path folder; ///< of all sessions
-  fs::path own;    ///< of this window's
+  fs::path folder; ///< the folder of all sessions
+  fs::path own;    ///< the folder of this window's session
   FileLock lock;
   SessionText text;
 
-  /// On any thread, one at a time. What went wrong; empty where nothing did.
+  /// Called on any thread, one call at a time. Returns an error's text; empty where all was written.
   std::string write(const Work& work);
 };
 
@@ -101,17 +102,17 @@ void SessionKeeper::find_earlier() {
     if (entry.path() != writer_->own && entry.path().extension() != ".unreadable") folders.push_back(entry.path());
   for (const fs::path& folder : folders) {
     FileLock held = lock_file(folder / lock_name);
-    if (!held) continue; // its window is open
+    if (!held) continue; // its window is still open
     const fs::file_time_type kept = fs::last_write_time(folder / session_name, error);
     const SessionHeader header = error ? SessionHeader{} : header_of(folder / session_name);
     if (header.has_preset)
       earlier_.push_back({folder, header.closed, kept, std::move(held)});
     else
-      fs::remove_all(folder, error); // nothing was ever opened
+      fs::remove_all(folder, error); // no preset was ever opened
   }
   std::sort(earlier_.begin(), earlier_.end(),
             [](const Earlier& a, const Earlier& b) { return a.closed != b.closed ? b.closed : a.kept > b.kept; });
-  // Of the windows that were closed the newest is enough.
+  // The newest of the closed windows' sessions is enough.
   std::size_t closed = 0;
   std::erase_if(earlier_, [&](const Earlier& one) {
     const bool old = (one.closed && closed++ > 0);
@@ -119,7 +120,7 @@ void SessionKeeper::find_earlier() {
     return old;
   });
   for (; earlier_.size() > most_earlier; earlier_.pop_back()) fs::remove_all(earlier_.back().folder, error);
-  for (Earlier& earlier : earlier_) earlier.lock.reset(); // another window may offer them, too
+  for (Earlier& earlier : earlier_) earlier.lock.reset(); // so that another window can offer them, too
 }
 
 void SessionKeeper::load_settings(Workbench& workbench) const {
@@ -166,7 +167,7 @@ SessionKeeper::Work SessionKeeper::work_of(const Workbench& workbench) const {
     work.session.pins.push_back(
         {run.is_run() ? fmt::format("pin-{}", run.id) : run.file.string(), run.name, run.colour, run.shown});
   work.settings = workbench.setup().settings();
-  if (workbench.works_on_files()) return work; // the pins of the session before may still be being read
+  if (workbench.works_on_files()) return work; // the pins of the earlier session may still be being read
   work.replaces = taken_over_;
   work.lock = taken_over_lock_;
   return work;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the window's session and settings in files while it is open, so that a window that was killed loses a second at
-// most; finds the sessions that earlier windows left. Each window has a folder of its own, which it holds locked:
-// several windows may be open.
+// Keeps the window's session and settings in files while it is open, so that a killed window loses a second at most;
+// finds the sessions that earlier windows left. Each window has its own folder, which it holds locked: several windows
+// may be open.
 #pragma once
 #include "base/file_lock.h"
 #include "ui/state/session.h"
@@ -17,21 +17,21 @@ public:
   /// cannot be made.
   explicit SessionKeeper(std::filesystem::path folder);
 
-  /// The settings that the last window kept; where they cannot be read, those a window begins with and a message.
+  /// Loads the settings that the last window kept. Where they cannot be read, the defaults and a message take their
+  /// place.
   void load_settings(Workbench& workbench) const;
-  /// Whether an earlier window was not closed by a person, and when its session was last kept ("2026-11-22 03:12:05");
-  /// empty: none.
+  /// When the session of a window that no person closed was last kept ("2026-11-22 03:12:05"); empty: there is none.
   std::string killed_session() const;
-  /// Whether there is a session to go back to, of a window that was closed or not.
+  /// Whether there is a session to reopen, of a closed or a killed window.
   bool has_earlier() const { return !earlier_.empty(); }
-  /// Opens the newest earlier session, of a killed window first, and holds its lock until this window's own session has
-  /// all of it. What another window opened meanwhile becomes a message; so does what cannot be read, which is kept
-  /// under another name.
+  /// Opens the newest earlier session, a killed window's first, and holds its lock until this window's own session has
+  /// all of it. Where another window opened it meanwhile, a message says so. A session that cannot be read is kept
+  /// under another name, also with a message.
   void reopen(Workbench& workbench);
 
-  /// Once a frame, returns at once: at most once a second writes what changed, in the background.
+  /// Called once a frame, returns at once: writes what changed, in the background, at most once a second.
   void update(Workbench& workbench, Clock::time_point now = Clock::now());
-  /// The last word of a window that a person closes; waits for the disk.
+  /// Writes the session of a window that a person closes; waits for the disk.
   void close(Workbench& workbench);
 
 private:
@@ -39,15 +39,15 @@ private:
     std::filesystem::path folder;
     bool closed = false;
     std::filesystem::file_time_type kept;
-    FileLock lock = {}; ///< while they are looked for
+    FileLock lock = {}; ///< held while the sessions are looked for
   };
-  /// What there is to write.
+  /// What is to be written.
   struct Work {
     Session session;
-    std::vector<PinnedRun> pins; ///< of session.pins, in their order
+    std::vector<PinnedRun> pins; ///< session.pins, in their order
     Settings settings;
-    std::filesystem::path replaces; ///< an earlier session that is removed when this one is kept; empty: none
-    FileLock lock;                  ///< its
+    std::filesystem::path replaces; ///< an earlier session, removed when this one is kept; empty: none
+    FileLock lock;                  ///< that session's lock
   };
   struct Writer;
   void find_earlier();
@@ -57,14 +57,14 @@ private:
   void written(Workbench& workbench, const std::string& error);
   void say_once(Workbench& workbench, const std::string& error);
 
-  std::filesystem::path folder_;     ///< of all sessions; empty: nothing is kept
-  std::shared_ptr<Writer> writer_;   ///< shared with the task that writes
-  std::vector<Earlier> earlier_;     ///< the one to go back to first comes first
-  std::filesystem::path taken_over_; ///< an earlier session that is not needed once this one is kept
-  FileLock taken_over_lock_;         ///< its
+  std::filesystem::path folder_;     ///< the folder of all sessions; empty: nothing is kept
+  std::shared_ptr<Writer> writer_;   ///< shared with the writing task
+  std::vector<Earlier> earlier_;     ///< the one to reopen first comes first
+  std::filesystem::path taken_over_; ///< an earlier session, not needed once this one is kept
+  FileLock taken_over_lock_;         ///< taken_over_'s lock
   std::optional<Work> newest_;       ///< what was written last, or is being written
   TaskKey writes_;
-  std::string last_error_; ///< the error that was said last
+  std::string last_error_; ///< the error of the last message
   Clock::time_point next_{};
 };
 

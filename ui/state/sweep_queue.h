@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The runs of a sweep, one after the other in place of the run in hand, because a device works on one run at a time.
-// Each is pinned when it is done.
+// The runs of a sweep. A device works on one run at a time, so they take the place of the run in hand one after the
+// other. Each is pinned when it is done.
 #pragma once
 #include "preset/read.h"
 #include "ui/state/comparing.h"
@@ -14,36 +14,36 @@ namespace nephroid::ui {
 
 class SweepQueue {
 public:
-  /// A pinned run keeps its picture: more runs than these are for `nephroid run`.
+  /// The most runs here, because a pinned run keeps its picture; `nephroid run` takes more.
   static constexpr std::size_t most_runs = 64;
 
   enum class State { waiting, running, done, failed, stopped };
   struct QueuedRun {
     std::string name;
-    std::shared_ptr<const preset::Preset> preset; ///< null where it was refused
+    std::shared_ptr<const preset::Preset> preset; ///< null where the preset was refused
     State state = State::waiting;
-    std::string why; ///< it failed: one line
-    double part = 0; ///< 0..1 of a run that is running or was stopped
+    std::string why; ///< why it failed, in one line
+    double part = 0; ///< the finished part of a run that is running or was stopped, 0..1
   };
 
-  /// All outlive it.
+  /// document, run and comparing outlive the object.
   SweepQueue(const Document& document, RunInHand& run, Comparing& comparing)
       : document_(document), run_(run), comparing_(comparing) {}
 
-  /// Throws bad_input as preset::swept_runs, for no sweep and for more than most_runs; what is refused alone is a
-  /// failed run. Nothing changes then.
+  /// Throws bad_input as preset::swept_runs, for no sweep and for more than most_runs, and changes nothing then. A
+  /// single refused preset is a failed run.
   void carry_out(const command::StartSweep&);
   void carry_out(const command::StopSweep&) { stop(); }
-  /// Without a sweep the run in hand is cancelled.
+  /// Cancels the run in hand where no sweep is active.
   void carry_out(const command::Cancel&) { active_ ? stop() : run_.cancel(); }
-  /// The run in hand is of the present preset again; what is done stays pinned.
+  /// Gives the run in hand back to the present preset; finished runs stay pinned.
   void stop();
-  /// Once a frame, after RunInHand::update.
+  /// Called once a frame, after RunInHand::update.
   void update();
 
-  /// Whether runs are to come or one is running.
+  /// Whether a run is running or to come.
   bool active() const { return active_; }
-  /// Of the newest sweep that was started, in their order.
+  /// The runs of the newest sweep, in their order.
   const std::vector<QueuedRun>& runs() const { return runs_; }
   /// "3 of 10 done, 1 failed".
   std::string summary() const;
@@ -55,7 +55,7 @@ private:
   RunInHand& run_;
   Comparing& comparing_;
   std::vector<QueuedRun> runs_;
-  std::size_t at_ = 0; ///< which is running
+  std::size_t at_ = 0; ///< the index of the running one
   bool active_ = false, lent_ = false;
 };
 

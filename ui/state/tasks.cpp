@@ -26,7 +26,7 @@ void TaskQueue::add(const TaskKey& key, TaskAbout about, Step work) {
   begin_waiting();
 }
 
-/// Owners tell keys apart, also those of keys that are gone.
+/// Keys are compared by their owners, even after the keys are gone.
 bool TaskQueue::holds_up(const Task& earlier, const Task& task) const {
   return !earlier.control->cancelled() && !earlier.key.owner_before(task.key) && !task.key.owner_before(earlier.key);
 }
@@ -45,7 +45,7 @@ bool TaskQueue::busy(const TaskKey& key) const {
   return std::ranges::any_of(tasks_, [&](const TaskPtr& task) { return is_of(*task, key); });
 }
 
-/// Waiting ones go, running ones are told.
+/// Removes waiting tasks and cancels running ones.
 void TaskQueue::drop(const std::function<bool(const Task&)>& which) {
   std::erase_if(tasks_, [&](const TaskPtr& task) {
     if (task->about.kind == TaskKind::write || !which(*task)) return false;
@@ -83,7 +83,7 @@ void TaskQueue::end(const TaskPtr& task, Messages& messages) {
 }
 
 void TaskQueue::collect(Messages& messages) {
-  for (const TaskPtr& task : std::vector(tasks_)) // what a delivery starts is not among them
+  for (const TaskPtr& task : std::vector(tasks_)) // tasks that a delivery starts are not among them
     if (task->delivery.valid() && task->delivery.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
       end(task, messages);
   begin_waiting();
@@ -93,7 +93,7 @@ void TaskQueue::wait(const TaskKey& key, Messages& messages) {
   while (true) {
     const auto first = std::ranges::find_if(tasks_, [&](const TaskPtr& task) { return is_of(*task, key); });
     if (first == tasks_.end()) return;
-    end(TaskPtr(*first), messages); // it has begun: nothing of its key is before it
+    end(TaskPtr(*first), messages); // it has begun, so no task of its key precedes it
     begin_waiting();
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What takes longer than a frame: work on threads of its own, beside the frames. The queue says what runs, cancels it,
-// hands results over on the window's thread, and makes a message of what is thrown.
+// Work that takes longer than a frame, on background threads. The queue lists what runs, cancels it, delivers results
+// on the window's thread, and makes messages of errors.
 #pragma once
 #include "ui/state/messages.h"
 
@@ -17,7 +17,8 @@
 
 namespace nephroid::ui {
 
-/// Whose tasks they are: those of one key run one after the other. Where it is gone, nothing is delivered any more.
+/// Identifies the owner of tasks. Tasks of one key run one after the other. When the key is gone, nothing is delivered
+/// any more.
 class TaskKey {
 public:
   TaskKey() = default;
@@ -30,23 +31,23 @@ private:
 };
 
 enum class TaskKind {
-  view,    ///< something to be seen: who draws it asks again while it is lacking, so nobody can cancel it
+  view,    ///< something to be shown: its panel asks again until it is there, so nobody can cancel it
   request, ///< a person asked for it and can cancel it
-  write    ///< of files that must be whole: nobody can cancel it, and the program ends after it
+  write    ///< files that must be whole: nobody can cancel it, and the program ends after it
 };
 
 struct TaskAbout {
-  std::string name; ///< what it does: "reading bunny.obj"
+  std::string name; ///< what the task does: "reading bunny.obj"
   TaskKind kind = TaskKind::view;
-  bool replaces = false; ///< tasks of its key that have not begun are not needed any more
+  bool replaces = false; ///< drops the tasks of its key that have not begun
 };
 
-/// The work's own side of a task.
+/// The task as its work sees it.
 class TaskControl {
 public:
-  /// True: nobody waits for the result.
+  /// True: the result is not needed any more.
   bool cancelled() const { return cancelled_; }
-  /// How much of it is done, 0..1.
+  /// Sets the finished part, 0..1.
   void progress(double part) { progress_ = part; }
 
 private:
@@ -58,21 +59,21 @@ private:
 struct TaskView {
   std::uint64_t id = 0;
   std::string name;
-  double progress = -1; ///< 0..1; below 0: not known
+  double progress = -1; ///< 0..1; below 0: unknown
   bool can_cancel = false;
 };
 
-/// For the window's thread alone; only the work runs elsewhere.
+/// Used on the window's thread alone; only the work runs elsewhere.
 class TaskQueue {
 public:
   using Clock = std::chrono::steady_clock;
   TaskQueue() = default;
-  /// As finish(), without words.
+  /// Does what finish() does, without messages.
   ~TaskQueue();
   TaskQueue(const TaskQueue&) = delete;
   TaskQueue& operator=(const TaskQueue&) = delete;
 
-  /// work() or work(TaskControl&) on a thread of its own, after the tasks of this key that came before; deliver(result)
+  /// Runs work() or work(TaskControl&) on a background thread, after the earlier tasks of this key, and deliver(result)
   /// in collect(). The work must own or share whatever it uses: the key's owner may end before it.
   template <class Work, class Deliver>
   void start(const TaskKey& key, TaskAbout about, Work work, Deliver deliver) {
@@ -96,18 +97,18 @@ public:
   }
   /// Whether a task of this key runs or waits.
   bool busy(const TaskKey& key) const;
-  /// Those of this key but writes are of no use any more, and keep no newer one waiting.
+  /// Drops the tasks of this key except writes; newer ones need not wait for them.
   void forget(const TaskKey& key);
-  /// Takes no notice of a task that is not there or cannot be cancelled.
+  /// Ignores a task that does not exist or cannot be cancelled.
   void cancel(std::uint64_t id);
-  /// Those that have run for this long.
+  /// The tasks that have run for at least this long.
   std::vector<TaskView> running(Clock::duration at_least = {}) const;
   bool empty() const { return tasks_.empty(); }
-  /// Once a frame: delivers what is done. Whatever the work or the delivery throws becomes a message.
+  /// Called once a frame: delivers results. Errors of the work or of the delivery become messages.
   void collect(Messages& messages);
   /// Waits until the tasks of this key are done and delivered.
   void wait(const TaskKey& key, Messages& messages);
-  /// Before the end: waits for what is being written, and delivers nothing any more.
+  /// Called before the end: waits for files that are being written, and delivers nothing any more.
   void finish(Messages& messages);
 
 private:
@@ -117,7 +118,7 @@ private:
     std::uint64_t id = 0;
     TaskAbout about;
     std::weak_ptr<const int> key;
-    Step work; ///< until it begins
+    Step work; ///< empty once it has begun
     std::shared_ptr<TaskControl> control = std::make_shared<TaskControl>();
     std::future<Delivery> delivery; ///< valid once it has begun
     Clock::time_point begun{};
@@ -135,19 +136,19 @@ private:
   bool finishing_ = false;
 };
 
-/// What is asked for, held against the newest result.
+/// How what is asked for compares with the newest result.
 enum class Request { same, other_picture, other };
 
-/// Something that is made again and again of what a panel shows: a difference of pictures, statistics of a region. Not
-/// of every picture of a run, as that may be faster than it.
+/// Something that a panel shows and that is made again and again: a difference of pictures, statistics of a region. A
+/// run's pictures may come faster than it is made, so it is not made for each.
 template <class Result>
 class NewestResult {
 public:
   using Clock = TaskQueue::Clock;
   using Make = std::function<std::shared_ptr<const Result>()>;
 
-  /// Once a frame, returns at once: starts make() where the request is not the same and nothing is in the making. Where
-  /// only the run's picture is another one it rests first, for twice the time that the last result took: the device may
+  /// Called once a frame, returns at once: starts make() where the request has changed and nothing is being made. Where
+  /// only the run's picture has changed it waits first, for twice the time of the last result, because the device may
   /// be the same processor.
   void want(TaskQueue& tasks, std::string name, Request request, Make make, Clock::time_point now) {
     if (request == Request::same || tasks.busy(key_) || (request == Request::other_picture && now < rest_until_))
@@ -162,7 +163,7 @@ public:
       rest_until_ = Clock::now() + 2 * result_and_time.second;
     });
   }
-  /// May be of an older request. Null before the first and after forget().
+  /// The newest result, perhaps of an older request. Null before the first and after forget().
   const std::shared_ptr<const Result>& newest() const { return newest_; }
   void forget(TaskQueue& tasks) {
     newest_.reset();

@@ -14,15 +14,15 @@
 namespace nephroid::ui {
 namespace {
 
-/// Positive floats sort like their bits. Without the last of them they are steps of 0.4 % at most, in which one byte
-/// ends at most: those of sRGB are 0.9 % apart.
+/// Positive floats sort like their bits. Without the last bits they are steps of 0.4 % at most. A step holds the end of
+/// one byte at most, because those of sRGB are 0.9 % apart.
 constexpr int left_out_bits = 15;
 
 std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
 
-/// A rising curve from floats to bytes, by a table: the window does this for every channel of every snapshot.
-/// exact: from a float of 0..end to its byte; rises, by one byte at most within 0.4 % of a value. What lies above the
-/// end is shown as 255, what is not above 0 as exact(0).
+/// A rising curve from floats to bytes, by a table: the window needs it for every channel of every snapshot. exact:
+/// maps a float of 0..end to its byte; rises by one byte at most within 0.4 % of a value. Values above the end become
+/// 255, values not above 0 become exact(0).
 template <unsigned char (*exact)(float)>
 class ByteTable {
 public:
@@ -33,14 +33,15 @@ public:
   }
 
   unsigned char operator()(float value) const {
-    value = std::min(std::max(0.0f, value), end_); // NaN: 0
+    value = std::min(std::max(0.0f, value), end_); // NaN becomes 0
     const unsigned char byte = bytes_[bits(value) >> left_out_bits];
-    return static_cast<unsigned char>(
-        byte + (value >= least_[byte + 1u])); // no branch: neighbours in a noisy picture are not alike
+    return static_cast<unsigned char>(byte +
+                                      (value >= least_[byte + 1u])); // no branch: neighbours in a noisy picture differ
   }
 
 private:
-  /// By bisection: the first float of 0..end that is shown as this byte or a greater one; the end, where there is none.
+  /// Finds by bisection the first float of 0..end whose byte is this one or a greater one; the end, where there is
+  /// none.
   float least_shown_as(std::uint32_t byte) const {
     std::uint32_t low = 0, high = bits(end_);
     while (low < high) {
@@ -54,11 +55,11 @@ private:
   }
 
   float end_;
-  std::vector<unsigned char> bytes_; ///< of each step's first float
-  std::array<float, 257> least_{};   ///< [byte]: the first float that is shown as it
+  std::vector<unsigned char> bytes_; ///< the byte of each step's first float
+  std::array<float, 257> least_{};   ///< [byte]: the first float with this byte
 };
 
-constexpr double brightening = 2, white_point = 11.2; ///< of the filmic curve, as published
+constexpr double brightening = 2, white_point = 11.2; ///< constants of the filmic curve, as published
 
 double hable(double x) {
   constexpr double a = 0.15, b = 0.5, c = 0.1, d = 0.2, e = 0.02, f = 0.3;
@@ -85,7 +86,7 @@ void pixels_by(const Bytes& bytes, std::span<const float> rgb, double exposure_s
   }
 }
 
-/// Of a pixel whose luminance is not a number above 0.
+/// The colour of a pixel whose luminance is not a number above 0.
 Rgb8 odd_colour(const float* rgb, double luminance, const LuminanceRange& range) {
   if (std::any_of(rgb, rgb + 3, [](float v) { return std::isnan(v); })) return nan_colour;
   if (std::any_of(rgb, rgb + 3, [](float v) { return std::isinf(v); })) return infinite_colour;
@@ -111,10 +112,10 @@ void false_colour_pixels(std::span<const float> rgb, const Tone& tone, std::span
   }
 }
 
-/// The next of 1, 2, 5 times a power of ten, not above or not below the value, which is above 0.
+/// The nearest 1, 2 or 5 times a power of ten that is not below (up) or not above the value, which is above 0.
 double round_number(double value, bool up) {
   const double decade = std::pow(10, std::floor(std::log10(value)));
-  const double tolerance = 1 + 1e-6; // 5e-324 to 1e308: a power of ten is not exact
+  const double tolerance = 1 + 1e-6; // powers of ten from 5e-324 to 1e308 are not all exact
   double best = up ? 10 * decade : decade;
   for (const double factor : {5.0, 2.0, 1.0})
     if (up ? factor * decade * tolerance >= value : factor * decade <= value * tolerance) {
@@ -138,7 +139,7 @@ Tone tone_of(const ViewSettings& view_settings, double white, std::span<const fl
 }
 
 LuminanceRange automatic_range(std::span<const float> rgb, double white) {
-  constexpr int bits_left_out = 20; // eight steps an octave
+  constexpr int bits_left_out = 20; // eight steps per octave
   std::vector<std::size_t> counts((std::size_t{1} << (31 - bits_left_out)), 0);
   for (std::size_t i = 0; i + 2 < rgb.size(); i += 3)
     if (const double y = white * measure::luminance(&rgb[i]);

@@ -18,7 +18,7 @@ void UndoStack::push(std::string label, preset::Preset preset, preset::Sweep swe
   push(std::move(label), std::move(preset));
   Entry& entry = state_.entries[state_.index];
   entry.sweep = std::move(sweep);
-  if (*entry.preset == *before) entry.preset = before; // the same preset is the same object
+  if (*entry.preset == *before) entry.preset = before; // equal presets share one object
 }
 
 void UndoStack::push(std::string label, preset::Preset preset, std::uint64_t gesture) {
@@ -41,9 +41,9 @@ void UndoStack::push(std::string label, preset::Preset preset, std::uint64_t ges
 
 bool UndoStack::step(int by) {
   auto& [opened, entries, index, saved] = state_;
-  const std::size_t to = index + static_cast<std::size_t>(by); // before the first one: it wraps around
+  const std::size_t to = index + static_cast<std::size_t>(by); // wraps around before the first entry
   if (to >= entries.size()) return false;
-  entries[index].gesture = entries[to].gesture = 0; // a gesture that goes on after undo is a new entry
+  entries[index].gesture = entries[to].gesture = 0; // a gesture that goes on after undo makes a new entry
   index = to;
   return true;
 }
@@ -60,7 +60,7 @@ void UndoStack::fit_white(double white) {
 void UndoStack::mark_saved(const std::string& source) {
   for (Entry& entry : state_.entries) {
     preset::Preset saved = preset::moved_to_file(*entry.preset, source);
-    saved.provenance = {}; // the file holds every value now
+    saved.provenance = {}; // the file has every value now
     entry.preset = std::make_shared<const preset::Preset>(std::move(saved));
   }
   state_.saved = state_.index;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Undo and redo: a stack of presets with their sweeps, because these are the whole state. One entry a gesture.
+// Undo and redo: a stack of presets with their sweeps, because these are the whole state. Each gesture is one entry.
 #pragma once
 #include "preset/preset.h"
 #include "preset/read.h"
@@ -21,42 +21,42 @@ public:
     preset::Sweep sweep = {};
     bool operator==(const Entry&) const = default;
   };
-  /// All there is to know of it, to be kept.
+  /// The whole stack, to be kept in a session.
   struct State {
     std::shared_ptr<const preset::Preset> opened;
     std::deque<Entry> entries; ///< at least one
-    std::size_t index = 0;     ///< of the current entry
+    std::size_t index = 0;     ///< the current entry's index
     std::optional<std::size_t> saved;
     bool operator==(const State&) const = default;
   };
 
-  /// Starts over with one preset that counts as saved.
+  /// Begins with one preset, which counts as saved.
   explicit UndoStack(preset::Preset opened, preset::Sweep sweep = {});
-  /// As state() was.
+  /// Restores what state() returned.
   explicit UndoStack(State state) : state_(std::move(state)) {}
-  /// A new state after the current one; what could be redone is dropped. The same gesture (not 0) as the current
-  /// entry's replaces it. The sweep stays as it is.
+  /// Adds a state after the current one; what could be redone is dropped. The current entry's gesture (not 0) replaces
+  /// that entry instead. The sweep stays.
   void push(std::string label, preset::Preset preset, std::uint64_t gesture = 0);
   /// The same with another sweep.
   void push(std::string label, preset::Preset preset, preset::Sweep sweep);
-  /// One entry back or forth; false where there is none.
+  /// Goes one entry back or forth; false where there is none.
   bool undo() { return step(-1); }
   bool redo() { return step(1); }
   const preset::Preset& current() const { return *shared(); }
-  /// The same, as one that stays: another preset is another object.
+  /// The current preset, shared: another preset is another object.
   const std::shared_ptr<const preset::Preset>& shared() const { return state_.entries[state_.index].preset; }
   const preset::Sweep& sweep() const { return state_.entries[state_.index].sweep; }
-  /// As it was read.
+  /// The preset as it was read.
   const preset::Preset& opened() const { return *state_.opened; }
-  /// What undo() would undo and redo() redo; empty where there is nothing.
+  /// What undo() or redo() would change; empty where there is nothing.
   std::string undo_label() const { return state_.index > 0 ? state_.entries[state_.index].label : std::string(); }
   std::string redo_label() const {
     return state_.index + 1 < state_.entries.size() ? state_.entries[state_.index + 1].label : std::string();
   }
-  /// The current state has been saved as `source`. All states belong to that file now: what they name is named as from
-  /// its folder.
+  /// The current state has been saved as `source`. All states belong to that file now, and paths in them are relative
+  /// to its folder.
   void mark_saved(const std::string& source);
-  /// In place of "auto" in all states. It is no step of its own.
+  /// Replaces "auto" in all states. This is not an entry of its own.
   void fit_white(double white);
   bool modified() const { return state_.saved != state_.index; }
   const State& state() const { return state_; }
@@ -64,7 +64,7 @@ public:
 private:
   bool step(int by);
 
-  static constexpr std::size_t limit = 1000; ///< entries kept: a preset is a few kilobytes
+  static constexpr std::size_t limit = 1000; ///< the most entries; a preset is a few kilobytes
   State state_;
 };
 

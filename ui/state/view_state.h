@@ -15,15 +15,15 @@ namespace nephroid::ui {
 
 struct ViewState {
   ViewSettings view_settings;
-  std::string error_metric;                ///< to be plotted; empty: the run's own. Not every run has it.
-  std::optional<std::array<int, 2>> pixel; ///< that is inspected: column and row; may lie outside of the picture
-  std::optional<PixelRegion> region; ///< that there are statistics of; may reach out of the picture, is never empty
-  std::vector<std::vector<preset::Vec3>> lines; ///< over the View's picture: command::ShowLines
-  std::string material; ///< the dielectric to be shown; empty or none of the preset's: the first (shown_dielectric)
-  Selection selection;  ///< may be of a preset that was: in_preset()
+  std::string error_metric;                ///< the plotted metric; empty: the run's own. Not every run has it.
+  std::optional<std::array<int, 2>> pixel; ///< the inspected column and row; may lie outside of the picture
+  std::optional<PixelRegion> region;       ///< the region with statistics; may reach out of the picture, never empty
+  std::vector<std::vector<preset::Vec3>> lines; ///< drawn over the View's picture: command::ShowLines
+  std::string material; ///< the dielectric to show; empty or unknown: the first (shown_dielectric)
+  Selection selection;  ///< may be an earlier preset's: in_preset()
   Handles handles;
-  command::Nudged nudged;          ///< the newest
-  std::vector<Bookmark> bookmarks; ///< of cameras
+  command::Nudged nudged;          ///< the newest nudge
+  std::vector<Bookmark> bookmarks; ///< saved cameras
   bool operator==(const ViewState&) const = default;
 
   void carry_out(const command::SetViewSettings& c) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a person set up the window: its theme and text, which panels are open and where, the list of keys.
+// How a person set up the window: its theme and text size, which panels are open and where, the list of keys.
 #pragma once
 #include "ui/state/document.h"
 
@@ -15,12 +15,12 @@ public:
   explicit WindowSetup(const Document& document) : document_(document) {}
 
   const Settings& settings() const { return settings_; }
-  /// As they were kept; before the first frame.
+  /// Restores kept settings, before the first frame.
   void set_settings(Settings settings) { settings_ = std::move(settings); }
   bool help_shown() const { return help_shown_; }
   /// True once after ResetLayout.
   bool take_layout_reset() { return std::exchange(layout_reset_, false); }
-  /// Once after ShowPanel the panel to be brought to the front; else empty.
+  /// Returns once after ShowPanel the panel to bring to the front; else empty.
   std::string take_panel_to_front() { return std::exchange(panel_to_front_, {}); }
 
   void carry_out(const command::ToggleHelp&) { help_shown_ = !help_shown_; }
@@ -43,7 +43,7 @@ public:
   }
 
 private:
-  /// What is kept for the presets of the engine in hand.
+  /// The layout that is kept for the presets of the engine in hand.
   EngineLayout& engine_layout() { return settings_.engines[std::string(document_.preset()->settings.engine())]; }
 
   const Document& document_;

@@ -19,7 +19,7 @@ concept Takes = requires(Part& part, const C& c) {
   part.carry_out(c);
 };
 
-/// Hands a command to the part that it is for.
+/// Gives a command to its part.
 template <class C, class... Parts>
 void hand_over(const C& c, Parts&... parts) {
   static_assert((int{Takes<Parts, C>} + ...) == 1, "a command is for exactly one part");
@@ -70,13 +70,13 @@ bool Workbench::open(const std::string& name, const preset::Overrides& overrides
   return true;
 }
 
-/// In place of what is open, which is not asked about.
+/// Replaces what is open without asking.
 void Workbench::begin(preset::WithSweep preset) {
   let_go();
   document_.open(UndoStack(std::move(preset.preset), std::move(preset.sweep)));
 }
 
-/// What is of the preset in hand, which another one replaces.
+/// Drops everything of the preset in hand.
 void Workbench::let_go() {
   document_.close();
   sweep_.stop();
@@ -108,7 +108,7 @@ void Workbench::carry_out(const command::Open& c) {
   }
   if (kind == FileKind::scene) return files_.import_scene(file);
   if (preset() && kind == FileKind::mesh && has_scene(*preset())) return document_.read_mesh(file);
-  if (!c.sure && document_.modified()) { // what cannot be opened is said at once, and nothing is asked
+  if (!c.sure && document_.modified()) { // a file that cannot be opened is reported at once, before any question
     refuse_other_kinds(file);
     preset::read_with_sweep(file);
   }
@@ -118,7 +118,7 @@ void Workbench::carry_out(const command::Open& c) {
 void Workbench::carry_out(const command::New& c) {
   if (questions_.asks_first(c)) return;
   preset::Preset preset = preset::parse_preset(c.preset, "untitled");
-  preset.source.clear(); // else a file that happens to have this name would be its own
+  preset.source.clear(); // otherwise a file with this name would count as its own
   begin({std::move(preset), {}});
 }
 

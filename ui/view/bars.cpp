@@ -52,7 +52,7 @@ void draw_tone_choice(const Context& context, WidgetPlaces& places) {
     }
 }
 
-/// In the line of what was drawn last. True where it was typed.
+/// Draws a number field in the line of the last item. True where a person typed a value.
 bool draw_number(const char* label, double& value) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 5);
@@ -118,7 +118,7 @@ void draw_metric_choice(const Context& context) {
   Combo list("##difference metric", metric_name(comparison.metric));
   for (const auto& [metric, name] : metric_names)
     if (list.entry(name, metric == comparison.metric))
-      context.push(command::ShowDifference{true, metric, 0}); // the values of another metric have another size
+      context.push(command::ShowDifference{true, metric, 0}); // values of another metric have another magnitude
 }
 
 void draw_range_of_difference(const Context& context) {
@@ -139,14 +139,14 @@ void draw_selected_choice(const Context& context, WidgetPlaces& places) {
   const Selection now = context.selection();
   const float em = ImGui::GetFontSize();
   ImGui::SetNextItemWidth(
-      std::clamp(ImGui::GetContentRegionAvail().x - 26 * em, 5 * em, 12 * em)); // the buttons have the rest
+      std::clamp(ImGui::GetContentRegionAvail().x - 26 * em, 5 * em, 12 * em)); // leaves the rest to the buttons
   Combo list("##selected", now == Selection{} ? "nothing" : name_of(preset, now), &places, "selected");
   if (list.entry("nothing", now == Selection{})) context.push(command::Select{});
   for (const Selection& selection : selectable(preset))
     if (list.entry(name_of(preset, selection), selection == now)) context.push(command::Select{selection});
 }
 
-/// A button that stays down while what it does is on.
+/// A button that stays down while its action is on.
 void draw_toggle(const char* name, bool on, const Context& context) {
   ImGui::SameLine();
   if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
@@ -183,11 +183,11 @@ void draw_bookmarks(const Context& context, WidgetPlaces& places) {
   places.note("bookmark");
 }
 
-/// sRGB-encoded bytes of a position of 0 (the foot) .. 1.
+/// Maps a position, 0 (the foot) .. 1, to sRGB-encoded bytes.
 using ScaleColour = std::function<std::array<unsigned char, 3>(float position)>;
-/// A text at the left of a position.
+/// A position and the text at its left.
 using ScaleMark = std::pair<double, std::string>;
-/// A colour beside the scale and what it means, below it.
+/// A colour below the scale, and its meaning.
 using ScaleKey = std::pair<std::array<unsigned char, 3>, std::string>;
 
 ImU32 opaque(const std::array<unsigned char, 3>& colour) { return IM_COL32(colour[0], colour[1], colour[2], 255); }
@@ -203,7 +203,7 @@ void draw_bar(const ImVec2& corner, float width, float height, const ScaleColour
   }
 }
 
-/// A scale of colours with its numbers, along the right edge of the picture. title: above; may be empty.
+/// Draws a colour scale with its numbers along the right edge of the picture. title: above it; may be empty.
 void draw_scale(const Canvas& canvas, const std::string& title, std::span<const ScaleMark> marks,
                 const ScaleColour& colour_at, std::span<const ScaleKey> keys = {}) {
   const float em = ImGui::GetFontSize(), width = em, line = 1.2f * em;
@@ -239,7 +239,7 @@ void go_to_bookmark(const Context& context, std::size_t index) {
   const auto& [name, bookmarked] = context.view_state.bookmarks.at(index);
   const preset::Camera& now = context.preset()->scene.camera;
   preset::Camera camera = bookmarked;
-  camera.resolution = now.resolution; // going somewhere does not change the picture's size
+  camera.resolution = now.resolution; // a bookmark does not change the picture's size
   if (camera != now) context.edit("go to " + name, [&](preset::Preset& p) { p.scene.camera = camera; });
 }
 
@@ -350,7 +350,7 @@ void draw_luminance_scale(const LuminanceRange& range, const Canvas& canvas) {
   const double low = std::log10(range.low), high = std::log10(range.high);
   std::vector<ScaleMark> marks{{0, fmt::format("{:.3g}", range.low)}, {1, fmt::format("{:.3g}", range.high)}};
   for (int decade = static_cast<int>(std::ceil(low)); decade <= high;
-       ++decade) // numbers that would touch the ends are left out
+       ++decade) // without numbers that would touch the ends
     if (const double position = (decade - low) / (high - low); position > 0.06 && position < 0.94)
       marks.emplace_back(position, fmt::format("{:.3g}", std::pow(10.0, decade)));
   if (marks.size() > 12) marks.resize(2);

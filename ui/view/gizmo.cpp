@@ -22,16 +22,16 @@ namespace {
 
 using Tool = Handles::Tool;
 
-constexpr float handle_em = 6; ///< the length of an arrow, in font sizes
-constexpr float farthest = 50; ///< a drag ends there, in distances from the camera
+constexpr float handle_em = 6; ///< an arrow's length in font sizes
+constexpr float farthest = 50; ///< where a drag ends, in distances from the camera
 
-/// ImGuizmo's state is one for the program: nothing is held any more.
+/// Releases the handle; ImGuizmo has one state for the whole program.
 void let_go() {
   ImGuizmo::Enable(false);
   ImGuizmo::Enable(true);
 }
 
-/// How far one orientation is turned from another about an axis, counter-clockwise.
+/// The counter-clockwise angle from one orientation to another about an axis.
 double degrees_about(const glm::dvec3& axis, const glm::mat4& now, const glm::dmat3& start) {
   glm::dmat3 turned(now);
   for (int i = 0; i < 3; ++i) turned[i] = glm::normalize(turned[i]);
@@ -40,9 +40,9 @@ double degrees_about(const glm::dvec3& axis, const glm::mat4& now, const glm::dm
   return glm::degrees(std::atan2(glm::dot(axis, sine), 0.5 * (r[0][0] + r[1][1] + r[2][2] - 1)));
 }
 
-/// How many times as far from the middle of the handles the mouse is as where it took hold, along an axis as it lies in
-/// the picture; for all axes at once: a pixel to the right is a hundredth. (ImGuizmo asks where the mouse meets a
-/// plane, and there is no such place where that is seen from its edge.)
+/// The factors of a scaling: the mouse's distance from the middle of the handles, along an axis as it lies in the
+/// picture, over that at the start. For all axes at once a pixel to the right is a hundredth. (ImGuizmo intersects the
+/// mouse's ray with a plane, which fails where the plane is seen from its edge.)
 glm::dvec3 factors_of(const GizmoFrame& frame, const glm::dmat3& axes, int handle, const Point& from, const Point& now,
                       double step) {
   constexpr double smallest = 0.01;
@@ -78,7 +78,7 @@ glm::vec3 snap_steps(Tool tool, double unit) {
   return glm::vec3(step);
 }
 
-/// For the frame. Numbers are drawn here: ImGuizmo's would be in the frame's units.
+/// Prepares a frame. Numbers are drawn here, because ImGuizmo's would be in the frame's units.
 void prepare(const Canvas& canvas) {
   ImGuizmo::BeginFrame();
   ImGuizmo::SetDrawlist();
@@ -111,7 +111,7 @@ using LightType = preset::Light::Type;
 constexpr ImU32 lamp = IM_COL32(255, 214, 102, 255), marked = IM_COL32(255, 150, 50, 255);
 constexpr float icon_radius = 6, grab_radius = 10; ///< pixels at scale 1
 
-/// A line of the scene, as far as it is before the camera. Dark below, so that it is seen on any colour.
+/// Draws the part of a line of the scene in front of the camera, with a dark outline to be visible on any colour.
 void draw_line(const Pinhole& pinhole, glm::dvec3 a, glm::dvec3 b, ImU32 colour) {
   const double from = pinhole.depth(a), to = pinhole.depth(b), nearest = 1e-3 * std::max(std::abs(from), std::abs(to));
   if (!(std::max(from, to) > nearest)) return;
@@ -124,7 +124,7 @@ void draw_line(const Pinhole& pinhole, glm::dvec3 a, glm::dvec3 b, ImU32 colour)
   draw_list->AddLine(vec(*start), vec(*end), colour, 1.4f * scale());
 }
 
-/// The edges of a parallelepiped from its middle by three half edges.
+/// Draws the edges of a parallelepiped, given by its middle and three half edges.
 void draw_box(const Pinhole& pinhole, const glm::dvec3& middle, const glm::dmat3& half, ImU32 colour) {
   const auto corner = [&](unsigned bits) {
     glm::dvec3 p = middle;
@@ -146,7 +146,7 @@ void draw_object_box(const Context& context, const Pinhole& pinhole, std::size_t
   draw_box(pinhole, middle, {half.x * turn[0], half.y * turn[1], half.z * turn[2]}, marked);
 }
 
-/// An area light's rectangle; the way that the light of the others goes; a disc where it is.
+/// Draws an area light's rectangle, other lights' direction, and a disc at the light's place.
 void draw_light(const Context& context, const Pinhole& pinhole, std::size_t index, bool selected) {
   const preset::Preset& preset = *context.preset();
   const preset::Light& light = preset.scene.lights[index];
@@ -174,8 +174,8 @@ glm::mat4 view_matrix(const GizmoFrame& frame) {
 }
 
 glm::mat4 projection_matrix(const Pinhole& pinhole, const Canvas& canvas) {
-  constexpr double near = 0.05, far = 10; // in the frame's units; nothing is cut off there
-  // The canvas' edges in the picture, from -1 to 1, y down on the screen.
+  constexpr double near = 0.05, far = 10; // in the frame's units; nothing is clipped there
+  // The canvas' edges in the picture, from -1 to 1, with y down on the screen.
   const auto edge = [&](std::size_t i, double part) {
     return 2 * (canvas.corner[i] + part * canvas.size[i] - pinhole.corner[i]) / pinhole.size[i] - 1;
   };
@@ -195,14 +195,14 @@ void Gizmo::draw(const Context& context, const Pinhole& pinhole, const Canvas& c
   if (!grip || !context.view_state.handles.shown) return;
   const Handles& handles = context.view_state.handles;
   const GizmoFrame frame = drag_ ? drag_->frame : GizmoFrame{pinhole, grip->at, pinhole.depth(grip->at)};
-  if (!(frame.unit > 0)) return; // behind the camera
+  if (!(frame.unit > 0)) return; // it is behind the camera
   const Tool tool = drag_ ? drag_->tool : usable_tool(*grip, handles.tool);
   const bool own_axes = drag_ ? drag_->own_axes : handles.own_axes || tool == Tool::scale;
   glm::mat4 matrix = drag_ ? drag_->matrix : glm::mat4(glm::mat3(grip->axes));
   const glm::mat4 view = view_matrix(frame), projection = projection_matrix(frame.pinhole, canvas);
   const bool snaps = handles.snap != ImGui::GetIO().KeyCtrl;
   const glm::vec3 steps = snap_steps(tool, frame.unit);
-  // ImGuizmo takes hold of nothing where an item of Dear ImGui is under the mouse, and the picture is one.
+  // ImGuizmo ignores the mouse over an item of Dear ImGui, and the picture is one.
   ImGuiContext& imgui = *ImGui::GetCurrentContext();
   const std::array items{imgui.HoveredId, imgui.HoveredIdPreviousFrame, imgui.ActiveId};
   if (hovered || drag_) imgui.HoveredId = imgui.HoveredIdPreviousFrame = imgui.ActiveId = 0;
@@ -239,7 +239,7 @@ void Gizmo::end_drag(const Context& context) {
 }
 
 void Gizmo::follow(const Context& context, const glm::mat4& matrix) {
-  // Near the horizon of a plane a pixel is any length, and beyond it there is no place.
+  // Near the horizon of a plane a pixel can be any length, and beyond it there is no point.
   if (drag_->tool != Tool::scale) {
     const std::span values(glm::value_ptr(matrix), 16);
     if (!std::ranges::all_of(values, [](float value) { return std::abs(value) < farthest; })) return;
@@ -254,7 +254,7 @@ void Gizmo::follow(const Context& context, const glm::mat4& matrix) {
                              std::move(edited), gestures_.number(), true});
 }
 
-/// Changes the preset of the drag's start; returns what that is in words.
+/// Changes the preset of the drag's start; returns the change in words.
 std::string Gizmo::edit(preset::Preset& edited, const glm::mat4& matrix) const {
   const Drag& d = *drag_;
   switch (d.tool) {
@@ -306,7 +306,8 @@ void SceneOverlay::draw(const Context& context, const Canvas& canvas, const std:
     pinhole_ = make_pinhole(preset->scene.camera, place(context.view_state.view_settings, canvas, picture), picture);
   const Selection selection = context.selection();
   const Comparison& comparison = context.comparing.comparison();
-  const bool other_picture = comparison.flip || comparison.shown != 0; // nothing over that: one looks at it to compare
+  const bool other_picture = comparison.flip || comparison.shown != 0; // nothing covers a picture that is looked at to
+                                                                       // compare
   if (pinhole_ && context.view_state.handles.shown && !other_picture) {
     if (selection.kind == Selection::Kind::object) draw_object_box(context, *pinhole_, selection.index);
     for (std::size_t i = 0; i < preset->scene.lights.size(); ++i)
@@ -331,7 +332,7 @@ void SceneOverlay::click(const Context& context, const Point& at) const {
   }
   if (selection.kind == Selection::Kind::nothing) {
     const auto seen = context.run.scene_facts().view;
-    if (!seen) return; // no run of the preset was ready yet: nobody knows what is there
+    if (!seen) return; // no run of the preset was ready yet, so the objects are unknown
     const Ray ray = pinhole_->ray(at);
     const bool inside = at[0] >= pinhole_->corner[0] && at[1] >= pinhole_->corner[1] &&
                         at[0] < pinhole_->corner[0] + pinhole_->size[0] &&

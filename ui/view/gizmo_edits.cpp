@@ -24,7 +24,7 @@ glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& otherwise) {
   return length > 0 && std::isfinite(length) ? v / length : otherwise;
 }
 
-/// Of a light: the third axis is the way its light goes, the first two are an area light's edges.
+/// A light's axes: the third is its direction, the first two are an area light's edges.
 glm::dmat3 light_axes(const preset::Light& light) {
   const glm::dvec3 along = unit_or(to_vector(light.direction), {0, -1, 0});
   const glm::dvec3 wanted = to_vector(light.up);
@@ -34,7 +34,8 @@ glm::dmat3 light_axes(const preset::Light& light) {
   return {glm::cross(up, along), up, along};
 }
 
-/// A directional light has no place. It is shown before the camera's target, so far away that its arrow is in sight.
+/// A light's place. A directional light has none; it is shown in front of the camera's target, far enough for its arrow
+/// to be visible.
 glm::dvec3 light_place(const preset::Preset& preset, const preset::Light& light) {
   if (light.type != LightType::directional) return to_vector(light.position);
   const preset::Camera& camera = preset.scene.camera;
@@ -61,17 +62,16 @@ glm::dmat3 about(const glm::dvec3& axis, double degrees) {
   return glm::dmat3(glm::rotate(glm::dmat4(1), degrees * std::numbers::pi / 180, axis));
 }
 
-/// After a change of `object`, moved so that its pivot is where it was.
+/// Moves a changed object back so that its pivot is at `place`.
 void keep_pivot(preset::Transform& transform, const glm::dvec3& pivot, const glm::dvec3& place) {
   if (pivot == glm::dvec3(0)) return;
   transform.translate = to_stored(place - scaled(transform, pivot));
 }
 
-/// The one of a number of turns by 360 degrees that is nearest.
+/// The angle nearest to `near` among those that differ from `degrees` by multiples of 360.
 double nearest_turn(double degrees, double near) { return degrees + 360 * std::round((near - degrees) / 360); }
 
-/// For each direction of the picture (right, up, away) the axis, a column, that is nearest to it, with a sign; each
-/// axis once.
+/// The nearest axis (a column, perhaps negated) to each direction of the picture (right, up, away); each axis once.
 glm::dmat3 sorted_axes(const glm::dmat3& axes, const glm::dmat3& directions) {
   std::array<int, 3> order{0, 1, 2}, best = order;
   double most = -1;
@@ -130,7 +130,7 @@ preset::Vec3 angles_of(const glm::dmat3& r, const preset::Vec3& near) {
     const double a = std::atan2(r[1][2], r[2][2]), b = std::atan2(-r[0][2], cos_b), c = std::atan2(r[0][1], r[0][0]);
     solutions = {glm::dvec3(a, b, c), glm::dvec3(a + std::numbers::pi, std::numbers::pi - b, c + std::numbers::pi)};
   } else {
-    // The axes of a and c are one: only a - c (b = 90 degrees) or a + c (b = -90) counts, and c stays as it was.
+    // The axes of a and c coincide: only a - c (b = 90 degrees) or a + c (b = -90) counts, and c stays as it was.
     const double sign = r[0][2] < 0 ? 1 : -1, c = near[2] * std::numbers::pi / 180;
     const double a = std::atan2(sign * r[1][0], r[1][1]) + sign * c;
     solutions.fill({a, sign * std::numbers::pi / 2, c});
@@ -222,8 +222,8 @@ std::optional<preset::Preset> nudged(const preset::Preset& preset, const Selecti
     break;
   }
   case Handles::Tool::turn: {
-    // To the right is about the axis that is up; what is in front goes up about the one to the right; "away" turns like
-    // a clock's hand.
+    // Left and right turn about the axis that is up; up and down about the one to the right, so that the front goes up.
+    // "away" turns clockwise.
     const double degrees = (handles.snap ? snap_deg : 1) * (forth == (direction != 1) ? 1 : -1);
     turn(edited, selection, *grip, direction == 2 ? axes[2] : axes[1 - direction], degrees);
     break;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moving, turning and scaling what is selected does to a preset. Pure functions: no mouse, no Dear ImGui.
+// How moving, turning and scaling the selection change a preset. Pure functions: no mouse, no Dear ImGui.
 #pragma once
 #include "preset/preset.h"
 #include "ui/state/selection.h"
@@ -9,47 +9,46 @@
 
 namespace nephroid::ui {
 
-/// Where what is selected can be taken hold of, in the preset's coordinates, and what can be done with it.
+/// Where the selection can be grabbed, in the preset's coordinates, and what can be done with it.
 struct GizmoTarget {
   glm::dvec3 at{0};
-  glm::dmat3 axes{1}; ///< its own axes as columns, a rotation
+  glm::dmat3 axes{1}; ///< the selection's own axes as columns, a rotation
   bool moves = true, turns = false;
-  std::array<bool, 3> scales{}; ///< along which of its own axes
-  glm::dvec3 pivot{0};          ///< of an object: pivot_of
+  std::array<bool, 3> scales{}; ///< whether it can be scaled along each of its own axes
+  glm::dvec3 pivot{0};          ///< an object's pivot_of
 };
-/// Nothing where nothing is selected. seen: may be null.
+/// The selection's grip; nothing where nothing is selected. seen: may be null.
 std::optional<GizmoTarget> grip_of(const preset::Preset& preset, const Selection& selection, const ViewedScene* seen);
-/// The tool that is asked for where the grip allows it; else the first that it allows. A point light is moved only.
+/// The wanted tool where the grip allows it, else the first that it allows. A point light can only be moved.
 Handles::Tool usable_tool(const GizmoTarget& grip, Handles::Tool wanted);
 
-/// The angles of preset::Transform that are this rotation, those nearest to `near` of all that are: scene::rotation of
-/// them gives it again.
+/// The angles of preset::Transform for a rotation, the nearest to `near` of all possible ones: scene::rotation of them
+/// gives the rotation again.
 preset::Vec3 angles_of(const glm::dmat3& rotation, const preset::Vec3& near);
 
-/// Each changes what is selected of the preset, of which `grip` is. by: what is moved goes to a place with so many
-/// decimals along every axis that it moved along; negative: whole tens, hundreds.
+/// Each function changes the selection in the preset; `grip` is the selection's. by: the new place has so many decimals
+/// along every axis that it moved along; negative: whole tens, hundreds.
 void move(preset::Preset& preset, const Selection& selection, const glm::dvec3& by, int decimals);
-/// Counter-clockwise about a unit axis through the grip.
+/// Turns counter-clockwise about a unit axis through the grip.
 void turn(preset::Preset& preset, const Selection& selection, const GizmoTarget& grip, const glm::dvec3& axis,
           double degrees);
-/// Multiplies its extent along its own axes.
+/// Scales along the selection's own axes.
 void stretch(preset::Preset& preset, const Selection& selection, const GizmoTarget& grip, const glm::dvec3& factors);
 
-/// Lengths for a thing so far in front of the camera: a step of the snapping, 1, 2 or 5 times a power of ten, about a
-/// twentieth of the distance; and decimals that are well below a pixel.
+/// Lengths for a thing at this distance in front of the camera: a snapping step of 1, 2 or 5 times a power of ten,
+/// about a twentieth of the distance; and decimals well below a pixel.
 double snap_step(double depth);
 int decimals_for(double depth);
 inline constexpr double snap_deg = 15, snap_factor = 0.1;
 
-/// What an arrow key does: along the axis (of the scene or its own) that is nearest to that direction of the picture, a
-/// tenth of a step or, snapping, a whole one; a degree, or 15; 2 percent, or 10.
+/// The effect of an arrow key, along the axis (the scene's or the selection's) that is nearest to that direction of the
+/// picture: a tenth of a step or, snapping, a whole one; 1 degree, or 15; 2 percent, or 10.
 enum class Nudge { left, right, up, down, away, nearer };
 /// Nothing where nothing is selected, or the camera sees nothing.
 std::optional<preset::Preset> nudged(const preset::Preset& preset, const Selection& selection, const Handles& handles,
                                      const ViewedScene* seen, Nudge nudge);
 
-/// The camera with what is selected as its target; nothing where that is not a place, or the camera could not look
-/// there.
+/// The camera with the selection as its target; nothing where that has no place, or the camera cannot be turned there.
 std::optional<preset::Camera> looking_at(const preset::Preset& preset, const Selection& selection,
                                          const ViewedScene* seen);
 

@@ -16,15 +16,15 @@
 namespace nephroid::ui {
 namespace {
 
-constexpr double orbit_deg_per_height = 180; ///< dragging over the picture's height goes half round
-constexpr double click_trembles = 3;         ///< pixels at scale 1: a mouse that went no farther was clicked
+constexpr double orbit_deg_per_height = 180; ///< dragging over the picture's height goes half around the target
+constexpr double click_trembles = 3;         ///< pixels at scale 1: a smaller movement is a click
 constexpr double notch = 1.1;                ///< a notch of the wheel changes distance or zoom by this factor
-constexpr double wheel_gesture_s = 0.6;      ///< a longer rest starts a new entry to undo
-constexpr double pixel_squares_from = 3;     ///< at this zoom and above pixels are shown as squares
+constexpr double wheel_gesture_s = 0.6;      ///< a longer pause starts a new entry to undo
+constexpr double pixel_squares_from = 3;     ///< from this zoom on, pixels appear as squares
 
 Point mouse() { return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y}; }
 
-/// About pixels from `from` to before `to`, at least so many pixels of the screen large; seen on any colour.
+/// Draws a frame about pixels from `from` to before `to`, of a least size on the screen, visible on any colour.
 void draw_frame(const Placement& placement, const std::array<int, 2>& from, const std::array<int, 2>& to, ImU32 colour,
                 double least) {
   Point low = placement.to_screen({static_cast<double>(from[0]), static_cast<double>(from[1])});
@@ -37,7 +37,7 @@ void draw_frame(const Placement& placement, const std::array<int, 2>& from, cons
                                         vec({high[0] + margin, high[1] + margin}), line);
 }
 
-/// The pixel and the rectangle that the panel Inspector is about.
+/// Draws the pixel and the rectangle of the panel Inspector.
 void draw_marks(const ViewState& view_state, const Placement& placement, const std::array<int, 2>& picture) {
   if (const auto& region = view_state.region) {
     const std::array to{std::min(region->to[0], picture[0]), std::min(region->to[1], picture[1])};
@@ -47,7 +47,7 @@ void draw_marks(const ViewState& view_state, const Placement& placement, const s
     draw_frame(placement, *pixel, {(*pixel)[0] + 1, (*pixel)[1] + 1}, colour::on_dark, 5);
 }
 
-/// What a panel shows in the picture (command::ShowLines), with a dark rim.
+/// Draws a panel's lines in the picture (command::ShowLines), with a dark rim.
 void draw_lines(const Context& context, const Placement& placement, const std::array<int, 2>& picture) {
   if (context.view_state.lines.empty() || !context.preset() || !context.comparing.shows_run_alone()) return;
   const auto pinhole = make_pinhole(engine::camera_of(*context.preset()), placement, picture);
@@ -66,7 +66,7 @@ void ViewPanel::draw(const Context& context) {
   shown_ = shown_picture(context);
   beside_ = picture_beside(context);
   places_.clear();
-  // A small panel has the picture alone: the menus have all of the bars' actions.
+  // A small panel shows the picture alone: the menus have all of the bars' actions.
   if (ImGui::GetContentRegionAvail().y > 16 * ImGui::GetFontSize()) {
     bars_.begin();
     bars_.bar([&] { draw_toolbar(context); });
@@ -102,7 +102,7 @@ void ViewPanel::draw(const Context& context) {
   draw_list->PopClipRect();
 }
 
-/// Two pictures: in one place, of which each has the part on its side of the line, or each in a half of the area.
+/// Places two pictures: in one place, each on its side of the line, or each in a half of the area.
 void ViewPanel::lay_out(const Context& context, const Canvas& area) {
   const Comparison& comparison = context.comparing.comparison();
   canvas_ = seen_first_ = area;
@@ -118,7 +118,7 @@ void ViewPanel::lay_out(const Context& context, const Canvas& area) {
   shift_ = line;
 }
 
-/// The line between two pictures, and the mouse on it.
+/// Draws the line between two pictures, and lets the mouse move it.
 void ViewPanel::take_line(const Context& context, const Canvas& area) {
   if (context.comparing.comparison().arrangement != Arrangement::split) return;
   const float reach = 0.4f * ImGui::GetFontSize(), x = static_cast<float>(seen_second_.corner[0]);
@@ -154,7 +154,7 @@ void ViewPanel::draw_toolbar(const Context& context) {
   ImGui::TextDisabled("%.0f %%   %d x %d", 100 * place(view_settings, canvas_, size).scale, size[0], size[1]);
 }
 
-/// like: the tone of the picture that it is held against; null: its own.
+/// like: the tone of the picture that it is compared with; null: its own.
 void ViewPanel::refresh(ToneMappedPicture& tone_mapped, const ShownPicture& shown, const ViewSettings& view_settings,
                         double white, const Tone* like) {
   if (!shown.owner) return;
@@ -191,7 +191,7 @@ void ViewPanel::draw_pictures(const Context& context) {
     draw_lines(context, first, shown_.size);
     overlay_.draw(context, canvas_, shown_.size, hovered_ && !on_second_);
   });
-  use_mouse(context); // after the handles, which have it first
+  use_mouse(context); // after the handles, which come first
   within(seen_first_, [&] { draw_marked(context, shown_, seen_first_, first); });
   if (context.comparing.comparison().arrangement == Arrangement::single) return;
   within(seen_second_, [&] {
@@ -202,7 +202,7 @@ void ViewPanel::draw_pictures(const Context& context) {
   const float foot = top + static_cast<float>(seen_second_.size[1]);
   draw_list->AddLine({line, top}, {line, foot}, colour::outline, 3);
   draw_list->AddLine({line, top}, {line, foot}, colour::on_dark, 1);
-  const auto pixel = hovered_ ? pointed_pixel(context) : std::nullopt; // where it is in the other picture
+  const auto pixel = hovered_ ? pointed_pixel(context) : std::nullopt; // also while the mouse is in the other picture
   if (!pixel || shift_ == 0) return;
   within(on_second_ ? seen_first_ : seen_second_, [&] {
     draw_frame(on_second_ ? first : second, *pixel, {(*pixel)[0] + 1, (*pixel)[1] + 1}, colour::on_dark, 5);
@@ -218,7 +218,7 @@ void ViewPanel::draw_picture(const ShownPicture& shown, const ToneMappedPicture&
   ImGui::GetWindowDrawList()->AddRect({from.x - 1, from.y - 1}, {to.x + 1, to.y + 1}, colour::frame);
 }
 
-/// What is said of a picture, and the marks of the panel Inspector.
+/// Draws a picture's label and the marks of the panel Inspector.
 void ViewPanel::draw_marked(const Context& context, const ShownPicture& shown, const Canvas& seen,
                             const Placement& placement) const {
   if (!shown.hint.empty()) draw_hint(colour::quiet_on_dark, vec(seen.corner), vec(seen.size), shown.hint);
@@ -227,16 +227,16 @@ void ViewPanel::draw_marked(const Context& context, const ShownPicture& shown, c
   if (!shown.label.empty()) draw_overlay(vec({seen.corner[0] + pad, seen.corner[1] + pad}), shown.label);
 }
 
-/// The mouse, as if it were on the first picture.
+/// The mouse's position relative to the first picture.
 Point ViewPanel::pointer() const { return {mouse()[0] - (on_second_ ? shift_ : 0), mouse()[1]}; }
 
-/// Of the first picture or of the one beside it, which may be larger.
+/// The pixel under the mouse, in the first picture or in the one beside it, which may be larger.
 std::optional<std::array<int, 2>> ViewPanel::pointed_pixel(const Context& context) const {
   const std::array size{std::max(shown_.size[0], beside_.size[0]), std::max(shown_.size[1], beside_.size[1])};
   return pixel_at(placed(context), size, pointer());
 }
 
-/// What the pixel under the cursor is, in the picture's lower left corner.
+/// Draws the values of the pixel under the cursor in the picture's lower left corner.
 void ViewPanel::draw_pixel_value(const Context& context, const Canvas& area) {
   const auto pixel = hovered_ ? pointed_pixel(context) : std::nullopt;
   pixel_value_ = pixel ? pixel_text(context, *pixel) : std::string();
@@ -247,8 +247,8 @@ void ViewPanel::draw_pixel_value(const Context& context, const Canvas& area) {
                pixel_value_);
 }
 
-/// Alt with the mouse on the picture opens no menu, and while a pixel is inspected or a thing is selected the arrow
-/// keys are theirs, not the keyboard's cursor's. Else they go from picture to picture, unless somebody goes from widget
+/// Alt with the mouse on the picture opens no menu. While a pixel is inspected or something is selected, the arrow keys
+/// move that and not the keyboard's cursor. Otherwise they go from picture to picture, unless a person goes from widget
 /// to widget by the keyboard.
 void ViewPanel::own_keys(const Context& context) {
   ImGui::SetItemKeyOwner(ImGuiMod_Alt);
@@ -283,7 +283,7 @@ void ViewPanel::start_drag(const Context& context) {
     drag_ = Drag::dolly;
   else
     drag_ = Drag::orbit;
-  // No camera of the preset's has taken a picture that was opened.
+  // An opened picture was not taken by a camera of the preset.
   const bool is_of_camera = context.comparing.comparison().shown == 0;
   if (!is_of_camera && drag_ != Drag::mark) drag_ = Drag::move_picture;
   drag_from_ = pointer();
@@ -322,7 +322,7 @@ void ViewPanel::move_camera(const Context& context, const Point& delta) const {
     context.edit(
         label, [&](preset::Preset& p) { p.scene.camera = camera; }, gestures_.number(), true);
   };
-  if (drag_ == Drag::orbit) // the scene follows the mouse: to the right means that the camera goes to the left
+  if (drag_ == Drag::orbit) // the scene follows the mouse: a drag to the right moves the camera to the left
     edit("orbit", orbit(camera_at_start_, -orbit_deg_per_height * across, orbit_deg_per_height * down));
   else if (drag_ == Drag::pan)
     edit("move the camera", pan(camera_at_start_, across, down));
@@ -330,7 +330,7 @@ void ViewPanel::move_camera(const Context& context, const Point& delta) const {
     edit("distance of the camera", dolly(camera_at_start_, std::exp2(2 * down)));
 }
 
-/// A click takes a pixel, a drag a rectangle, which follows the mouse.
+/// Marks a pixel by a click, or a rectangle by a drag, which follows the mouse.
 void ViewPanel::mark(const Context& context) {
   const Placement placement = placed(context);
   const double way = std::hypot(pointer()[0] - drag_from_[0], pointer()[1] - drag_from_[1]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The View panel: the picture as it converges, another one in its place, or two: beside each other, or in one place and
-// cut at a line. The mouse moves the camera (edits of the preset) or the pictures in the panel (their look);
+// The View panel: one picture as it converges, another in its place, or two: beside each other, or in one place and cut
+// at a line. The mouse moves the camera (edits of the preset) or the pictures in the panel (view settings);
 // docs/keys.md says which does what.
 #pragma once
 #include "ui/state/tone.h"
@@ -10,24 +10,23 @@
 
 namespace nephroid::ui {
 
-/// What the View shows now: the run's picture or an opened one, what that is compared with, or the map of their
-/// difference.
+/// What the View shows now: a picture of the run or an opened one, or the map of its difference to another.
 struct ShownPicture {
-  std::shared_ptr<const void>
-      owner;                  ///< of the pixels below; null: there is nothing to show. Other pixels have another owner.
-  std::span<const float> rgb; ///< linear, to be shown with the settings' exposure; or
-  std::span<const unsigned char> rgba; ///< as it is, 4 bytes a pixel
-  std::array<int, 2> size{1, 1}; ///< of the picture that is chosen to be shown, also in place of what it is compared
-                                 ///< with; before the first, the preset's
-  std::string label;             ///< where it is not the run's picture
-  std::string hint;              ///< in the middle of the panel, where there is nothing to show
+  std::shared_ptr<const void> owner; ///< owner of the pixels below; null: there is nothing to show. Other pixels have
+                                     ///< another owner.
+  std::span<const float> rgb;          ///< linear, shown with the settings' exposure; or
+  std::span<const unsigned char> rgba; ///< shown unchanged, 4 bytes per pixel
+  std::array<int, 2> size{1, 1}; ///< the chosen picture's size, even while the other one is shown; the preset's before
+                                 ///< the first picture
+  std::string label;             ///< given where it is not the run's picture
+  std::string hint;              ///< shown in the middle of the panel where there is no picture
 };
 
 ShownPicture shown_picture(const Context& context);
-/// What stands beside it, or behind the line; its size is its own. Nothing where one picture is shown alone.
+/// What is shown beside it, or behind the line, in its own size. Nothing where one picture is shown alone.
 ShownPicture picture_beside(const Context& context);
-/// Linear values of a pixel of what is shown, with the luminance that the preset's white makes of them; when comparing,
-/// a second line with those of the other picture and a third with the difference. Empty where there is no picture.
+/// Linear values of a shown pixel, with their luminance by the preset's white. When comparing, a second line has the
+/// other picture's values and a third the difference. Empty where there is no picture.
 std::string pixel_text(const Context& context, const std::array<int, 2>& pixel);
 
 class ViewPanel : public Panel {
@@ -35,20 +34,20 @@ public:
   static constexpr const char* title = "View";
   void draw(const Context& context) override;
 
-  /// For tests: widgets of its bars, and "line", which cuts two pictures. Where the picture's part of the panel was
-  /// drawn last, and the picture in it; for tests.
+  /// For tests, widgets of its bars and "line", which cuts two pictures, have places. Also for tests: where the
+  /// picture's part of the panel, and the picture in it, were drawn last.
   const Canvas& canvas() const { return canvas_; }
   const PictureTexture& texture() const { return first_.texture; }
   const Tone& tone() const { return first_.tone; }
-  /// What it showed last; for tests.
+  /// For tests: what was shown last.
   const ShownPicture& shown() const { return shown_; }
   const ShownPicture& beside() const { return beside_; }
   const PictureTexture& texture_beside() const { return second_.texture; }
-  /// From a pixel of the first picture to the same one of the second, on the screen; 0 but where they stand side by
-  /// side.
+  /// The distance on the screen from a pixel of the first picture to the same one of the second; 0 unless they stand
+  /// side by side.
   double shift() const { return shift_; }
   std::string pixel_value() const { return pixel_value_; }
-  /// For tests: what is over it.
+  /// For tests: what is drawn over the picture.
   const SceneOverlay& overlay() const { return overlay_; }
 
 private:
@@ -57,10 +56,10 @@ private:
   /// A picture as a texture.
   struct ToneMappedPicture {
     PictureTexture texture;
-    std::shared_ptr<const void> owner; ///< what it shows,
-    Tone tone;                         ///< with this tone;
-    ViewSettings view_settings;        ///< that is made with these settings
-    double white = 1;                  ///< and this white
+    std::shared_ptr<const void> owner; ///< the picture's owner
+    Tone tone;                         ///< its tone
+    ViewSettings view_settings;        ///< the settings that gave the tone
+    double white = 1;                  ///< the white that gave the tone
   };
 
   void draw_toolbar(const Context& context);
@@ -86,22 +85,22 @@ private:
   static void refresh(ToneMappedPicture& tone_mapped, const ShownPicture& shown, const ViewSettings& view_settings,
                       double white, const Tone* like = nullptr);
 
-  Canvas canvas_;                   ///< that the first picture is placed in
-  Canvas seen_first_, seen_second_; ///< the parts of the panel in which the two are seen
-  double shift_ = 0;                ///< as shift()
-  ShownPicture shown_, beside_;     ///< of the frame that is being drawn
+  Canvas canvas_;                   ///< the place of the first picture
+  Canvas seen_first_, seen_second_; ///< the parts of the panel that show the two pictures
+  double shift_ = 0;                ///< the value of shift()
+  ShownPicture shown_, beside_;     ///< what the current frame shows
   ToneMappedPicture first_, second_;
-  std::string pixel_value_; ///< as drawn last
+  std::string pixel_value_; ///< the text drawn last
 
   SceneOverlay overlay_;
   BarRows bars_;
 
   Drag drag_ = Drag::none;
-  bool pressed_ = false, held_ = false; ///< a button of the mouse, on the picture
-  bool on_second_ = false; ///< the mouse is on the second picture; as long as a button is held, where it was pressed
-  bool moved_ = false;     ///< the drag is one: the mouse went farther than a click's hand trembles
+  bool pressed_ = false, held_ = false; ///< the state of a mouse button on the picture
+  bool on_second_ = false; ///< the mouse is on the second picture; while a button is held: was on it when pressed
+  bool moved_ = false;     ///< the mouse moved farther than a hand trembles in a click
   Point drag_from_{0, 0};
-  bool marks_region_ = false;      ///< the mouse went too far for a click
+  bool marks_region_ = false;      ///< the mouse moved too far for a click
   preset::Camera camera_at_start_; ///< a drag is measured from its start, so that rounding does not add up
   ViewSettings settings_at_start_;
   Gestures gestures_{title};

@@ -17,7 +17,7 @@
 namespace nephroid::ui {
 namespace {
 
-/// p -> linear p + offset, from an object's own coordinates to the preset's.
+/// The map p -> linear p + offset, from an object's own coordinates to the preset's.
 struct Affine {
   glm::dmat3 linear{1};
   glm::dvec3 offset{0};
@@ -33,7 +33,7 @@ bool is_same_surface(const preset::Object& a, const preset::Object& b) {
   return a.mesh == b.mesh && a.shape == b.shape;
 }
 
-/// About every corner, in the object's own coordinates.
+/// The box about all vertices, in the object's own coordinates.
 scene::Bounds box_of(const scene::Scene& scene, const scene::Object& object, const preset::Transform& transform) {
   const Affine placed = affine(transform);
   const glm::dmat3 back = glm::inverse(placed.linear);
@@ -58,8 +58,8 @@ scene::Bounds box_of(const scene::Scene& scene, const scene::Object& object, con
   return {low, high};
 }
 
-/// The ray in the place that an object had when the scene was loaded, in the scene's coordinates. A hit is as far along
-/// it, in lengths of the direction, as along the ray itself.
+/// Moves the ray to the place that an object had when the scene was loaded, in the scene's coordinates. A hit is
+/// equally far along both rays, in lengths of their directions.
 Ray moved_back(const Ray& ray, const preset::Transform& now, const preset::Transform& loaded,
                const glm::dvec3& origin) {
   if (now == loaded) return {ray.origin - origin, ray.direction};
@@ -68,9 +68,9 @@ Ray moved_back(const Ray& ray, const preset::Transform& now, const preset::Trans
   return {linear * (ray.origin - from.offset) + to.offset - origin, linear * ray.direction};
 }
 
-/// The camera's directions; right is found even where it looks along up.
+/// The camera's directions; right is defined even where it looks along up.
 struct Axes {
-  glm::dvec3 up, right, outwards; ///< outwards: from the target to the camera; all unit
+  glm::dvec3 up, right, outwards; ///< unit vectors; outwards: from the target to the camera
   double distance = 1;
 };
 
@@ -177,8 +177,8 @@ glm::dvec3 pivot_of(const ViewedScene* seen, const preset::Preset& preset, std::
 
 preset::Camera orbit(const preset::Camera& camera, double right_deg, double up_deg) {
   const Axes a = axes(camera);
-  // Spherical coordinates about up: the polar angle and, in the plane across it, `ahead` (the camera's side) and
-  // `right`.
+  // Spherical coordinates about up: the polar angle and, in the plane perpendicular to it, `ahead` (the camera's side)
+  // and `right`.
   const glm::dvec3 ahead = glm::cross(a.right, a.up);
   const double polar = std::acos(std::clamp(glm::dot(a.outwards, a.up), -1.0, 1.0));
   const double limit = glm::radians(1.0);

@@ -18,7 +18,7 @@ Placement exact_place(const ViewSettings& view_settings, const Canvas& canvas, c
   return placement;
 }
 
-/// The same picture on the screen, said by zoom and centre instead of fit.
+/// The same place on the screen, as zoom and centre instead of fit.
 ViewSettings explicit_settings(const ViewSettings& view_settings, const Canvas& canvas,
                                const std::array<int, 2>& picture) {
   if (!view_settings.fit) return view_settings;
@@ -33,7 +33,7 @@ ViewSettings explicit_settings(const ViewSettings& view_settings, const Canvas& 
 
 Placement place(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture) {
   Placement placement = exact_place(view_settings, canvas, picture);
-  // Whole pixels of the screen: at 100 % the texture is then shown as it is, not interpolated.
+  // The origin is in whole pixels of the screen, so that at 100 % the texture is not interpolated.
   for (double& coordinate : placement.origin) coordinate = std::round(coordinate);
   return placement;
 }

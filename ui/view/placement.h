@@ -21,16 +21,15 @@ struct Placement {
 };
 
 struct Canvas {
-  Point corner{0, 0}, size{0, 0}; ///< of the panel's free part, on the screen
+  Point corner{0, 0}, size{0, 0}; ///< the panel's free part on the screen
 };
 
-/// sizes in pixels, at least 1.
+/// Sizes are in pixels, at least 1.
 Placement place(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture);
-/// The look after zooming by factor such that the picture's point under `screen` stays there. The scale stays in
-/// 1/64..256.
+/// The settings after zooming by factor; the picture's point under `screen` stays there. The scale stays in 1/64..256.
 ViewSettings zoomed(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture,
                     const Point& screen, double factor);
-/// The look after dragging the picture by `screen_delta`.
+/// The settings after dragging the picture by `screen_delta`.
 ViewSettings dragged(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture,
                      const Point& screen_delta);
 /// The pixel under a point of the screen; nothing outside of the picture.

@@ -12,7 +12,7 @@
 namespace nephroid::ui {
 namespace {
 
-/// What is said where the renderer has no texture of the size (0: it has every size); else empty. is_run: of the run's
+/// The hint where the renderer has no texture of the size (0: it has every size); else empty. is_run: about the run's
 /// picture.
 std::string too_large_hint(const std::array<int, 2>& size, bool is_run) {
   const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
@@ -25,7 +25,7 @@ std::string too_large_hint(const std::array<int, 2>& size, bool is_run) {
                             : "It is measured all the same.");
 }
 
-/// What to do or to wait for before the first picture.
+/// The hint before the first picture: what to do or to wait for.
 std::string waiting_hint(const Context& context) {
   if (context.run.status().state == job::State::failed) return "No picture: see the message below";
   if (context.run.status().state == job::State::cancelled) return "Cancelled before the first picture; start again: F5";
@@ -34,14 +34,14 @@ std::string waiting_hint(const Context& context) {
   return doing.empty() ? "Preparing" : "Preparing: " + doing;
 }
 
-/// The newest map, where it is of the metric and the pictures that are compared now.
+/// The newest map, where it has the present metric and pictures.
 std::shared_ptr<const ShownDifference> fitting_map(const Context& context) {
   const auto& map = context.comparing.difference();
   if (!map || map->of.metric != context.comparing.comparison().metric) return nullptr;
   return context.comparing.are_compared(map->of.picture, map->of.other) ? map : nullptr;
 }
 
-/// The map, or why there is none yet.
+/// Shows the map, or why there is none yet.
 void show_difference(const Context& context, ShownPicture& shown) {
   const auto map = fitting_map(context);
   const Comparison& comparison = context.comparing.comparison();
@@ -60,7 +60,7 @@ void show_difference(const Context& context, ShownPicture& shown) {
 
 using Rgb = std::array<float, 3>;
 
-/// Nothing where the pixel lies outside of it.
+/// The index of a pixel; nothing where it lies outside.
 std::optional<std::size_t> index_in(const std::array<int, 2>& size, const std::array<int, 2>& pixel) {
   if (pixel[0] < 0 || pixel[1] < 0 || pixel[0] >= size[0] || pixel[1] >= size[1]) return std::nullopt;
   return static_cast<std::size_t>(pixel[1]) * static_cast<std::size_t>(size[0]) + static_cast<std::size_t>(pixel[0]);

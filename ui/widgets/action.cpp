@@ -13,7 +13,7 @@
 namespace nephroid::ui {
 namespace {
 
-/// Under the mouse: what it does or, where it is greyed, why.
+/// Tooltip of an action: its help or, where it is disabled, the reason.
 void tooltip_of(const Action& action, bool enabled, const Context& context, bool with_keys) {
   std::string text = action.help;
   if (with_keys && action.shortcut) text += fmt::format(": {}", keys_of(action));

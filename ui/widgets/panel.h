@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A panel of the window: reads what it needs of its context, draws with Dear ImGui, pushes commands. It needs no back
-// end to be drawn. A new one is a folder with its class, and a line in the table of panels.
+// A panel of the window reads its context, draws with Dear ImGui and pushes commands. Drawing needs no back end. A new
+// panel is a folder with its class, and a line in the table of panels.
 #pragma once
 #include "ui/state/context.h"
 #include "ui/widgets/widgets.h"
@@ -20,21 +20,21 @@ class WavelengthAxis;
 class Panel : public Placed {
 public:
   virtual ~Panel() = default;
-  /// Inside of the panel's window. What it throws becomes a message.
+  /// Draws inside of the panel's window. An exception becomes a message.
   virtual void draw(const Context& context) = 0;
 
 protected:
-  /// A number of the preset that is dragged, or typed with Ctrl and a click.
+  /// A number of the preset that is dragged, or typed after Ctrl and a click.
   struct Dragged {
-    std::string widget; ///< its place's name
-    std::string label;  ///< of the edit
+    std::string widget; ///< the name of its place
+    std::string label;  ///< the edit's label
     double value, low, high;
-    double step;        ///< a pixel of the mouse
-    const char* format; ///< as printf's
+    double step;        ///< the change per pixel of the mouse
+    const char* format; ///< a format of printf
     const char* help;
-    ImGuiSliderFlags flags = ImGuiSliderFlags_None; ///< beside AlwaysClamp
+    ImGuiSliderFlags flags = ImGuiSliderFlags_None; ///< added to AlwaysClamp
   };
-  /// change(preset, value): one gesture from taking hold of it to letting go.
+  /// Calls change(preset, value). A drag is one gesture.
   template <class Change>
   void draw_dragged(const Context& context, Gestures& gestures, const Dragged& d, Change change) {
     double value = d.value;
@@ -44,8 +44,7 @@ protected:
     follow_item(context, gestures, d.widget, changed, d.label, [&](preset::Preset& p) { change(p, value); });
     tooltip(d.help);
   }
-  /// What the item drawn last changes of the preset, from taking hold of it to letting go one gesture. Its place is
-  /// noted as `widget`.
+  /// Edits the preset by the item drawn last; a drag is one gesture. Its place is noted as `widget`.
   template <class Change>
   void follow_item(const Context& context, Gestures& gestures, const std::string& widget, bool changed,
                    const std::string& label, Change change) {
@@ -56,22 +55,22 @@ protected:
   }
 };
 
-/// A panel's line in the table: shell/panels.cpp has those for every engine; those of one are listed in ui/ENGINE.
+/// A panel's line in the table. shell/panels.cpp lists the panels for every engine; ui/ENGINE those of one.
 struct PanelEntry {
-  std::string_view name;        ///< of the layout that has it in front; its folder's
-  const char* title;            ///< of its tab
-  std::string_view engine = ""; ///< whose presets it is for; empty: every preset
-  /// wavelengths: the axis that plots of several panels share; outlives the panel.
+  std::string_view name;        ///< the name in layouts and of the panel's folder
+  const char* title;            ///< the tab's title
+  std::string_view engine = ""; ///< the engine of its presets; empty: every engine
+  /// wavelengths: the axis that several panels' plots share; outlives the panel.
   std::unique_ptr<Panel> (*make)(WavelengthAxis& wavelengths) = nullptr;
-  /// Takes what the panel keeps of a loaded scene, on the thread that made the run ready. Null: it keeps nothing.
+  /// Takes the panel's facts from a loaded scene, on the thread that prepared the run. Null: it needs none.
   void (*take_facts)(const preset::Preset&, const std::shared_ptr<const run::LoadedScene>&, SceneFacts&) = nullptr;
-  /// Whether it is for a preset, where the engine does not decide on that. Null: it does.
+  /// Whether the panel is for this preset. Null: the engine alone decides.
   bool (*serves)(const preset::Preset&) = nullptr;
-  /// The engine whose presets are opened with this tab in front; empty: none.
+  /// Presets of this engine open with this tab in front; empty: none.
   std::string_view front_for = "";
 };
 
-/// The entry's `make` of a panel.
+/// Makes a panel of class P, as an entry's `make`.
 template <class P>
 std::unique_ptr<Panel> make_panel([[maybe_unused]] WavelengthAxis& wavelengths) {
   if constexpr (std::is_constructible_v<P, WavelengthAxis&>)
@@ -80,7 +79,7 @@ std::unique_ptr<Panel> make_panel([[maybe_unused]] WavelengthAxis& wavelengths) 
     return std::make_unique<P>();
 }
 
-// The panels of each engine, in its folder: panels.cpp where there are several, else beside the one.
+// The panels of each engine, defined in its folder: in panels.cpp where there are several, else beside the only one.
 std::vector<PanelEntry> spectral_panels();
 std::vector<PanelEntry> environment_panels();
 std::vector<PanelEntry> inverse_panels();

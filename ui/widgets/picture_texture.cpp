@@ -13,7 +13,7 @@ void unregister_and_delete(ImTextureData* texture) {
   if (ImGui::GetCurrentContext()) {
     ImGui::UnregisterUserTexture(texture);
     ImGui::GetPlatformIO().Textures.find_erase(
-        texture); // the list a back end goes through; made anew with every frame only
+        texture); // a back end goes through this list, which is made anew only with every frame
   }
   IM_DELETE(texture);
 }
@@ -33,7 +33,7 @@ std::span<unsigned char> PictureTexture::edit(int width, int height) {
   free_retired();
   if (texture_ && (texture_->Width != width || texture_->Height != height)) {
     texture_->WantDestroyNextFrame =
-        true; // the frame in hand may still draw with it; the back end destroys it in a later one
+        true; // the current frame may still draw with it, so the back end destroys it later
     retired_.push_back(std::exchange(texture_, nullptr));
   }
   if (!texture_) {

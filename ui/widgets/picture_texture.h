@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of the workbench as a texture of Dear ImGui. The renderer's back end uploads it (ImTextureData), so this
-// knows no OpenGL and works, without pixels on a screen, where there is no back end at all.
+// A picture as a texture of Dear ImGui. The renderer's back end uploads it (ImTextureData), so this code knows no
+// OpenGL and also works without a back end.
 #pragma once
 #include <span>
 #include <vector>
@@ -18,20 +18,20 @@ public:
   PictureTexture(const PictureTexture&) = delete;
   PictureTexture& operator=(const PictureTexture&) = delete;
 
-  /// The texture's own memory, 4 bytes a pixel, to be filled; it is uploaded with the next frame. Sizes at least 1.
+  /// The texture's memory, 4 bytes per pixel, to be filled; the next frame uploads it. Sizes are at least 1.
   std::span<unsigned char> edit(int width, int height);
   bool empty() const { return texture_ == nullptr; }
-  /// For ImDrawList::AddImage. Call edit() before.
+  /// The texture for ImDrawList::AddImage, after edit().
   ImTextureRef ref() const;
   std::span<const unsigned char> pixels() const;
-  /// Into the window, from corner to corner; `squares`: so large that pixels are shown as such.
+  /// Draws into the window, from corner to corner. `squares`: enlarged pixels appear as squares.
   void draw(const ImVec2& low, const ImVec2& high, bool squares) const;
 
 private:
   void free_retired();
 
   ImTextureData* texture_ = nullptr;
-  std::vector<ImTextureData*> retired_; ///< of other sizes, until the back end let go of them
+  std::vector<ImTextureData*> retired_; ///< textures of other sizes, until the back end releases them
 };
 
 } // namespace nephroid::ui

@@ -14,7 +14,7 @@
 namespace nephroid::ui {
 namespace {
 
-/// What the axis can be moved and zoomed to: where dispersion data of glass lies.
+/// The limits of the axis, which include dispersion data of glass.
 constexpr double lowest_nm = 100, highest_nm = 5000, narrowest_nm = 2;
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What plots of several panels share: ImPlot's context, with its sizes at the display's scale, and the wavelength axis.
+// What several panels' plots share: ImPlot's context, with sizes at the display's scale, and the wavelength axis.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -11,45 +11,45 @@ struct ImPlotSpec;
 
 namespace nephroid::ui {
 
-/// A line of this colour (IM_COL32) and width in pixels at scale 1, which does not decide what axes show.
+/// A line of this colour (IM_COL32) and width in pixels at scale 1, which axes do not fit.
 ImPlotSpec line_spec(std::uint32_t colour, float width);
 
-/// ImPlot::BeginPlot in the window's free width, without title, menus and the mouse's place. more: further ImPlotFlags.
+/// ImPlot::BeginPlot in the window's free width, without title, menus and mouse position. more: further ImPlotFlags.
 bool begin_plot(const char* id, float height, int more = 0);
-/// An axis (ImAxis) of these ends, whatever the mouse does. flags: ImPlotAxisFlags.
+/// An axis (ImAxis) with these ends, which the mouse cannot change. flags: ImPlotAxisFlags.
 void set_up_fixed_axis(int axis, const char* label, double low, double high, int flags);
-/// Ticks with numbers: those that ImPlot puts on a log axis have none within a decade. axis: an ImAxis.
+/// Ticks with numbers, because ImPlot has none within a decade of a log axis. axis: an ImAxis.
 void set_up_ticks(int axis, const std::vector<double>& ticks);
 
-/// Where a plot lies on the screen, and what its axes show.
+/// Where a plot lies on the screen, and the ends of its axes.
 struct PlotArea {
   std::array<double, 4> screen{}; ///< x, y, width, height
   std::array<double, 2> x{0, 1}, y{0, 1};
 
-  /// Of the plot in hand, after SetupFinish.
+  /// The area of the current plot, after SetupFinish.
   static PlotArea in_hand();
-  /// Where a point is, on linear axes.
+  /// The screen position of a point, on linear axes.
   std::array<double, 2> to_screen(const std::array<double, 2>& point) const {
     return {screen[0] + screen[2] * (point[0] - x[0]) / (x[1] - x[0]),
             screen[1] + screen[3] * (y[1] - point[1]) / (y[1] - y[0])};
   }
 };
 
-/// Whether axes that follow what they show go on with that, when the mouse is on their plot: the wheel and a drag let
-/// them go, a double click takes them back.
+/// Whether axes still fit the data after what the mouse does on the current plot: the wheel and a drag release them, a
+/// double click fits them again.
 bool follows_after_mouse(bool follows);
 
-/// A name in quotes, as CSV has it (RFC 4180).
+/// A quoted name for CSV (RFC 4180).
 std::string in_csv(const std::string& name);
 
 class PlotContext {
 public:
-  /// A Dear ImGui context must be there, and stay longer than this.
+  /// A Dear ImGui context must exist, and outlive this object.
   PlotContext();
   ~PlotContext();
   PlotContext(const PlotContext&) = delete;
   PlotContext& operator=(const PlotContext&) = delete;
-  /// Once a frame, before panels draw.
+  /// Called once a frame, before panels draw.
   void follow_scale();
 
 private:
@@ -57,17 +57,17 @@ private:
   float scale_ = 0;
 };
 
-/// Who zooms or moves it in one plot moves it in all.
+/// The axis that several plots share: zooming or moving it in one does so in all.
 class WavelengthAxis {
 public:
-  static constexpr double margin_nm = 10; ///< of the whole range, beyond the 401 wavelengths at both ends
+  static constexpr double margin_nm = 10; ///< the margin of the whole range at both ends
 
-  /// The x axis of a plot, with its label and its limits: after ImPlot::BeginPlot, before SetupFinish and the first
+  /// Sets up the x axis of a plot, with its label and limits: after ImPlot::BeginPlot, before SetupFinish and the first
   /// plotted item. compact: without label and tick labels, for a plot above one that has them.
   void set_up(bool compact = false);
-  /// The whole range again, with a margin: the 401 wavelengths, and what lies from low_nm to high_nm beyond them.
+  /// Shows the whole range again, with a margin: the 401 wavelengths, and low_nm to high_nm.
   void show_all(double low_nm = 380, double high_nm = 780);
-  /// The ends that are shown.
+  /// The ends of the shown range.
   double low_nm() const { return low_nm_; }
   double high_nm() const { return high_nm_; }
 

@@ -20,13 +20,13 @@ bool is_finite(const Row& row) { return std::isfinite(row[0]) && std::isfinite(r
 
 double inside(double value, const preset::Bounds& bounds) { return std::clamp(value, bounds.low, bounds.high); }
 
-/// A sum or difference as a person writes it, not with 17 figures: 500.3 + 0.1 is 500.40000000000003, 500.4 - 500.3 is
+/// Rounds a sum or difference to what a person would write: 500.3 + 0.1 is 500.40000000000003, and 500.4 - 500.3 is
 /// less than 0.1.
 double readable_nm(double nm) { return std::round(1e6 * nm) / 1e6; }
 
 bool before(const Row& a, const Row& b) { return a[0] < b[0]; }
 
-/// Why add_row adds nothing.
+/// Why add_row refuses the row.
 std::string refusal(const std::vector<Row>& rows, const Row& row, const RowRules& rules) {
   if (rows.size() >= preset::max_rows) return fmt::format("a preset has at most {} rows", preset::max_rows);
   if (!is_finite(row)) return "its place is not finite";
@@ -35,8 +35,8 @@ std::string refusal(const std::vector<Row>& rows, const Row& row, const RowRules
 }
 
 constexpr float point_radius = 5,
-                grab_radius = 9;              ///< pixels at scale 1: what can be grabbed is wider than what is seen
-constexpr std::ptrdiff_t most_in_sight = 400; ///< more would lie on each other
+                grab_radius = 9;              ///< pixels at scale 1, wider than the drawn point
+constexpr std::ptrdiff_t most_in_sight = 400; ///< more points would lie on each other
 
 void draw_point(const Row& at, float radius, std::uint32_t colour) {
   ImDrawList& list = *ImPlot::GetPlotDrawList();
@@ -61,7 +61,7 @@ void move_row(std::vector<Row>& rows, std::size_t index, const Row& to, const Ro
   const double high =
       index + 1 < rows.size() ? readable_nm(rows[index + 1][0] - rules.least_gap_nm) : preset::wavelength_bounds.high;
   if (low <= high)
-    rows[index][0] = std::clamp(to[0], low, high); // neighbours of a file may be nearer than that: then it stays
+    rows[index][0] = std::clamp(to[0], low, high); // neighbours in a file may be nearer than that: then it stays
 }
 
 std::optional<std::size_t> add_row(std::vector<Row>& rows, Row row, const RowRules& rules) {
@@ -115,7 +115,7 @@ std::optional<RowsEdit> RowEditor::follow(const RowGesture& gesture, std::vector
     gestures_.begin();
     break;
   case Kind::move: {
-    if (removed_) break; // else the row would be back
+    if (removed_) break; // else the removed row would come back
     const std::vector<Row> before = rows;
     move_row(rows, gesture.row, to, rules);
     if (rows != before)
@@ -153,8 +153,7 @@ RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<st
       std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return nm.Contains(row[0]); }) <= most_in_sight;
   const ImVec2 step = ImGui::GetIO().MouseDelta;
   waits_ = waits_ && ImGui::IsMouseDown(ImGuiMouseButton_Left);
-  if (held_ &&
-      rows.size() != rows_at_take_) { // removed, or its addition undone: the row of that index is another one now
+  if (held_ && rows.size() != rows_at_take_) { // removed, or its addition undone: the index now means another row
     gesture = {Kind::let_go, *held_, {}};
     held_.reset();
     waits_ = true;
@@ -175,7 +174,7 @@ RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<st
       rows_at_take_ = rows.size();
       gesture = {Kind::take, i, {}};
     } else if (held && held_ == i && moved &&
-               (step.x != 0 || step.y != 0)) // where the mouse rests, what was undone meanwhile stays undone
+               (step.x != 0 || step.y != 0)) // while the mouse rests, an undo in the meantime stays
       gesture = {Kind::move, i, under_mouse};
     if (hovered && !held_ && !waits_ && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) gesture = {Kind::remove, i, {}};
     if (hovered || held) ImGui::SetTooltip("%s", look.text(rows[i]).c_str());

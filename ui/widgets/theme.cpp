@@ -16,7 +16,7 @@ ImVec4 accent(float alpha) {
   return tint;
 }
 
-/// What differs between the themes: greys of grounds and lines, and the colours of words on a panel.
+/// What differs between the themes: greys of grounds and lines, and the colours of text on a panel.
 struct Greys {
   float bar, popup, button, window, tab, frame, hovered, active, line;
 };
@@ -92,8 +92,8 @@ void set_theme(float scale, Theme theme) {
   style.ItemSpacing = {9, 7};
   style.WindowPadding = {9, 8};
   style.WindowMenuButtonPosition = ImGuiDir_None;
-  style.TabCloseButtonMinWidthSelected = 0; // only under the mouse: the titles need the room
-  style.DockingNodeHasCloseButton = false;  // a tab has one
+  style.TabCloseButtonMinWidthSelected = 0; // only under the mouse, because the titles need the room
+  style.DockingNodeHasCloseButton = false;  // each tab has its own
   style.ScaleAllSizes(scale);
   style.FontSizeBase = font_size;
   style.FontScaleDpi = scale;

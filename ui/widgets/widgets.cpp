@@ -81,8 +81,8 @@ void BarRows::bar(const std::function<void()>& draw) {
   const std::size_t index = next_++;
   if (index == widths_.size()) widths_.push_back(0);
   const float gap = 2 * ImGui::GetFontSize();
-  const float end = ImGui::GetCursorScreenPos().x +
-                    ImGui::GetContentRegionAvail().x; // the cursor is at the left again after each bar
+  const float end =
+      ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x; // each bar ends with the cursor at the left
   if (index > 0 && widths_[index] > 0 && right_ + gap + widths_[index] <= end) ImGui::SameLine(0, gap);
   ImGui::BeginGroup();
   draw();

@@ -23,7 +23,7 @@ struct HistoryLine {
 };
 
 struct HistoryLines {
-  std::string name; ///< of the curve
+  std::string name; ///< the curve's name
   std::string x;    ///< the column that the lines are drawn over
   std::vector<HistoryLine> lines;
 };
@@ -76,7 +76,7 @@ private:
   void draw_facet_text() const;
 
   HistoryPlotStyle look_;
-  std::map<std::string, HistoryPlot> plots_; ///< of each curve
+  std::map<std::string, HistoryPlot> plots_; ///< a plot per curve
   std::vector<HistoryLines> histories_;
   RunPictures pictures_;
   std::shared_ptr<const job::Snapshot> snapshot_;

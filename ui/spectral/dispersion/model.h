@@ -31,7 +31,7 @@ ControlPoint snapped(ControlPoint point, ControlPoint step);
 
 struct FittedPoints {
   std::vector<ControlPoint> points;
-  double greatest_deviation = 0; ///< of n at the 401 wavelengths
+  double greatest_deviation = 0; ///< the largest error of n at the 401 wavelengths
 };
 /// Few control points whose monotone cubic comes to within `tolerance` of n, at most `most` (>= 2): from both ends on,
 /// one more where the deviation is greatest.
@@ -54,7 +54,7 @@ GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::str
 /// all go the way of the mean. A cluster of one wavelength has none.
 struct Spread {
   double mean_deg = 0;     ///< over the 401 wavelengths, each with its cluster's
-  double greatest_deg = 0; ///< of all clusters
+  double greatest_deg = 0; ///< the largest of all clusters
 };
 
 struct ClusterFigures {
@@ -80,7 +80,7 @@ public:
   const ClusterFigures& figures(photons::ClusterMethod method) const {
     return figures_[static_cast<std::size_t>(method)];
   }
-  /// Of the preset's method: the clusters of the curve, and which of them each wavelength is in.
+  /// The clusters of the curve by the preset's method, and the cluster of each wavelength.
   const ClusterFigures& chosen() const { return figures(method_); }
   const std::array<std::size_t, optics::wavelength_count>& cluster_of() const { return cluster_of_; }
   /// How many the run has: of all glasses that objects are made of, by brute force of step_nm neighbours, with

@@ -68,7 +68,7 @@ private:
   DispersionPlot plot_;
   std::string shown_;                ///< the material,
   preset::Dispersion dispersion_;    ///< and its
-  std::vector<ControlPoint> points_; ///< of this frame, by rising wavelength
+  std::vector<ControlPoint> points_; ///< this frame's, by rising wavelength
   bool sorted_ = false, snap_ = false;
   preset::Dispersion fitted_; ///< what "Make editable" made,
   std::string fitted_text_;   ///< and what it said about it

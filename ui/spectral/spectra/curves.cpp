@@ -90,7 +90,7 @@ auto grouping(const photons::Settings& settings) {
                     settings.relight);
 }
 
-/// Of each cluster, as the engine allocates its work.
+/// The importance of each cluster, as the engine allocates its work.
 std::vector<double> importance_of(const photons::Settings& settings, const Spectrum& u,
                                   const tracing::WavelengthTables& tables, const scene::Scene& outline,
                                   const std::vector<double>& watts) {

@@ -33,7 +33,7 @@ std::uint32_t of(const std::array<double, 3>& srgb);
 struct SpectraPlotContents {
   const Spectra* spectra = nullptr;
   const SpectraSwitches* switches = nullptr;
-  const preset::LightSpectrum* edited = nullptr; ///< of the light that is edited, rows sorted; null where there is none
+  const preset::LightSpectrum* edited = nullptr; ///< the edited light's, rows sorted; null where there is none
   std::size_t light = 0;                         ///< its index
   std::optional<std::size_t> selected;           ///< the row of it that is marked
 };
@@ -55,7 +55,7 @@ private:
   void draw_iterations(const SpectraPlotContents& contents, WavelengthAxis& axis, float height);
   void draw_pointer(const SpectraPlotContents& contents, std::optional<int>& pointed);
 
-  RowHandles handles_;         ///< of the light that is edited
+  RowHandles handles_;         ///< the edited light's
   double unit_ = 1;            ///< stays while a row is held, or the others would move against it
   std::optional<int> pointed_; ///< the wavelength (index) under the mouse, in either plot
   PlotArea area_;              ///< the upper plot
@@ -92,7 +92,7 @@ private:
   RowEditor editor_{gestures_};
   std::string source_;             ///< the preset that light_ is of
   std::size_t light_ = 0;          ///< the one that is edited
-  preset::LightSpectrum spectrum_; ///< of it, rows sorted
+  preset::LightSpectrum spectrum_; ///< its spectrum, rows sorted
 };
 
 } // namespace nephroid::ui
