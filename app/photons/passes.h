@@ -56,7 +56,7 @@ public:
   double with_fraction() const;
   /// The photons sent so far.
   std::uint64_t photons() const;
-  /// The batches of photons whose power DeviceWorld::energy may hold, with the fraction of the current pass.
+  /// The batches of the photons that DeviceWorld::energy counts, with the fraction of the current pass.
   double photon_batches() const;
   /// The batches since begin_energy().
   double energy_batches() const { return photon_batches() - at_.energy_from; }
