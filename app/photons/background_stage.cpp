@@ -33,11 +33,11 @@ struct BackgroundTables {
   double limit = 1;                        ///< quanta that one contribution may have
 };
 
-/// pixel_samples: that the film is to hold.
+/// pixel_samples is the number of a pixel's samples that the film must hold.
 BackgroundTables make_background_tables(const scene::Environment& environment, int pixel_samples) {
   BackgroundTables tables;
   tables.size = tracing::picture_size(environment);
-  std::vector<double> weights(wavelength_count, 0.0); // of grey
+  std::vector<double> weights(wavelength_count, 0.0); // for a grey environment
   for (std::size_t w = 0; w < weights.size(); ++w)
     for (const Spectrum& primary : optics::primary_spectra()) {
       const optics::Colour xyz = one_wavelength(primary, w);
@@ -49,7 +49,7 @@ BackgroundTables make_background_tables(const scene::Environment& environment, i
     tables.primary_xyz.push_back(tracing::to_float4({xyz[0], xyz[1], xyz[2]}));
   }
   tables.spectrum_cdf = tracing::exact_cdf(weights);
-  // 2^24 quanta for a mean texel; all samples of a pixel together cannot leave 63 bits.
+  // A mean texel has 2^24 quanta; all samples of a pixel together stay within 63 bits.
   const double mean = std::accumulate(environment.rgb.begin(), environment.rgb.end(), 0.0) /
                       static_cast<double>(environment.rgb.size());
   tables.film_scale = tracing::power_of_two_below(0x1p24 / mean);
@@ -57,7 +57,7 @@ BackgroundTables make_background_tables(const scene::Environment& environment, i
   return tables;
 }
 
-/// Whether no glass that an object is of bends one wavelength otherwise than another.
+/// Whether no object's glass disperses light.
 bool goes_one_way(const scene::Scene& scene) {
   return std::ranges::none_of(scene.objects, [&](const scene::Object& object) {
     const scene::Material& material = material_of(scene, object);
@@ -95,7 +95,7 @@ private:
   double limit() const override { return tables_.limit; }
   double quanta_per_unit() const override { return tables_.film_scale * world_.white / radiance_; }
 
-  double radiance_; ///< of the texel (1, 1, 1)
+  double radiance_; ///< radiance of the texel (1, 1, 1)
   BackgroundTables tables_;
   compute::Buffer<float> texels_;
   compute::Buffer<shared::float4> primary_xyz_;

@@ -12,11 +12,11 @@
 namespace nephroid::photons {
 namespace {
 
-/// The pixels that a kernel of Smoothing may need, in the mean of all light: with more, caustics are smoothed in larger
-/// blocks.
+/// The pixels that a kernel of Smoothing may need, as the mean over all light: with more, caustics are smoothed in
+/// larger blocks.
 constexpr double most_needed = 24;
 
-/// The pixels that a kernel of single ones would need, in the mean of all light. layer: with a value for each block.
+/// The pixels that a kernel of single pixels would need, as the mean over all light. layer: [block].
 double pixels_needed(const Blocks& blocks, const LayerEstimate& layer) {
   const std::vector<double> light = light_of(layer.rgb),
                             portion = portions(light, layer.draw, blocks.across(), blocks.down());
@@ -25,8 +25,8 @@ double pixels_needed(const Blocks& blocks, const LayerEstimate& layer) {
   return light_sum > 0 ? needed / light_sum * blocks.edge * blocks.edge : 1;
 }
 
-/// Adds to the draw of a layer in blocks what these hide of the picture: about as much as blocks twice as large hide of
-/// it, and no more than there is.
+/// Adds to a layer's draw what its blocks hide of the picture: about as much as blocks twice as large hide of this
+/// layer, and no more than there is.
 void add_hidden(const Blocks& blocks, LayerEstimate& layer) {
   const Blocks pairs{blocks.across(), blocks.down(), 2};
   const std::vector<float> larger = between_blocks(pairs, mean_of_blocks(pairs, layer.rgb));
@@ -68,7 +68,7 @@ void BlockSmoothing::spread(LayerEstimate& caustics, const Smoothing::BiasedEsti
     const double needed = pixels_needed(first_, means(first_, caustics));
     while (chosen > 0 && needed / levels_[chosen].blocks.edge / levels_[chosen].blocks.edge > most_needed) --chosen;
   }
-  if (levels_[chosen].blocks.edge >= first_.edge && first_.edge > 1) { // the pixels hold next to nothing
+  if (levels_[chosen].blocks.edge >= first_.edge && first_.edge > 1) { // single pixels hold next to nothing
     caustics = pixels_of(levels_[chosen].blocks, means(levels_[chosen].blocks, caustics));
     return;
   }
@@ -82,7 +82,7 @@ void BlockSmoothing::spread(LayerEstimate& caustics, const Smoothing::BiasedEsti
   };
   for (std::size_t finer = chosen + 1; finer < levels_.size(); ++finer) {
     LayerEstimate fine = spread_in(levels_[finer], plain, known);
-    // Where few portions fell, or none, their noise cannot be told: there nothing speaks for the finer estimate.
+    // Where few portions fell, or none, their noise is unknown: there nothing supports the finer estimate.
     constexpr double least_portions = 16, around = 15 * 15; // pixels
     const std::vector<double> coarse_light = light_of(mixed.rgb);
     for (std::size_t i = 0; i < light.size(); ++i)

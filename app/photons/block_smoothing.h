@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Smoothing in blocks of pixels: what few photons have shown is spread farther and sooner than pixel by pixel.
+// Smoothing in blocks of pixels: few photons' light is spread farther and sooner than pixel by pixel.
 #pragma once
 #include "photons/coarse.h"
 #include "photons/smoothing.h"
@@ -9,28 +9,27 @@
 
 namespace nephroid::photons {
 
-/// A layer with a draw of its error (job::Picture::error_draw), which is empty where it is not known; both of
-/// [pixel][3].
+/// A layer and a draw of its error (job::Picture::error_draw), both [pixel][3]. The draw is empty where it is unknown.
 struct LayerEstimate {
   std::vector<float> rgb, draw;
 };
 
 LayerEstimate means(const Blocks& blocks, const LayerEstimate& layer);
-/// layer: with a value for each block. With one for each pixel, as between_blocks().
+/// layer has a value for each block, the result one for each pixel, as in between_blocks().
 LayerEstimate between(const Blocks& blocks, const LayerEstimate& layer);
 
 class BlockSmoothing {
 public:
-  /// first_preview_edge: of the blocks of a run's preview; 1 where it has none, and light is spread from pixel to pixel
-  /// only.
+  /// first_preview_edge is the edge of the blocks of a run's first preview. It is 1 where there is none: then light is
+  /// spread only from pixel to pixel.
   BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread, int first_preview_edge);
 
-  /// From pixel to pixel.
+  /// The smoothing from pixel to pixel.
   Smoothing& pixels() { return levels_.back().smoothing; }
-  /// blocks: those of a preview, whose `layer` has a value for each. The layer of pixels, smoothed.
+  /// Returns a preview's layer, smoothed, by pixel. blocks are the preview's; `layer` has a value for each.
   LayerEstimate pixels_of(const Blocks& blocks, LayerEstimate layer);
-  /// Spreads caustics in blocks so large that their noise needs no wide kernels. Then mixes in what smaller and larger
-  /// blocks make of them, where the halves say that it is better (mixture.h). known: for single pixels.
+  /// Spreads caustics in blocks so large that their noise needs no wide kernels. Then mixes in the results of smaller
+  /// and larger blocks where the halves show a gain (mixture.h). known has a value for each pixel.
   void spread(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known);
 
 private:
@@ -40,8 +39,7 @@ private:
   };
   static LayerEstimate spread_in(Level& level, LayerEstimate plain, const Smoothing::BiasedEstimate& known);
 
-  std::vector<Level>
-      levels_; ///< from twice first_preview_edge to single pixels, each with half the edge of that before
+  std::vector<Level> levels_; ///< edges from twice first_preview_edge down to 1, each half of the one before
   Blocks first_;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t rows_of_a_task = 16;
 
-/// Between which two blocks a pixel's middle lies, along one side, and how near it is to the second, 0..1.
+/// The two blocks that a pixel's middle lies between along one side, and how near it is to the second, 0..1.
 struct Between {
   std::size_t first, second;
   float nearness;
@@ -31,7 +31,7 @@ std::vector<Between> places_between(int pixels, int blocks, int edge) {
 } // namespace
 
 std::vector<int> preview_edges(int width, int height) {
-  constexpr double most_blocks = 64 * 64 * 1.25; // of the second picture
+  constexpr double most_blocks = 64 * 64 * 1.25; // most blocks of the second picture
   int edge = 1;
   while (static_cast<double>(width) * height / edge / edge > most_blocks) edge *= 2;
   if (edge == 1) return {};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of fewer pixels than the run's, for what few photons and few paths can show: a pixel of theirs is a block of
-// the run's.
+// Pictures in blocks of the run's pixels, for what few photons and few paths can show.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -8,8 +7,8 @@
 
 namespace nephroid::photons {
 
-/// A picture of width x height pixels in blocks of so many across and down; those at its right and lower border may be
-/// cut.
+/// A picture of width x height pixels in square blocks of edge x edge pixels; those at its right and lower border may
+/// be cut.
 struct Blocks {
   int width, height, edge;
   int across() const { return (width + edge - 1) / edge; }
@@ -20,14 +19,14 @@ struct Blocks {
   }
 };
 
-/// The edges of the blocks that a run's previews have, powers of two above 1, each half of the one before: the preview
-/// has about 32 x 32 blocks and is there at once, the others soon. None where a picture has so few pixels anyway.
+/// The edges of the blocks of a run's previews: powers of two above 1, each half of the one before. The first preview
+/// has about 32 x 32 blocks and is there at once, the others follow soon. A picture of few pixels has none.
 std::vector<int> preview_edges(int width, int height);
 
-/// rgb: [pixel][3]. The means of blocks, [block][3].
+/// Returns the means of blocks, [block][3]. rgb is [pixel][3].
 std::vector<float> mean_of_blocks(const Blocks& blocks, std::span<const float> rgb);
 
-/// rgb: [block][3]. The picture of [pixel][3] that changes evenly from the middle of each block to the next.
+/// Returns a picture, [pixel][3], that changes evenly from the middle of each block to the next. rgb is [block][3].
 std::vector<float> between_blocks(const Blocks& blocks, std::span<const float> rgb);
 
 } // namespace nephroid::photons

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of engine 1 as preset/describe.h says.
+// Describes the settings of engine 1 for preset/describe.h.
 #pragma once
 #include "photons/settings.h"
 #include "preset/value.h"

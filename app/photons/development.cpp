@@ -10,7 +10,7 @@
 namespace nephroid::photons {
 namespace {
 
-/// Smoothing::BiasedEstimate::noise. Direct light has shadows that are broader than what is fine in a caustic.
+/// Values for Smoothing::BiasedEstimate::noise. Shadows in direct light are broader than the fine lines of a caustic.
 constexpr double caustic_noise = 0.05, direct_noise = 0.01;
 
 void add(const char* name, LayerEstimate layer, job::Picture& picture) {
@@ -55,7 +55,7 @@ void Development::smooth(std::vector<float>& rgb, std::vector<float>& error_draw
 
 void Development::share_work() {
   job::Picture picture = black(), caustics = picture;
-  std::vector<std::vector<float>> draws; // of each stage
+  std::vector<std::vector<float>> draws; // each stage's draw
   std::uint64_t photons = 0;
   for (const TimedStage& s : passes_.stages()) {
     job::Picture& into = s.caustics() ? caustics : picture;
@@ -107,7 +107,7 @@ LayerEstimate Development::layer_of(std::size_t s) {
   job::Picture picture = black();
   stage.develop(passes_.complete(), passes_.had_turn(s), picture);
   LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
-  if (!preview.rgb.empty()) { // a single sample of each pixel: all there is to see of a wall, and little of glass
+  if (!preview.rgb.empty()) { // a single sample of each pixel: it shows all of a wall, and little of glass
     for (std::size_t i = 0; i < layer.rgb.size(); ++i)
       if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = preview.rgb[i];
     layer.draw = std::move(preview.draw);
@@ -120,8 +120,7 @@ LayerEstimate Development::layer_of(std::size_t s) {
 }
 
 LayerEstimate Development::caustics() {
-  LayerEstimate
-      preview; // of photon maps, which come after all photons of a pass; until then glass shows what is known otherwise
+  LayerEstimate preview; // photon maps' preview; they come after all photons of a pass, and until then glass shows this
   bool lacks_maps = false;
   job::Picture picture = black();
   tracing::layer_of(picture, "caustic");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture as the stages' films have it so far: layer by layer, smoothed, and the sum of them. While a layer has
-// little light, what the preview shows stands in for it.
+// Develops the stages' films into the picture: each layer, smoothed, and their sum. While a layer has little light, its
+// preview stands in for it.
 #pragma once
 #include "photons/block_smoothing.h"
 #include "photons/passes.h"
@@ -15,39 +15,39 @@ namespace nephroid::photons {
 
 class Development {
 public:
-  /// smoothing: of caustics, if any; smooths_paths: also of what paths from the eye see of lights. World, passes and
-  /// preview outlive it.
+  /// smoothing is for caustics; smooths_paths says whether it also smooths the lights that paths from the eye see.
+  /// World, passes and preview outlive this object.
   Development(const DeviceWorld& world, const Passes& passes, const Preview& preview,
               std::optional<BlockSmoothing> smoothing, bool smooths_paths)
       : world_(world), passes_(passes), preview_(preview), smoothing_(std::move(smoothing)),
         smooths_paths_(smooths_paths) {}
 
   job::Picture picture();
-  /// Allocates the work of the next passes out by how much each stage lowers the picture's noise: the sum of the
-  /// variances V_s of what takes the work w_s a pass, V_s w_s being as it is, is smallest where all V_s / w_s are
-  /// alike. Work is counted, not timed, so that a seed has its bits. The square of a pixel's noise is over that of its
-  /// light, as in the metric rel_mse.
+  /// Divides the work of the next passes among the stages by how much each lowers the picture's noise. A stage that
+  /// does the work w_s a pass has the variance V_s, and V_s w_s is constant. The sum of the variances is smallest where
+  /// all V_s / w_s are alike. Work is counted, not timed, so that a seed always gives the same bits. The square of a
+  /// pixel's noise is divided by that of its light, as in the metric rel_mse.
   void share_work();
 
   bool smooths() const { return smoothing_.has_value(); }
-  /// Looks through all pixels before a picture waits for it.
+  /// Finds the surfaces of all pixels, so that no picture has to wait for it.
   void prepare();
-  /// Of all pictures since the program began; no work of the run's.
+  /// The seconds of all pictures since the program began. They are not part of the run's work.
   double smoothing_seconds() const { return smoothing_seconds_; }
 
-  /// As photons::PhotonJob.
+  /// See PhotonJob::set_estimate.
   void set_estimate(std::vector<float> caustics) { estimate_ = std::move(caustics); }
   void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate);
 
 private:
-  /// Without layers, with room for a draw of its error where films have halves.
+  /// A picture without layers, with room for a draw of its error where films have halves.
   job::Picture black(const Blocks& blocks) const;
   job::Picture black() const { return black({world_.tables.camera.width, world_.tables.camera.height, 1}); }
-  /// The preview of a stage's layer, smoothed, of [pixel][3].
+  /// The preview of a stage's layer, smoothed, [pixel][3].
   LayerEstimate preview_of(Stage& stage);
-  /// The layer of a stage of no caustics.
+  /// The layer of a stage that has no caustics.
   LayerEstimate layer_of(std::size_t stage);
-  /// The layer of all stages of caustics.
+  /// The layer of all stages that have caustics.
   LayerEstimate caustics();
   template <class Work>
   void timed(const Work& work) {

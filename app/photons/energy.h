@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the power that photons carried went, as the mean of the passes, and how a snapshot holds it.
+// Where the photons' power went, as the mean of the passes, and how a snapshot holds it.
 #pragma once
 #include "job/job.h"
 #include "kernels/tracing/shared_types.h"
@@ -11,8 +11,8 @@
 
 namespace nephroid::photons {
 
-/// emitted = deposited + missed + absorbed + escaped + lost but for rounding. kernels/tracing/shared_types.h says what
-/// each is (OUTCOME_*).
+/// emitted = deposited + missed + absorbed + escaped + lost but for rounding. kernels/tracing/shared_types.h explains
+/// each (OUTCOME_*).
 struct EnergyBalance {
   double emitted_w = 0, deposited_w = 0, missed_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
   std::uint64_t refused_contributions = 0; ///< film contributions too large for its fixed point: 0 in a sound run
@@ -20,19 +20,19 @@ struct EnergyBalance {
 
 struct Energy {
   EnergyBalance caustics;
-  /// Of the photons of the layer of interreflection, where there is one: emitted = absorbed (by any surface, or inside
-  /// glass) + escaped + lost; nothing is deposited or missed.
+  /// The balance of the photons of the layer "indirect", where there is one: emitted = absorbed (by any surface, or
+  /// inside glass) + escaped + lost; nothing is deposited or missed.
   std::optional<EnergyBalance> indirect;
 };
 
-/// [OUTCOME_*]: W by the counters of so many passes; of refused contributions their number.
+/// [OUTCOME_*]: W, as the mean of `passes` passes; refused contributions as their number.
 using OutcomeWatts = std::array<double, OUTCOME_COUNT>;
 OutcomeWatts outcome_watts(std::span<const std::int64_t> quanta, double quanta_per_watt, double passes);
 EnergyBalance balance_of(const OutcomeWatts& watts);
 
 /// Adds the scalars of the groups "energy" and "indirect_energy", and a warning where contributions were refused.
 void add_energy(const Energy& energy, job::Snapshot& snapshot);
-/// What add_energy added to a snapshot; of "indirect_energy" NaN where there is no such layer.
+/// Reads back what add_energy added to a snapshot. "indirect_energy" is NaN where there is no such layer.
 EnergyBalance energy_of(const job::Snapshot& snapshot, const char* group = "energy");
 
 } // namespace nephroid::photons

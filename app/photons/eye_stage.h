@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stage with samples from the eye, as many as each pixel needs, into a film of its own: the layers "direct" and
+// A stage whose samples from the eye, as many as each pixel needs, go into a film of its own: the layers "direct" and
 // "background".
 #pragma once
 #include "photons/sampled_pixels.h"
@@ -14,7 +14,7 @@
 
 namespace nephroid::photons {
 
-/// For the plan: what a stage adds to "64 samples a pixel".
+/// What the plan of a stage adds to "64 samples a pixel".
 inline const char* more_through_glass(const PlanInput& input) {
   return tracing::may_see_glass_or_mirror(input.scene) ? ", more where glass or a mirror is seen" : "";
 }
@@ -42,7 +42,7 @@ public:
     tracing::add_layer(layer_, {world_.context.all_reduced_sum(film_), quanta_per_unit(), samples}, picture);
   }
 
-  /// One sample of each block in each half.
+  /// Takes one sample of each block in each half.
   bool advance_preview() override {
     const shared::DeviceCamera camera = world_.preview_camera();
     preview_film_ = world_.preview_film();
@@ -68,12 +68,12 @@ public:
   }
 
 protected:
-  /// Runs the kernel with its own arguments and `more`.
+  /// Runs the kernel with the stage's own arguments and `more`.
   virtual void run(std::uint32_t count, std::initializer_list<compute::Argument> more) = 0;
-  /// Quanta that each of the first pixel_samples contributions to a pixel may have; later ones may have no more than
-  /// any number of them can.
+  /// The most quanta of each of the first pixel_samples contributions to a pixel. All later ones together cannot
+  /// overflow the film.
   virtual double limit() const = 0;
-  /// Quanta of the film, of what becomes 1 in the picture.
+  /// The film's quanta for a value of 1 in the picture.
   virtual double quanta_per_unit() const = 0;
 
   DeviceWorld& world_;
@@ -94,7 +94,7 @@ private:
   const char* layer_;
   std::uint32_t enough_; ///< Settings::pixel_samples
   compute::Buffer<std::int64_t> film_;
-  compute::Buffer<std::int64_t> preview_film_; ///< with a pixel for each block of the preview
+  compute::Buffer<std::int64_t> preview_film_; ///< film with a pixel for each block of the preview
   SampledPixels pixels_;
 };
 

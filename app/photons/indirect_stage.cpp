@@ -17,7 +17,7 @@
 namespace nephroid::photons {
 namespace {
 
-/// Of each wavelength of the light at `index` of the tables.
+/// What the eye makes of each wavelength of the light at `index` of the tables.
 std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, const scene::Light& light,
                                      std::size_t index) {
   const optics::ColourMatching& eye = optics::cie_1931();
@@ -25,7 +25,7 @@ std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, co
   for (const int wavelength : tables.cluster_wavelengths) {
     const auto w = static_cast<std::size_t>(wavelength);
     const shared::float4& xyz = tables.light_xyz[index * WAVELENGTH_COUNT + w];
-    if (is_environment(light)) // whose rows are of its primaries
+    if (is_environment(light)) // its rows hold primaries
       weights.push_back(tracing::worth(light.spectrum[w] * (eye.x[w] + eye.y[w] + eye.z[w]) / 3, light.spectrum[w]));
     else
       weights.push_back(tracing::worth((double(xyz.x) + xyz.y + xyz.z) / 3, xyz.w));
@@ -34,17 +34,17 @@ std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, co
 }
 
 struct IndirectTables {
-  shared::DeviceTarget everything{}; ///< photons are sent into it from wherever a light is
-  float outside_distance = 0;        ///< directional photons start this far before it
+  shared::DeviceTarget everything{}; ///< target of all photons, wherever a light is
+  float outside_distance = 0;        ///< distance at which directional photons start before it
   std::vector<shared::DeviceEmitter>
-      emitters;                    ///< photons of one pass: one emitter for each light; cluster and share are not used
+      emitters;                    ///< photons of one pass: an emitter for each light; cluster and share are unused
   std::vector<float> spectrum_cdf; ///< [light][member of cluster_wavelengths]: whole numbers of 2^-24, the last 1
-  unsigned photons_per_pass = 0;   ///< as allocated: at least one for each light
-  double emitted_w = 0;            ///< in a pass, by all lights, all wavelengths
+  unsigned photons_per_pass = 0;   ///< photons of a pass: at least one for each light
+  double emitted_w = 0;            ///< power of all lights at all wavelengths in a pass
   double film_scale = 1, energy_scale = 1; ///< quanta per unit of XYZ radiance and per watt, powers of two
 };
 
-/// tables: of the same scene. photons: wanted in a pass.
+/// tables belong to the same scene. photons is the number wanted in a pass.
 IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& tables, unsigned photons) {
   IndirectTables result;
   const scene::Sphere target = tracing::everything(scene);
@@ -104,7 +104,7 @@ public:
                            });
   }
 
-  /// As large a part of the first pass as photons of caustics have, where a pass has more than a few steps.
+  /// Sends as large a part of the first pass as caustics do, where a pass has more than a few slices.
   bool advance_preview() override {
     const double fraction_of_pass = static_cast<double>(world_.preview.batches) / world_.tables.batches;
     if (tables_.photons_per_pass < 1 << 16 || fraction_done() >= fraction_of_pass) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run: coarse pictures first, then passes of all stages; between passes their work is shared out anew.
+// A run: previews first, then passes of all stages; between passes their work is divided anew.
 #include "photons/job.h"
 
 #include "engine/engine.h"
@@ -68,7 +68,7 @@ public:
     if (context.communicator().broadcast(context.is_cold())) { // rank 0 may have rendered a reference before
       for (const TimedStage& s : passes_.stages()) s.stage->warm_up(context.communicator());
       world_.energy.fill_zero();
-      world_.context.finish(); // a run that never comes to work must not end while kernels run
+      world_.context.finish(); // a run that never starts its work must not end while kernels run
       context.set_warm();
     }
     if (const std::int64_t most = passes_.most(); most < preset::max_passes)
@@ -77,7 +77,7 @@ public:
 
   bool finished() const override {
     if (preset_.stop.seconds && passes_.work_seconds() >= *preset_.stop.seconds) return true;
-    return passes_.complete() >= (most_passes_ >= 0 ? most_passes_ : preset::max_passes); // sums are exact so long
+    return passes_.complete() >= (most_passes_ >= 0 ? most_passes_ : preset::max_passes); // sums are exact for so long
   }
 
   void advance() override {
@@ -173,7 +173,7 @@ public:
   }
 
 private:
-  /// What there is to do between two passes.
+  /// Does what is due between two passes.
   void begin_pass() {
     const std::int64_t passes = passes_.complete();
     if (passes == 1) development_.prepare();
@@ -181,13 +181,13 @@ private:
       passes_.work(0, [&] { development_.share_work(); });
   }
 
-  DeviceWorld world_;     ///< the stages use it
-  preset::Preset preset_; ///< with the lights as they are now
+  DeviceWorld world_;     ///< used by the stages
+  preset::Preset preset_; ///< preset with the present lights
   Passes passes_;
   Preview preview_;
   Development development_;
-  bool shares_work_;              ///< whether time is allocated by what it gains
-  std::int64_t most_passes_ = -1; ///< -1: until the stop's seconds, or until whoever steps it has enough
+  bool shares_work_;              ///< whether time is divided among stages by its gain
+  std::int64_t most_passes_ = -1; ///< -1: until the stop's seconds are over, or the caller stops
 };
 
 } // namespace

@@ -10,7 +10,7 @@
 namespace nephroid::photons {
 namespace {
 
-/// How far around a pixel its errors are asked for, and its light, in pixels.
+/// The radii around a pixel, in pixels, of the means of its errors and of its light.
 constexpr int error_radius = 8, light_radius = 7;
 
 } // namespace
@@ -28,7 +28,7 @@ void mix(std::span<const float> picture, std::span<const float> picture_draw, co
   const auto draw_of = [&](std::size_t c) { return estimate.error_draw.empty() ? 0.0 : estimate.error_draw[c]; };
   const double dark = least_light(light);
   const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
-  // term(c, r): of a channel of a pixel. The sum of the three over the light there.
+  // Sums term(c, r) of the three channels c of a pixel, divided by the light there.
   const auto relative_to_light = [&](std::size_t i, const auto& term) {
     double sum = 0;
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) sum += term(c, static_cast<double>(estimate.rgb[c]) - rgb[c]);
@@ -39,7 +39,7 @@ void mix(std::span<const float> picture, std::span<const float> picture_draw, co
       return r * (static_cast<double>(rgb[c]) - picture[c]) + (draw_of(c) - error_draw[c]) * picture_draw[c];
     });
   });
-  // A draw of the noise that is in r (b - p).
+  // A draw of the noise in r (b - p).
   const SummedArea scatters(width, height, [&](std::size_t i) {
     return std::pow(relative_to_light(i,
                                       [&](std::size_t c, double r) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passes, in each of which every stage has its turn, slice by slice; and how far they are.
+// Passes, in each of which every stage has its turn, slice by slice, and their progress.
 #pragma once
 #include "photons/stage.h"
 
@@ -12,7 +12,7 @@
 
 namespace nephroid::photons {
 
-/// A stage with the seconds it has worked.
+/// A stage and the seconds that it has worked.
 struct TimedStage {
   std::unique_ptr<Stage> stage;
   const char* layer = "";
@@ -29,14 +29,14 @@ double seconds_of(const Work& work) {
 
 class Passes {
 public:
-  /// batches: of photons, of a pass.
+  /// batches is the number of batches of photons in a pass.
   explicit Passes(unsigned batches) : batches_(batches) {}
   void add(std::unique_ptr<Stage> stage, const char* layer) { stages_.push_back({std::move(stage), layer}); }
   const std::vector<TimedStage>& stages() const { return stages_; }
 
-  /// One slice of about 30 ms of the stage whose turn it is.
+  /// Runs one slice of about 30 ms of the stage whose turn it is.
   void advance();
-  /// Does other work of the run's that belongs to a stage.
+  /// Does other work of the run and counts it for a stage.
   template <class Work>
   void work(std::size_t stage, const Work& work) {
     const double seconds = seconds_of(work);
@@ -47,18 +47,18 @@ public:
   std::int64_t complete() const { return at_.pass; }
   double work_seconds() const { return at_.work_seconds; }
   bool is_between_passes() const { return at_.stage == 0 && !at_.has_begun; }
-  /// Whether a stage has had its turn in the pass in hand.
+  /// Whether a stage has had its turn in the current pass.
   bool had_turn(std::size_t stage) const { return stage < at_.stage; }
   bool has_halves(std::size_t stage) const { return stages_[stage].stage->has_halves(at_.pass, had_turn(stage)); }
-  /// After so many passes no stage takes part any more.
+  /// The number of passes after which no stage takes part any more.
   std::int64_t most() const;
-  /// Passes done with the part of the one in hand, in which every stage counts as much.
+  /// Complete passes and the fraction of the current one, in which every stage counts alike.
   double with_fraction() const;
-  /// Photons sent so far.
+  /// The photons sent so far.
   std::uint64_t photons() const;
-  /// The batches of photons that DeviceWorld::energy is about, with the part of the one in hand.
+  /// The batches of the photons that DeviceWorld::energy counts, with the fraction of the current pass.
   double photon_batches() const;
-  /// The same since begin_energy().
+  /// The batches since begin_energy().
   double energy_batches() const { return photon_batches() - at_.energy_from; }
   void begin_energy() { at_.energy_from = photon_batches(); }
 
@@ -67,14 +67,14 @@ public:
 
 private:
   struct Position {
-    std::int64_t pass = 0;  ///< passes completed
-    std::size_t stage = 0;  ///< whose turn it is
-    bool has_begun = false; ///< whether it has begun
+    std::int64_t pass = 0;  ///< number of complete passes
+    std::size_t stage = 0;  ///< stage whose turn it is
+    bool has_begun = false; ///< whether that stage has begun
     double work_seconds = 0;
     double energy_from = 0; ///< batches of photons when the energy counters began
   };
 
-  /// How much of the pass in hand a stage has done.
+  /// The fraction of the current pass that a stage has done.
   double fraction_of(std::size_t stage) const;
 
   unsigned batches_;

@@ -15,12 +15,11 @@
 namespace nephroid::photons {
 namespace {
 
-/// By how much photons that are allocated by variance have to lower it: so much longer they may take, for they meet
-/// more glass and are measured.
+/// The factor by which allocation by variance has to lower the variance: such photons take that much longer, for they
+/// meet more glass and are measured.
 constexpr double least_gain = 1.5;
 
-/// Before which batch photons are first allocated by what was measured: a pass's half, as fewer photons tell too
-/// little.
+/// The first batch whose photons are allocated by measurements: after half a pass, as fewer photons show too little.
 std::int64_t first_reallocation(unsigned batches) { return std::max<std::int64_t>(batches / 2, 2); }
 
 class PhotonStage final : public Stage {
@@ -48,7 +47,7 @@ public:
   bool advance(std::int64_t pass) override {
     const RunTables& t = world_.tables;
     const std::int64_t batch = pass * t.batches + batch_;
-    if (batch_ == 0 && slices_.at_start()) stored_.fill_zero(); // each photon is one rank's to store
+    if (batch_ == 0 && slices_.at_start()) stored_.fill_zero(); // each photon is stored by one rank
     if (by_variance_ && slices_.at_start() && batch >= first_reallocation(t.batches) && allocation_.is_due(batch))
       reallocate(batch);
     const bool complete =
@@ -110,7 +109,7 @@ public:
   }
 
 private:
-  /// That are complete.
+  /// The number of complete batches.
   std::int64_t batches(std::int64_t passes, bool done) const {
     return passes * world_.tables.batches + (done ? world_.tables.batches : batch_);
   }
@@ -122,9 +121,9 @@ private:
     kernel_ = compute::Program(world_.context, "photons/photons.cl", defines).kernel("photons");
   }
 
-  /// Allocates the photons of the batches from this one on by what the earlier ones have shown.
+  /// Allocates the photons from this batch on by what the earlier batches have measured.
   void reallocate(std::int64_t batch) {
-    std::vector<double> photons(world_.tables.lights.size(), 0); // of a pass, of each light
+    std::vector<double> photons(world_.tables.lights.size(), 0); // photons of each light in a pass
     for (const shared::DeviceEmitter& e : allocation_.emitters())
       photons[static_cast<std::size_t>(e.light)] = e.light_photon_count;
     guide_.learn(world_.context.all_reduced_sum(guide_moments_), photons,
@@ -145,8 +144,8 @@ private:
     guide_table_.write(guide_.table());
   }
 
-  /// What a photon that only a map will show is worth: a quarter of a splat on a surface as far away as the scene's
-  /// middle, of which RunTables::caustic_scale makes 2^16 quanta.
+  /// The weight of a photon that only a map will show: a quarter of that of a splat on a surface as far away as the
+  /// scene's middle, to which RunTables::caustic_scale gives 2^16 quanta.
   float unseen_weight() const {
     const RunTables& t = world_.tables;
     return static_cast<float>(0.25 * std::exp2(16) * t.photons_per_batch * std::numbers::pi /
@@ -154,8 +153,8 @@ private:
   }
 
   DeviceWorld& world_;
-  bool insists_;     ///< on allocating by variance
-  bool by_variance_; ///< whether photons are allocated and guided so, and it is measured how
+  bool insists_;     ///< whether the preset asks for allocation by variance
+  bool by_variance_; ///< whether photons are measured, and allocated and guided by that
   NeymanAllocation allocation_;
   EmissionGuide guide_;
   compute::Buffer<std::int64_t> moments_;       ///< [emitter], see NeymanAllocation::reallocate
@@ -165,7 +164,7 @@ private:
   compute::Buffer<shared::StoredPhoton> stored_; ///< the photon map's, where there is one
   compute::Kernel kernel_;
   tracing::PhotonSlices slices_;
-  std::int64_t batch_ = 0; ///< of the pass in hand
+  std::int64_t batch_ = 0; ///< number of the batch in the current pass
 };
 
 PlanPart plan_photons(const PlanInput& input) {

@@ -20,7 +20,7 @@ using Type = scene::Material::Type;
 /// A place on a surface.
 struct Place {
   int object;
-  glm::dvec3 position, geometric, shading; ///< normals: unit, outwards; alike unless the object is smooth
+  glm::dvec3 position, geometric, shading; ///< outward unit normals; alike unless the object is smooth
 };
 
 class CameraRay {
@@ -28,7 +28,7 @@ public:
   CameraRay(const scene::Scene& scene, const scene::Bvh& bvh, const glm::dvec3& way)
       : scene_(scene), bvh_(bvh), from_(scene.camera.position), way_(way), inside_(scene.camera.inside) {}
 
-  /// Goes on to the next surface; empty where there is none.
+  /// Moves on to the next surface; empty where there is none.
   std::optional<Place> next() {
     const auto hit = scene::closest_hit(bvh_, from_, way_, {}, std::numeric_limits<double>::infinity(), left_);
     if (!hit) return std::nullopt;
@@ -38,11 +38,11 @@ public:
     return place_on(hit->primitive);
   }
 
-  /// Is sent back by a mirror.
+  /// Reflects the ray at a mirror.
   void reflect(const Place& place) { bend(place, std::nullopt); }
 
   /// Passes the surface of glass, or is totally reflected there (cross_interface in kernels/tracing/interface.h). False
-  /// where there is nothing to see: both sides have one index of refraction.
+  /// where both sides have one index of refraction, so that the surface is invisible.
   bool cross(const Place& place) {
     std::vector<int> beyond = inside_;
     int near = medium_of(inside_);
@@ -83,7 +83,7 @@ private:
     return place;
   }
 
-  /// The object whose material fills the place: the highest priority, of equals the one entered last; -1: air.
+  /// The object whose material fills the place: that of highest priority, of equals the one entered last; -1: air.
   int medium_of(const std::vector<int>& inside) const {
     int best = -1;
     for (const int object : inside)
@@ -98,8 +98,8 @@ private:
     return material_of(scene_, scene_.objects[static_cast<std::size_t>(object)]).n[middle];
   }
 
-  /// ratio: of the indices before and beyond glass; empty: a mirror. About the shading normal, unless that sends the
-  /// look to the wrong side of the triangle: then about the triangle's own. True where it went through.
+  /// Bends the ray about the shading normal, or about the triangle's own where that would send it to the wrong side.
+  /// ratio is that of the indices before and beyond glass; empty: a mirror. True where the ray went through.
   bool bend(const Place& place, std::optional<double> ratio) {
     const double side = glm::dot(way_, place.geometric) < 0 ? 1 : -1;
     for (const glm::dvec3& normal : {side * place.shading, side * place.geometric}) {
@@ -118,7 +118,7 @@ private:
   const scene::Bvh& bvh_;
   glm::dvec3 from_, way_;
   std::vector<int> inside_;                  ///< the dielectric objects around `from_`, the one entered last at the end
-  std::uint32_t left_ = scene::no_primitive; ///< that the ray leaves
+  std::uint32_t left_ = scene::no_primitive; ///< primitive that the ray leaves
   double length_ = 0;
 };
 
@@ -137,9 +137,9 @@ public:
     return {(x + z) / 2 * camera_.width, (z - y) / 2 * camera_.height, z};
   }
 
-  /// Marks, row by row, what lies between the sides of a triangle, and what its outline touches.
+  /// Marks, row by row, what lies between a triangle's sides, and what its outline touches.
   void mark(const std::array<Seen, 3>& corners) {
-    // The part before the eye; what is nearer than a ten thousandth of the farthest corner is as good as beside it.
+    // The part before the eye: what is nearer than a ten thousandth of the farthest corner is beside it.
     const double farthest = std::max({corners[0].z, corners[1].z, corners[2].z}), near = 1e-4 * farthest;
     if (!(farthest > 0)) return;
     points_.clear();
@@ -155,7 +155,7 @@ public:
       mark_row(row);
   }
 
-  /// The same of an ellipsoid: of a ball of triangles just outside of it. Facets of 1/32 of a turn each way come within
+  /// Marks a ball of triangles just outside of an ellipsoid. Facets of 1/32 of a turn each way come within
   /// cos^2(pi / 32) = 0.9904 of their corners' distance to the middle.
   void mark(const scene::Ellipsoid& ellipsoid) {
     constexpr int around = 32;
@@ -177,12 +177,12 @@ public:
   const std::vector<bool>& marked() const { return marked_; }
 
 private:
-  /// Single precision decides which pixel a path is of.
+  /// A margin in pixels, as kernels decide in single precision which pixel a path belongs to.
   static constexpr double margin = 0.01;
 
   static int index(double at, int size) { return static_cast<int>(std::clamp(std::floor(at), 0.0, size - 1.0)); }
 
-  /// What of the outline lies within the row's height, from the leftmost to the rightmost.
+  /// Marks the part of the outline within the row's height, from the leftmost to the rightmost pixel.
   void mark_row(int row) {
     const double top = row - margin, bottom = row + 1 + margin;
     double left = std::numeric_limits<double>::max(), right = std::numeric_limits<double>::lowest();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the middle of a pixel shows: the diffuse surface that a ray from the camera ends at, through glass and by way of
-// mirrors. For what is done to a picture on the host; the picture itself is made by kernels/tracing/eye_path.h, which
-// follows the same rules at every wavelength and with both branches of each reflection. And which pixels may show glass
-// or a mirror at all.
+// The surface in the middle of a pixel: the diffuse one where a ray from the camera ends, through glass and by way of
+// mirrors. It is for work on pictures on the host. The picture itself comes from kernels/tracing/eye_path.h, which
+// follows the same rules at every wavelength and with both branches of each reflection. Also finds the pixels that may
+// show glass or a mirror.
 #pragma once
 #include "scene/bvh.h"
 #include "scene/scene.h"
@@ -16,24 +16,23 @@ namespace nephroid::photons {
 
 struct PixelSurfaces {
   struct Surface {
-    glm::vec3 position{0}, normal{0}; ///< scene units; unit, of the triangle
-    int object = -1;                  ///< -1: none is met
+    glm::vec3 position{0}, normal{0}; ///< scene units; unit vector, the triangle's
+    int object = -1;                  ///< -1: the ray meets none
   };
-  Surface first;    ///< glass that bends nothing is not seen
-  Surface last;     ///< the diffuse one at the end; where there is none, `first`
-  glm::vec3 way{0}; ///< unit: the way on which `last` is looked at
-  float spacing =
-      0; ///< how far apart neighbouring pixels would be there, across `way`, had glass and mirrors been flat
+  Surface first;     ///< the first one; glass that bends nothing does not count
+  Surface last;      ///< the diffuse one at the end; `first` where there is none
+  glm::vec3 way{0};  ///< unit vector: direction of the ray that meets `last`
+  float spacing = 0; ///< distance of neighbouring pixels' places there, across `way`, if glass and mirrors were flat
 };
 
-/// camera: the scene's, or one of the same view with other pixels. Mirrors are followed, and so is glass: refracted at
-/// the middle of the wavelengths, reflected where all light is.
+/// camera is the scene's, or one of the same view with other pixels. The ray follows mirrors and glass. Glass refracts
+/// it as the middle wavelength, and reflects it where it reflects all light.
 PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera,
                                 int column, int row, int most_surfaces = 32);
 
 /// The pixels, row after row, whose square the outline of a triangle or ellipsoid of glass or of a mirror may touch,
-/// whatever stands before it; all of them for a camera inside glass. Every path that meets glass or a mirror first is
-/// of one of these.
+/// whatever stands before it. For a camera inside glass, all pixels. Every path that meets glass or a mirror first
+/// belongs to one of them.
 std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene);
 
 } // namespace nephroid::photons

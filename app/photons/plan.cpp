@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of a run, each of which says its own, one after the other.
+// The plan of a run, put together from its parts.
 #include "photons/plan.h"
 
 #include "base/counted.h"
@@ -21,7 +21,7 @@
 namespace nephroid::photons {
 namespace {
 
-/// What every run has.
+/// The part that every run has.
 PlanPart plan_scene(const PlanInput& input) {
   const std::uint64_t environment = input.scene.environment ? tracing::bytes_of(input.scene.environment->rgb) : 0;
   PlanPart part;
@@ -30,7 +30,7 @@ PlanPart plan_scene(const PlanInput& input) {
                           tracing::tree_bytes(input.bvh) + tracing::mesh_bytes(input.scene) + environment +
                               tracing::sky_bytes(input.tables),
                           true});
-  part.buffers.push_back({"pixels", 2 * sizeof(std::uint32_t) * input.pixels()}); // all, and those of glass
+  part.buffers.push_back({"pixels", 2 * sizeof(std::uint32_t) * input.pixels()}); // all pixels, and those of glass
   part.defines = scene::tree_defines(input.bvh);
   part.defines["NEPHROID_FILM_HALVES"] = std::to_string(input.halves());
   if (const Settings& s = input.settings; s.step_nm > 1 && s.method != Settings::Method::brute_force)
@@ -42,7 +42,7 @@ PlanPart plan_scene(const PlanInput& input) {
 
 PlanPart plan_omissions(const PlanInput& input) {
   PlanPart part{.passes = tracing::data_omissions(input.leave_out, input.scene, input.tables.spheres)};
-  // Layers of dark lights are there for lights to come.
+  // Layers of dark lights are kept for lights to come.
   if (input.settings.relight)
     std::erase_if(part.passes, [](const plan::Pass& pass) {
       return pass.name == "dark lights" || pass.name == "unlit wavelengths";
@@ -70,13 +70,13 @@ PlanPart plan_environment_light(const PlanInput& input) {
   return part;
 }
 
-/// PlanInput::estimate; caustics: PlanInput::caustics.
+/// Decides PlanInput::estimate; caustics is PlanInput::caustics.
 plan::Pass estimate_pass(const preset::Preset& preset, const Settings& settings, const plan::Pass& caustics) {
   const char* const name = "error estimate";
   if (preset.measure.estimate && caustics.runs && settings.estimator == Settings::Estimator::sppm)
     return {name, false,
             "spectral.estimator is sppm, whose radii hang on all photons: there are no two independent halves"};
-  // Nothing else can stop the run, so nobody may switch it off.
+  // Nothing else can stop the run, so it cannot be switched off.
   if (preset.measure.estimate && preset.stop.error && !preset.reference)
     return {name, true, "every film is kept in two independent halves: stop.error needs them, there is no reference"};
   return {name, preset.measure.estimate,
@@ -134,7 +134,7 @@ PlanPart plan_caustics(const PlanInput& input) {
 constexpr RunPart scene_part{plan_scene}, caustics_part{plan_caustics}, omissions_part{plan_omissions},
     estimate_part{plan_estimate}, environment_light_part{plan_environment_light};
 
-/// In the order of the plan's rows, and of the stages' turns in a pass.
+/// The parts in the order of the plan's rows, and of the stages' turns in a pass.
 std::vector<const RunPart*> parts_of(const Settings& settings) {
   const bool sppm = settings.estimator == Settings::Estimator::sppm;
   return {&scene_part,
@@ -163,8 +163,8 @@ void add(PlanPart part, plan::Plan& plan) {
   std::ranges::move(part.notes, std::back_inserter(plan.notes));
 }
 
-/// Settings::pixel_samples, where nobody says. Where light comes from one point of each lamp, only edges within pixels
-/// take samples.
+/// The default of Settings::pixel_samples. Where light comes from one point of each lamp, only edges within pixels need
+/// samples.
 int enough_samples(const scene::Scene& scene) {
   const bool all_points = std::ranges::all_of(scene.lights, [](const scene::Light& light) {
     return !scene::is_environment(light) && light.type != preset::Light::Type::area;
@@ -230,7 +230,7 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const sc
 plan::Pass caustics_pass(const PlanInput& input) {
   const char* const name = "photons";
   if (!input.settings.caustic) return not_asked_for(name, "caustic");
-  // No field brings these back: there is nothing to send.
+  // No field turns these on, as there is nothing to send.
   if (const std::string dark = no_light(input); !dark.empty()) return {name, false, dark};
   const std::string missing = input.objects.dielectrics + input.objects.mirrors == 0
                                   ? "no object is of glass or a mirror"

@@ -14,12 +14,12 @@ namespace nephroid::photons {
 
 struct RunPart; ///< plan_part.h
 
-/// What a run does, decided once, with the tables that this took.
+/// The decisions about a run, made once, and the tables that they needed.
 struct RunPlan : plan::Plan {
   Settings settings;
   RunTables tables;
-  std::vector<const RunPart*> parts; ///< that run; stages in the order of their turns in a pass
-  bool has_previews = true;          ///< whether a large picture is worked out coarsely first
+  std::vector<const RunPart*> parts; ///< parts that run; stages in the order of their turns in a pass
+  bool has_previews = true;          ///< whether a large picture begins with previews
   bool runs(const RunPart& part) const;
 };
 

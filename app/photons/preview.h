@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The previews of a run, before its first pass: coarse ones, in blocks of pixels, each finer than the one before
+// The previews of a run, before its first pass: coarse pictures, in blocks of pixels, each finer than the one before
 // (coarse.h).
 #pragma once
 #include "photons/passes.h"
@@ -13,12 +13,12 @@ namespace nephroid::photons {
 
 class Preview {
 public:
-  /// edges: of the blocks of each picture (preview_edges); none: there is no preview.
+  /// edges are those of each picture's blocks (preview_edges). Without edges there is no preview.
   Preview(DeviceWorld& world, std::vector<int> edges) : world_(world), edges_(std::move(edges)) {}
 
   bool has_more() const { return pictures_ < edges_.size(); }
   bool has_picture() const { return pictures_ > 0; }
-  /// Renders the next picture, whole: nobody wants to see a part of it.
+  /// Renders the whole next picture at once: a part of it would be of no use.
   void next(Passes& passes) {
     ++pictures_;
     begin_picture();
@@ -51,7 +51,7 @@ private:
 
   DeviceWorld& world_;
   std::vector<int> edges_;
-  std::size_t pictures_ = 0; ///< that have begun
+  std::size_t pictures_ = 0; ///< number of pictures that have begun
 };
 
 } // namespace nephroid::photons

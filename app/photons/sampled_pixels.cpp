@@ -13,29 +13,29 @@ namespace {
 
 constexpr std::size_t most_samples_a_slice = 1 << 18;
 
-/// The least keeps an eye on what the first samples have missed; the most lets photons have their turn.
+/// The least rate still notices what the first samples have missed; the most leaves photons their turn.
 constexpr double least_rate = 1.0 / 31, most_rate = 64;
 
-/// Of a pixel, in which of several passes it has its turn.
+/// The pass among several in which a pixel has its turn.
 std::uint32_t turn_of(std::size_t pixel) {
   const std::uint32_t mixed = static_cast<std::uint32_t>(pixel) * 0x9e3779b9u;
   return (mixed ^ mixed >> 15) >> 4;
 }
 
-/// As SampledPixels keeps it. One of every odd number of passes, so that both halves get as many.
+/// Rounds a rate for SampledPixels. One sample in an odd number of passes serves both halves alike.
 std::int16_t whole_rate(double rate) {
   if (rate >= std::sqrt(1.0 / 3))
     return static_cast<std::int16_t>(std::clamp(std::llround(rate), 1LL, static_cast<long long>(most_rate)));
   return static_cast<std::int16_t>(-(2 * std::llround((1 / rate - 1) / 2) + 1));
 }
 
-/// Of a sample of a pixel, or the mean of several.
+/// The moments of a sample of a pixel, or the mean of several.
 struct SampleMoments {
   double variance = 0, light_squared = 0; ///< sums of R, G and B
 };
 
-/// Sums over the pixels around one, without itself, of those that show glass as it does or none as it does: the others'
-/// paths are of another kind.
+/// Sums over the pixels around one, without itself. Only pixels that show glass, or none, as it does take part: the
+/// others have paths of another kind.
 class Neighbourhood {
 public:
   Neighbourhood(const DeviceWorld& world, std::span<const SampleMoments> pixels)
@@ -93,7 +93,7 @@ void SampledPixels::take_next(std::int64_t pass, double amount) {
 }
 
 void SampledPixels::share_work(const Noise& noise) {
-  passes_ = preset::max_passes; // for what may now have less than a sample a pass
+  passes_ = preset::max_passes; // for pixels that may now have less than a sample a pass
   std::vector<SampleMoments> pixels(counts_.size());
   for (std::size_t i = 0; i < 3 * pixels.size(); ++i) {
     const double draw = noise.draw[i], light = noise.light[i];
@@ -103,7 +103,7 @@ void SampledPixels::share_work(const Noise& noise) {
   const Neighbourhood around(world_, pixels);
   for_ranges(pixels.size(), 1 << 12, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      // Through glass few samples of many bring most of the light, so it takes many pixels to know the variance.
+      // Through glass few of many samples bring most of the light, so it takes many pixels to know the variance.
       // Elsewhere edges are narrow.
       const bool glass = world_.pixels.may_show_glass[i];
       SampleMoments sampled = around.mean(i, 3);
@@ -113,11 +113,11 @@ void SampledPixels::share_work(const Noise& noise) {
       }
       const double had = counts_[i][0] + counts_[i][1];
       const double light_squared =
-          std::max(sampled.light_squared - sampled.variance / std::max(had, 1.0), 0.0); // the noise's square is in it
-      // Noise beyond the light itself counts as that much: what is bright and rare stays noise whatever is done.
+          std::max(sampled.light_squared - sampled.variance / std::max(had, 1.0), 0.0); // less the noise's square
+      // Noise beyond the light itself counts as that much: what is bright and rare stays noisy whatever is done.
       const double variance = std::min(Noise::noise_beside(light_squared / 3, sampled.variance), 3 * had);
-      // With n samples, of the work c each, the noise is v / n, and one more lowers it by v / n^2. For the same work
-      // that is to be what photons do, at the end of the passes to come, which are as many as there were.
+      // n samples, each of the work c, leave the noise v / n, and one more lowers it by v / n^2. For the same work this
+      // is to equal what photons gain, at the end of the next passes, which are as many as there were.
       const double work = glass ? paths_through_glass * work_through_glass : work_of_a_path;
       const double wanted = std::sqrt(variance / (work * noise.photon_gain));
       rates_[i] = whole_rate(std::clamp((2 * wanted - had) / static_cast<double>(noise.passes), least_rate, most_rate));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many samples from the eye a pixel gets in each pass: one, until the noise says where more are worth their work
-// and where fewer will do.
+// The number of samples from the eye of each pixel in each pass: one, until the noise shows where more are worth their
+// work and where fewer will do.
 //
-// The mean of a pixel's samples is unbiased, whatever their number is, as long as that hangs on other samples only. So
-// it is decided by what the pixels around it show, whose random numbers are their own, and not by the pixel itself.
+// The mean of a pixel's samples is unbiased, whatever their number, as long as that depends on other samples only. So
+// the pixels around it decide, whose random numbers are their own, and not the pixel itself.
 #pragma once
 #include "kernels/tracing/shared_types.h"
 #include "photons/stage.h"
@@ -19,17 +19,16 @@ namespace nephroid::photons {
 
 class SampledPixels {
 public:
-  /// enough: the most samples of a pixel that shows no glass and no mirror.
+  /// enough is the most samples of a pixel that shows neither glass nor a mirror.
   SampledPixels(const DeviceWorld& world, std::int64_t enough);
 
-  /// How many passes may have samples.
+  /// The number of passes that may have samples.
   std::int64_t passes() const { return passes_; }
-  /// Of the pass in hand.
+  /// The fraction of the current pass.
   double fraction_done() const { return static_cast<double>(done_) / static_cast<double>(counts_.size()); }
 
-  /// Calls work(samples, count) for the next samples of the pass, on the device: x is the pixel, y which of its samples
-  /// this is. Those with an even number are of the film's first half, those with an odd one of the second. True when
-  /// the pass is complete.
+  /// Calls work(samples, count) for the next samples of the pass, on the device. x is the pixel, y the sample's number
+  /// in it. Even numbers belong to the film's first half, odd ones to the second. True when the pass is complete.
   template <class Work>
   bool advance(std::int64_t pass, const Work& work) {
     take_next(pass, amount_.amount(world_.context.communicator()));
@@ -39,12 +38,12 @@ public:
     return done_ == 0;
   }
 
-  /// Film::samples of a pixel.
+  /// A pixel's samples, as Film::samples.
   std::array<double, 2> samples(std::size_t pixel) const {
     return {double(counts_[pixel][0]), double(counts_[pixel][1])};
   }
 
-  /// Stage::share_work.
+  /// Does Stage::share_work.
   void share_work(const Noise& noise);
 
   void state(tracing::State& state);
@@ -55,11 +54,11 @@ private:
 
   const DeviceWorld& world_;
   std::int64_t enough_, passes_;
-  std::vector<std::array<std::uint32_t, 2>> counts_; ///< [pixel]: in even and in odd passes
-  std::vector<std::int16_t> rates_; ///< [pixel]: n > 0: n samples a pass; n < 0: one in one of -n passes
-  std::int64_t done_ = 0;           ///< pixels of the pass in hand
-  std::vector<shared::uint2> next_; ///< of them this rank's
-  std::size_t next_count_ = 0;      ///< of all ranks
+  std::vector<std::array<std::uint32_t, 2>> counts_; ///< [pixel]: samples in even and in odd passes
+  std::vector<std::int16_t> rates_; ///< [pixel]: n > 0: n samples a pass; n < 0: one sample in every -n passes
+  std::int64_t done_ = 0;           ///< pixels done in the current pass
+  std::vector<shared::uint2> next_; ///< this rank's part of the next samples
+  std::size_t next_count_ = 0;      ///< next samples of all ranks
   compute::Buffer<shared::uint2> on_device_;
   tracing::SliceSize amount_{1024};
 };

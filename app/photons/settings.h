@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What photons and paths from the eye are to do: of engine 1 it is the section "spectral" of a preset.
-// describe_settings.h says what each choice is.
+// Settings of photons and paths from the eye; engine 1's section "spectral". describe_settings.h explains each choice.
 #pragma once
 #include <optional>
 
@@ -9,15 +8,15 @@ namespace nephroid::photons {
 /// How much a wavelength matters (4.15), where Settings::effort asks for it.
 struct Importance {
   enum class Cluster { maximum, mean };
-  Cluster cluster = Cluster::maximum; ///< which of its wavelengths speaks for a cluster (the thesis takes the maximum)
+  Cluster cluster = Cluster::maximum; ///< which of its wavelengths stands for a cluster (the thesis takes the maximum)
   bool geometry = true;               ///< weigh materials by how much of them the caustic objects see
   bool operator==(const Importance&) const = default;
 };
 
 /// Progressive photon mapping (Hachisuka and Jensen 2009).
 struct Sppm {
-  std::optional<double> radius; ///< of the first pass, in length units; without: what the camera's pixels suggest
-  double alpha = 2.0 / 3; ///< part of each pass's photons that is kept; the radius shrinks the faster the smaller it is
+  std::optional<double> radius; ///< radius of the first pass, in length units; default: by the camera's pixels
+  double alpha = 2.0 / 3; ///< part of each pass's photons that is kept; the smaller, the faster the radius shrinks
   bool operator==(const Sppm&) const = default;
 };
 
@@ -28,20 +27,20 @@ struct Settings {
   enum class Smoothing { automatic, on, off };
   Method method = Method::optimal;
   double threshold_deg = 0.05; ///< alpha: the largest change of the refraction angle inside a cluster
-  int step_nm = 1;             ///< brute_force: neighbouring wavelengths that share a path all the same
+  int step_nm = 1;             ///< brute_force: number of neighbouring wavelengths that share a path
   Estimator estimator = Estimator::automatic;
   Effort effort = Effort::automatic;
   Importance importance;
   bool jitter = true; ///< each path takes one wavelength of its cluster (with maps: one that its pass shares), so
                       ///< clusters leave no bias
   bool low_discrepancy = true; ///< photons leave the lights by a scrambled Sobol sequence
-  bool differentials = false;  ///< a splat is stretched along the way that it moves with wavelength
+  bool differentials = false;  ///< stretches a splat along the way that it moves with wavelength
   Smoothing smoothing = Smoothing::automatic;
-  bool relight = false; ///< keep a layer for each cluster, so that a light's spectrum can change without a new run
+  bool relight = false; ///< keeps a layer for each cluster, so that a light's spectrum can change without a new run
   int photons_per_pass = 1 << 18; ///< photons sent towards the caustic objects in one pass; sppm: for each cluster
   int indirect_photons_per_pass = 1 << 18; ///< photons of the layer "indirect" in one pass
-  std::optional<int> pixel_samples; ///< of a pixel without glass and mirrors, of the layers direct and background: the
-                                    ///< most; RunPlan has it
+  std::optional<int> pixel_samples; ///< most samples of a pixel without glass and mirrors in the layers direct and
+                                    ///< background; RunPlan has a value
   int max_surfaces = 32;            ///< interfaces a path may meet before it is counted as lost
   Sppm sppm;
   bool direct = true;     ///< layer: light that reaches a diffuse surface unbent

@@ -20,20 +20,20 @@
 namespace nephroid::photons {
 namespace {
 
-/// How far a kernel may reach, and how far around a pixel its noise is asked for, in pixels.
+/// How far a kernel may reach, and the radius around a pixel of its noise's mean, in pixels.
 constexpr int reach = 6, noise_radius = 7;
 constexpr std::size_t block_rows = 64, block_pixels = 1 << 12;
 
-/// Two pixels are on one nearly flat part where their normals and the way between them are within about 25 and 30
-/// degrees of it.
+/// Two pixels are on one nearly flat part where their normals are within about 25 degrees of each other, and the way
+/// between them is within about 30 degrees of the surface.
 constexpr float least_cosine = 0.9f, most_rise = 0.5f;
 
-/// Glass or a mirror is curved where neighbours show places more than so many times farther apart than a flat one
-/// would, and so far around, in pixels.
+/// Glass or a mirror is curved where neighbours show places more than most_pull times farther apart than a flat one
+/// would. This holds for pixels up to pull_reach around.
 constexpr float most_pull = 2;
 constexpr int pull_reach = 2;
 
-/// How far around a pixel the bias of what is spread is asked for, in pixels.
+/// The radius around a pixel of the mean of the bias of spread light, in pixels.
 constexpr int bias_radius = 12;
 
 struct Offset {
@@ -44,7 +44,7 @@ struct Offset {
 /// The pixels within reach, nearest first.
 struct Reach {
   std::vector<Offset> offsets;
-  std::vector<std::uint32_t> ring_ends; ///< of those equally far away: one past the last
+  std::vector<std::uint32_t> ring_ends; ///< for each ring of pixels equally far away, one past its last
 };
 
 const Reach& within_reach() {
@@ -62,8 +62,8 @@ const Reach& within_reach() {
   return sorted;
 }
 
-/// Calls work(i, j) for each pair of pixels side by side or one above the other, and `diagonal` those that touch at a
-/// corner.
+/// Calls work(i, j) for each pair of pixels side by side or one above the other, and `diagonal` for those that touch at
+/// a corner.
 template <class Work>
 void for_neighbours(int width, int height, bool diagonal, const Work& work) {
   const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
@@ -76,7 +76,7 @@ void for_neighbours(int width, int height, bool diagonal, const Work& work) {
     }
 }
 
-/// Whether neighbours show places of one object, in a mirror or through glass, that these have pulled apart.
+/// Whether a mirror or glass shows neighbours places of one object that it has pulled apart.
 bool are_pulled_apart(const PixelSurfaces& a, const PixelSurfaces& b) {
   if (a.first.object != b.first.object || a.last.object != b.last.object || a.first.object == a.last.object)
     return false;
@@ -84,7 +84,7 @@ bool are_pulled_apart(const PixelSurfaces& a, const PixelSurfaces& b) {
   return glm::length(way - glm::dot(way, a.way) * a.way) > most_pull * std::max(a.spacing, b.spacing);
 }
 
-/// Of each pixel, whether places are pulled apart within pull_reach of it.
+/// For each pixel, whether places are pulled apart within pull_reach of it.
 std::vector<bool> are_near_pulled(const std::vector<PixelSurfaces>& pixels, int width, int height) {
   std::vector<double> pulled(pixels.size());
   for_neighbours(width, height, false, [&](std::size_t i, std::size_t j) {
@@ -131,15 +131,15 @@ void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std
   }
 }
 
-/// How much of each pixel's light is for the better spread, 0..1. Of the picture m = truth + noise, spreading makes m +
-/// r, and of a share s of its light m + s r. The square of its error is larger than that of m by
+/// How much of each pixel's light is better spread, 0..1. Spreading changes the picture m = truth + noise to m + r, and
+/// with a share s of the light to m + s r. The square of its error then grows by
 ///
 ///   s^2 E[r^2] + 2 s E[r noise],    smallest at    s = -E[r noise] / E[r^2].
 ///
-/// The halves m + d and m - d of the film, each spread by kernels of its own, change by r_a and r_b. The one's noise is
-/// not in the other, so E[r_a d] and -E[r_b d] are what each has of E[r noise], with twice the noise that m has: q =
-/// (r_a - r_b) / 2 gives E[r noise] = E[q d]. That kernels follow the noise is in it, too. Means are taken around the
-/// pixel, over R, G and B; the square of an error counts over the light there, so that every photon counts alike.
+/// The halves m + d and m - d of the film, each spread by its own kernels, change by r_a and r_b. One half's noise is
+/// not in the other, so E[r_a d] and -E[r_b d] estimate E[r noise], with twice the noise of m: q = (r_a - r_b) / 2
+/// gives E[r noise] = E[q d]. This includes that kernels follow the noise. Means are taken around the pixel, over R, G
+/// and B. The square of an error is divided by the light there, so that every photon counts alike.
 std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const float> error_draw,
                                      std::span<const float> rgb_spread, std::span<const float> a_spread,
                                      std::span<const float> b_spread, std::span<const double> light, int width,
@@ -169,18 +169,18 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
   return share;
 }
 
-/// What a pixel shows, as far as light may be spread over it.
+/// What a pixel shows, as far as it matters for spreading light over it.
 struct PixelSight {
   PixelSurfaces::Surface surface; ///< the diffuse one at the end of a ray, or the first of glass or a mirror
-  int first = -1;                 ///< the object that is met first; -1: none
-  bool at_edge = false;           ///< whether a neighbour shows something else: then the pixel may hold light of that
+  int first = -1;                 ///< object that the ray meets first; -1: none
+  bool at_edge = false;           ///< whether a neighbour shows something else, whose light the pixel may hold
 };
 
-/// Which pixels light may be spread over.
+/// The pixels that light may be spread over.
 struct SpreadDomain {
   int width, height;
   std::span<const Smoothing::Level> level; ///< [pixel]
-  std::vector<std::size_t> steps = {}; ///< [of the pixels within reach]: to be added to a pixel's number, modulo 2^64
+  std::vector<std::size_t> steps = {}; ///< [of the pixels within reach]: what to add to a pixel's number, modulo 2^64
   SpreadDomain(int columns, int rows, std::span<const Smoothing::Level> levels)
       : width(columns), height(rows), level(levels) {
     for (const Offset& o : within_reach().offsets)
@@ -188,12 +188,13 @@ struct SpreadDomain {
   }
 };
 
-/// Where a pixel's light goes: evenly, but for the outermost ring of pixels, which gets so much less that kernels
-/// change without a step, and as each pixel is favoured.
+/// Where a pixel's light goes: evenly, weighted by how each pixel is favoured. The outermost ring gets less, so that
+/// kernels change without a jump.
 struct Kernel {
-  std::uint32_t inside = 0, end = 0; ///< of the pixels within reach, those before the outermost ring, and with it
-  double ring_weight = 1;            ///< of a pixel of that ring, 0..1
-  double scale = 1;                  ///< makes all weights 1 together
+  std::uint32_t inside = 0,
+                end = 0;  ///< numbers of the pixels before the outermost ring, and with it
+  double ring_weight = 1; ///< weight of a pixel of that ring, 0..1
+  double scale = 1;       ///< factor that makes the sum of all weights 1
 };
 
 bool are_level(const PixelSight& a, const PixelSight& b) {
@@ -202,7 +203,7 @@ bool are_level(const PixelSight& a, const PixelSight& b) {
   return glm::dot(n, m) > least_cosine && std::abs(glm::dot(way, n + m)) <= 2 * most_rise * glm::length(way);
 }
 
-/// Calls work(j) for each pixel j that pixel i may give light to, of those with the numbers begin..end-1 within reach.
+/// Calls work(j) for each pixel j that pixel i may give light to, among the numbers begin..end-1 within reach.
 template <class Work>
 void for_level(const SpreadDomain& at, std::size_t i, std::uint32_t begin, std::uint32_t end, const Work& work) {
   constexpr std::uint32_t bits = 64;
@@ -215,7 +216,7 @@ void for_level(const SpreadDomain& at, std::size_t i, std::uint32_t begin, std::
   }
 }
 
-/// Those that hold `wanted` of `light`, or reach as far as any may; [pixel].
+/// Finds each [pixel]'s kernel: it holds `wanted` of `light`, or reaches as far as any may.
 std::vector<Kernel> find_kernels(const SpreadDomain& at, std::span<const double> light, std::span<const double> wanted,
                                  std::span<const double> favour) {
   std::vector<Kernel> kernels(light.size());
@@ -239,13 +240,12 @@ std::vector<Kernel> find_kernels(const SpreadDomain& at, std::span<const double>
   return kernels;
 }
 
-/// Calls give(i, j, part) for the part of its light that each pixel i which is `needed(i)` gives to j. On every core,
-/// each with its own j.
+/// Calls give(i, j, part) with the part of its light that each pixel i which is `needed(i)` gives to j. Runs on every
+/// core, each with its own j.
 template <class Needed, class Give>
 void give_parts(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> favour,
                 const Needed& needed, const Give& give) {
-  // A block of rows takes what all pixels within reach of it give, in their order: the same bits on any number of
-  // cores.
+  // A block of rows collects from all pixels within reach of it, in their order: the same bits on any number of cores.
   for_ranges(static_cast<std::size_t>(at.height), block_rows, [&](std::size_t, Range rows) {
     const std::size_t width = static_cast<std::size_t>(at.width), first = rows.begin * width, end = rows.end * width;
     const std::size_t from = (rows.begin - std::min<std::size_t>(rows.begin, reach)) * width;
@@ -264,7 +264,7 @@ void give_parts(const SpreadDomain& at, std::span<const Kernel> kernels, std::sp
   });
 }
 
-/// Of what each pixel of a picture has, `share` is spread by the kernels; the rest stays.
+/// The kernels spread `share` of each pixel's value; the rest stays.
 void spread_shares(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> favour,
                    std::span<const float> share, std::vector<float>& rgb) {
   using Colour = std::array<float, 4>; // four numbers are added as fast as one
@@ -281,7 +281,7 @@ void spread_shares(const SpreadDomain& at, std::span<const Kernel> kernels, std:
   for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = kept[i / 3][i % 3];
 }
 
-/// Makes of each of two pictures means by the kernels: what a pixel gets, over how much of the others gives to it.
+/// Makes each of two pictures means by the kernels: a pixel's value is what it gets, over how much gives to it.
 void to_means(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> even,
               std::vector<float>& first, std::vector<float>& second) {
   using Two = std::array<float, 8>; // three of each picture, and how much gives
@@ -377,11 +377,11 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
   find_surfaces();
   const std::vector<double> light = light_of(rgb);
   std::vector<double> wanted = portions(light, error_draw, width_, height_);
-  for (double& portion : wanted) portion /= noise * noise; // of n portions the noise is 1 / sqrt(n)
+  for (double& portion : wanted) portion /= noise * noise; // n portions have the noise 1 / sqrt(n)
 
   const SpreadDomain at{width_, height_, level_};
-  // Of even light a pixel at the border of a part takes less than it gives, and one a kernel away from there more; one
-  // step of Sinkhorn and Knopp (1967) evens that out, and still every pixel gives away what it has.
+  // In even light a pixel at the border of a part takes less than it gives, and one a kernel away from there takes
+  // more. One step of Sinkhorn and Knopp (1967) evens that out, and still every pixel gives away what it has.
   const std::vector<double> even(level_.size(), 1);
   std::vector<double> favour = even, taken(level_.size());
   give_parts(
@@ -413,8 +413,8 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
       draw_spread.resize(error_draw.size());
       std::ranges::transform(spread_by(of_a, a), spread_by(of_b, b), draw_spread.begin(),
                              [](float of_one, float of_other) { return (of_one - of_other) / 2; });
-      // What is known, with what it lacks. That is spread far, by kernels that hardly follow the noise: its draw is
-      // what they make of the picture's.
+      // The correction of the estimate's bias. It is spread far, by kernels that hardly follow the noise, so its draw
+      // is what they make of the picture's draw.
       for (double& portion : wanted) portion *= noise * noise / (known.noise * known.noise);
       std::vector<float> evened = rgb, evened_draw = error_draw;
       std::ranges::transform(rgb, known.rgb, evened.begin(), std::minus());

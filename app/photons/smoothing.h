@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics of few photons made smooth: the light of every pixel is spread over as many pixels around it as make its
-// noise small enough.
+// Smooths caustics of few photons: spreads each pixel's light over as many pixels around it as make its noise small
+// enough.
 //
 // Photons on a surface are a sample of a density, and a histogram over pixels is the noisiest estimate of it. This is
-// the sample-point estimate with adaptive kernels (Abramson 1982, "On bandwidth variation in kernel estimates"): narrow
-// where photons are dense, so that bright lines stay sharp, wide where they are few. A pixel that is not noisy is left
-// alone, and in the end none is noisy: the limit is that of the plain film. Power is neither lost nor made.
+// the sample-point estimate with adaptive kernels (Abramson 1982, "On bandwidth variation in kernel estimates"): they
+// are narrow where photons are dense, so that bright lines stay sharp, and wide where photons are few. A pixel that is
+// not noisy is left alone. In the end none is noisy, so the limit is that of the plain film. Power is neither lost nor
+// made.
 #pragma once
 #include "scene/bvh.h"
 #include "scene/scene.h"
@@ -18,29 +19,29 @@
 
 namespace nephroid::photons {
 
-/// rgb: [pixel][3]. The mean of R, G and B, at least 0 each.
+/// The mean of R, G and B of each pixel, at least 0 each. rgb is [pixel][3].
 std::vector<double> light_of(std::span<const float> rgb);
 
-/// Variance over light around each pixel, means of R, G and B: of light that comes in equal portions, one portion. 0 in
-/// the dark.
+/// Variance over light around each pixel, means of R, G and B. For light that comes in equal portions this is one
+/// portion. It is 0 in the dark.
 std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw, int width, int height);
 
 class Smoothing {
 public:
-  /// everywhere: light is spread as far as its noise asks for; where_it_helps: only as much of it as the halves say is
-  /// for the better.
+  /// everywhere spreads light as far as its noise asks for; where_it_helps spreads only that part of it for which the
+  /// halves show a gain.
   enum class Spread { where_it_helps, everywhere };
-  /// What is allowed of noise: the root of the mean variance of R, G and B over the mean of R, G and B. Of grey photons
-  /// a kernel holds 1 / noise^2 = 16. A smaller one blurs what need not be.
+  /// The noise that may remain: the root of the mean variance of R, G and B over the mean of R, G and B. A kernel then
+  /// holds 1 / noise^2 = 16 grey photons. A smaller value blurs more than it needs to.
   static constexpr double noise = 0.25;
 
-  /// The same light as somebody knows it without noise, but not quite right.
+  /// An estimate of the same light without noise, but with a bias.
   struct BiasedEstimate {
-    std::span<const float> rgb; ///< [pixel][3]; empty: nobody does
-    double noise;               ///< what is allowed of noise in what is known with what it lacks, as Smoothing::noise
+    std::span<const float> rgb; ///< [pixel][3]; empty: there is none
+    double noise; ///< noise that may remain in the estimate with the correction of its bias, as Smoothing::noise
   };
 
-  /// What is looked at: copies of a scene, but for its environment, and of its tree.
+  /// Copies of a scene, but for its environment, and of its tree.
   struct View {
     scene::Scene scene;
     scene::Bvh bvh;
@@ -49,31 +50,32 @@ public:
 
   /// Sends one ray through the middle of every pixel of a picture of width x height, on every core. Light is spread
   /// within one nearly flat part of the diffuse object that the pixel shows, be it directly, in a mirror or through
-  /// glass, and along its outline by itself. Where glass or a mirror shows none, or is curved so that neighbours show
-  /// places far apart, it is spread within one nearly flat part of the glass or mirror. The rays wait until the first
-  /// call of find_surfaces() or spread(), for they would hold up a run's preview: until then it keeps what is looked
-  /// at.
+  /// glass. Along the object's outline it stays on the outline. Where glass or a mirror shows none, or is curved so
+  /// that neighbours show places far apart, light is spread within one nearly flat part of the glass or mirror. The
+  /// rays would hold up a run's preview, so they wait until the first call of find_surfaces() or spread(); until then
+  /// it keeps the view.
   Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread);
   void find_surfaces();
 
-  /// What it takes at most, in bytes.
+  /// The most bytes that this takes.
   static std::uint64_t bytes(const scene::Scene& scene, const scene::Bvh& bvh);
 
-  /// rgb: of caustics alone, [pixel][3] of the camera's size. error_draw: a draw of its error (Picture::error_draw),
-  /// which tells how noisy a pixel is; it becomes one of the error of what is spread, the bias included. Values below
-  /// 0, of colours outside of sRGB, count as no light when kernels are chosen. Nothing changes where the draw is empty.
-  /// known: then each place gets the mixture that the halves say is best (mixture.h) of what is spread, of what is
-  /// known, and of that with what it lacks, which is spread until its noise is known.noise.
+  /// rgb has the caustics alone, [pixel][3] of the camera's size. error_draw is a draw of their error
+  /// (Picture::error_draw), from which the noise of a pixel is known. It becomes a draw of the error of the result, the
+  /// bias included. Values below 0, of colours outside of sRGB, count as no light when kernels are chosen. Nothing
+  /// changes where the draw is empty. With `known`, each place gets the mixture that the halves show to be best
+  /// (mixture.h): of the spread light, of the estimate, and of the estimate plus the difference to the picture, spread
+  /// until its noise is known.noise.
   void spread(std::vector<float>& rgb, std::vector<float>& error_draw, const BiasedEstimate& known = {});
 
-  /// Of the pixels within reach of one, nearest first, those that its light may be spread over: a bit each, from the
-  /// lowest of the first.
+  /// The pixels that a pixel's light may be spread over: a bit for each pixel within reach, nearest first, from the
+  /// lowest bit of the first number.
   using Level = std::array<std::uint64_t, 2>;
 
 private:
   int width_, height_;
   Spread spread_;
-  std::shared_ptr<const View> view_; ///< null: the surfaces are found
+  std::shared_ptr<const View> view_; ///< null once the surfaces are found
   std::vector<Level> level_;         ///< [pixel]
 };
 

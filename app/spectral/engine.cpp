@@ -8,15 +8,15 @@
 namespace nephroid::spectral {
 namespace {
 
-/// Every wavelength on its own, in steps of 1 nm whatever the run's are, and paths at least as long as by default. What
-/// changes no expected value (the threshold, photons a pass, what is left out) is the default's, so that runs that
-/// differ in it alone share a reference.
+/// Settings of a reference: each wavelength alone, in steps of 1 nm whatever the run's, paths at least the default's.
+/// What changes no expected value (the threshold, photons a pass, what is left out) has its default, so that runs that
+/// differ only in it share a reference.
 photons::Settings brute_force(const photons::Settings& settings) {
   photons::Settings exact;
   exact.method = photons::Settings::Method::brute_force;
   exact.step_nm = 1;
   exact.max_surfaces = std::max(exact.max_surfaces, settings.max_surfaces);
-  // Photon maps have a radius, and the estimator sppm keeps to them: where splats do, they are the truth.
+  // Photon maps have a radius, and the estimator sppm keeps to them: where splats can replace them, they are the truth.
   if (settings.estimator == photons::Settings::Estimator::splat) exact.estimator = settings.estimator;
   exact.direct = settings.direct;
   exact.caustic = settings.caustic;
@@ -32,7 +32,7 @@ preset::Settings reference(const preset::Preset& preset, int passes) {
   if (!recipe) s = brute_force(s);
   s.smoothing = photons::Settings::Smoothing::off; // it would be a bias
   if (s.effort == photons::Settings::Effort::automatic) s.effort = photons::Settings::Effort::power;
-  s.pixel_samples = std::max(s.pixel_samples.value_or(0), passes); // the direct layer as well converged as the caustic
+  s.pixel_samples = std::max(s.pixel_samples.value_or(0), passes); // the direct layer converges like the caustic layer
   return settings;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine 1, spectral caustics: photons of each wavelength cluster, splatted where the camera sees a diffuse receiver
+// Engine 1, spectral caustics: photons of each wavelength cluster are splatted where the camera sees a diffuse receiver
 // (thesis chapter 4).
 #pragma once
 #include "engine/engine.h"
@@ -10,14 +10,14 @@ namespace nephroid::spectral {
 
 extern const engine::Engine engine;
 
-/// Leaves out what the scene does not need where the preset says so, or else what is said: for tests of one omission.
-/// Throws bad_input as photons::make_plan.
+/// Plans a run. What the scene does not need is left out where the preset says so, or as given, for tests of one
+/// omission. Throws bad_input as photons::make_plan.
 photons::RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
 photons::RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
                            const tracing::LeaveOut& leave_out);
 
-/// Whether `now` is `before`, which keeps layers, but for the spectra and powers of its lights, its white, its name and
-/// its description. Also true where nothing differs.
+/// Whether `now` differs from `before`, which keeps layers, in nothing but the spectra and powers of its lights, its
+/// white, its name and its description.
 bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
 } // namespace nephroid::spectral

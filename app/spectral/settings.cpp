@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of engine 1 as the preset knows them, and what one of their fields cannot say alone.
+// The settings of engine 1 in a preset, and checks that involve more than one field.
 #include "spectral/settings.h"
 
 #include "base/error.h"
@@ -14,8 +14,8 @@ namespace {
 
 using preset::Where;
 
-/// A cluster drawn at random needs a pass of its own, which sppm gives it; a variance is measured where all clusters
-/// share a film.
+/// A cluster drawn at random needs a pass of its own, which only sppm gives it. A variance is measured only where all
+/// clusters share a film.
 void check_effort(const photons::Settings& s, const std::string& pointer, const Where& where) {
   const bool sppm = s.estimator == photons::Settings::Estimator::sppm;
   if (s.effort == photons::Settings::Effort::random && !sppm)
@@ -26,7 +26,7 @@ void check_effort(const photons::Settings& s, const std::string& pointer, const 
                     "expected another effort or estimator", "choose effort importance, or estimator automatic");
 }
 
-/// Layers hold what splats of whole clusters add up to.
+/// Layers hold the sums of splats of whole clusters.
 void check_relight(const preset::Preset& preset, const photons::Settings& spectral, const Where& where) {
   if (!spectral.relight) return;
   const auto refuse = [&](bool contradicts, const char* key, const char* reason) {

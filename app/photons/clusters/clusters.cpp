@@ -17,9 +17,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Gauss-Legendre nodes and weights on 0..1. The integrands are analytic up to a distance of about 1 degree from the
-/// end of the interval, so that 64 nodes leave an error below 1e-8 of the integral at n next to 1, and rounding
-/// elsewhere.
+/// Gauss-Legendre nodes and weights on 0..1. The integrands are analytic up to about 1 degree beyond the end of the
+/// interval. So 64 nodes leave an error below 1e-8 of the integral for n next to 1, and only rounding elsewhere.
 struct Quadrature {
   static constexpr int count = 64;
   std::array<double, count> node{}, weight{};
@@ -49,8 +48,8 @@ double arc_integral(double ratio, double end) {
   return sum * end;
 }
 
-// Theta by the thesis' bicubic patches (4.5)-(4.14): the surface d theta2 / d lambda over wavelength and angle of
-// incidence is cut into patches of 1 nm by 1 degree, each a bicubic polynomial, and a wavelength's Theta is the volume
+// Theta by the thesis' bicubic patches (4.5)-(4.14). The surface d theta2 / d lambda over wavelength and angle of
+// incidence is cut into patches of 1 nm by 1 degree, each a bicubic polynomial. A wavelength's Theta is the volume
 // below its 89 patches.
 constexpr int angle_count = last_angle_deg + 1; ///< 0..89 degrees
 
@@ -76,8 +75,8 @@ constexpr std::array<std::array<int, 16>, 16> m_inverse{{
     {4, -4, -4, 4, 2, 2, -2, -2, 2, -2, 2, -2, 1, 1, 1, 1},
 }};
 
-/// The volume below a patch is a^T b = (M^-T b)^T Psi with b_ij = 1 / ((i + 1)(j + 1)) (4.12, 4.13): one weight a
-/// corner value.
+/// The volume below a patch is a^T b = (M^-T b)^T Psi with b_ij = 1 / ((i + 1)(j + 1)) (4.12, 4.13): each corner value
+/// has one weight.
 constexpr std::array<double, 16> volume_weights() {
   std::array<double, 16> weights{};
   for (std::size_t row = 0; row < 16; ++row) {
@@ -88,7 +87,7 @@ constexpr std::array<double, 16> volume_weights() {
   return weights;
 }
 
-/// One value for each wavelength and each whole degree of incidence.
+/// A value for each wavelength and each whole degree of incidence.
 class Grid {
 public:
   explicit Grid(std::size_t wavelengths) : wavelengths_(wavelengths), values_(wavelengths * angle_count) {}
@@ -101,14 +100,14 @@ private:
   std::vector<double> values_;
 };
 
-/// (value(i + 1) - value(i - 1)) / 2, and one-sided at both ends.
+/// The derivative (value(i + 1) - value(i - 1)) / 2, one-sided at both ends.
 template <class Value>
 double difference(std::size_t i, std::size_t count, Value value) {
   const std::size_t low = i == 0 ? 0 : i - 1, high = std::min(i + 1, count - 1);
   return high == low ? 0 : (value(high) - value(low)) / static_cast<double>(high - low);
 }
 
-/// (4.3) in degrees a nanometre, with n' by differences in the sorted order.
+/// The derivative (4.3) in degrees a nanometre, with n' from differences in the sorted order.
 Grid angle_derivative(std::span<const double> n) {
   Grid psi(n.size());
   for (std::size_t i = 0; i < n.size(); ++i) {
@@ -138,7 +137,7 @@ Grid angle_difference(const Grid& grid) {
 }
 
 using Wavelengths = std::array<int, optics::wavelength_count>;
-/// One past the last member of each group, in the sorted order.
+/// Ends of groups: one past the last member of each, in the sorted order.
 using Ends = std::vector<std::size_t>;
 
 void check_input(const optics::Spectrum& n, double threshold_deg) {
@@ -166,8 +165,8 @@ Wavelengths by_falling_n(const optics::Spectrum& n) {
 /// at most h. No division into contiguous groups has fewer: every contiguous part of a usable group is usable, because
 /// Theta >= 0. Let our k-th group end at g_k and that of any other division at o_k. Then g_k >= o_k, by induction over
 /// k: where o_k > g_(k-1), the wavelengths g_(k-1) + 1 .. o_k are a part of the other's k-th group (as o_(k-1) <=
-/// g_(k-1)), so they are usable, and ours, which starts at the same wavelength and goes as far as it can, reaches o_k
-/// at least. So ours is through no later.
+/// g_(k-1)), so they are usable. Our group starts at the same wavelength and goes as far as it can, so it reaches at
+/// least o_k. So our division needs no more groups.
 Ends packed_from_the_left(const std::vector<double>& theta, double h) {
   Ends ends;
   double sum = 0;
@@ -272,7 +271,7 @@ std::vector<double> theta_patches(std::span<const double> n) {
     for (std::size_t j = 0; j + 1 < angle_count; ++j)
       for (std::size_t corner = 0; corner < 16; ++corner)
         volume += weights[corner] * (*values[corner / 4])(i + corner % 2, j + corner / 2 % 2);
-    // Beside a jump a cubic undershoots; an angle sorted by n never goes back.
+    // A cubic undershoots beside a jump, but an angle sorted by n never falls.
     theta[i] = std::max(0.0, volume);
   }
   return theta;
@@ -290,7 +289,7 @@ Clustering cluster_wavelengths(const optics::Spectrum& n, double threshold_deg, 
   const Ends ends = method == ClusterMethod::optimal  ? packed_from_the_left(theta, h)
                     : method == ClusterMethod::thesis ? merged_pairwise(theta, h)
                                                       : one_by_one();
-  theta.back() = 0; // the last wavelength goes nowhere: its change was there for the decision only
+  theta.back() = 0; // the last wavelength's change served the decision only
 
   Clustering result;
   result.method = method;
@@ -317,7 +316,7 @@ std::vector<std::vector<int>> common_refinement(std::span<const Clustering> clus
     for (std::size_t i = 0; i < group.size(); ++i)
       group[i] = names.try_emplace({group[i], cluster_of[i]}, static_cast<int>(names.size())).first->second;
   }
-  // Names were given in the order of first appearance, so groups come out by their smallest wavelength.
+  // Groups were numbered in the order of first appearance, so they are ordered by their smallest wavelength.
   std::vector<std::vector<int>> result;
   for (std::size_t i = 0; i < group.size(); ++i) {
     if (static_cast<std::size_t>(group[i]) == result.size()) result.emplace_back();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavelength clusters: which of the 401 wavelengths may share one path (thesis 4.1.1), of one glass. No OpenCL here.
+// Wavelength clusters: which of the 401 wavelengths may share one path through one glass (thesis 4.1.1). No OpenCL
+// here.
 #pragma once
 #include "photons/settings.h"
 #include "scene/scene.h"
@@ -14,42 +15,42 @@ using ClusterMethod = Settings::Method;
 
 struct Cluster {
   std::vector<int> wavelengths; ///< indices 0..400 in the order of falling n
-  double n_mean = 1;            ///< of the curve that was clustered
+  double n_mean = 1;            ///< mean of n over the cluster
   double theta_deg2 = 0; ///< change of the refraction angle inside the cluster, integrated over 0..89 degrees (4.4)
 };
 
 struct Clustering {
   ClusterMethod method = ClusterMethod::optimal;
   double threshold_deg = 0;
-  double total_theta_deg2 = 0;   ///< the sum over the clusters: the change from the highest to the lowest n
+  double total_theta_deg2 = 0;   ///< sum over the clusters: the change from the highest to the lowest n
   std::vector<Cluster> clusters; ///< by falling n
 };
 
-/// The wavelengths are sorted by falling n (equal n: by wavelength). Each has Theta, the change of angle on the way to
-/// the next one; so 401 wavelengths have 400 changes, and the last has none. What may be merged is decided as if the
-/// last one had the change of the one before it (a one-sided difference, as everywhere at the ends); what is reported
-/// counts the 400. A cluster of several wavelengths has at most threshold_deg * 89 square degrees. Below n = 1 there is
-/// no refracted ray beyond the critical angle: theta2 counts as 90 degrees there, and Theta is the exact one with every
-/// method, for the patches' derivative is infinite at that angle. threshold_deg: alpha in (0, 90). n: on the 401
-/// wavelengths, finite and > 0. Throws bad_input otherwise.
+/// Sorts the wavelengths by falling n (equal n: by wavelength). Each has Theta, the change of angle to the next one; so
+/// 401 wavelengths have 400 changes, and the last has none. To decide what may be merged, the last one gets the change
+/// of the one before it (a one-sided difference, as everywhere at the ends); the reported sums count the 400. A cluster
+/// of several wavelengths has at most threshold_deg * 89 square degrees. Below n = 1 there is no refracted ray beyond
+/// the critical angle: theta2 counts as 90 degrees there, and Theta is the exact one with every method, for the
+/// patches' derivative is infinite at that angle. threshold_deg is alpha, in (0, 90). n covers the 401 wavelengths,
+/// finite and > 0. Throws bad_input otherwise.
 Clustering cluster_wavelengths(const optics::Spectrum& n, double threshold_deg, ClusterMethod method);
 
-/// The coarsest partition that is finer than each of the given ones: wavelengths stay together where they are together
-/// in all of them. One group of wavelength indices a cluster, ordered by its smallest wavelength; an empty input gives
-/// one group of all.
+/// The coarsest partition that is finer than each of the given ones: wavelengths stay together where all of them keep
+/// them together. Returns one group of wavelength indices a cluster, ordered by its smallest wavelength. An empty input
+/// gives one group of all.
 std::vector<std::vector<int>> common_refinement(std::span<const Clustering> clusterings);
 
-/// Theta, the change of the refraction angle from one wavelength to the next, integrated over the angle of incidence
-/// (thesis 4.4), once exactly, once by the thesis' bicubic patches. The angles of incidence end at 89 degrees, where
+/// Theta is the change of the refraction angle from one wavelength to the next, integrated over the angle of incidence
+/// (thesis 4.4): once exactly, once by the thesis' bicubic patches. The angles of incidence end at 89 degrees, where
 /// every index of refraction from 1 on still has a finite derivative.
 inline constexpr int last_angle_deg = 89;
 
 /// G(n), the integral over theta1 = 0..89 degrees of theta2 = asin(sin theta1 / n), in square degrees; n > 0.
 double refraction_integral_deg2(double n);
 
-/// n: falling, at least two. One value >= 0 in square degrees for each of the n.size() - 1 steps.
+/// n is falling and has at least two values. Returns a value >= 0 in square degrees for each of the n.size() - 1 steps.
 std::vector<double> theta_exact(std::span<const double> n);
-/// The same by bicubic patches of 1 nm by 1 degree; exact where a patch would need a derivative at n < 1.
+/// As theta_exact, by bicubic patches of 1 nm by 1 degree; exact where a patch would need a derivative at n < 1.
 std::vector<double> theta_patches(std::span<const double> n);
 
 } // namespace nephroid::photons

@@ -11,7 +11,7 @@
 namespace nephroid::photons {
 namespace {
 
-/// Neighbouring wavelengths, `step` in a group, the last group with what is left.
+/// Groups of `step` neighbouring wavelengths; the last group has the rest.
 std::vector<std::vector<int>> neighbours(int step) {
   std::vector<std::vector<int>> groups;
   for (int w = 0; w < optics::wavelength_count; ++w) {
@@ -21,7 +21,7 @@ std::vector<std::vector<int>> neighbours(int step) {
   return groups;
 }
 
-/// As scene_clusters, by refraction alone.
+/// The clusters of scene_clusters by refraction alone.
 std::vector<std::vector<int>> refraction_clusters(const Settings& settings, const scene::Scene& scene) {
   std::vector<optics::Spectrum> curves;
   for (const scene::Object& object : scene.objects) {
@@ -36,7 +36,7 @@ std::vector<std::vector<int>> refraction_clusters(const Settings& settings, cons
   return common_refinement(clusterings);
 }
 
-/// Of the box about all objects of a material, in metres.
+/// The diagonal of the box about all objects of a material, in metres.
 double diagonal_m(const scene::Scene& scene, std::size_t material) {
   scene::Bounds bounds;
   for (const scene::Object& object : scene.objects)
@@ -45,9 +45,9 @@ double diagonal_m(const scene::Scene& scene, std::size_t material) {
   return bounds.low.x <= bounds.high.x ? glm::length(bounds.high - bounds.low) * scene.metres_per_unit : 0;
 }
 
-/// By rising coefficient, a new part where the difference to the first of the part gets too large. That difference
-/// rises with the coefficient, so a part cannot reach farther, and there are no fewer parts (packed_from_the_left in
-/// clusters.cpp says why).
+/// Splits a cluster by rising coefficient: a new part begins where the difference to the first of the part gets too
+/// large. That difference rises with the coefficient, so a part cannot reach farther, and no split has fewer parts
+/// (packed_from_the_left in clusters.cpp says why).
 void split(std::vector<int> cluster, const std::vector<double>& coefficients, double longest, double most,
            std::vector<std::vector<int>>& parts) {
   const auto a = [&](int w) { return coefficients[static_cast<std::size_t>(w)]; };
@@ -75,7 +75,7 @@ std::vector<std::vector<int>> scene_clusters(const Settings& settings, const sce
 
 double largest_difference(double a, double b, double longest) {
   if (a == b) return 0;
-  // The derivative by s is 0 where a exp(-a s) = b exp(-b s); the difference rises up to there.
+  // The difference rises up to the s where its derivative is 0: a exp(-a s) = b exp(-b s).
   const double s = a > 0 && b > 0 ? std::min(std::log(b / a) / (b - a), longest) : longest;
   return std::abs(std::exp(-a * s) - std::exp(-b * s));
 }

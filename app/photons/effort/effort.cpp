@@ -16,9 +16,9 @@ namespace {
 
 using Choice = Settings::Effort;
 
-/// What each way to allocate work goes by, and the plan's sentence for it.
+/// A way to allocate work: what it goes by, and the plan's sentence for it.
 struct Strategy {
-  /// light: what the eye makes of it; wavelength: how much each matters; alike: every cluster that has light.
+  /// light: what the eye makes of it; wavelength: how much each matters; alike: every cluster that has light
   enum class By { light, wavelength, alike };
   Choice choice;
   By by;
@@ -37,14 +37,14 @@ constexpr Strategy strategies[] = {
     {Choice::random, Strategy::By::alike, "each pass has one cluster, drawn at random: spectral.effort is random"},
 };
 
-/// Layers and progressive photon mapping measure no variance.
+/// The strategy of the settings. Layers and progressive photon mapping measure no variance.
 const Strategy& strategy_of(const Settings& settings) {
   const bool measures = !settings.relight && settings.estimator != Settings::Estimator::sppm;
   const Choice choice = settings.effort == Choice::automatic && !measures ? Choice::power : settings.effort;
   return *std::ranges::find(strategies, choice, &Strategy::choice);
 }
 
-/// [light][cluster] flat.
+/// Weights by power, [light][cluster] flat.
 std::vector<double> by_power(const std::vector<double>& watts, const tracing::WavelengthTables& tables) {
   std::vector<double> weights;
   for (std::size_t l = 0; l < watts.size(); ++l)
@@ -53,7 +53,7 @@ std::vector<double> by_power(const std::vector<double>& watts, const tracing::Wa
   return weights;
 }
 
-/// Of each cluster.
+/// The watts of each cluster.
 std::vector<double> watts_in_clusters(const std::vector<double>& watts, const tracing::WavelengthTables& tables) {
   std::vector<double> sums(tables.clusters.size(), 0);
   for (std::size_t l = 0; l < watts.size(); ++l)
@@ -72,7 +72,7 @@ std::vector<double> by_importance(const std::vector<double>& importance, const s
   return weights;
 }
 
-/// Of each cluster the sum over lights, divided by the largest; 1 where all are 0.
+/// The sum over lights for each cluster, divided by the largest; 1 where all are 0.
 std::vector<double> cluster_sums(const std::vector<double>& weights, std::size_t clusters) {
   std::vector<double> sums(clusters, 0);
   for (std::size_t i = 0; i < weights.size(); ++i) sums[i % clusters] += weights[i];
@@ -87,7 +87,7 @@ bool caustics_are_possible(const scene::Scene& scene, const std::vector<double>&
          std::ranges::any_of(watts, [](double w) { return w > 0; });
 }
 
-/// What of the work of equal clusters is done.
+/// The plan's words for the fraction of equal work that is left.
 std::string work_left(const std::vector<double>& importance) {
   const double sum = std::accumulate(importance.begin(), importance.end(), 0.0);
   return fmt::format("{:.0f} % of the iterations of clusters that all matter alike",
@@ -109,8 +109,8 @@ ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& 
   if (strategy.by == Strategy::By::wavelength && caustics_are_possible(scene, watts)) {
     const optics::Spectrum u = wavelength_importance(settings, scene, bvh).u;
     importance = cluster_importance(u, tables.clusters, settings.importance.cluster);
-    // What the nine points see is not all that caustics fall on. So that the picture is right on average, a cluster
-    // with light has at least one photon a pass, or one iteration of all.
+    // Caustics may fall on more than the nine points see. So that the picture is right on average, a cluster with light
+    // has at least one photon a pass, or one iteration of all.
     constexpr double least = 1e-9;
     const std::vector<double> lit = watts_in_clusters(watts, tables);
     for (std::size_t c = 0; c < clusters; ++c)

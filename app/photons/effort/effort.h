@@ -11,25 +11,24 @@
 
 namespace nephroid::photons {
 
-/// How photons are allocated to clusters, and what share of the iterations each has.
+/// How photons are allocated to clusters, and which share of the iterations each cluster has.
 struct ClusterShares {
   std::vector<double>
-      photons; ///< [light][cluster] flat: photons of a pass are allocated in proportion; 0 only where there is no light
-  std::vector<double>
-      importance; ///< [cluster]: 0..1, the largest 1, above 0 where there is light: part of the iterations that it has
+      photons; ///< [light][cluster] flat: weights of the allocation of a pass's photons; 0 only where there is no light
+  std::vector<double> importance; ///< [cluster]: 0..1, the largest 1: share of iterations; above 0 where lit
 };
 
-/// watts: of each light of `tables` towards its targets.
-/// power, and variance and automatic to begin with: by what the eye makes of the watts, (X + Y + Z) / 3 of the
-/// cluster's share, plus a twentieth of the share. equal: every cluster that has light the same. importance,
-/// radziszewski: by cluster_importance. random: as equal. Within a cluster lights have their part by their watts in it.
-/// Where no caustic can be (no light, nothing that throws or receives one) importance is not asked for: every cluster
-/// has 1. Throws bad_input as wavelength_importance does.
+/// watts[light] is the power of each light of `tables` towards its targets. The efforts `power`, and at first
+/// `variance` and `automatic`, go by what the eye makes of the watts: (X + Y + Z) / 3 of the cluster's share, plus a
+/// twentieth of the share. `equal` and `random` treat every cluster that has light alike. `importance` and
+/// `radziszewski` go by cluster_importance. Within a cluster the lights' parts are in proportion to their watts in it.
+/// Where no caustic can be (no light, nothing that throws or receives one) every cluster has 1, whatever its
+/// importance. Throws bad_input as wavelength_importance does.
 ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
                                   const std::vector<double>& watts, const tracing::WavelengthTables& tables);
 
-/// The plan's pass "importance": how photons are allocated to clusters, and what of equal work that leaves. importance:
-/// ClusterShares::importance.
+/// The plan's pass "importance": how photons are allocated to clusters, and how much of equal work is left. importance
+/// is ClusterShares::importance.
 plan::Pass effort_pass(const Settings& settings, const std::vector<double>& importance);
 
 } // namespace nephroid::photons

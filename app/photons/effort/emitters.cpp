@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::size_t bins_x = GUIDE_BINS_X, bins_y = GUIDE_BINS_Y, bins_z = GUIDE_BINS_Z, cells = EmissionGuide::cells;
 
-/// The part of the photons that is spread evenly whatever was learned: a cell that looked dark may not be.
+/// The fraction of the photons that is spread evenly whatever was learned: a cell that looked dark may not be.
 constexpr double even_part = 0.15;
 
-/// The mean with the neighbours, weights 1 2 1, over the second and the third number; the third goes round, as it is an
-/// angle.
+/// Means with the neighbours, weights 1 2 1, over the second and the third number. The third is an angle, so it wraps
+/// around.
 std::vector<double> blurred(std::span<const double> values) {
   const auto pass = [](std::span<const double> from, std::size_t bins, std::size_t stride, bool wraps) {
     std::vector<double> to(from.size());
@@ -80,7 +80,7 @@ std::vector<unsigned> allocate_photons(const std::vector<double>& weights, unsig
   std::vector<unsigned> counts(weights.size(), 0);
   if (positive == 0) return counts;
   const unsigned spare = photons > positive ? photons - positive : 0;
-  // The running sum is rounded, not each count: then the counts add up to `spare` whatever the weights.
+  // The running sum is rounded, not each count: so the counts add up to `spare` whatever the weights.
   double sum = 0;
   unsigned allocated = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -136,8 +136,7 @@ bool NeymanAllocation::is_due(std::int64_t pass) const {
 // A photon of an emitter with n of them adds v = Phi f / n, so the sum of v^2 over the n photons of a pass is Phi^2
 // E[f^2] / n, and n times that estimates V = Phi^2 E[f^2].
 void NeymanAllocation::reallocate(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves) {
-  // The part of the photons that stays as it was allocated first, whatever was measured: a variance that few photons
-  // measured may be far off.
+  // The fraction of the photons that keeps its first allocation: a variance that few photons measured may be far off.
   constexpr double first_part = 0.1;
   const double passes = static_cast<double>(pass - first_iteration_);
   std::vector<double> deviation(emitters_.size());
@@ -189,9 +188,9 @@ EmissionGuide::EmissionGuide(std::size_t lights) : squares_(lights * cells, 0), 
   learn(dark, std::vector<double>(lights, 0), 0);
 }
 
-// A photon of a cell that comes `density` times as often as evenly counts 1 / density; of n photons of the light it
-// adds v = f / (n density). The cell gets n density / GUIDE_CELLS of them, so a pass' sum of v^2 there is E[f^2] / (n
-// density GUIDE_CELLS), and n density times that estimates E[f^2] / GUIDE_CELLS. Allocations are weighed by the cell's
+// A photon of a cell that comes `density` times as often as evenly counts 1 / density; with n photons of the light it
+// adds v = f / (n density). The cell gets n density / GUIDE_CELLS photons, so a pass' sum of v^2 there is E[f^2] / (n
+// density GUIDE_CELLS), and n density times that estimates E[f^2] / GUIDE_CELLS. Allocations are weighted by the cell's
 // number of photons.
 void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const double> photons, double passes) {
   table_.clear();

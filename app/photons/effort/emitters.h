@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons of a round are allocated to emitters, pairs of a light and a wavelength cluster, and leave lights in
-// directions where they matter. What is called a pass here is a round of those photons, of which a pass of the run has
-// several (RunTables::batches). No OpenCL here.
+// Photons of a batch are allocated to emitters, pairs of a light and a wavelength cluster, and leave lights in
+// directions where they matter. In this file "pass" means one batch; a pass of the run has several
+// (RunTables::batches). No OpenCL here.
 #pragma once
 #include "kernels/tracing/shared_types.h"
 #include "tracing/state.h"
@@ -15,51 +15,51 @@ namespace nephroid::photons {
 
 /// A light and a cluster that photons may be allocated to.
 struct PhotonSource {
-  double weight = 0; ///< photons are allocated in proportion
+  double weight = 0; ///< weight in the allocation of photons
   int light = 0;     ///< index in the table of lights
   int cluster = 0;
   double share = 0; ///< DeviceEmitter::share
 };
 
-/// The emitters of those sources that allocate_photons gives photons, numbered. Sources of a light follow each other.
+/// Numbers the emitters of those sources that allocate_photons gives photons. Sources of a light follow each other.
 std::vector<shared::DeviceEmitter> make_emitters(const std::vector<PhotonSource>& sources, unsigned photons);
 
-/// Photons of one pass for each weight, in proportion to it, none without at least one; sums to max(photons, number of
-/// positive weights). What has weight 0 gets 0 photons.
+/// Allocates the photons of one pass in proportion to the weights. Each positive weight gets at least one photon, a
+/// weight of 0 none. The result sums to max(photons, number of positive weights).
 std::vector<unsigned> allocate_photons(const std::vector<double>& weights, unsigned photons);
 
-/// Fills DeviceEmitter::first_photon and the two of the light from the emitters' photon_count; emitters of a light
-/// follow each other.
+/// Fills DeviceEmitter::first_photon and the two fields of the light from the emitters' photon_count. Emitters of a
+/// light follow each other.
 void number_photons(std::vector<shared::DeviceEmitter>& emitters);
 
-/// Of all emitters together, once they are numbered.
+/// The photons of all emitters together, once they are numbered.
 unsigned count_photons(const std::vector<shared::DeviceEmitter>& emitters);
 
-/// Moves an emitter's place in its low-discrepancy sequence on.
+/// Moves an emitter on in its low-discrepancy sequence.
 void advance_sequence(shared::DeviceEmitter& emitter, std::uint64_t photons);
 
-/// Allocates the photons of a pass to the emitters by the variance that they had in earlier passes: among all ways to
-/// allocate n photons, n_e in proportion to sqrt(V_e) gives the sum of the emitters' variances V_e / n_e its smallest
-/// value, where V_e is the variance of one photon that carries all of the emitter's power.
+/// Allocates the photons of a pass to the emitters by their variance in earlier passes. V_e is the variance of one
+/// photon that carries all of the emitter's power. Of all allocations of n photons, n_e in proportion to sqrt(V_e)
+/// makes the sum of the emitters' variances V_e / n_e smallest.
 class NeymanAllocation {
 public:
-  /// emitters: as allocated for the first passes, each with at least one photon.
+  /// emitters have the allocation of the first passes, each with at least one photon.
   explicit NeymanAllocation(std::vector<shared::DeviceEmitter> emitters);
 
   const std::vector<shared::DeviceEmitter>& emitters() const { return emitters_; }
-  /// The pass from which on emitters() are allocated so.
+  /// The first pass that emitters() are for.
   std::int64_t first_iteration() const { return first_iteration_; }
-  /// Whether photons are allocated anew before a pass: before passes 2, 4, 8, 16, ...
+  /// Whether photons are allocated anew before this pass: before passes 2, 4, 8, 16, ...
   bool is_due(std::int64_t pass) const;
-  /// moments: [emitter], summed since first_iteration() over its photons: the square of what each added to the picture,
-  /// in any unit; they are taken for the variance, which is right where a pixel gets few photons a pass. halves: of the
-  /// film, each with its own low-discrepancy sequence. A tenth of the photons stays as it was allocated first, and
-  /// every emitter keeps at least one.
+  /// moments[emitter] is the sum, since first_iteration(), of the squares of what each photon added to the picture, in
+  /// any unit. They are taken for the variance, which is right where a pixel gets few photons a pass. halves is the
+  /// number of the film's halves, each with its own low-discrepancy sequence. A tenth of the photons keeps its first
+  /// allocation, and every emitter keeps at least one.
   void reallocate(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves);
-  /// The first allocation again from this pass on.
+  /// Restores the first allocation from this pass on.
   void restore_initial(std::int64_t pass, unsigned halves);
-  /// What the allocation has gained: the variance of a pass as allocated first over that of a pass as allocated last,
-  /// of those that reallocate() was given; 1 before there were two allocations, or nothing to see.
+  /// The gain of the allocation: the variance of a pass as allocated first over that of a pass as allocated last, as
+  /// measured by reallocate(). 1 before there were two allocations, or where nothing was measured.
   double gain() const;
 
   void state(tracing::State& state);
@@ -70,35 +70,35 @@ private:
   std::vector<double> initial_shares_;   ///< [emitter] share of the photons at the start
   std::vector<double> squares_,
       photons_; ///< [emitter] sum over allocations of n^2 moments and of n passes: their ratio estimates V_e
-  double first_variance_ = 0, last_variance_ = 0; ///< of a pass, in the unit of `moments`; 0: not known yet
+  double first_variance_ = 0, last_variance_ = 0; ///< variances of a pass, in the unit of `moments`; 0: not known yet
   std::int64_t first_iteration_ = 0;
 
   void assign(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves);
 };
 
-/// Where a light's photons matter: a histogram over the numbers that their directions are made of
-/// (kernels/photons/guide.h), learned from what earlier photons added to the picture. A photon's chance is proportional
-/// to the root of the mean square of what photons of its cell add, which gives the sum of all cells' variances its
-/// smallest value. No OpenCL here.
+/// Where a light's photons matter: a histogram over the numbers that give their directions (kernels/photons/guide.h),
+/// learned from what earlier photons added to the picture. A cell's chance of a photon is proportional to the root of
+/// the mean square of what its photons add; that makes the sum of all cells' variances smallest. No OpenCL here.
 class EmissionGuide {
 public:
   static constexpr std::size_t cells = std::size_t{GUIDE_BINS_X} * GUIDE_BINS_Y * GUIDE_BINS_Z;
   static constexpr std::size_t floats =
-      GUIDE_BINS_X + std::size_t{GUIDE_BINS_X} * GUIDE_BINS_Y + cells; ///< of a light in table()
+      GUIDE_BINS_X + std::size_t{GUIDE_BINS_X} * GUIDE_BINS_Y + cells; ///< floats of a light in table()
 
-  /// Even for all lights. lights: how many.
+  /// All cells of all lights have the same chance at first. lights is the number of lights.
   explicit EmissionGuide(std::size_t lights);
 
-  /// [light][GUIDE_FLOATS], see kernels/photons/guide.h.
+  /// The table [light][GUIDE_FLOATS]; kernels/photons/guide.h describes it.
   const std::vector<float>& table() const { return table_; }
-  /// moments: [light][GUIDE_CELLS], summed over `passes` passes: the square of what each photon added to the picture,
-  /// in any unit. photons: [light] of a pass, in those passes. Every cell keeps a chance, however dark it was.
+  /// moments[light][GUIDE_CELLS] is the sum over `passes` passes of the squares of what each photon added to the
+  /// picture, in any unit. photons[light] is the number of photons in each of those passes. Every cell keeps a chance,
+  /// however dark it was.
   void learn(std::span<const std::int64_t> moments, std::span<const double> photons, double passes);
 
   void state(tracing::State& state);
 
 private:
-  std::vector<double> chance_; ///< [light][cell]: of a photon of the light; sums to 1 for each light
+  std::vector<double> chance_; ///< [light][cell]: a photon's chance of a cell; sums to 1 for each light
   std::vector<double> squares_,
       samples_; ///< [light][cell]: their ratio estimates the mean square of an even photon, times the volume
   std::vector<float> table_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // u(lambda) = l(lambda) ybar(lambda) sum_i m_i(lambda) L_i ghat_i, (4.15), divided by its largest value. i runs over
-// the materials that diffuse or mirror light. m_i(lambda) is the largest reflectance over all directions (4.1.2); that
-// of a mirror here is the same in each.
+// the materials that diffuse or mirror light. m_i(lambda) is the largest reflectance over all directions (4.1.2); here
+// a mirror has the same reflectance in each direction.
 #include "photons/effort/importance.h"
 
 #include "scene/ray.h"
@@ -21,7 +21,7 @@ using optics::wavelength_count;
 using Type = scene::Material::Type;
 
 /// The corners of the box about an object, and its centre. The corners are drawn in by a thousandth: an object that
-/// stands on a floor has corners of its box in the floor, and they are to see it.
+/// stands on a floor has corners of its box in the floor, and they are to see the floor.
 std::array<glm::dvec3, 9> viewpoints(const scene::Scene& scene, const scene::Object& object) {
   const auto [low, high] = scene::bounds_of(scene, object);
   const glm::dvec3 centre = 0.5 * (low + high), half = 0.999 * 0.5 * (high - low);
@@ -32,11 +32,11 @@ std::array<glm::dvec3, 9> viewpoints(const scene::Scene& scene, const scene::Obj
   return points;
 }
 
-/// Rays in all: enough for a share's error of some tenths of a percent, in a few milliseconds.
+/// The number of all rays: enough for an error of some tenths of a percent in a share, in a few milliseconds.
 constexpr int rays_per_scene = 9 * 2048, least_rays_per_point = 16;
 
 /// ghat: how often rays from the nine points of every caustic object hit each material, [material]. Every object counts
-/// alike, large or small. Rays pass what refracts: light does too. Where mirrors throw the caustics, rays pass these as
+/// alike, large or small. Rays pass what refracts, as light does. Where mirrors throw the caustics, rays pass these as
 /// well: their own points lie inside.
 std::vector<double> seen_materials(const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<int>& throwers) {
   std::vector<bool> passed(scene.objects.size());
@@ -63,7 +63,7 @@ std::vector<double> seen_materials(const scene::Scene& scene, const scene::Bvh& 
   return hits;
 }
 
-/// ghat = 1 for all that objects are made of and that sends light on to the eye.
+/// ghat = 1 for all materials of objects that send light on to the eye.
 std::vector<double> used_materials(const scene::Scene& scene) {
   std::vector<double> used(scene.materials.size(), 0);
   for (const scene::Object& object : scene.objects)
@@ -72,7 +72,7 @@ std::vector<double> used_materials(const scene::Scene& scene) {
   return used;
 }
 
-/// Of each W of each light, towards those of `receivers` that it can reach.
+/// The part of each light's power that goes towards those of `receivers` that it can reach.
 std::vector<double> parts_towards(const scene::Scene& scene, const std::vector<scene::Sphere>& receivers) {
   std::vector<double> parts;
   for (scene::Light light : scene.lights) {
@@ -85,7 +85,7 @@ std::vector<double> parts_towards(const scene::Scene& scene, const std::vector<s
   return parts;
 }
 
-/// l: the spectra of the lights, each by its watts.
+/// l: the sum of the lights' spectra, each times its watts.
 Spectrum sum_of(std::span<const scene::Light> lights, const std::vector<double>& parts) {
   const std::vector<double> power = watts(lights, parts);
   Spectrum sum{};
@@ -101,7 +101,7 @@ double luminance(const Spectrum& light, const Spectrum& reflectance) {
   return sum;
 }
 
-/// Divides by the largest value. False where all are 0.
+/// Divides u by its largest value. False where all values are 0.
 bool normalise(Spectrum& u) {
   const double largest = *std::ranges::max_element(u);
   if (!(largest > 0)) return false;
@@ -115,7 +115,7 @@ Error nothing_matters(const std::string& file, const std::string& reason) {
                    "change the scene, or choose another effort");
 }
 
-/// Why (4.15) is 0 everywhere, given what is not.
+/// The reason why (4.15) is 0 everywhere, given what is not 0.
 std::string reason_for_nothing(bool lit, const std::vector<Surrounding>& surroundings, bool geometry) {
   if (!lit) return "no light sends power towards the caustic objects";
   if (!surroundings.empty()) return "nothing around the caustic objects reflects a wavelength that the lights have";
@@ -147,7 +147,7 @@ WavelengthImportance importance_of_surroundings(bool geometry, const ImportanceG
   return result;
 }
 
-/// Radziszewski, Boryczko and Alda 2009 found this fit to what wavelengths contribute to luminance; it is 1 at 538 nm.
+/// The fit of Radziszewski, Boryczko and Alda 2009 to the wavelengths' contributions to luminance; it is 1 at 538 nm.
 Spectrum importance_of_radziszewski() {
   Spectrum u;
   for (int w = 0; w < wavelength_count; ++w)
@@ -235,8 +235,8 @@ std::vector<double> cluster_importance(const Spectrum& u, std::span<const std::v
   return result;
 }
 
-// It grows by at most 1 although u passes is rounded: u (p + 1) <= u p + 1, and rounding to double keeps the order of
-// numbers and leaves integers as they are.
+// The iterations grow by at most 1 although u passes is rounded: u (p + 1) <= u p + 1, and rounding to double keeps the
+// order of numbers and leaves integers as they are.
 std::int64_t iterations(double importance, std::int64_t passes) {
   return static_cast<std::int64_t>(std::ceil(importance * static_cast<double>(passes)));
 }

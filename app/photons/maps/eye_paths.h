@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths from the eye in steps of some pixels: kernels/photons/view.cl finds where they end, the caller gathers photons
+// Paths from the eye in slices of pixels: kernels/photons/view.cl finds where they end, and the caller gathers photons
 // there.
 #pragma once
 #include "kernels/photons/photon_map_types.h"
@@ -13,24 +13,24 @@ namespace nephroid::photons {
 
 class EyePaths {
 public:
-  /// Of all pixels, or of those of glass.
+  /// The pixels that have paths: all of them, or those that may show glass or a mirror.
   enum class Pixels { all, glass };
   EyePaths(DeviceWorld& world, Pixels pixels)
       : world_(world), begin_(pixels == Pixels::all ? 0 : world.pixels.count),
         size_(pixels == Pixels::all ? world.pixels.count : static_cast<std::uint32_t>(world.pixels.glass.size())),
         points_(world.context, "visible points", point_count(world.tables.camera)),
         view_(compute::Program(world.context, "photons/view.cl", world.defines).kernel("view")), slices_(size_, 1024) {}
-  /// What it takes on the device.
+  /// The bytes that this takes on the device.
   static std::uint64_t bytes(const shared::DeviceCamera& camera) {
     return point_count(camera) * sizeof(shared::VisiblePoint);
   }
 
-  /// The paths that a pixel has in a pass, and how many it had before, in all and in this half of the film.
+  /// The number of paths of a pixel in a pass, and of its earlier paths, in all and in this half of the film.
   struct Paths {
     std::uint32_t count = 1, before = 0, before_in_half = 0;
   };
-  /// The paths of each of the next pixels, one after the other: gather(first, count) queues kernels for each; first: in
-  /// DeviceWorld::pixels. cluster: see view.cl. True when all pixels are done.
+  /// Traces the paths of each of the next pixels, one after the other; gather(first, count) queues kernels for each.
+  /// first is an index into DeviceWorld::pixels. view.cl explains cluster. True when all pixels are done.
   template <class Gather>
   bool advance(shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster, const Gather& gather) {
     if (size_ == 0) return true;
@@ -47,12 +47,12 @@ public:
                            });
   }
 
-  /// Stage::warm_up for its kernel.
+  /// Does Stage::warm_up for its kernel.
   void warm_up() { trace(world_.tables.camera, world_.seed, 0, {}, 0, world_.pixels.on_device, 0, 0); }
   const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
 
   double fraction_done() const { return slices_.fraction_done(); }
-  /// How many pixels of the pass in hand are done, of size().
+  /// How many of the size() pixels are done in the current pass.
   std::int64_t done() const { return slices_.done(); }
   std::uint32_t size() const { return size_; }
 
@@ -78,14 +78,14 @@ public:
   }
 
 private:
-  /// About as many as make work for a step.
+  /// About as many points as make work for a slice.
   static std::size_t point_count(const shared::DeviceCamera& camera) {
     return std::min<std::size_t>(1 << 16,
                                  static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
   }
 
   DeviceWorld& world_;
-  std::uint32_t begin_, size_; ///< of the pixels in DeviceWorld::pixels
+  std::uint32_t begin_, size_; ///< range of the pixels in DeviceWorld::pixels
   compute::Buffer<shared::VisiblePoint> points_;
   compute::Kernel view_;
   tracing::PixelSlices slices_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics seen through glass or in a mirror: paths from the eye gather the photons that the photon stage has splatted
-// elsewhere and stored. The radius shrinks from pass to pass and is the same for all pixels (Knaus and Zwicker 2011),
-// so each pass is an estimate of its own, and the film adds them up like any other's.
+// Caustics seen through glass or in a mirror: paths from the eye gather the photons that the photon stage has stored
+// beside its splats. The radius shrinks from pass to pass and is the same for all pixels (Knaus and Zwicker 2011). So
+// each pass is an independent estimate, and the film adds passes up like any other film.
 #include "base/counted.h"
 #include "photons/maps/eye_paths.h"
 #include "photons/maps/photon_map.h"
@@ -38,14 +38,14 @@ public:
           std::clamp(std::round(paths_ * std::sqrt(sum / work / noise.photon_gain)), 1.0, 64.0));
   }
 
-  /// Over no photon and no pixel.
+  /// Runs its kernels over no photon and no pixel.
   void warm_up(const Communicator& /*communicator*/) override {
     map_.build(first_radius_, 0);
     eye_.warm_up();
     gather(film_, world_.pixels.count, 0, first_radius_, world_.tables.batches, world_.pixels.on_device, 0, 0);
   }
 
-  /// In the photons of the first batches, within a radius that grows with the blocks.
+  /// Gathers the photons of the first batches within a radius that grows with the blocks.
   bool advance_preview() override {
     const PreviewBlocks& preview = world_.preview;
     const shared::DeviceCamera camera = world_.preview_camera();
@@ -88,7 +88,7 @@ public:
   void develop(std::int64_t passes, bool done, job::Picture& picture) override {
     const std::int64_t complete = passes + (done ? 1 : 0);
     const std::uint32_t next =
-        eye_.done() > 0 ? world_.pixels.glass[static_cast<std::size_t>(eye_.done())] : 0; // in the pass in hand
+        eye_.done() > 0 ? world_.pixels.glass[static_cast<std::size_t>(eye_.done())] : 0; // in the current pass
     const auto samples = [=](std::size_t pixel) { return tracing::halves_of(complete + (pixel < next ? 1 : 0), 0); };
     tracing::add_layer("caustic",
                        {world_.context.all_reduced_sum(film_), world_.tables.caustic_scale * world_.white, samples},
@@ -107,10 +107,10 @@ public:
   }
 
 private:
-  /// Of a pixel in each half of the preview.
+  /// The paths of a pixel in each half of the preview.
   static constexpr std::uint32_t preview_paths = 4;
 
-  /// picture: pixels of the film. batches: of photons that are in the map.
+  /// picture is the number of the film's pixels, batches that of the batches of photons in the map.
   void gather(const compute::Buffer<std::int64_t>& film, std::uint32_t picture, std::uint32_t pass, double radius,
               unsigned batches, const compute::Buffer<std::uint32_t>& pixels, std::uint32_t first,
               std::uint32_t count) {
@@ -134,12 +134,12 @@ private:
   DeviceWorld& world_;
   PhotonMap& map_;
   double first_radius_, alpha_;
-  std::uint32_t paths_;                   ///< of a pixel in a pass
-  std::array<std::uint32_t, 2> before_{}; ///< of a pixel, in even and in odd passes
+  std::uint32_t paths_;                   ///< paths of a pixel in a pass
+  std::array<std::uint32_t, 2> before_{}; ///< paths of a pixel in even and in odd passes
   EyePaths eye_;
   compute::Buffer<std::int64_t> film_, preview_film_;
   compute::Kernel gather_;
-  std::int64_t sorted_pass_ = -1; ///< whose photons the grid has
+  std::int64_t sorted_pass_ = -1; ///< the pass whose photons the grid has
 };
 
 plan::Pass map_pass(const PlanInput& input) {
@@ -167,8 +167,8 @@ PlanPart plan_maps(const PlanInput& input) {
   PlanPart part = plan_gathering(input, map_pass(input), input.tables.photons_per_pass());
   const bool runs = part.passes[0].runs;
   if (runs) part.buffers.push_back({"film photon maps", input.film_bytes()});
-  // Wavelengths of a cluster in one pass, as photons and eye paths of one wavelength need each other: so many that a
-  // pass has 32 in all, for a picture of a few wavelengths has a cast.
+  // The wavelengths of a cluster in one pass: photons and eye paths must share one. A pass has 32 in all, for a picture
+  // of fewer wavelengths has a colour cast.
   const int clusters = std::max(static_cast<int>(input.tables.wavelengths.clusters.size()), 1);
   part.defines = {
       {"NEPHROID_PASS_BANDS", std::to_string(runs && jitter_pass(input).runs ? std::max(1, 32 / clusters) : 1)}};

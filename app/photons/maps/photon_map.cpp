@@ -14,17 +14,17 @@
 namespace nephroid::photons {
 namespace {
 
-/// The work items of a scan; kernels/photons/grid.cl.
+/// The number of work items of a scan in kernels/photons/grid.cl.
 constexpr unsigned scan_blocks = 256;
 
-/// At least one bucket a photon, so that few cells share one.
+/// There is at least one bucket a photon, so that few cells share one.
 std::uint32_t bucket_mask(std::uint32_t slots) { return std::bit_ceil(std::max(slots, 1024u)) - 1; }
 
-/// Eight photons are read at a time, up to seven of them beyond the last, and eight are written there that fit no
+/// Kernels read eight photons at a time, up to seven of them beyond the last, and eight are written there that match no
 /// search.
 std::uint32_t stride(std::uint32_t slots) { return (slots + 15) / 8 * 8; }
 
-/// Of the pixels, the share that shows glass or a mirror first, by some four thousand of them.
+/// The fraction of the pixels that show glass or a mirror first, estimated from some four thousand of them.
 double bent_share(const scene::Scene& scene, const scene::Bvh& bvh) {
   if (!scene.camera.inside.empty()) return 1;
   const int width = scene.camera.width, height = scene.camera.height,
@@ -39,7 +39,7 @@ double bent_share(const scene::Scene& scene, const scene::Bvh& bvh) {
   return static_cast<double>(bent) / rays;
 }
 
-/// Width of what a pixel covers at the distance of the scene's middle.
+/// The width of a pixel at the distance of the scene's middle.
 double pixel_width(const scene::Camera& camera, const scene::Sphere& bounds) {
   const double distance = std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius);
   return 2 * distance * camera.tan_y / camera.height;

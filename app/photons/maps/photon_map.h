@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons on surfaces and the grid that finds those near a point (kernels/photons/photon_map.h, grid.cl).
-// And what MapStage and SppmStage have in common: what memory photon maps take, and how far around a visible point
-// photons are gathered.
+// Photons on surfaces and the grid that finds those near a point (kernels/photons/photon_map.h, grid.cl). Also the code
+// that MapStage and SppmStage share: the memory of photon maps, and the radius around a visible point in which photons
+// are gathered.
 #pragma once
 #include "compute/compute.h"
 #include "kernels/photons/photon_map_types.h"
@@ -14,27 +14,27 @@
 
 namespace nephroid::photons {
 
-/// Quanta per W of a stored photon: 2^12 for one of `photons` that share `watts`; a photon may carry 4096 times as
+/// Quanta per W of a stored photon: 2^12 for one of `photons` that share `watts`. A photon may carry 4096 times as
 /// much.
 double photon_scale(std::uint32_t photons, double watts);
 
 class PhotonMap {
 public:
-  /// Room for `slots` photons, 1 <= slots < 2^30. defines: of every kernel. Throws failed where the device has not
-  /// enough memory.
+  /// Has room for `slots` photons, 1 <= slots < 2^30. defines apply to every kernel. Throws failed where the device has
+  /// not enough memory.
   PhotonMap(const mpi::RankContext& context, std::uint32_t slots, const compute::Defines& defines = {});
-  /// What it takes on the device.
+  /// The bytes that a map takes on the device.
   static std::uint64_t bytes(std::uint32_t slots);
 
-  /// Where kernels write photons, each to the slot of its number, before build(). Every slot has to be written, if only
+  /// Where kernels write photons before build(), each to the slot of its number. Every slot has to be written, if only
   /// with NO_PHOTON.
   compute::Buffer<shared::StoredPhoton>& stored() { return stored_; }
-  /// Sorts the first `slots` stored photons into cells of that edge, in scene units; queued. Searches may be as wide as
-  /// 3 cells.
+  /// Queues the sorting of the first `slots` stored photons into cells of that edge, in scene units. The radius of a
+  /// search may be up to 3 cells.
   void build(double cell_edge, std::uint32_t slots);
   std::uint32_t slots() const { return static_cast<std::uint32_t>(stored_.size()); }
 
-  /// What a PhotonMap of photon_map.h is made of: the kernel arguments PHOTON_MAP_ARGUMENTS. They refer to the map.
+  /// The kernel arguments PHOTON_MAP_ARGUMENTS, from which kernels make a PhotonMap. They refer to this map.
   std::array<compute::Argument, 4> arguments() const {
     return {{{"starts", starts_}, {"sorted_positions", positions_}, {"sorted_values", values_}, {"grid", grid_}}};
   }
@@ -49,30 +49,31 @@ private:
   shared::PhotonGrid grid_{};
 };
 
-/// Paths from the eye that a pixel has in a pass of MapStage, 1..64: those that meet glass or a mirror first, which go
-/// on, are a third as many in the whole picture as there are photons, so that neither takes most of the time and
-/// neither most of the noise.
+/// Paths from the eye of a pixel in a pass of MapStage, 1..64. Those that meet glass or a mirror first go on; in the
+/// whole picture they are a third as many as photons. So neither kind takes most of the time or causes most of the
+/// noise.
 unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsigned photons_per_pass);
 
-/// For a stage that gathers, if the pass says so: with so many photons at a time. Throws bad_input at
-/// FILE#/scene/objects for more objects than photons in so many clusters can tell apart.
+/// The plan of a stage that gathers `photons` photons at a time, where `pass` runs. Throws bad_input at
+/// FILE#/scene/objects where photons cannot tell so many objects apart in so many clusters.
 PlanPart plan_gathering(const PlanInput& input, plan::Pass pass, std::uint32_t photons);
 
-/// spectral.sppm.radius; without, twice what a pixel covers at the distance of the scene's middle (a quarter of the
-/// scene's radius for a camera that is nearer). In scene units.
+/// spectral.sppm.radius, in scene units. By default it is twice the width of a pixel at the distance of the scene's
+/// middle (at a quarter of the scene's radius for a camera that is nearer).
 double first_map_radius(const Settings& settings, const scene::Scene& scene);
-/// The same in the plan's words.
+/// The first radius as the plan states it.
 std::string map_radius(const Settings& settings, const scene::Scene& scene);
 
-/// What the plan says of a spectral.sppm.radius that loses the caustics: wider than 32 pixels or than the whole scene,
-/// or below 1/16 pixel, where a pass of as many photons as pixels finds one in some hundred pixels; and of an alpha
-/// that makes it so small by the first photons that a pixel of the estimator sppm finds. Empty for any other.
+/// The plan's warning about a spectral.sppm.radius that loses the caustics, or an empty string. Such a radius is wider
+/// than 32 pixels or than the whole scene, or below 1/16 pixel, where a pass with as many photons as pixels finds one
+/// in some hundred pixels. It also warns of an alpha that shrinks the radius so far when a pixel of the estimator sppm
+/// finds its first photons.
 std::string map_radius_note(const Settings& settings, const scene::Scene& scene);
 
-/// What the first radius is multiplied with in pass p (from 0): r_(p+1)^2 = r_p^2 (p + alpha) / (p + 1), counted from 1
-/// (Knaus and Zwicker 2011, "Progressive photon mapping: a probabilistic approach", (15)). Squares of radii then fall
-/// as p^(alpha - 1): the bias, which is in proportion, vanishes, and so does the variance of the mean of all passes, as
-/// p^-alpha. alpha in (0, 1).
+/// The factor of the first radius in pass p (from 0): r_(p+1)^2 = r_p^2 (p + alpha) / (p + 1), counted from 1 (Knaus
+/// and Zwicker 2011, "Progressive photon mapping: a probabilistic approach", (15)). Squares of radii then fall as
+/// p^(alpha - 1). The bias is proportional to them and vanishes; so does the variance of the mean of all passes, as
+/// p^-alpha. alpha is in (0, 1).
 double map_radius_factor(std::int64_t pass, double alpha);
 
 } // namespace nephroid::photons

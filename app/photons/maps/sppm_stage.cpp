@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stochastic progressive photon mapping (Hachisuka and Jensen 2009) as the thesis uses it (4.1): a run of its own for
-// each cluster, with statistics of its own for every pixel. The runs take turns: a cluster of importance u has ceil(u
-// p) iterations after p passes. With effort `random` (thesis figure 1.5) one cluster a pass is drawn, and all share one
-// run, in which it counts for all.
+// Stochastic progressive photon mapping (Hachisuka and Jensen 2009) as the thesis uses it (4.1): each cluster has a run
+// of its own, with its own statistics for every pixel. The runs take turns: a cluster of importance u has ceil(u p)
+// iterations after p passes. With effort `random` (thesis figure 1.5) each pass draws one cluster, and all share one
+// run, in which it stands for all.
 #include "optics/colour.h"
 #include "photons/effort/emitters.h"
 #include "photons/effort/importance.h"
@@ -25,10 +25,10 @@
 namespace nephroid::photons {
 namespace {
 
-/// One progressive run: of a cluster, or the one that all share.
+/// The progressive run of a cluster, or the one that all share.
 struct ClusterRun {
   compute::Buffer<shared::PixelStatistics> statistics; ///< [pixel]
-  compute::Buffer<std::int64_t> energy;                ///< [OUTCOME_COUNT] quanta, over its iterations
+  compute::Buffer<std::int64_t> energy;                ///< [OUTCOME_COUNT] quanta, over the run's iterations
 };
 
 /// The photons of an iteration of a cluster.
@@ -101,7 +101,7 @@ public:
     for (int run = 0; run < static_cast<int>(runs_.size()); ++run) {
       const std::int64_t before = iterations_of(run, passes), after = iterations_of(run, passes + 1);
       const bool in_hand = !done && (random_ || run == at_.cluster);
-      // Pixels up to the split have had the iteration in hand.
+      // Pixels before the split have had the current iteration.
       const std::uint32_t split = done || (!random_ && run < at_.cluster) ? pixel_count()
                                   : in_hand                               ? static_cast<std::uint32_t>(eye_.done())
                                                                           : 0;
@@ -123,7 +123,7 @@ public:
           optics::xyz_to_linear_srgb({xyz[i] / world_.white, xyz[i + 1] / world_.white, xyz[i + 2] / world_.white});
       for (std::size_t c = 0; c < 3; ++c) caustic[i + c] += static_cast<float>(rgb[c]);
     }
-    picture.error_draw.clear(); // there are no two halves: what a radius has become hangs on all photons
+    picture.error_draw.clear(); // there are no two halves: a radius depends on all photons
   }
 
   void report(std::int64_t passes, bool done, Energy& energy) override {
@@ -157,10 +157,10 @@ public:
   }
 
 private:
-  /// Where the pass in hand is.
+  /// The position in the current pass.
   struct Position {
-    int cluster = 0;   ///< whose turn it is, or the next that may have one
-    bool sent = false; ///< its photons are all on their surfaces
+    int cluster = 0;   ///< cluster whose turn it is, or the next that may have one
+    bool sent = false; ///< whether its photons are all sent
   };
 
   int cluster_count() const { return world_.tables.scene.cluster_count; }
@@ -170,7 +170,7 @@ private:
   Partition own_pixels() const { return {world_.context.communicator(), pixel_count()}; }
   ClusterRun& run_of(int cluster) { return runs_[random_ ? 0 : static_cast<std::size_t>(cluster)]; }
 
-  /// Iterations of a cluster's run in `passes` passes.
+  /// The iterations of a cluster's run in `passes` passes.
   std::int64_t iterations_of(int cluster, std::int64_t passes) const {
     return random_ ? passes : iterations(world_.tables.importance[static_cast<std::size_t>(cluster)], passes);
   }
@@ -180,7 +180,7 @@ private:
     return iterations_of(cluster, pass + 1) > iterations_of(cluster, pass);
   }
 
-  /// Of effort `random`: uniform, by seed and pass alone.
+  /// The cluster that effort `random` draws: uniform, by seed and pass alone.
   int drawn_cluster(std::int64_t pass) const {
     std::seed_seq seeds{world_.seed.x, world_.seed.y, static_cast<std::uint32_t>(pass)};
     return static_cast<int>(std::mt19937_64(seeds)() % static_cast<std::uint64_t>(cluster_count()));
@@ -190,7 +190,7 @@ private:
     while (at_.cluster < cluster_count() && !has_turn(at_.cluster, pass)) ++at_.cluster;
   }
 
-  /// Runs count their own iterations, so each has random numbers of its own by its seed.
+  /// The seed of a cluster's run: runs count their own iterations, so each needs other random numbers.
   shared::uint2 seed_of(int cluster) const {
     return {world_.seed.x, world_.seed.y ^ static_cast<std::uint32_t>(cluster + 1) * 0x9E3779B9u};
   }
@@ -217,7 +217,7 @@ private:
     }
     std::vector<shared::DeviceEmitter> emitters = make_emitters(sources, photons_);
     for (shared::DeviceEmitter& emitter : emitters)
-      emitter.sequence = static_cast<std::uint32_t>(cluster); // clusters are runs of their own
+      emitter.sequence = static_cast<std::uint32_t>(cluster); // clusters have runs of their own
     return {{world_.context, "emitters of a cluster", emitters},
             static_cast<int>(emitters.size()),
             photon_scale(photons_, weights)};
@@ -249,7 +249,7 @@ private:
                  {"stored_scale", world_.on_device(sender.photon_scale)}});
   }
 
-  /// items: work items, at least one; of them `count` gather.
+  /// items is the number of work items, at least one; the first `count` gather.
   void gather_photons(const compute::Buffer<shared::VisiblePoint>& points, std::uint32_t first_pixel,
                       std::uint32_t count, int cluster, std::size_t items) {
     const double weight = random_ ? cluster_count() : 1;
@@ -264,7 +264,7 @@ private:
   }
 
   bool send(std::int64_t pass) {
-    if (slices_.at_start()) map_.stored().fill_zero(); // each photon is one rank's to store
+    if (slices_.at_start()) map_.stored().fill_zero(); // each photon is stored by one rank
     return slices_.advance(world_.context.communicator(), photons_,
                            [&](const tracing::PhotonSlice& slice) { send_photons(pass, slice); });
   }
@@ -283,7 +283,7 @@ private:
   }
 
   DeviceWorld& world_;
-  std::uint32_t photons_; ///< of an iteration
+  std::uint32_t photons_; ///< photons of an iteration
   bool random_;
   double alpha_, first_radius_;
   PhotonMap map_;
@@ -291,11 +291,11 @@ private:
   compute::Kernel send_, gather_, start_, add_radiance_;
   std::vector<ClusterPhotons> senders_; ///< [cluster]
   std::vector<ClusterRun> runs_;
-  compute::Buffer<std::int64_t> unused_; ///< for what the photon kernel does not do here
+  compute::Buffer<std::int64_t> unused_; ///< argument for what the photon kernel does not do here
   compute::Buffer<float> no_guide_;      ///< likewise
   tracing::PhotonSlices slices_;
   Position at_;
-  bool sorted_ = false; ///< the grid has this iteration's photons
+  bool sorted_ = false; ///< whether the grid has this iteration's photons
 };
 
 plan::Pass sppm_pass(const PlanInput& input) {
@@ -310,7 +310,7 @@ plan::Pass sppm_pass(const PlanInput& input) {
 
 PlanPart plan_sppm(const PlanInput& input) {
   PlanPart part = plan_gathering(input, sppm_pass(input), static_cast<std::uint32_t>(input.settings.photons_per_pass));
-  // A pass has one cluster's turn after the other, with one wavelength each.
+  // A pass gives one cluster after the other its turn, with one wavelength each.
   part.defines = {{"NEPHROID_PASS_BANDS", "1"}};
   if (!part.passes[0].runs) return part;
   const std::uint64_t runs =

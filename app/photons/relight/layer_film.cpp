@@ -13,7 +13,7 @@
 namespace nephroid::photons {
 namespace {
 
-/// How often a pixel sees a reflector; its own samples count more than all of its neighbours' together.
+/// How often a pixel sees a reflector; its own samples outweigh those of all its neighbours together.
 struct ReflectorCount {
   int reflector = 0, count = 0;
 };
@@ -32,10 +32,10 @@ void add_samples(const ReflectorSurvey& survey, int x, int y, int weight, std::v
   }
 }
 
-/// Of a pixel's own sample, where one of a neighbour's has 1.
+/// The weight of a pixel's own sample; a neighbour's sample has 1.
 int own_weight(const ReflectorSurvey& survey) { return 1 + 8 * survey.samples; }
 
-/// What a pixel sees, by falling count; of equal ones the smaller number first.
+/// Lists what a pixel sees, by falling count; of equal ones the smaller number first.
 void count_reflectors(const ReflectorSurvey& survey, int x, int y, std::vector<ReflectorCount>& list) {
   list.clear();
   for (int dy = -1; dy <= 1; ++dy)
@@ -65,7 +65,7 @@ void number_cells(int reflector_count, LayerCells& result) {
   for (shared::LayerCell& cell : result.cells) cell.cell = next[static_cast<std::size_t>(cell.reflector)]++;
 }
 
-/// factors(half, layer): what a layer's colours are multiplied by in the two pictures.
+/// factors(half, layer) gives what a layer's colours are multiplied by in the two pictures.
 template <class Factors>
 LayerFilmWeights make_weights(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves,
                               Factors factors) {
@@ -123,8 +123,8 @@ LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, Emp
     longest = std::max(longest, list.size());
     seen[i] = std::move(list);
   }
-  // Every pixel gets its first reflector before any gets its second, and what it sees itself before what its neighbours
-  // see.
+  // Every pixel gets its first reflector before any gets its second, and its own reflectors before those of its
+  // neighbours.
   std::vector<std::size_t> kept(pixels, 0);
   std::size_t left = most;
   for (const int fewest : {own_weight(survey), 0})
@@ -143,7 +143,7 @@ LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, Emp
 }
 
 std::size_t padded_cells(std::size_t cells, int reflector_count) {
-  // Each reflector leaves at most one block less than full.
+  // Each reflector leaves at most one block partly filled.
   const std::size_t blocks = cells / LAYER_BLOCK + static_cast<std::size_t>(std::max(reflector_count, 1));
   return LAYER_BLOCK * blocks;
 }
@@ -218,7 +218,7 @@ std::array<std::vector<float>, 2> LayerFilm::weigh(const LayerFilmWeights& by) {
                {"weighed", weighed_},
                {"pixel_count", static_cast<int>(pixels_)},
                {"pictures", pictures_}});
-  if (!communicator.is_root()) sums_.fill_zero(); // rank 0 has them
+  if (!communicator.is_root()) sums_.fill_zero(); // rank 0 has the sums
   const std::size_t bytes = 3 * pixels_ * sizeof(float);
   pictures_.RawBuffer::read(pictures[0].data(), bytes, 0);
   pictures_.RawBuffer::read(pictures[1].data(), bytes, bytes);
@@ -254,7 +254,7 @@ LayerFilmWeights mean_and_draw(std::span<const std::array<double, 3>> colours, s
     if (a + b <= 0) return {0, 0};
     const double mean = 1 / ((a + b) * quanta_per_unit);
     if (a <= 0 || b <= 0) return {mean, 0};
-    // (A / a - B / b) sqrt(a b) / (a + b), with the sums A and B
+    // The draw is (A / a - B / b) sqrt(a b) / (a + b), with the sums A and B.
     return {mean, half == 0 ? mean * std::sqrt(b / a) : -mean * std::sqrt(a / b)};
   });
 }
@@ -271,7 +271,7 @@ const RunPart relighting_part{plan_relighting};
 void plan_layer_film(const char* name, std::size_t layers, std::size_t cells, const PlanInput& input, PlanPart& part) {
   const std::uint64_t padded = padded_cells(cells, input.tables.wavelengths.reflector_count), pixels = input.pixels();
   part.buffers.push_back({name, sizeof(std::int64_t) * input.halves() * layers * padded});
-  // Where the cells are, and two weighed pictures by cell and by pixel.
+  // The places of the cells, and two weighed pictures by cell and by pixel.
   part.buffers.push_back({"survey and weighing", padded * sizeof(shared::LayerCell) + pixels * sizeof(int) +
                                                      6 * sizeof(float) * (padded + pixels)});
 }

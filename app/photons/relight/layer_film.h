@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film of layers (kernels/photons/layers.h): which cells it has, on the host, its sums on the device, and the
-// pictures that are weighed of it. A cell is a pixel with one reflector that it sees. What the stages of a run that
-// keeps layers share: the light as it is now, and which cells the films have (thesis 6.2.2).
+// A film of layers (kernels/photons/layers.h): its cells, on the host, its sums, on the device, and the pictures
+// weighed from them. A cell is a pixel with one reflector that it sees. Also what the stages of a run that keeps layers
+// share: the present light, and the films' cells (thesis 6.2.2).
 #pragma once
 #include "compute/compute.h"
 #include "kernels/photons/layer_types.h"
@@ -23,50 +23,51 @@
 namespace nephroid::photons {
 
 struct LayerCells {
-  std::vector<int> first;               ///< [pixel + 1] in `cells`
-  std::vector<shared::LayerCell> cells; ///< of each pixel, the reflector that it sees most at the beginning
+  std::vector<int> first;               ///< [pixel + 1]: index into `cells`
+  std::vector<shared::LayerCell> cells; ///< for each pixel, beginning with the reflector that it sees most
   std::vector<int> reflector_of_block;  ///< cells of one reflector fill whole blocks of LAYER_BLOCK
   std::size_t count() const {
     return LAYER_BLOCK * reflector_of_block.size();
-  } ///< numbers of cells, those that nothing uses included
+  } ///< the number of cell numbers, unused ones included
 };
 
-/// What a survey saw.
+/// The result of a survey.
 struct ReflectorSurvey {
-  std::span<const int> seen; ///< [pixel][sample]: a reflector, -1: none
+  std::span<const int> seen; ///< [pixel][sample]: a reflector; -1: none
   int width = 0, height = 0;
-  int samples = 0; ///< a pixel
+  int samples = 0; ///< samples of a pixel
   int reflector_count = 0;
 };
 
-/// A cell for each pixel and reflector that the pixel or one of its eight neighbours sees: what is at an edge may be in
-/// the pixel beside. most: at most so many; then what pixels see least goes first. EmptyPixel::a_cell: also a pixel
-/// that sees nothing has one, where there are reflectors at all (then `most` is at least the number of pixels).
+/// Makes a cell for each pixel and reflector that the pixel or one of its eight neighbours sees: what is at an edge may
+/// be in the pixel beside. There are at most `most` cells; if there would be more, what pixels see least is left out
+/// first. With EmptyPixel::a_cell a pixel that sees nothing has one, too, if there are reflectors at all (`most` is
+/// then at least the number of pixels).
 enum class EmptyPixel { no_cell, a_cell };
 LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, EmptyPixel unseen);
 
-/// The most that LayerCells::count() can be for so many cells.
+/// The largest LayerCells::count() for so many cells.
 std::size_t padded_cells(std::size_t cells, int reflector_count);
 
-/// How many cells a camera's films may have, known before anything is surveyed: one a pixel and a quarter more for
-/// edges; of what is seen through glass and mirrors two a pixel that may see `spheres`, which enclose all glass and
-/// mirrors. Both have some thousand more.
+/// The most cells of a camera's films, known before the survey. Unbent: one a pixel and a quarter more for edges. Bent
+/// (seen through glass and mirrors): two for each pixel that may see `spheres`, which enclose all glass and mirrors.
+/// Both have some thousand more.
 std::size_t unbent_cells(const shared::DeviceCamera& camera);
 std::size_t bent_cells(const shared::DeviceCamera& camera, std::span<const scene::Sphere> spheres);
 
-/// How much of a layer's sums of one half goes into each of two pictures, as linear sRGB.
+/// The weights of a layer's sums of one half in each of two pictures, as linear sRGB.
 struct LayerWeight {
   std::array<float, 3> first{}, second{};
 };
 
-/// The weights of a whole film, times 2^-exponent: the largest is about 1. A light of 1e-30 W over the quanta of a film
-/// would leave weights of single precision's last digits.
+/// The weights of a whole film, times 2^-exponent, so that the largest is about 1. Otherwise a light of 1e-30 W over
+/// the film's quanta would leave weights only the last digits of single precision.
 struct LayerFilmWeights {
   std::vector<LayerWeight> weights; ///< [reflector][half][layer]
   int exponent = 0;
 };
 
-/// Of one reflector that a pixel sees.
+/// The sums of one reflector that a pixel sees.
 struct LayerSums {
   int reflector = 0;
   std::vector<double> sums; ///< [half][layer], in the film's quanta
@@ -75,7 +76,7 @@ struct LayerSums {
 class LayerFilm {
 public:
   LayerFilm() = default;
-  /// Holds halves x layers sums a cell, all 0.
+  /// Holds halves x layers sums for each cell, all 0.
   LayerFilm(const mpi::RankContext& context, const std::string& name, const LayerCells& cells, std::size_t layers,
             std::size_t halves, const compute::Defines& defines);
 
@@ -86,10 +87,10 @@ public:
   const compute::Buffer<std::int64_t>& sums() const { return sums_; }
   int layer_count() const { return static_cast<int>(layers_); }
 
-  /// Two pictures, each [pixel][3]: sums over halves, layers and the pixel's cells, times the weights.
+  /// Returns two pictures, each [pixel][3]: sums over halves, layers and the pixel's cells, times the weights.
   std::array<std::vector<float>, 2> weigh(const LayerFilmWeights& by);
 
-  /// What a pixel's cells hold.
+  /// The contents of a pixel's cells.
   std::vector<LayerSums> pixel(std::size_t index) const;
 
   void state(tracing::State& state) { state.buffer(sums_); }
@@ -104,36 +105,36 @@ private:
   compute::Kernel weigh_, gather_;
 };
 
-/// What the halves of one layer had: samples or photons.
+/// The samples or photons of each half of one layer.
 using HalfCounts = std::array<double, 2>;
 
-/// Weights for weigh(): the first picture is the mean over both halves of `colours` [layer][reflector] times what is in
-/// the film, the second the draw of its error (job::Picture::error_draw). counts: [layer]; a layer that had none counts
-/// nothing.
+/// Weights for weigh(). The first picture is the mean over both halves of `colours` [layer][reflector] times the film's
+/// sums, the second the draw of its error (job::Picture::error_draw). counts is [layer]; a layer whose count is 0 is
+/// left out.
 LayerFilmWeights mean_and_draw(std::span<const std::array<double, 3>> colours, std::span<const HalfCounts> counts,
                                int reflectors, std::size_t halves, double quanta_per_unit);
 
-/// Weights for weigh(): the first picture is the sum over the first half, the second over the other.
+/// Weights for weigh(): the first picture is the sum over the first half, the second that over the other.
 LayerFilmWeights half_sums(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves,
                            double quanta_per_unit);
 
 struct Relighting {
   LayerLight light;
   LayerWeights weights;
-  std::uint64_t changes = 0;                                ///< of the light
-  LayerCells unbent, bent;                                  ///< seen directly, and through glass and mirrors
+  std::uint64_t changes = 0; ///< number of changes of the light
+  LayerCells unbent, bent;   ///< cells of what is seen directly, and through glass and mirrors
   compute::Buffer<float> mean_reflectance, luminance_share; ///< FlatLight
 };
 
-/// DeviceWorld::relighting; the first call surveys what the camera sees on the device. world: of make_run_tables for
-/// the scene.
+/// Returns DeviceWorld::relighting. The first call surveys on the device what the camera sees. world has the tables
+/// that make_run_tables made for the scene.
 const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene);
 
-/// From now on the light is another one; the energy counters begin anew, but for refused contributions.
+/// Changes the light. The energy counters begin anew, but for refused contributions.
 void change_light(Relighting& relighting, DeviceWorld& world, LayerLight light);
 
-/// Adds a film of so many cells to the plan: its sums by their name, its cells and the pictures that are weighed of it
-/// by theirs.
+/// Adds a film of so many cells to the plan: its sums under their name, its cells and the weighed pictures under
+/// theirs.
 void plan_layer_film(const char* name, std::size_t layers, std::size_t cells, const PlanInput& input, PlanPart& part);
 
 } // namespace nephroid::photons

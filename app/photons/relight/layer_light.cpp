@@ -23,7 +23,7 @@ double reflectance(const tracing::WavelengthTables& tables, std::size_t reflecto
       tables.reflectance[reflector * optics::wavelength_count + static_cast<std::size_t>(wavelength)]);
 }
 
-/// Of each cluster of a light of 1 W.
+/// What the eye makes of each cluster of a light of 1 W.
 std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const tracing::WavelengthTables& tables) {
   const optics::ColourMatching& eye = optics::cie_1931();
   std::vector<double> sums;
@@ -37,8 +37,7 @@ std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const tracin
   return sums;
 }
 
-/// The parts become half of what they are of their sum, and get an equal part of the other half each; those that are
-/// `never` get nothing.
+/// Divides half of the work by the parts and half evenly. Parts that are `never` get nothing.
 std::vector<double> half_evenly(std::vector<double> parts, const std::vector<bool>& never) {
   const double total = std::accumulate(parts.begin(), parts.end(), 0.0);
   const auto count = static_cast<double>(std::ranges::count(never, false));
@@ -109,7 +108,7 @@ LayerWeights layer_weights(const LayerLight& light, const tracing::WavelengthTab
 void add_radiance(const LayerLight& light, const tracing::WavelengthTables& tables, std::size_t light_index,
                   int cluster, int reflector, double value, std::vector<double>& radiance) {
   const auto add = [&](int index) {
-    const auto w = static_cast<std::size_t>(index); // a step of the grid is a nanometre
+    const auto w = static_cast<std::size_t>(index); // the grid has one wavelength a nanometre
     radiance[w] += value * light.power[light_index] * light.spectra[light_index][w] *
                    reflectance(tables, static_cast<std::size_t>(reflector), index);
   };

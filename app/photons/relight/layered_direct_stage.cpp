@@ -107,7 +107,7 @@ public:
   }
 
 private:
-  /// Of each half of the film.
+  /// The samples of a pixel of the row in each half of the film.
   std::array<double, 2> samples_of_row(std::size_t row, std::int64_t passes, bool done) const {
     const bool sampled = done || static_cast<std::int64_t>(row) < rows_.done();
     return passes >= pixel_samples_ ? tracing::halves_of(pixel_samples_, 0)
@@ -119,7 +119,7 @@ private:
   std::int64_t pixel_samples_;
   LayerFilm unbent_, bent_;
   compute::Buffer<float> cluster_cdf_;
-  std::uint64_t chosen_for_ = 0; ///< Relighting::changes of the light that cluster_cdf_ is for
+  std::uint64_t chosen_for_ = 0; ///< Relighting::changes of the light that cluster_cdf_ was made for
   compute::Kernel kernel_;
   tracing::PixelSlices rows_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caustic layer, kept as layers: kernels/photons/relight_photons.cl. Every photon of a layer counts alike, so
-// photons may be dealt anew when the light changes, and what was sent before stays as good as it was.
+// The caustic layer, kept as layers: kernels/photons/relight_photons.cl. Every photon of a layer counts alike. So
+// photons may be allocated anew when the light changes, and earlier photons stay as good as they were.
 #include "photons/effort/emitters.h"
 #include "photons/relight/layer_film.h"
 #include "photons/stage.h"
@@ -102,8 +102,8 @@ public:
 
 private:
   struct Position {
-    std::size_t half = 0;             ///< of the film, that the pass in hand adds to
-    std::int64_t first_iteration = 0; ///< from which on photons are allocated as they are
+    std::size_t half = 0;             ///< half of the film that the current pass adds to
+    std::int64_t first_iteration = 0; ///< first pass with the present allocation of photons
   };
 
   std::size_t cluster_count() const { return world_.tables.wavelengths.clusters.size(); }
@@ -112,12 +112,12 @@ private:
            static_cast<std::size_t>(emitters_[emitter].cluster);
   }
 
-  /// How many of an emitter's photons of the pass in hand are done.
+  /// The number of an emitter's photons that are done in the current pass.
   double sent_in_hand(const shared::DeviceEmitter& emitter) const {
     return slices_.done_of(emitter.first_photon + emitter.photon_count) - slices_.done_of(emitter.first_photon);
   }
 
-  /// [layer], with the part of the pass in hand.
+  /// Photons of each [layer], with the fraction of the current pass.
   std::vector<HalfCounts> photons_of_layers() const {
     std::vector<HalfCounts> counts(film_.layers(), HalfCounts{0, 0});
     for (std::size_t e = 0; e < emitters_.size(); ++e) {
@@ -128,7 +128,7 @@ private:
     return counts;
   }
 
-  /// Photons of a light to one half of the film, in the complete passes.
+  /// Photons of a light for one half of the film, in the complete passes.
   std::uint64_t sent_by(int light, std::size_t half) const {
     std::uint64_t sum = 0;
     for (std::size_t e = 0; e < emitters_.size(); ++e)
@@ -136,7 +136,7 @@ private:
     return sum;
   }
 
-  /// A new light's powers count in the energy balance at once; photons are allocated by it from the next pass on.
+  /// Takes a new light: its powers count in the energy balance at once; from the next pass on it allocates photons.
   void take_light(std::int64_t pass) {
     const bool reallocates = slices_.at_start() && allocated_ != relighting_.changes;
     if (!reallocates && shared_ == relighting_.changes) return;
@@ -162,10 +162,10 @@ private:
   const Relighting& relighting_;
   std::vector<shared::DeviceEmitter> emitters_;
   std::vector<std::array<std::uint64_t, 2>>
-      sent_;                                 ///< [emitter]: photons of the complete passes to each half of the film
-  std::uint64_t shared_ = 0, allocated_ = 0; ///< Relighting::changes when shares and counts were last taken
+      sent_;                                 ///< [emitter]: photons of the complete passes for each half of the film
+  std::uint64_t shared_ = 0, allocated_ = 0; ///< Relighting::changes when shares and counts were last updated
   LayerFilm film_;
-  double scale_; ///< quanta per W m^-2 sr^-1, of one photon that has a layer's whole power
+  double scale_; ///< quanta per W m^-2 sr^-1, for one photon that has a layer's whole power
   compute::Kernel kernel_;
   Position at_;
   tracing::PhotonSlices slices_;

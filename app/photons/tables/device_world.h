@@ -15,18 +15,18 @@
 
 namespace nephroid::photons {
 
-/// Pixels that paths from the eye are for.
+/// The pixels that paths from the eye start from.
 struct PixelLists {
   std::vector<std::uint32_t> glass;         ///< glass_pixels() in pixel_surfaces.h
   std::vector<bool> may_show_glass;         ///< [pixel]
   std::uint32_t count = 0;                  ///< pixels of the picture
-  compute::Buffer<std::uint32_t> on_device; ///< all of them, then those of glass
+  compute::Buffer<std::uint32_t> on_device; ///< all pixels, then those of glass
 };
 
 /// The newest of a run's previews.
 struct PreviewBlocks {
   Blocks blocks{0, 0, 0};               ///< edge 0: there is none
-  unsigned batches = 0;                 ///< of photons, of the first pass
+  unsigned batches = 0;                 ///< batches of photons, from the first pass
   compute::Buffer<std::uint32_t> glass; ///< blocks that may show glass or a mirror
 };
 
@@ -35,13 +35,13 @@ struct Relighting;
 struct DeviceWorld : tracing::World {
   RunTables tables;
   double white = 1;
-  unsigned halves = 2;                    ///< of a film: 2 where the error is estimated (tracing/film.h)
+  unsigned halves = 2;                    ///< halves of a film: 2 where the error is estimated (tracing/film.h)
   compute::Buffer<std::int64_t> energy{}; ///< [OUTCOME_COUNT] quanta
   compute::Buffer<shared::DeviceEmitter> emitters{};
   PixelLists pixels{};
   PreviewBlocks preview{};
-  std::optional<PhotonMap> map{}; ///< that photons which are splatted go to as well, where a stage gathers them
-  std::shared_ptr<Relighting> relighting{}; ///< where layers are kept for another light
+  std::optional<PhotonMap> map{};           ///< map that also takes the splatted photons, where a stage gathers them
+  std::shared_ptr<Relighting> relighting{}; ///< set where layers are kept for another light
 
   /// The number of 64-bit sums of a film of XYZ.
   std::size_t film_size() const {
@@ -55,7 +55,7 @@ struct DeviceWorld : tracing::World {
     camera.height = preview.blocks.down();
     return camera;
   }
-  /// Of the preview, empty where there is none.
+  /// The film of the preview, empty where there is none.
   compute::Buffer<std::int64_t> preview_film() const {
     const auto blocks = preview.blocks.edge > 0 ? static_cast<std::size_t>(preview.blocks.across()) *
                                                       static_cast<std::size_t>(preview.blocks.down())
@@ -72,7 +72,7 @@ struct DeviceWorld : tracing::World {
                  {"stride", slice.stride},
                  {"count", slice.count}});
   }
-  /// A scale for powers as the device knows them.
+  /// A scale for powers in the device's unit.
   float on_device(double scale) const { return static_cast<float>(scale * tables.power_unit); }
 };
 

@@ -23,7 +23,7 @@ unsigned batches_per_pass(const Settings& settings) {
   return static_cast<unsigned>(std::clamp(settings.photons_per_pass / photons_a_batch, 1, most));
 }
 
-/// weights: ClusterShares::photons.
+/// weights is ClusterShares::photons.
 std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, const tracing::WavelengthTables& tables) {
   std::vector<PhotonSource> sources;
   for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -33,8 +33,8 @@ std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, con
   return sources;
 }
 
-/// The direct film gets 2^24 quanta for a surface that the light reaches from the scene's radius, and a limit that the
-/// pixel's samples cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches.
+/// A surface that the light reaches from the scene's radius gets 2^24 quanta of the direct film. The limit is one that
+/// the pixel's samples cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches.
 void set_scales(const scene::Scene& scene, int pixel_samples, RunTables& tables) {
   const double metres = scene.metres_per_unit, radius = tracing::scene_bounds(scene).radius;
   tables.caustic_scale = tracing::splat_scale(scene, tables.photons_per_batch, tables.light_towards_targets_w);

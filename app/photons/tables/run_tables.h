@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of a run of engine 1, still on the host: the scene's, and how its photons are allocated. Made once a job;
-// tested without a device.
+// The tables of a run of engine 1, still on the host: the scene's tables and the allocation of photons. They are made
+// once for each job and tested without a device.
 #pragma once
 #include "photons/settings.h"
 #include "scene/bvh.h"
@@ -12,9 +12,9 @@ namespace nephroid::photons {
 
 struct RunTables : tracing::SceneTables {
   std::vector<shared::DeviceEmitter> emitters; ///< photons of one batch, allocated to lights and clusters
-  unsigned photons_per_batch = 0;              ///< as allocated: at least one for each emitter
-  unsigned batches = 1;                        ///< of a pass: photons that are splatted come in so many fair samples
-  unsigned eye_paths = 1;                      ///< that gather photons, of a pixel in a pass (maps/photon_map.h)
+  unsigned photons_per_batch = 0;              ///< photons of a batch: at least one for each emitter
+  unsigned batches = 1;                        ///< batches of a pass: fair samples of its splatted photons
+  unsigned eye_paths = 1;                      ///< paths of a pixel in a pass that gather photons (maps/photon_map.h)
   unsigned photons_per_pass() const { return batches * photons_per_batch; }
   std::vector<double> importance;             ///< [cluster] 0..1, the largest 1: see ClusterShares
   double caustic_scale = 1, direct_scale = 1; ///< film quanta per unit of XYZ radiance, powers of two
@@ -22,8 +22,8 @@ struct RunTables : tracing::SceneTables {
   double energy_scale = 1;                    ///< energy quanta per watt, a power of two
 };
 
-/// For the lights as they are (relight/layer_light.h: for lights to come). Throws bad_input as
-/// tracing::make_scene_tables does, for a threshold that cluster_wavelengths refuses, and as make_cluster_shares does.
+/// Makes the tables for the present lights; relight/layer_light.h does for lights to come. Throws bad_input as
+/// tracing::make_scene_tables and make_cluster_shares do, and for a threshold that cluster_wavelengths refuses.
 RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
                           const tracing::LeaveOut& leave_out);
 

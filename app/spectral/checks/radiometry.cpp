@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small pictures by the real engine against closed forms of irradiance and power. Noise is judged in standard
-// deviations that follow from the number of photons or samples, so that a check fails with no seed by chance.
+// deviations that follow from the number of photons or samples, so that no seed makes a check fail by chance.
 #include "check/device_arrays.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
@@ -35,7 +35,7 @@ preset::Preset lit_floor(int resolution, double camera_height, std::uint64_t see
   return p;
 }
 
-/// E = I cos(theta) / d^2 = I h / d^3, averaged over the square of a pixel, and its variance there, from 8 x 8 places.
+/// E = I cos(theta) / d^2 = I h / d^3: its mean over the square of a pixel, and its variance there, from 8 x 8 places.
 struct PixelTruth {
   double irradiance = 0, variance = 0;
 };
@@ -56,13 +56,13 @@ PixelTruth pixel_truth(const preset::Light& light, int resolution, int row, int 
   return truth;
 }
 
-/// How far a layer is from the truth: of the sum over all pixels, and of the pixels each by itself as chi-square, both
-/// in sigma.
+/// The distance of a layer from the truth in sigma: that of the sum over all pixels, and that of each pixel by itself
+/// as chi-square.
 struct Distance {
   double sum_error = 0, pixel_error = 0, ratio = 1;
   double worst() const { return std::abs(sum_error) > std::abs(pixel_error) ? sum_error : pixel_error; }
 };
-/// variance(truth): of a pixel's measured irradiance.
+/// variance(truth) is that of a pixel's measured irradiance.
 template <class Variance>
 Distance distance(const job::Snapshot& snapshot, const char* name, const preset::Preset& p, const Variance& variance) {
   const int size = p.scene.camera.resolution[0];
@@ -98,8 +98,8 @@ Result direct_light(const compute::Context& context, std::uint64_t seed) {
                   d.ratio));
 }
 
-/// The light sits in a ball of n = 1, which bends and reflects nothing: its photons, each of P / N, must make the very
-/// picture that direct light makes, and a pixel of the area A gets a Poisson count of N E A / P of them.
+/// The light sits in a ball of n = 1, which bends and reflects nothing. Its photons, each of P / N, must make the same
+/// picture as direct light, and a pixel of the area A gets a Poisson count of N E A / P of them.
 Result through_nothing(const compute::Context& context, std::uint64_t seed) {
   preset::Preset p = lit_floor(16, 0.5, seed);
   p.scene.materials["nothing"] = glass(1);
@@ -115,8 +115,8 @@ Result through_nothing(const compute::Context& context, std::uint64_t seed) {
                             d.ratio));
 }
 
-/// The same under a sky of one colour above and black below, which gives a white floor its own colour: what the ball
-/// hides of it comes through the ball. Half a sky is drawn by its peaks, too. Each channel's mean over the pixels, in
+/// A sky of one colour above and black below gives a white floor its own colour: what the ball of n = 1 hides of it
+/// comes through the ball. Half a sky is also drawn by its peaks. Compares each channel's mean over the pixels, in
 /// standard errors by their own scatter about the truth.
 Result sky_through_nothing(const compute::Context& context, std::uint64_t seed) {
   preset::Preset p = lit_floor(16, 0.5, seed);
@@ -153,8 +153,8 @@ Result sky_through_nothing(const compute::Context& context, std::uint64_t seed) 
                             hidden, 1 + sums[1] * 3 / static_cast<double>(direct.size())));
 }
 
-/// A pencil on a mirror that is not grey, then onto a screen: of every wavelength its reflectance is left, and no
-/// chance is in it.
+/// A pencil meets a mirror that is not grey, then a screen: of every wavelength its reflectance is left, without
+/// chance.
 Result coloured_mirror(const compute::Context& context, std::uint64_t seed) {
   preset::Preset p = empty_preset(16);
   p.seed = seed;
@@ -179,7 +179,7 @@ Result coloured_mirror(const compute::Context& context, std::uint64_t seed) {
                             e.deposited_w / e.emitted_w));
 }
 
-/// Smooth and faceted glass, a mirror that absorbs, a floor that does not catch everything.
+/// A scene with smooth and faceted glass, a mirror that absorbs, and a floor that does not catch everything.
 preset::Preset everything(std::uint64_t seed) {
   preset::Preset p = empty_preset(32);
   p.seed = seed;
@@ -208,7 +208,7 @@ preset::Preset everything(std::uint64_t seed) {
   return p;
 }
 
-/// Counted in whole quanta, so nothing but the last conversion to watts rounds.
+/// Power is counted in whole quanta, so only the last conversion to watts rounds.
 Result energy(const compute::Context& context, std::uint64_t seed) {
   const photons::EnergyBalance e = photons::energy_of(render(everything(seed), context));
   const double off = (e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w - 1;
@@ -221,7 +221,7 @@ Result energy(const compute::Context& context, std::uint64_t seed) {
                             e.refused_contributions));
 }
 
-/// Steps are cut by the clock, so two runs differ in how their work is cut, and in how the device's threads meet.
+/// The clock cuts slices, so two runs differ in how their work is cut, and in the order of the device's threads.
 Result same_bits(const compute::Context& context, std::uint64_t seed) {
   const job::Snapshot first = render(everything(seed), context), second = render(everything(seed), context);
   double differ = 0;

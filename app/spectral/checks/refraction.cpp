@@ -15,7 +15,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// The share of a pencil that reaches the floor below the objects of `p`, in sigma of the count from `truth`.
+/// How far the fraction of a pencil that reaches the floor below `p`'s objects is from `truth`, in sigma of the count.
 double z_of_transmitted(const compute::Context& context, preset::Preset p, double truth) {
   constexpr int photons = 1 << 17;
   p.scene.materials["white"] = white();
@@ -47,8 +47,8 @@ Result plate(const compute::Context& context, std::uint64_t seed) {
       "transmittance at 0, 40, 56.3, 70, 80 and 86 degrees, the farthest from (1 - R) / (1 + R) with Fresnel's R");
 }
 
-/// Four interfaces instead of two, without interference: T = (1 - R) / (1 + 3 R). Above them a hole through glass,
-/// which its priority makes one: light enters it before the glass that it is in.
+/// A plate has four interfaces instead of two, without interference: T = (1 - R) / (1 + 3 R). Above them is a hole
+/// through glass, made by its priority: light enters the hole before the glass around it.
 Result plates_in_one(const compute::Context& context, std::uint64_t seed) {
   preset::Preset p = empty_preset(16);
   p.seed = seed;
@@ -65,10 +65,10 @@ Result plates_in_one(const compute::Context& context, std::uint64_t seed) {
                 "R) / (1 + 3 R)");
 }
 
-/// A camera before the screen z = screen_z that sees the light which lands on it along y = 0: columns are x.
+/// A camera before the screen z = screen_z, which sees the light that lands there along y = 0; columns are x.
 struct Screen {
-  double z, x_first, x_last;     ///< what the columns hold
-  double distance_y, distance_z; ///< of the camera from the screen's middle
+  double z, x_first, x_last;     ///< place of the screen, and the range of x in the columns
+  double distance_y, distance_z; ///< distances of the camera from the screen's middle
   static constexpr int columns = 1024, rows = 64;
 
   void put_into(preset::Preset& p) const {
@@ -82,7 +82,7 @@ struct Screen {
   }
   double column(double x) const { return (x - x_first) / (x_last - x_first) * columns; }
 
-  /// The column of the light's centre within 6 columns of the brightest: what is reflected inside the glass lands
+  /// The column of the light's centre within 6 columns of the brightest: light reflected inside the glass lands
   /// elsewhere.
   double landing(const job::Layer& picture) const {
     double flux[columns] = {};
@@ -98,8 +98,8 @@ struct Screen {
   }
 };
 
-/// Half a pixel: a pencil of 0.005 degrees is some pixels wide, and the centre of its thousands of photons is known
-/// better than that.
+/// Allows half a pixel: a pencil of 0.005 degrees is some pixels wide, and the centre of its thousands of photons is
+/// known better than that.
 Result off_by(double worst_pixels, std::string detail) {
   return judged(worst_pixels, 0.5, "pixels", std::move(detail));
 }

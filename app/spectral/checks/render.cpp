@@ -13,9 +13,9 @@
 namespace nephroid::check {
 namespace {
 
-constexpr int stack = 64; ///< entries: what nearly all trees of checks and tests need at most
+constexpr int stack = 64; ///< entries that nearly all trees of checks and tests need at most
 
-/// Programs are built for what nearly all scenes need, and for more where one needs more.
+/// Builds programs for what nearly all scenes need, and for more where a scene needs more.
 void share_programs(compute::Defines& defines) {
   const auto at_least = [&](const char* name, int value) {
     defines[name] = std::to_string(std::max(std::stoi(defines[name]), value));
@@ -26,14 +26,14 @@ void share_programs(compute::Defines& defines) {
 
 using Point = glm::dvec2; // (x, z)
 
-/// Where a ray crosses the line through a and b.
+/// The point where a ray crosses the line through a and b.
 Point crossing(const Point& o, const Point& d, const Point& a, const Point& b) {
   const Point e = b - a;
   const double t = ((a.x - o.x) * e.y - (a.y - o.y) * e.x) / (d.x * e.y - d.y * e.x);
   return o + t * d;
 }
 
-/// Snell's law in the plane: unit direction d, unit normal n against it.
+/// Refracts by Snell's law in the plane: unit direction d, unit normal n against it.
 Point refracted(const Point& d, const Point& n, double eta) {
   const double c = -glm::dot(d, n), t = std::sqrt(1 - eta * eta * (1 - c * c));
   return eta * d + (eta * c - t) * n;
@@ -50,7 +50,7 @@ PrismPath prism_path(double side, double incidence, double n, double screen_z) {
   const double c = std::cos(std::numbers::pi / 6), s = 0.5;
   const Point apex{0, side * c / 2}, left{-side / 2, -side * c / 2}, right{side / 2, -side * c / 2};
   const Point into{c, -s}, right_normal{c, s}; // into: against the entry face's normal
-  // Turned by the angle of incidence towards the apex.
+  // The direction is turned by the angle of incidence towards the apex.
   const Point direction{into.x * std::cos(incidence) - into.y * std::sin(incidence),
                         into.x * std::sin(incidence) + into.y * std::cos(incidence)};
   const Point entry = (apex + left) / 2.0, from = entry - 2 * side * direction;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pictures by the real engine and its tables, for checks, what checks and tests read off a picture, and closed
-// forms of geometrical optics that they hold pictures against, in double precision.
+// Small pictures by the real engine and its tables, for checks. Also functions with which checks and tests read values
+// off a picture, and closed forms of geometrical optics in double precision.
 #pragma once
 #include "base/error.h"
 #include "check/check.h"
@@ -20,33 +20,33 @@ namespace nephroid::check {
 
 /// A run of engine 1 with the general kernels rather than those made for the scene: so all checks together build two
 /// programs, which is most of their time on a device whose compiler has not seen them. Tests compare the two kinds.
-/// leave_out: of what is no kernel's code. change: of the preset's scene, if any.
+/// leave_out decides on what is no kernel's code. change modifies the preset's scene, if there is one.
 using ChangeScene = std::function<void(scene::Scene&)>;
 std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::LeaveOut leave_out,
                                       const compute::Context& context, const ChangeScene& change = {});
 
-/// general_job to the preset's end.
+/// Runs general_job to the preset's end.
 job::Snapshot render(const preset::Preset& preset, const compute::Context& context, const ChangeScene& change = {});
 
 /// The tables that the engine would render the preset with.
 photons::RunTables device_tables(const preset::Preset& preset);
 
-/// The layer of that name, which must be there: throws failed else.
+/// The layer of that name. Throws failed where it is missing.
 inline const job::Layer& layer(const job::Snapshot& snapshot, std::string_view name) {
   for (const job::Layer& candidate : snapshot.picture->layers)
     if (candidate.name == name) return candidate;
   throw failed("check", "no layer " + std::string(name));
 }
 
-/// The luminance Y of a pixel of a layer; width: of the picture.
+/// The luminance Y of a pixel of a layer; width is the picture's.
 inline double luminance(const job::Layer& layer, int width, int row, int column) {
   const std::size_t i = 3 * static_cast<std::size_t>(row * width + column);
   return optics::linear_srgb_to_xyz({layer.rgb[i], layer.rgb[i + 1], layer.rgb[i + 2]})[1];
 }
 
-/// Of a plane-parallel plate in air, theta in radians, without absorption, all reflections inside added up. Of light
-/// that meets it R is reflected at the first face; of the 1 - R that go in, 1 - R leave at the second face and R go
-/// back, and so on: T = (1 - R)^2 (1 + R^2 + R^4 + ...) = (1 - R) / (1 + R).
+/// The transmittance of a plane-parallel plate in air, theta in radians, without absorption, with all reflections
+/// inside added up. The first face reflects R of the light; of the 1 - R that go in, 1 - R leave at the second face and
+/// R go back, and so on: T = (1 - R)^2 (1 + R^2 + R^4 + ...) = (1 - R) / (1 + R).
 double plate_transmittance(double theta, double n);
 
 /// Light through a prism of apex angle 60 degrees, apex at +z, its cross section in (x, z) about the origin, n inside,
@@ -54,12 +54,12 @@ double plate_transmittance(double theta, double n);
 struct PrismPath {
   double from_x, from_z; ///< a point before the prism, 2 sides away from the face
   double direction_x, direction_z;
-  double landing_x; ///< where the light meets the plane z = screen_z
+  double landing_x; ///< x where the light meets the plane z = screen_z
 };
 PrismPath prism_path(double side, double incidence, double n, double screen_z);
 
-/// Light along -z at x = height falls on a ball of the radius about the origin and, twice refracted, crosses the plane
-/// z = screen_z at the x that is returned. screen_z <= -radius.
+/// Light along -z at x = height falls on a ball of the radius about the origin. After two refractions it crosses the
+/// plane z = screen_z at the returned x. screen_z <= -radius.
 ///
 /// sin a = h / R, sin b = sin a / n. The light is turned by a - b at each of the two surfaces, d = 2 (a - b) in all,
 /// towards the axis. In the triangle of the ball's centre, the exit and the crossing of the axis the angle at the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Presets and their parts, built in memory without files: for checks and tests.
+// Presets and their parts, built in memory without files, for checks and tests.
 #pragma once
 #include "preset/preset.h"
 #include "spectral/settings.h"
@@ -8,10 +8,9 @@
 
 namespace nephroid::check {
 
-/// A preset in metres with nothing in it but a camera. Its caustics are splatted only, which has closed forms: glass
-/// and mirrors in view show none. Its photons are independent of each other, so that their numbers have the variance of
-/// chance: a low-discrepancy sequence spreads them more evenly, and whoever tests against that variance would find it
-/// too small.
+/// A preset in metres with nothing in it but a camera. Its caustics are only splatted, which has closed forms; glass
+/// and mirrors in view show none. Its photons are independent, so their numbers have the variance of chance: a
+/// low-discrepancy sequence spreads photons more evenly, with less variance.
 inline preset::Preset empty_preset(int resolution = 64) {
   preset::Preset p;
   p.name = "test";
@@ -66,14 +65,14 @@ inline preset::Transform at(preset::Vec3 translate, preset::Vec3 rotate_deg = {0
   return {.rotate_deg = rotate_deg, .translate = translate};
 }
 
-/// A cylinder as high as wide: the one shape with interpolated normals.
+/// A cylinder as high as wide, the one shape with interpolated normals.
 inline preset::Shape rod(double radius, int segments) {
   return {.type = preset::Shape::Type::cylinder, .radius = radius, .height = 2 * radius, .segments = segments};
 }
 
 inline preset::Shape ball(double radius) { return {.type = preset::Shape::Type::sphere, .radius = radius}; }
 
-/// A single wavelength.
+/// A spectrum of a single wavelength.
 inline preset::LightSpectrum line(double nm) {
   preset::LightSpectrum s;
   s.type = preset::LightSpectrum::Type::lines;

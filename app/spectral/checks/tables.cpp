@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What kernels make of the engine's own tables.
+// Kernels' results with the engine's own tables.
 #include "check/device_arrays.h"
 #include "optics/spectrum.h"
 #include "photons/tables/run_tables.h"
@@ -17,10 +17,10 @@ namespace {
 
 using std::numbers::pi;
 
-// Sums over wavelengths (kernels/tracing/attenuation.h) over the engine's own tables, against double precision.
+// Sums over wavelengths (kernels/tracing/attenuation.h) with the engine's own tables, against double precision.
 using Int4 = std::array<int, 4>; // light, cluster, reflector, attenuator
 
-/// Daylight through dispersive glass onto a patch that is not grey.
+/// Tables of daylight through dispersive glass onto a patch that is not grey.
 tracing::WavelengthTables tables() {
   preset::Preset p = empty_preset();
   preset::Material dispersive = glass(1.7);
@@ -35,7 +35,7 @@ tracing::WavelengthTables tables() {
   return device_tables(p).wavelengths;
 }
 
-/// What attenuated_sum gives for every cluster at every length of glass with absorption `coefficient` in 1/m.
+/// Results of attenuated_sum for every cluster at every length of glass with absorption `coefficient` in 1/m.
 std::vector<float4> sums(const compute::Context& context, const tracing::WavelengthTables& t,
                          const std::vector<float>& coefficient, const std::vector<float>& lengths) {
   std::vector<Int4> which;
@@ -78,7 +78,7 @@ Result whole_spectrum(const compute::Context& context, std::uint64_t) {
           t.clusters.size()));
 }
 
-/// Terms are positive, so a sum is as exact as its terms: an exponent e is off by a few e 2^-24, here up to 18, and so
+/// Terms are positive, so a sum is as exact as its terms: an exponent e, here up to 18, is off by a few e 2^-24, and so
 /// is exp(-e).
 Result beer_lambert(const compute::Context& context, std::uint64_t) {
   const tracing::WavelengthTables t = tables();
@@ -112,17 +112,17 @@ Result beer_lambert(const compute::Context& context, std::uint64_t) {
                   t.clusters.size()));
 }
 
-// kernels/tracing/emission.h: what the photons of a light carry towards spheres adds up to the power that the light
-// sends there, where the spheres overlap, too. In standard deviations of the photons' own spread.
+// kernels/tracing/emission.h: the photons of a light towards spheres carry the power that the light sends there, also
+// where the spheres overlap. Errors are in standard deviations of the photons' own spread.
 
 constexpr std::size_t photon_count = 1 << 17;
 
 struct Photon {
-  double watts; ///< of the whole light, were it the only photon
+  double watts; ///< power of the whole light if this were its only photon
   double direction[3];
 };
 
-/// Photons of the preset's light towards spheres about its place: x, y, z from there, radius.
+/// Emits photons of the preset's light towards spheres about its place; a sphere is x, y, z from there, and its radius.
 std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, const preset::Light& light,
                          std::vector<float4> spheres) {
   preset::Preset p = empty_preset();
@@ -153,7 +153,7 @@ std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, co
   return photons;
 }
 
-/// How far the mean of `values` is from the truth, in standard errors, to which single precision adds 2e-6 of the
+/// The distance of the mean of `values` from the truth in standard errors, to which single precision adds 2e-6 of the
 /// truth.
 template <class Value>
 double z_of(const std::vector<Photon>& photons, const Value& value, double truth) {
@@ -188,7 +188,7 @@ Result point(const compute::Context& context, std::uint64_t seed) {
           photon_count));
 }
 
-/// Steradians that two cones share, of half angles a and b with `between` their axes: for every angle t from the
+/// The steradians that two cones share, with half angles a and b and `between` their axes: for every angle t from the
 /// second's axis, the part of the circle that the first holds, by the midpoint rule.
 double shared_steradians(double a, double b, double between) {
   constexpr int steps = 20000;
@@ -209,8 +209,8 @@ Result spot(const compute::Context& context, std::uint64_t seed) {
   wide.power_w = narrow.power_w = 7;
   wide.half_angle_deg = 60;
   narrow.half_angle_deg = 5;
-  // The wide cone holds the first two spheres and its edge goes through the third; the narrow one lies inside the first
-  // and is sent as it is.
+  // The wide cone holds the first two spheres and its edge crosses the third. The narrow one lies inside the first
+  // sphere and is sent as it is.
   const std::vector<float4> spheres{three_spheres[0], three_spheres[1], {-std::sqrt(3.0f), 0, 1, 0.5f}};
   const double cone = 2 * pi * (1 - std::cos(pi / 3)), apart = shared_steradians(pi / 3, std::asin(0.25), pi / 3);
   const double z =
@@ -241,7 +241,7 @@ Result area(const compute::Context& context, std::uint64_t seed) {
   light.direction = {0, -1, 0};
   light.size = {0.5, 0.25};
   light.power_w = 7;
-  // From inside a sphere: the whole power, of which the cosine law makes the mean cosine 2/3.
+  // From inside a sphere the whole power counts; the cosine law makes its mean cosine 2/3.
   const std::vector<Photon> photons = emit(context, seed, light, {{0, 0, 0, 5}});
   const double z = z_of(photons, watts_of, 7);
   const double z_cosine = z_of(
