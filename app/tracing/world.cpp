@@ -48,7 +48,9 @@ void upload_sky(const compute::Context& context, const SkyTables& from, SceneBuf
 std::uint64_t sky_bytes(const SceneTables& tables) {
   if (!tables.sky) return 0;
   const SkyTables& from = *tables.sky;
-  return 0 SKY_TABLES(PLUS_BYTES);
+  std::uint64_t bytes = 0;
+  SKY_TABLES(ADD_BYTES)
+  return bytes;
 }
 
 std::uint64_t tree_bytes(const scene::Bvh& bvh) { return bytes_of(bvh.nodes) + bytes_of(bvh.blocks); }
