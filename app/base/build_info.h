@@ -5,9 +5,9 @@
 
 namespace nephroid {
 
-std::string version();      ///< of the project, e.g. "0.1.0"
-std::string commit();       ///< `git describe --always --dirty` when it was built; "" outside a git checkout
+std::string version();      ///< the project's version, e.g. "0.1.0"
+std::string commit();       ///< `git describe --always --dirty` of the build; "" outside a git checkout
 std::string compiler();     ///< name, version and build type
-std::string program_name(); ///< "nephroid 0.1.0", with the commit where there is one
+std::string program_name(); ///< "nephroid 0.1.0", with the commit if there is one
 
 } // namespace nephroid

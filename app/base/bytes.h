@@ -16,7 +16,7 @@ namespace nephroid {
 class ByteSink {
 public:
   virtual ~ByteSink() = default;
-  /// Throws failed where they cannot be written.
+  /// Throws failed if the bytes cannot be written.
   virtual void write(std::span<const std::byte> bytes) = 0;
   template <class T>
   void value(const T& value) {
@@ -28,9 +28,8 @@ public:
 class ByteSource {
 public:
   virtual ~ByteSource() = default;
-  /// Fills `into` with the next bytes. Throws bad_input where fewer are left.
+  /// Fills `into` with the next bytes. Throws bad_input if fewer are left.
   virtual void read(std::span<std::byte> into) = 0;
-  /// How many bytes are left.
   virtual std::uint64_t left() const = 0;
   template <class T>
   void value(T& value) {
@@ -39,7 +38,6 @@ public:
   }
 };
 
-/// Keeps what is written.
 class ByteStore final : public ByteSink {
 public:
   void write(std::span<const std::byte> bytes) override {
@@ -53,7 +51,7 @@ private:
   std::vector<std::byte> bytes_;
 };
 
-/// Bytes in memory, which outlive it. `where`: what an error calls them.
+/// Reads bytes in memory, which outlive it. `where` is what an error calls them.
 class StoredBytes final : public ByteSource {
 public:
   StoredBytes(std::span<const std::byte> bytes, Place where) : bytes_(bytes), where_(std::move(where)) {}
@@ -69,10 +67,10 @@ private:
   Place where_;
 };
 
-/// What a job saves and loads again, said once for both ways: by a function state(State&) of whoever has some.
+/// Saves or loads a job's state. A class with state writes one function state(State&), which serves both ways.
 class State {
 public:
-  /// to, from: outlive it.
+  /// Both outlive the State.
   explicit State(ByteSink& to) : to_(&to) {}
   explicit State(ByteSource& from) : from_(&from) {}
   bool is_read() const { return from_ != nullptr; }
@@ -81,13 +79,13 @@ public:
   void value(T& value) {
     to_ ? to_->value(value) : from_->value(value);
   }
-  void value(bool& value) // of a file a byte may be any number
+  void value(bool& value) // a file may hold any number in this byte
   {
     std::uint8_t byte = value ? 1 : 0;
     this->value(byte);
     value = byte != 0;
   }
-  /// Items whose number both sides know.
+  /// Both sides know the number of items.
   template <class T>
   void items(std::span<T> items) {
     to_ ? to_->write(std::as_bytes(items)) : from_->read(std::as_writable_bytes(items));
@@ -96,8 +94,8 @@ public:
   void items(std::vector<T>& list) {
     items(std::span<T>(list));
   }
-  /// Items and their number. Throws bad_input at one that the rest cannot hold, so that no wrong number takes all
-  /// memory.
+  /// The number of items and the items. Throws bad_input if the rest cannot hold so many: a wrong number cannot take
+  /// all memory.
   template <class T>
   void list(std::vector<T>& list) {
     std::uint64_t count = list.size();

@@ -17,30 +17,30 @@ namespace nephroid {
 
 class Communicator {
 public:
-  /// What went to and fro, and how long this rank has waited for the others and the network.
+  /// What this rank has exchanged, and how long it has waited for the others and the network.
   struct Traffic {
     std::uint64_t calls = 0, bytes = 0;
     double seconds = 0;
   };
 
-  /// How ranks talk. A call returns once every rank has made it, and throws failed, naming the rank, where one does not
-  /// answer any more.
+  /// How ranks exchange data. A call returns when every rank has made it. Throws failed, naming the rank, if one does
+  /// not answer any more.
   class Transport {
   public:
     virtual ~Transport() = default;
     virtual int rank() const = 0;
     virtual int size() const = 0;
-    /// Each becomes the sum of all ranks', modulo 2^64.
+    /// Each number becomes the sum of all ranks' numbers, modulo 2^64.
     virtual void all_reduce_sum(std::span<std::int64_t> numbers) = 0;
-    /// Each becomes the bitwise or of all ranks'.
+    /// Each byte becomes the bitwise or of all ranks' bytes.
     virtual void all_reduce_or(std::span<std::byte> bytes) = 0;
-    /// Each becomes that of rank 0.
+    /// Each byte becomes the root's.
     virtual void broadcast(std::span<std::byte> bytes) = 0;
-    /// Of all calls so far.
+    /// The traffic of all calls so far.
     virtual Traffic traffic() const { return {}; }
   };
 
-  Communicator() = default; ///< alone
+  Communicator() = default; ///< one rank alone
   explicit Communicator(std::shared_ptr<Transport> transport) : transport_(std::move(transport)) {}
 
   Traffic traffic() const { return transport_ ? transport_->traffic() : Traffic(); }
@@ -55,7 +55,7 @@ public:
   void all_reduce_or(std::span<std::byte> bytes) const {
     if (!is_alone()) transport_->all_reduce_or(bytes);
   }
-  /// Rank 0's: what hangs on time is decided by one of them.
+  /// All ranks get the root's value, so that one clock decides what depends on time.
   template <class T>
   T broadcast(T value) const {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -69,7 +69,7 @@ public:
     return items;
   }
 
-  /// Every size()-th of the items is this rank's.
+  /// This rank has every size()-th item.
   template <class T>
   void keep_own_share(std::vector<T>& items) const {
     if (is_alone()) return;
@@ -83,14 +83,14 @@ private:
   std::shared_ptr<Transport> transport_;
 };
 
-/// Which of `size` items a rank works on, and it alone: every size()-th of eight strips a rank, so that each has some
-/// of what is easy and some of what is hard.
+/// Says which of `size` items a rank works on. The items are cut into eight strips per rank, and a rank has every
+/// size()-th strip, so that it gets easy and hard items.
 class Partition {
 public:
   Partition(const Communicator& communicator, std::int64_t size)
       : rank_(communicator.rank()), ranks_(communicator.size()), size_(size) {}
 
-  /// Calls work(first, count) for what is this rank's of items from .. from + count - 1, which may be nothing.
+  /// Calls work(first, count) for this rank's part of the items from .. from + count - 1. The part may be empty.
   template <class Work>
   void for_own(std::int64_t from, std::int64_t count, const Work& work) const {
     if (ranks_ == 1) return work(from, count);
@@ -100,7 +100,8 @@ public:
     }
   }
 
-  /// Clears all but this rank's; values: of each item so many, one item after the other, from item 0 on and over again.
+  /// Clears the values of all items but this rank's. Each item has a fixed number of values; items lie one after the
+  /// other, from item 0 on and over again.
   template <class T>
   void clear_others(std::span<T> values, std::size_t values_an_item) const {
     if (ranks_ == 1) return;

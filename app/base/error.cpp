@@ -6,7 +6,8 @@ namespace {
 
 std::string on_one_line(std::string text) {
   for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' '; // also what would move a terminal's cursor
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      c = ' '; // control characters: some would move a terminal's cursor
   return text;
 }
 

@@ -10,10 +10,10 @@ namespace nephroid {
 /// The values are the exit codes of the command line.
 enum class ErrorKind { failed = 1, bad_input = 2, no_device = 3, interrupted = 130 };
 
-/// Thrown everywhere; caught at the edge (a verb, the worker, a panel) and shown as line().
+/// Every failure throws this. It is caught at the edge (a verb, the worker, a panel) and shown as line().
 class Error : public std::runtime_error {
 public:
-  /// what: what is wrong. expected, remedy: what is expected, what to do; either may be empty.
+  /// what: what is wrong. expected, remedy: what is expected and what to do; either may be empty.
   Error(ErrorKind kind, Place place, std::string what, std::string expected = {}, std::string remedy = {});
 
   ErrorKind kind() const { return kind_; }
@@ -24,9 +24,8 @@ public:
   /// The line without "PLACE: ".
   const std::string& text() const { return text_; }
 
-  /// The same error at another place.
   Error at(Place place) const { return Error(kind_, std::move(place), text_); }
-  /// The same error with one more thing said at the end of its line.
+  /// The same error with a note at the end of its line.
   Error noting(std::string note) const { return Error(kind_, place_, text_, std::move(note)); }
 
 private:

@@ -10,7 +10,7 @@ namespace nephroid {
 FileLock lock_open_file(int descriptor, bool alone) {
   if (descriptor < 0) return nullptr;
   FileLock lock(new int(descriptor), [](const int* open) {
-    ::flock(*open, LOCK_UN); // a forked process may hold it open, too
+    ::flock(*open, LOCK_UN); // a forked process may also hold it open
     ::close(*open);
     delete open;
   });

@@ -5,12 +5,12 @@
 
 namespace nephroid {
 
-/// Kept as long as somebody has this, and lost with the process. Null: there is none.
+/// The lock lasts as long as this pointer has owners, and ends with the process. Null: no lock.
 using FileLock = std::shared_ptr<const int>;
 
-/// Locks an open file or folder, which becomes the lock's, and waits for nobody. alone: else others may lock it so,
-/// too. Null with the system's errno where it cannot be had: EWOULDBLOCK where another process has one, another where
-/// the file system has no locks.
+/// Locks an open file or folder and does not wait. The lock takes over the descriptor. Unless `alone`, others may take
+/// the same shared lock. Returns null with the system's errno if it fails: EWOULDBLOCK if another process has the lock,
+/// another errno if the file system has no locks.
 FileLock lock_open_file(int descriptor, bool alone = true);
 
 } // namespace nephroid

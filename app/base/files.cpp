@@ -21,7 +21,7 @@ namespace nephroid {
 namespace fs = std::filesystem;
 namespace {
 
-/// An open file; closed at the end of its scope where nobody closed it before.
+/// An open file. The end of the scope closes it unless close() did.
 class Descriptor {
 public:
   explicit Descriptor(int number) : number_(number) {}
@@ -30,7 +30,7 @@ public:
   Descriptor& operator=(Descriptor&&) = delete;
   int number() const { return number_; }
   bool ok() const { return number_ >= 0; }
-  /// False with errno set where the system reports a late write error.
+  /// Returns false and sets errno if the system reports a late write error.
   bool close() {
     const int number = std::exchange(number_, -1);
     return number < 0 || ::close(number) == 0;
@@ -48,7 +48,6 @@ std::string remedy_for(int error) {
   return error == ENOENT ? "make the folder first" : "";
 }
 
-/// Says why the file could not be written.
 [[noreturn]] void give_up(const fs::path& path, int error) {
   throw failed(path.string(), fmt::format("cannot be written: {}", reason(error)), {}, remedy_for(error));
 }
@@ -57,9 +56,9 @@ Error unreadable(const fs::path& path, const std::string& why) {
   return bad_input(path.string(), "cannot be read: " + why);
 }
 
-/// Only the descriptor of a regular file may be read: reading a device or a pipe might never end.
+/// Opens regular files only: reading a device or a pipe might never end.
 Descriptor open_to_read(const fs::path& path, struct stat& status) {
-  // Without O_NONBLOCK a named pipe would be waited for here; on a regular file it does nothing.
+  // Without O_NONBLOCK, open() would wait for a named pipe. For a regular file the flag does nothing.
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!file.ok() || ::fstat(file.number(), &status) != 0) throw unreadable(path, reason(errno));
   if (S_ISDIR(status.st_mode)) throw unreadable(path, "it is a folder");
@@ -67,7 +66,7 @@ Descriptor open_to_read(const fs::path& path, struct stat& status) {
   return file;
 }
 
-/// How many bytes were read: fewer than `count` only at the end of the file.
+/// Returns the number of bytes read, which is below `count` only at the end of the file.
 std::size_t read_some(const Descriptor& file, const fs::path& path, void* into, std::size_t count) {
   std::size_t filled = 0;
   while (filled < count) {
@@ -80,7 +79,7 @@ std::size_t read_some(const Descriptor& file, const fs::path& path, void* into, 
   return filled;
 }
 
-/// Small pieces wait in a buffer: checkpoints hold thousands of single values.
+/// The buffer's size. It collects small pieces: checkpoints hold thousands of single values.
 constexpr std::size_t file_buffer = 1 << 16;
 
 class FileSource final : public ByteSource {
@@ -113,13 +112,13 @@ private:
   fs::path path_;
   struct stat status_ {};
   Descriptor file_;
-  std::uint64_t unread_;            ///< of the file
-  std::vector<std::byte> buffered_; ///< read and not asked for, from at_ on
+  std::uint64_t unread_;            ///< bytes of the file that are not read yet
+  std::vector<std::byte> buffered_; ///< bytes read ahead, from at_ on
   std::size_t at_ = 0;
 };
 
-/// path: what errors name. mode: of the file that is replaced; 0: there is none. close(), which flushes to disk, is the
-/// last call.
+/// path: the name in errors. mode: the mode of the file that is replaced; 0: none. close() is the last call and flushes
+/// to disk.
 class FileSink final : public ByteSink {
 public:
   FileSink(const fs::path& temporary, const fs::path& path, mode_t mode)
@@ -160,7 +159,7 @@ private:
   std::vector<std::byte> waiting_;
 };
 
-/// The regular file that path is or leads to, and its status; path itself where there is none.
+/// The regular file that path names or links to, and its status; path itself if there is none.
 fs::path file_to_replace(const fs::path& path, struct stat& status) {
   if (::stat(path.c_str(), &status) != 0) {
     status.st_mode = 0;
@@ -173,14 +172,14 @@ fs::path file_to_replace(const fs::path& path, struct stat& status) {
   return ignored ? path : there;
 }
 
-/// ".STEM.PROCESS-COUNT.tmp.EXTENSION" beside path: no other writer has it.
+/// ".STEM.PROCESS-COUNT.tmp.EXTENSION" beside path, a name that no other writer uses.
 fs::path temporary_name(const fs::path& path) {
   static std::atomic<unsigned> count{0}; // two threads may write the same file
   return path.parent_path() /
          fmt::format(".{}.{}-{}.tmp{}", path.stem().string(), ::getpid(), count++, path.extension().string());
 }
 
-/// Renames a temporary file that is on disk to path.
+/// Renames a temporary file, which is already on disk, to path.
 void commit_file(const fs::path& temporary, const fs::path& path) {
   if (::rename(temporary.c_str(), path.c_str()) != 0) give_up(path, errno);
   // The new name reaches the disk with its folder. Some file systems refuse to sync folders; the file itself is safe by
@@ -192,7 +191,7 @@ void commit_file(const fs::path& temporary, const fs::path& path) {
 /// The folder of the running program, empty where /proc is not mounted.
 fs::path program_folder() {
   std::error_code ignored;
-  // Of the program that this is part of; in another one, such as Python, of the library.
+  // This gives the program that contains this code, or the library in another program such as Python.
   Dl_info here{};
   const bool is_library =
       ::dladdr(reinterpret_cast<void*>(&program_folder), &here) != 0 && fs::path(here.dli_fname).extension() == ".so";
@@ -205,8 +204,8 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, ignored);
 }
 
-/// Where a file of ours may lie: an installation has bin/nephroid, lib/nephroid and share/nephroid, and a build folder
-/// is laid out the same way. Test programs lie up to two folders deeper.
+/// Where a file of the project may lie. An installation has bin/nephroid, lib/nephroid and share/nephroid; a build
+/// folder has the same layout. Test programs lie up to two folders deeper.
 std::vector<fs::path> candidates(const fs::path& name) {
   std::vector<fs::path> result;
   fs::path folder = program_folder();
@@ -231,8 +230,8 @@ std::vector<fs::path> model_folders() {
   return folders;
 }
 
-/// nephroid in the folder that a variable of the XDG base directory specification names, else in this one of the
-/// user's; empty without HOME.
+/// The folder nephroid in the folder that a variable of the XDG base directory specification names, else in `in_home`
+/// of the user's home; empty without HOME.
 fs::path user_folder(const char* variable, const char* in_home) {
   const auto value = [](const char* key) {
     const char* text = std::getenv(key);
@@ -292,7 +291,7 @@ bool is_temporary_name(const fs::path& path) {
            dash > 1 && numbers.size() > dash + 1 && numbers[dash] == '-' &&
            numbers.find_first_not_of(digits, dash + 1) == std::string::npos;
   };
-  return has_form(path.filename()) || has_form(path.filename().stem()); // with the file's own ending behind it
+  return has_form(path.filename()) || has_form(path.filename().stem()); // the file's own ending may follow
 }
 
 fs::path cache_folder(const std::string& name) {
@@ -349,7 +348,7 @@ void FileFinder::add(fs::path folder) {
 
 fs::path FileFinder::find(const std::string& name, const Place& where) const {
   if (name.empty()) throw bad_input(where, "the file name is empty");
-  std::string other_kind; // what has the name but cannot be read: a file of that name in a later folder still counts
+  std::string other_kind; // has the name but cannot be read; a file of that name in a later folder still counts
   const auto is_file = [&](const fs::path& path) {
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);

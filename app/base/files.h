@@ -14,46 +14,47 @@ namespace nephroid {
 class ByteSink;
 class ByteSource;
 
-/// Whether a file or folder is there; false also where nobody can tell, as in a folder that may not be read.
+/// Whether a file or folder exists; false also if that cannot be known, as in a folder without read permission.
 bool is_there(const std::filesystem::path& path);
 
-/// The file's bytes. Throws bad_input where it cannot be read (missing, a folder, a device or a pipe, no permission).
+/// The file's bytes. Throws bad_input if it cannot be read (missing, a folder, a device or a pipe, no permission).
 std::string read_file(const std::filesystem::path& path);
 
-/// The file's bytes one after the other. Throws as read_file, also where it ends while it is read.
+/// Reads the file's bytes in sequence. Throws as read_file does, and if the file ends while it is read.
 std::unique_ptr<ByteSource> open_file(const std::filesystem::path& path);
 
-/// Writes beside path, flushes to disk, renames: whole or not at all. A link leads on; what is replaced hands on its
-/// mode. Throws failed (full disk, no permission, not a regular file); the temporary file is removed.
+/// Writes a temporary file beside path, flushes it to disk and renames it, so that the file is written whole or not at
+/// all. Follows links and keeps the mode of a file that it replaces. Throws failed (full disk, no permission, not a
+/// regular file) and removes the temporary file.
 void write_file_whole(const std::filesystem::path& path, std::string_view bytes);
-/// The same of what `write` writes; what it throws goes on, and there is no file.
+/// Writes whole what `write` writes. Passes on what `write` throws; then there is no file.
 void write_file_whole(const std::filesystem::path& path, const std::function<void(ByteSink&)>& write);
-/// Whether this is the name of a temporary file of write_file_whole, which it leaves where the process is killed at its
-/// work.
+/// Whether write_file_whole gives this name to a temporary file. One stays behind if the process is killed while it
+/// writes.
 bool is_temporary_name(const std::filesystem::path& path);
 
 /// The folder of the shipped presets and materials: NEPHROID_PRESETS from the environment, else ../presets beside the
-/// program's build folder or installed share folder. Throws failed where none is found.
+/// program's build folder or installed share folder. Throws failed if none is found.
 std::filesystem::path presets_folder();
-/// The same, empty where none is found: a path to a preset still works then.
+/// The same folder, or empty if none is found: a path to a preset still works then.
 std::filesystem::path presets_folder_if_any();
 
-/// nephroid/NAME in the user's folder of caches: XDG_CACHE_HOME, else ~/.cache. Whether it is there is not asked. Empty
-/// where HOME is not set either.
+/// nephroid/NAME in the user's cache folder: XDG_CACHE_HOME, else ~/.cache. It need not exist. Empty if HOME is not set
+/// either.
 std::filesystem::path cache_folder(const std::string& name);
 
-/// nephroid in the user's folder of what programs keep between their runs: XDG_STATE_HOME, else ~/.local/state. As
-/// cache_folder().
+/// nephroid in the user's folder for state kept between runs: XDG_STATE_HOME, else ~/.local/state. It need not exist;
+/// empty as with cache_folder().
 std::filesystem::path state_folder();
 
-/// lib/nephroid/NAME of the build or installation folder that the program lies in: a module or a helper of ours.
-/// Throws failed where it is not there.
+/// lib/nephroid/NAME of the build or installation folder of the program: a module or a helper. Throws failed if it does
+/// not exist.
 std::filesystem::path library_file(const std::string& name);
 
-/// A file that is in none of the folders that were looked into.
+/// A file is in none of the folders searched.
 class FileNotFound : public Error {
 public:
-  /// looked_in: the folders, joined by commas.
+  /// looked_in: the folders searched, joined by commas.
   FileNotFound(Place where, const std::string& name, const std::string& looked_in);
   const std::string& name() const { return name_; }
   const std::string& looked_in() const { return looked_in_; }
@@ -62,20 +63,19 @@ private:
   std::string name_, looked_in_;
 };
 
-/// Where the files that a preset names are looked for, in order: beside the preset, in presets/, in the system's model
-/// folders.
+/// Searches for the files that a preset names: beside the preset, then in presets/, then in the system's model folders.
 class FileFinder {
 public:
   explicit FileFinder(std::filesystem::path beside = {});
-  /// The first existing match of name (absolute names stand for themselves).
-  /// Throws FileNotFound at `where`, or bad_input where something has the name and is no regular file.
+  /// The first existing match; an absolute name is its own match. Throws FileNotFound at `where`, or bad_input if the
+  /// match is no regular file.
   std::filesystem::path find(const std::string& name, const Place& where) const;
   const std::vector<std::filesystem::path>& folders() const { return folders_; }
 
 private:
   void add(std::filesystem::path folder);
 
-  std::vector<std::filesystem::path> folders_; ///< each once
+  std::vector<std::filesystem::path> folders_; ///< each folder once
 };
 
 } // namespace nephroid

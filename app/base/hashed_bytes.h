@@ -12,13 +12,14 @@
 
 namespace nephroid {
 
-/// FNV-1a: enough to tell contents apart and to notice damage; not against forgery. `hash` continues an earlier one.
+/// FNV-1a, which tells contents apart and notices damage, but not forgery. `hash` continues an earlier hash.
 inline std::uint64_t hash_of(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325u) {
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
   return hash;
 }
 
-/// Eight bytes at a time: films and bakes have gigabytes. Tells contents apart and notices damage, not forgery.
+/// Hashes eight bytes at a time, because films and bakes have gigabytes. Tells contents apart and notices damage, not
+/// forgery.
 class PieceHash {
 public:
   void add(std::span<const std::byte> bytes) {
@@ -46,8 +47,8 @@ private:
   }
 
   std::uint64_t hash_ = hash_of({});
-  std::array<std::byte, 8> word_{}; ///< begun
-  std::size_t waiting_ = 0;         ///< bytes of it
+  std::array<std::byte, 8> word_{}; ///< the word begun
+  std::size_t waiting_ = 0;         ///< number of bytes in word_
 };
 
 class HashedSink final : public ByteSink {
@@ -66,7 +67,7 @@ private:
 
 class HashedSource final : public ByteSource {
 public:
-  /// where: what an error calls it. behind: bytes at the end of `from` that are not of it, such as the hash.
+  /// where: the name in errors. behind: number of bytes at the end of `from` that do not count, such as the hash.
   HashedSource(ByteSource& from, Place where, std::uint64_t behind = 0)
       : from_(from), where_(std::move(where)), behind_(behind) {}
   void read(std::span<std::byte> into) override {
@@ -84,7 +85,7 @@ private:
   PieceHash hash_;
 };
 
-/// Reads what is left, to no end but to be through with it.
+/// Reads what is left and drops it, so that all bytes are hashed.
 inline void read_to_end(ByteSource& from) {
   std::vector<std::byte> piece(1 << 18);
   while (from.left() > 0)

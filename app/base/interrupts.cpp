@@ -17,7 +17,7 @@ sigset_t waited_signals() {
   return signals;
 }
 
-/// Ends the process the way the signal does where nobody waits for it, so that shells see what happened.
+/// Ends the process as the signal does by default, so that shells see the cause.
 void die_of(int signal) {
   ::signal(signal, SIG_DFL);
   const sigset_t signals = waited_signals();
@@ -44,7 +44,7 @@ Interrupts::Interrupts() {
 }
 
 Interrupts::~Interrupts() {
-  waiter_ = {}; // asks it to end and joins
+  waiter_ = {}; // asks the thread to end and joins it
   ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 

@@ -7,9 +7,8 @@
 
 namespace nephroid {
 
-/// While one exists, the first SIGINT or SIGTERM sets token() and a second one kills the process. Make it before any
-/// other thread is started (by OpenCL, say), because threads inherit which signals they leave to it. Signals are as
-/// before after its end.
+/// While one exists, the first SIGINT or SIGTERM sets token(), and a second one kills the process. Make it before any
+/// other thread starts (by OpenCL, say), because threads inherit the signal mask. Its destructor restores the signals.
 class Interrupts {
 public:
   Interrupts();

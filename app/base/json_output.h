@@ -7,8 +7,8 @@
 
 namespace nephroid {
 
-/// The value as text, on one line or, with indent >= 0, on many. JSON is UTF-8 and file names may hold any bytes: what
-/// is no UTF-8 becomes U+FFFD, and nothing is thrown.
+/// The value as text, on one line, or on many with indent >= 0. JSON is UTF-8, but file names may hold any bytes:
+/// invalid UTF-8 becomes U+FFFD, and nothing is thrown.
 std::string json_text(const nlohmann::ordered_json& value, int indent = -1);
 
 } // namespace nephroid

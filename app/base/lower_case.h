@@ -5,7 +5,7 @@
 
 namespace nephroid {
 
-/// A to Z become a to z, whatever the locale; all else stays.
+/// A to Z become a to z in every locale; all else stays.
 inline std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });

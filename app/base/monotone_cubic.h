@@ -7,8 +7,8 @@
 
 namespace nephroid {
 
-/// The monotone piecewise cubic of Fritsch and Carlson (SIAM J. Numer. Anal. 17, 1980): continuous slope, and between
-/// two control points never above the higher or below the lower one. End values are held outside.
+/// The monotone piecewise cubic of Fritsch and Carlson (SIAM J. Numer. Anal. 17, 1980). Its slope is continuous, and
+/// between two control points it stays between their values. Outside, the end values are held.
 class MonotoneCubic {
 public:
   using Row = std::array<double, 2>; ///< x and y of a control point
@@ -19,7 +19,7 @@ public:
 
 private:
   std::vector<Row> rows_;
-  std::vector<double> slopes_; ///< one a control point
+  std::vector<double> slopes_; ///< one slope per control point
 };
 
 } // namespace nephroid

@@ -7,10 +7,11 @@
 
 namespace nephroid {
 
-/// Insertions, deletions, replacements and swaps of neighbours that turn a into b (optimal string alignment distance).
+/// The number of insertions, deletions, replacements and swaps of neighbours that turn a into b (optimal string
+/// alignment distance).
 int edit_distance(std::string_view a, std::string_view b);
-/// The known word with the smallest distance to word (the first of equals), or "" where none is near: more than a third
-/// of the word's letters, at least two, would have to change.
+/// The known word with the smallest distance to `word`, the first if several have it. "" if none is near: a near word
+/// needs changes of at most a third of the letters, or two.
 std::string nearest(std::string_view word, std::span<const std::string> known);
 
 } // namespace nephroid

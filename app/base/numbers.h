@@ -12,8 +12,8 @@
 
 namespace nephroid {
 
-/// The number that all of the text is; nothing where it is none or out of range. "nan" and "inf" are numbers, "+3" is
-/// none.
+/// The number that the whole text spells; nothing if it spells none or is out of range. "nan" and "inf" are numbers,
+/// "+3" is none.
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {
   Number number{};
@@ -21,8 +21,8 @@ std::optional<Number> number_in(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
-/// A number as people type it: 3, +3, .02, 5., 1e5. Nothing where it is none or, of whole numbers, is not whole or not
-/// exact.
+/// A number as people type it: 3, +3, .02, 5., 1e5. Nothing if it is no number, or, for an integer type, if it is not
+/// whole or not exact.
 template <class Number>
 std::optional<Number> typed_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);

@@ -7,8 +7,8 @@
 
 namespace nephroid {
 
-/// Calls work(block) once for each block 0..count-1, on several threads at once; returns when all are done. Rethrows
-/// what a call threw, if any; blocks that were not begun by then are left out.
+/// Calls work(block) once for each block 0..count-1, on several threads, and returns when all are done. If a call
+/// throws, blocks not yet begun are left out and the exception is rethrown.
 void for_blocks(std::size_t count, const std::function<void(std::size_t)>& work);
 
 /// A half-open range of items.

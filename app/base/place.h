@@ -11,7 +11,7 @@
 
 namespace nephroid {
 
-/// A key as it stands between the slashes of a JSON pointer (RFC 6901): '~' becomes "~0" and '/' becomes "~1".
+/// Escapes a key for a JSON pointer (RFC 6901): '~' becomes "~0" and '/' becomes "~1".
 std::string pointer_key(std::string_view key);
 
 struct Place {
@@ -27,9 +27,9 @@ struct Place {
   std::size_t line = 0, column = 0;   ///< in the file, from 1; 0: none
   std::optional<std::string> pointer; ///< JSON pointer of a value in the file; "" is the outermost value
   std::string
-      field; ///< JSON pointer of the preset's field whose value somebody else gave here (preset/origins.h); or empty
+      field; ///< JSON pointer of the preset's field if its value comes from another origin (preset/origins.h); or empty
 
-  /// The value's member or item.
+  /// The place of the value's member or item.
   Place operator/(std::string_view key) const;
   template <std::integral Index>
   Place operator/(Index index) const {

@@ -12,7 +12,7 @@ namespace nephroid {
 
 class SummedArea {
 public:
-  /// value(pixel): the channel of a pixel, row by row from the top; called on every core.
+  /// value(pixel): the pixel's value in the channel; pixels go row by row from the top. It is called on every core.
   template <class Value>
   SummedArea(int width, int height, const Value& value) : width_(width), height_(height) {
     const std::size_t stride = static_cast<std::size_t>(width) + 1;
@@ -31,14 +31,14 @@ public:
     });
   }
 
-  /// Over the square that reaches so many pixels to each side of (x, y), as much of it as is in the picture.
+  /// The sum over the square that reaches `reach` pixels to each side of (x, y), cut to the picture.
   double sum(int x, int y, int reach) const {
     const int left = std::max(x - reach, 0), right = std::min(x + reach + 1, width_);
     const int top = std::max(y - reach, 0), bottom = std::min(y + reach + 1, height_);
     return at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
   }
 
-  /// The same, divided by the number of pixels.
+  /// The mean over the same pixels.
   double mean(int x, int y, int reach) const {
     const int columns = std::min(x + reach + 1, width_) - std::max(x - reach, 0),
               rows = std::min(y + reach + 1, height_) - std::max(y - reach, 0);
@@ -46,7 +46,7 @@ public:
   }
 
 private:
-  /// Of all pixels left of x and above y.
+  /// The sum of all pixels left of x and above y.
   double at(int x, int y) const {
     return sums_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(width_) + 1) + static_cast<std::size_t>(x)];
   }

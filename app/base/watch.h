@@ -11,9 +11,9 @@ namespace nephroid {
 struct Watch {
   std::stop_token stop;
   std::function<void(const std::string& doing)>
-      tell; ///< "reading bunny.obj"; on the thread that works. Null: nobody listens
+      tell; ///< gets "reading bunny.obj" on the working thread; null: no listener
 
-  /// Before each part of the work. Throws interrupted where it shall end.
+  /// Call it before each part of the work. Throws interrupted if the work shall end.
   void begin(const std::string& doing) const {
     if (stop.stop_requested()) throw Error(ErrorKind::interrupted, "", "interrupted while " + doing);
     if (tell) tell(doing);

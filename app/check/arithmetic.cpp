@@ -15,12 +15,12 @@
 namespace nephroid::check {
 namespace {
 
-/// The order of check.cl's built_ins.
+/// In the order of check.cl's built_ins.
 enum class Function { exp, log, sqrt, rsqrt, sin, cos, divide, fma, difference };
 
 constexpr std::size_t sample_count = 1 << 16;
 
-/// Distance from the truth in spacings of floats there.
+/// The distance from the truth in spacings of floats there.
 double ulps(float got, double truth) {
   if (!std::isfinite(got)) return std::numeric_limits<double>::infinity();
   int exponent = 0;
@@ -32,7 +32,7 @@ struct BuiltIn {
   const char* name;
   Function function;
   double tolerance;
-  const char* range; ///< of the arguments, in words
+  const char* range; ///< range of the arguments, in words
   float4 (*arguments)(std::mt19937_64&);
   double (*truth)(const float4&);
 };
@@ -40,12 +40,12 @@ struct BuiltIn {
 float uniform(std::mt19937_64& random, double low, double high) {
   return static_cast<float>(std::uniform_real_distribution<double>(low, high)(random));
 }
-/// Of either sign where asked for, evenly over the exponents -e to e: results stay normal numbers.
+/// A float of either sign if `negative`, with its exponent evenly spread over -e to e: results stay normal numbers.
 float any_size(std::mt19937_64& random, double e, bool negative = false) {
   const double size = std::exp2(std::uniform_real_distribution<double>(-e, e)(random));
   return static_cast<float>(negative && random() % 2 ? -size : size);
 }
-/// x y close to z w in half of all cases, where one fused rounding would show.
+/// In half of all cases x y is close to z w, where one fused rounding would show.
 float4 products(std::mt19937_64& random) {
   const float x = any_size(random, 4, true), y = any_size(random, 4, true), z = any_size(random, 4, true);
   return {x, y, z, random() % 2 ? any_size(random, 4, true) : x * y / z};

@@ -12,17 +12,17 @@
 
 namespace nephroid::check {
 
-/// What one check gave: passed where |figure| <= tolerance.
+/// The result of one check: passed if |figure| <= tolerance.
 struct Result {
   std::string name;  ///< Check::name
   double figure = 0; ///< a distance from the truth
   double tolerance = 0;
-  std::string unit;   ///< of both: "pixels", "sigma", "quanta", ""
+  std::string unit;   ///< unit of figure and tolerance: "pixels", "sigma", "quanta", ""
   std::string detail; ///< a sentence: what was compared with what
-  bool passed() const { return figure <= tolerance && figure >= -tolerance; } // NaN: failed
+  bool passed() const { return figure <= tolerance && figure >= -tolerance; } // NaN fails
 };
 
-/// Of a check that does not know its name.
+/// A result without the check's name.
 inline Result judged(double figure, double tolerance, std::string unit, std::string detail) {
   return {{}, figure, tolerance, std::move(unit), std::move(detail)};
 }
@@ -30,20 +30,20 @@ inline Result judged(double figure, double tolerance, std::string unit, std::str
 /// One check by name; run() takes a second or two at most and throws where the device fails.
 struct Check {
   std::string name; ///< "SUBJECT: what holds"
-  /// seed: of every random number in it. Results in sigma pass with every seed but one in ten million.
+  /// seed: seeds every random number of the check. With results in sigma, one seed in ten million fails.
   std::function<Result(const compute::Context&, std::uint64_t seed)> run;
 };
 
-/// Those of what all engines share. engine/engine.h has every engine's own too.
+/// The checks of what all engines share. engine/engine.h adds every engine's own.
 std::vector<Check> checks();
 
-/// The check's result under its name. Where the device or the kernels' compiler fails, the figure is NaN and the detail
-/// says why, so that one broken kernel does not hide what the others do.
+/// The check's result under its name. If the device or the kernels' compiler fails, the figure is NaN and the detail
+/// gives the reason, so that one broken kernel does not hide the other results.
 Result run_check(const Check& check, const compute::Context& context, std::uint64_t seed = 1);
 
 using Checks = std::vector<Check>;
 
-/// By subject, in the order in which they make sense: a device whose exp is wrong needs no look at its rays.
+/// By subject, basic ones first: if exp is wrong on a device, its rays need no check.
 Checks arithmetic_checks(); ///< arithmetic.cpp: the device's own functions, in units in the last place
 Checks exactness_checks();  ///< exactness.cpp: random numbers and sums, bit for bit
 Checks geometry_checks();   ///< geometry.cpp: rays and triangles

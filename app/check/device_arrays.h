@@ -15,10 +15,10 @@ inline shared::uint2 device_seed(std::uint64_t seed) {
   return {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
 }
 
-/// As the engine's kernels: a device that cannot run groups of so many cannot run those.
+/// The group size of the engines' kernels, so that a device that cannot run it fails here too.
 inline constexpr std::size_t local_size = 64;
 
-/// Kernel `name` of a file over `count` items, which is its argument "count"; the others are given.
+/// Runs kernel `name` of a file over `count` items. Its argument "count" is set here, the others are given.
 inline void run_kernel(const compute::Context& context, const char* name, std::size_t count,
                        std::initializer_list<compute::Argument> own, const char* file = "check/check.cl",
                        const compute::Defines& defines = {}) {

@@ -73,15 +73,16 @@ Result uniforms(const compute::Context& context, std::uint64_t seed) {
                 fmt::format("of {} uniforms, those outside [0, 1) or other than the host's", 4 * count));
 }
 
-/// Films are sums of integers, so every order of adding gives the same; halves: by two 32-bit atomics with carry.
+/// Films are sums of integers, so every order of adding gives the same. `halves` adds with two 32-bit atomics and a
+/// carry.
 Result sums(const compute::Context& context, std::uint64_t seed, bool halves) {
   constexpr std::size_t count = 1 << 17, places = 7;
   std::mt19937_64 random(seed);
   std::vector<std::int64_t> values(count), truth(places, 0);
   std::vector<std::int32_t> where(count);
   for (std::size_t i = 0; i < count; ++i) {
-    values[i] =
-        static_cast<std::int64_t>(random()) >> (i % 4 == 0 ? 56 : 20); // both signs, 44 bits, and some that only carry
+    values[i] = static_cast<std::int64_t>(random()) >>
+                (i % 4 == 0 ? 56 : 20); // both signs, 44 bits, and some values that only carry
     where[i] = static_cast<std::int32_t>(random() % places);
     truth[static_cast<std::size_t>(where[i])] += values[i];
   }

@@ -19,7 +19,7 @@ constexpr std::size_t ray_count = 1 << 13;
 /// The longest distance between an origin below and a vertex, and the spacing of floats there.
 constexpr double reach = 5.5, rounding = 0x1p-24 * reach;
 
-/// A rod of radius 1 with a brilliant in it: thin triangles, about 600.
+/// A rod of radius 1 with a brilliant in it, about 600 thin triangles.
 scene::Mesh rod_and_brilliant() {
   scene::Mesh mesh =
       scene::make_shape({.type = preset::Shape::Type::cylinder, .radius = 1, .height = 2, .segments = 120});
@@ -32,12 +32,12 @@ scene::Mesh rod_and_brilliant() {
 }
 
 glm::vec3 direction(std::mt19937_64& random) {
-  std::normal_distribution<float> normal; // of three such numbers every direction is as likely
+  std::normal_distribution<float> normal; // three of these give every direction the same likelihood
   const float x = normal(random), y = normal(random), z = normal(random);
   return glm::normalize(glm::vec3(x, y, z));
 }
 
-/// From outside and from inside towards the mesh; some along an axis, some that end early.
+/// Rays from outside and inside towards the mesh. Some run along an axis, some end early.
 std::vector<Ray> rays_towards_the_mesh(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<float> uniform(-0.9f, 0.9f);
@@ -59,7 +59,7 @@ std::vector<Ray> rays_towards_the_mesh(std::uint64_t seed) {
   return rays;
 }
 
-/// The mesh, the rays of one seed, some of which skip the triangle that they would hit, and what they hit.
+/// The mesh, the rays of one seed and their hits. Some rays skip the triangle that they would hit.
 struct Rays {
   scene::Mesh mesh = rod_and_brilliant();
   std::vector<Ray> rays;
@@ -90,9 +90,9 @@ Result closest_hits(const compute::Context& context, std::uint64_t seed) {
           traced.rays.size(), traced.mesh.triangles.size(), hits, differ - static_cast<std::size_t>(wrong)));
 }
 
-/// t and the point (1 - u - v) a + u b + v c, against where the ray's line meets the triangle's plane. Barycentrics of
-/// a thin triangle have the error of the coordinates over its height, so the place is off by that times its longest
-/// edge.
+/// Compares t and the point (1 - u - v) a + u b + v c with where the ray's line meets the triangle's plane. In a thin
+/// triangle, barycentrics have the error of the coordinates over its height, so the place is off by that times the
+/// longest edge.
 Result hit_places(const compute::Context& context, std::uint64_t seed) {
   const Rays traced(context, seed);
   const Judge judge(traced.mesh, 8 * rounding);
@@ -126,7 +126,7 @@ Result any_hits(const compute::Context& context, std::uint64_t seed) {
       fmt::format("of {} rays, those where \"is anything hit\" and \"what is hit first\" disagree", any.size()));
 }
 
-/// From inside a closed mesh, aimed exactly at its vertices and at points of its edges, where a leak would be.
+/// Rays from inside a closed mesh, aimed exactly at its vertices and at points of its edges, where a leak would be.
 Result no_leaks(const compute::Context& context, std::uint64_t seed) {
   const scene::Mesh mesh = rod_and_brilliant();
   std::mt19937_64 random(seed);
@@ -146,8 +146,8 @@ Result no_leaks(const compute::Context& context, std::uint64_t seed) {
       fmt::format("of {} rays from inside at vertices and edges of a closed mesh, those that got out", rays.size()));
 }
 
-/// Spheres and ellipsoids, from outside and from inside: place by the plain quadratic in double, along the normal
-/// there.
+/// Spheres and ellipsoids, hit from outside and inside. The truth is the plain quadratic in double; distances are along
+/// the normal.
 Result ellipsoid_hits(const compute::Context& context, std::uint64_t seed) {
   scene::Mesh mesh;
   mesh.ellipsoids = {{{0, 0, 0}, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, false},
@@ -168,7 +168,7 @@ Result ellipsoid_hits(const compute::Context& context, std::uint64_t seed) {
       for (const double t : {(-b - root) / a, (-b + root) / a})
         if (t > 0 && t < nearest) nearest = t, steepness = std::abs(glm::dot(d, normal_at(ellipsoid, o + t * d)));
     }
-    if (steepness > 0 && steepness < 0.01) continue; // rounding decides whether it is hit
+    if (steepness > 0 && steepness < 0.01) continue; // rounding decides whether the ray hits
     const bool hit = hits[i].primitive != no_primitive;
     worst = std::max(worst, hit != (steepness > 0) ? INFINITY : hit ? std::abs(hits[i].t - nearest) * steepness : 0.0);
   }

@@ -17,8 +17,8 @@ namespace {
 
 using std::numbers::pi;
 
-// The specification lets a division be off by 2.5 units in the last place and a square root by 3, so that sin_t = n_i /
-// n_t sin_i may be off by about 6 of 2^-24, or 4e-7, and its square and 1 - sin_t^2 by twice that; tolerances below are
+// The specification lets a division be off by 2.5 units in the last place and a square root by 3. So sin_t = n_i / n_t
+// sin_i may be off by about 6 of 2^-24, or 4e-7, and its square and 1 - sin_t^2 by twice that. Tolerances below are
 // about twice what follows.
 constexpr float indices[] = {1, 1.0001f, 1.33f, 1.5f, 1.9f, 2.42f, 4};
 
@@ -40,8 +40,8 @@ std::vector<float4> interfaces() {
   return in;
 }
 
-/// R changes with cos_t by the order of n_i / n_t + n_t / n_i, and cos_t has the error of its square over 2 cos_t:
-/// errors are judged in units of that. Closer to the critical angle than cos_t = 0.01 the next check but one judges.
+/// R changes with cos_t by the order of n_i / n_t + n_t / n_i, and cos_t has the error of its square over 2 cos_t.
+/// Errors are in units of that. critical_angle checks what is closer to the critical angle than cos_t = 0.01.
 Result reflectance(const compute::Context& context, std::uint64_t) {
   const std::vector<float4> in = interfaces(), out = through(context, "interfaces", in, 1);
   double worst = 0;
@@ -60,7 +60,7 @@ Result reflectance(const compute::Context& context, std::uint64_t) {
                             in.size()));
 }
 
-/// n_i sin(theta_i) = n_t sin(theta_t) and unit length; the reflected direction with its normal part turned round.
+/// Checks n_i sin(theta_i) = n_t sin(theta_t) and unit length. The reflected direction has the opposite normal part.
 Result refraction(const compute::Context& context, std::uint64_t) {
   std::vector<float4> in;
   for (const float near : indices)
@@ -75,7 +75,7 @@ Result refraction(const compute::Context& context, std::uint64_t) {
   double worst = 0;
   const auto compare = [&worst](double error) {
     worst = std::abs(error) <= worst ? worst : std::abs(error);
-  }; // NaN stays
+  }; // keeps NaN
   for (std::size_t i = 0; i < in.size(); ++i) {
     const float4 &d = in[i], &r = out[2 * i], &t = out[2 * i + 1];
     compare(double(r.x) - d.x), compare(double(r.y) - d.y), compare(double(r.z) + d.z);
@@ -91,8 +91,8 @@ Result refraction(const compute::Context& context, std::uint64_t) {
                             in.size()));
 }
 
-/// Cosines one float after the other about the critical angle: how far from it reflection is decided otherwise than by
-/// sin_t > 1.
+/// Neighbouring floats as cosines about the critical angle. The figure is how far from it the kernel decides otherwise
+/// than sin_t > 1.
 Result critical_angle(const compute::Context& context, std::uint64_t) {
   std::vector<float4> in;
   for (const float n : {1.1f, 1.33f, 1.5f, 2.42f, 4.0f}) {
@@ -112,8 +112,8 @@ Result critical_angle(const compute::Context& context, std::uint64_t) {
                             in.size()));
 }
 
-/// tan(theta) = n: nothing that is polarised in the plane of incidence is reflected, and of the rest ((n^2 - 1) / (n^2
-/// + 1))^2.
+/// At tan(theta) = n, light polarised in the plane of incidence is not reflected; of the other, ((n^2 - 1) / (n^2 +
+/// 1))^2 is.
 Result brewster(const compute::Context& context, std::uint64_t) {
   std::vector<float4> in;
   for (int k = 1; k <= 300; ++k)
@@ -130,8 +130,8 @@ Result brewster(const compute::Context& context, std::uint64_t) {
                   in.size()));
 }
 
-/// Which object is the medium, by the rule in words: of those entered and not left the one of highest priority, of
-/// equals the last.
+/// The object whose medium counts, by the rule in words: among those entered and not left, the one of highest priority;
+/// among equals, the last.
 int medium(const std::vector<int>& entered, const std::vector<shared::DeviceObject>& objects) {
   int best = -1;
   for (const int object : entered)

@@ -102,7 +102,7 @@ Verdict Judge::judge(const Ray& ray, const Hit& ours, const Hit& theirs) const {
     if (hit.margin <= tolerance_) verdict = Verdict::edge;
     limit = hit.t;
   }
-  // Every triangle before ours must be passed at an edge or be where the ray starts.
+  // The ray must pass every nearer triangle at an edge, or start on it.
   for (const std::uint32_t i : candidates(ray)) {
     if (i == ours.primitive || i == ray.skip) continue;
     const Exact hit = exact(ray, i);
@@ -118,7 +118,7 @@ Verdict Judge::judge(const Ray& ray, const Hit& ours, const Hit& theirs) const {
   return verdict;
 }
 
-/// Triangles that come near the ray's line: those whose first vertex is within the longest edge of it.
+/// Triangles near the ray's line: their first vertex is within the longest edge of it.
 std::vector<std::uint32_t> Judge::candidates(const Ray& ray) const {
   const glm::dvec3 o(ray.origin), d = glm::normalize(glm::dvec3(ray.direction));
   const double reach = (longest_edge_ + tolerance_) * (longest_edge_ + tolerance_);

@@ -22,14 +22,14 @@ struct Ray {
   std::uint32_t skip = no_primitive;
 };
 
-/// As in kernels/tracing/trace.cl.
+/// The struct of kernels/tracing/trace.cl.
 struct DeviceHit {
   float t = 0, u = 0, v = 0;
   std::uint32_t primitive = no_primitive;
 };
 using Hit = DeviceHit;
 
-/// As in kernels/tracing/trace.cl.
+/// The struct of kernels/tracing/trace.cl.
 struct DeviceRay {
   float origin[3];
   float t_max;
@@ -38,7 +38,7 @@ struct DeviceRay {
 };
 static_assert(sizeof(Hit) == 16 && sizeof(DeviceRay) == 32);
 
-/// A mesh's tree on the device.
+/// Traces rays through a mesh's tree on the device.
 class KernelTracer {
 public:
   KernelTracer(const compute::Context& context, const scene::Mesh& mesh)
@@ -46,9 +46,9 @@ public:
   KernelTracer(const compute::Context& context, const scene::Bvh& bvh, compute::Defines defines = {});
 
   std::vector<Hit> closest(const std::vector<Ray>& rays);
-  std::vector<std::uint32_t> any(const std::vector<Ray>& rays); ///< not 0: something is hit
+  std::vector<std::uint32_t> any(const std::vector<Ray>& rays); ///< not 0: the ray hits something
 
-  /// For timing: the rays stay on the device, a run waits for its end.
+  /// For timing: the rays stay on the device, and each run waits for its end.
   void set_rays(const std::vector<Ray>& rays);
   void run_closest();
   void run_any();
@@ -66,7 +66,7 @@ private:
   compute::Buffer<std::uint32_t> found_;
 };
 
-/// Where a ray's line meets a triangle's plane.
+/// The point at which a ray's line meets a triangle's plane.
 struct Exact {
   double t = -1;
   double margin = -1; ///< how far the line passes from the nearest edge's line, in lengths: positive inside
@@ -83,12 +83,13 @@ public:
 
   Exact exact(const Ray& ray, std::uint32_t primitive) const;
 
-  /// The closest hit by asking every triangle; u and v are left 0. Of hits at one distance the lowest triangle.
+  /// The closest hit, found by testing every triangle; u and v stay 0. Among hits at one distance, the lowest triangle
+  /// counts.
   Hit closest(const Ray& ray) const;
 
-  /// Whether `ours` is a right answer. Same: as theirs. Tie: both at one distance. Edge: the ray passes an edge so
-  /// closely that the rounding of coordinates decides on which side. Start: they differ on a triangle that the ray
-  /// starts on. A ray's `skip` and `t_max` count.
+  /// Whether `ours` is a right answer. Same: it equals `theirs`. Tie: both are at one distance. Edge: the ray passes an
+  /// edge so closely that rounding decides the side. Start: they differ in a triangle that the ray starts on. A ray's
+  /// `skip` and `t_max` count.
   Verdict judge(const Ray& ray, const Hit& ours, const Hit& theirs) const;
 
 private:
@@ -97,7 +98,7 @@ private:
   const scene::Mesh& mesh_;
   double tolerance_;
   double longest_edge_ = 0;
-  std::vector<double> x_, y_, z_; ///< first vertices
+  std::vector<double> x_, y_, z_; ///< coordinates of the first vertices
 };
 
 } // namespace nephroid::check

@@ -25,7 +25,7 @@ struct CheckOptions {
   bool all = false, details = false, json = false;
 };
 
-/// What of the device matters to the kernels; no check, because each of these works or is refused.
+/// The device's properties that matter to the kernels. They are no checks: each of them works or is refused.
 std::string properties(const compute::DeviceInfo& device) {
   return fmt::format("{}; {}; groups of up to {} work items, of which 64 are used",
                      device.int64_atomics ? "64-bit atomics" : "no 64-bit atomics: sums by 32-bit halves",

@@ -56,7 +56,7 @@ std::string did_you_mean(const std::string& name) {
   return name.empty() ? std::string() : fmt::format("did you mean '{}'?", name);
 }
 
-/// The command line of whose parsing an error came: the verb where one was named, else the program itself.
+/// The command whose parsing failed: the verb if one was named, else the program itself.
 const CLI::App& erring_app(const CLI::App& program) {
   const std::vector<CLI::App*> verbs = program.get_subcommands();
   return verbs.empty() ? program : *verbs.front();
@@ -66,13 +66,13 @@ std::string help_command(const CLI::App& app) {
   return app.get_parent() ? "nephroid " + app.get_name() + " --help" : "nephroid --help";
 }
 
-/// CLI11's errors in the program's own form, with the nearest name for what it does not know.
+/// CLI11's errors in the program's own form, with the nearest name for an unknown one.
 Error usage_error(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App& app = erring_app(program);
   const Place where = app.get_parent() ? app.get_name() : "";
   const std::string see = fmt::format("see {}", help_command(app));
   const std::vector<std::string> extras = program.remaining(true);
-  for (const std::string& extra : extras) // before what is missing: a mistyped option often explains it
+  for (const std::string& extra : extras) // before missing arguments: a mistyped option often explains those
     if (extra.size() > 1 && extra.front() == '-') {
       const std::string name = extra.substr(0, extra.find('='));
       return bad_input(where, fmt::format("unknown option '{}'", name), did_you_mean(nearest(name, option_names(app))),
@@ -90,7 +90,7 @@ Error usage_error(const CLI::App& program, const CLI::ParseError& error) {
   return bad_input(where, text, {}, see);
 }
 
-/// `nephroid rum first-light`: a word that is no file, no shipped preset and nearly a verb was meant to be one.
+/// `nephroid rum first-light`: a word that is no file and no shipped preset, but nearly a verb, is a mistyped verb.
 void refuse_mistyped_verb(const CLI::App& program, const std::string& word) {
   if (word.find_first_of("./") != std::string::npos || is_there(word)) return;
   std::vector<std::string> known = verb_names(program);
@@ -134,7 +134,7 @@ int parse_and_run(int argc, const char* const* argv, const Window& window) {
                       did_you_mean(nearest(words.front(), verbs)), "see nephroid help");
     words.emplace_back("--help");
   }
-  std::reverse(words.begin(), words.end()); // CLI11 takes them from the end
+  std::reverse(words.begin(), words.end()); // CLI11 pops arguments from the end
   try {
     program.parse(std::move(words));
   } catch (const CLI::Success& request) { // --help and --version
@@ -176,7 +176,7 @@ int run_command_line(int argc, const char* const* argv, const Window& window) {
     return report(error);
   } catch (const std::bad_alloc&) {
     return report(failed("", "out of memory", {}, "see `nephroid plan` for what a run needs"));
-  } catch (const std::system_error& error) { // fmt's, where a write fails before the last flush
+  } catch (const std::system_error& error) { // fmt's own, if a write fails before the last flush
     if (std::ferror(stdout)) return report(cannot_write_results(error.code()));
     return report(defect(error));
   } catch (const std::exception& error) {

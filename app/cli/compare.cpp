@@ -36,7 +36,7 @@ Json to_json(const Metrics& metrics) {
   return object;
 }
 
-/// `of` are the metrics of all pixels and, where there is a mask, of its pixels.
+/// of: the metrics of all pixels, then, if there is a mask, those of its pixels.
 void print_json(const std::vector<Metrics>& of) {
   Json object = to_json(of.front());
   if (of.size() > 1) object["masked"] = to_json(of.back());
@@ -65,7 +65,7 @@ void refuse_other_channels(const LinearPicture& image, const LinearPicture& refe
                   "expected pictures with the same channels");
 }
 
-/// Of a run people name the folder, which has several pictures.
+/// People may name a run's folder, which has several pictures.
 void refuse_folder(const std::string& name) {
   const std::filesystem::path picture = std::filesystem::path(name) / "image.exr";
   std::error_code ignored;

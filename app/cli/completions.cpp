@@ -17,7 +17,7 @@ namespace {
 
 enum class Kind { nothing, files, folders, presets, devices, words };
 
-/// How each shell names a kind of values; {} are the words.
+/// How each shell names a kind of values; {} stands for the words.
 struct ShellForms {
   const char *bash, *zsh, *fish;
 };
@@ -30,7 +30,7 @@ constexpr ShellForms shell_forms[] = {{"kind=nothing", " ", " -f"},
 
 struct Values {
   Kind kind = Kind::nothing;
-  std::string words = {}; ///< with spaces between them
+  std::string words = {}; ///< separated by spaces
 
   std::string to(const char* ShellForms::*shell) const {
     return fmt::format(fmt::runtime(shell_forms[static_cast<int>(kind)].*shell), words);
@@ -43,10 +43,10 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
   return text;
 }
 
-/// As all three shells take it between single quotes; fish alone would read a backslash in it.
+/// Makes text safe between single quotes in all three shells; fish alone would read a backslash in it.
 std::string plain(std::string text) { return replaced(replaced(std::move(text), "'", "’"), "\\", "/"); }
 
-/// As a spec of zsh takes it.
+/// Escapes text for a spec of zsh.
 std::string in_spec(const std::string& text) {
   std::string escaped;
   for (const char c : plain(text)) escaped += (c == '[' || c == ']' || c == ':' ? "\\" : "") + std::string(1, c);
@@ -57,7 +57,7 @@ bool is_flag(const CLI::Option& option) { return option.get_items_expected_max()
 
 Values values_of(const CLI::Option& option) {
   if (is_flag(option)) return {};
-  const std::string type = option.get_type_name(); // "FILE", or "TEXT:{even,draws}" where only these words will do
+  const std::string type = option.get_type_name(); // "FILE", or "TEXT:{even,draws}" if these words alone are valid
   const std::size_t open = type.find('{'), close = type.find('}');
   if (open != std::string::npos && close != std::string::npos)
     return {Kind::words, replaced(type.substr(open + 1, close - open - 1), ",", " ")};
@@ -84,7 +84,7 @@ std::vector<const CLI::Option*> options_of(const CLI::App& app, bool positional)
   return options;
 }
 
-/// Of the first argument; the same for those that follow.
+/// The values of the first argument, which also serve for those that follow.
 Values argument_of(const CLI::App& app) {
   const std::vector<const CLI::Option*> arguments = options_of(app, true);
   return arguments.empty() ? Values{} : values_of(*arguments.front());

@@ -24,7 +24,7 @@ struct DispersionOptions {
   bool json = false;
 };
 
-/// Fraunhofer's lines e, d, F and C (Hg, He, H, H), by which glass catalogues tell n and the Abbe number, and the ends
+/// Fraunhofer's lines e, d, F and C (Hg, He, H, H), at which glass catalogues give n and the Abbe number, and the ends
 /// of the grid.
 const std::vector<double> usual_nm{optics::first_nm,  optics::line_f_nm, optics::line_e_nm,
                                    optics::line_d_nm, optics::line_c_nm, optics::last_nm};
@@ -42,7 +42,7 @@ Json to_json(const std::string& file, const optics::DispersionCurve& curve,
   return {{"file", file}, {"name", curve.name}, {"range_nm", {low, or_null(high)}}, {"samples", std::move(rows)}};
 }
 
-/// V_d = (n_d - 1) / (n_F - n_C); empty where the data does not reach the three lines or has no dispersion.
+/// V_d = (n_d - 1) / (n_F - n_C); empty if the data does not reach the three lines or has no dispersion.
 std::optional<double> abbe_number(const optics::DispersionCurve& curve) {
   const optics::IndexSample d = curve.sample(optics::line_d_nm), f = curve.sample(optics::line_f_nm),
                             c = curve.sample(optics::line_c_nm);
@@ -67,7 +67,7 @@ void print_text(const optics::DispersionCurve& curve, const std::vector<optics::
   if (const std::optional<double> abbe = abbe_number(curve)) fmt::print("Abbe number V_d {:.2f}\n", *abbe);
 }
 
-/// Says on standard error where a formula has no value; the sample itself is null.
+/// Says on standard error where a formula has no value; the sample is null there.
 void note_missing(const std::string& file, const optics::DispersionCurve& curve,
                   const std::vector<optics::IndexSample>& samples) {
   if (!curve.n) return;

@@ -17,7 +17,7 @@ std::vector<std::string> shipped_materials() {
   std::vector<std::string> names;
   const fs::path presets = presets_folder_if_any();
   if (presets.empty()) return names;
-  std::error_code error; // a folder that cannot be read has none
+  std::error_code error; // a folder that cannot be read gives no names
   for (fs::directory_iterator entry(presets / "materials", error), end; !error && entry != end; entry.increment(error))
     if (entry->path().extension() == ".yml") names.push_back(entry->path().stem().string());
   std::sort(names.begin(), names.end());

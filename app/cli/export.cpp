@@ -33,10 +33,11 @@ struct ExportOptions {
   double seconds = 30;
 };
 
-/// The frame that an animation begins with.
+/// The animation's first frame, or the preset itself.
 preset::Preset still(preset::Preset preset) { return preset.animation ? preset::at_frame(preset, 0) : preset; }
 
-/// Of engine 1, whatever engine it is of, with photons on matt surfaces and nothing else.
+/// The preset as one of engine 1 that splats photons on matt surfaces and does nothing else. The preset may be of any
+/// engine.
 preset::Preset caustics_only(const ExportOptions& options, const preset::Preset& asked) {
   preset::Overrides overrides = options.run.overrides;
   for (const char* more :
@@ -46,7 +47,7 @@ preset::Preset caustics_only(const ExportOptions& options, const preset::Preset&
   if (asked.settings.type().name != "spectral" && asked.scene.environment)
     overrides.emplace_back("scene.environment.lights=true");
   preset::Preset preset = still(preset::read_preset(options.run.preset, overrides));
-  preset.white = 1; // whatever an animation says
+  preset.white = 1; // even if an animation has another
   preset.reference.reset();
   preset.stop = {};
   preset.stop.seconds = options.seconds;
@@ -57,7 +58,7 @@ std::string name_of(const scene::Scene& scene, const formats::Receiver& receiver
   return scene.objects[static_cast<std::size_t>(receiver.object)].name;
 }
 
-/// Those that are asked for, or all.
+/// The receivers asked for, or all.
 std::vector<formats::Receiver> chosen(const ExportOptions& options, const scene::Scene& scene) {
   std::vector<formats::Receiver> all = formats::receivers_of(scene);
   std::vector<std::string> names;
@@ -80,7 +81,7 @@ std::string no_photons(const plan::Plan& plan) {
   return std::ranges::find(plan.passes, "photons", &plan::Pass::name)->reason;
 }
 
-/// Nothing where no light falls on the receiver.
+/// Nothing if no light falls on the receiver.
 std::optional<formats::Caustic> caustic_on(const ExportOptions& options, const run::Prepared& prepared,
                                            const formats::Receiver& receiver, const compute::Context& context,
                                            const std::stop_token& interrupted) {

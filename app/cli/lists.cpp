@@ -65,7 +65,7 @@ void print_devices(bool json) {
 
 std::string dotted(int major, int minor, int patch) { return fmt::format("{}.{}.{}", major, minor, patch); }
 
-/// Libraries whose headers are compiled in; the versions of the others are their packages'.
+/// Versions of libraries that are compiled in as headers. The others' versions are those of their packages.
 std::map<std::string, std::string> libraries() {
   return {
       {"CLI11", CLI11_VERSION},
@@ -84,7 +84,7 @@ void print_version(bool json) {
   for (const auto& [name, number] : used) fmt::print("{} {}\n", name, number);
 }
 
-/// A verb without other options than --json, which says `json`.
+/// Adds a verb whose only option is --json; `json` is its help.
 void list_verb(Verb&& verb, const char* json, void (*print)(bool json)) {
   const auto as_json = std::make_shared<bool>(false);
   verb.flag("--json", *as_json, json);

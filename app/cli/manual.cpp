@@ -13,8 +13,7 @@
 namespace nephroid::cli {
 namespace {
 
-/// Text as roff takes it: a backslash and a hyphen that is a minus are escaped, and no line begins with a control
-/// character.
+/// Escapes text for roff: a backslash, a hyphen that is a minus, and a control character that begins a line.
 std::string roff(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
@@ -24,7 +23,7 @@ std::string roff(std::string_view text) {
   return escaped;
 }
 
-/// A text of a help: its paragraphs, and lines that are indented, such as examples, as they stand.
+/// Prints a help text: its paragraphs, and indented lines, such as examples, unchanged.
 void print_text(const std::string& text) {
   std::istringstream lines(text);
   bool literal = false;

@@ -35,7 +35,7 @@ std::string clock_time(double seconds) {
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
-/// "pass 3 of 28": the one in hand, and after the last one that.
+/// "pass 3 of 28": the pass in hand, or the last one once all are done.
 std::string pass_text(const job::Progress& now) {
   if (now.steps < 0) return fmt::format("{} {}", now.units.step, now.step + 1);
   return fmt::format("{} {} of {}", now.units.step, std::min(now.step + 1, now.steps), now.steps);

@@ -10,13 +10,13 @@ namespace nephroid::cli {
 
 enum class ProgressStyle { live, lines, json };
 
-/// live where standard error is a terminal that can move its cursor (TERM is not "dumb").
+/// Returns `live` if standard error is a terminal that can move its cursor (TERM is not "dumb").
 ProgressStyle progress_style(bool json);
 
-/// Whose progress it is.
+/// The run that the progress is about.
 struct ProgressSubject {
-  std::string label;         ///< for people
-  std::string run;           ///< for scripts: the preset's name, as in plan's and importance's JSON
+  std::string label;         ///< name for people
+  std::string run;           ///< name for scripts: the preset's, as in the JSON of plan and importance
   std::string stage = "run"; ///< or "reference", which the run needs first
 };
 
@@ -26,7 +26,7 @@ std::string progress_line(const std::string& label, const job::Progress& now, co
 ///  "photons_per_second","seconds_left"}
 std::string progress_json(const ProgressSubject& subject, const job::Progress& now, const job::Pace& pace);
 
-/// A line on standard error that is written again and again.
+/// A line on standard error that is rewritten in place.
 class LiveLine {
 public:
   LiveLine() = default;
@@ -40,16 +40,16 @@ private:
   bool is_shown_ = false;
 };
 
-/// Shows a run's progress at the rhythm of its style. Call update as often as you like.
+/// Shows a run's progress as often as its style asks. update() may be called at any rate.
 class ProgressDisplay {
 public:
   using Clock = std::chrono::steady_clock;
   ProgressDisplay(ProgressStyle style, ProgressSubject subject, const job::Progress& start,
                   Clock::time_point time = Clock::now());
   void update(const job::Progress& now, Clock::time_point time = Clock::now());
-  /// The last state at once, whatever the rhythm.
+  /// Shows the last state at once.
   void finish(const job::Progress& now);
-  /// Takes the live line away, so that something else can be printed.
+  /// Removes the live line, so that other output can be printed.
   void clear() { line_.clear(); }
 
 private:

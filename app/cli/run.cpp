@@ -26,13 +26,14 @@ namespace nephroid::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// A file's name has at most 255 bytes, and a folder at times a longer one beside it.
+/// A file's name has at most 255 bytes, and a folder may get a longer name beside it.
 std::string run_folder(const std::string& varies, std::size_t number) {
   constexpr std::size_t most = 200;
   return varies.size() <= most ? varies : fmt::format("{}..,{:03}", varies.substr(0, most), number);
 }
 
-/// In the order of the sweep, for the report: names alone put 10 before 2. There is a folder once a run has one.
+/// Writes the sweep's order for the report, because by name 10 comes before 2. Does nothing before a run has made the
+/// folder.
 void write_order(const std::vector<Target>& targets) {
   const fs::path folder = targets.front().folder.parent_path();
   if (targets.size() == 1 || !is_there(folder)) return;
@@ -41,7 +42,7 @@ void write_order(const std::vector<Target>& targets) {
   write_file_whole(folder / report::sweep_file, order.dump(2) + "\n");
 }
 
-/// The runs to do: one, or those of a sweep, each in a folder that is called by what varies.
+/// The runs to do: one, or those of a sweep, each in a folder named after what varies.
 std::vector<Target> targets_of(const RunOptions& options) {
   std::vector<preset::Preset> presets = preset::read_presets(options.preset, options.overrides);
   const std::string stem = preset::stem_of(options.preset);
@@ -56,7 +57,7 @@ std::vector<Target> targets_of(const RunOptions& options) {
     }
     if (options.seed) {
       preset.seed = *options.seed;
-      preset::check(preset, [](const std::string&) { return std::string("--seed"); }); // against the reference's
+      preset::check(preset, [](const std::string&) { return std::string("--seed"); }); // with the reference's settings
     }
     if (presets.size() == 1)
       targets.push_back({std::move(preset), folder, stem, {}});
@@ -68,15 +69,15 @@ std::vector<Target> targets_of(const RunOptions& options) {
   return targets;
 }
 
-/// Rounded to the milliseconds that their files' names have.
+/// Sorts the times and rounds them to milliseconds, as in the files' names.
 void put_in_order(std::vector<double>& times) {
   std::set<double> sorted;
   for (const double time : times) sorted.insert(std::round(time * 1000) / 1000);
   times.assign(sorted.begin(), sorted.end());
 }
 
-/// Puts a number in place of "auto": rank 0's. The runs of a sweep and the frames of an animation have that of the
-/// first, so that their pictures can be compared; a run that goes on has its own.
+/// Replaces a white of "auto" by the root's number. The runs of a sweep and the frames of an animation use that of the
+/// first, so that their pictures can be compared; a resumed run keeps its own.
 void fit_white(const RunOptions& options, Target& target, const std::stop_token& interrupted, RunSeries& series,
                const Communicator& communicator) {
   if (target.preset.white) return;
@@ -105,7 +106,7 @@ void run_one(const RunOptions& options, Target& target, const std::stop_token& i
     throw bad_input(target.folder, "this run is finished, but " + done->changed, {},
                     "run without --resume to start over");
   if (communicator.broadcast(done.has_value())) {
-    if (!done) return; // rank 0 reports it
+    if (!done) return; // the root reports it
     fmt::print(stderr, "{}: this run is finished\n", target.label);
     return report_result(options, target, done->progress, true);
   }
@@ -120,7 +121,7 @@ void run_all(const RunOptions& options, std::vector<Target>& targets, const std:
   }
 }
 
-/// Throws bad_input on the ranks that were asked for other runs than rank 0, before any begins.
+/// Throws bad_input on ranks whose runs differ from the root's, before any run begins.
 void require_same_runs(const RunOptions& options, const std::vector<Target>& targets, mpi::Ranks& ranks) {
   std::string names, presets;
   for (const Target& target : targets) {
@@ -135,7 +136,7 @@ void require_same_runs(const RunOptions& options, const std::vector<Target>& tar
   mpi::require_same(ranks, "preset", fmt::format("{:016x}", hash_of(presets)));
 }
 
-/// Of a sweep each rank does the next run, alone, whenever it is free.
+/// Each rank takes the sweep's next run, alone, when it is free.
 void distribute_runs(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted,
                      RunSeries& series, const std::shared_ptr<mpi::Ranks>& ranks) {
   const Communicator communicator(ranks);
@@ -158,7 +159,7 @@ void run_preset(const RunOptions& options, const std::stop_token& interrupted,
   std::vector<Target> targets = targets_of(options);
   compute::DeviceOptions device = options.device;
   if (ranks)
-    device.turn = ranks->number_on_host(); // each its own of the devices that --device may mean, counted around
+    device.turn = ranks->number_on_host(); // ranks of one machine take the devices that --device may mean in turn
   RunSeries series{.ranks = nullptr, .run = run::ReadyRun(device_opener(std::move(device)))};
   if (!ranks) return run_all(options, targets, interrupted, series);
   require_same_runs(options, targets, *ranks);
@@ -167,12 +168,12 @@ void run_preset(const RunOptions& options, const std::stop_token& interrupted,
   run_one(options, targets.front(), interrupted, series);
 }
 
-/// Where one rank fails all end. What is wrong with the command rank 0 says for all of them.
+/// If one rank fails, all end. The root reports what is wrong with the command for all of them.
 void run_on_ranks(const RunOptions& options, const std::stop_token& interrupted,
                   const std::shared_ptr<mpi::Ranks>& ranks) {
   try {
     run_preset(options, interrupted, ranks);
-    ranks->wait_for_root(); // which may still write files
+    ranks->wait_for_root(); // the root may still write files
   } catch (const Error& error) {
     const bool is_root = ranks->rank() == 0;
     if (!is_root) std::this_thread::sleep_for(std::chrono::seconds(1));

@@ -47,7 +47,7 @@ public:
 
   void operator()() {
     for (int frame = range_.first; frame <= range_.second; ++frame)
-      preset::at_frame(target_.preset, frame); // what cannot be is said at once
+      preset::at_frame(target_.preset, frame); // throws at once for a frame that cannot be
     run::ReadyRun& run = series_.run;
     if (ranks_)
       run::require_same(*ranks_, run::prepare_next(run, target_.preset, {interrupted_, {}}), run.device.context());
@@ -62,7 +62,7 @@ public:
 private:
   bool is_root() const { return !ranks_ || ranks_->rank() == 0; }
 
-  /// Each rank renders the next one, alone, whenever it is free.
+  /// Each rank renders the next frame, alone, when it is free.
   void distribute_frames() {
     require_shared(*ranks_, target_.folder / "preset.json");
     ranks_->distribute(range_.second - range_.first + 1,
@@ -72,12 +72,12 @@ private:
     rendered_ = static_cast<int>(rendered);
   }
 
-  /// The folder is of the animation as a whole: its preset, and the plan of frame 0.
+  /// The folder holds the animation's preset and the plan of frame 0.
   void begin() {
     preset::at_origins(target_.preset, [&] {
       run::ReadyRun& run = series_.run;
       const run::Prepared& prepared = run::prepare_next(run, target_.preset, {interrupted_, {}});
-      run::require_memory(prepared, run.device.context(), ranks_); // what cannot be leaves no folder
+      run::require_memory(prepared, run.device.context(), ranks_); // throws before a folder is made
     });
     if (!is_root()) return;
     claimed_.emplace(target_.folder, options_.frames.empty()); // others may render the other frames
@@ -136,7 +136,7 @@ private:
   std::stop_token interrupted_;
   RunSeries& series_;
   const preset::Animation& animation_;
-  std::shared_ptr<mpi::Ranks> ranks_; ///< null: this process alone renders all frames
+  std::shared_ptr<mpi::Ranks> ranks_; ///< null: this process renders all frames alone
   std::pair<int, int> range_;
   int rendered_ = 0;
   std::optional<run::ClaimedFolder> claimed_;

@@ -22,11 +22,11 @@ namespace nephroid::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// Beside the engine's own.
+/// A run's files beside the engine's own.
 constexpr const char* result_files[] = {"preset.json", "plan.json",     "run.json",      "history.csv",
                                         "report.html", "pictures.json", "checkpoint.bin"};
 
-/// What is shown to people: the picture, or the folder where there is none yet.
+/// What people are shown: the picture, or the folder if there is no picture yet.
 fs::path shown_of(const Target& target) {
   const fs::path picture = target.animation.empty()
                                ? target.folder / "image.png"
@@ -44,7 +44,7 @@ std::string where_time_went(const job::Snapshot& snapshot) {
 
 bool is_frame(const Target& target) { return !target.animation.empty(); }
 
-/// Rendered now where it is a recipe that was not rendered before.
+/// The reference; renders a recipe's if that is not in the cache.
 std::shared_ptr<const measure::Reference> reference_of(const RunOptions& options, const Target& target,
                                                        const std::stop_token& interrupted,
                                                        const run::Prepared& prepared, const compute::Context& context) {
@@ -67,7 +67,7 @@ std::shared_ptr<const measure::Reference> reference_of(const RunOptions& options
   return reference;
 }
 
-/// A frame whose preset has changed starts anew: the other frames may be as they were.
+/// A frame whose preset has changed starts anew; the other frames may be unchanged.
 void say_bad_checkpoint(const Target& target, const Error& error) {
   if (!is_frame(target)) throw error.noting("run without --resume to start over");
   fmt::print(stderr, "note: {}; the frame starts anew\n", error.line());
@@ -76,7 +76,7 @@ void say_bad_checkpoint(const Target& target, const Error& error) {
 void make_ready(const RunOptions& options, const Target& target, const std::stop_token& interrupted,
                 RunSeries& series) {
   const bool is_root = Communicator(series.ranks).is_root();
-  LiveLine activity; // while there are no figures yet
+  LiveLine activity; // shown before there are figures
   run::ReadyOptions ready{
       .watch = {interrupted, {}}, .ranks = series.ranks, .folder = target.folder, .resume = options.resume};
   ready.watch.tell = [&](const std::string& doing) {
@@ -108,7 +108,7 @@ void say_beginning(const RunOptions& options, const Target& target, const run::R
     fmt::print(stderr, "{}: no checkpoint in {}, starting from the beginning\n", target.label, target.folder.string());
 }
 
-/// Says how a run goes on while its folder is kept.
+/// Reports a run's progress while its folder is written.
 class Console final : public run::Recorder {
 public:
   Console(const RunOptions& options, const Target& target, const run::ReadyRun& run)
@@ -162,7 +162,7 @@ private:
   std::optional<ProgressDisplay> display_;
 };
 
-/// Throws where it ended before its end, or without a picture.
+/// Throws if the run was interrupted or has no picture.
 void say_end(const RunOptions& options, const Target& target, const job::Job& job, const Console& console) {
   const job::Snapshot& last = console.last();
   const job::Progress& progress = last.progress;
@@ -247,7 +247,7 @@ void render(const RunOptions& options, const Target& target, const std::stop_tok
   if (is_frame(target) && console.is_finished())
     run::show_frame(target.animation, target.preset.provenance.frame.value());
   say_end(options, target, *run.job, console);
-  if (!is_frame(target)) run.job.reset(); // its memory is the next run's
+  if (!is_frame(target)) run.job.reset(); // frees its memory for the next run
   run.claimed.reset();
 }
 

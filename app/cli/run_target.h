@@ -22,42 +22,42 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;
   compute::DeviceOptions device;
   double checkpoint_seconds = 10;
-  std::vector<double> pictures_at; ///< seconds of work, in order, each once
-  std::string frames;              ///< which of an animation to render, "12" or "3-40"; empty: all
+  std::vector<double> pictures_at; ///< seconds of work, rising, each once
+  std::string frames;              ///< frames to render, "12" or "3-40"; empty: all
   bool resume = false, json = false;
 };
 
 struct Target {
   preset::Preset preset;
   std::filesystem::path folder;
-  std::string label;               ///< what progress and notes call it
-  std::filesystem::path animation; ///< of a frame: the folder of all frames
+  std::string label;               ///< the name in progress and notes
+  std::filesystem::path animation; ///< a frame's folder of all frames; else empty
 };
 
-/// What goes from one run of a command to the next.
+/// What a command keeps from one run to the next.
 struct RunSeries {
-  std::shared_ptr<mpi::Ranks> ranks; ///< that compute each run together; null: this process alone does
-  run::ReadyRun run;                 ///< the newest one: lends its device, its scene and, of a frame, its job
-  std::optional<double> white = {};  ///< in place of "auto"
-  std::set<std::string> notes = {};  ///< that were printed: frames are much alike
+  std::shared_ptr<mpi::Ranks> ranks; ///< the ranks that compute each run together; null: this process alone
+  run::ReadyRun run;                ///< the newest run, whose device and scene, and for a frame its job, are used again
+  std::optional<double> white = {}; ///< replaces "auto"
+  std::set<std::string> notes = {}; ///< notes already printed: frames give much the same ones
 };
 
-/// Opens the device, and says so where compiled kernels cannot be kept.
+/// Opens the device, and prints a note if compiled kernels cannot be kept.
 std::function<compute::Context()> device_opener(compute::DeviceOptions device);
 
-/// Throws bad_input on a rank that does not see a file that rank 0 has written before.
+/// Throws bad_input on a rank that does not see a file that the root has written before.
 void require_shared(mpi::Ranks& ranks, const std::filesystem::path& file);
 
-/// Renders the target into its folder. Throws interrupted once its picture and a checkpoint are saved.
+/// Renders the target into its folder. Throws interrupted after its picture and a checkpoint are saved.
 void render(const RunOptions& options, const Target& target, const std::stop_token& interrupted, RunSeries& series);
 
-/// Renders the frames that options.frames names into target.folder (run/animation.h), each as a run of its own, then
-/// the video. With options.resume those that are finished are left as they are. Throws bad_input for a frame that there
-/// is not or that cannot be, before any is rendered.
+/// Renders the frames that options.frames names into target.folder (run/animation.h), each as its own run, then the
+/// video. With options.resume, finished frames stay as they are. Throws bad_input before the first frame if one does
+/// not exist or cannot be rendered.
 void render_animation(const RunOptions& options, const Target& target, const std::stop_token& interrupted,
                       RunSeries& series);
 
-/// The last words about a run, on standard output: its picture, or with --json its files and figures.
+/// Prints a run's result on standard output: its picture, or with --json its files and figures.
 void report_result(const RunOptions& options, const Target& target, const job::Progress& progress, bool finished);
 
 } // namespace nephroid::cli

@@ -28,7 +28,7 @@ struct ItemOf<std::optional<Item>> : ItemOf<Item> {};
 template <class Item, std::size_t count>
 struct ItemOf<std::array<Item, count>> : ItemOf<Item> {};
 
-/// Refuses what is no number, is followed by anything else, or is out of range.
+/// Refuses text that is no number, has anything after it, or is out of range.
 template <class Number>
 CLI::Validator number_from_to(double from, double to) {
   const auto lowest = static_cast<Number>(from),
@@ -38,7 +38,7 @@ CLI::Validator number_from_to(double from, double to) {
     if (!number || !(*number >= lowest && *number <= highest))
       return fmt::format("'{}' is not {} from {} to {}", text, std::integral<Number> ? "a whole number" : "a number",
                          lowest, highest);
-    text = fmt::format("{}", *number); // as CLI11 reads it
+    text = fmt::format("{}", *number); // in a form that CLI11 reads
     return {};
   };
   return CLI::Validator(check, "");

@@ -21,34 +21,35 @@ struct DeviceInfo;
 namespace nephroid::cli {
 
 struct Example {
-  std::string command; ///< with "nephroid"
-  std::string says;    ///< may be empty
+  std::string command; ///< the command with "nephroid"
+  std::string says;    ///< what it does; may be empty
 };
 
-/// "Examples:", then a line each: what says is a comment, so that a line can be pasted into a shell. tests/docs runs
-/// each of them as it stands, one after the other.
+/// "Examples:", then a line for each. `says` becomes a shell comment, so that a line can be pasted. tests/docs runs
+/// each of them in order.
 std::string examples(const std::vector<Example>& list);
 
 struct Option {
-  const char* type = nullptr; ///< what a value is called in the help
+  const char* type = nullptr; ///< name of a value in the help
   std::string says = {};
-  std::vector<std::string> words = {}; ///< the only ones it takes; empty: any
+  std::vector<std::string> words = {}; ///< the valid words; empty: any
   bool required = false;
-  char separator = 0; ///< that may stand between several values in one argument
-  /// Of a number. Without `from` any, as CLI11 reads it: "nan", -1 as 2^64 - 1, and 1e30 as the largest whole number.
+  char separator = 0; ///< may stand between several values in one argument
+  /// Range of a number. Without `from` any number is valid, as CLI11 reads it: "nan", -1 as 2^64 - 1, and 1e30 as the
+  /// largest whole number.
   double from = std::numeric_limits<double>::quiet_NaN(), to = std::numeric_limits<double>::infinity();
-  const char* needs = nullptr; ///< another option
+  const char* needs = nullptr; ///< another option that must be given too
 };
 
-/// The values that options are read into must live until the work is done.
+/// Adds a verb to the program. The variables that options fill must live until the work is done.
 class Verb {
 public:
   Verb(CLI::App& program, const char* name, const char* says, const std::vector<Example>& examples,
        const char* more = "");
-  /// The program itself, whose options then stand under `group` in its help.
+  /// The program itself. Its options stand under `group` in the help.
   Verb(CLI::App& program, const char* group) : app_(program), group_(group) {}
 
-  /// names: "-o,--output", or of an argument "FILE". Value: a number, a std::string, a path, a std::optional of these;
+  /// names: "-o,--output", or "FILE" for an argument. Value: a number, a std::string, a path, a std::optional of these,
   /// a std::array, or a std::vector, for which the option may be repeated.
   template <class Value>
   void option(const char* names, Value& value, const Option& option);
@@ -72,10 +73,9 @@ struct Window {
 /// Parses and runs one command. Returns the exit code; every error is one line on standard error.
 int run_command_line(int argc, const char* const* argv, const Window& window);
 
-/// The verbs: one file a verb, each adding its subcommand here; those that only list what there is are in lists.cpp. A
-/// verb's callback does the work and throws Error; it sets the exit code where that is not 0. Results go to standard
-/// output, everything else to standard error. A verb that ends in order on Ctrl-C makes an Interrupts
-/// (base/interrupts.h).
+/// The verbs. Each file adds one verb here; lists.cpp has those that only list. A verb's callback does the work and
+/// throws Error; it sets the exit code unless that is 0. Results go to standard output, everything else to standard
+/// error. A verb that handles Ctrl-C makes an Interrupts (base/interrupts.h).
 struct Session {
   int exit_code = 0;
 };

@@ -23,24 +23,24 @@
 namespace nephroid::compute {
 
 struct DeviceInfo {
-  int index = 0;                                     ///< what --device takes
+  int index = 0;                                     ///< the number for --device
   std::string name, platform, driver, version, type; ///< type: "cpu", "gpu" or "accelerator"
   int compute_units = 0;
   std::uint64_t memory_bytes = 0, max_buffer_bytes = 0;
-  std::uint64_t max_group_items = 0; ///< work items that may be in one group
+  std::uint64_t max_group_items = 0; ///< the most work items in one group
   bool fp64 = false, int64_atomics = false;
 };
 
-/// PoCL compiles into a cache folder and shows no device where it has none. Where that folder is missing, unwritable or
-/// full, this sets POCL_CACHE_DIR to a private temporary folder and returns one line to show; empty where there is
-/// nothing to say. Call it before any thread starts (it may change the environment); list_devices and Context::open
-/// call it too, silently.
+/// PoCL compiles into a cache folder and shows no device without one. If that folder is missing, unwritable or full,
+/// this sets POCL_CACHE_DIR to a private temporary folder and returns a line to show, else an empty one. It may change
+/// the environment, so call it before any thread starts. list_devices and Context::open also call it, and drop the
+/// line.
 std::string prepare_kernel_cache();
 
-/// Every device of every platform, in a stable order. An empty list is no error here.
+/// Every device of every platform, in a stable order. An empty list is no error.
 std::vector<DeviceInfo> list_devices();
 
-/// The error to throw where there is no device: Error(no_device) with a reason for each likely cause.
+/// Error(no_device), with a line for each likely cause.
 Error no_device_error();
 
 /// A kernel source that does not compile. line() has the first error at FILE:LINE; log() is the compiler's whole log.
@@ -54,9 +54,9 @@ private:
 };
 
 struct DeviceOptions {
-  std::string selector{};          ///< "": a GPU if there is one, else the first; an index; or part of a name
-  std::filesystem::path kernels{}; ///< load kernels from this folder rather than the embedded ones
-  int turn = 0; ///< of several devices that the selector may mean, the one with this number, counted around
+  std::string selector{};          ///< "": a GPU if there is one, else the first device; an index; or part of a name
+  std::filesystem::path kernels{}; ///< folder to load kernels from, instead of the embedded ones
+  int turn = 0;                    ///< which of the devices that match the selector, counted around
 };
 
 using Defines = std::map<std::string, std::string>;
@@ -68,17 +68,17 @@ struct KernelState;
 struct BufferState;
 } // namespace detail
 
-/// One device with its context and one in-order queue. Copies share it. Use from one thread at a time.
+/// One device with its context and one in-order queue. Copies share it. Use it from one thread at a time.
 class Context {
 public:
-  /// Throws Error(no_device) where there is none or the selector matches none, with a line for each likely cause
-  /// (no OpenCL platform, no HOME and an unwritable kernel cache).
+  /// Throws Error(no_device) if no device exists or matches the selector, with a line for each likely cause (no OpenCL
+  /// platform, no HOME and an unwritable kernel cache).
   static Context open(const DeviceOptions& options = {});
   const DeviceInfo& device() const;
-  /// Whether a program was built since set_warm(): the first run of its kernels compiles them.
+  /// Whether a program was built since set_warm(). The first run of its kernels compiles them.
   bool is_cold() const;
   void set_warm() const;
-  /// Waits until everything queued is done. Throws failed with the first error.
+  /// Waits until all queued work is done. Throws failed with the first error.
   void finish();
   std::shared_ptr<detail::ContextState> state;
 };
@@ -88,8 +88,8 @@ class RawBuffer {
 public:
   RawBuffer() = default;
   RawBuffer(const Context& context, std::string name, std::size_t bytes, const void* initial);
-  /// To be read alone. A device that has the host's memory reads `items` where they are: they stay as they are while it
-  /// lives.
+  /// A read-only buffer. A device that shares the host's memory reads `items` in place, so they must not change while
+  /// the buffer lives.
   static RawBuffer wrapping_host_memory(const Context& context, std::string name, std::size_t bytes, const void* items);
   void write(const void* from, std::size_t bytes, std::size_t offset_bytes);
   void read(void* to, std::size_t bytes, std::size_t offset_bytes) const; ///< waits
@@ -97,9 +97,9 @@ public:
   std::shared_ptr<detail::BufferState> state;
 };
 
-/// count items of T on the device. An empty one is allocated with a few bytes, so that it can be passed to a kernel.
-/// Throws failed naming the buffer, its bytes and the device's memory where that is not enough. Many devices allocate
-/// when a buffer is first used: then writing and filling say so, and Kernel::run.
+/// count items of T on the device. An empty buffer has a few bytes, so that it can be a kernel's argument. Throws
+/// failed naming the buffer, its bytes and the device's memory if that is not enough. Many devices allocate at first
+/// use: then writing, filling or Kernel::run throws.
 template <class T>
 class Buffer : public RawBuffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -134,7 +134,7 @@ private:
 template <class T>
 Buffer(const Context&, const char*, const std::vector<T>&) -> Buffer<T>;
 
-/// The same, all 0.
+/// A buffer of zeros.
 template <class T>
 Buffer<T> zeroed(const Context& context, std::string name, std::size_t count) {
   Buffer<T> buffer(context, std::move(name), count);
@@ -142,11 +142,11 @@ Buffer<T> zeroed(const Context& context, std::string name, std::size_t count) {
   return buffer;
 }
 
-/// What OpenCL C calls a type of the host: "uint", "float4" for std::array<float, 4>, "DeviceLight" for a struct, which
+/// The name in OpenCL C of a host type: "uint", "float4" for std::array<float, 4>, "DeviceLight" for a struct, which
 /// has the same name on both sides.
 std::string device_type_name(const std::type_info& type);
 
-/// An argument of a kernel by its name there. It refers to the value, which has to live until the kernel is queued.
+/// A kernel's argument, by its name in the kernel. It refers to the value, which must live until the kernel is queued.
 class Argument {
 public:
   template <class T>
@@ -171,13 +171,12 @@ private:
   std::size_t bytes_ = 0;
 };
 
-/// A kernel of a built program.
 class Kernel {
 public:
-  /// Queues the kernel over `global` work items in groups of `local` (global is rounded up: kernels test their index).
-  /// Every argument has to be given once, `shared` and `own` together, in any order. Throws failed for an argument that
-  /// the kernel does not have, has with another type, or lacks; and where memory runs out, naming the largest of its
-  /// buffers, their bytes and the device's memory.
+  /// Queues the kernel over `global` work items in groups of `local`. `global` is rounded up, so kernels test their
+  /// index. Every argument must be given once, in `shared` or in `own`, in any order. Throws failed for an argument
+  /// that the kernel does not have, has with another type, or lacks. Throws failed also if memory runs out, and names
+  /// the largest of its buffers, their bytes and the device's memory.
   void run(std::size_t global, std::size_t local, std::span<const Argument> shared,
            std::initializer_list<Argument> own);
   void run(std::size_t global, std::size_t local, std::initializer_list<Argument> arguments) {
@@ -189,34 +188,33 @@ private:
   void set(const Argument& argument, std::vector<bool>& given);
 };
 
-/// One .cl file built for the context's device. The compiler's -D come from `defines` and from the device's own
-/// properties (compute/program.cpp owns them all): NEPHROID_CPU or NEPHROID_GPU, NEPHROID_FP64 and
-/// NEPHROID_INT64_ATOMICS where the device has them. Built programs are kept in the context, while their sources stay
-/// the same, and in the OpenCL implementation's own cache.
+/// One .cl file built for the context's device. The compiler's -D come from `defines` and from the device's properties
+/// (all in compute/program.cpp): NEPHROID_CPU or NEPHROID_GPU, and NEPHROID_FP64 and NEPHROID_INT64_ATOMICS if the
+/// device has them. The context keeps built programs while their sources stay the same; so does the OpenCL
+/// implementation's own cache.
 class Program {
 public:
-  /// file: its path in kernels/, e.g. "tracing/trace.cl". Throws BuildError; Error(failed) for a source or include that
-  /// is missing.
+  /// file: its path in kernels/, e.g. "tracing/trace.cl". Throws BuildError, or Error(failed) if a source or include is
+  /// missing.
   Program(const Context& context, const std::string& file, const Defines& defines = {});
-  /// Throws failed naming the kernels there are.
+  /// Throws failed for an unknown name and lists the kernels.
   Kernel kernel(const std::string& name) const;
   std::shared_ptr<detail::ProgramState> state;
 };
 
-/// The text of every .cl file in the folder `folder` of kernels/ with all that they include, as this context would
-/// build it; empty where there is no such folder: an engine may have no kernels. Throws failed where it cannot be read.
+/// The text of every .cl file in `folder` of kernels/ with all includes, as this context would build it. Empty if there
+/// is no such folder: an engine may have no kernels. Throws failed if it cannot be read.
 std::string kernel_sources(const Context& context, std::string_view folder);
-/// The text of a kernel source ("photons/photons.cl") with everything that it includes, as this context would build it.
+/// The text of a kernel source ("photons/photons.cl") with all includes, as this context would build it.
 std::string kernel_source(const Context& context, const std::string& file);
-/// When each file in a kernels folder was last written, so that somebody who watches it sees a change. Empty where it
-/// cannot be read. Knows no context: a thread may call it while another one builds programs.
+/// The last write time of each file in a kernels folder, which shows changes. Empty if the folder cannot be read. It
+/// needs no context: a thread may call it while another one builds programs.
 using KernelTimes = std::map<std::filesystem::path, std::filesystem::file_time_type>;
 KernelTimes kernel_times(const std::filesystem::path& folder);
 
-/// Who waits for kernels to be compiled is told so: the first run with a new option takes seconds to begin. As long as
-/// this is there, tell() is called before the context compiles a kernel source, by the thread that uses it, and not for
-/// programs that it has already. What it throws ends the build. OpenCL may go on compiling until each kernel has run
-/// once.
+/// Announces compilation, because the first run with a new option takes seconds to begin. While this exists, the
+/// context calls tell() before it compiles a kernel source, on the thread that uses it, but not for programs that it
+/// already has. What tell() throws ends the build. OpenCL may compile further until each kernel has run once.
 class TellOfCompiling {
 public:
   TellOfCompiling(Context context, std::function<void()> tell);

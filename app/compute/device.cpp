@@ -40,7 +40,7 @@ std::vector<cl::Platform> platforms() {
   std::vector<cl::Platform> found;
   try {
     cl::Platform::get(&found);
-  } catch (const cl::Error&) { // the loader's way to say that there is none
+  } catch (const cl::Error&) { // the loader throws this if there is no platform
   }
   return found;
 }
@@ -65,7 +65,7 @@ detail::Device choose(const std::vector<detail::Device>& devices, const std::str
               "give a number or part of a name");
 }
 
-/// PoCL's compiler would end the process.
+/// Without a kernel cache, PoCL's compiler would end the process.
 void refuse_without_kernel_cache(const DeviceInfo& device) {
   if (device.platform != "Portable Computing Language") return;
   const std::string problem = detail::kernel_cache_problem();

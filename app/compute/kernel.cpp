@@ -14,12 +14,12 @@
 namespace nephroid::compute {
 namespace {
 
-/// What clEnqueueFillBuffer writes at a time: allocations are whole multiples of it.
+/// The pattern of clEnqueueFillBuffer; allocations are whole multiples of it.
 struct Zeros {
   cl_ulong low = 0, high = 0;
 };
 
-/// Calls work(), and names the buffer where that fails.
+/// Calls work(), and names the buffer if that fails.
 template <class Work>
 void named(const detail::BufferState& buffer, const Work& work) {
   try {
@@ -60,7 +60,7 @@ RawBuffer RawBuffer::wrapping_host_memory(const Context& context, std::string na
   buffer.state = std::make_shared<detail::BufferState>(buffer_state(context, std::move(name), bytes));
   named(*buffer.state, [&] {
     buffer.state->buffer = cl::Buffer(context.state->context, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, bytes,
-                                      const_cast<void*>(items)); // which only reads it
+                                      const_cast<void*>(items)); // the buffer is read-only
   });
   return buffer;
 }

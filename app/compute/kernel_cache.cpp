@@ -21,7 +21,7 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
-/// Where PoCL 3 looks, in its order (pocl_cache_init_topdir). Empty: it has no place.
+/// The folders that PoCL 3 tries, in its order (pocl_cache_init_topdir). Empty: PoCL has none.
 fs::path cache_folder() {
   if (const std::string folder = environment("POCL_CACHE_DIR"); !folder.empty()) return folder;
   if (const std::string folder = environment("XDG_CACHE_HOME"); !folder.empty())
@@ -30,11 +30,11 @@ fs::path cache_folder() {
   return {};
 }
 
-/// Room for a run's kernels and what the compiler leaves beside them. On a disk that fills up while it writes, LLVM
-/// ends the whole process, so there must be enough from the start.
+/// Room for a run's kernels and the compiler's other files. LLVM ends the whole process if the disk fills up, so there
+/// must be enough from the start.
 constexpr std::uintmax_t needed_bytes = 64'000'000;
 
-/// Makes the folder and a file in it. Returns why PoCL could not work there; empty where it can.
+/// Makes the folder and a file in it. Returns why PoCL could not work there; empty if it can.
 std::string write_problem(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -53,8 +53,8 @@ std::string write_problem(const fs::path& folder) {
                      static_cast<double>(needed_bytes) * 1e-6);
 }
 
-/// A folder of this user alone: kernels found there are run, so nobody else may write to it. Its name stays the same,
-/// so that kernels are kept for the next run. Empty where `parent` has no place for one.
+/// A folder of this user alone: kernels found there are run, so others must not write to it. Its name is constant, so
+/// that the next run finds its kernels. Empty if `parent` has no place for one.
 fs::path private_folder(const fs::path& parent) {
   if (parent.empty()) return {};
   const fs::path folder = parent / fmt::format("nephroid-kernels-{}", getuid());
@@ -65,7 +65,7 @@ fs::path private_folder(const fs::path& parent) {
   return write_problem(folder).empty() ? folder : fs::path();
 }
 
-/// The temporary files' folder, or the memory's where that one is full, too.
+/// A folder in the temporary folder, or in memory if that is full, too.
 fs::path private_folder() {
   std::error_code error;
   const fs::path folder = private_folder(fs::temp_directory_path(error));

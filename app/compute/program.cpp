@@ -35,7 +35,7 @@ std::string source_text(const fs::path& folder, const std::string& file, const P
   throw failed(where, "there is no kernel source " + file, "there are: " + names);
 }
 
-/// FILE of a line `#include "FILE"`; empty of any other.
+/// FILE of a line `#include "FILE"`; empty for any other line.
 std::string included_file(std::string_view line) {
   for (const std::string_view word : {"#", "include", "\""}) {
     line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
@@ -69,7 +69,7 @@ struct Joiner {
   }
 };
 
-/// Options are one string that every vendor splits at white space in its own way, so a definition holds none.
+/// Options are one string, which every vendor splits at white space in its own way, so a definition must hold none.
 void check_define(const std::string& name, const std::string& value) {
   const auto in_name = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
   const bool identifier =
@@ -79,7 +79,7 @@ void check_define(const std::string& name, const std::string& value) {
                  "a name, and a value without spaces and quotes");
 }
 
-/// A definition that the source does not name is left out: programs that differ by nothing else are built once.
+/// Leaves out definitions that the source does not name, so that programs that differ in nothing else are built once.
 std::string compiler_options(const DeviceInfo& device, const Defines& defines, const std::string& source) {
   std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
   options += device.type == "cpu" ? " -DNEPHROID_CPU=1" : " -DNEPHROID_GPU=1";
@@ -92,7 +92,7 @@ std::string compiler_options(const DeviceInfo& device, const Defines& defines, c
   return options;
 }
 
-/// A line of the compiler's log as place and message; nothing where it names no place.
+/// Splits a line of the compiler's log into place and message; nothing if it names no place.
 std::optional<std::pair<Place, std::string>> located(std::string line) {
   for (const std::string_view word : {"fatal error: ", "error: "})
     if (const std::size_t at = line.find(word); at != std::string::npos) line.erase(at, word.size());
@@ -105,8 +105,8 @@ std::optional<std::pair<Place, std::string>> located(std::string line) {
   return std::pair{Place(file.data(), number), line.substr(static_cast<std::size_t>(end))};
 }
 
-/// The first error of the compiler's log as place and message. Compilers write "trace.cl:12:5: error: ...", PoCL 3
-/// "error: trace.cl:12:5: ...".
+/// Makes an error from the log's first one. Compilers write "trace.cl:12:5: error: ...", PoCL 3 "error: trace.cl:12:5:
+/// ...".
 BuildError build_error(const std::string& file, const std::string& device, const std::string& log) {
   std::istringstream lines(log);
   std::string first;

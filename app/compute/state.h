@@ -20,7 +20,7 @@ struct Device {
   DeviceInfo info;
 };
 
-/// Every device of every platform. Adds to `problems` a line for each platform that would not list its devices.
+/// Every device of every platform. Adds to `problems` a line for each platform that cannot list its devices.
 std::vector<Device> enumerate_devices(std::vector<std::string>& problems);
 
 /// A program and the text that it was built from.
@@ -35,8 +35,8 @@ struct ContextState {
   cl::Context context;
   cl::CommandQueue queue;
   std::filesystem::path kernels; ///< empty: the embedded sources
-  /// By file and compiler options. One of an older text is replaced, so that hours of editing kernels do not fill the
-  /// memory.
+  /// Built programs by file and compiler options. A newer text replaces an older one, so that hours of editing kernels
+  /// do not fill the memory.
   std::map<std::pair<std::string, std::string>, BuiltProgram> programs;
   std::function<void()> tell_of_compiling = [] {};
   bool cold = false; ///< Context::is_cold
@@ -53,7 +53,7 @@ struct KernelState {
   cl::Kernel kernel;
   std::string name; ///< "tracing/trace.cl: closest_hits", for messages
   struct Parameter {
-    std::string name, type; ///< type: of the value, or of what a pointer points to
+    std::string name, type; ///< type of the value, or of what a pointer points to
     bool is_pointer = false;
   };
   std::vector<Parameter> parameters;
@@ -66,21 +66,21 @@ struct BufferState {
   std::size_t bytes = 0;
 };
 
-/// "CL_OUT_OF_RESOURCES" for -5; the number where it has no name.
+/// "CL_OUT_OF_RESOURCES" for -5; the number if it has no name.
 std::string error_name(cl_int code);
 
-/// Error(failed) at `where` for a call that failed: names the call and the code, and a full or unwritable kernel cache,
-/// which PoCL itself reports as an unrelated code without a reason.
+/// Error(failed) at `where` for a call that failed. It names the call, the code, and a full or unwritable kernel cache,
+/// which PoCL reports as an unrelated code without a reason.
 Error call_failed(const cl::Error& error, const Place& where);
 
-/// The same for a call over buffers. Where memory ran out it names the largest of them instead, their bytes, the
-/// device's memory and what to do.
+/// The error of a call over buffers. If memory ran out, it names the largest of them, their bytes, the device's memory
+/// and what to do.
 Error buffers_failed(const cl::Error& error, const Place& where, const DeviceInfo& device,
                      std::vector<const BufferState*> buffers);
 
 std::string megabytes(std::uint64_t bytes);
 
-/// Why PoCL cannot keep its kernels in the folder that it will use; empty where it can.
+/// Why PoCL cannot keep its kernels in the folder that it will use; empty if it can.
 std::string kernel_cache_problem();
 
 } // namespace nephroid::compute::detail

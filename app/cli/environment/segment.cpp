@@ -25,7 +25,7 @@ using environment::SegmentMethod;
 using environment::SegmentWeights;
 using Json = nlohmann::ordered_json;
 
-constexpr int most_lights = 65536; ///< more than any renderer of lights can use
+constexpr int most_lights = 65536; ///< more lights than any renderer can use
 
 struct SegmentOptions {
   std::string environment, picture;
@@ -34,7 +34,7 @@ struct SegmentOptions {
   bool json = false;
 };
 
-/// A preset ends in ".json" or is a shipped one's name, which has no ending.
+/// A preset ends in ".json" or is a shipped preset's name, which has no ending.
 bool is_preset(const std::string& name) {
   const fs::path path(name);
   std::error_code ignored;
@@ -59,7 +59,7 @@ scene::Environment file_environment(const std::string& file, std::vector<std::st
   picture.file = fs::absolute(file).string();
   try {
     return scene::make_environment(picture, FileFinder(), file, warnings);
-  } catch (const Error& error) { // names the picture as it was typed
+  } catch (const Error& error) { // names the picture as the user typed it
     throw error.at(file);
   }
 }

@@ -22,7 +22,7 @@ struct PlateOptions {
   fs::path output;
 };
 
-/// As wide and high as its mesh.
+/// The plate's width and height are those of its mesh.
 inverse::PlatePart body_of(const fs::path& run, const scene::Mesh& mesh) {
   glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
   for (const glm::vec3& p : mesh.positions) {
@@ -41,7 +41,7 @@ void make_plate(const PlateOptions& options) {
   std::uint64_t triangles = 0;
   double area = 0;
   for (const fs::path& run : options.runs) {
-    const fs::path file = fs::is_directory(run) ? run / "object.ply" : run; // as exact as the STL, and read faster
+    const fs::path file = fs::is_directory(run) ? run / "object.ply" : run; // as exact as the STL file, and read faster
     if (!is_there(file))
       throw bad_input(file.string(), "is not there",
                       "expected the folder of a finished run of the engine 'inverse', or a mesh");

@@ -31,7 +31,7 @@ struct ClusterOptions {
   bool json = false;
 };
 
-/// A curve and how it is to be clustered where the command line does not say.
+/// A curve, and how to cluster it unless the command line says otherwise.
 struct Task {
   optics::DispersionCurve curve;
   optics::Extrapolation outside = optics::Extrapolation::automatic;
@@ -39,7 +39,7 @@ struct Task {
   ClusterMethod method = ClusterMethod::optimal;
 };
 
-/// The dielectric to cluster: the wanted one, or the only one that an object is made of.
+/// The dielectric to cluster: `wanted`, or the only one that objects use.
 std::string chosen_material(const preset::Preset& preset, const std::string& wanted) {
   std::set<std::string> dielectrics;
   for (const preset::Object& object : preset.scene.objects) {

@@ -43,7 +43,7 @@ struct Answer {
   std::int64_t passes = 0;
   photons::WavelengthImportance importance;
   std::vector<std::string> materials; ///< names of importance.surroundings
-  std::vector<Row> rows;              ///< a cluster each
+  std::vector<Row> rows;              ///< one row per cluster
 };
 
 /// The wavelengths of a cluster that are rendered.
@@ -138,7 +138,7 @@ void print_text(const Answer& answer) {
 }
 
 void print_importance(const ImportanceOptions& options) {
-  std::vector<Answer> answers; // all before the first is printed: one of a sweep may be refused
+  std::vector<Answer> answers; // all before the first is printed: one run of a sweep may be refused
   for (const preset::Preset& preset : preset::read_presets(options.preset, options.overrides))
     answers.push_back(preset::at_origins(preset, [&] {
       engine::require_engine(preset, spectral::engine, "weighs no wavelengths");

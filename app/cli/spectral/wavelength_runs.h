@@ -10,7 +10,7 @@
 
 namespace nephroid::cli {
 
-/// indices (both): 0..400, in any order.
+/// indices of both functions: 0..400, in any order.
 inline std::vector<int> wavelengths_nm(const std::vector<int>& indices) {
   std::vector<int> result;
   for (const int index : indices) result.push_back(optics::wavelength_nm(index));
