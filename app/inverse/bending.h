@@ -10,35 +10,35 @@
 
 namespace nephroid::inverse {
 
-/// The direction with a slope; unit.
+/// The unit direction with this slope.
 glm::dvec3 direction_of(const glm::dvec2& slope);
 
-/// The unit normal, out of the object, of a surface that turns `in` (inside) into `out` (outside); both unit. By
-/// Snell's law n in - out has no part along the surface: n sin theta_1 = sin theta_2. Empty: no surface does, because
-/// they are further apart than slope_limit says, or alike.
+/// The unit normal, out of the object, of a surface that turns `in` (inside) into `out` (outside); both are unit
+/// vectors. By Snell's law n in - out has no part along the surface: n sin theta_1 = sin theta_2. It is empty where no
+/// surface does so: the two are further apart than slope_limit allows, or alike.
 std::optional<glm::dvec3> facet_normal(const glm::dvec3& in, const glm::dvec3& out, double n);
 
-/// The largest slope that light along -z can be given: the outgoing light, or the light inside, then runs along the
+/// The largest slope that light along -z can be given. The outgoing light, or the light inside, then runs along the
 /// surface. The deviation delta has cos delta = min(n, 1 / n).
 double slope_limit(double n);
 
-/// The largest slope that the engine uses: near the limit little light leaves, in a thin bundle.
+/// The part of slope_limit() that the engine uses: near the limit little light leaves, in a thin bundle.
 inline constexpr double usable_part = 0.95;
 inline double usable_slope(double n) { return usable_part * slope_limit(n); }
 
-/// The slope of light along -z behind a facet that is tilted so far against the front; infinite where the light is
-/// reflected totally.
+/// The slope of light along -z behind a facet with this tilt against the front; infinite where light is reflected
+/// totally.
 double slope_behind(double tilt_radians, double n);
 
-/// Light inside the object: n times its unit direction. |sines| < min(1, n).
+/// n times the unit direction of light inside the object; |sines| < min(1, n).
 glm::dvec3 light_inside(const glm::dvec2& sines, double n);
 
-/// Its slope there.
+/// The slope of light inside the object.
 glm::dvec2 slope_inside(const glm::dvec2& sines, double n);
 
 inline constexpr double any_steepness = std::numeric_limits<double>::infinity();
 
-/// Between a value that is good and one that is not, the last good one, after so many halvings.
+/// The last good value between a good one and one that is not, after this many halvings.
 template <class Value, class IsGood>
 Value last_good(Value good, Value bad, int halvings, const IsGood& is_good) {
   for (int i = 0; i < halvings; ++i) {
@@ -51,25 +51,26 @@ Value last_good(Value good, Value bad, int halvings, const IsGood& is_good) {
 /// The slope behind a flat facet: light goes on as before the front.
 glm::dvec2 flat_slope(const glm::dvec2& sines);
 
-/// Whether the deviation from that light to a slope outside is no more than usable_slope(n), and the facet's gradient
-/// than `steepest`.
+/// Whether light inside deviates to this slope by no more than usable_slope(n), and the facet's gradient is at most
+/// `steepest`.
 bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines = {}, double steepest = any_steepness);
-/// The slope itself where it is reachable; else the last on the way to it from flat_slope() that is.
+/// The slope itself where it is reachable; else the last reachable one on the way to it from flat_slope().
 glm::dvec2 nearest_reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines = {},
                              double steepest = any_steepness);
 
-/// dz/dx and dz/dy of the facet that gives light this slope, which is reachable. Its normal is along k - (slope, -1) /
-/// sqrt(1 + slope^2), k being light_inside; for light straight on the gradient is -slope / (n sqrt(1 + slope^2) - 1).
+/// dz/dx and dz/dy of the facet that gives light this slope, which must be reachable. Its normal is along k - (slope,
+/// -1) / sqrt(1 + slope^2) with k = light_inside. For light straight on the gradient is -slope / (n sqrt(1 + slope^2) -
+/// 1).
 glm::dvec2 facet_gradient(const glm::dvec2& slope, double n, const glm::dvec2& sines = {});
 
-/// The other way round: the slope that light gets behind such a facet; where it is totally reflected, that of light
-/// along the facet.
+/// The inverse of facet_gradient(): the slope of light behind a facet with this gradient. Where light is totally
+/// reflected, it is that of light along the facet.
 glm::dvec2 facet_slope(const glm::dvec2& gradient, double n, const glm::dvec2& sines = {});
 
-/// How much of the light inside leaves through such a facet: 1 minus Fresnel's reflectance.
+/// The part of the light inside that leaves through such a facet: 1 minus Fresnel's reflectance.
 double transmitted(const glm::dvec2& slope, double n, const glm::dvec2& sines = {});
 
-/// How the slope behind such a facet changes with the sines, and with the index.
+/// The derivatives of the slope behind a facet, by the sines and by the index.
 struct SlopeChange {
   glm::dmat2 by_sines{1};
   glm::dvec2 by_index{0};

@@ -10,9 +10,9 @@ namespace nephroid::inverse {
 
 extern const engine::Engine engine;
 
-/// Whether a run of `before` may go on as one of `now` and keep its facets' slopes: only what as many receivers say
-/// differs (distances, offsets, weights, pictures), or the stop; or the camera or a name. Methods other than assign
-/// begin again for all but the last two.
+/// Whether a run of `before` can go on as one of `now` and keep its facets' slopes. The number of receivers must be the
+/// same. Their distances, offsets, weights and pictures may differ, and the stop, the camera and names. Methods other
+/// than assign begin again unless only the camera or names differ.
 bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
 } // namespace nephroid::inverse

@@ -12,21 +12,18 @@
 
 namespace nephroid::inverse {
 
-/// Where a snapshot has a receiver's figures: its distance and size, what the search believes of its picture and what
-/// the judge says.
+/// The snapshot's group for a receiver's figures: its distance and size, and the search's and the judge's costs.
 std::string receiver_group(std::size_t receiver);
 
-/// Of all pictures and of each receiver. judged: empty as long as nothing is.
+/// Adds the costs of all pictures and of each receiver. `judged` is empty until the judge has finished.
 void add_costs(job::Snapshot& snapshot, const Layout& layout, const std::vector<Cost>& believed,
                const std::vector<Cost>& judged);
 
-/// How much of the judge's figures is noise.
+/// Adds how much of the judge's figures is noise.
 void add_noise(job::Snapshot& snapshot, const Cost& noise);
 
-/// Which pictures fight.
 void add_conflicts(job::Snapshot& snapshot, const Conflicts& conflicts);
 
-/// Where the light goes.
 void add_fates(job::Snapshot& snapshot, const RayOutcomes& outcomes);
 
 void add_object(job::Snapshot& snapshot, const Layout& layout, const Solid& solid,

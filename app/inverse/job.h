@@ -9,8 +9,8 @@
 
 namespace nephroid::inverse {
 
-/// Looks for slopes until the method gains no more, or the preset's stop; then makes the solid and judges it. plan: of
-/// the same preset.
+/// Searches slopes until the method gains no more or until the preset's stop; then makes the solid and judges it.
+/// `plan` is of the same preset.
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan,
                                    const mpi::RankContext& context);
 

@@ -6,10 +6,10 @@
 
 namespace nephroid::inverse {
 
-/// Seconds that this machine takes for the solid of so many triangles and for two rounds of the judge's rays through
-/// it, without two more that noise may ask for: a piece of such an object, 32 facets a side, is made, and judged for
-/// some milliseconds. Triangles and rays then take as long as they do there, and a quarter more, because a larger tree
-/// is slower.
+/// The seconds that this machine takes to make a solid of so many triangles and to trace two rounds of the judge's rays
+/// through it. Two more rounds for noise are not counted. A piece of the object, 32 facets a side, is made and judged
+/// for some milliseconds. The time grows in proportion to triangles and rays, and by a quarter because a larger tree is
+/// slower.
 double judge_seconds(const mpi::RankContext& context, const Layout& layout, std::uint64_t triangles);
 
 } // namespace nephroid::inverse

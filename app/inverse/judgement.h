@@ -14,7 +14,7 @@ namespace nephroid::inverse {
 
 class Judgement {
 public:
-  /// Preset, context, layout and targets outlive it. Throws as Judge.
+  /// preset, context, layout and targets outlive it. Throws as Judge.
   Judgement(const preset::Preset& preset, const mpi::RankContext& context, const Layout& layout,
             const std::vector<Target>& targets, Solid solid)
       : solid_(std::make_shared<const Solid>(std::move(solid))),
@@ -22,10 +22,10 @@ public:
     if (settings(preset).tolerances) tolerances_.emplace(context, layout, targets, *solid_, preset.seed);
   }
 
-  void advance() { is_judged() ? tolerances_->advance() : judge_.advance(); } ///< a few rows of facets
+  void advance() { is_judged() ? tolerances_->advance() : judge_.advance(); } ///< judges a few rows of facets
   bool is_judged() const { return judge_.finished(); }
   bool finished() const { return is_judged() && (!tolerances_ || tolerances_->finished()); }
-  /// 0..1, each error of the tolerances being as much as the object itself.
+  /// The part done, 0..1; each error of the tolerances counts as much as the object itself.
   double fraction_done() const {
     return tolerances_
                ? (judge_.fraction_done() + Tolerances::count * tolerances_->fraction_done()) / (1 + Tolerances::count)
@@ -33,9 +33,9 @@ public:
   }
 
   const std::shared_ptr<const Solid>& solid() const { return solid_; }
-  /// Its light, once is_judged().
+  /// The judge, whose light is there once is_judged().
   const Judge& judge() const { return judge_; }
-  /// None where they are not asked for.
+  /// Empty where the preset asks for no tolerances.
   const std::optional<Tolerances>& tolerances() const { return tolerances_; }
 
   void state(State& state) {

@@ -17,79 +17,78 @@
 
 namespace nephroid::inverse {
 
-/// Light that falls on a facet's middle through the flat front.
+/// The light that falls on a facet's middle through the flat front.
 struct Incoming {
   glm::dvec2 sines{0};  ///< x and y of its unit direction before the front: see bending.h
-  glm::dvec2 around{0}; ///< the facet's gradient as its neighbours see it; at first of one that lights the middle of
-                        ///< the last receiver
-  double power = 1;     ///< on the facet as if it lay flat, over the mean of all facets
+  glm::dvec2 around{0}; ///< its gradient as neighbours see it; at first, one that lights the last receiver's middle
+  double power = 1;     ///< the power on the facet as if it lay flat, over the mean of all facets
   glm::dmat2 spread{
-      0}; ///< of the sines over x and y: a lamp's light falls on each place of the facet from another side
+      0}; ///< change of the sines over x and y: a lamp's light has another direction at each place of the facet
 };
 
-/// Where the light comes from, and what of it falls on the facets.
+/// Where the light comes from, and how much of it falls on the facets.
 struct Illumination {
-  glm::dvec2 sines{0};            ///< of parallel light: x and y of its unit direction before the front
-  std::optional<glm::dvec3> lamp; ///< of a point light: its place
-  /// On each facet. None: parallel light straight on a rectangle, which all facets get alike.
+  glm::dvec2 sines{0};            ///< parallel light: x and y of its unit direction before the front
+  std::optional<glm::dvec3> lamp; ///< a point light's place
+  /// The light on each facet. None: parallel light falls straight on a rectangle and is the same on all facets.
   std::optional<std::vector<Incoming>> facets;
 };
 
-/// Where column and row are among values that are kept row by row, `columns` of them a row.
+/// The index of a column and row in values that are kept row by row, `columns` of them a row.
 inline std::size_t index_at(int column, int row, int columns) {
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
 }
 
 struct Layout {
-  glm::dvec2 size{100, 100}; ///< of the object
-  bool round = false;        ///< it is the ellipse within this size
+  glm::dvec2 size{100, 100}; ///< the object's width and height
+  bool round = false;        ///< whether the object is the ellipse within this size
   double thickness = 10;
   glm::ivec2 facets{128, 128};
   double n = 1.5;                   ///< Refraction::n
   std::optional<Spectrum> spectrum; ///< Refraction::spectrum
   glm::dvec2 receiver{100, 100};    ///< size of every receiver
-  glm::ivec2 cells{64, 64};         ///< of every receiver
+  glm::ivec2 cells{64, 64};         ///< cells of a receiver, across and down
   std::vector<double> distances;    ///< ascending
-  std::vector<double> frames;       ///< distances of further screens, which the judge alone looks at; ascending
-  std::optional<std::vector<double>> weights; ///< of each receiver's picture; none: they count alike
+  std::vector<double> frames;       ///< distances of further screens, which only the judge looks at; ascending
+  std::optional<std::vector<double>> weights; ///< weight of each receiver's picture; none: they count alike
   std::optional<std::vector<glm::dvec2>>
-      offsets;           ///< of each receiver's middle beside the z axis; none: all are centred on it
-  double sun_radius = 0; ///< of the sun's disc: tangent of its half angle
+      offsets;           ///< each receiver's middle, from the z axis; none: all are centred on it
+  double sun_radius = 0; ///< tangent of half the sun's angular diameter
   double scatter = 0;    ///< standard deviation of a slope, along x and along y
   Illumination light;
 
-  bool free_heights = false;                                 ///< else every facet's middle is at z = 0
-  double band = std::numeric_limits<double>::infinity();     ///< no corner of a facet is further from z = 0
-  double steepest = std::numeric_limits<double>::infinity(); ///< of a facet's gradient, at most
+  bool free_heights = false;                                 ///< whether facets move along z; else they stand at z = 0
+  double band = std::numeric_limits<double>::infinity();     ///< the furthest that a facet's corner may be from z = 0
+  double steepest = std::numeric_limits<double>::infinity(); ///< the largest gradient that a facet may have
 
   double draft = 0;     ///< tangent of the least angle between a wall and the light straight on
   double smoothing = 0; ///< thesis (6.1): alpha_N over alpha_P
 
-  /// Beside a round object's outline.
+  /// Whether p is outside a round object's outline.
   bool is_beside(const glm::dvec2& p) const { return round && glm::length(p / size) > 0.5; }
-  /// Light has a width, or many wavelengths.
+  /// Whether light has a width, or many wavelengths.
   bool blurs() const { return sun_radius > 0 || scatter > 0 || spectrum; }
-  /// What counts of light is luminance, else energy.
+  /// Whether light counts as luminance, else as energy.
   bool coloured() const { return spectrum && spectrum->coloured; }
-  /// Of the spectrum; none where there is none.
+  /// The spectrum's parts; empty where there is no spectrum.
   std::span<const LightPart> parts() const { return spectrum ? spectrum->parts : std::span<const LightPart>(); }
-  /// On each facet; none where all get the same.
+  /// The light on each facet; empty where all get the same.
   std::span<const Incoming> incoming() const { return light.facets ? *light.facets : std::span<const Incoming>(); }
   glm::dvec2 facet() const { return size / glm::dvec2(facets); }
   glm::dvec2 cell() const { return receiver / glm::dvec2(cells); }
   std::size_t facet_count() const { return static_cast<std::size_t>(facets.x) * static_cast<std::size_t>(facets.y); }
   std::size_t cell_count() const { return static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y); }
-  /// Middle of facet i, row by row from the top.
+  /// The middle of facet i, row by row from the top.
   glm::dvec2 middle(std::size_t i) const { return middle_of(i, facets, size); }
   glm::dvec2 middle_of_cell(std::size_t i) const { return middle_of(i, cells, receiver); }
-  /// Of part i of a centred rectangle that has so many parts across and down.
+  /// The middle of part i of a centred rectangle that has so many parts across and down.
   static glm::dvec2 middle_of(std::size_t i, const glm::ivec2& parts, const glm::dvec2& whole) {
     const auto columns = static_cast<std::size_t>(parts.x);
     const glm::dvec2 at = glm::dvec2(i % columns, i / columns) + 0.5, part = whole / glm::dvec2(parts);
     return {at.x * part.x - whole.x / 2, whole.y / 2 - at.y * part.y};
   }
   glm::dvec2 sines_on(std::size_t facet) const { return light.facets ? (*light.facets)[facet].sines : glm::dvec2(0); }
-  /// Half of the rectangle about the z axis that the object and all receivers fill.
+  /// Half the size of the rectangle about the z axis that holds the object and all receivers.
   glm::dvec2 half_room() const {
     glm::dvec2 half = glm::max(size, receiver) / 2.0;
     for (std::size_t j = 0; offsets && j < offsets->size(); ++j)
@@ -97,11 +96,11 @@ struct Layout {
     return half;
   }
   glm::dvec2 offset(std::size_t receiver_index) const { return offsets ? (*offsets)[receiver_index] : glm::dvec2(0); }
-  /// Of a point of a receiver, from its middle, in cells from its top left corner.
+  /// Converts a point of a receiver, given from its middle, to cells from the receiver's top left corner.
   glm::dvec2 in_cells(const glm::dvec2& p) const {
     return {(p.x + receiver.x / 2) / cell().x, (receiver.y / 2 - p.y) / cell().y};
   }
-  /// Where a point of a receiver lies, given from its middle; empty: beside it.
+  /// The cell at a point of a receiver, given from its middle; empty outside the receiver.
   std::optional<std::size_t> cell_at(const glm::dvec2& p) const {
     const glm::dvec2 at = in_cells(p);
     if (!(at.x >= 0 && at.y >= 0 && at.x < cells.x && at.y < cells.y)) return std::nullopt;
@@ -109,22 +108,22 @@ struct Layout {
   }
 };
 
-/// The solid makes heights equal that are closer than this part of a facet's shorter side. It turns a facet by that
+/// The solid makes heights equal that are closer than this part of a facet's shorter side. So it turns a facet by this
 /// much at most.
 inline constexpr double corners_join = 1e-4;
 
-/// A receiver's wanted light: a value a cell, row 0 at the top, which sum to 1.
+/// A receiver's wanted light: a value for each cell, row 0 at the top; the values sum to 1.
 using Target = std::vector<double>;
 
-/// Reads the index. Throws bad_input where that cannot be read or is 1, where a constraint or the light leaves no
-/// picture, where facets would reach the front or the nearest receiver, and where the farthest is too far for the solid
-/// to aim at its cells.
+/// Reads the index. Throws bad_input where the index cannot be read or is 1, where a constraint or the light leaves no
+/// picture, where facets would reach the front or the nearest receiver, and where the farthest receiver is too far for
+/// the solid to aim at its cells.
 Layout make_layout(const preset::Preset& preset);
 
-/// A lattice of facets that speaks for all: every one up to so many a side.
+/// A lattice of facets that stand for all: every facet, up to `a_side` of them a side.
 std::vector<std::size_t> some_facets(const Layout& layout, int a_side);
 
-/// The largest slope that facets give the light: what their index lets them, or less where they may not be steeper.
+/// The largest slope that facets give the light: what the index allows, or less where their steepness is limited.
 double usable_slope(const Layout& layout);
 
 /// Throws bad_input where no facet can bend light far enough to reach a lit cell.

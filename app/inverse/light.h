@@ -5,29 +5,28 @@
 
 namespace nephroid::inverse {
 
-/// Of a layout whose light is not known yet. Throws bad_input, naming the tilt or distance that would do, for light
-/// from behind the front, and where facets would stand in each other's light; also where no light that enters through
-/// the front reaches a facet.
+/// The illumination of a layout whose light is not known yet. Throws bad_input, naming a tilt or distance that works,
+/// for light from behind the front, and where facets would stand in each other's light; also where no light that enters
+/// through the front reaches a facet.
 Illumination make_illumination(Layout layout, const Light& light, const Place& where);
 
-/// Illumination::facets, where sines and lamp are known. No value of `power` is above 0 where no light reaches any
-/// facet.
+/// Illumination::facets, where sines and lamp are known. No `power` is above 0 where no light reaches any facet.
 std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout);
 
-/// At a facet's middle. power: over light that falls straight on or, of a lamp, in units of its intensity over a square
-/// millimetre.
+/// The light at a facet's middle. `power` is relative to light that falls straight on; for a lamp, it is in units of
+/// the lamp's intensity over a square millimetre.
 Incoming incoming_at(const Layout& layout, const glm::dvec2& middle);
 
-/// How much of a rectangle lies within the object's outline.
+/// The part of a rectangle that lies within the object's outline.
 double part_within(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& size);
 
-/// Light that falls on a place of the front; weight: over its mean.
+/// Light that falls on a place of the front; `weight` is relative to the mean.
 struct LightRay {
   glm::dvec3 direction{0, 0, -1};
   double weight = 1;
 };
 LightRay light_ray(const Layout& layout, const glm::dvec3& front);
-/// Of a lamp: that weight over the solid angle of a square millimetre of the front there.
+/// A lamp's weight as in LightRay, over the solid angle of a square millimetre of the front.
 double lamp_weight(const Layout& layout);
 
 } // namespace nephroid::inverse

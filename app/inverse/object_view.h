@@ -12,17 +12,17 @@ namespace nephroid::inverse {
 
 struct ObjectView {
   const Layout& layout;
-  std::span<const glm::dvec2> slopes; ///< of each facet
-  std::span<const double> heights;    ///< of their middles
-  bool smooth = false;                ///< normals go over from facet to facet
+  std::span<const glm::dvec2> slopes; ///< a slope for each facet
+  std::span<const double> heights;    ///< z of the facets' middles
+  bool smooth = false;                ///< whether normals are interpolated between facets
   /// What each receiver shows: a picture of its cells.
   std::vector<std::shared_ptr<const job::Picture>> receivers;
 };
 
 std::shared_ptr<const job::Picture> view_of(const ObjectView& object, const preset::Camera& camera);
 
-/// The preset's camera, in millimetres about the middle of the facets, light falling along -z. Where it was left as it
-/// is in every preset, one that has the object and all receivers in sight.
+/// The preset's camera, in millimetres about the middle of the facets, with light falling along -z. A camera that was
+/// left at its default is replaced by one that has the object and all receivers in sight.
 preset::Camera view_camera(const preset::Preset& preset);
 
 } // namespace nephroid::inverse

@@ -12,17 +12,16 @@
 
 namespace nephroid::inverse {
 
-/// Where things stand and which light is wanted. Read once; the plan and its job share it.
+/// Where things stand and which light is wanted. It is read once; the plan and its job share it.
 class Design {
 public:
   /// Reads the index and the pictures. Throws bad_input as make_layout and make_targets.
   explicit Design(const preset::Preset& preset);
 
   const Layout layout;
-  const std::vector<Target> targets; ///< of each receiver
+  const std::vector<Target> targets; ///< the wanted light of each receiver
 
-  /// How close to each target an object comes at best (pictures/preview.h). The first call works it out, in up to a
-  /// second.
+  /// How close to each target an object can come (pictures/preview.h). The first call computes it, in up to a second.
   const std::vector<Target>& best() const;
 
 private:
@@ -33,13 +32,13 @@ private:
 
 struct InversePlan : plan::Plan {
   std::shared_ptr<const Design> design;
-  std::uint64_t triangles = 0; ///< of the solid, about
+  std::uint64_t triangles = 0; ///< how many the solid has, about
 };
 
-/// Without its notes. Throws bad_input as Design, and for a mesh that would be too large.
+/// The plan without its notes. Throws bad_input as Design, and for a mesh that would be too large.
 InversePlan make_plan(const preset::Preset& preset);
 
-/// What a run of the design should say once; asks how close its pictures come at best.
+/// What a run should say once about the design. It computes how close the pictures come at best.
 std::vector<std::string> notes_of(const preset::Preset& preset, const Design& design);
 
 } // namespace nephroid::inverse

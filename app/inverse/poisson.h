@@ -6,15 +6,15 @@
 
 namespace nephroid::inverse {
 
-/// A value a node or a cell; a row of the grid is a row here.
+/// A value for each node or cell; a row of the grid is a row of the matrix.
 using Grid = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Minus the Laplacian is sum over neighbours of (u - u_neighbour) / spacing^2. Cosines are its eigenvectors (Strang
-/// 1999, "The Discrete Cosine Transform", DCT-2), so that solving is a transform there and back along either axis.
+/// Minus the Laplacian is the sum over neighbours of (u - u_neighbour) / spacing^2. Cosines are its eigenvectors
+/// (Strang 1999, "The Discrete Cosine Transform", DCT-2), so solving is a transform and its inverse along either axis.
 class Poisson {
 public:
   Poisson(int columns, int rows, const glm::dvec2& spacing);
-  /// u with -Laplacian(u) = f less f's mean; the mean of u is 0.
+  /// Returns u with -Laplacian(u) = f - mean(f); the mean of u is 0.
   Grid solve(const Grid& f) const;
 
 private:

@@ -14,7 +14,7 @@ namespace nephroid::inverse {
 /// The object's outline, seen along the light.
 std::string object_page(const Layout& layout, const std::string& name);
 
-/// What is cast on a receiver, seen along the light, with the object's outline over it where both have one middle.
+/// The light on a receiver, seen along the light, with the object's outline over it where both have one middle.
 std::string receiver_page(const Layout& layout, std::size_t receiver, const job::Picture& cast,
                           const std::string& name);
 

@@ -11,37 +11,38 @@
 
 namespace nephroid::inverse {
 
-/// What a run has so far; for as long as a snapshot takes.
+/// What a run has so far; it exists while a snapshot is made.
 struct RunState {
   const preset::Preset& preset;
   const Layout& layout;
   const std::vector<Target>& targets;
   const std::vector<Target>& best; ///< Design::best
   const Method& method;
-  const Judgement* judgement; ///< null: slopes are searched
+  const Judgement* judgement; ///< null while slopes are searched
 
   bool is_judged() const { return judgement && judgement->is_judged(); }
-  /// Costs as judged where that is done, else as believed.
+  /// The judge's costs once it has finished, else the search's.
   std::vector<Cost> costs() const { return is_judged() ? judgement->judge().costs(targets) : method.costs(); }
-  /// Wanted on a receiver, as a part of all light, in a cell.
+  /// The largest part of all light that is wanted in a cell of a receiver.
   double brightest(std::size_t receiver) const;
-  /// On a receiver as judged where that is done, else as believed; or, once it is judged, on a frame behind them. In
-  /// colours where the judge has them.
+  /// The picture on a receiver: the judge's once it has finished, else the search's. Once the run is judged, screens
+  /// after the receivers are the frames. The picture has colours where the judge has them.
   std::shared_ptr<const job::Picture> picture_of(std::size_t screen, double most) const;
 };
 
-/// Of each receiver. Returns what it shows.
+/// Adds the pictures of each receiver. Returns what each receiver shows.
 std::vector<std::shared_ptr<const job::Picture>> add_pictures(job::Snapshot& snapshot, const RunState& run);
 
-/// The receivers' pictures and those between them in the order of their distance, as a screen that moves away would
-/// show them: as bright as is wanted at the receivers, and between them from the one to the other. Of a run that is
-/// judged.
+/// Adds the pictures of receivers and frames in the order of their distance, as a screen that moves away would show
+/// them. A receiver's is as bright as is wanted there; between receivers the brightness is interpolated. The run must
+/// be judged.
 void add_frames(job::Snapshot& snapshot, const RunState& run);
 
-/// Meshes, tables, pages for the workshop, and the object as a scene of its own. Of a run that is judged.
+/// Adds meshes, tables, pages for the workshop, and the object as a scene of its own. The run must be judged.
 void add_files(job::Snapshot& snapshot, const RunState& run);
 
-/// The object in the window's camera: the same picture until a quarter of a step, the judge or the camera changes it.
+/// The object as the window's camera sees it. The picture stays until a quarter of a step, the judge or the camera
+/// changes it.
 class ObjectPicture {
 public:
   std::shared_ptr<const job::Picture> of(const RunState& run,
@@ -51,13 +52,13 @@ public:
 private:
   struct Shown {
     std::int64_t steps = 0;
-    int quarter = 0; ///< of the slice in hand
+    int quarter = 0; ///< completed quarters of the step in hand
     bool judged = false;
     preset::Camera camera;
     bool operator==(const Shown&) const = default;
   };
   Shown shown_;
-  std::shared_ptr<const job::Picture> picture_; ///< of shown_
+  std::shared_ptr<const job::Picture> picture_; ///< the picture of shown_
 };
 
 } // namespace nephroid::inverse

@@ -14,40 +14,40 @@ namespace nephroid::inverse {
 
 class Search {
 public:
-  /// triangles: of the solid, about. Preset, layout and targets outlive it.
+  /// triangles: how many the solid has, about. preset, layout and targets outlive the search.
   Search(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets,
          std::uint64_t triangles, const mpi::RankContext& context);
 
   const Method& method() const { return *method_; }
-  /// Asks how long the judge takes, where seconds end the search. The same on each rank.
+  /// Whether the search is over. Where seconds end it, this asks how long the judge takes. Every rank gets the same
+  /// answer.
   bool is_over();
-  /// A short piece of work. True: a step is complete now.
+  /// Does a short piece of work. Returns true where a step is complete now.
   bool advance();
 
-  /// The stop counts from here, and facets keep their slopes, where the preset, the layout and the targets are other
-  /// ones now.
+  /// Counts the stop from here and keeps the facets' slopes, after the preset, the layout and the targets have changed.
   void go_on();
 
-  double seconds() const { return seconds_; } ///< of work
+  double seconds() const { return seconds_; } ///< seconds of work
   void add_seconds(double seconds) { seconds_ += seconds; }
-  /// Of the stop, 0..1.
+  /// The part of the stop that is done, 0..1.
   double fraction_done() const;
-  /// When it ends; -1: by time.
+  /// The step that ends the search; -1: time ends it.
   std::int64_t last_step() const { return most_steps() ? began_.steps + *most_steps() : -1; }
-  /// Neither the method nor the stop's passes ended it.
+  /// Whether neither the method nor the stop's passes ended it.
   bool has_steps_left() const {
     return !method_->finished() && !(most_steps() && method_->steps() - began_.steps >= *most_steps());
   }
 
-  /// The curve "cost", and what the method alone has to tell.
+  /// Adds the curve "cost", and the figures that the method alone has.
   void show(job::Snapshot& snapshot) const;
 
-  /// Two parts of a state, with the job's own between them.
+  /// Two parts of a state; the job's own part stands between them.
   void state_of_method(State& state);
   void state_of_count(State& state);
 
 private:
-  /// Where the stop counts from: the run's begin, or the newest preset that it took on.
+  /// Where the stop counts from: the run's begin, or the newest preset that it adopted.
   struct Began {
     std::int64_t steps = 0;
     double seconds = 0;
@@ -71,7 +71,7 @@ private:
   Began began_;
   std::vector<CostRow> history_;
   double seconds_ = 0;
-  std::optional<double> judge_needs_; ///< seconds; where time ends the run, from its first step on
+  std::optional<double> judge_needs_; ///< seconds; known from the first step on where time ends the run
 };
 
 } // namespace nephroid::inverse

@@ -12,24 +12,23 @@ struct Thesis {
   enum class Sampling { exact, rejection };
   enum class Adjust { convergence, each };
   Sampling sampling = Sampling::exact;
-  int directions = 128; ///< across and down, that a facet's light is tried in
-  int draws = 32;       ///< of every facet, that a cost is the mean of
+  int directions = 128; ///< directions across and down that a facet's light is tried in
+  int draws = 32;       ///< draws of every facet; a cost is their mean
   Adjust adjust = Adjust::convergence;
-  int cycles = 10, moves = 10; ///< of an annealing, and of a cycle
-  double temperature = 0.005;  ///< of the first cycle, in cost
-  double cooling = 0.5;        ///< from cycle to cycle
-  double size_step =
-      0.02; ///< largest change in a move; this and the limit below: of the convergence, or of each picture's size
-  double size_limit = 0.1;      ///< largest change in all
+  int cycles = 10, moves = 10;  ///< cycles of an annealing, and moves of a cycle
+  double temperature = 0.005;   ///< temperature of the first cycle, in cost
+  double cooling = 0.5;         ///< factor from cycle to cycle
+  double size_step = 0.02;      ///< largest change in a move of the convergence, or of a picture's size
+  double size_limit = 0.1;      ///< largest change of that in all
   double shift_step = 0.01;     ///< in parts of the receiver
   double shift_limit = 0.05;    ///< the same
   double distance_step = 0.01;  ///< in parts of the distance
   double distance_limit = 0.05; ///< the same
-  double extension_step = 0.1;  ///< of k, which is 0..1
-  double overshoot_step = 0.1;  ///< of o, which is 0..1
-  int corrections = 50;         ///< at most
+  double extension_step = 0.1;  ///< largest change in a move of k, which is 0..1
+  double overshoot_step = 0.1;  ///< largest change in a move of o, which is 0..1
+  int corrections = 50;         ///< how many corrections at most
   int patience = 5;             ///< corrections without a gain, after which no more follow
-  double worth = 1e-5;          ///< a smaller gain of cost is none
+  double worth = 1e-5;          ///< a smaller gain of cost counts as none
   double ratio_limit = 2;       ///< a cell's correction is between this and its inverse
   bool operator==(const Thesis&) const = default;
 };
@@ -47,8 +46,8 @@ struct Picture {
   double radius = 0.3;                ///< disc and face; ring and star: the outer one
   double inner = 0.15;                ///< ring and star: the inner radius
   double length = 0.7;                ///< cross and bars; text: its width
-  double width = 0.15;                ///< cross and bars; bars are as far from each other as they are wide
-  int count = 3;                      ///< bars; star: of its points
+  double width = 0.15;                ///< cross and bars; bars are as far apart as they are wide
+  int count = 3;                      ///< bars; star: how many points it has
   double turn_deg = 0;                ///< counterclockwise
   double background = 0;              ///< brightness where nothing is drawn; the drawing has 1
   bool operator==(const Picture&) const = default;
@@ -56,9 +55,9 @@ struct Picture {
 
 struct Receiver {
   double distance_mm = 100;              ///< from the facets
-  std::array<double, 2> offset_mm{0, 0}; ///< of its middle beside that of the object; method assign
+  std::array<double, 2> offset_mm{0, 0}; ///< the receiver's middle, from the object's; method assign
   Picture picture;
-  double weight = 1; ///< of its squared differences beside the other receivers'
+  double weight = 1; ///< weight of its squared differences beside the other receivers'
   bool operator==(const Receiver&) const = default;
 };
 
@@ -70,8 +69,8 @@ struct Light {
   double turn_deg = 0;                   ///< parallel: the side to which tilted light goes, counterclockwise from +x
   double distance_mm = 1000;             ///< point: from the front
   std::array<double, 2> offset_mm{0, 0}; ///< point: beside the middle of the object
-  /// Then what counts is luminance, because people look at pictures, and the judge sees colours. Without: one
-  /// wavelength or a band.
+  /// With a spectrum, luminance counts, because people look at pictures, and the judge sees colours. Without one, the
+  /// light is one wavelength or a band.
   std::optional<preset::LightSpectrum> spectrum{};
   bool operator==(const Light&) const = default;
 };
@@ -81,39 +80,39 @@ struct Settings {
   enum class Heights { flat, free };
   enum class Outline { rectangle, round };
   Method method = Method::assign;
-  std::array<double, 2> size_mm{100, 100};  ///< of the object
-  Outline outline = Outline::rectangle;     ///< of the object, within size_mm
+  std::array<double, 2> size_mm{100, 100};  ///< the object's width and height
+  Outline outline = Outline::rectangle;     ///< the object's outline within size_mm
   double thickness_mm = 10;                 ///< from the middle of the relief to the flat front
   Heights heights = Heights::flat;          ///< where the facets' middles are
-  std::optional<double> min_thickness_mm{}; ///< nowhere is the object thinner
+  std::optional<double> min_thickness_mm{}; ///< the object is nowhere thinner
   std::optional<double> max_relief_mm{};    ///< from the lowest corner of a facet to the highest
   std::optional<double> max_slope_deg{};    ///< between a facet and the front
-  std::optional<double> tool_radius_mm{};   ///< of the cutter that mills the facets
+  std::optional<double> tool_radius_mm{};   ///< radius of the cutter that mills the facets
   std::optional<double> layer_mm{};         ///< thickness of a printer's layers, which lie along the front
-  double draft_deg = 0;                     ///< between a wall and the straight up, at least
+  double draft_deg = 0;                     ///< least angle between a wall and straight up
   double smoothing_normals = 0;             ///< alpha_N of the thesis' (6.1): weight of facets unlike their neighbours
   double smoothing_pictures = 1;            ///< alpha_P: weight of the pictures' error
   std::array<int, 2> facets{128, 128};      ///< across and down
-  double mesh_error = 0.3;    ///< of a lens: how far triangles send light from where its surface does, in cells
-  preset::Dispersion index{}; ///< of the object, in air
+  double mesh_error = 0.3;    ///< method lens: how far triangles send light from where the surface does, in cells
+  preset::Dispersion index{}; ///< the object's index, in air
   double wavelength_nm = 550; ///< at which the index is taken, without light.spectrum
   double band_nm = 0;         ///< width of the light's band about it
   Light light;
   double sun_deg = 0;     ///< diameter of the sun's disc
   double scatter_deg = 0; ///< standard deviation of the directions that a rough surface gives one ray
   std::optional<std::array<double, 2>> receiver_mm{}; ///< size of every receiver; without: the object's
-  std::array<int, 2> cells{64, 64};                   ///< of every receiver, across and down
+  std::array<int, 2> cells{64, 64};                   ///< cells of every receiver, across and down
   int frames = 0;                                     ///< pictures between a receiver and the next one
-  bool tolerances = false;                            ///< judge objects that are made or put up a little wrong, too
+  bool tolerances = false;                            ///< whether objects with errors are judged, too
   std::vector<Receiver> receivers{1};                 ///< the nearest first
-  Thesis thesis{};                                    ///< of the method thesis
+  Thesis thesis{};                                    ///< constants of the method thesis
   bool operator==(const Settings&) const = default;
 };
 
-/// The settings of this engine, as a preset knows them.
+/// The settings of this engine, in the form that presets use.
 const preset::SettingsType& settings_type();
 
-/// Of a preset of this engine.
+/// The settings of a preset of this engine.
 inline Settings& settings(preset::Preset& preset) { return preset.settings.as<Settings>(); }
 inline const Settings& settings(const preset::Preset& preset) { return preset.settings.as<Settings>(); }
 

@@ -9,16 +9,17 @@
 
 namespace nephroid::inverse {
 
-/// Grey: scale times the values, row by row from the top.
+/// A grey picture: scale times the values, row by row from the top.
 std::shared_ptr<const job::Picture> grey_picture(std::span<const double> values, double scale, const glm::ivec2& size);
-/// Grey: 1 is the brightest that is wanted, where both have the same energy. most: that, as a part of all light.
+/// A grey picture in which 1 is the brightest wanted light, at the same energy. `most`: that light, as a part of all
+/// light.
 std::shared_ptr<const job::Picture> received_picture(std::span<const double> light, double most, const Layout& layout);
-/// The same in linear sRGB, where luminance is what counts; colours beyond it have negative values.
+/// received_picture() in linear sRGB, where luminance counts; colours outside sRGB have negative values.
 std::shared_ptr<const job::Picture> coloured_picture(std::span<const glm::dvec3> xyz, double most,
                                                      const Layout& layout);
-/// wanted: grey. Red: too much light, blue: too little, on the same scale.
+/// `wanted` is a grey picture. Red is too much light, blue too little, on the same scale.
 std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wanted, const job::Picture& received);
-/// A pixel a facet: slope along x, slope along y, and z of its middle in millimetres.
+/// A pixel for each facet: slope along x, slope along y, and z of its middle in millimetres.
 std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> slopes, std::span<const double> heights,
                                                    const Layout& layout);
 
@@ -28,8 +29,8 @@ struct Captioned {
   std::string words;
 };
 
-/// All in one picture of this size, each in the shape of a receiver: a column for each of the lists, or a row,
-/// whichever has larger pictures; one list alone may stand in two columns. Words that would be too small to read are
+/// Puts all pictures into one of this size, each in the shape of a receiver. Each list is a column, or each is a row,
+/// whichever gives larger pictures; one list alone may stand in two columns. Words that would be too small to read are
 /// left out, and all of them where there is no font.
 std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<Captioned>>& lists, const glm::dvec2& shape,
                                           int width, int height);

@@ -13,12 +13,12 @@ namespace nephroid::inverse {
 /// A piece of the light's spectrum. What counts for pictures is xyz.y: over all pieces it sums to 1.
 struct LightPart {
   double n = 1.5;    ///< index of the object over that of what is around it
-  glm::dvec3 xyz{1}; ///< CIE 1931; of light without colours three times the same
+  glm::dvec3 xyz{1}; ///< CIE 1931; for light without colours three equal values
 };
 
 struct Spectrum {
-  std::vector<LightPart> parts; ///< by wavelength; one at least
-  bool coloured = false;        ///< what counts is luminance, else energy
+  std::vector<LightPart> parts; ///< by wavelength; at least one
+  bool coloured = false;        ///< whether luminance counts, else energy
 };
 
 /// What the object's material does to the light.
@@ -31,8 +31,8 @@ struct Refraction {
 /// without power.
 Refraction make_refraction(const preset::Preset& preset);
 
-/// The spectrum, which is not empty, in so many parts with as much of x + y + z, so that what is violet has its share:
-/// neighbours, whose index is the mean of theirs.
+/// Divides the spectrum, which is not empty, into parts of equal x + y + z, so that violet has its share. A part is
+/// made of neighbours, and its index is their mean.
 std::vector<LightPart> equal_parts(const std::vector<LightPart>& spectrum, std::size_t count);
 
 } // namespace nephroid::inverse

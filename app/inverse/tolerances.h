@@ -8,28 +8,28 @@
 
 namespace nephroid::inverse {
 
-/// One error at a time: heights that are off by 1, 5 and 20 micrometres, the object turned by a degree about its
-/// middle, the receivers 1 % too far. Heights are off as milling and polishing leave them: in waves along the surface,
-/// so that neighbouring places are off alike; the figure is their root mean square. Their length decides over the
-/// slopes that they add: see wave_mm.
+/// Judges one error at a time: heights that are off by 1, 5 and 20 micrometres, the object turned by a degree about its
+/// middle, and receivers that are 1 % too far. Milling and polishing leave heights off in waves along the surface, so
+/// neighbouring places are off alike; the figure is their root mean square. The waves' length decides the slopes that
+/// they add: see wave_mm.
 class Tolerances {
 public:
-  static constexpr int count = 5; ///< of errors
+  static constexpr int count = 5; ///< the number of errors
 
-  /// All of them outlive it.
+  /// The arguments outlive it.
   Tolerances(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
              const Solid& solid, std::uint64_t seed);
 
-  /// A few rows of facets of the judge's.
+  /// Judges a few rows of facets.
   void advance();
   bool finished() const;
   double fraction_done() const;
 
   struct Row {
     std::string_view what;
-    std::vector<Cost> costs; ///< of each receiver
+    std::vector<Cost> costs; ///< a cost for each receiver
   };
-  const std::vector<Row>& rows() const { return rows_; } ///< so far
+  const std::vector<Row>& rows() const { return rows_; } ///< the errors judged so far
 
   void state(State& state);
 
@@ -42,22 +42,22 @@ private:
   const Solid& solid_;
   std::uint64_t seed_;
   std::vector<Row> rows_;
-  Layout changed_layout_; ///< of the error in hand, with the solid and its judge
+  Layout changed_layout_; ///< the layout with the error in hand; its solid and judge follow
   Solid changed_;
   std::optional<Judge> judge_;
 };
 
-/// Length of the waves on the surface: of what machines leave, waviness is 0.8 to 8 mm long.
+/// Length of the waves on the surface. Machines leave waviness that is 0.8 to 8 mm long.
 inline constexpr double wave_mm = 5;
 
 /// How often each triangle is cut into four where facets are wide beside such waves.
 int halvings(const Layout& layout);
 
-/// Its surface but the flat front is off along z, in waves of this root mean square. Triangles that are too wide for
-/// waves are cut.
+/// Moves the surface, except the flat front, along z in waves of this root mean square. Triangles that are too wide for
+/// the waves are cut.
 Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t seed);
 
-/// A section of workshop.md, and the same figures as CSV. judged: without errors.
+/// A section of workshop.md, and the same figures as CSV. `judged` has the costs without errors.
 std::string tolerance_table(const std::vector<Cost>& judged, const std::vector<Tolerances::Row>& rows);
 std::string tolerance_csv(const std::vector<Cost>& judged, const std::vector<Tolerances::Row>& rows);
 

@@ -6,7 +6,7 @@
 
 #include "kernels/tracing/fresnel.h"
 
-// Of the largest slope that facets can give light, as much is used: inverse::usable_part.
+// The part of the largest slope that is used: inverse::usable_part.
 #define USABLE_PART 0.95f
 
 static inline float3 direction_of(float2 slope) { return (float3)(slope, -1.0f) * rsqrt(1.0f + dot(slope, slope)); }
@@ -18,7 +18,7 @@ static inline float2 facet_gradient(float2 slope, float n, float2 sines) {
   return -along.xy / along.z;
 }
 
-// The unit normal out of the object; its length is 0 where no facet gives light this slope.
+// The unit normal, out of the object; its length is 0 where no facet gives light this slope.
 static inline float3 facet_normal(float2 slope, float n, float2 sines) {
   const float3 in = light_inside(sines, n), out = direction_of(slope);
   const float3 normal = n < 1.0f ? out - in : in - out;
@@ -48,7 +48,7 @@ static inline bool is_reachable(float2 slope, float n, float2 sines, float steep
   return dot(g, g) <= steepest * steepest;
 }
 
-// How the slope changes with the sines, along x and along y, and with the index: inverse::slope_change.
+// The change of the slope with the sines, along x and along y, and with the index: inverse::slope_change.
 typedef struct {
   float2 by_sine_x, by_sine_y, by_index;
 } SlopeChange;

@@ -10,66 +10,65 @@
 namespace nephroid::shared {
 #endif
 
-// Light is counted in quanta: so many are what a facet sends at best. Sums do not depend on the order of their terms
-// then.
+// Light is counted in quanta; a facet sends this many at best. So sums do not depend on the order of their terms.
 #define FACET_QUANTA 0x1p24f
 
-// A footprint is so many beams at most: 2^4.
+// The most beams of a footprint, 2^4.
 #define BEAMS 16
 #define INDEX_LEVELS 5
-// Of light of one wavelength and a width.
+// The beams of a disc, for light of one wavelength.
 #define DISC_BEAMS 8
 
 typedef struct {
-  float size_x, size_y; // of the object
+  float size_x, size_y; // the object
   float facet_x, facet_y;
   float receiver_x, receiver_y;
   float cell_x, cell_y;
-  int columns, rows; // of facets
+  int columns, rows; // facets
   int cells_x, cells_y;
   int receivers;
   float n;
-  float steepest; // of a facet's gradient
-  float usable;   // slope of light that falls straight on
-  float one_over_straight; // one over the part that a facet lets through which bends no light
+  float steepest; // the largest gradient of a facet
+  float usable;   // largest slope of light that falls straight on
+  float one_over_straight; // one over the part of the light that a facet lets through without bending it
   float sun_radius, scatter;
   float spreads; // a lamp: one over its distance, as light sees it in the object; 0: parallel light
   int free_heights;
-  // Of light with a band or a width: beams that stand for it.
-  float index_spread;                       // between the outermost indices
+  // These are beams that stand for light with a band or a width.
+  float index_spread;                       // the largest index minus the least
   int index_levels;                         // level l has 2^l groups of indices
-  float index_over[2 * BEAMS - 1];          // over n: level after level
-  float index_part[2 * BEAMS - 1];          // of what counts, in the same order
+  float index_over[2 * BEAMS - 1];          // index minus n, level after level
+  float index_part[2 * BEAMS - 1];          // part of what counts, in the same order
   float index_within[INDEX_LEVELS];         // variance of the index that is left in the groups of a level
   float disc[2 * DISC_BEAMS], coarse_disc[8];    // x and y of points
-  float left_of_disc, left_of_coarse_disc;  // of the variance, for each point
+  float left_of_disc, left_of_coarse_disc;  // variance left for each point
   float piece_in_cells, wide_in_cells;
 } DeviceLayout;
 
 typedef struct {
-  float x, y; // of its middle
+  float x, y; // its middle
   float distance;
-  float weight; // of its squares
+  float weight; // weight of its squares
 } DeviceReceiver;
 
 // Light that falls on a facet: inverse::Incoming.
 typedef struct {
   float sines[2], around[2];
-  float spread[4]; // columns
+  float spread[4]; // its columns
   float power;
   int padding;
 } DeviceIncoming;
 
-// Of a triangle of the solid: inverse::Part.
+// The part of a triangle of the solid: inverse::Part.
 #define PART_FACET 0
 #define PART_WALL 1
 #define PART_SIDE 2
 #define PART_FRONT 3
 
-// A ray's light is counted in quanta: so many are what falls on a facet.
+// A ray's light is counted in quanta; this many fall on a facet.
 #define RAY_QUANTA 0x1p32f
 
-// Where the light goes that falls on the front: inverse::RayOutcomes. Sums are kept in many places, so that rays seldom
+// Where the light that falls on the front goes: inverse::RayOutcomes. Sums are kept in many places, so that rays seldom
 // meet there.
 #define FATE_REFLECTED 0
 #define FATE_LOST 1
@@ -80,7 +79,7 @@ typedef struct {
 
 // The judge's light: what falls on the front, and the screens behind the object.
 typedef struct {
-  float4 direction; // of parallel light
+  float4 direction; // direction of parallel light
   float4 lamp;
   float lamp_weight; // weight of a ray over the cosine and one over the squared distance; 0: parallel light
   float n, sun_radius, scatter;
@@ -88,14 +87,14 @@ typedef struct {
   float receiver_x, receiver_y, cell_x, cell_y;
   int columns, along; // facets of a row; rays along one side of a facet
   int cells_x, cells_y, screens;
-  uint part_step; // from a ray's part of the spectrum to the next one's; 0: of one index
+  uint part_step; // from a ray's part of the spectrum to the next one's; 0: one index
   int is_round; // 1: light falls on the ellipse within the front
 } DeviceFront;
 
-// A ray's way out of the object.
+// How a ray leaves the object.
 typedef struct {
   float4 from, direction;
-  float part; // of its light; 0: lost
+  float part; // part of its light; 0: lost
   float reflected;
   int met_wall;
   int padding;

@@ -9,18 +9,18 @@
 #define NEPHROID_INCOMING 1
 #endif
 
-// 0: light is of one direction and one wavelength.
+// 0: light has one direction and one wavelength.
 #ifndef NEPHROID_SPREAD
 #define NEPHROID_SPREAD 1
 #endif
 
-// A function of its own: its registers are free again behind it, and all who ask it for a footprint get the same bits.
+// This stays a function of its own: its registers are free again after it, and all callers get the same bits.
 #define SEPARATE __attribute__((noinline))
 
 #include "kernels/inverse/bending.h"
 #include "kernels/inverse/facet_types.h"
 
-// Along one axis, in cells: a box that another box smears, a trapezoid.
+// A beam along one axis, in cells: a box that another box smears, a trapezoid.
 typedef struct {
   float middle, reach; // reach: half of its whole width
   float even;          // half of the width over which it is even
@@ -41,22 +41,22 @@ static inline float part_before(Beam beam, float t) {
   return at < 0.0f ? tail : 1.0f - tail;
 }
 
-// Part of the beam on a cell.
+// The part of a beam on a cell.
 static inline float part_on(Beam beam, int cell) {
   return part_before(beam, (float)(cell + 1)) - part_before(beam, (float)cell);
 }
 
-// Of an edge between cells, far off or not.
+// The cell of an edge between cells; it stays within the receiver however far off the edge is.
 static inline int edge_cell(float edge, int cells) { return (int)clamp(edge, 0.0f, (float)cells); }
 
-// Beams that are alike, each shifted from the middle, with its part of the light.
+// Beams that are alike, each with its shift from the middle and its part of the light.
 typedef struct {
   Beam x, y;
 #if NEPHROID_SPREAD
-  int groups, points; // of indices, and of a disc about each
-  float2 by_index;    // what follows in cells
-  float3 root;        // of the disc's covariance: xx, xy, yy of a lower triangle
-  float2 low, high;   // of all shifts
+  int groups, points; // groups of indices, and points of a disc about each
+  float2 by_index;    // what follows is in cells
+  float3 root;        // root of the disc's covariance: xx, xy, yy of a lower triangle
+  float2 low, high;   // bounds of all shifts
 #endif
 } Footprint;
 
@@ -71,11 +71,11 @@ static inline float2 in_cells(global const DeviceLayout* layout, DeviceReceiver 
                   (0.5f * layout->receiver_y - (p.y - receiver.y)) / layout->cell_y);
 }
 
-// A facet, and what does not depend on its slope.
+// What does not depend on a facet's slope.
 typedef struct {
   int column, row;
   float2 middle, sines;
-  float4 spread; // columns
+  float4 spread; // its columns
   float power, height;
   global const DeviceIncoming* all; // light on all facets
 } Facet;
@@ -105,14 +105,14 @@ typedef struct {
 } LitPart;
 
 #if NEPHROID_INCOMING
-// The mean over v = -1/2 .. 1/2 of a + b v where that is above 0.
+// The mean of a + b v over v = -1/2 .. 1/2 where that is above 0.
 static inline float mean_above_0(float a, float b) {
   b = fabs(b);
   return fabs(a) >= 0.5f * b ? fmax(a, 0.0f) : (a + 0.5f * b) * (a + 0.5f * b) / (2.0f * b);
 }
 
-// In parts of the facet's width: what the neighbour at a side of x hides of light with this slope, x and y being any
-// two axes.
+// What the neighbour at a side of x hides of light with this slope, in parts of the facet's width. x and y are any two
+// axes.
 static inline float hidden_by(global const DeviceLayout* layout, const Facet* facet, int2 to, float along, float g,
                               float g_other, int axis, float ratio, float meets) {
   if (to.x < 0 || to.y < 0 || to.x >= layout->columns || to.y >= layout->rows) return 0.0f;
@@ -139,16 +139,16 @@ static inline LitPart lit_part(global const DeviceLayout* layout, const Facet* f
 }
 #endif
 
-// A slope of a facet, and what is the same for all receivers.
+// What is the same for all receivers, for a slope of a facet.
 typedef struct {
   float2 slope;
-  float4 map; // of places on the facet to places on a receiver at distance 0: columns
+  float4 map; // columns; from places on the facet to places on a receiver at distance 0
   float4 map_by_distance;
   LitPart lit;
   float power; // in facets that send all of their light
 #if NEPHROID_SPREAD
   float2 by_index;   // change of the slope
-  float3 covariance; // of the slope by the sun's disc and roughness: xx, xy, yy
+  float3 covariance; // the slope's covariance by the sun's disc and roughness: xx, xy, yy
 #endif
 } Beams;
 
@@ -169,7 +169,7 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
   const SlopeChange change = slope_change(slope, n, facet->sines);
 #endif
 #if NEPHROID_SPREAD
-  // The disc is across the light: of its radius r, sines have the covariance r^2 / 4 (1 - sines sines^T).
+  // The disc is across the light. With its radius r, sines have the covariance r^2 / 4 (1 - sines sines^T).
   const float2 s = facet->sines;
   const float sun = 0.5f * layout->sun_radius, shrinks = 1.0f / (1.0f + sqrt(1.0f - dot(s, s))),
               rough = layout->scatter * layout->scatter;
@@ -213,7 +213,7 @@ static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Fac
   Footprint print;
   const float way = receiver.distance + facet->height;
   const float2 cell = (float2)(layout->cell_x, layout->cell_y);
-  float2 variance = (float2)(0.0f); // of the slope, left in each beam
+  float2 variance = (float2)(0.0f); // variance of the slope that is left in each beam
 #if NEPHROID_SPREAD
   const float3 both = beams->covariance;
   const float fine = fmin(cell.x, cell.y) / way; // a cell as a slope
@@ -261,7 +261,7 @@ static inline float2 reach_of(const Footprint* print) {
 #endif
 }
 
-// The cells that a footprint touches: x and y of the first, and behind the last.
+// The cells that a footprint touches: x and y of the first, and of the one behind the last.
 static inline int4 cells_of(global const DeviceLayout* layout, const Footprint* print) {
 #if NEPHROID_SPREAD
   const float2 low = print->low, high = print->high;
@@ -274,8 +274,8 @@ static inline int4 cells_of(global const DeviceLayout* layout, const Footprint* 
                 edge_cell(ceil(print->y.middle + high.y + print->y.reach), layout->cells_y));
 }
 
-// How much of a footprint's light is on each cell of a tile. One beam says it by itself; many are added up, a tile
-// after the other.
+// How much of a footprint's light is on each cell of a tile. A single beam needs no tile; many are summed, tile after
+// tile.
 #if NEPHROID_SPREAD
 #define TILE 8
 #define TILE_ROWS TILE

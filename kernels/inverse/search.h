@@ -6,15 +6,15 @@
 #include "kernels/inverse/light.h"
 #include "kernels/tracing/random.h"
 
-// 1: neighbours are to be alike.
+// 1: neighbours should be alike.
 #ifndef NEPHROID_SMOOTHS
 #define NEPHROID_SMOOTHS 1
 #endif
 
-// Candidates across and down, of which the best of every part are scored exactly.
+// Candidates across and down; the best of every part are scored exactly.
 #define LATTICE 32
 #define PARTS 2
-// Then so many across and down about a candidate, at most: the cells that a step of the lattice passes over.
+// At most this many are then tried across and down about a candidate: the cells that a step of the lattice passes over.
 #define MOST_FINE 8
 
 #define SEARCH_ARGUMENTS                                                                                               \
@@ -26,7 +26,7 @@ typedef struct {
   global const DeviceReceiver* receivers;
   global const float* lack;
   Facet facet;
-  Beams now; // where its light is, which counts as taken away
+  Beams now; // where its light is; that light counts as taken away
   float3 pull;
 } Search;
 
@@ -36,7 +36,8 @@ static inline float neighbours_of(global const DeviceLayout* layout, int column,
 }
 
 // The sum of Cost_N over all facets (app/inverse/assign/cost.h) falls by n . pull where a facet of normal n is put
-// among its neighbours: their normals, times one part in the facet's neighbours and one in each neighbour's own.
+// among its neighbours. The pull sums their normals, times one part in the facet's neighbours and one in each
+// neighbour's own.
 static inline float3 pull_on(global const DeviceLayout* layout, global const DeviceIncoming* incoming,
                              global const float* heights, global const float2* slopes, uint index) {
   const int column = (int)(index % (uint)layout->columns), row = (int)(index / (uint)layout->columns);
@@ -56,10 +57,10 @@ static inline float3 pull_on(global const DeviceLayout* layout, global const Dev
 // A lattice of slopes to points of one of the receivers, LATTICE across and down, and cells about each of them.
 typedef struct {
   float2 corner, step, fine_step;
-  int2 fine; // cells of a step
+  int2 fine; // the cells of a step
 } Lattice;
 
-// Moved at random; another receiver every time, so that light is tried that misses those behind it.
+// The lattice moves at random, to another receiver every time, so that light is tried that misses those behind it.
 static inline Lattice lattice_of(global const DeviceLayout* layout, global const DeviceReceiver* receivers,
                                  const Facet* facet, uint2 seed, uint sweep, uint index) {
   const float4 random = random4(seed, sweep, index, 0u, STREAM_FACETS);

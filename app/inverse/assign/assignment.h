@@ -10,12 +10,12 @@
 namespace nephroid::inverse {
 
 /// Lowers weighted_squares(), and what smoothing adds to it (cost.h), on the device. A sweep goes through all facets in
-/// a random order, in batches: every facet of a batch looks for its slope at once, among the light as it is before the
-/// batch. Then those take what they found that share no cell with a facet before them, if it is better than what they
-/// had, and the others try again. So no batch makes the sum larger while pictures have their tones, and the number of
-/// threads changes no bit. When a sweep gains less than three hundredths of the sum, the last one moves all facets
-/// together: see Refinement, which knows no smoothing and is left out where there is some. Free heights, what facets
-/// see of their neighbours, and the pictures' tones follow the slopes after each sweep.
+/// a random order, in batches. Every facet of a batch looks for its slope at once, in the light as it is before the
+/// batch. A facet takes what it found if that is better than what it had and if it shares no cell with a facet before
+/// it; the others try again. So no batch raises the sum while pictures keep their tones, and the number of threads
+/// changes no bit. When a sweep gains less than three hundredths of the sum, a last step moves all facets together: see
+/// Refinement. It knows no smoothing and is left out where there is some. Free heights, what facets see of their
+/// neighbours, and the pictures' tones follow the slopes after each sweep.
 class Assignment final : public Method {
 public:
   /// The layout and the targets outlive it. Facets begin with random slopes. Throws failed where the device has not
@@ -23,7 +23,7 @@ public:
   Assignment(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
              std::uint64_t seed);
 
-  /// One batch, or one step of the refinement.
+  /// Does one batch, or one step of the refinement.
   void advance() override;
   bool finished() const override { return refinement_ ? refinement_->finished() : converged_; }
   std::int64_t steps() const override { return sweeps_; }
@@ -34,12 +34,12 @@ public:
 
   const std::vector<glm::dvec2>& slopes() const override;
   std::vector<double> heights() const override { return heights_; }
-  /// In facets that send all of their light.
+  /// In units of facets that send all of their light.
   const std::vector<double>& light(std::size_t receiver) const override { return all_light()[receiver]; }
-  double residual() const; ///< the sum
+  double residual() const; ///< the sum that sweeps lower
   std::vector<Cost> costs() const override;
   Solid solid() const override { return make_solid(layout_, slopes()); }
-  /// The sweep in hand begins again.
+  /// Begins the sweep in hand again.
   void relight() override;
 
   void state(State& state) override;
@@ -55,25 +55,25 @@ private:
   void forget();
 
   const Layout& given_;
-  Layout layout_; ///< the same, but that facets see their neighbours as they are
+  Layout layout_; ///< given_, but with facets that see their neighbours as they are
   const std::vector<Target>& targets_;
   std::uint64_t seed_;
   std::vector<double>
-      tones_; ///< of each picture: the part of all light that reaches its receiver, at least a hundredth; a state, too
-  std::vector<Target> wanted_; ///< targets in their tones
+      tones_; ///< part of all light that reaches each picture's receiver, at least a hundredth; in the state
+  std::vector<Target> wanted_; ///< the targets in their tones
   std::vector<double> weights_;
-  std::vector<double> heights_; ///< of the facets' middles; a state, too
-  DeviceFacets facets_;         ///< a state, too
+  std::vector<double> heights_; ///< z of the facets' middles; in the state
+  DeviceFacets facets_;         ///< in the state
   // The state.
   std::int64_t sweeps_ = 0;
-  std::size_t next_ = 0; ///< in the sweep's order
+  std::size_t next_ = 0; ///< place in the sweep's order
   std::uint64_t tried_ = 0;
-  double residual_ = 0;                  ///< before the sweep in hand
-  bool converged_ = false;               ///< without refinement
-  std::optional<Refinement> refinement_; ///< from when a sweep gained too little
+  double residual_ = 0;                  ///< the sum before the sweep in hand
+  bool converged_ = false;               ///< whether the search ended without refinement
+  std::optional<Refinement> refinement_; ///< there once a sweep has gained too little
 
-  mutable std::vector<glm::dvec2> slopes_;         ///< as on the device; empty: not read yet
-  mutable std::vector<std::vector<double>> light_; ///< the same
+  mutable std::vector<glm::dvec2> slopes_;         ///< a copy of the device's; empty: not read yet
+  mutable std::vector<std::vector<double>> light_; ///< a copy of the device's; empty: not read yet
 };
 
 } // namespace nephroid::inverse

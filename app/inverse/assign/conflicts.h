@@ -5,26 +5,28 @@
 
 namespace nephroid::inverse {
 
-/// Light is misplaced in a picture where more falls than is wanted, or beside the receiver. Every facet in a cell has
-/// the same share in what is too much there.
+/// Light is misplaced in a picture where more falls than is wanted, and beside the receiver. Every facet in a cell has
+/// the same share of what is too much there.
 struct Conflicts {
-  std::vector<double> misplaced; ///< of each picture: part of all light; what it keeps of its error, its floor
+  std::vector<double> misplaced; ///< the part of all light that is misplaced in each picture: the error that it keeps,
+                                 ///< its floor
   std::vector<std::vector<double>>
       between; ///< [j][k]: part of all light that is misplaced in picture j for the sake of picture k
 };
 
-/// light: of facets with these slopes and heights, by their footprints.
+/// Finds misplaced light. `light` is that of facets with these slopes and heights, by their footprints.
 class ConflictSearch {
 public:
-  /// All of them outlive it.
+  /// The arguments outlive it.
   ConflictSearch(const Layout& layout, const std::vector<Target>& targets, const std::vector<glm::dvec2>& slopes,
                  const std::vector<double>& heights, const std::vector<std::vector<double>>& light);
 
-  /// For each facet the part of its light that is misplaced, in the picture where that is largest.
+  /// The part of each facet's light that is misplaced, in the picture where that is largest.
   std::vector<double> facet_conflicts() const;
 
-  /// A facet would go where picture j gains most, were it alone. What is misplaced of it in j is put down to the others
-  /// by what they would lose by that. Some facets speak for all: every one up to 32 a side.
+  /// For picture j, each facet is moved where j gains most, as if j were alone. The facet's misplaced light in j is
+  /// then charged to the other pictures, by what they would lose by the move. Some facets stand for all: every one, up
+  /// to 32 a side.
   Conflicts picture_conflicts() const;
 
 private:
@@ -36,9 +38,9 @@ private:
   const std::vector<glm::dvec2>& slopes_;
   const std::vector<double>& heights_;
   const std::vector<std::vector<double>>& light_;
-  std::vector<Target> wanted_; ///< in each picture's own tone
+  std::vector<Target> wanted_; ///< the targets, each in its own tone
   std::vector<double> weights_;
-  std::vector<std::vector<double>> too_much_; ///< [receiver][cell]: part of the light there
+  std::vector<std::vector<double>> too_much_; ///< [receiver][cell]: part of the light there that is too much
 };
 
 } // namespace nephroid::inverse

@@ -7,31 +7,31 @@
 
 namespace nephroid::inverse {
 
-/// T wanted, Z there.
+/// T is the wanted light, Z the light that is there.
 struct Cost {
   /// sqrt(sum (T / Tmax - Z / Zmax)^2 / cells), thesis (5.2), over the cells where T / Tmax + Z / Zmax > 0.01. By (5.3)
   /// every cell with any light counts, so that one stray ray in a dark cell lowers the cost.
   double cost = 0;
   double cost_all = 0; ///< the same over all cells
   double rel_l2 = 0;   ///< |T / sum T - Z / sum Z| / |T / sum T|
-  double missed = 0;   ///< part of the light that is beside the receiver
+  double missed = 0;   ///< part of the light that falls beside the receiver
 };
 
-/// sent: the light that left the object, in the unit of z.
+/// `sent` is the light that left the object, in the unit of z.
 Cost cost_of(const Target& t, std::span<const double> z, double sent);
 
-/// Of each target. light: [receiver][cell], and more at its end.
+/// A cost for each target. `light` is [receiver][cell], with more at its end.
 std::vector<Cost> costs_of(const std::vector<Target>& targets, const std::vector<std::vector<double>>& light,
                            double sent);
 
-/// Each figure's mean.
+/// The mean of each figure.
 Cost mean(std::span<const Cost> costs);
 
-// Neighbouring facets alike, so that the object is easier to make: the thesis' (6.1), Cost_S = alpha_N Cost_N + alpha_P
-// Cost_P. Cost_N of a facet is 1 minus the mean of n . n' over its neighbours, four but at the rim, n being unit
-// normals.
+// Smoothing makes neighbouring facets alike, so that the object is easier to make: the thesis' (6.1), Cost_S = alpha_N
+// Cost_N + alpha_P Cost_P. A facet's Cost_N is 1 minus the mean of n . n' over its neighbours (four, but at the rim),
+// with unit normals n.
 
-/// The unit normal out of the object.
+/// The facet's unit normal, out of the object.
 glm::dvec3 normal_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope);
 
 /// The mean of Cost_N over all facets.

@@ -15,44 +15,44 @@
 
 namespace nephroid::inverse {
 
-/// As kernels want it.
+/// The layout in the kernels' form.
 shared::DeviceLayout device_layout(const Layout& layout);
 
 std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout);
 
-/// What kernels leave out.
+/// Defines that tell kernels what to leave out.
 compute::Defines facet_defines(const Layout& layout);
 
 class DeviceFacets {
 public:
-  /// At most so many facets look for slopes at once: a claim has 12 bits for them (search.cl).
+  /// The most facets that look for slopes at once: a claim has 12 bits for them (search.cl).
   static constexpr std::size_t most_in_a_batch = 4096;
 
-  /// weights: of a receiver's squares. Throws failed where the device has not enough memory.
+  /// `weights` are those of the receivers' squares. Throws failed where the device has not enough memory.
   DeviceFacets(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
                std::span<const double> weights);
 
-  /// Other distances, targets and weights.
+  /// Takes on other distances, targets and weights.
   void aim(const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights);
 
-  /// Light on the facets, and their neighbours as they are now.
+  /// Takes on the light on the facets, and their neighbours as they are now.
   void set_incoming(const Layout& layout) { incoming_.write(incoming_of(layout)); }
 
-  /// Puts all facets' light on the receivers. heights: of their middles.
+  /// Puts all facets' light on the receivers. `heights` are those of their middles.
   void put(const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights);
   std::vector<glm::dvec2> slopes() const;
-  /// [receiver][cell], in facets that send all of theirs.
+  /// [receiver][cell], in units of facets that send all of their light.
   std::vector<std::vector<double>> light() const;
 
-  /// A sweep's order, and its number, of which its random numbers come.
+  /// Sets a sweep's order and its number, from which its random numbers come.
   void begin_sweep(const std::vector<std::uint32_t>& order, std::int64_t sweep, std::uint64_t seed);
   /// How many facets a batch has.
   std::size_t batch() const { return batch_; }
-  /// Facets first .. first + count - 1 of the order look for better slopes and take them. What they gain is what each
-  /// of them would gain alone. smoothing: what a facet's Cost_N weighs in the sum.
+  /// Facets first .. first + count - 1 of the order look for better slopes and take them. Each gains what it would gain
+  /// alone. `smoothing` is the weight of a facet's Cost_N in the sum.
   void improve(std::size_t first, std::size_t count, double smoothing);
 
-  /// Of the weighted squares, by each facet's slope.
+  /// The gradient of the weighted squares, by each facet's slope.
   std::vector<glm::dvec2> gradient();
 
   static std::uint64_t bytes(const Layout& layout);
@@ -61,8 +61,8 @@ public:
 
 private:
   mpi::RankContext context_;
-  compute::Buffer<shared::DeviceLayout> layout_; ///< one
-  std::size_t facets_, batch_, cells_, rows_;    ///< cells and their rows: of all receivers
+  compute::Buffer<shared::DeviceLayout> layout_; ///< a single one
+  std::size_t facets_, batch_, cells_, rows_;    ///< cells_ and rows_ are those of all receivers
   compute::Buffer<shared::DeviceReceiver> receivers_;
   compute::Buffer<shared::DeviceIncoming> incoming_;
   compute::Buffer<float> heights_, wanted_, lack_, along_y_, smeared_;

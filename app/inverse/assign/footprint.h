@@ -7,7 +7,7 @@
 
 namespace nephroid::inverse {
 
-/// Along one axis, in cells: the beam is a box of `width` that another box of `blur` smears; a trapezoid.
+/// A beam along one axis, in cells: a box of `width` that another box of `blur` smears; a trapezoid.
 struct Beam {
   double middle = 0, width = 1, blur = 0;
 };
@@ -15,33 +15,35 @@ struct Beam {
 /// The part of a beam before t.
 double part_before(const Beam& beam, double t);
 
-/// Width of the box that smears as the sun's disc and rough surfaces do behind a flat facet: with their variance. A
-/// disc of radius r has r^2 / 4 along an axis, a box b^2 / 12. Millimetres on a receiver at this distance.
+/// The width of a box that smears as the sun's disc and rough surfaces do behind a flat facet: it has their variance. A
+/// disc of radius r has r^2 / 4 along an axis, a box of width b has b^2 / 12. In millimetres on a receiver at this
+/// distance.
 double blur_width(const Layout& layout, double distance);
 
-/// A line of indices is cut until its pieces, and a disc is points where it is wider, in parts of a cell.
+/// A line of indices is cut until its pieces are this short, and a disc that is wider becomes points; in parts of a
+/// cell.
 inline constexpr double piece_in_cells = 0.25, wide_in_cells = 0.5;
 
-/// Between the least and the largest index, without a thousandth of what counts at either end of the spectrum.
+/// The largest index minus the least, without a thousandth of what counts at either end of the spectrum.
 double index_spread(const Layout& layout);
 
-/// That line in so many pieces of equal length: the mean index of each over layout.n, its part of what counts, and the
-/// variance that is left in them. What is beyond an end is counted there.
+/// The line of indices in pieces of equal length. `over` is each piece's mean index minus layout.n, `parts` its part of
+/// what counts, `within` the variance that is left in the pieces. Light beyond an end is counted there.
 struct IndexGroups {
   std::vector<double> over, parts;
   double within = 0;
 };
 IndexGroups index_groups(const Layout& layout, int count);
 
-/// Points on a circle that stand for a disc with a variance of 1 along each axis, disc_beams or 4, less what is left
-/// for a box about each. Between the axes 8 with such boxes are next to a disc: as seen in cells 0.5 to 1.2 of which
-/// are its radius, 0.002 to 0.02 of it is elsewhere; a box alone is 0.01 to 0.1 off.
+/// Points on a circle that stand for a disc with a variance of 1 along each axis, disc_beams or 4 of them. Some of the
+/// variance is left for a box about each point. With such boxes 8 points are close to a disc also between the axes.
+/// Where its radius is 0.5 to 1.2 cells, 0.002 to 0.02 of the disc falls elsewhere; with a box alone it is 0.01 to 0.1.
 inline constexpr int disc_beams = 8;
 std::vector<glm::dvec2> disc_points(int count);
 constexpr double left_of_disc(int points) { return points == disc_beams ? 0.22 : 0.27; }
 
-/// Light of a facet on its way to a receiver, in cells: beams that are alike, each shifted from the middle, with its
-/// part of the light. A beam is a product: what lands in a cell is the part along x times the part along y.
+/// A facet's light on its way to a receiver, in cells: beams that are alike, each with its shift from the middle and
+/// its part of the light. A beam is a product: what lands in a cell is the part along x times the part along y.
 struct Beams {
   static constexpr int most = 16;
   Beam x, y;
@@ -50,17 +52,17 @@ struct Beams {
   std::array<double, most> parts{1};
 };
 
-/// The beams of a facet with this slope. A facet of gradient g, whose light starts at z = g . p, hits a plane at (1 +
-/// slope g^T) p beside its middle: a parallelogram, smaller along the slope than the facet; a lamp's light has another
-/// slope at each p. Its shadow along x and along y is exact; that both hang together off the axes is not kept. A
-/// spectrum is a line along the change of the slope with the index: as many beams as it takes for the rest of each to
-/// be short beside a cell. The sun's disc and roughness, where they are wide beside a cell, are 8 beams, 4 where the
-/// light has a spectrum. What is left of a blur is a box along each axis with its variance. height: z of the facet's
-/// middle, from where its light has further to go.
+/// The beams of a facet with this slope. The light of a facet with gradient g starts at z = g . p and hits a plane at
+/// (1 + slope g^T) p from its middle: a parallelogram, smaller along the slope than the facet. A lamp's light has
+/// another slope at each p. The shadow along x and along y is exact; how both depend on each other off the axes is not
+/// kept. A spectrum is a line along the change of the slope with the index; it has as many beams as make the rest of
+/// each short beside a cell. The sun's disc and roughness, where they are wide beside a cell, are 8 beams, or 4 where
+/// the light has a spectrum. What is left of a blur is a box along each axis with its variance. `height` is z of the
+/// facet's middle: light goes further from there.
 Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver,
                double height = 0);
 
-/// Light of a facet in cells of a receiver: column x0 + i, row y0 + k get cells[k * columns + i]; those beside the
+/// A facet's light in cells of a receiver: column x0 + i, row y0 + k get cells[k * columns + i]. Cells beside the
 /// receiver are left out.
 struct Footprint {
   int x0 = 0, y0 = 0, columns = 0, rows = 0;
@@ -69,13 +71,13 @@ struct Footprint {
 Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver,
                     double height = 0);
 
-/// How much light a facet sends, over what the mean facet would send lying flat. Light that falls in with a slope t
-/// meets 1 + t . g of it on a facet of gradient g, whose edge towards the light is g / 2 below its middle, in parts of
-/// its width. A neighbour of gradient h ends h / 2 above its own, so that t (g + h) / 2 / (1 + t . g) of the facet lies
-/// in its shadow, along x and along y; less or more towards the ends of the edge, as g and h differ along it. In the
-/// same way a wall stops what leaves with a slope s within s (g + h) / 2 / (1 + s . g) of the other edge. The footprint
-/// is of what is left. h is what the layout says of the neighbour (Incoming::around). Light straight on is taken to
-/// meet no neighbour, nor are facets of free heights, whose edges nearly meet.
+/// How much light a facet sends, over what the mean facet would send lying flat. A facet of gradient g meets 1 + t . g
+/// of light with slope t. Its edge towards the light is g / 2 below its middle, in parts of its width; a neighbour of
+/// gradient h ends h / 2 above its own middle. So t (g + h) / 2 / (1 + t . g) of the facet lies in the neighbour's
+/// shadow, along x and along y. This grows or falls towards the ends of the edge, as g and h differ along it. In the
+/// same way a wall stops light that leaves with slope s within s (g + h) / 2 / (1 + s . g) of the other edge. The
+/// footprint is of what is left. h is what the layout says of the neighbour (Incoming::around). Neighbours do not count
+/// for light straight on, nor for facets of free heights, whose edges nearly meet.
 double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& slope);
 
 /// Calls f(cell, part of the facet's light) for every cell of the receiver that gets some.
@@ -86,15 +88,16 @@ void for_cells(const Layout& layout, const Footprint& print, const F& f) {
       f(index_at(print.x0 + i, print.y0 + k, layout.cells.x), print.cells[index_at(i, k, print.columns)]);
 }
 
-/// Adds the facet's light, `sign` times, to every receiver's: [receiver][cell], in facets that send all of theirs.
+/// Adds the facet's light, `sign` times, to every receiver's: [receiver][cell], in units of facets that send all of
+/// theirs.
 void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign,
                std::vector<std::vector<double>>& light, double height = 0);
 
-/// The light of all facets on every receiver. heights: of their middles.
+/// The light of all facets on every receiver. `heights` are those of their middles.
 void light_all(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights,
                std::vector<std::vector<double>>& light);
 
-/// Light that all facets send, wherever to.
+/// The light that all facets send, wherever it goes.
 double light_sent(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 
 } // namespace nephroid::inverse

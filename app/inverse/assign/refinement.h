@@ -8,16 +8,17 @@
 
 namespace nephroid::inverse {
 
-/// The slopes of all facets at once, downhill: conjugate gradients (Polak and Ribiere) on weighted_squares(). Sweeps
-/// leave each facet at the best place among the others; moving together, facets still gain. The number of threads
-/// changes no bit.
+/// Moves the slopes of all facets downhill at once, by conjugate gradients (Polak and Ribiere) on weighted_squares().
+/// Sweeps leave each facet at the best place among the others; by moving together, facets still gain. The number of
+/// threads changes no bit.
 class Refinement {
 public:
-  /// weights: of a receiver's squares; heights: of the facets' middles. All but the weights outlive it.
+  /// `weights` are those of the receivers' squares, `heights` those of the facets' middles. All but the weights outlive
+  /// it.
   Refinement(const Layout& layout, const std::vector<Target>& targets, std::vector<double> weights,
              const std::vector<double>& heights);
 
-  /// One step along a line; the sum gets smaller, or it is finished.
+  /// Takes one step along a line. The sum falls, or the refinement is finished.
   void advance(DeviceFacets& facets);
   bool finished() const;
   double fraction_done() const;
@@ -32,8 +33,8 @@ private:
   std::vector<double> weights_;
   const std::vector<double>& heights_;
   // The state.
-  std::vector<glm::dvec2> gradient_, before_, direction_; ///< of each facet; before_: the gradient of the last step
-  double step_ = 0;                                       ///< along the direction
+  std::vector<glm::dvec2> gradient_, before_, direction_; ///< for each facet; before_: the gradient of the last step
+  double step_ = 0;                                       ///< length along the direction
   std::size_t done_ = 0;
   bool stuck_ = false;
 };

@@ -15,21 +15,21 @@ inline constexpr const char* mesh_title = "Nephroid: inverse caustics, millimetr
 void write_obj(const scene::Mesh& mesh, ByteSink& to); ///< Wavefront
 void write_stl(const scene::Mesh& mesh, ByteSink& to); ///< binary
 
-/// How it is made, in millimetres; empty: not said.
+/// How the object is made, in millimetres; empty: not said.
 struct Manufacturing {
   std::optional<double> tool_radius, layer;
 };
 
-/// The figures as a page of Markdown. material: in words, with its index.
+/// The figures as a page of Markdown. `material` is in words, with its index.
 std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material,
                           const Manufacturing& making = {});
 
-/// JSON: the grid's size, what a facet's numbers are, and a line of them a facet, row by row from the top.
+/// JSON: the grid's size, what a facet's numbers are, and a line of them for each facet, row by row from the top.
 void write_facets(const Layout& layout, const Solid& solid, ByteSink& to);
 
-/// The object's thickness in millimetres over its flat front, as one sees it who looks at the facets: +x is at the
-/// left, +y at the top. Its pixels part each facet alike, some 1024 across the object and at least 4 across a facet;
-/// they may be oblong as facets are.
+/// The object's thickness in millimetres over its flat front, seen from the facets' side: +x is at the left, +y at the
+/// top. Pixels divide all facets alike, some 1024 across the object and at least 4 across a facet. They may be oblong,
+/// as facets are.
 image::Image height_map(const Layout& layout, const Solid& solid);
 void write_height_exr(const Layout& layout, const Solid& solid, ByteSink& to); ///< 32 bits
 void write_height_png(const Layout& layout, const Solid& solid,

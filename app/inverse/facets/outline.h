@@ -5,9 +5,9 @@
 
 namespace nephroid::inverse {
 
-/// solid: the relief alone, over the whole rectangle. Triangles of which no corner lies within the ellipse are left
-/// out, the others cut. Corners close to the ellipse are moved onto it first, so that no triangle becomes much thinner
-/// than it was.
+/// `solid` has only the relief, over the whole rectangle. Triangles with no corner within the ellipse are left out, the
+/// others cut. Corners close to the ellipse are moved onto it first, so that no triangle becomes much thinner than it
+/// was.
 void cut_round(const Layout& layout, const Surface& surface, Solid& solid);
 
 } // namespace nephroid::inverse

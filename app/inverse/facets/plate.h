@@ -20,10 +20,11 @@ struct PlatePart {
 
 /// Puts rectangles on shelves, the highest first, from the plate's upper edge down (next-fit decreasing height:
 /// Coffman, Garey, Johnson and Tarjan 1980). `gap` is left between them and at the plate's rim. Nothing is turned.
-/// Returns the first that found no place, if any: its index.
+/// Returns the index of the first that found no place, if any.
 std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, std::vector<PlatePart>& bodies);
 
-/// All as one mesh: each moved to its place, with its front (its highest z) at z = 0. A body stays as closed as it is.
+/// Joins all bodies in one mesh: each is moved to its place, with its front (its highest z) at z = 0, and stays as
+/// closed as it is.
 scene::Mesh plate_mesh(const std::vector<scene::Mesh>& meshes, const std::vector<PlatePart>& places);
 
 } // namespace nephroid::inverse

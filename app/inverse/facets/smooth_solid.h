@@ -10,26 +10,26 @@
 
 namespace nephroid::inverse {
 
-/// The layout with long facets cut into such as are as wide as high, nearly, which the mesh is made of.
+/// The layout whose facets the mesh is made of: long facets are cut into nearly square ones.
 Layout mesh_layout(Layout layout);
 
-/// Parts of each of mesh_layout()'s facets along a side, a power of two up to 64: so many that flat triangles send
-/// light no further from where the surface sends it than mesh_error cells, in the mean of squares over the facets. A
-/// triangle is as steep as the surface half a part's side away from its corners at most, and where the surface's slope
-/// changes by C a millimetre, light behind it moves by distance (n
-/// - 1) (1 + g^2) C a millimetre, for light nearly straight on. Of all meshes the one of the fewest triangles has parts
-/// as the square root of what a whole facet would miss by.
+/// How many parts each of mesh_layout()'s facets has along a side, a power of two up to 64. With so many, flat
+/// triangles send light no further from where the surface sends it than mesh_error cells, in the mean of squares over
+/// the facets. A triangle is as steep as the surface half a part's side away from its corners at most. Where the
+/// surface's slope changes by C a millimetre, light behind it moves by distance (n - 1) (1 + g^2) C a millimetre, for
+/// light nearly straight on. The mesh with the fewest triangles has parts in proportion to the square root of what a
+/// whole facet would miss by.
 std::vector<int> mesh_parts(const Layout& layout, const Surface& surface, double mesh_error);
 
 std::uint64_t count_triangles(const Layout& layout, const std::vector<int>& parts);
 
 inline std::uint64_t stl_bytes(std::uint64_t triangles) { return 84 + 50 * triangles; }
 inline constexpr std::uint64_t most_stl_bytes = 4'000'000'000;
-/// Throws bad_input for so many triangles. own: where the settings stand.
+/// Throws bad_input for so many triangles. `own` is where the settings stand.
 [[noreturn]] void refuse_mesh(const Place& own, double mesh_error, std::uint64_t triangles);
 
-/// Every part is triangles about its middle, with all corners of its neighbours on its sides. All vertices are on the
-/// surface.
+/// Each part becomes triangles about its middle, with all corners of its neighbours on its sides. All vertices are on
+/// the surface.
 Solid make_smooth_solid(const Layout& layout, const Surface& surface, const std::vector<int>& parts);
 
 } // namespace nephroid::inverse

@@ -21,19 +21,19 @@ struct Facet {
 
 struct Solid {
   scene::Mesh mesh;                       ///< counter-clockwise seen from outside
-  std::vector<Part> parts;                ///< of each triangle
-  std::vector<Facet> facets;              ///< as the layout counts them
+  std::vector<Part> parts;                ///< a part for each triangle
+  std::vector<Facet> facets;              ///< in the layout's order
   double lowest = 0, highest = 0;         ///< z of the facets' corners
   double steepest_deg = 0;                ///< between a facet and the front
   double highest_wall = 0;                ///< between two facets
   double wall_area = 0;                   ///< mm^2, between facets
-  std::shared_ptr<const Surface> surface; ///< of a lens: what its triangles stand for
+  std::shared_ptr<const Surface> surface; ///< what a lens' triangles stand for
   double steepest_wall_deg = 90;          ///< between a wall and the front
   double relief() const { return highest - lowest; }
 };
 
 /// Every edge has two triangles, which pass it in opposite directions, and every triangle has an area: see Post in
-/// solid.cpp. heights: z of the facets' middles; as the layout says where they are left out.
+/// solid.cpp. `heights` has z of the facets' middles; without it they are as the layout says.
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights);
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 

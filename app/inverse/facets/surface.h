@@ -6,11 +6,11 @@
 
 namespace nephroid::inverse {
 
-/// A cubic spline through a value a node, along columns and along rows, with quadratic pieces at the rim. Lengths are
-/// in nodes.
+/// A cubic spline through a value at each node, along columns and along rows, with quadratic pieces at the rim. Lengths
+/// are in nodes.
 class Spline {
 public:
-  /// At least two nodes either way.
+  /// `values` has at least two nodes either way.
   explicit Spline(const Grid& values);
 
   struct At {
@@ -18,17 +18,17 @@ public:
     glm::dvec2 gradient{0};  ///< along columns and along rows
     glm::dvec3 curvature{0}; ///< second derivatives: twice along columns, once along each, twice along rows
   };
-  /// p: column and row; beside the nodes the pieces at the rim go on.
+  /// p is a column and row; beside the nodes the pieces at the rim go on.
   At at(const glm::dvec2& p) const;
 
 private:
-  Grid parts_; ///< of the spline's bells, one more on each side
+  Grid parts_; ///< heights of the spline's bells, one more on each side than nodes
 };
 
-/// z over the facets' side of an object, as high at the facets' corners as a grid says.
+/// z over the facets' side of an object, from a grid of heights at the facets' corners.
 class Surface {
 public:
-  /// size: of the object. corners: z, row by row from the top, one more across and down than facets.
+  /// `size` is the object's. `corners` has z, row by row from the top, one more across and down than facets.
   Surface(const glm::dvec2& size, const Grid& corners)
       : spline_(corners), size_(size), facet_(size / glm::dvec2(corners.cols() - 1, corners.rows() - 1)) {}
 

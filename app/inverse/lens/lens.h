@@ -14,12 +14,12 @@
 
 namespace nephroid::inverse {
 
-/// For one receiver. The first step is the optimal transport and the surface that follows from it. Each further one
-/// corrects the surface by the light that it sends: where there is too much, light flows to where it lacks, as a
-/// solution of Poisson's equation says.
+/// Designs a lens for one receiver. The first step is the optimal transport and the surface that follows from it. Each
+/// further step corrects the surface by the light that it sends: light flows from where there is too much to where it
+/// lacks, as a solution of Poisson's equation says.
 class Lens final : public Method {
 public:
-  /// The layout and the target outlive it. settings: where they stand, for what solid() refuses.
+  /// The layout and the target outlive it. `settings` is where the settings stand, for what solid() refuses.
   Lens(const Layout& layout, const Target& target, double mesh_error, Place settings);
 
   void advance() override;
@@ -32,7 +32,7 @@ public:
 
   const std::vector<glm::dvec2>& slopes() const override { return slopes_; }
   std::vector<double> heights() const override;
-  double relief() const { return 2 * reach(); } ///< of the facets' corners
+  double relief() const { return 2 * reach(); } ///< from the lowest of the facets' corners to the highest
   const std::vector<double>& light(std::size_t) const override { return light_.front(); }
   std::vector<Cost> costs() const override { return {cost_of(target_, light_.front(), sent_)}; }
   Solid solid() const override;
@@ -40,10 +40,10 @@ public:
 
   void state(State& state) override;
 
-  static std::uint64_t bytes(const Layout& layout); ///< of fine grids, about
+  static std::uint64_t bytes(const Layout& layout); ///< memory of fine grids, about
 
 private:
-  /// Corrections in a row that gain too little, after which no more follow.
+  /// After this many corrections in a row that gain too little, no more follow.
   static constexpr std::int64_t most_stale = 2;
 
   void correct();
@@ -63,20 +63,20 @@ private:
   double mesh_error_;
   Place settings_;
   glm::dvec2 domain_; ///< size of the grid in millimetres, centred as the object and the receiver are
-  Layout fine_;       ///< the same with facets in parts, whose light is that of the surface
+  Layout fine_;       ///< the layout with facets in parts, whose light is that of the surface
   Transport transport_;
   Grid wanted_; ///< on the finest grid
   Poisson heights_of_, flow_of_;
   // The state, and what follows from it.
-  int moved_ = 0; ///< steps of the transport
+  int moved_ = 0; ///< completed steps of the transport
   std::int64_t steps_ = 0, stale_ = 0;
-  double share_ = 1;                                      ///< of a correction that is carried out
+  double share_ = 1;                                      ///< the share of a correction that is carried out
   double best_ = std::numeric_limits<double>::infinity(); ///< the least error of a surface
-  Grid heights_, best_heights_;                           ///< of the facets' corners, millimetres
+  Grid heights_, best_heights_;                           ///< z of the facets' corners, millimetres
   Surface surface_;
   std::vector<glm::dvec2> slopes_;
-  std::vector<std::vector<double>> light_; ///< of the one receiver, in facets
-  Grid sent_by_;                           ///< the same of each part of a facet
+  std::vector<std::vector<double>> light_; ///< the light on the one receiver, in facets
+  Grid sent_by_;                           ///< the light that each part of a facet sends, in facets
   double sent_ = 0;
 };
 

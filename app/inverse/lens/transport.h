@@ -12,16 +12,16 @@
 
 namespace nephroid::inverse {
 
-/// The back-and-forth method (Jacobs and Leger 2020, "A fast approach to optimal transport"): steps along the gradient
-/// of the dual problem, by turns in its two potentials, in the metric in which the gradient is a solution of Poisson's
-/// equation. Lengths are in parts of the grid's longer side; both pictures are on the same grid of square cells and
-/// have the same sum.
+/// The back-and-forth method (Jacobs and Leger 2020, "A fast approach to optimal transport"). It steps along the
+/// gradient of the dual problem, by turns in its two potentials, in the metric in which the gradient is a solution of
+/// Poisson's equation. Lengths are in parts of the grid's longer side. Both pictures are on the same grid of square
+/// cells and have the same sum.
 class Transport {
 public:
   Transport(Grid from, Grid to);
 
-  void advance(); ///< a step in either potential
-  /// Part of the light that the map of the last step did not bring to its cell.
+  void advance(); ///< makes a step in either potential
+  /// The part of the light that the map of the last step did not bring to its cell.
   double astray() const { return astray_; }
   /// Where the light at p goes. p and the result are in cells from the first cell's corner.
   glm::dvec2 map(const glm::dvec2& p) const;
@@ -36,7 +36,7 @@ private:
     double step = 1;
   };
   void move(Side& side, const Grid& wanted, const Grid& arrived, Side& other);
-  double value() const; ///< of the dual problem
+  double value() const; ///< the value of the dual problem
 
   Grid from_, to_; ///< densities over the domain whose area is the grid's
   double cell_;
@@ -46,8 +46,9 @@ private:
   double astray_ = 1;
 };
 
-/// Light of quads whose corners land at these places, in cells of the result, which spreads each sample over the four
-/// cells about it. corners: row by row, one more across and down than `light`. Light beside the result goes to its rim.
+/// The light of quads whose corners land at these places, in cells of the result; each sample is spread over the four
+/// cells about it. `corners` is row by row, one more across and down than `light`. Light beside the result goes to its
+/// rim.
 Grid spread(const Grid& light, const std::vector<glm::dvec2>& corners, Eigen::Index rows, Eigen::Index columns);
 
 /// min over y of |x - y|^2 / 2 - f(y), over the middles of cells.

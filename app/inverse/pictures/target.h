@@ -7,12 +7,12 @@
 
 namespace nephroid::inverse {
 
-/// A drawing is the part of a cell that it covers; a file keeps its aspect. where: the picture's FILE#/json/pointer.
-/// Throws bad_input there, or naming the file, for a file that cannot be read, has a value that is no light, or is one
-/// colour all over; and for a drawing that leaves every cell dark.
+/// In a drawing, each cell has the part of it that is covered; a file keeps its aspect. `where` is the picture's
+/// FILE#/json/pointer. Throws bad_input there, or naming the file, for a file that cannot be read, has a value that is
+/// no light, or is one colour all over; and for a drawing that leaves every cell dark.
 Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where);
 
-/// Of every receiver.
+/// The targets of all receivers.
 std::vector<Target> make_targets(const preset::Preset& preset, const Layout& layout);
 
 } // namespace nephroid::inverse

@@ -17,29 +17,29 @@ namespace nephroid::inverse {
 
 struct AnnealedParameter {
   double start = 0, step = 0.1; ///< a move changes it by up to `step` either way
-  double low = 0, high = 1;     ///< it stays between
+  double low = 0, high = 1;     ///< the value stays between these
 };
 
 struct Cooling {
-  double temperature = 0.005; ///< of the first cycle, in cost: Boltzmann's constant is 1
+  double temperature = 0.005; ///< that of the first cycle, in cost: Boltzmann's constant is 1
   double factor = 0.5;
-  int cycles = 10, moves = 10; ///< moves of a cycle
+  int cycles = 10, moves = 10; ///< cycles, and moves of each
 };
 
 class Annealer {
 public:
-  /// cost: at the knobs' starts.
+  /// `cost` is that at the knobs' starts.
   Annealer(std::vector<AnnealedParameter> knobs, const Cooling& cooling, double cost);
 
   bool finished() const { return done_ >= std::int64_t{cooling_.cycles} * cooling_.moves; }
-  double temperature() const; ///< of the move in hand
-  /// All knobs moved at once. The same random numbers propose the same.
+  double temperature() const; ///< that of the move in hand
+  /// Moves all knobs at once. The same random numbers propose the same values.
   const std::vector<double>& propose(std::mt19937_64 random);
   /// Takes the proposal where its cost is no higher than that of the values in hand, else with probability exp(-rise /
-  /// temperature). True where it is the lowest so far.
+  /// temperature). Returns whether it is the lowest so far.
   bool decide(double cost);
 
-  const std::vector<double>& lowest() const { return lowest_; } ///< values of the lowest cost
+  const std::vector<double>& lowest() const { return lowest_; } ///< the values with the lowest cost
   double lowest_cost() const { return lowest_cost_; }
   std::int64_t accepted() const { return accepted_; }
   std::int64_t refused() const { return done_ - accepted_; }
@@ -50,17 +50,17 @@ private:
   std::vector<AnnealedParameter> knobs_;
   Cooling cooling_;
   std::vector<double> proposed_;
-  double chance_ = 0; ///< 0..1, of the proposal
+  double chance_ = 0; ///< the proposal's random number, 0..1
   // The state.
   std::vector<double> values_, lowest_;
   double cost_ = 0, lowest_cost_ = 0;
   std::int64_t done_ = 0, accepted_ = 0;
 };
 
-/// A step is a trial: all facets drawn, and their cost (5.2) against the adjusted pictures. The first has the pictures
-/// as they are. A stage ends with what had its lowest cost; the object gets the first draw of that. Trials share their
-/// random numbers, so that a cost depends on what is tried alone. Facets send light from their middles and all alike,
-/// as the thesis has it.
+/// A step is a trial: it draws all facets and takes their cost (5.2) against the adjusted pictures. The first trial has
+/// the pictures as they are. A stage ends with the values of its lowest cost; the object gets the first draw of these.
+/// Trials share their random numbers, so that a cost depends only on what is tried. Facets send light from their
+/// middles and all alike, as the thesis has it.
 class Pipeline final : public Method {
 public:
   /// The layout and the targets outlive it. Facets begin flat.
@@ -83,13 +83,13 @@ public:
 
   void state(State& state) override;
 
-  /// Of all stages, at most.
+  /// The trials of all stages, at most.
   static std::int64_t trials_of(const Thesis& settings);
 
 private:
   enum class Stage : std::int32_t { sampling, annealing_1, annealing_2, correction, done };
   static constexpr std::size_t stages = 4;
-  /// A trial in the history.
+  /// A trial's row in the history.
   struct Row {
     double stage = 0, temperature = 0, cost = 0, lowest = 0, accepted = 0, refused = 0;
   };
@@ -112,8 +112,8 @@ private:
   std::uint64_t seed_;
   // What is tried.
   std::vector<SamplingTarget> wanted_; ///< D: in the first annealing the proposal, later what that found
-  std::vector<Margin> margins_;        ///< of wanted_, from the second annealing on
-  std::vector<MissingLight> needs_;    ///< the same
+  std::vector<Margin> margins_;        ///< margins of wanted_, from the second annealing on
+  std::vector<MissingLight> needs_;    ///< needs of wanted_, from the second annealing on
   std::optional<Trial> trial_;
   // The state.
   Stage stage_ = Stage::sampling;
@@ -123,12 +123,12 @@ private:
   std::vector<double> reach_; ///< k and o of all pictures: the proposal, later what the second annealing found
   std::vector<std::vector<double>>
       pictures_;                       ///< what light is aimed at, before it is extended: wanted_, later corrected
-  std::int64_t rounds_ = 0, idle_ = 0; ///< of the correction: done, and without a gain
+  std::int64_t rounds_ = 0, idle_ = 0; ///< rounds of the correction: done, and without a gain
   TrialResult best_;
-  double lowest_ = 1;                  ///< its cost
-  std::array<double, stages> costs_{}; ///< each stage's lowest
+  double lowest_ = 1;                  ///< the cost of best_
+  std::array<double, stages> costs_{}; ///< the lowest cost of each stage
   std::vector<Row> history_;
-  std::vector<std::vector<double>> light_; ///< of best_'s slopes, by their footprints
+  std::vector<std::vector<double>> light_; ///< the light of best_'s slopes, by their footprints
 };
 
 } // namespace nephroid::inverse

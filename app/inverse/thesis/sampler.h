@@ -14,8 +14,8 @@ namespace nephroid::inverse {
 /// What light is aimed at over one distance.
 struct SamplingTarget {
   double distance = 100;
-  std::vector<double> picture; ///< of each cell, at most 1: a probability up to a factor that all have
-  double beside = 0;           ///< the same of light that misses the receiver: h of (5.4)
+  std::vector<double> picture; ///< a value for each cell, at most 1: a probability up to a factor that all have
+  double beside = 0;           ///< the value for light that misses the receiver: h of (5.4)
 };
 
 struct Draws {
@@ -23,14 +23,14 @@ struct Draws {
   std::vector<int> cells; ///< [draw][aim]; -1: beside the receiver
 };
 
-/// A slope's probability is the product of what all pictures have where the facet's middle sends light with it. Slopes
-/// are those of a lattice over all that lead to a receiver and that the index can bend by; one that misses all
-/// receivers has probability 0.
+/// A slope's probability is the product of the values that all pictures have where the facet's middle sends light with
+/// this slope. The slopes are a lattice over all that lead to a receiver and that the index can bend by. A slope that
+/// misses all receivers has probability 0.
 class Sampler {
 public:
   Sampler(const Layout& layout, const std::vector<SamplingTarget>& aims, const Thesis& settings);
 
-  /// So many independent slopes; none where every slope's product is 0.
+  /// `count` independent slopes; none where every slope's product is 0.
   Draws draw(std::size_t facet, int count, std::mt19937_64& random) const;
 
 private:
@@ -45,15 +45,15 @@ private:
   std::vector<double> distances_;
   std::vector<std::vector<double>>
       padded_; ///< pictures with a rim of one cell that has `beside`; all light beside counts as in cell 0
-  std::vector<std::vector<char>> lit_columns_, lit_rows_; ///< of these: whether any cell is above 0
+  std::vector<std::vector<char>> lit_columns_, lit_rows_; ///< whether any cell of a column or a row of these is above 0
   int directions_;
   Thesis::Sampling sampling_;
 };
 
-/// What came of a trial.
+/// The result of a trial.
 struct TrialResult {
   std::vector<std::vector<double>> light; ///< [receiver][cell]: mean of the draws, in facets
-  std::vector<glm::dvec2> slopes;         ///< of each facet: its first draw; as if it were flat where it has none
+  std::vector<glm::dvec2> slopes;         ///< each facet's first draw; a facet without one has its flat slope
   std::uint64_t dark = 0;                 ///< facets whose joint probability is 0 everywhere: they send light nowhere
 };
 
@@ -65,13 +65,13 @@ public:
   /// layout and settings outlive it. The same aims and seed give the same draws, on any number of threads.
   Trial(const Layout& layout, const std::vector<SamplingTarget>& aims, const Thesis& settings, std::uint64_t seed);
 
-  void advance(); ///< some facets
+  void advance(); ///< draws some facets
   bool finished() const { return next_ == layout_.facet_count(); }
   double fraction_done() const { return static_cast<double>(next_) / static_cast<double>(layout_.facet_count()); }
-  std::size_t tried() const { return next_; } ///< facets
+  std::size_t tried() const { return next_; } ///< completed facets
   TrialResult drawn() const;
 
-  void state(State& state); ///< loaded into a trial of the same aims
+  void state(State& state); ///< is loaded only into a trial of the same aims
 
 private:
   const Layout& layout_;
