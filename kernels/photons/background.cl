@@ -5,12 +5,12 @@
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 
-// 1: no glass bends one wavelength otherwise than another.
+// 1: no glass disperses light.
 #ifndef NEPHROID_ONE_WAY
 #define NEPHROID_ONE_WAY 0
 #endif
 
-// XYZ of what a path that has lost some of its light shows of a colour. In single wavelengths, or in all of them.
+// XYZ of a colour after a path's losses, in single wavelengths or in all of them.
 static inline float3 shown_after(const World* world, const Background* background, float3 rgb, const Losses* losses,
                                  const Band* band) {
 #if NEPHROID_ONE_WAY
@@ -25,7 +25,7 @@ static inline float3 shown_after(const World* world, const Background* backgroun
 #endif
 }
 
-// The XYZ radiance of the environment that a path ends at, which has met `hit`; 0 where it ends elsewhere.
+// The XYZ radiance of the environment where a path that has met `hit` ends; 0 where it ends elsewhere.
 static inline float3 seen_through(const World* world, const Background* background, Path path, Hit hit,
                                   const Band* band, uint2 seed, uint sample, uint pixel) {
   Surface surface;
@@ -36,11 +36,11 @@ static inline float3 seen_through(const World* world, const Background* backgrou
                                       band);
 }
 
-// samples: [count]: of which pixel, and its number there. enough: of limit_of_sample.
+// samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.
 __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global const float4* primary_xyz,
                          DeviceBackground size,
                          __global const int* wavelengths,    // 0, 1, ..., 400
-                         __global const float* spectrum_cdf, // [401]: which wavelength a path through glass has
+                         __global const float* spectrum_cdf, // [401]: chances of a path through glass
                          volatile __global long* film,
                          volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
                          DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The direct layer: paths from the eye, through glass and mirrors, to the first diffuse surface, lit there by what of
-// each light arrives unbent. Glass and mirrors block those shadow rays: what they let through is the caustic layer's.
+// The direct layer: paths from the eye, through glass and mirrors, to the first diffuse surface, which each light
+// reaches unbent. Glass and mirrors block those shadow rays: light that passes them belongs to the caustic layer.
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 
-// XYZ radiance that a diffuse surface sends back along the path.
+// The XYZ radiance that a diffuse surface sends back along the path.
 IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, int reflector,
                       const Band* band, __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
@@ -29,8 +29,8 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
   return xyz;
 }
 
-// Takes a path that has hit `first` on through glass and mirrors in one band. Returns XYZ radiance of that band's light
-// alone.
+// Follows a path that has hit `first` on through glass and mirrors in one band. Returns the XYZ radiance of that band's
+// light alone.
 IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band,
                        __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel) {
   Surface surface;
@@ -43,10 +43,10 @@ IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* ban
          shade(world, &path, &surface, first.primitive, reflector, band, reflected_xyz_all, seed, sample, pixel);
 }
 
-// samples: [count]: of which pixel, and its number there. enough: of limit_of_sample.
+// samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.
 __kernel void direct(WORLD_ARGUMENTS,
                      __global const float4* reflected_xyz_all, // [light][reflector]: reflected_xyz over all clusters
-                     __global const float* cluster_cdf, // [cluster + 1]: which cluster a path through glass takes
+                     __global const float* cluster_cdf, // [cluster + 1]: chances of a path through glass
                      volatile __global long* film,
                      volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
                      DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What photons near a visible point add to its pixel: as one sample of the film, or to the pixel's progressive
-// statistics.
+// Adds photons near a visible point to its pixel: as one sample of the film, or to the pixel's progressive statistics.
 //
 // A photon carries the flux F that arrives, times the reflectance, as XYZ. On a surface of area A it adds F / A to the
 // exitance, of which a Lambertian surface sends 1 / pi per steradian and projected area. The photons within r of a
@@ -10,8 +9,8 @@
 #include "kernels/tracing/film.h"
 #include "kernels/photons/photon_map.h"
 
-// points: see view.cl, of pixels[first] and those after it. picture: how many pixels it has. radius: the same for all.
-// film_per_quantum: film quanta of radiance per quantum of a photon, with the 1 / (pi^2 r^2) of above, r in metres.
+// points: as in view.cl, for pixels[first] and those after it. picture: its number of pixels. radius: the same for all.
+// film_per_quantum: film quanta of radiance per quantum of a photon, with the factor 1 / (pi^2 r^2) above, r in metres.
 kernel void gather_to_film(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, volatile global long* film,
                            volatile global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
                            __global const uint* pixels, uint picture, uint pass, uint first, uint count, float radius,
@@ -63,8 +62,8 @@ kernel void start_statistics(global PixelStatistics* statistics, uint pixels, fl
   statistics[i] = start;
 }
 
-// Adds the radiance of a cluster: flux / (pi^2 R^2) over its iterations, of which pixels before `split` have had others
-// than those after. per_iteration_*: 1 / (pi^2 iterations m^2), m metres a unit of length; 0 for no iterations.
+// Adds the radiance of a cluster: flux / (pi^2 R^2) over its iterations, whose number differs for the pixels before
+// `split` and those after. per_iteration_*: 1 / (pi^2 iterations m^2), m metres a unit of length; 0 for no iterations.
 kernel void add_radiance(global const PixelStatistics* statistics, global float* xyz, uint pixels, uint split,
                          float per_iteration_before, float per_iteration_after) {
   const uint i = get_global_id(0);

@@ -3,7 +3,7 @@
 // in this order.
 #include "kernels/photons/photon_map.h"
 
-// The buckets are added up in this many blocks, one a work item.
+// The number of blocks in which the buckets are added up, one a work item.
 #ifndef NEPHROID_SCAN_BLOCKS
 #define NEPHROID_SCAN_BLOCKS 256
 #endif
@@ -17,7 +17,7 @@ static inline int3 cell_of_photon(const StoredPhoton* photon, float inverse_cell
   return grid_cell((float3)(photon->position[0], photon->position[1], photon->position[2]), inverse_cell);
 }
 
-// Buckets: bucket_mask + GRID_BLOCK, the last block goes beyond the mask.
+// The number of buckets, bucket_mask + GRID_BLOCK: the last block goes beyond the mask.
 static inline uint bucket_count(PhotonGrid grid) { return grid.bucket_mask + GRID_BLOCK; }
 
 // counts: [bucket + 1], zero before.
@@ -39,7 +39,7 @@ kernel void sum_blocks(global const uint* counts, global uint* sums, PhotonGrid 
   sums[block] = sum;
 }
 
-// Turns counts into the places where buckets end.
+// Turns counts into the ends of buckets.
 kernel void scan_blocks(global uint* counts, global const uint* sums, PhotonGrid grid) {
   const uint block = get_global_id(0), buckets = bucket_count(grid), length = buckets / NEPHROID_SCAN_BLOCKS + 1u;
   if (block >= NEPHROID_SCAN_BLOCKS) return;
@@ -53,7 +53,7 @@ kernel void scan_blocks(global uint* counts, global const uint* sums, PhotonGrid
   if (block == NEPHROID_SCAN_BLOCKS - 1) counts[buckets] = sum;
 }
 
-// ends: of the buckets; turns them into where they start. No key fits the eight photons beyond the last.
+// Turns the buckets' ends into their starts. No key matches the eight photons beyond the last.
 kernel void scatter_photons(global const StoredPhoton* stored, volatile global uint* ends, global float* positions,
                             global int* values, PhotonGrid grid, uint slots) {
   const uint i = get_global_id(0);

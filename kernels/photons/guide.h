@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons leave a light mostly where earlier ones have mattered: the three numbers that a photon's direction is made of
-// (emission.h: target and place in it) are drawn from a histogram over [0, 1)^3 instead of evenly, and the photon
-// counts as much less as it comes more often (importance sampling in the space of random numbers, as in Lepage 1978, "A
-// new algorithm for adaptive multidimensional integration"). app/photons/effort/emitters.h says how the histogram is
-// learned.
+// Photons leave a light mostly where earlier ones have mattered. The three numbers that give a photon's direction
+// (emission.h: target and place in it) are drawn from a histogram over [0, 1)^3 instead of evenly. A photon counts for
+// less as it comes more often (importance sampling in the space of random numbers, as in Lepage 1978, "A new algorithm
+// for adaptive multidimensional integration"). app/photons/effort/emitters.h says how the histogram is learned.
 #ifndef NEPHROID_GUIDE_H
 #define NEPHROID_GUIDE_H
 
@@ -12,11 +11,11 @@
 
 typedef struct {
   float density; // how much more often than evenly: the photon counts 1 / density
-  uint cell;     // of the histogram
+  uint cell;     // cell of the histogram
 } Guided;
 
-// Draws one of `count` bins and a place in it: *number in [0, 1) becomes another number in [0, 1). cdf: exact_cdf of
-// the bins. Returns the bin.
+// Draws one of `count` bins, which it returns, and a place in it: *number in [0, 1) becomes another such number. cdf:
+// exact_cdf of the bins.
 static inline int draw_bin(__global const float* cdf, int count, float* number, float* density) {
   const int bin = choose(cdf, count, *number);
   const float before = chance_before(cdf, bin), chance = cdf[bin] - before;
@@ -26,7 +25,7 @@ static inline int draw_bin(__global const float* cdf, int count, float* number, 
   return bin;
 }
 
-// numbers: xyz of a photon's emission. guide: of its light, GUIDE_FLOATS: cdfs of the first number, of the second given
+// numbers: xyz of a photon's emission. guide: the light's GUIDE_FLOATS: cdfs of the first number, of the second given
 // the first, of the third given both.
 static inline Guided guide_numbers(__global const float* guide, float4* numbers) {
   Guided guided = {1.0f, 0u};

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "indirect": light that met a diffuse surface before the last one. Photons of one wavelength each leave the
-// lights everywhere, are bent by glass and mirrors and sent on by diffuse surfaces; from the second diffuse surface on,
-// each adds to the pixel that sees it. What a photon carries changes by absorption alone: Fresnel's reflectance, and
-// the reflectance of a diffuse surface, decide by chance.
+// lights everywhere, are bent by glass and mirrors and scattered by diffuse surfaces. From the second diffuse surface
+// on, each adds to the pixel that sees it. Only absorption changes a photon's power: Fresnel's reflectance and that of
+// a diffuse surface decide by chance.
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
 
-// A photon of any direction that the light shines in. everything: one target, about the scene and the lights. An area
-// light sends the same power along every cosine-distributed direction; what emit() does, where directions are uniform,
-// would be noisier.
+// A photon in any direction that the light shines in. everything: one target, about the scene and the lights. An area
+// light sends the same power along every cosine-distributed direction; emit() has uniform directions, which would be
+// noisier.
 static inline Emission emit_everywhere(DeviceLight light, __global const DeviceTarget* everything,
                                        const DeviceScene* scene, float4 random, float2 place) {
   if (is_light(&light, LIGHT_AREA)) {
@@ -30,11 +30,11 @@ typedef struct {
 // A photon on its way.
 typedef struct {
   Path path;
-  SET_ASIDE float shading;  // product of shading_ratio over the diffuse surfaces that it has left
+  SET_ASIDE float shading;  // product of shading_ratio over the diffuse surfaces left
   SET_ASIDE float watts;    // as if the band had all of the light's power
-  SET_ASIDE int wavelength; // of its band, as is the weight
+  SET_ASIDE int wavelength; // wavelength and weight of its band
   SET_ASIDE float weight;
-  SET_ASIDE int light;      // of its source, as is rgb
+  SET_ASIDE int light;      // light and rgb of its source
   SET_ASIDE float3 rgb;
 } Photon;
 
@@ -48,7 +48,8 @@ static inline Source light_of(const Photon* photon) {
   return source;
 }
 
-// Adds what a diffuse surface reflects of a photon to the pixel that sees it. False where the film refused it.
+// Adds the light that a diffuse surface reflects of a photon to the pixel that sees it. False where the film refused
+// it.
 static inline bool show(const World* world, const Receiver* receiver, const Photon* photon, const Surface* surface,
                         uint triangle, int reflector, float dither) {
   const Splat splat = splat_at(world, &receiver->camera, surface, triangle, photon->path.direction);
@@ -59,7 +60,7 @@ static inline bool show(const World* world, const Receiver* receiver, const Phot
   return film_add_dithered(receiver->film, splat.pixel, xyz * scale, receiver->scale, FILM_LIMIT, dither);
 }
 
-// Follows a photon to its end: OUTCOME_*. What the film refuses is counted.
+// Follows a photon to its end and returns its OUTCOME_*. Counts what the film refuses.
 static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed,
                                 uint iteration, uint number, Outcomes outcomes) {
   Path* path = &photon->path;
@@ -93,12 +94,12 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
   }
 }
 
-// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. emitters: one for each light that
-// has photons.
+// Follows the photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. emitters: one for each
+// light that has photons.
 __kernel void
 indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything, __global const DeviceEmitter* emitters,
          int emitter_count,
-         __global const float* spectrum_cdf, // [light][member of all clusters]: which wavelength a photon has
+         __global const float* spectrum_cdf, // [light][member of all clusters]: chances of a photon
          volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
          DeviceCamera camera, uint2 seed, uint iteration, uint offset, uint stride, uint count, float outside_distance,
          float film_scale, float energy_scale) {

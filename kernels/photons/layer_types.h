@@ -7,11 +7,11 @@
 namespace nephroid::shared {
 #endif
 
-// Cells of one reflector come in blocks of so many.
+// The number of cells in a block; all belong to one reflector.
 #define LAYER_BLOCK 64
 
-// What kernels/photons/relight_direct.cl looks at in each pixel before the first pass: fixed places, and paths of each
-// through glass.
+// The fixed places that the survey in kernels/photons/relight_direct.cl samples in each pixel before the first pass,
+// and the paths of each through glass.
 #define SURVEY_PLACES 4
 #define SURVEY_PATHS 2
 

@@ -12,11 +12,11 @@
 #include "kernels/tracing/film.h"
 
 typedef struct {
-  __global const int* first;         // of each pixel in `cells`; one more at the end
-  __global const LayerCell* cells;   // of each pixel, the reflector that it sees most at its beginning
+  __global const int* first;         // each pixel's first index in `cells`; one more at the end
+  __global const LayerCell* cells;   // each pixel's cells, that of the reflector it sees most first
   volatile __global long* sums;
   int layer_count;
-  int image;                         // of the film, that this pass adds to
+  int image;                         // half of the film that this pass adds to
 } LayerFilm;
 
 #define LAYER_FILM_ARGUMENTS(name)                                                                                     \
@@ -29,10 +29,10 @@ typedef struct {
 
 static inline bool has_cells(const LayerFilm* film, int pixel) { return film->first[pixel] < film->first[pixel + 1]; }
 
-// Adds value * scale to a layer where the pixel sees the reflector. The pixel's survey may have missed that: then the
-// light goes to the reflector that it sees most, in the ratio of their mean reflectances in the layer's wavelengths
-// (mean_reflectance: [reflector]), which is right but for how they differ within those. The pixel has cells. dither and
-// what is returned: as film_add_dithered.
+// Adds value * scale to a layer where the pixel, which has cells, sees the reflector. If the pixel's survey missed
+// that, the light goes to the reflector that it sees most, in the ratio of their mean reflectances in the layer's
+// wavelengths (mean_reflectance: [reflector]). That is right but for how they differ within those wavelengths. dither
+// and the result are as in film_add_dithered.
 static inline bool layer_add(const LayerFilm* film, int pixel, int reflector, int layer, float value, float scale,
                              float limit, __global const float* mean_reflectance, float dither) {
   const int begin = film->first[pixel], end = film->first[pixel + 1];
@@ -52,7 +52,7 @@ static inline bool layer_add(const LayerFilm* film, int pixel, int reflector, in
   return true;
 }
 
-// What a path's losses leave of a cluster whose wavelengths all have the same power: layers know no other.
+// The fraction that a path's losses leave of a cluster with the same power at all wavelengths: layers know no other.
 static inline float cluster_left(const SpectralTables* tables, const Losses* losses, int cluster) {
   if (!losses->any) return 1.0f;
   const int first = tables->cluster_first[cluster], end = tables->cluster_first[cluster + 1];

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bands of the paths of a pass in a cluster. Photons and paths from the eye that meet on a surface have to be of
-// one wavelength each: where they jitter, a cluster has NEPHROID_PASS_BANDS wavelengths a pass, one from each part of
-// it, and what meets is of one part.
+// The bands of a pass's paths in a cluster. Photons and paths from the eye that meet on a surface must share one
+// wavelength. Where they jitter, a cluster has NEPHROID_PASS_BANDS wavelengths a pass, one from each part of it, and
+// paths that meet belong to one part.
 #ifndef NEPHROID_PASS_BAND_H
 #define NEPHROID_PASS_BAND_H
 
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/world.h"
 
-// More than one where clusters are few: a picture of few wavelengths has a cast.
+// More than one where clusters are few, for a picture of few wavelengths has a colour cast.
 #ifndef NEPHROID_PASS_BANDS
 #define NEPHROID_PASS_BANDS 1
 #endif
 
-// The part of a cluster that u in [0, 1) falls into.
+// The part of a cluster that contains u in [0, 1).
 static inline int part_of_cluster(float u) {
   const int part = (int)(u * (float)NEPHROID_PASS_BANDS);
   return part < NEPHROID_PASS_BANDS ? part : NEPHROID_PASS_BANDS - 1;
 }
 
-// Parts of all clusters by number: what photon maps tell apart.
+// The number of a part among those of all clusters, which photon maps keep apart.
 static inline int band_number(int cluster, int part) { return cluster * NEPHROID_PASS_BANDS + part; }
 
 static inline Band band_of_pass(const World* world, int cluster, int part, uint2 seed, uint pass) {

@@ -2,25 +2,25 @@
 // A hash grid over photons on surfaces, and the sum over those near a point.
 //
 // The grid has no bounds. Space is cut into cubic cells, and a row of cells along x into blocks of 32. The bucket of
-// cell (ix, iy, iz) of a group is hash(group, ix / 32, iy, iz) + ix % 32: the cells of a block are neighbours in memory
-// too, so a search reads a row as one run of sorted photons, or as two. What shares buckets by accident is told apart
-// by a photon's key: its group and the low bits of its block and row. As long as a search spans fewer blocks and rows
+// cell (ix, iy, iz) of a group is hash(group, ix / 32, iy, iz) + ix % 32. The cells of a block are thus neighbours in
+// memory, so a search reads a row as one run of sorted photons, or as two. Cells that share buckets by accident differ
+// in their photons' key: the group and the low bits of block and row. As long as a search spans fewer blocks and rows
 // than those bits count, no two of its runs look for the same key, so no photon counts twice, and a run may read beyond
 // its end. Photons with the same key from elsewhere are too far away.
 //
-// Powers are whole numbers of quanta, so a sum does not depend on the order in which photons of a bucket were sorted,
-// which is that of atomic operations.
+// Powers are whole numbers of quanta, so a sum does not depend on the order of a bucket's photons, which atomic
+// operations decide.
 #ifndef NEPHROID_PHOTON_MAP_H
 #define NEPHROID_PHOTON_MAP_H
 
 #include "kernels/photons/photon_map_types.h"
 
-// A search may span this many rows each way: the radius may be up to 3 cells.
+// A search may span this many rows each way, so its radius may be up to 3 cells.
 #define GRID_ROWS 8
-#define GRID_KEY_BITS 7 // one of the block, three of each coordinate of the row
+#define GRID_KEY_BITS 7 // one for the block, three for each coordinate of the row
 
-// The side of an object's surface that light in `cluster` arrives at: light does not leak to other objects or through a
-// sheet.
+// The group of light in `cluster` on one side of an object's surface: light leaks neither to other objects nor through
+// a sheet.
 static inline int photon_group(int object, bool front, int cluster, int object_count) {
   return (cluster * object_count + object) * 2 + (front ? 1 : 0);
 }
@@ -42,8 +42,8 @@ static inline int grid_key(int group, int block, int iy, int iz) {
   return group << GRID_KEY_BITS | (block & 1) << 6 | (iy & (GRID_ROWS - 1)) << 3 | (iz & (GRID_ROWS - 1));
 }
 
-// Sorted photons: x, y, z one array after the other, and so key, X, Y, Z. starts[b] is the first photon of bucket b;
-// one more at the end.
+// Sorted photons: arrays of x, of y and of z, one after the other, and likewise of key, X, Y, Z. starts[b] is the first
+// photon of bucket b; there is one more at the end.
 typedef struct {
   __global const uint* starts;
   __global const float* positions;
@@ -51,7 +51,7 @@ typedef struct {
   PhotonGrid grid;
 } PhotonMap;
 
-// The buffers that a PhotonMap is made of, as kernel arguments.
+// The buffers of a PhotonMap, as kernel arguments.
 #define PHOTON_MAP_ARGUMENTS                                                                                           \
   __global const uint *starts, __global const float *sorted_positions, __global const int *sorted_values,              \
       PhotonGrid grid
@@ -62,7 +62,7 @@ typedef struct {
   uint count;
 } Gathered;
 
-// What is looked for, and the sums so far: those of each of 8 lanes in int, for as many steps as fit, then in long.
+// What a search looks for, and its sums so far: in int for each of 8 lanes, for as many steps as fit, then in long.
 typedef struct {
   float3 position, tilt; // tilt: the normal times 4
   float radius2;
@@ -80,7 +80,7 @@ static inline int sum_of_lanes(int8 v) {
 }
 
 static inline long long_sum_of_lanes(int8 v) {
-  const long4 sum = convert_long4(v.lo) + convert_long4(v.hi); // no long8: where it fits no register the compiler warns
+  const long4 sum = convert_long4(v.lo) + convert_long4(v.hi); // no long8: the compiler warns where it fits no register
   return sum.x + sum.y + sum.z + sum.w;
 }
 
@@ -91,7 +91,7 @@ static inline void settle(Gathering* g) {
   g->steps = 0;
 }
 
-// Adds the photons from `begin` on, up to `end` or a few more, that have the key and lie near the point.
+// Adds the photons from `begin` to `end`, or a few more, that have the key and lie near the point.
 static inline void gather_run(const PhotonMap* map, uint begin, uint end, int key, Gathering* g) {
   const uint stride = map->grid.stride;
   while (begin < end) {
@@ -118,9 +118,9 @@ static inline void gather_run(const PhotonMap* map, uint begin, uint end, int ke
   }
 }
 
-// The photons of a group in a flat spheroid about a point of a surface, d^2 + 16 (d . n)^2 < r^2: as wide as the radius
-// in the tangent plane, a quarter of that along the normal, so that what lies around an object's corner does not count.
-// radius: at most 3 cells. The kernel is constant: photons count in full.
+// Adds up the photons of a group in a flat spheroid about a point of a surface, d^2 + 16 (d . n)^2 < r^2. It is as wide
+// as the radius in the tangent plane and a quarter of that along the normal, so that light around an object's corner
+// does not count. radius: at most 3 cells. The kernel is constant: photons count in full.
 static inline Gathered gather_photons(const PhotonMap* map, float3 position, float3 normal, int group, float radius) {
   Gathering g;
   g.position = position;
@@ -131,8 +131,8 @@ static inline Gathered gather_photons(const PhotonMap* map, float3 position, flo
   g.sum.xyz = (long3)(0);
   g.sum.count = 0;
   // The spheroid's bounding box: with M = 1 + 16 n n^T it is d^T M d < r^2, and reaches r sqrt((M^-1)_aa) along axis a.
-  // A little is added, so that it holds every photon that passes the test, however that is rounded: what a run reads
-  // beyond its cells never counts.
+  // It is enlarged a little, so that it holds every photon that passes the test, whatever the rounding: what a run
+  // reads beyond its cells never counts.
   const float3 reach = radius * 1.000001f * sqrt(1.0f - 16.0f / 17.0f * normal * normal) + fabs(position) * 0x1p-22f;
   const int3 low = grid_cell(position - reach, map->grid.inverse_cell),
              high = grid_cell(position + reach, map->grid.inverse_cell);

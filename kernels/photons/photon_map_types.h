@@ -10,7 +10,7 @@
 namespace nephroid::shared {
 #endif
 
-// The side of an object's surface, and the cluster of what arrives there: photon_group in photon_map.h. Below 2^24.
+// A group is the side of an object's surface and the cluster of its light (photon_group in photon_map.h), below 2^24.
 #define NO_PHOTON (-1)
 #define MAX_PHOTON_GROUPS (1 << 24)
 
@@ -22,7 +22,7 @@ typedef struct {
   int padding;
 } StoredPhoton;
 
-// Quanta that a photon may carry. 127 of them still fit into an int.
+// The most quanta that a photon may carry; 127 photons' still fit into an int.
 #define PHOTON_LIMIT 0x1p24f
 
 // Cells in a block of the hash grid: photon_map.h says what blocks are.
@@ -31,7 +31,7 @@ typedef struct {
 
 typedef struct {
   float inverse_cell; // 1 / edge of a cell
-  uint bucket_mask;   // 2^k - 1; buckets go GRID_BLOCK - 1 beyond it
+  uint bucket_mask;   // 2^k - 1; there are GRID_BLOCK - 1 more buckets
   uint stride;        // between the arrays of sorted photons: at least their number + 8
 } PhotonGrid;
 
@@ -44,10 +44,10 @@ typedef struct {
   int padding[3];
 } VisiblePoint;
 
-// What progressive photon mapping keeps of a pixel in one cluster.
+// The statistics of a pixel in one cluster for progressive photon mapping.
 typedef struct {
   float radius2;
-  float count;   // photons, of which alpha of each iteration's are kept
+  float count;   // photons, of which each iteration keeps a fraction alpha
   float flux[3]; // XYZ in power units, of the photons within the radius
 } PixelStatistics;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A photon's way from a light through glass and mirrors to where it ends: which emitter it is of, which numbers it
-// starts with, what it meets.
+// A photon's way from a light through glass and mirrors to its end: its emitter, its random numbers at the start, what
+// it meets.
 #ifndef NEPHROID_PHOTON_PATH_H
 #define NEPHROID_PHOTON_PATH_H
 
@@ -9,12 +9,12 @@
 #include "kernels/tracing/outcomes.h"
 #include "kernels/tracing/world.h"
 
-// Photons that one work item follows.
+// The number of photons that one work item follows.
 #ifndef NEPHROID_PHOTONS_PER_ITEM
 #define NEPHROID_PHOTONS_PER_ITEM 1
 #endif
 
-// Counts a photon that had so many quanta of power, of which `left` (0..1) came to its end: OUTCOME_*.
+// Counts the outcome, OUTCOME_*, of a photon of `power` quanta, of which `left` (0..1) came to its end.
 static inline void count_photon(Outcomes outcomes, int outcome, float power, float left) {
   const long quanta = convert_long_rte(power), rest = left >= 1.0f ? quanta : convert_long_rte((float)quanta * left);
   add_outcome(outcomes, OUTCOME_EMITTED, quanta);
@@ -35,28 +35,28 @@ static inline int emitter_of(__global const DeviceEmitter* emitters, int count, 
   return low;
 }
 
-// The order in which the photons 0 .. count - 1 of a launch are followed: of each 4096 the number with its bits in
-// reverse. Points of a Sobol sequence whose numbers agree in their lowest bits are close together, so photons that
-// follow each other mostly meet the same nodes and triangles. Sums of whole numbers do not ask for the order.
+// The order in which the photons 0 .. count - 1 of a launch are followed: in each 4096, by the number with its bits
+// reversed. Points of a Sobol sequence whose numbers agree in their lowest bits are close together, so successive
+// photons mostly meet the same nodes and triangles. Sums of whole numbers do not depend on the order.
 static inline uint neighbours_follow(uint number, uint count) {
   const uint first = number & ~0xfffu;
   return first + 0x1000u <= count ? first | reverse_bits(number) >> 20 : number;
 }
 
-// What a photon starts with.
+// The random numbers of a photon at its start.
 typedef struct {
   int emitter;
   float4 emission;  // in [0, 1): target, direction (2); w: the film's dither
   float2 place;     // in [0, 1): on an area light, or in the environment
-  float wavelength; // in [0, 1): which of its cluster
+  float wavelength; // in [0, 1): chooses a wavelength of its cluster
 } PhotonStart;
 
-// Photon `photon` of a batch or a pass, which `iteration` counts. first_iteration: from which on photons are allocated
-// to the emitters as they are (DeviceEmitter::sequence_start is for it). Low discrepancy: the photons of a light that
-// go to one half of the film follow one sequence, pass after pass, so that those of all clusters together are spread
-// evenly; its fourth number says which cluster and which wavelength in it. That number has 32 bits, of which the choice
-// of the cluster takes up to 24: plain random bits below them make the wavelength as fine as any. The halves have
-// sequences of their own, as they must be independent.
+// The start of photon `photon` of the batch or pass with the number `iteration`. first_iteration: the first with this
+// allocation of photons to the emitters (DeviceEmitter::sequence_start is for it). Low discrepancy: the photons of a
+// light for one half of the film follow one sequence, pass after pass, so that those of all clusters together are
+// spread evenly. Its fourth number chooses the cluster and the wavelength in it. It has 32 bits, of which the choice of
+// the cluster takes up to 24; plain random bits below them make the wavelength as fine as any. The halves must be
+// independent, so they have sequences of their own.
 static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, int emitter_count,
                                        __global const DeviceLight* lights, uint2 seed, uint iteration,
                                        uint first_iteration, uint photon) {
@@ -77,7 +77,7 @@ static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, i
   const uint3 sequence =
       (uint3)(emitter.sequence, (uint)light.number, (uint)(number >> 32) << 1 | iteration % NEPHROID_FILM_HALVES);
   const uint4 bits = sobol4_bits(seed, sequence, 0u, index);
-  const uint below = (uint)(start.emission.x * 0x1p24f);         // of the fourth number: 24 bits more
+  const uint below = (uint)(start.emission.x * 0x1p24f);         // 24 more bits of the fourth number
   start.emission.xyz = convert_float3(bits.zxy >> 8) * 0x1p-24f; // the first two dimensions are the best pair
   if (placed) start.place = sobol4(seed, sequence, 1u, index).xy;
   // The fourth number times the light's photons: a whole photon above, a fraction of 32 bits below. Fits 2^32 photons.
@@ -97,17 +97,17 @@ static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, i
   return start;
 }
 
-// Where a photon ended, and what is left of its power there.
+// A photon's end: where it ended, and how much of its power was left.
 typedef struct {
   int outcome;     // OUTCOME_*
   float left;      // 0..1
-  Surface surface; // of a deposit
+  Surface surface; // the surface of a deposit
   uint triangle;
-  float3 xyz; // of a deposit: reflected light, as if the photon carried the light's whole power
+  float3 xyz; // for a deposit: reflected light, if the photon carried the light's whole power
 } PhotonEnd;
 
 // Follows a photon in a band to the first diffuse surface, out of the scene, or to its last interface. Leaves `path` on
-// its last way, with what it has lost; what is left of the photon is not worked out.
+// its last way, with its losses. Does not work out what is left of the photon.
 static inline PhotonEnd trace_way(const World* world, const Band* band, Path* path, uint2 seed, uint iteration,
                                   uint photon) {
   PhotonEnd end;
@@ -141,8 +141,8 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
   return end;
 }
 
-// The same for a photon of a light, with what is left of it and its colour. share: of the light's power, that the
-// photon's band began with.
+// Like trace_way for a photon of a light, but also works out what is left of it and its colour. share: the fraction of
+// the light's power that the photon's band began with.
 static inline PhotonEnd trace_photon(const World* world, Source source, const Band* band, float share, Path* path,
                                      uint2 seed, uint iteration, uint photon) {
   PhotonEnd end = trace_way(world, band, path, seed, iteration, photon);

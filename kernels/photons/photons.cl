@@ -6,7 +6,7 @@
 #include "kernels/photons/photon_map.h"
 #include "kernels/photons/stretch.h"
 
-// 1: photons go where they matter, and it is measured where that is.
+// 1: photons are guided to where they matter, and that is measured.
 #ifndef NEPHROID_MOMENTS
 #define NEPHROID_MOMENTS 0
 #endif
@@ -20,8 +20,8 @@
 #define NEPHROID_STORE 0
 #endif
 
-// The square of a contribution to the film in linear sRGB, in quanta of 2^12 of the film's squared, at most 2^40. The
-// sum over an emitter's photons says how many of all photons it should have (app/photons/effort/emitters.h).
+// The square of a contribution to the film in linear sRGB, in units of 2^12 of the film's quanta squared, at most 2^40.
+// The sum over an emitter's photons decides its number of photons (app/photons/effort/emitters.h).
 static inline long squared(float3 xyz, float scale) {
   const float3 q = xyz * (scale * 0x1p-6f);
   const float r = dot(q, (float3)(3.2406f, -1.5372f, -0.4986f)), g = dot(q, (float3)(-0.9689f, 1.8758f, 0.0415f)),
@@ -30,9 +30,9 @@ static inline long squared(float3 xyz, float scale) {
   return convert_long_rte(sum < 0x1p40f ? sum : 0x1p40f);
 }
 
-// A photon on a diffuse surface is put into its slot of a photon map. band: pass_band.h. xyz: reflected power. scale:
-// quanta of a unit of it. dither: uniform in [0, 1), so that rounding is right in the mean. False, and the slot is
-// empty, where a photon carries too much.
+// Stores a photon on a diffuse surface in its slot of a photon map. band: pass_band.h. xyz: reflected power. scale:
+// quanta per unit of power. dither: uniform in [0, 1), so that rounding is right in the mean. Where a photon carries
+// too much, it returns false and leaves the slot empty.
 static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band,
                                 int object_count, float3 xyz, float scale, float dither) {
   const float3 quanta = xyz * scale;
@@ -51,17 +51,17 @@ static inline bool store_photon(__global StoredPhoton* slot, const Surface* surf
   return fits;
 }
 
-// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a batch, whose number is `iteration`; a
-// pass of maps, map_pass, has one round or several. energy counts what photons carry, whatever a smooth receiver makes
-// of it by its shading normals.
+// Follows the photons offset, offset + stride, offset + 2 stride, ... (count of them) of the batch with the number
+// `iteration`. map_pass is the pass of the maps, which has one batch or several. energy counts what photons carry,
+// whatever a smooth receiver's shading normals make of it.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
                       volatile __global long* moments,                              // with NEPHROID_MOMENTS: [emitter]
                       volatile __global long* guide_moments,                        // ... [light][GUIDE_CELLS]
                       __global const float* guide,                                  // ... [light][GUIDE_FLOATS]
-                      float unseen_weight, // ... of a stored photon that no pixel sees directly, as if one did
+                      float unseen_weight, // ... weight of a stored photon that no pixel sees directly
                       __global StoredPhoton* stored,
-                      uint stored_first, // [photon], with NEPHROID_STORE; where the round begins
+                      uint stored_first, // [photon], with NEPHROID_STORE; where the batch begins
                       int emitter_count, int object_count, DeviceCamera camera, uint2 seed, uint iteration,
                       uint map_pass, uint first_iteration, uint offset, uint stride, uint count, float film_scale,
                       float energy_scale, float stored_scale) {
@@ -116,7 +116,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
         const Splat splat = splat_at(&world, &camera, &strand.surface, strand.triangle, path.direction);
         if (splat.pixel < 0) continue;
         const float3 xyz = strand.xyz * (watts * splat.weight / PI_F);
-        const float turn = dither + 0.61803399f * (float)i; // every strand's own
+        const float turn = dither + 0.61803399f * (float)i; // each strand has its own
         if (!film_add_dithered(film, splat.pixel, xyz, film_scale, FILM_LIMIT, turn - floor(turn)))
           add_outcome(outcomes, OUTCOME_REFUSED, 1);
 #if NEPHROID_MOMENTS

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The direct layer for relighting: direct.cl, whose samples go into layers (layers.h). Where nothing is bent, all
-// wavelengths of a lamp went the same way and share one layer; through glass and mirrors each cluster of each lamp has
+// wavelengths of a lamp take the same path and share one layer. Through glass and mirrors each cluster of each lamp has
 // its own. Before the first pass a survey finds the reflectors that each pixel sees.
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 #include "kernels/photons/layers.h"
 
-// One pixel: which reflector is seen at each of its fixed places, -1 where there is none.
+// Each work item finds the reflector at each fixed place of one pixel, -1 where there is none.
 __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global int* unbent, // [pixel][SURVEY_PLACES]
                      __global int* bent) // [pixel][SURVEY_PLACES * SURVEY_PATHS] {
   const World world = WORLD;
@@ -37,10 +37,10 @@ __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global 
   }
 }
 
-// One sample of every pixel of rows first_row .. first_row + row_count - 1. mean_reflectance: [cluster, then all of
-// them][reflector].
+// Takes one sample of every pixel of rows first_row .. first_row + row_count - 1. mean_reflectance: [cluster, then all
+// of them][reflector].
 __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global const float* mean_reflectance,
-                     __global const float* luminance_share, // [cluster]: of a flat spectrum's
+                     __global const float* luminance_share, // [cluster]: for a flat spectrum
                      LAYER_FILM_ARGUMENTS(unbent), LAYER_FILM_ARGUMENTS(bent), volatile __global long* energy,
                      DeviceCamera camera, uint2 seed, uint frame, int first_row, int row_count, float film_scale,
                      float film_limit) {
@@ -87,7 +87,7 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
       else if (has_cells(&bent, pixel))
         taken = layer_add(&bent, pixel, reflector, l * all + band.cluster, radiance, film_scale, film_limit,
                           mean_reflectance + band.cluster * scene.reflector_count, jitter.z);
-      else // the survey saw no glass here: a sliver of it, whose light is taken for unbent
+      else // the survey missed a sliver of glass here, whose light counts as unbent
         taken = layer_add(&unbent, pixel, reflector, l, radiance * luminance_share[band.cluster], film_scale,
                           film_limit, mean_reflectance + all * scene.reflector_count, jitter.z);
       if (!taken) ++refused;

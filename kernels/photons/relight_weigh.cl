@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two weighted sums of a film of layers (layers.h): the picture under a light and the draw of its error. Costs one
-// reading of the film. First each cell by itself, then each pixel's cells together.
+// Two weighted sums of a film of layers (layers.h): the picture under a light and the draw of its error. The film is
+// read once: first each cell by itself, then each pixel's cells together.
 #include "kernels/photons/layer_types.h"
 
-// One work item: eight cells of one reflector. rows: halves times layers.
+// Each work item weighs eight cells of one reflector. rows: halves times layers.
 __kernel void weigh(__global const long* sums, int block_count, int rows, __global const int* reflector_of_block,
                     __global const float* weights,     // [reflector][row][6]: RGB of the one, RGB of the other
                     __global float* weighed)           // [eight cells][6][cell of the eight] {
@@ -26,7 +26,7 @@ __kernel void weigh(__global const long* sums, int block_count, int rows, __glob
   for (int k = 0; k < 6; ++k) vstore8(sums_of[k], 6 * (size_t)item + (size_t)k, weighed);
 }
 
-// One work item: one pixel.
+// Each work item adds up one pixel.
 __kernel void gather_cells(__global const int* first, __global const LayerCell* cells, __global const float* weighed,
                            int pixel_count,
                            __global float* pictures) // [2][pixel][3] {

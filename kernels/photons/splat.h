@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A photon on a diffuse surface is added to the pixel that sees it. Unbiased: no map, no radius.
+// Adds a photon on a diffuse surface to the pixel that sees it. Unbiased: no map, no radius.
 #ifndef NEPHROID_SPLAT_H
 #define NEPHROID_SPLAT_H
 
@@ -11,8 +11,8 @@
 #define NEPHROID_OCCLUSION 1
 #endif
 
-// Where the camera sees `position`, in pixels from the top left corner; *depth: along the view, positive before the
-// camera.
+// The place of `position` in the picture, in pixels from the top left corner. *depth is along the view, positive before
+// the camera.
 static inline float2 place_on_film(const DeviceCamera* camera, float3 position, float* depth) {
   const float3 to_camera = camera->position.xyz - position;
   const float z = -dot(to_camera, camera->forward.xyz);
@@ -30,7 +30,7 @@ static inline int project_to_pixel(const DeviceCamera* camera, float3 position, 
                                    float metres_per_unit, float* weight) {
   const float3 to_camera = camera->position.xyz - position;
   const float cos_camera = dot(to_camera, geometric), cos_arriving = -dot(arriving, geometric);
-  if (!(cos_camera * cos_arriving > 0.0f)) return -1; // seen from its other side
+  if (!(cos_camera * cos_arriving > 0.0f)) return -1; // the camera sees its other side
   float z;
   const float2 place = place_on_film(camera, position, &z);
   if (!(z > 0.0f)) return -1;
@@ -38,12 +38,12 @@ static inline int project_to_pixel(const DeviceCamera* camera, float3 position, 
     return -1;
   const float pixel_area = 4.0f * camera->tan_x * camera->tan_y / ((float)camera->width * (float)camera->height);
   const float depth = z * metres_per_unit;
-  // cos_camera is cos(theta) times the distance already.
+  // cos_camera already is cos(theta) times the distance.
   *weight = fabs(cos_camera) / (z * depth * depth * pixel_area);
   return (int)place.y * camera->width + (int)place.x;
 }
 
-// Where a splat goes, and by what factor the light there becomes the pixel's radiance.
+// The pixel of a splat, and the factor from the light there to the pixel's radiance.
 typedef struct {
   int pixel;    // -1: no pixel sees it
   float weight; // m^-2, see project_to_pixel; with shading_ratio

@@ -1,44 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-// A splat as a streak: the light of a photon's cluster is spread along the way on which its place moves with the
-// wavelength (Elek et al. 2014, "Spectral ray differentials"), each wavelength with its own colour. The 401 lines of a
-// rainbow become one band.
+// Splats a photon as a streak: its cluster's light is spread along the way on which its place moves with the wavelength
+// (Elek et al. 2014, "Spectral ray differentials"), each wavelength with its own colour. The 401 lines of a rainbow
+// become one band.
 //
-// The last way of the photon of parameter s is the ray (O, D); that of another wavelength begins at O + x O' and goes
-// along D + x D', x its s less the photon's (differential.h), and is cut with the tangent plane of the receiver
-// exactly: a place on a grazing receiver is anything but linear in x. A wavelength's light lies as a tent over +-1 nm,
-// so that it is interpolated linearly between the 401 and their sum stays what it is.
+// The last way of the photon of parameter s is the ray (O, D). That of another wavelength begins at O + x O' and goes
+// along D + x D', where x is its s less the photon's (differential.h). It is cut with the tangent plane of the receiver
+// exactly: a place on a grazing receiver is anything but linear in x. A wavelength's light lies as a tent over +-1 nm:
+// so it is interpolated linearly between the 401 wavelengths, and their sum stays the same.
 #ifndef NEPHROID_STRETCH_H
 #define NEPHROID_STRETCH_H
 
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
 
-// The most splats that a photon becomes, and the length in pixels below which it stays one.
+// The most splats of a photon, and the length in pixels below which it stays one.
 #define STRETCH_SPLATS 16
 #define STRETCH_SHORTEST 0.1f
-// The farthest that the last directions of a streak may lie apart for D' to say where they go, in radians. A rainbow of
-// streaks some three times as wide is off by 3 % (docs/notebook/differentials.md). Also where D' is infinite, at the
-// critical angle, a photon is not stretched.
+// The largest angle, in radians, between the last directions of a streak for which D' predicts them. A rainbow of
+// streaks some three times as wide is off by 3 % (docs/notebook/differentials.md). Nor is a photon stretched where D'
+// is infinite, at the critical angle.
 #define STRETCH_WIDEST 0.01f
 
-// How a photon is splatted: `count` splats, of the light of its whole cluster or of what its band stands for alone.
-// More than one splat: each goes where its own wavelength does.
+// How a photon is splatted: `count` splats, of the light of its whole cluster or of its band alone. With more than one
+// splat, each goes where its own wavelength does.
 typedef struct {
   int count;
   bool whole;
   bool beside; // an end of the streak lies in another triangle
 } Stretch;
 
-// s of the photon itself.
+// The photon's own s.
 static inline float stretch_origin(const World* world, const Band* band) {
   return band->wavelength >= 0 ? world->stretch_place[band->wavelength].x : world->stretch_span[band->cluster].x;
 }
 
-// The place of light whose s is larger by x, on the tangent plane of the photon's place. False where there is none.
+// The place of light whose s is larger by x, on the tangent plane at the photon's place. False where there is none.
 static inline bool stretched_place(const Path* path, const Surface* surface, float x, float3* place) {
   const float3 origin = path->origin + x * path->differential.position;
   const float3 direction = path->direction + x * path->differential.direction;
-  // Everything relative to the photon's place, which is exact: its neighbours are then as exact as their distance.
+  // Everything is relative to the photon's place, which is exact: its neighbours are then as exact as their distance.
   const float before = dot(path->direction, surface->geometric), along = dot(direction, surface->geometric);
   const float3 to_surface = surface->position - origin;
   const float distance = dot(to_surface, surface->geometric) / along;
@@ -46,7 +46,7 @@ static inline bool stretched_place(const Path* path, const Surface* surface, flo
   return along * before > 0.0f && distance > 0.0f && all(isfinite(*place));
 }
 
-// Whether a point of a triangle's plane lies in the triangle; false of an ellipsoid's tangent plane.
+// Whether a point of a triangle's plane lies in the triangle; false for an ellipsoid's tangent plane.
 static inline bool is_in_triangle(const Geometry* geometry, uint triangle, float3 position) {
   const DevicePrimitive met = geometry->primitives[triangle];
   if (is_ellipsoid(&met)) return false;
@@ -56,8 +56,8 @@ static inline bool is_in_triangle(const Geometry* geometry, uint triangle, float
   return u >= 0.0f && v >= 0.0f && u + v <= dot(across, across);
 }
 
-// The receiver beside the photon's triangle: what a short look back along the normal meets there. False where that is
-// not the same object, facing the same way: the receiver ends, or something stands on it.
+// Finds the receiver beside the photon's triangle by a short ray back along the normal. False where that does not meet
+// the same object, facing the same way: the receiver ends, or something stands on it.
 static inline bool surface_beside(const World* world, const PhotonEnd* end, float side, float3 place, Surface* surface,
                                   uint* triangle) {
   const float reach = 0.1f * distance(place, end->surface.position) + 8.0f * end->surface.offset;
@@ -70,8 +70,8 @@ static inline bool surface_beside(const World* world, const PhotonEnd* end, floa
   return surface->object == end->surface.object && dot(surface->geometric, end->surface.geometric) > 0.7f;
 }
 
-// Whether light whose s is larger by x reaches the receiver; *film_place becomes where the camera sees it, in pixels.
-// *beside: set where that is in another triangle.
+// Whether light whose s is larger by x reaches the receiver. *film_place becomes its place in the picture, in pixels.
+// *beside is set where it is in another triangle.
 static inline bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
                                float x, float2* film_place, bool* beside) {
   float3 place;
@@ -86,8 +86,8 @@ static inline bool stretch_end(const World* world, const DeviceCamera* camera, c
                         &triangle);
 }
 
-// Tries to stretch a photon from `low` to `high`, its s being 0. False where that leads off the receiver or too far to
-// know where.
+// Tries to stretch a photon from `low` to `high`, its own s being 0. False where that leaves the receiver or goes too
+// far to be predicted.
 static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
                                 float low, float high, Stretch* stretch) {
   if (!(fabs(high - low) * length(path->differential.direction) <= STRETCH_WIDEST)) return false;
@@ -102,10 +102,10 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
   return true;
 }
 
-// What becomes of a deposited photon: a streak of its cluster; where that cannot be, with jitter, a streak of its own
-// wavelength; else a point. The first choice rests on where the whole cluster's light goes and not on the photon's
-// wavelength, so it is the same for all of them, and no light is counted twice or lost where a streak would leave the
-// receiver.
+// Decides how a deposited photon is splatted: as a streak of its cluster; if that is impossible, with jitter, as a
+// streak of its own wavelength; else as a point. The first choice depends on where the whole cluster's light goes and
+// not on the photon's wavelength. So it is the same for all wavelengths, and no light is counted twice or lost where a
+// streak would leave the receiver.
 static inline Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
                                  const Band* band) {
 #if NEPHROID_DIFFERENTIALS
@@ -120,16 +120,16 @@ static inline Stretch stretch_of(const World* world, const DeviceCamera* camera,
   return point;
 }
 
-// Where in its tent a wavelength's light lies, as s less `origin`; u in [0, 1) turns the tent's distribution round,
-// whose lower half is (1 + t)^2 / 2, t in -1..0.
+// The place of a wavelength's light in its tent, as s less `origin`. u in [0, 1) inverts the tent's distribution, whose
+// lower half is (1 + t)^2 / 2, t in -1..0.
 static inline float place_in_tent(const World* world, int wavelength, float u, float origin) {
   const float t = u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u);
   const float4 place = world->stretch_place[wavelength];
   return place.x - origin + (t < 0.0f ? -t * (place.y - place.x) : t * (place.z - place.x));
 }
 
-// u in [0, 1) picks a wavelength of the photon's cluster, as choose_band does, and a place in its tent: *x becomes its
-// s less the photon's.
+// Picks a wavelength of the photon's cluster by u in [0, 1), as choose_band does, and a place in its tent. *x becomes
+// its s less the photon's.
 static inline Band stretched_band(const World* world, int light, const Band* photon, float u, float* x) {
   const int cluster = made_late(photon->cluster), first = world->tables.cluster_first[cluster],
             count = world->tables.cluster_first[cluster + 1] - first;
@@ -143,16 +143,15 @@ static inline Band stretched_band(const World* world, int light, const Band* pho
   return band;
 }
 
-// One of the splats of a photon.
+// One of a photon's splats.
 typedef struct {
   Surface surface;
   uint triangle;
   float3 xyz; // as PhotonEnd's
 } Strand;
 
-// The splat number i of stretch->count; u in [0, 1), the same for all of them: they take turns through the cluster's
-// distribution, and with jitter the first is of the photon's own wavelength. False where it does not reach the
-// receiver.
+// The splat number i of stretch->count. u in [0, 1) is the same for all: they are spread over the cluster's
+// distribution, and with jitter the first has the photon's own wavelength. False where it does not reach the receiver.
 static inline bool strand_of(const World* world, const PhotonEnd* end, const Path* path, Source source,
                              const Band* band, const Stretch* stretch, int i, float u, Strand* strand) {
   strand->surface = end->surface;

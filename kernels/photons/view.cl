@@ -4,10 +4,10 @@
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_map.h"
 
-// What a path's losses leave of the light that it brings to the eye, as factors of X, Y and Z. A wavelength has its
-// own. Photons of a whole cluster carry a sum over its wavelengths that losses cannot be applied to one by one any
-// more: they get the mean over the cluster, weighted by the lights as the surface reflects them, which is exact where
-// no photon has had losses of its own.
+// The factors of X, Y and Z by which a path's losses reduce the light that it brings to the eye. A single wavelength
+// has its own. Photons of a whole cluster carry a sum over its wavelengths, to which losses can no longer be applied
+// one by one. They get the mean over the cluster, weighted by the lights as the surface reflects them; that is exact
+// where no photon has had losses of its own.
 static inline float3 transmittance(const World* world, const Losses* losses, const Band* band, int reflector) {
   float3 part = (float3)(1.0f);
 #if NEPHROID_ATTENUATORS > 0
@@ -35,7 +35,7 @@ static inline VisiblePoint nothing_visible(void) {
   return point;
 }
 
-// Where a path that has hit `hit` ends in a band, which is of a part of its cluster. weight: of the path.
+// Where a path that has hit `hit` ends in a band, which belongs to a part of its cluster. weight is the path's.
 static inline VisiblePoint see(const World* world, Path path, Hit hit, const Band* band, int part, float weight,
                                int object_count, uint2 seed, uint sample, uint pixel) {
   VisiblePoint point = nothing_visible();
@@ -51,10 +51,10 @@ static inline VisiblePoint see(const World* world, Path path, Hit hit, const Ban
   return point;
 }
 
-// points: [count], of pixels[first] and those after it; position.w: the film's dither. cluster: of all paths; or -1:
-// each path that meets glass or a mirror first takes one by its chance in cluster_cdf and is worth so much more, and
-// the others see nothing here. sample: how many paths a pixel has had before, place: how many in passes of this half of
-// the film. Each is worth 1 / path_count of a pass.
+// points: [count], for pixels[first] and those after it; position.w is the film's dither. cluster: that of all paths;
+// or -1: each path that meets glass or a mirror first takes one by its chance in cluster_cdf and counts for so much
+// more, and the others see nothing here. sample: the number of earlier paths of a pixel; place: of those in this half
+// of the film. Each path counts 1 / path_count of a pass.
 __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global VisiblePoint* points,
                    DeviceCamera camera, uint2 seed, uint pass, uint sample, uint place, uint path_count, int cluster,
                    int object_count, __global const uint* pixels, uint first, uint count) {
