@@ -12,8 +12,8 @@ namespace nephroid::ui {
 
 /// What the View shows now: a picture of the run or an opened one, or the map of its difference to another.
 struct ShownPicture {
-  std::shared_ptr<const void> owner; ///< owner of the pixels below; null: there is nothing to show. Other pixels have
-                                     ///< another owner.
+  std::shared_ptr<const void> owner;   ///< owner of the pixels below; null: there is nothing to show. Other pixels have
+                                       ///< another owner.
   std::span<const float> rgb;          ///< linear, shown with the settings' exposure; or
   std::span<const unsigned char> rgba; ///< shown unchanged, 4 bytes per pixel
   std::array<int, 2> size{1, 1}; ///< the chosen picture's size, even while the other one is shown; the preset's before
