@@ -16,15 +16,15 @@ namespace nephroid::shared {
 // The most beams of a footprint, 2^4.
 #define BEAMS 16
 #define INDEX_LEVELS 5
-// The beams of a disc, for light of one wavelength.
+// The beams that stand for the disc of light with one wavelength and a width.
 #define DISC_BEAMS 8
 
 typedef struct {
-  float size_x, size_y; // the object
+  float size_x, size_y; // size of the object
   float facet_x, facet_y;
   float receiver_x, receiver_y;
   float cell_x, cell_y;
-  int columns, rows; // facets
+  int columns, rows; // facets across and down
   int cells_x, cells_y;
   int receivers;
   float n;
@@ -34,27 +34,27 @@ typedef struct {
   float sun_radius, scatter;
   float spreads; // a lamp: one over its distance, as light sees it in the object; 0: parallel light
   int free_heights;
-  // These are beams that stand for light with a band or a width.
+  // The beams that stand for light with a band or a width.
   float index_spread;                       // the largest index minus the least
   int index_levels;                         // level l has 2^l groups of indices
   float index_over[2 * BEAMS - 1];          // index minus n, level after level
   float index_part[2 * BEAMS - 1];          // part of what counts, in the same order
   float index_within[INDEX_LEVELS];         // variance of the index that is left in the groups of a level
   float disc[2 * DISC_BEAMS], coarse_disc[8];    // x and y of points
-  float left_of_disc, left_of_coarse_disc;  // variance left for each point
+  float left_of_disc, left_of_coarse_disc;  // part of the variance left for each point
   float piece_in_cells, wide_in_cells;
 } DeviceLayout;
 
 typedef struct {
-  float x, y; // its middle
+  float x, y; // the receiver's middle
   float distance;
-  float weight; // weight of its squares
+  float weight; // weight of the receiver's squares
 } DeviceReceiver;
 
 // Light that falls on a facet: inverse::Incoming.
 typedef struct {
   float sines[2], around[2];
-  float spread[4]; // its columns
+  float spread[4]; // column by column
   float power;
   int padding;
 } DeviceIncoming;
@@ -79,7 +79,7 @@ typedef struct {
 
 // The judge's light: what falls on the front, and the screens behind the object.
 typedef struct {
-  float4 direction; // direction of parallel light
+  float4 direction; // for parallel light
   float4 lamp;
   float lamp_weight; // weight of a ray over the cosine and one over the squared distance; 0: parallel light
   float n, sun_radius, scatter;

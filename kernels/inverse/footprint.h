@@ -14,7 +14,7 @@
 #define NEPHROID_SPREAD 1
 #endif
 
-// This stays a function of its own: its registers are free again after it, and all callers get the same bits.
+// Makes a function of its own: its registers are free again after it, and all callers get the same bits.
 #define SEPARATE __attribute__((noinline))
 
 #include "kernels/inverse/bending.h"
@@ -46,7 +46,7 @@ static inline float part_on(Beam beam, int cell) {
   return part_before(beam, (float)(cell + 1)) - part_before(beam, (float)cell);
 }
 
-// The cell of an edge between cells; it stays within the receiver however far off the edge is.
+// An edge between cells as a number in 0..cells, however far off it is.
 static inline int edge_cell(float edge, int cells) { return (int)clamp(edge, 0.0f, (float)cells); }
 
 // Beams that are alike, each with its shift from the middle and its part of the light.
@@ -71,11 +71,11 @@ static inline float2 in_cells(global const DeviceLayout* layout, DeviceReceiver 
                   (0.5f * layout->receiver_y - (p.y - receiver.y)) / layout->cell_y);
 }
 
-// What does not depend on a facet's slope.
+// A facet, with what does not depend on its slope.
 typedef struct {
   int column, row;
   float2 middle, sines;
-  float4 spread; // its columns
+  float4 spread; // column by column
   float power, height;
   global const DeviceIncoming* all; // light on all facets
 } Facet;
@@ -105,14 +105,14 @@ typedef struct {
 } LitPart;
 
 #if NEPHROID_INCOMING
-// The mean of a + b v over v = -1/2 .. 1/2 where that is above 0.
+// The mean over v = -1/2 .. 1/2 of a + b v where that is above 0.
 static inline float mean_above_0(float a, float b) {
   b = fabs(b);
   return fabs(a) >= 0.5f * b ? fmax(a, 0.0f) : (a + 0.5f * b) * (a + 0.5f * b) / (2.0f * b);
 }
 
-// What the neighbour at a side of x hides of light with this slope, in parts of the facet's width. x and y are any two
-// axes.
+// What the neighbour at a side of x hides of light with this slope, in parts of the facet's width. x and y stand
+// for any two axes.
 static inline float hidden_by(global const DeviceLayout* layout, const Facet* facet, int2 to, float along, float g,
                               float g_other, int axis, float ratio, float meets) {
   if (to.x < 0 || to.y < 0 || to.x >= layout->columns || to.y >= layout->rows) return 0.0f;
@@ -142,7 +142,7 @@ static inline LitPart lit_part(global const DeviceLayout* layout, const Facet* f
 // What is the same for all receivers, for a slope of a facet.
 typedef struct {
   float2 slope;
-  float4 map; // columns; from places on the facet to places on a receiver at distance 0
+  float4 map; // maps the facet to a receiver at distance 0, column by column
   float4 map_by_distance;
   LitPart lit;
   float power; // in facets that send all of their light

@@ -13,8 +13,8 @@ namespace nephroid::inverse {
 /// a random order, in batches. Every facet of a batch looks for its slope at once, in the light as it is before the
 /// batch. A facet takes what it found if that is better than what it had and if it shares no cell with a facet before
 /// it; the others try again. So no batch raises the sum while pictures keep their tones, and the number of threads
-/// changes no bit. When a sweep gains less than three hundredths of the sum, a last step moves all facets together: see
-/// Refinement. It knows no smoothing and is left out where there is some. Free heights, what facets see of their
+/// changes no bit. When a sweep gains less than three hundredths of the sum, a last sweep moves all facets together:
+/// see Refinement. It knows no smoothing and is left out where there is some. Free heights, what facets see of their
 /// neighbours, and the pictures' tones follow the slopes after each sweep.
 class Assignment final : public Method {
 public:
