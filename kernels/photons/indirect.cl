@@ -30,7 +30,7 @@ typedef struct {
 // A photon on its way.
 typedef struct {
   Path path;
-  SET_ASIDE float shading;  // product of shading_ratio over the diffuse surfaces left
+  SET_ASIDE float shading;  // product of shading_ratio over the diffuse surfaces behind it
   SET_ASIDE float watts;    // as if the band had all of the light's power
   SET_ASIDE int wavelength; // wavelength and weight of its band
   SET_ASIDE float weight;
@@ -48,8 +48,7 @@ static inline Source light_of(const Photon* photon) {
   return source;
 }
 
-// Adds the light that a diffuse surface reflects of a photon to the pixel that sees it. False where the film refused
-// it.
+// Adds a photon's light, reflected by a diffuse surface, to the pixel that sees it. False where the film refused it.
 static inline bool show(const World* world, const Receiver* receiver, const Photon* photon, const Surface* surface,
                         uint triangle, int reflector, float dither) {
   const Splat splat = splat_at(world, &receiver->camera, surface, triangle, photon->path.direction);

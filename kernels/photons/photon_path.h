@@ -43,7 +43,7 @@ static inline uint neighbours_follow(uint number, uint count) {
   return first + 0x1000u <= count ? first | reverse_bits(number) >> 20 : number;
 }
 
-// The random numbers of a photon at its start.
+// A photon's emitter and its random numbers at the start.
 typedef struct {
   int emitter;
   float4 emission;  // in [0, 1): target, direction (2); w: the film's dither
@@ -103,7 +103,7 @@ typedef struct {
   float left;      // 0..1
   Surface surface; // the surface of a deposit
   uint triangle;
-  float3 xyz; // for a deposit: reflected light, if the photon carried the light's whole power
+  float3 xyz; // for a deposit: reflected light, as if the photon carried the light's whole power
 } PhotonEnd;
 
 // Follows a photon in a band to the first diffuse surface, out of the scene, or to its last interface. Leaves `path` on
