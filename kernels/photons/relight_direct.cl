@@ -8,7 +8,7 @@
 
 // Each work item finds the reflector at each fixed place of one pixel, -1 where there is none.
 __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global int* unbent, // [pixel][SURVEY_PLACES]
-                     __global int* bent) // [pixel][SURVEY_PLACES * SURVEY_PATHS] {
+                     __global int* bent) { // [pixel][SURVEY_PLACES * SURVEY_PATHS]
   const World world = WORLD;
   const int pixel = (int)get_global_id(0);
   if (pixel >= camera.width * camera.height) return;
