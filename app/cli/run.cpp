@@ -57,7 +57,9 @@ std::vector<Target> targets_of(const RunOptions& options) {
     }
     if (options.seed) {
       preset.seed = *options.seed;
-      preset::check(preset, [](const std::string&) { return std::string("--seed"); }); // with the reference's settings
+      preset::check(preset, [](const std::string&) {
+        return std::string("--seed");
+      }); // the seed may not be one of the reference's
     }
     if (presets.size() == 1)
       targets.push_back({std::move(preset), folder, stem, {}});

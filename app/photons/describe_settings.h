@@ -73,7 +73,7 @@ inline void describe(preset::Fields& v, Settings& s) {
   v.field("step_nm", "Of the method brute_force: neighbouring wavelengths that share a path all the same.", s.step_nm,
           {.unit = "nm", .bounds = preset::within(1, 401)});
   v.field("estimator", "How caustics are estimated.", s.estimator);
-  v.field("effort", "How the work is dealt to the clusters.", s.effort);
+  v.field("effort", "How the work is divided among the clusters.", s.effort);
   v.field("importance", "How much a wavelength matters, where `effort` asks for it.", s.importance);
   v.field(
       "jitter",

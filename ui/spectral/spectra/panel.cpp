@@ -172,9 +172,8 @@ void SpectraPanel::draw_numbers() const {
                                        counted(sum, "iteration"), counted(s.clusters.size(), "cluster"),
                                        times(s.brute_force(), sum), s.brute_force(), s.passes)
                                .c_str());
-  tooltip(fmt::format("{} times fewer by clusters, {} by what deals out the work.\nPhoton maps give a cluster so many "
-                      "passes; splats deal "
-                      "photons out in this proportion.",
+  tooltip(fmt::format("{} times fewer by clusters, {} by what divides the work.\nPhoton maps give a cluster so many "
+                      "passes; splats divide photons in this proportion.",
                       times(s.brute_force(), std::max<std::int64_t>(s.equal_effort(), 1)),
                       times(s.equal_effort(), std::max<std::int64_t>(sum, 1))));
   ImGui::PopTextWrapPos();
