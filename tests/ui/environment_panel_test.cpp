@@ -138,7 +138,7 @@ TEST_F(EnvironmentPanelTest, ADragTurnsTheMapWithTheMouseAsOneEntry) {
     EXPECT_NEAR(now[0], from[0] + 10 * step, 0.2) << "it stays under the mouse";
     EXPECT_EQ(now[1], from[1]);
   }
-  ended();
+  let_go();
   EXPECT_NE(imgui.pushed<command::EndGesture>(), nullptr);
   EXPECT_NEAR(rotation(), 30 - 360 * 100 / panel().map().area()[2], 0.051);
   const double turned = rotation();
@@ -229,7 +229,7 @@ TEST_F(EnvironmentPanelTest, TheNumberOfLightsIsSlidAsOneEntry) {
   const Point at = place("lights");
   press_at(at);
   for (const double by : {10.0, 20.0, 30.0}) move({at[0] + by, at[1]});
-  ended();
+  let_go();
   const int slid = settings().lights;
   EXPECT_GT(slid, 100) << "the middle of 6 to 4096 on a logarithmic scale is 157";
   EXPECT_LT(slid, 600);

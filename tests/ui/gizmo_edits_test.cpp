@@ -168,9 +168,9 @@ Shown shown(std::mt19937& random, bool fit) {
               .target = {any(random), any(random), any(random)},
               .fov_deg = fov(random),
               .resolution = {320, 200}};
-  s.look.fit = fit;
-  s.look.zoom = 1.7;
-  s.look.centre = {100, 30};
+  s.view_settings.fit = fit;
+  s.view_settings.zoom = 1.7;
+  s.view_settings.centre = {100, 30};
   return s;
 }
 
@@ -181,7 +181,7 @@ TEST(Pinhole, IsTheScenesCamera) {
     const scene::Scene nothing;
     const scene::Camera camera = scene::make_camera(s.camera, nothing);
     const Pinhole pinhole = s.pinhole();
-    const Placement placement = place(s.look, s.canvas, s.camera.resolution);
+    const Placement placement = place(s.view_settings, s.canvas, s.camera.resolution);
     for (const auto& [x, y] : {std::array{0, 0}, std::array{319, 7}, std::array{160, 100}, std::array{12, 199}}) {
       const glm::dvec3 expected = glm::dvec3(camera.forward) +
                                   (2 * (x + 0.5) / 320 - 1) * camera.tan_x * glm::dvec3(camera.right) +

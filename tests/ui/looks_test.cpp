@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the View shows a picture: layers, tone curves, false colour; and that a picture is saved as it is shown.
+#include "image/image.h"
 #include "layered_runs.h"
 #include "ui/state/tone.h"
 #include "ui/view/pinhole.h"

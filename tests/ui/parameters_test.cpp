@@ -97,12 +97,12 @@ TEST_F(ParametersTest, ADragIsOneEntryAndTheRunFollows) {
     ASSERT_TRUE(edit);
     EXPECT_TRUE(edit->live);
   }
-  ended();
+  let_go();
   EXPECT_TRUE(imgui.pushed<command::EndGesture>());
   EXPECT_EQ(at(fov), 50) << "a tenth a pixel at 40";
   press_at(from);
   move({from[0] - 3000, from[1]});
-  ended();
+  let_go();
   EXPECT_GT(at(fov).get<double>(), 0) << "a drag stops at what is possible";
   EXPECT_THAT(problems(), IsEmpty());
   undo();

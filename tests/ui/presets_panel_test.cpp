@@ -2,6 +2,7 @@
 // The panel "Presets" and the start page under an injected mouse and keys: search, filters, what a click says, opening
 // by double click and by Enter, each card and button; the list of recent files, also when its file is damaged; small
 // pictures, also broken ones.
+#include "image/image.h"
 #include "preset/differences.h"
 #include "ui/presets/panel.h"
 #include "window_fixture.h"
