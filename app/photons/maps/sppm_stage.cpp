@@ -243,7 +243,7 @@ private:
                  {"emitter_count", sender.emitter_count},
                  {"object_count", static_cast<int>(t.objects.size())},
                  {"seed", seed_of(cluster)},
-                 {"first_pass", 0u},
+                 {"first_iteration", 0u},
                  {"film_scale", 0.0f},
                  {"energy_scale", world_.on_device(t.energy_scale)},
                  {"stored_scale", world_.on_device(sender.photon_scale)}});
