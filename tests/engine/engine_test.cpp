@@ -116,7 +116,8 @@ TEST_F(GradientEngine, OpensInTheWindow) {
       last = grey ? pixel[0] : 2;
     }
   }
-  EXPECT_EQ(longest, 31);
+  // The picture's edge may be a shade of its own, where it does not lie on whole pixels.
+  EXPECT_TRUE(longest == 31 || longest == 32) << longest;
 }
 #endif
 
