@@ -22,8 +22,8 @@ LINES = [
     ("nephroid run first-light --res", "--resume"),
 ]
 BASH = """source "$1"; program=$2; shift 2; set -- nephroid "$@"
-COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _nephroid "$program" "${!#}" "${COMP_WORDS[COMP_CWORD-1]}"; printf '%s\\n'
-"${COMPREPLY[@]}" """
+COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _nephroid "$program" "${!#}" "${COMP_WORDS[COMP_CWORD-1]}"
+printf '%s\\n' "${COMPREPLY[@]}" """
 
 
 def text(*command, **more):
