@@ -3,6 +3,7 @@
 // hash, or a whole file. Only what the job wrote is loaded. A wrong state under a right hash is not asked for: nothing
 // but the program writes that hash.
 #include "base/hashed_bytes.h"
+#include "measure/measured_job.h"
 #include "preset/read.h"
 #include "run/checkpoint.h"
 #include "run/prepare.h"
