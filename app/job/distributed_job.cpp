@@ -99,7 +99,7 @@ private:
 
   std::unique_ptr<Job> job_;
   Communicator communicator_;
-  std::exception_ptr thrown_; ///< by a call that whoever made it may survive
+  std::exception_ptr thrown_; ///< by a call whose caller may survive
 };
 
 } // namespace

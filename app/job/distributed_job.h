@@ -8,12 +8,11 @@
 
 namespace nephroid::job {
 
-/// Rank 0's: passes every call on to the others. They are let go when it is destroyed. It takes no other preset on
-/// (Job::adopt).
+/// The root's job: passes every call on to the other ranks, until it is destroyed. It adopts no other preset.
 std::unique_ptr<Job> distributed(std::unique_ptr<Job> job, const Communicator& communicator);
 
-/// Another rank's: makes the calls that rank 0 makes of its job, until that lets go. What this one's pictures show is
-/// nobody's business.
+/// Makes the calls on another rank's job that the root makes on its own, until the root's is destroyed. What this job's
+/// pictures show does not matter.
 void follow_root(Job& job, const Communicator& communicator);
 
 } // namespace nephroid::job

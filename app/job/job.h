@@ -103,7 +103,7 @@ public:
   virtual Snapshot snapshot() = 0;
   /// Whether its pictures come with a draw of their error (Picture::error_draw).
   virtual bool estimates_error() const { return true; }
-  /// Of its error so far, without a snapshot; null where nothing is measured.
+  /// The history of its error so far, without a snapshot; null where nothing is measured.
   virtual std::shared_ptr<const History> history() const { return nullptr; }
   /// Writes everything needed to go on later with the same bits. Opaque; of the engine's state_version.
   virtual void save(ByteSink& to) = 0;

@@ -61,7 +61,8 @@ struct ErrorColumn {
 };
 ErrorColumn error_column_of(std::string_view column);
 
-/// Of a metric by its name. A column that an engine adds (cost, temperature) is called by its name and is no error.
+/// The text of a metric, by its name. A column that an engine adds (cost, temperature) is called by its name and is no
+/// error.
 MetricText metric_text(std::string_view metric);
 
 /// Every metric that a history has a column of, in their order, each once.
@@ -81,7 +82,8 @@ struct RunCurves {
   /// Errors below it are not compared: twice the floor (four times that of a mean square), where 13 % of the error are
   /// the reference's. 0 for estimates and where no floor is known.
   double lowest_meaningful() const;
-  /// Of the judged curve down to three times the floor (nine times), where 6 % of the error are the reference's.
+  /// The slope of the judged curve down to three times the floor (nine times), where 6 % of the error are the
+  /// reference's.
   std::optional<PowerLaw> slope() const;
 };
 /// Whether the metric is an error, or the run itself is judged by it.

@@ -83,11 +83,11 @@ Spectrum curved(const Spectrum& straight) {
   return g;
 }
 
-/// Of all spectra s with A s = b (A the three colour-matching functions, b an XYZ) the one with the smallest |D s|^2 (D
-/// second differences) has D^T D s = A^T mu with Lagrange's multipliers mu (3 numbers). D loses straight lines, so v^T
-/// A^T mu = 0 for v = 1 and v = the wavelength: two conditions, which leave mu one number: it is orthogonal to A 1 and
-/// to A (wavelength). So s is a sum of three fixed functions, a constant, a straight line and one curve, and the three
-/// equations A s = b say how much there is of each.
+/// Among all spectra s with A s = b (A the three colour-matching functions, b an XYZ) the one with the smallest |D s|^2
+/// (D second differences) has D^T D s = A^T mu with Lagrange's multipliers mu (3 numbers). D loses straight lines, so
+/// v^T A^T mu = 0 for v = 1 and v = the wavelength: two conditions, which leave mu one number: it is orthogonal to A 1
+/// and to A (wavelength). So s is a sum of three fixed functions, a constant, a straight line and one curve, and the
+/// three equations A s = b say how much there is of each.
 std::array<Spectrum, 3> make_primary_spectra() {
   std::array<Spectrum, 3> ways{};
   ways[0].fill(1);

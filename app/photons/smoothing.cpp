@@ -146,16 +146,17 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
                                      int height) {
   const double dark = least_light(light);
   const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
-  const auto over_light = [&](std::size_t i, const auto& term) {
+  const auto relative_to_light = [&](std::size_t i, const auto& term) {
     double sum = 0;
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) sum += term(c);
     return sum / (dark + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, noise_radius));
   };
   const SummedArea change(width, height, [&](std::size_t i) {
-    return over_light(i, [&](std::size_t c) { return std::pow(static_cast<double>(rgb_spread[c]) - rgb[c], 2); });
+    return relative_to_light(i,
+                             [&](std::size_t c) { return std::pow(static_cast<double>(rgb_spread[c]) - rgb[c], 2); });
   });
   const SummedArea gain(width, height, [&](std::size_t i) {
-    return over_light(i, [&](std::size_t c) {
+    return relative_to_light(i, [&](std::size_t c) {
       const double d = error_draw[c], q = (static_cast<double>(a_spread[c]) - b_spread[c]) / 2 - d;
       return -q * d;
     });

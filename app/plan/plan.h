@@ -56,7 +56,7 @@ struct Plan {
 /// "inputs":[{"file","content"}]}, plus "notes"; "field" and "run_value" only where a field decides. Over several
 /// lines, as plan.json has it.
 std::string to_json(const Plan& plan);
-/// Of a plan.json; none where it is damaged.
+/// The inputs in a plan.json; none if it is damaged.
 std::vector<Input> inputs_of(const std::string& plan_json);
 /// The same on one line, with the run's "name" before it: a sweep is a line a run.
 std::string to_json_line(const Plan& plan, const std::string& name);

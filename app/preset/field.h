@@ -46,7 +46,7 @@ struct Columns {
 /// docs/presets.md says.
 enum class Text { text, line, file };
 
-/// Of what a text is a name. Whether there is such a thing is checked where the preset is used.
+/// What a text names. Whether such a thing exists is checked where the preset is used.
 enum class Names { nothing, material, illuminant, patch };
 
 /// One field. Its default is not here: it is what a default-constructed struct holds.

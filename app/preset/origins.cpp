@@ -77,11 +77,11 @@ void rethrow_at_origin(const Preset& preset, const Error& error) {
   const std::string pointer = is_as_read(preset) ? field_of(preset, error.place()) : std::string(),
                     part = part_of(preset.provenance);
   if (pointer.empty() && part.empty()) throw;
-  const Error told = pointer.empty() ? error : at_origin(*preset.provenance.origins, pointer, error);
+  const Error error_at_origin = pointer.empty() ? error : at_origin(*preset.provenance.origins, pointer, error);
   // A missing device is missing for every run, and what is interrupted names the run's folder.
   const bool may_be_of_one_run = error.kind() == ErrorKind::bad_input || error.kind() == ErrorKind::failed;
-  if (part.empty() || is_at_swept_value(told) || !may_be_of_one_run) throw told;
-  throw told.noting(part);
+  if (part.empty() || is_at_swept_value(error_at_origin) || !may_be_of_one_run) throw error_at_origin;
+  throw error_at_origin.noting(part);
 }
 
 } // namespace nephroid::preset

@@ -16,7 +16,8 @@ struct Origin {
   bool is_typed = false;        ///< on a command line: file names are looked up in the current folder before that
 };
 
-/// Of each JSON pointer of a preset. A value has the origin of what is around it unless it has one of its own.
+/// Who gave the value at each JSON pointer of a preset. A value has the origin of what is around it unless it has one
+/// of its own.
 class Origins {
 public:
   explicit Origins(Origin main);
@@ -31,11 +32,11 @@ public:
   using Shared = std::shared_ptr<const Origin>;
   Shared shared_at(const std::string& pointer) const;
   void set_main(Shared origin) { main_ = std::move(origin); }
-  /// Of the value at pointer alone: what is inside it keeps the origin that it has of its own.
+  /// Sets the origin of the value at pointer alone: what is inside it keeps the origin that it has of its own.
   void set(const std::string& pointer, Shared origin) { of_[pointer] = std::move(origin); }
   /// The same where the value has none of its own.
   void set_if_none(const std::string& pointer, Shared origin) { of_.try_emplace(pointer, std::move(origin)); }
-  /// Of the value and of all that is inside it.
+  /// Sets the origin of the value and of all that is inside it.
   void set_whole(const std::string& pointer, Shared origin);
 
 private:

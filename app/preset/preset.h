@@ -248,7 +248,7 @@ struct Preset {
   bool operator==(const Preset&) const = default;
 };
 
-/// Of one unit of length.
+/// The length of one unit, in metres.
 constexpr double metres(Preset::Unit unit) {
   return unit == Preset::Unit::mm ? 1e-3 : unit == Preset::Unit::cm ? 1e-2 : 1;
 }

@@ -100,7 +100,7 @@ private:
     return false;
   }
 
-  /// Of the preset: its "engine" has been read.
+  /// The preset's engine, once "engine" has been read.
   std::string engine() const { return document_.value().at("engine").get<std::string>(); }
 
   [[noreturn]] void refuse_of_other_engine(const std::string& pointer, std::string_view section) const {

@@ -20,7 +20,7 @@ struct Pictures {
   /// Full size, as shown() at exposure 0, differences in the colours of map_colour.
   Json groups = Json::array();
   Json notes = Json::array(); ///< what is not there and why
-  /// Of each run: which of the references it was measured against; equal numbers are equal pictures. None: without a
+  /// For each run the reference that it was measured against; equal numbers are equal pictures. None: without a
   /// reference.
   std::vector<std::optional<std::size_t>> reference_of_run;
 };

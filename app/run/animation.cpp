@@ -35,7 +35,7 @@ constexpr const char* of_all_frames[] = {"frames.csv", "animation.mp4"};
 /// The number in "0003", -1 where the text is no frame's number.
 int frame_number(std::string_view text) { return text.size() == 4 ? number_in<int>(text).value_or(-1) : -1; }
 
-/// Of "frame_0003.png"; -1 of another file.
+/// The number in "frame_0003.png"; -1 for another file.
 int frame_of(const fs::path& file) {
   const std::string stem = file.stem().string(), extension = file.extension().string();
   const bool is_picture = std::find(kinds.begin(), kinds.end(), extension) != kinds.end();

@@ -44,7 +44,7 @@ const plan::Input* find_input(const std::vector<plan::Input>& inputs, const std:
   return found == inputs.end() ? nullptr : &*found;
 }
 
-/// Of a preset that lies elsewhere the same file has its whole path.
+/// In a preset that lies elsewhere, the same file has its whole path.
 bool may_be_same(const plan::Input& a, const plan::Input& b) {
   return a.file.ends_with("/" + b.file) || b.file.ends_with("/" + a.file);
 }

@@ -15,8 +15,8 @@ namespace {
 /// Light is alike in small pictures, and their pixels have less noise.
 constexpr int longest_edge = 256;
 
-/// Of what half of the pixels lie below, each counted by the root of its luminance: so neither a black background nor a
-/// small caustic decides. 0 of a black picture.
+/// The luminance that half of the pixels lie below, each counted by the root of its luminance: so neither a black
+/// background nor a small caustic decides. 0 for a black picture.
 double middle_luminance(const std::vector<float>& rgb) {
   std::vector<double> luminances;
   for (std::size_t i = 0; i + 2 < rgb.size(); i += 3)

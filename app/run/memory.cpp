@@ -12,7 +12,7 @@
 namespace nephroid::run {
 namespace {
 
-/// Of the buffers on the device, or of those on the host.
+/// The bytes of the buffers on the device, or of those on the host.
 std::uint64_t total_bytes(const plan::Plan& plan, bool on_host) {
   return std::accumulate(plan.buffers.begin(), plan.buffers.end(), std::uint64_t{0},
                          [&](std::uint64_t sum, const plan::PlannedBuffer& buffer) {

@@ -59,7 +59,7 @@ public:
     }
     return *context_;
   }
-  /// Of a device that has been opened.
+  /// The context of a device that has been opened.
   const compute::Context& opened() const { return context_.value(); }
   /// It is opened anew when it is needed again.
   void close() { context_.reset(); }

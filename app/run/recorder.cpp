@@ -12,8 +12,7 @@
 
 namespace nephroid::run {
 
-/// Of the pictures whose time is past, a resumed run has those that it had made before; the others it cannot have any
-/// more.
+/// A resumed run keeps the pictures that it made before. Others whose time is past it can no longer make.
 void Recorder::begun(job::Job& job) {
   saved_at_ = job.progress().work_seconds;
   const std::vector<double>& times = options_.pictures_at;

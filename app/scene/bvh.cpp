@@ -93,8 +93,8 @@ void check_triangle(const Mesh& mesh, std::size_t index) {
   }
 }
 
-/// Of a triangle or, counted on, of an ellipsoid, grown by more than the rounding errors of the traversal that come
-/// from its own coordinates (those that come from the ray's origin are the ray's share: bvh_ray in
+/// The box of a triangle or, counted on, of an ellipsoid, grown by more than the rounding errors of the traversal that
+/// come from its own coordinates (those that come from the ray's origin are the ray's share: bvh_ray in
 /// kernels/tracing/bvh.h). A small object beside large ones keeps tight boxes.
 Box primitive_box(const Mesh& mesh, std::size_t primitive) {
   Box box;

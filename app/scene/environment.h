@@ -43,7 +43,7 @@ double grey(const Environment& environment, std::size_t texel);
 /// Steradians that each texel of a row fills.
 double texel_steradians(const Environment& environment, int row);
 
-/// Of an environment that is not black.
+/// The flux of an environment that is not black.
 struct EnvironmentFlux {
   double grey = 0;       ///< integral of grey() over all directions
   optics::Colour mean{}; ///< linear sRGB over grey(), a mean over the flux: the three sum to 3

@@ -14,7 +14,7 @@
 namespace nephroid::scene {
 namespace {
 
-/// Of the largest coordinate of the two objects. Rays start 2^-21 of a triangle's coordinates off it
+/// Shares of the largest coordinate of the two objects. Rays start 2^-21 of a triangle's coordinates off it
 /// (kernels/tracing/surface.h), so this is several times what either side's rays step over.
 constexpr double gap_share = 0x1p-18, touching_share = 0x1p-21;
 

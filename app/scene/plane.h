@@ -11,7 +11,7 @@ struct Plane {
   glm::dvec3 point{0};
   glm::dvec3 normal{0}; ///< unit, of the triangles' front
   double tolerance = 0; ///< of heights: what rounding the corners to single precision may add
-  /// Of the scene's units; above 0 before the front.
+  /// The distance from the plane, in scene units; positive before the front.
   double height(const glm::dvec3& p) const { return glm::dot(p - point, normal); }
 };
 

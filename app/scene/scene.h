@@ -55,9 +55,9 @@ struct Light {
   double irradiance_w_m2 = 0;     ///< directional
   optics::Spectrum spectrum{};    ///< sums to 1
   std::vector<int> inside;        ///< dielectric objects that contain it, outermost first
-  /// Of the environment, which is directional light of many directions and colours (environment.h): what a photon's
-  /// red, green and blue part each carry at every wavelength; `spectrum` is what photons are allocated by. Empty of a
-  /// lamp.
+  /// The environment's three parts. It is directional light of many directions and colours (environment.h): what a
+  /// photon's red, green and blue part each carry at every wavelength; `spectrum` is what photons are allocated by.
+  /// Empty for a lamp.
   std::vector<optics::Spectrum> primaries;
 
   bool operator==(const Light&) const = default;
@@ -147,7 +147,8 @@ void for_each_corner(const Scene& scene, const Object& object, const Visit& visi
 /// The smallest along the axes, in the scene's coordinates. Throws as triangles_of.
 Bounds bounds_of(const Scene& scene, const Object& object);
 
-/// Of preset::Transform::rotate_deg: about x, then y, then z, each counter-clockwise seen from the axis' positive end.
+/// The matrix of preset::Transform::rotate_deg: about x, then y, then z, each counter-clockwise seen from the axis'
+/// positive end.
 glm::dmat3 rotation(const preset::Vec3& rotate_deg);
 
 } // namespace nephroid::scene

@@ -64,7 +64,7 @@ Json area_lights(const scene::Scene& scene) {
   return lights;
 }
 
-/// Of an older export.
+/// The pictures of caustics of an older export.
 std::vector<fs::path> caustics_in(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!is_there(folder / list_file)) return files;

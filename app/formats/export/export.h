@@ -32,7 +32,7 @@ inline constexpr const char* list_file = "caustics.json";
 std::vector<std::string> write_export(const std::filesystem::path& folder, const scene::Scene& scene,
                                       const preset::Preset& preset, const std::vector<Caustic>& caustics, double white);
 
-/// Of app/formats/export/*.py.
+/// A script of app/formats/export/*.py.
 struct ExportScript {
   const char* name;
   const char* text;

@@ -9,7 +9,7 @@
 namespace nephroid::formats {
 namespace {
 
-// Of glTF 2.0.
+// Component types of glTF 2.0.
 constexpr int type_float = 5126, type_unsigned = 5125;
 
 void append(std::string& bytes, std::uint32_t value) {

@@ -97,7 +97,7 @@ public:
   Glb take() { return std::move(glb_); }
 
 private:
-  /// Of the scene's coordinates, in metres.
+  /// The place in metres, from the scene's coordinates.
   glm::dvec3 placed(const glm::dvec3& p) const { return metres_ * (scene_.origin + p); }
 
   void add_node(Json node) {

@@ -9,7 +9,7 @@ namespace nephroid::formats {
 /// Linear sRGB, 0..1, under D65.
 std::array<double, 3> colour_of_reflectance(const optics::Spectrum& reflectance);
 
-/// Of a light's spectrum.
+/// The colour of a light's spectrum.
 struct GltfColour {
   std::array<double, 3> rgb{};  ///< linear sRGB, the largest is 1
   double luminous_per_watt = 0; ///< over the luminance of rgb

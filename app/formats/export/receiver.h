@@ -19,7 +19,7 @@ struct Receiver {
   glm::dvec3 normal() const { return glm::cross(right, up); }
 };
 
-/// Of all flat matt objects, in the order of the scene.
+/// All flat matt objects as receivers, in the order of the scene.
 std::vector<Receiver> receivers_of(const scene::Scene& scene);
 
 /// The scene with a camera for the light that a receiver gets, not for what an eye sees of it. Where engine 1 renders

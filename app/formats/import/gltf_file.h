@@ -33,13 +33,13 @@ public:
   const GltfJson& json() const { return *json_; }
   const Place& where() const { return where_; }
   bool has(const char* key) const { return json_->contains(key); }
-  /// Of an object: a member that is there, an object itself; without it an empty one.
+  /// A member of an object, which is an object itself; an empty one if there is none.
   GltfValue object(const char* key) const;
   /// "extensions" / name, an empty object without it.
   GltfValue extension(const char* name) const { return object("extensions").object(name); }
   /// A list of objects; empty without it.
   std::vector<GltfValue> list(const char* key) const;
-  /// Of a list of objects: an item. Throws where there is none of this index.
+  /// An item of a list of objects. Throws if the list has no such index.
   GltfValue item(const char* key, std::size_t index) const;
 
   double number(const char* key, double standard) const;

@@ -17,8 +17,8 @@ struct GltfNode {
   glm::dmat4 to_world;
 };
 
-/// Of the file's scene, parents before children, in the order of the file. Throws bad_input where nodes go round in a
-/// circle, one has two parents, or there is no scene.
+/// The nodes of the file's scene, parents before children, in the order of the file. Throws bad_input where nodes go
+/// round in a circle, one has two parents, or there is no scene.
 std::vector<GltfNode> nodes_of(const GltfFile& file);
 
 /// The same as scale, turn and shift; nothing where the matrix shears or flattens.

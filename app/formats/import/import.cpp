@@ -55,7 +55,7 @@ private:
     if (std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(std::move(text));
   }
 
-  /// Of everything there is to see.
+  /// Encloses a place that can be seen.
   void see(const glm::dvec3& p) { bounds_ = scene::enclosing(bounds_, {p, p}); }
   glm::dvec3 middle() const { return 0.5 * (bounds_.low + bounds_.high); }
   double size() const { return std::max(glm::length(bounds_.high - bounds_.low), 1e-3); }

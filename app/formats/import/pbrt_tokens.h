@@ -16,8 +16,8 @@ struct PbrtToken {
   Place where;
 };
 
-/// Of the file and those it includes, in order. Throws bad_input at FILE:LINE: a string without an end, a file that is
-/// not there or includes itself.
+/// The tokens of the file and of those it includes, in order. Throws bad_input at FILE:LINE: a string without an end, a
+/// file that is not there or includes itself.
 std::vector<PbrtToken> pbrt_tokens(const std::filesystem::path& file);
 
 struct PbrtParameter {

@@ -30,7 +30,7 @@ const char* reason(std::string text) {
   return kept_reason.c_str();
 }
 
-/// Of a picture that is read: what is missing of it, such as a JPEG's end, whose pixels are grey then. Bytes too many
+/// Whether something of the picture is missing, such as a JPEG's end, whose pixels are grey then. Bytes too many
 /// harm nothing.
 bool is_damaged(const ImageInput& input, bool done) {
   return !done || (input.has_error() && input.geterror(false).find("extraneous bytes") == std::string::npos);
@@ -56,12 +56,12 @@ std::vector<std::pair<std::string, std::string>> texts_of(const ImageSpec& spec)
   return texts;
 }
 
-/// Of a picture that is read: 2 GiB of floats, such as 16384 x 8192 pixels of four channels. A file can say that it has
-/// more than any memory.
+/// The largest picture that is read: 2 GiB of floats, such as 16384 x 8192 pixels of four channels. A file can say that
+/// it has more than any memory.
 constexpr int most_values_log2 = 29;
 /// The same of one that is read in bands: what a minute reads.
 constexpr int most_band_values_log2 = 32;
-/// Of a band: 16 MiB.
+/// The values of a band: 16 MiB.
 constexpr std::size_t band_values = std::size_t{1} << 22;
 
 std::size_t values_of(const ImageSpec& spec) { return spec.image_pixels() * static_cast<std::size_t>(spec.nchannels); }

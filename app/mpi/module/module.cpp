@@ -72,7 +72,7 @@ public:
     own.process = ::getpid();
     MPI_Allgather(&own, sizeof own, MPI_BYTE, ranks_.data(), sizeof own, MPI_BYTE, MPI_COMM_WORLD);
   }
-  /// Of a run that failed, abort() is the end.
+  /// A run that failed ends by abort().
   ~MpiRanks() override {
     if (std::uncaught_exceptions() == 0) MPI_Finalize();
   }
