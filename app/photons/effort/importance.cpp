@@ -183,7 +183,7 @@ std::vector<double> watts(std::span<const scene::Light> lights, const std::vecto
   return result;
 }
 
-ImportanceGeometry whereabouts(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh) {
+ImportanceGeometry importance_geometry(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh) {
   const std::vector<int> throwers = caustic_objects(scene);
   std::vector<scene::Sphere> receivers;
   for (const int i : throwers) receivers.push_back(scene.objects[static_cast<std::size_t>(i)].bounds);
@@ -198,7 +198,7 @@ ImportanceGeometry whereabouts(const Settings& settings, const scene::Scene& sce
 }
 
 WavelengthImportance wavelength_importance(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh) {
-  return wavelength_importance(settings, whereabouts(settings, scene, bvh), scene.lights, scene.materials,
+  return wavelength_importance(settings, importance_geometry(settings, scene, bvh), scene.lights, scene.materials,
                                scene.source);
 }
 

@@ -43,7 +43,7 @@ struct ImportanceGeometry {
 /// The lights' W; parts is `towards` or `anywhere`.
 std::vector<double> watts(std::span<const scene::Light> lights, const std::vector<double>& parts);
 /// Traces rays for effort `importance` with geometry only; it takes some milliseconds.
-ImportanceGeometry whereabouts(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh);
+ImportanceGeometry importance_geometry(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh);
 
 /// u(lambda). Effort `importance` takes (4.15), `radziszewski` the curve of Radziszewski et al. `power`, `variance` and
 /// `automatic` take the light alone: (X + Y + Z) / 3, or 0 where no light has power. `equal` and `random` take 1

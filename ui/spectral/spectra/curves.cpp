@@ -107,7 +107,7 @@ std::shared_ptr<const SeenByGlass> SeenByGlass::of(const preset::Preset& preset,
   auto seen = std::make_shared<SeenByGlass>();
   for (const scene::Material& material : scene.materials) seen->materials.push_back(material.name);
   if (!scene.lights.empty() && is_environment(scene.lights.back())) seen->environment = scene.lights.back();
-  seen->whereabouts = photons::whereabouts(spectral::settings(preset), scene, bvh);
+  seen->importance_geometry = photons::importance_geometry(spectral::settings(preset), scene, bvh);
   seen->settings = spectral::settings(preset);
   seen->clusters = photons::scene_clusters(spectral::settings(preset), scene);
   return seen;
@@ -204,11 +204,12 @@ void SpectraMaker::make_groups(const preset::Preset& now) {
 
 /// Whether what the glass was seen to see is what u hangs on now.
 bool SpectraMaker::is_of_this_scene(const photons::Settings& settings) const {
-  if (!seen_ || seen_->materials != spectra_.materials || seen_->whereabouts.towards.size() != outline_.lights.size())
+  if (!seen_ || seen_->materials != spectra_.materials ||
+      seen_->importance_geometry.towards.size() != outline_.lights.size())
     return false;
   const bool rays = settings.effort == photons::Settings::Effort::importance && settings.importance.geometry &&
-                    seen_->whereabouts.caustics;
-  return !rays || !seen_->whereabouts.seen.empty();
+                    seen_->importance_geometry.caustics;
+  return !rays || !seen_->importance_geometry.seen.empty();
 }
 
 void SpectraMaker::make_importance(const preset::Preset& now) {
@@ -223,8 +224,8 @@ void SpectraMaker::make_importance(const preset::Preset& now) {
     return;
   }
   try {
-    spectra_.importance = photons::wavelength_importance(spectral::settings(now), seen_->whereabouts, outline_.lights,
-                                                         outline_.materials, {});
+    spectra_.importance = photons::wavelength_importance(spectral::settings(now), seen_->importance_geometry,
+                                                         outline_.lights, outline_.materials, {});
   } catch (const Error& error) {
     spectra_.why_no_u = error.text();
   }
@@ -238,7 +239,7 @@ void SpectraMaker::make_clusters(const preset::Preset& now) {
   // As the engine has them: without the wavelengths and lights that are left out.
   std::vector<const scene::Light*> lights;
   std::vector<double> watts;
-  const std::vector<double> all_watts = photons::watts(outline_.lights, seen_->whereabouts.towards);
+  const std::vector<double> all_watts = photons::watts(outline_.lights, seen_->importance_geometry.towards);
   for (std::size_t i = 0; i < outline_.lights.size(); ++i)
     if (tracing::has_power(outline_.lights[i]) || !now.leave_out) {
       lights.push_back(&outline_.lights[i]);

@@ -16,7 +16,7 @@ namespace nephroid::ui {
 struct SeenByGlass {
   std::vector<std::string> materials;      ///< names of Scene::materials, in whose order the shares are
   std::optional<scene::Light> environment; ///< where it is a light
-  photons::ImportanceGeometry whereabouts;
+  photons::ImportanceGeometry importance_geometry;
   photons::Settings settings;             ///< of the run,
   std::vector<std::vector<int>> clusters; ///< and what it is grouped into by them
   bool operator==(const SeenByGlass&) const = default;
