@@ -7,7 +7,7 @@
 namespace nephroid::fuzz {
 
 /// Of a harness. An Error of bad input, whose line is one line, is as good as an answer. Any other exception is a
-/// finding; so is more than a second of processor time.
+/// finding; so are more than five seconds of processor time, which slow machines stay below.
 void read(std::string_view input);
 /// Of a harness: good inputs to begin with.
 std::vector<std::string> seeds();
