@@ -194,6 +194,19 @@ TEST_F(RunsPanelTest, AReportThatCannotBeWrittenLeavesNothing) {
   EXPECT_FALSE(is_there(folder.path() / "page-runs-2"));
 }
 
+TEST_F(RunsPanelTest, AFolderOpensItsPresetWhereNoneIsOpen) {
+  run_measured();
+  const std::string run = folder.path() / "before";
+  write_run_folder(run, run_now(workbench.run()), "before", true);
+  Workbench other(runs);
+  other.apply({command::Open{run}});
+  ASSERT_NE(other.preset(), nullptr);
+  EXPECT_EQ(other.preset()->source, run + "/preset.json");
+  edit([](preset::Preset& p) { p.scene.lights[0].power_w = 20; });
+  workbench.apply({command::Open{run}});
+  EXPECT_EQ(workbench.preset()->scene.lights[0].power_w, 20) << "what is open stays";
+}
+
 TEST_F(RunsPanelTest, AFolderThatWasReadIsTakenAsItIs) {
   run_measured();
   write_run_folder(folder.path() / "before", run_now(workbench.run()), "before", true);

@@ -42,10 +42,13 @@ bool is_over(job::State state) {
          state == job::State::idle;
 }
 
-/// Pins the histories and opens the first preset that can be opened. Behind it only runs and pictures are expected:
-/// what is none leaves its message.
+/// Pins the histories and opens the first preset that can be opened, or a run's where there are only runs. Behind it
+/// only runs and pictures are expected: what is none leaves its message.
 void open_first(Workbench& workbench, const Options& options) {
   bool opened = false;
+  if (!options.files.empty() && std::ranges::all_of(options.files, is_history))
+    if (const std::string preset_file = preset_of_run(options.files.front()); !preset_file.empty())
+      opened = workbench.open(preset_file, options.overrides);
   for (const std::string& file : options.files)
     if (opened || is_history(file))
       workbench.apply({command::PinFile{file}});

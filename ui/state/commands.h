@@ -105,9 +105,9 @@ enum class Question {
 namespace command {
 
 /// Opens a preset file or a shipped preset by its name. Asks first where there are unsaved changes, unless sure. A
-/// run's folder or a table (.csv) is pinned as by PinFile; dispersion data (.yml) is loaded as by LoadDispersion. A map
-/// (.exr, .hdr) becomes the environment. A picture goes to the engine, or is pinned where the engine takes none. A mesh
-/// becomes an object, glTF a preset of its own.
+/// run's folder or a table (.csv) is pinned as by PinFile, and the run's preset opens where none is open. Dispersion
+/// data (.yml) is loaded as by LoadDispersion. A map (.exr, .hdr) becomes the environment. A picture goes to the
+/// engine, or is pinned where the engine takes none. A mesh becomes an object, glTF a preset of its own.
 struct Open {
   std::string name;
   bool sure = false;

@@ -108,6 +108,11 @@ bool is_history(const std::filesystem::path& path) {
   return path.extension() == ".csv";
 }
 
+std::string preset_of_run(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "preset.json";
+  return is_there(file) ? file.string() : "";
+}
+
 bool is_picture(const std::filesystem::path& path) {
   const FileKind kind = kind_of(path);
   return kind == FileKind::map || kind == FileKind::picture;

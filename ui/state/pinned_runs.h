@@ -53,6 +53,8 @@ private:
 
 /// Whether read_pin can read the path as a history: a table (.csv), or a folder with a history.csv in it.
 bool is_history(const std::filesystem::path& path);
+/// The preset of a run's folder; empty where it has none.
+std::string preset_of_run(const std::filesystem::path& folder);
 /// Whether the path is a picture's, by its extension.
 bool is_picture(const std::filesystem::path& path);
 /// Reads a picture, named after its file; or an earlier run by its history.csv or its folder, named after the folder.

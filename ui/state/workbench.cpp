@@ -98,7 +98,11 @@ void Workbench::restore(Session session, const std::filesystem::path& folder) {
 
 void Workbench::carry_out(const command::Open& c) {
   const std::string& file = c.name;
-  if (is_history(file)) return comparing_.carry_out(command::PinFile{file});
+  if (is_history(file)) {
+    // Nothing is open that the run could be compared with: its own preset is.
+    if (const std::string preset_file = preset_of_run(file); !preset() && !preset_file.empty()) open(preset_file);
+    return comparing_.carry_out(command::PinFile{file});
+  }
   const FileKind kind = kind_of(file);
   if (preset() && kind == FileKind::dispersion) return document_.carry_out(command::LoadDispersion{file});
   if (preset() && kind == FileKind::map) return document_.carry_out(command::OpenMap{file});
