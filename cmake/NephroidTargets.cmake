@@ -42,8 +42,7 @@ endfunction()
 set(nephroid_computes_little cli formats job plan preset report run ui)
 
 # nephroid_library(NAME [FOLDERS folder...] [LIBS lib...]): every .cpp of the current folder, and of these folders in
-# it, as the static library nephroid_NAME. With -DCMAKE_VERIFY_INTERFACE_HEADER_SETS=ON the target
-# all_verify_interface_header_sets compiles each of its headers by itself.
+# it, as the static library nephroid_NAME. The preset "alone" has a source for each header that includes it alone.
 function(nephroid_library name)
   cmake_parse_arguments(arg "" "" "FOLDERS;LIBS" ${ARGN})
   set(folders . ${arg_FOLDERS})

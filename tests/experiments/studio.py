@@ -105,7 +105,7 @@ class Studio:
         """Side by side, as docs/NAME. Of one picture that is to stay as it is, the file itself."""
         for picture in pictures:
             if not Path(picture).is_file():
-                sys.exit(f"{name}: there is no {picture}")
+                raise FileNotFoundError(f"there is no {picture}")
         if self.small:
             return
         target = self.docs / name
@@ -134,4 +134,4 @@ class Studio:
             )
         print(f"{name}: {target.stat().st_size} bytes", flush=True)
         if target.stat().st_size > MOST_BYTES:
-            sys.exit(f"{target} is larger than {MOST_BYTES} bytes")
+            raise OSError(f"{target} is larger than {MOST_BYTES} bytes")

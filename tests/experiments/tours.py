@@ -53,7 +53,8 @@ def three_window(s):
 
 def runs_of_sweep(s):
     folder = s.runs("glasses")
-    return [folder / f"00{number}" for number in (1, 3, 5, 2, 4, 6)]
+    glasses = ("N-BK7", "N-SF11", "N-SF66")
+    return [folder / f"dispersion={glass}.yml,threshold_deg={fine}" for fine in (0.05, 1) for glass in glasses]
 
 
 def batch_sweep(s):
@@ -64,7 +65,7 @@ def batch_window(s):
     return [
         s.window(
             "glasses-window",
-            "glasses",
+            "glasses.json",
             "runs",
             "scene.camera.resolution=[256,256]",
             "spectral.photons_per_pass=65536",
