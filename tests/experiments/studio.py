@@ -39,9 +39,10 @@ class Studio:
         return options + CUT + CUT_OF_ENGINE[json.loads(plan.stdout.splitlines()[0])["engine"]]
 
     def run(self, name, preset, *sets, size=None, passes=None, seconds=None):
-        """The run's folder."""
-        if (self.folder / name / "run.json").exists():
-            return self.folder / name
+        """The run's folder. Not beside presets: a folder would be found before a preset of its name."""
+        folder = self.folder / "runs" / name
+        if (folder / "run.json").exists():
+            return folder
         options = [word for value in sets for word in ("--set", value)]
         options += ["--set", f"scene.camera.resolution=[{size[0]},{size[1]}]"] if size else []
         if self.small:
@@ -49,26 +50,27 @@ class Studio:
         else:
             options += ["--passes", passes] if passes else []
             options += ["--seconds", seconds] if seconds else []
-        self.call(self.program, "run", preset, "-o", name, *options)
-        return self.folder / name
+        self.call(self.program, "run", preset, "-o", folder, *options)
+        return folder
 
     def runs(self, preset, passes=4):
         """The folder of a preset with a sweep or an animation: small pictures of many runs."""
-        if not (self.folder / preset).exists():
+        folder = self.folder / "runs" / preset
+        if not folder.exists():
             cut = ["--set", "scene.camera.resolution=[64,64]"] if self.small else []
             self.call(
                 self.program,
                 "run",
                 preset,
                 "-o",
-                preset,
+                folder,
                 "--set",
                 "spectral.photons_per_pass=65536",
                 "--passes",
                 1 if self.small else passes,
                 *cut,
             )
-        return self.folder / preset
+        return folder
 
     def script(self, name, *arguments):
         """One of tests/experiments, which prints tables too."""

@@ -36,7 +36,7 @@ def hdri_glass(s):
 
 
 def hdri_window(s):
-    return [s.window("drink-window", "drink.json", "environment", "scene.camera.resolution=[256,192]", "stop.seconds=15")], 1
+    return [s.window("drink-window", "drink", "environment", "scene.camera.resolution=[256,192]", "stop.seconds=15")], 1
 
 
 def three_sheet(s):
@@ -65,7 +65,7 @@ def batch_window(s):
     return [
         s.window(
             "glasses-window",
-            "glasses.json",
+            "glasses",
             "runs",
             "scene.camera.resolution=[256,256]",
             "spectral.photons_per_pass=65536",
