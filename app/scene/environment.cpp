@@ -17,7 +17,7 @@
 namespace nephroid::scene {
 namespace {
 
-/// Textures are held in memory three times while they are read, and once on the device: 2 GiB of floats there.
+/// Textures are held in memory twice while they are read, and once on the device: 2 GiB of floats there.
 constexpr std::size_t most_texels = std::size_t{1} << 27;
 
 const char* fault_of(float value) {
