@@ -6,9 +6,9 @@
 #include "base/counted.h"
 #include "base/monotone_cubic.h"
 #include "base/numbers.h"
-#include "preset/check.h"
 #include "preset/describe.h"
 #include "preset/document.h"
+#include "preset/read.h"
 #include "preset/walks.h"
 
 #include <fmt/format.h>

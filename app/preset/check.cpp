@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "preset/check.h"
+#include "preset/read.h"
 
 #include "base/counted.h"
 #include "base/error.h"

@@ -3,7 +3,6 @@
 
 #include "base/nearest.h"
 #include "preset/animation.h"
-#include "preset/check.h"
 #include "preset/describe.h"
 #include "preset/document.h"
 #include "preset/walks.h"

@@ -2,7 +2,7 @@
 // The folder of a run, before and while it runs: whose it is, that it can be written to, that it holds one run's files
 // only.
 #pragma once
-#include "base/file_lock.h"
+#include "base/files.h"
 #include "job/job.h"
 #include "run/prepare.h"
 

@@ -3,8 +3,8 @@
 // them.
 #include "scene/move.h"
 
-#include "scene/camera_and_lights.h"
 #include "scene/place.h"
+#include "scene/scene.h"
 
 #include <fmt/format.h>
 

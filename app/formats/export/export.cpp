@@ -4,7 +4,7 @@
 #include "base/build_info.h"
 #include "base/files.h"
 #include "base/lower_case.h"
-#include "formats/export/gltf.h"
+#include "formats/export/glb.h"
 #include "measure/lab.h"
 #include "preset/read.h"
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A binary glTF 2.0 file: JSON, and one chunk of bytes that it points into.
+// A binary glTF 2.0 file, which is JSON and one chunk of bytes that it points into; and a scene as one: what
+// formats/import/gltf_scene.h reads, the other way round.
 #pragma once
+#include "formats/export/export.h"
+
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
@@ -40,5 +43,19 @@ private:
 
   std::string bin_;
 };
+
+/// Linear sRGB, 0..1, under D65.
+std::array<double, 3> colour_of_reflectance(const optics::Spectrum& reflectance);
+
+/// The colour of a light's spectrum.
+struct GltfColour {
+  std::array<double, 3> rgb{};  ///< linear sRGB, the largest is 1
+  double luminous_per_watt = 0; ///< over the luminance of rgb
+};
+GltfColour colour_of_light(const optics::Spectrum& spectrum);
+
+/// Preset coordinates in metres, y up. Area lights and the surroundings have no counterpart; the caustics are light
+/// that the receivers' materials send out, in cd/m^2.
+Glb gltf_of(const scene::Scene& scene, const preset::Preset& preset, const std::vector<Caustic>& caustics);
 
 } // namespace nephroid::formats

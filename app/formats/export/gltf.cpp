@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/export/gltf.h"
+#include "formats/export/glb.h"
 
 #include "formats/import/gltf_scene.h"
 #include "optics/colour.h"

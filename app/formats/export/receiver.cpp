@@ -2,10 +2,10 @@
 // A pinhole camera that looks straight at a plane shows all of it at one scale, and a white surface of irradiance E the
 // radiance E / pi. So the map is the picture of such a camera, for which nothing stands before the receiver
 // (scene::Camera::receiver).
-#include "formats/export/receiver.h"
+#include "formats/export/export.h"
 
 #include "optics/spectrum.h"
-#include "scene/plane.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
