@@ -2,12 +2,10 @@
 // A verb of the command line and its options. CLI11, which parses them, is known to verb.cpp, command_line.cpp,
 // manual.cpp and completions.cpp only: each file that includes it takes seconds more to compile.
 #pragma once
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace CLI {
