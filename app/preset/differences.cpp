@@ -81,9 +81,8 @@ private:
 
   static bool is_sayable(const std::string& key) {
     const bool bracketed = key.find('[') != std::string::npos && key.back() == ']';
-    return !key.empty() && !bracketed && std::none_of(key.begin(), key.end(), [](unsigned char c) {
-      return c == '.' || c == '=' || c < 0x20 || c == 0x7f;
-    });
+    return !key.empty() && !bracketed &&
+           std::ranges::none_of(key, [](unsigned char c) { return c == '.' || c == '=' || c < 0x20 || c == 0x7f; });
   }
 
   static bool can_enter_list(const Json& before, const Json& after, const Json* raw) {
@@ -119,7 +118,7 @@ std::string override_of(const Edit& edit) {
   if (edit.value.is_string()) {
     const std::string word = edit.value.get<std::string>();
     const bool plain =
-        !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) { return c >= 0x20 && c != 0x7f; });
+        !word.empty() && std::ranges::all_of(word, [](unsigned char c) { return c >= 0x20 && c != 0x7f; });
     if (plain && word.find_first_of("{[\"") != 0 && !Json::accept(with_json_numbers(word))) return key + "=" + word;
   }
   return key + "=" + edit.value.dump();
@@ -216,7 +215,7 @@ std::string shell_word(const std::string& word) {
   const auto plain = [](unsigned char c) {
     return std::isalnum(c) || std::string_view("_-./=,:+@%").find(static_cast<char>(c)) != std::string_view::npos;
   };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  if (!word.empty() && std::ranges::all_of(word, plain)) return word;
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";

@@ -161,7 +161,7 @@ std::string printable(std::string_view text) {
 
 /// [+-] digits [. digits] [e [+-] digits], with a digit before or after the point.
 std::string json_number(const std::string& word) {
-  constexpr std::size_t longest = 64; // of a number that somebody types
+  constexpr std::size_t longest = 64; // that somebody types
   const auto has = [&](std::size_t at, std::string_view any) {
     return at < word.size() && any.find(word[at]) != std::string_view::npos;
   };

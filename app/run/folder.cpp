@@ -9,8 +9,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -91,8 +89,7 @@ std::optional<double> white_of_run(const fs::path& folder) {
 
 void begin_run(const fs::path& folder, const Prepared& prepared) {
   std::error_code ignored;
-  for (const std::string& name : engine_files(folder))
-    fs::remove(folder / name, ignored); // of an older run, by its run.json
+  for (const std::string& name : engine_files(folder)) fs::remove(folder / name, ignored); // an older run's
   for (const char* name : results) fs::remove(folder / name, ignored);
   remove_pictures_after(folder, -1);
   remove_frames(folder, 0);

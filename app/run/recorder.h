@@ -18,9 +18,8 @@ struct RecorderOptions {
 };
 
 /// While the run goes on: history.csv, pictures at times, a checkpoint now and then. Where these cannot be written the
-/// run goes on, since the disk may have room when it ends, and the work in hand is worth more. At the end: the picture
-/// first, which is what the run was for, then a checkpoint, then a report of a finished run that was measured; throws
-/// as write_run and write_checkpoint do.
+/// run goes on: the disk may have room when it ends. At the end: the picture, then a checkpoint, then a report of a
+/// finished run that was measured; throws as write_run and write_checkpoint do.
 class Recorder : public job::Observer {
 public:
   /// run: is ready, has a folder, and outlives this.

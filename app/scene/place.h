@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One object's mesh into the scene: transformed in double, moved to the scene's origin, rounded once, then checked.
-// Private to scene/.
+// One object's mesh into the scene: transformed in double, rounded once, then checked. Private to scene/.
 #pragma once
 #include "base/place.h"
 #include "preset/preset.h"

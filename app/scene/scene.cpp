@@ -28,28 +28,6 @@ void check_names(const std::vector<preset::Object>& objects, const Place& where)
   }
 }
 
-/// Reads each file once, however many objects name it and however large it is.
-class Meshes {
-public:
-  Meshes(const FileFinder& finder, const Watch& watch) : finder_(finder), watch_(watch) {}
-  std::shared_ptr<const Mesh> get(const std::string& name, const Place& where) {
-    const std::filesystem::path file = finder_.find(name, where);
-    auto found = meshes_.find(file);
-    if (found == meshes_.end()) found = meshes_.emplace(file, load_mesh_once(file, watch_)).first;
-    return found->second;
-  }
-
-private:
-  const FileFinder& finder_;
-  const Watch& watch_;
-  std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
-};
-
-std::shared_ptr<const Mesh> object_mesh(const preset::Object& object, Meshes& meshes, const Place& where) {
-  if (object.mesh) return meshes.get(*object.mesh, where / "mesh");
-  return std::make_shared<const Mesh>(make_shape(*object.shape));
-}
-
 /// An object on its way: still in its own coordinates.
 struct Pending {
   std::shared_ptr<const Mesh> mesh;
@@ -209,7 +187,14 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
     scene.materials.push_back(make_material(name, material, finder, where / "materials" / name, scene.warnings));
 
   check_names(preset.scene.objects, where / "objects");
-  Meshes meshes(finder, watch);
+  // Each file is read once, however many objects name it and however large it is.
+  std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes;
+  const auto mesh_of = [&](const preset::Object& object, const Place& at) {
+    if (object.shape) return std::make_shared<const Mesh>(make_shape(*object.shape));
+    const std::filesystem::path file = finder.find(*object.mesh, at / "mesh");
+    if (!meshes.contains(file)) meshes[file] = load_mesh_once(file, watch);
+    return meshes[file];
+  };
   std::vector<Pending> pending;
   for (std::size_t i = 0; i < preset.scene.objects.size(); ++i) {
     const preset::Object& object = preset.scene.objects[i];
@@ -217,7 +202,7 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
     const auto material =
         std::ranges::find(scene.materials, object.material, &Material::name) - scene.materials.begin();
     const Placement placement = make_placement(object.transform);
-    pending.push_back({object_mesh(object, meshes, object_where), placement, static_cast<int>(material), object_where});
+    pending.push_back({mesh_of(object, object_where), placement, static_cast<int>(material), object_where});
   }
   watch.begin("looking at the objects");
   scene.origin = choose_origin(pending, scene, preset.scene.camera);

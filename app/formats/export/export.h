@@ -16,7 +16,7 @@ namespace nephroid::formats {
 /// A rectangle about a flat matt object, seen from the side that the glass and mirrors are on. In the scene's
 /// coordinates.
 struct Receiver {
-  int object = 0; ///< of Scene::objects
+  int object = 0; ///< index in Scene::objects
   glm::dvec3 centre{0};
   glm::dvec3 right{1, 0, 0}, up{0, 1, 0}; ///< unit; right x up looks to that side
   double width = 0, height = 0;           ///< along right and up

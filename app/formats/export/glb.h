@@ -7,7 +7,6 @@
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,10 +22,8 @@ public:
   Json json;
 
   /// What they add is named by its index in the file's list. Nothing is empty.
-  std::size_t positions(const std::vector<glm::vec3>& values) {
-    return vectors(values, true);
-  } ///< with the bounds that these need
-  std::size_t normals(const std::vector<glm::vec3>& values) { return vectors(values, false); }
+  std::size_t positions(const std::vector<glm::vec3>& values); ///< with the bounds that these need
+  std::size_t normals(const std::vector<glm::vec3>& values);
   std::size_t places(const std::vector<glm::vec2>& values); ///< in a texture
   std::size_t corners(const std::vector<glm::uvec3>& triangles);
   std::size_t png(std::string_view bytes); ///< an image
@@ -38,7 +35,8 @@ public:
   std::string bytes() const;
 
 private:
-  std::size_t vectors(const std::vector<glm::vec3>& values, bool with_bounds);
+  std::size_t accessor(const void* bytes, std::size_t count, int component, const char* type,
+                       Json bounds = Json::object());
   std::size_t view(const void* bytes, std::size_t count);
 
   std::string bin_;

@@ -193,7 +193,7 @@ private:
   }
 
   Json glass(const scene::Material& material) {
-    double thickness = 0; // of the largest object of it, in metres
+    double thickness = 0; // the largest object's, in metres
     for (const scene::Object& object : scene_.objects)
       if (&material_of(scene_, object) == &material)
         thickness = std::max(thickness, 2 * static_cast<double>(object.bounds.radius) * metres_);

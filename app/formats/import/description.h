@@ -102,7 +102,7 @@ scene::Mesh open_cylinder(const glm::dvec3& from, const glm::dvec3& to, double r
 template <class Fade>
 double same_power_half_angle_deg(double outer_deg, const Fade& fade) {
   constexpr int steps = 4096;
-  double part = 0; // of the solid angle over 2 pi
+  double part = 0; // solid angle over 2 pi
   for (int i = 0; i < steps; ++i) {
     const double a = glm::radians(outer_deg) * (i + 0.5) / steps;
     part += fade(a) * std::sin(a) * glm::radians(outer_deg) / steps;

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 namespace nephroid::formats {
@@ -30,7 +29,7 @@ public:
 
 private:
   void add_mesh(const GltfNode& node) {
-    const std::size_t index = node.value.index("mesh", root_.list("meshes").size(), "meshes");
+    const std::size_t index = node.value.index("mesh", root_, "meshes");
     const GltfValue mesh = root_.item("meshes", index);
     const std::string name =
         name_of(node.value.text("name"), name_of(mesh.text("name"), fmt::format("mesh {}", index)));
@@ -54,8 +53,7 @@ private:
 
   std::string material(const GltfValue& primitive) {
     constexpr std::size_t none = ~std::size_t{0};
-    const std::size_t index =
-        primitive.has("material") ? primitive.index("material", root_.list("materials").size(), "materials") : none;
+    const std::size_t index = primitive.has("material") ? primitive.index("material", root_, "materials") : none;
     const auto [found, is_new] = material_names_.try_emplace(index);
     std::string& name = found->second;
     if (!is_new) return name;
@@ -78,7 +76,7 @@ private:
   }
 
   void add_camera(const GltfNode& node) {
-    const GltfValue camera = root_.item("cameras", node.value.index("camera", root_.list("cameras").size(), "cameras"));
+    const GltfValue camera = node.value.item("camera", root_, "cameras");
     if (camera.text("type") != "perspective") return d_.note("a camera without perspective is left out");
     if (d_.camera) return d_.note("only the first camera is taken");
     const GltfValue lens = camera.object("perspective");
@@ -95,8 +93,7 @@ private:
 
   void add_light(const GltfNode& node) {
     const GltfValue lights = root_.extension("KHR_lights_punctual");
-    const GltfValue own = node.value.extension("KHR_lights_punctual");
-    const GltfValue light = lights.item("lights", own.index("light", lights.list("lights").size(), "lights"));
+    const GltfValue light = node.value.extension("KHR_lights_punctual").item("light", lights, "lights");
     d_.lamps.push_back(light_of(light, node.to_world,
                                 name_of(light.text("name"), name_of(node.value.text("name"), "light")), d_.notes));
   }

@@ -103,7 +103,7 @@ private:
     if (file_.child(film, "crop_width")) d_.note(file_.at(film), "the crop is left out: the whole picture is taken");
     std::string axis = file_.text(node, "fov_axis", "x");
     double fov = file_.number(node, "fov", 0);
-    if (!file_.child(node, "fov")) { // of a film of 36 by 24 mm
+    if (!file_.child(node, "fov")) { // by a film of 36 by 24 mm
       const std::string length = file_.text(node, "focal_length", "50mm");
       const double mm =
           number_in<double>(std::string_view(length).substr(0, length.find_first_not_of("0123456789."))).value_or(50);
