@@ -19,10 +19,7 @@ namespace {
 constexpr double gap_share = 0x1p-18, touching_share = 0x1p-21;
 
 double largest_coordinate(const Bounds& a, const Bounds& b) {
-  double largest = 0;
-  for (int k = 0; k < 3; ++k)
-    largest = std::max({largest, std::abs(a.low[k]), std::abs(a.high[k]), std::abs(b.low[k]), std::abs(b.high[k])});
-  return largest;
+  return std::max(largest_coordinate(a), largest_coordinate(b));
 }
 
 /// The axis along which a face of `glass` lies in a face of the other's bounds, while they overlap along the other two;

@@ -39,6 +39,9 @@ Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Place& 
 PlacedMesh place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric,
                  const Place& where);
 
+/// The largest distance of a side from a coordinate plane.
+double largest_coordinate(const Bounds& bounds);
+
 /// How far objects reach, in units, from the middle of the scene's coordinates.
 double scene_radius(const Scene& scene);
 

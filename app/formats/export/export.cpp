@@ -3,8 +3,8 @@
 
 #include "base/build_info.h"
 #include "base/files.h"
-#include "base/lower_case.h"
 #include "formats/export/glb.h"
+#include "formats/import/description.h"
 #include "measure/lab.h"
 #include "preset/read.h"
 
@@ -22,16 +22,9 @@ using namespace nlohmann::literals;
 
 constexpr const char* surroundings_file = "surroundings.exr";
 
-/// What any file system and shell takes.
 std::string file_of(const scene::Scene& scene, int object) {
-  std::string name = scene.objects[static_cast<std::size_t>(object)].name;
-  std::ranges::replace_if(
-      name,
-      [](char c) {
-        return !(lower_case({c}) >= "a" && lower_case({c}) <= "z") && !(c >= '0' && c <= '9') && c != '-' && c != '_';
-      },
-      '-');
-  return fmt::format("caustic-{}-{}.exr", object, name);
+  return fmt::format("caustic-{}-{}", object,
+                     file_name_of(scene.objects[static_cast<std::size_t>(object)].name, ".exr"));
 }
 
 Json caustic_json(const scene::Scene& scene, const Caustic& caustic) {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
@@ -20,10 +20,9 @@ namespace {
 std::string decoded(const std::string& uri) {
   std::string name;
   for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned value = 0;
-    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
-                         std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
-    if (escaped) value = static_cast<unsigned>(std::stoul(uri.substr(i + 1, 2), nullptr, 16));
+    unsigned char value = 0;
+    const char *const digits = uri.data() + i + 1, *const end = digits + 2;
+    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, end, value, 16).ptr == end;
     name += escaped ? static_cast<char>(value) : uri[i];
     if (escaped) i += 2;
   }

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace nephroid::formats {
 namespace {
@@ -82,12 +83,6 @@ std::string advice_on_glass(const GltfValue& material, const std::string& name) 
       "material '{}' may be meant as glass ({}) and is opaque here; to make it glass, where its meshes are closed: "
       "--set 'scene.materials.{}={{\"type\": \"dielectric\", \"dispersion\": {}}}'",
       name, sign, name, material.extension("KHR_materials_ior").number("ior", 1.5));
-}
-
-double sum(const optics::Spectrum& spectrum) {
-  double all = 0;
-  for (const double value : spectrum) all += value;
-  return all;
 }
 
 } // namespace
@@ -222,7 +217,7 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
 }
 
 double lumens_per_watt(const optics::Spectrum& spectrum) {
-  return most_lumens * optics::to_xyz(spectrum)[1] / sum(spectrum);
+  return most_lumens * optics::to_xyz(spectrum)[1] / std::accumulate(spectrum.begin(), spectrum.end(), 0.0);
 }
 
 LightColour light_colour(const std::array<double, 3>& rgb) {
