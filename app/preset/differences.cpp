@@ -4,7 +4,6 @@
 #include "base/files.h"
 #include "preset/describe.h"
 #include "preset/document.h"
-#include "preset/read.h"
 #include "preset/walks.h"
 
 #include <fmt/format.h>

@@ -8,7 +8,6 @@
 #include "preset/animation.h"
 #include "preset/read.h"
 #include "run/content.h"
-#include "run/folder.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/folder.h"
 
-#include "base/files.h"
 #include "preset/read.h"
 #include "run/animation.h"
 #include "run/content.h"

@@ -10,7 +10,6 @@
 #include "engine/engine.h"
 #include "image/image.h"
 #include "measure/error_estimate.h"
-#include "measure/measured_job.h"
 #include "measure/read_picture.h"
 #include "preset/read.h"
 #include "preset/settings_type.h"

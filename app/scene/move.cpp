@@ -4,7 +4,6 @@
 #include "scene/move.h"
 
 #include "scene/place.h"
-#include "scene/scene.h"
 
 #include <fmt/format.h>
 
