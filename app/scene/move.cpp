@@ -17,10 +17,6 @@ namespace {
 /// (kernels/tracing/surface.h), so this is several times what either side's rays step over.
 constexpr double gap_share = 0x1p-18, touching_share = 0x1p-21;
 
-double largest_coordinate(const Bounds& a, const Bounds& b) {
-  return std::max(largest_coordinate(a), largest_coordinate(b));
-}
-
 /// The axis along which a face of `glass` lies in a face of the other's bounds, while they overlap along the other two;
 /// -1: none.
 int touching_axis(const Bounds& glass, const Bounds& other, double tolerance) {
@@ -87,7 +83,7 @@ std::string label(const Scene& scene, std::size_t object) {
 void warn_if_between(Scene& scene, const std::vector<Bounds>& bounds, std::size_t i) {
   for (std::size_t j = 0; j < scene.objects.size(); ++j)
     if (i != j && scene.objects[i].ellipsoid_count + scene.objects[j].ellipsoid_count == 0 &&
-        touching_axis(bounds[i], bounds[j], touching_share * largest_coordinate(bounds[i], bounds[j])) >= 0)
+        touching_axis(bounds[i], bounds[j], touching_share * largest_coordinate(enclosing(bounds[i], bounds[j]))) >= 0)
       scene.warnings.push_back(
           fmt::format("{} lies exactly on {} and is too thin to be parted from it: light may be lost between them; "
                       "move it, make it thicker, or let them overlap",
@@ -127,7 +123,7 @@ void part_touching(Scene& scene) {
     if (material_of(scene, scene.objects[i]).type != Material::Type::dielectric) continue;
     for (std::size_t j = 0; j < scene.objects.size(); ++j) {
       if (i == j) continue;
-      const double largest = largest_coordinate(bounds[i], bounds[j]), tolerance = touching_share * largest;
+      const double largest = largest_coordinate(enclosing(bounds[i], bounds[j])), tolerance = touching_share * largest;
       const int axis = touching_axis(bounds[i], bounds[j], tolerance);
       if (axis < 0 || !can_coincide(scene.objects[i], bounds[i], scene.objects[j], bounds[j], tolerance)) continue;
       part(scene, scene.objects[i], bounds[i], bounds[j], axis, gap_share * largest);
