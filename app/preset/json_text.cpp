@@ -121,15 +121,12 @@ private:
 
 bool is_plain(const Json& value) { return !value.is_structured(); }
 
-/// Lists that read best on one line: of plain values.
-bool on_one_line(const Json& value) { return value.is_array() && std::all_of(value.begin(), value.end(), is_plain); }
-
 void print(const Json& value, int indent, std::string& out) {
   if (is_plain(value) || value.empty()) {
     out += json_text(value);
     return;
   }
-  if (on_one_line(value)) {
+  if (value.is_array() && std::ranges::all_of(value, is_plain)) { // reads best on one line
     for (std::size_t i = 0; i < value.size(); ++i) out += (i == 0 ? "[" : ", ") + json_text(value[i]);
     out += "]";
     return;

@@ -20,19 +20,15 @@ namespace {
 /// Textures are held in memory twice while they are read, and once on the device: 2 GiB of floats there.
 constexpr std::size_t most_texels = std::size_t{1} << 27;
 
-const char* fault_of(float value) {
-  return std::isnan(value) ? "is not a number" : std::isinf(value) ? "is infinite" : "is negative";
-}
-
 void check_texels(const std::vector<float>& rgb, int width, const Place& file) {
   const auto bad = std::ranges::find_if(rgb, [](float value) { return !(value >= 0 && std::isfinite(value)); });
   if (bad == rgb.end()) return;
   const auto index = static_cast<std::size_t>(bad - rgb.begin()), texel = index / 3;
   const char* const channels[] = {"red", "green", "blue"};
+  const char* const fault = std::isnan(*bad) ? "is not a number" : std::isinf(*bad) ? "is infinite" : "is negative";
   throw bad_input(file,
                   fmt::format("{} of the texel in row {}, column {} (from 0) {}", channels[index % 3],
-                              texel / static_cast<std::size_t>(width), texel % static_cast<std::size_t>(width),
-                              fault_of(*bad)),
+                              texel / static_cast<std::size_t>(width), texel % static_cast<std::size_t>(width), fault),
                   "expected radiances of 0 or more", "mend the picture");
 }
 

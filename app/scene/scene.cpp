@@ -58,12 +58,6 @@ void append(Scene& scene, const Mesh& mesh) {
   all.ellipsoids.insert(all.ellipsoids.end(), mesh.ellipsoids.begin(), mesh.ellipsoids.end());
 }
 
-void number_primitives(Scene& scene) {
-  for (const auto count : {&Object::triangle_count, &Object::ellipsoid_count})
-    for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
-      scene.object_of_primitive.insert(scene.object_of_primitive.end(), scene.objects[i].*count, i);
-}
-
 /// damaged: what the preset wants done about it. Throws bad_input at the object where that is `refuse`.
 void tell_damages(Scene& scene, const std::vector<Damage>& damages, preset::Scene::DamagedMeshes damaged,
                   const std::string& label, const Place& where) {
@@ -210,7 +204,9 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
     add_object(scene, preset.scene.objects[i], pending[i], preset.scene.damaged_meshes);
     pending[i].mesh.reset(); // a large scene is not held twice
   }
-  number_primitives(scene);
+  for (const auto count : {&Object::triangle_count, &Object::ellipsoid_count})
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
+      scene.object_of_primitive.insert(scene.object_of_primitive.end(), scene.objects[i].*count, i);
   part_touching(scene);
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i) {
     scene.lights.push_back(make_light(preset.scene.lights[i], scene, where / "lights" / i));

@@ -22,11 +22,6 @@ using namespace nlohmann::literals;
 
 constexpr const char* surroundings_file = "surroundings.exr";
 
-std::string file_of(const scene::Scene& scene, int object) {
-  return fmt::format("caustic-{}-{}", object,
-                     file_name_of(scene.objects[static_cast<std::size_t>(object)].name, ".exr"));
-}
-
 Json caustic_json(const scene::Scene& scene, const Caustic& caustic) {
   const Receiver& r = caustic.receiver;
   const double metres = scene.metres_per_unit;
@@ -104,7 +99,8 @@ Caustic::Caustic(const scene::Scene& scene, const Receiver& on, const job::Pictu
                                .channels = {"R", "G", "B"},
                                .data = {},
                                .attributes = {}},
-      file(file_of(scene, on.object)) {
+      file(fmt::format("caustic-{}-{}", on.object,
+                       file_name_of(scene.objects[static_cast<std::size_t>(on.object)].name, ".exr"))) {
   irradiance.attributes["nephroid:unit"] = "luminous W/m^2";
   const double area =
       on.width * on.height * scene.metres_per_unit * scene.metres_per_unit / (picture.width * picture.height);

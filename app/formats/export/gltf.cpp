@@ -48,9 +48,6 @@ Json turn_to(const glm::dvec3& forward, const glm::dvec3& up) {
   return {q.x, q.y, q.z, q.w};
 }
 
-/// Any direction across.
-glm::dvec3 across(const glm::dvec3& way) { return std::abs(way.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0); }
-
 /// As triangles, some 3 degrees each.
 void add(const scene::Ellipsoid& ellipsoid, scene::Mesh& mesh) {
   constexpr std::uint32_t around = 128, rings = 64;
@@ -259,8 +256,9 @@ private:
     glb_.use("KHR_lights_punctual");
     Json& lights = glb_.json["extensions"]["KHR_lights_punctual"]["lights"];
     lights.push_back(std::move(made));
+    const glm::dvec3 across = std::abs(light.direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     Json node{{"name", name},
-              {"rotation", turn_to(light.direction, across(light.direction))},
+              {"rotation", turn_to(light.direction, across)},
               {"extensions", {{"KHR_lights_punctual", {{"light", lights.size() - 1}}}}}};
     if (light.type != Type::directional) node["translation"] = three_numbers(placed(light.position));
     add_node(std::move(node));
