@@ -8,6 +8,7 @@
 #include "preset/value.h"
 
 #include <algorithm>
+#include <functional>
 #include <span>
 
 namespace nephroid::preset {
