@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Functions without a run: dispersion, wavelength clusters, an environment's lights, metrics.
-#include "base/files.h"
 #include "environment/describe_settings.h"
 #include "environment/segment/segment.h"
 #include "measure/metrics.h"
 #include "measure/read_picture.h"
-#include "optics/dispersion.h"
-#include "optics/dispersion_file.h"
 #include "photons/clusters/clusters.h"
 #include "photons/describe_settings.h"
 #include "preset/choices.h"
@@ -151,13 +148,7 @@ void add_optics(py::module_& module) {
       .def_readonly("source", &optics::DispersionCurve::source)
       .def("range_nm", &optics::DispersionCurve::range_nm)
       .def("sample", &sampled, py::arg("nm"));
-  module.def(
-      "load_dispersion",
-      [](const std::string& name) {
-        return optics::load_dispersion(is_there(name) ? std::filesystem::path(name)
-                                                      : scene::find_dispersion(name, FileFinder(), name));
-      },
-      py::arg("name"));
+  module.def("load_dispersion", &scene::load_dispersion, py::arg("name"));
   module.def("clusters", &clusters, py::arg("n"), py::arg("threshold_deg"), py::arg("method"));
   module.def("segment", &segment, py::arg("texels"), py::arg("lights"), py::arg("method"));
   module.def("compare", &compare, py::arg("picture"), py::arg("reference"), py::arg("mask"));

@@ -3,7 +3,6 @@
 #include "compute/compute.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "preset/schema.h"
 #include "python/bindings.h"
 #include "run/prepare.h"
 

@@ -185,7 +185,7 @@ private:
 
   pid_t process_;
   std::stop_source stopping_;
-  mutable std::mutex mutex_; ///< of what follows
+  mutable std::mutex mutex_; ///< guards what follows
   std::string doing_;
   std::vector<std::string> notes_;
   std::shared_ptr<const Origin> origin_; ///< null until it is ready

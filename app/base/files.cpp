@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// POSIX calls rather than streams: only they say why a write failed, and only they reach the disk (fsync).
+// C's files rather than streams: they say why a write failed, and reach the disk (fsync).
 #include "base/files.h"
 
 #include "base/bytes.h"
@@ -10,9 +10,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -21,24 +23,10 @@ namespace nephroid {
 namespace fs = std::filesystem;
 namespace {
 
-/// An open file. The end of the scope closes it unless close() did.
-class Descriptor {
-public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-  int number() const { return number_; }
-  bool ok() const { return number_ >= 0; }
-  /// Returns false and sets errno if the system reports a late write error.
-  bool close() {
-    const int number = std::exchange(number_, -1);
-    return number < 0 || ::close(number) == 0;
-  }
-
-private:
-  int number_;
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
 };
+using File = std::unique_ptr<std::FILE, CloseFile>;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
@@ -57,106 +45,66 @@ Error unreadable(const fs::path& path, const std::string& why) {
 }
 
 /// Opens regular files only: reading a device or a pipe might never end.
-Descriptor open_to_read(const fs::path& path, struct stat& status) {
+File open_to_read(const fs::path& path, struct stat& status) {
   // Without O_NONBLOCK, open() would wait for a named pipe. For a regular file the flag does nothing.
-  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (!file.ok() || ::fstat(file.number(), &status) != 0) throw unreadable(path, reason(errno));
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  File file(descriptor < 0 ? nullptr : ::fdopen(descriptor, "rb"));
+  if (!file || ::fstat(descriptor, &status) != 0) throw unreadable(path, reason(errno));
   if (S_ISDIR(status.st_mode)) throw unreadable(path, "it is a folder");
   if (!S_ISREG(status.st_mode)) throw unreadable(path, "it is not a regular file");
   return file;
 }
 
 /// Returns the number of bytes read, which is below `count` only at the end of the file.
-std::size_t read_some(const Descriptor& file, const fs::path& path, void* into, std::size_t count) {
-  std::size_t filled = 0;
-  while (filled < count) {
-    const ssize_t now = ::read(file.number(), static_cast<char*>(into) + filled, count - filled);
-    if (now < 0 && errno == EINTR) continue;
-    if (now < 0) throw unreadable(path, reason(errno));
-    if (now == 0) break;
-    filled += static_cast<std::size_t>(now);
-  }
+std::size_t read_some(std::FILE* file, const fs::path& path, void* into, std::size_t count) {
+  const std::size_t filled = std::fread(into, 1, count, file);
+  if (std::ferror(file)) throw unreadable(path, reason(errno));
   return filled;
 }
 
-/// The buffer's size. It collects small pieces: checkpoints hold thousands of single values.
-constexpr std::size_t file_buffer = 1 << 16;
-
 class FileSource final : public ByteSource {
 public:
-  explicit FileSource(const fs::path& path) : path_(path), file_(open_to_read(path, status_)), unread_(size()) {}
-  void read(std::span<std::byte> into) override {
-    if (into.size() > left()) throw unreadable(path_, "it ends early");
-    const std::size_t waiting = std::min(into.size(), buffered_.size() - at_);
-    std::copy_n(buffered_.begin() + static_cast<std::ptrdiff_t>(at_), waiting, into.begin());
-    at_ += waiting;
-    into = into.subspan(waiting);
-    if (into.size() >= file_buffer)
-      from_file(into);
-    else if (!into.empty()) {
-      buffered_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(file_buffer, unread_)));
-      from_file(buffered_);
-      std::copy_n(buffered_.begin(), into.size(), into.begin());
-      at_ = into.size();
-    }
+  explicit FileSource(const fs::path& path) : path_(path) {
+    struct stat status {};
+    file_ = open_to_read(path, status);
+    left_ = static_cast<std::uint64_t>(status.st_size);
   }
-  std::uint64_t left() const override { return unread_ + buffered_.size() - at_; }
+  void read(std::span<std::byte> into) override {
+    if (into.size() > left_ || read_some(file_.get(), path_, into.data(), into.size()) < into.size())
+      throw unreadable(path_, "it ends early");
+    left_ -= into.size();
+  }
+  std::uint64_t left() const override { return left_; }
 
 private:
-  std::uint64_t size() const { return static_cast<std::uint64_t>(status_.st_size); }
-  void from_file(std::span<std::byte> into) {
-    if (read_some(file_, path_, into.data(), into.size()) < into.size()) throw unreadable(path_, "it ends early");
-    unread_ -= into.size();
-  }
-
   fs::path path_;
-  struct stat status_ {};
-  Descriptor file_;
-  std::uint64_t unread_;            ///< bytes of the file that are not read yet
-  std::vector<std::byte> buffered_; ///< bytes read ahead, from at_ on
-  std::size_t at_ = 0;
+  File file_;
+  std::uint64_t left_ = 0;
 };
 
 /// path: the name in errors. mode: the mode of the file that is replaced; 0: none. close() is the last call and flushes
 /// to disk.
 class FileSink final : public ByteSink {
 public:
-  FileSink(const fs::path& temporary, const fs::path& path, mode_t mode)
-      : path_(path), mode_(mode & 07777),
-        file_(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode ? mode & 0777 : 0666)) {
-    if (!file_.ok()) give_up(path_, errno);
+  FileSink(const fs::path& temporary, const fs::path& path, mode_t mode) : path_(path), mode_(mode & 07777) {
+    const int descriptor =
+        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode ? mode & 0777 : 0666);
+    if (descriptor >= 0) file_.reset(::fdopen(descriptor, "wb"));
+    if (!file_) give_up(path_, errno);
   }
   void write(std::span<const std::byte> bytes) override {
-    if (waiting_.size() + bytes.size() > file_buffer) flush();
-    if (bytes.size() > file_buffer)
-      to_file(bytes);
-    else
-      waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) < bytes.size()) give_up(path_, errno);
   }
   void close() {
-    flush();
-    if (mode_ != 0) ::fchmod(file_.number(), mode_); // some file systems have no modes
-    if (::fsync(file_.number()) != 0 || !file_.close()) give_up(path_, errno);
+    if (std::fflush(file_.get()) != 0) give_up(path_, errno);
+    if (mode_ != 0) ::fchmod(::fileno(file_.get()), mode_); // some file systems have no modes
+    if (::fsync(::fileno(file_.get())) != 0 || std::fclose(file_.release()) != 0) give_up(path_, errno);
   }
 
 private:
-  void flush() {
-    to_file(waiting_);
-    waiting_.clear();
-  }
-  void to_file(std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(file_.number(), bytes.data(), bytes.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) give_up(path_, errno);
-      bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
-  }
-
   fs::path path_;
   mode_t mode_;
-  Descriptor file_;
-  std::vector<std::byte> waiting_;
+  File file_;
 };
 
 /// The regular file that path names or links to, and its status; path itself if there is none.
@@ -185,7 +133,8 @@ void commit_file(const fs::path& temporary, const fs::path& path) {
   // The new name reaches the disk with its folder. Some file systems refuse to sync folders; the file itself is safe by
   // then.
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (Descriptor entry(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)); entry.ok()) ::fsync(entry.number());
+  const int entry = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (entry >= 0) ::fsync(entry), ::close(entry);
 }
 
 /// The folder of the running program, empty where /proc is not mounted.
@@ -251,12 +200,12 @@ bool is_there(const fs::path& path) {
 
 std::string read_file(const fs::path& path) {
   struct stat status {};
-  const Descriptor file = open_to_read(path, status);
+  const File file = open_to_read(path, status);
   std::string bytes;
   std::size_t filled = 0;
   while (true) { // the size is a hint: files in /proc have none
     bytes.resize(std::max<std::size_t>(filled + 65536, static_cast<std::size_t>(status.st_size) + 1));
-    filled += read_some(file, path, bytes.data() + filled, bytes.size() - filled);
+    filled += read_some(file.get(), path, bytes.data() + filled, bytes.size() - filled);
     if (filled < bytes.size()) break;
   }
   bytes.resize(filled);
@@ -329,6 +278,20 @@ fs::path library_file(const std::string& name) {
     if (is_there(candidate)) return candidate;
   throw failed(name, fmt::format("not found in lib/nephroid beside {}", program_folder().string()), {},
                "build or install Nephroid again");
+}
+
+FileLock lock_open_file(int descriptor, bool alone) {
+  if (descriptor < 0) return nullptr;
+  FileLock lock(new int(descriptor), [](const int* open) {
+    ::flock(*open, LOCK_UN); // a forked process may also hold it open
+    ::close(*open);
+    delete open;
+  });
+  if (::flock(descriptor, (alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) return lock;
+  const int why = errno;
+  lock.reset();
+  errno = why;
+  return nullptr;
 }
 
 FileNotFound::FileNotFound(Place where, const std::string& name, const std::string& looked_in)

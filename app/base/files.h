@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading files whole or piece by piece, writing them whole or not at all, and finding the files that a preset names.
+// Reading files whole or piece by piece, writing them whole or not at all, locking them among
+// processes, and finding the files that a preset names.
 #pragma once
 #include "base/error.h"
 
@@ -50,6 +51,14 @@ std::filesystem::path state_folder();
 /// lib/nephroid/NAME of the build or installation folder of the program: a module or a helper. Throws failed if it does
 /// not exist.
 std::filesystem::path library_file(const std::string& name);
+
+/// The lock lasts as long as this pointer has owners, and ends with the process. Null: no lock.
+using FileLock = std::shared_ptr<const int>;
+
+/// Locks an open file or folder and does not wait. The lock takes over the descriptor. Unless `alone`, others may take
+/// the same shared lock. Returns null with the system's errno if it fails: EWOULDBLOCK if another process has the lock,
+/// another errno if the file system has no locks.
+FileLock lock_open_file(int descriptor, bool alone = true);
 
 /// A file is in none of the folders searched.
 class FileNotFound : public Error {

@@ -4,7 +4,6 @@
 
 #include <ctime>
 #include <pthread.h>
-#include <unistd.h>
 
 namespace nephroid {
 namespace {

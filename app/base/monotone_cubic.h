@@ -2,7 +2,6 @@
 // A smooth curve through control points that never overshoots them.
 #pragma once
 #include <array>
-#include <utility>
 #include <vector>
 
 namespace nephroid {

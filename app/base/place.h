@@ -26,8 +26,7 @@ struct Place {
   std::string name;                   ///< a file, or an option, a device, a kernel, a call; may be empty
   std::size_t line = 0, column = 0;   ///< in the file, from 1; 0: none
   std::optional<std::string> pointer; ///< JSON pointer of a value in the file; "" is the outermost value
-  std::string
-      field; ///< JSON pointer of the preset's field if its value comes from another origin (preset/origins.h); or empty
+  std::string field; ///< JSON pointer of the preset's field whose value it is (preset/origins.h); or empty
 
   /// The place of the value's member or item.
   Place operator/(std::string_view key) const;

@@ -10,8 +10,7 @@ namespace nephroid {
 
 struct Watch {
   std::stop_token stop;
-  std::function<void(const std::string& doing)>
-      tell; ///< gets "reading bunny.obj" on the working thread; null: no listener
+  std::function<void(const std::string& doing)> tell; ///< "reading bunny.obj", on the working thread; may be null
 
   /// Call it before each part of the work. Throws interrupted if the work shall end.
   void begin(const std::string& doing) const {

@@ -4,7 +4,6 @@
 #include "check/check.h"
 #include "check/tracer.h"
 #include "scene/scene.h"
-#include "scene/shapes.h"
 
 #include <fmt/format.h>
 

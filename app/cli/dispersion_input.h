@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the verbs that read dispersion files share: finding a file, and the option for wavelengths outside its range.
+// What the verbs that read dispersion files share: words of presets as options, and the option for wavelengths outside
+// a file's range.
 #pragma once
 #include "cli/verb.h"
-#include "optics/dispersion.h"
 #include "preset/choices.h"
+#include "scene/materials.h"
 
 #include <algorithm>
 
 namespace nephroid::cli {
-
-/// Finds `name` as a file, else among the shipped materials, where ".yml" may be left out ("N-BK7"). Throws bad_input
-/// naming the folders searched.
-optics::DispersionCurve find_dispersion(const std::string& name);
-
-/// Whether the name means a dispersion file: it ends in ".yml" or is a shipped material.
-bool is_dispersion(const std::string& name);
 
 /// The words of an enumeration of presets, as an option's values.
 template <preset::Enumeration E>
@@ -28,9 +22,17 @@ E chosen_of(const std::string& word) {
   return std::ranges::find(preset::choices<E>, word, &preset::Choice<E>::name)->value;
 }
 
-/// Adds --outside hold|extrapolate|refuse. Without the option, `chosen` is "automatic"; outside_policy reads it after
-/// parsing.
-void add_outside_option(Verb& verb, std::string& chosen);
-optics::Extrapolation outside_policy(const std::string& chosen);
+/// Adds --outside. Without the option, `chosen` is "automatic"; outside_policy reads it after parsing.
+inline void add_outside_option(Verb& verb, std::string& chosen) {
+  chosen = "automatic";
+  verb.option("--outside", chosen,
+              {.type = "POLICY",
+               .says = "Outside the data's range: hold its end, extrapolate, or refuse; default: extrapolate a "
+                       "formula, hold a table",
+               .words = words_of<preset::Extrapolation>()});
+}
+inline optics::Extrapolation outside_policy(const std::string& chosen) {
+  return scene::outside_policy(chosen_of<preset::Extrapolation>(chosen));
+}
 
 } // namespace nephroid::cli

@@ -77,10 +77,6 @@ std::vector<formats::Receiver> chosen(const ExportOptions& options, const scene:
   return all;
 }
 
-std::string no_photons(const plan::Plan& plan) {
-  return std::ranges::find(plan.passes, "photons", &plan::Pass::name)->reason;
-}
-
 /// Nothing if no light falls on the receiver.
 std::optional<formats::Caustic> caustic_on(const ExportOptions& options, const run::Prepared& prepared,
                                            const formats::Receiver& receiver, const compute::Context& context,
@@ -117,7 +113,10 @@ void export_scene(const ExportOptions& options, const std::stop_token& interrupt
     const Watch watch{interrupted, {}};
     const run::Prepared prepared = run::prepare(preset, nullptr, watch);
     const std::vector<formats::Receiver> receivers = chosen(options, prepared.loaded->scene);
-    if (prepared.plan->layers == 0) throw bad_input(preset.source, "has no caustic: " + no_photons(*prepared.plan));
+    if (prepared.plan->layers == 0)
+      throw bad_input(preset.source,
+                      "has no caustic: " +
+                          std::ranges::find(prepared.plan->passes, "photons", &plan::Pass::name)->reason);
     run::DeviceOnDemand device(device_opener(options.run.device));
     const compute::Context& context = device.context();
     const run::ClaimedFolder claimed(folder, true, {"an export", {formats::list_file}});

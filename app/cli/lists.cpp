@@ -6,7 +6,6 @@
 #include "cli/verb.h"
 #include "compute/compute.h"
 #include "preset/read.h"
-#include "preset/schema.h"
 
 #include <CLI/Version.hpp>
 #include <fmt/format.h>

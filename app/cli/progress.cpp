@@ -2,7 +2,6 @@
 #include "cli/progress.h"
 
 #include "base/json_output.h"
-#include "job/pace.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -7,7 +7,6 @@
 #include "cli/verb.h"
 #include "mpi/ranks.h"
 #include "preset/animation.h"
-#include "preset/check.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "report/report.h"

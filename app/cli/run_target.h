@@ -51,9 +51,8 @@ void require_shared(mpi::Ranks& ranks, const std::filesystem::path& file);
 /// Renders the target into its folder. Throws interrupted after its picture and a checkpoint are saved.
 void render(const RunOptions& options, const Target& target, const std::stop_token& interrupted, RunSeries& series);
 
-/// Renders the frames that options.frames names into target.folder (run/animation.h), each as its own run, then the
-/// video. With options.resume, finished frames stay as they are. Throws bad_input before the first frame if one does
-/// not exist or cannot be rendered.
+/// Renders the frames that options.frames names (run/animation.h), each as its own run, then the video. With
+/// options.resume, finished frames stay. Throws bad_input before the first frame if one cannot be rendered.
 void render_animation(const RunOptions& options, const Target& target, const std::stop_token& interrupted,
                       RunSeries& series);
 

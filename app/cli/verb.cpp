@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <filesystem>
 #include <type_traits>
 #include <utility>

@@ -2,12 +2,10 @@
 // A verb of the command line and its options. CLI11, which parses them, is known to verb.cpp, command_line.cpp,
 // manual.cpp and completions.cpp only: each file that includes it takes seconds more to compile.
 #pragma once
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -74,8 +72,7 @@ struct Window {
 int run_command_line(int argc, const char* const* argv, const Window& window);
 
 /// The verbs. Each file adds one verb here; lists.cpp has those that only list. A verb's callback does the work and
-/// throws Error; it sets the exit code unless that is 0. Results go to standard output, everything else to standard
-/// error. A verb that handles Ctrl-C makes an Interrupts (base/interrupts.h).
+/// throws Error. Results go to standard output, everything else to standard error.
 struct Session {
   int exit_code = 0;
 };

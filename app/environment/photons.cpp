@@ -3,7 +3,7 @@
 
 #include "environment/settings.h"
 #include "environment/view/scene_view.h"
-#include "scene/camera_and_lights.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <utility>

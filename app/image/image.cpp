@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/image.h"
 
-#include "base/bytes.h"
 #include "base/files.h"
 #include "image/seam.h"
 
@@ -12,81 +11,44 @@
 #include <array>
 #include <cmath>
 #include <dlfcn.h>
-#include <exception>
-#include <functional>
 #include <span>
-#include <string_view>
 
 namespace nephroid::image {
 namespace fs = std::filesystem;
 namespace {
 
-struct Module {
-  NephroidRead read = nullptr;
-  NephroidReadBands read_bands = nullptr;
-  NephroidEncode encode = nullptr;
-  NephroidText text = nullptr;
-};
-
-Module load_module() {
+const Module* load_module() {
   const fs::path file = library_file(module_name);
   void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library)
     throw failed(file.string(), fmt::format("cannot be loaded: {}", ::dlerror()), {}, "install OpenImageIO");
-  return {reinterpret_cast<NephroidRead>(::dlsym(library, read_symbol)),
-          reinterpret_cast<NephroidReadBands>(::dlsym(library, read_bands_symbol)),
-          reinterpret_cast<NephroidEncode>(::dlsym(library, encode_symbol)),
-          reinterpret_cast<NephroidText>(::dlsym(library, text_symbol))};
+  return reinterpret_cast<const Module* (*)()>(::dlsym(library, module_symbol))();
 }
 
 /// Loaded at the first call, from whatever thread, and kept.
 const Module& module() {
-  static const Module loaded = load_module();
-  return loaded;
+  static const Module* const loaded = load_module();
+  return *loaded;
 }
 
-void check_size(const std::string& name, int width, int height, std::size_t channels, std::size_t values) {
-  const auto wanted = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * channels;
-  if (width > 0 && height > 0 && channels > 0 && values == wanted) return;
-  throw failed(name,
-               fmt::format("a picture of {} x {} with {} channels has {} values", width, height, channels, values));
+/// The bytes of the file. name: what a message calls the picture. values: how many there are.
+std::vector<unsigned char> encoded(const std::string& name, const Samples& picture, std::size_t values) {
+  const std::size_t channels = picture.channels.size();
+  const auto wanted = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) * channels;
+  if (picture.width <= 0 || picture.height <= 0 || channels == 0 || values != wanted)
+    throw failed(name, fmt::format("a picture of {} x {} with {} channels has {} values", picture.width, picture.height,
+                                   channels, values));
+  try {
+    return module().encode(picture);
+  } catch (const Refused& refused) {
+    throw failed(name, "cannot be encoded: " + refused.reason);
+  }
 }
 
-/// name: what a message calls the picture. use(bytes) is called with the encoded file, which is gone afterwards: large
-/// pictures are not copied once more.
-void encode(const std::string& name, const NephroidPicture& picture, const std::function<void(std::string_view)>& use) {
-  struct Call {
-    const std::function<void(std::string_view)>& use;
-    std::exception_ptr thrown; ///< must not cross the seam
-  } call{use, nullptr};
-  const auto take = [](void* to, const void* data, std::size_t size) {
-    Call& taking = *static_cast<Call*>(to);
-    try {
-      taking.use({static_cast<const char*>(data), size});
-    } catch (...) {
-      taking.thrown = std::current_exception();
-    }
-  };
-  if (const char* reason = module().encode(&picture, take, &call))
-    throw failed(name, fmt::format("cannot be encoded: {}", reason));
-  if (call.thrown) std::rethrow_exception(call.thrown);
-}
-
-std::vector<const char*> pointers(const std::vector<std::string>& names) {
-  std::vector<const char*> result;
-  for (const std::string& name : names) result.push_back(name.c_str());
-  return result;
-}
-
-void encode_exr(const std::string& name, const Image& image, const std::function<void(std::string_view)>& use) {
-  check_size(name, image.width, image.height, image.channels.size(), image.data.size());
-  const std::vector<const char*> channels = pointers(image.channels);
-  std::vector<NephroidAttribute> attributes;
-  for (const auto& [key, value] : image.attributes) attributes.push_back({key.c_str(), value.c_str()});
-  encode(name,
-         {image.width, image.height, static_cast<int>(channels.size()), channels.data(), image.data.data(), nullptr,
-          attributes.data(), attributes.size()},
-         use);
+void encode_exr(const std::string& name, const Image& image, ByteSink& to) {
+  const auto bytes = encoded(name, {image.width, image.height, image.channels, image.attributes, image.data.data()},
+                             image.data.size());
+  to.write(std::as_bytes(std::span(bytes)));
 }
 
 /// Entry i is the linear value halfway between the codes i and i + 1: the code of a value is the number of entries not
@@ -114,14 +76,12 @@ bool is_cut_png(const fs::path& file) {
   return !bytes.empty();
 }
 
-std::string png_picture(const std::string& name, int width, int height, int channels,
+std::string png_picture(const std::string& name, int width, int height, std::size_t channels,
                         const std::vector<unsigned char>& bytes) {
-  check_size(name, width, height, static_cast<std::size_t>(channels), bytes.size());
-  const char* const names[] = {"R", "G", "B", "A"};
-  std::string file;
-  encode(name, {width, height, channels, names, nullptr, bytes.data(), nullptr, 0},
-         [&](std::string_view encoded) { file = encoded; });
-  return file;
+  std::vector<std::string> names{"R", "G", "B", "A"};
+  names.resize(channels);
+  const auto file = encoded(name, {width, height, names, {}, nullptr, bytes.data()}, bytes.size());
+  return {file.begin(), file.end()};
 }
 
 std::vector<unsigned char> shown_bytes(const std::vector<float>& rgb, double exposure_stops) {
@@ -150,72 +110,39 @@ Layout layout_of(const Image& picture, const std::string& name) {
   throw bad_input(name, fmt::format("has the channels {}", fmt::join(channels, ", ")), "expected R, G, B or Y alone");
 }
 
-/// What the module hands over, as a copy of our own.
-void copy_picture(const NephroidPicture* picture, Image& result) {
-  result.width = picture->width;
-  result.height = picture->height;
-  result.channels.assign(picture->channels, picture->channels + picture->channel_count);
-  const auto pixels = static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->height);
-  result.data.assign(picture->floats, picture->floats + pixels * result.channels.size());
-  result.integers = picture->integers;
-  for (std::size_t i = 0; i < picture->attribute_count; ++i)
-    result.attributes[picture->attributes[i].name] = picture->attributes[i].value;
-}
-
-/// to: an Image.
-void take_picture(void* to, const NephroidPicture* picture) { copy_picture(picture, *static_cast<Image*>(to)); }
-
-/// read(): null or OpenImageIO's reason. Reading the file says what is wrong with itself, OpenImageIO what is wrong
-/// with the picture.
+/// Reading the file says what is wrong with itself, OpenImageIO what is wrong with the picture.
 template <class Read>
-void read_or_refuse(const fs::path& file, const Read& read) {
-  const char* const reason = is_cut_png(file) ? "its end is missing" : read();
-  if (reason)
-    throw bad_input(file.string(), fmt::format("is no picture that can be read: {}", reason),
+auto read_or_refuse(const fs::path& file, const Read& read) {
+  try {
+    if (is_cut_png(file)) throw Refused{"its end is missing"};
+    return read();
+  } catch (const Refused& refused) {
+    throw bad_input(file.string(), "is no picture that can be read: " + refused.reason,
                     "expected a whole EXR, HDR, PNG, JPEG or another picture that OpenImageIO reads",
                     "save it anew, or name another file");
+  }
 }
 
 } // namespace
 
 Image read_image(const fs::path& file) {
-  Image image;
-  read_or_refuse(file, [&] { return module().read(file.c_str(), take_picture, &image); });
-  return image;
+  return read_or_refuse(file, [&] { return module().read(file); });
 }
 
 void read_bands(const fs::path& file, const std::function<void(const Band&)>& use) {
-  struct Call {
-    const std::function<void(const Band&)>& use;
-    Band band;
-    std::exception_ptr thrown; ///< must not cross the seam
-  } call{use, {}, nullptr};
-  const auto take = [](void* to, const NephroidBand* lent) {
-    Call& taking = *static_cast<Call*>(to);
-    try {
-      copy_picture(&lent->picture, taking.band.rows);
-      taking.band.first = lent->first;
-      taking.band.height = lent->height;
-      taking.band.orientation = lent->orientation;
-      taking.use(taking.band);
-    } catch (...) {
-      taking.thrown = std::current_exception();
-    }
-    return !taking.thrown;
-  };
-  read_or_refuse(file, [&] { return module().read_bands(file.c_str(), take, &call); });
-  if (call.thrown) std::rethrow_exception(call.thrown);
+  read_or_refuse(file, [&] { module().read_bands(file, use); });
 }
 
 Image text_picture(const std::string& text, int height, const Place& where) {
   constexpr const char *font = "DejaVuSans-Bold", *file = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
-  Image image;
-  // OpenImageIO 2.5 finds no name in Debian's folders of fonts.
-  if (const char* reason = module().text(text.c_str(), height, fs::exists(file) ? file : font, take_picture, &image))
-    throw bad_input(where, fmt::format("\"{}\" cannot be drawn with the font {}: {}", text, font, reason),
+  try {
+    // OpenImageIO 2.5 finds no name in Debian's folders of fonts.
+    return module().text(text, height, fs::exists(file) ? file : font);
+  } catch (const Refused& refused) {
+    throw bad_input(where, fmt::format("\"{}\" cannot be drawn with the font {}: {}", text, font, refused.reason),
                     "expected words, and the fonts of Debian's fonts-dejavu-core",
                     "install them, or draw a picture file");
-  return image;
+  }
 }
 
 Rgb rgb_of(const Image& picture, const std::string& name) {
@@ -228,20 +155,16 @@ Rgb rgb_of(const Image& picture, const std::string& name) {
 }
 
 void write_exr(const fs::path& file, const Image& image) {
-  encode_exr(file.string(), image, [&](std::string_view encoded) { write_file_whole(file, encoded); });
+  write_file_whole(file, [&](ByteSink& to) { encode_exr(file.string(), image, to); });
 }
 
-void write_exr(ByteSink& to, const Image& image) {
-  encode_exr("EXR", image, [&](std::string_view encoded) { to.write(std::as_bytes(std::span(encoded))); });
-}
+void write_exr(ByteSink& to, const Image& image) { encode_exr("EXR", image, to); }
 
 void write_png16(ByteSink& to, int width, int height, const std::vector<std::uint16_t>& grey,
                  const std::string& description) {
-  check_size("PNG", width, height, 1, grey.size());
-  const char* const channel = "Y";
-  const NephroidAttribute attribute{"ImageDescription", description.c_str()};
-  encode("PNG", {width, height, 1, &channel, nullptr, nullptr, &attribute, 1, true, grey.data()},
-         [&](std::string_view encoded) { to.write(std::as_bytes(std::span(encoded))); });
+  const auto bytes = encoded(
+      "PNG", {width, height, {"Y"}, {{"ImageDescription", description}}, nullptr, nullptr, grey.data()}, grey.size());
+  to.write(std::as_bytes(std::span(bytes)));
 }
 
 void write_png(const fs::path& file, int width, int height, const std::vector<float>& rgb, double exposure_stops) {

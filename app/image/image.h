@@ -20,8 +20,7 @@ struct Image {
   std::vector<std::string> channels; ///< "R", "G", "B", "caustic.R", ...
   std::vector<float> data;           ///< width * height * channels.size()
   std::map<std::string, std::string> attributes;
-  bool integers = false; ///< read: the file holds integers (PNG, JPEG), here as 0..1; by custom they are sRGB-encoded,
-                         ///< floats linear
+  bool integers = false; ///< read from 0..1 of integers (PNG, JPEG): by custom sRGB-encoded, as floats are linear
 };
 
 /// Colours are as the file has them, not multiplied by its alpha. Throws bad_input naming the file and OpenImageIO's
@@ -31,8 +30,8 @@ Image read_image(const std::filesystem::path& file);
 /// Some rows of a picture, as the file has them.
 struct Band {
   Image rows;          ///< without attributes
-  int first = 0;       ///< of the rows, from the file's top
-  int height = 0;      ///< of the whole picture
+  int first = 0;       ///< the first row's number, from the file's top
+  int height = 0;      ///< the whole picture's
   int orientation = 1; ///< as a camera was held (Exif, 1..8): the rows are not turned
 };
 

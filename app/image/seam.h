@@ -1,58 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// The seam between image.cpp and the module that knows OpenImageIO (oiio/module.cpp). Plain C, so that the two can be
-// compiled apart and the module be loaded late. Not for others: include image/image.h.
+// The seam between image.cpp and the module that knows OpenImageIO (oiio/module.cpp), which is built with the program
+// and loaded late. Not for others: include image/image.h.
 #pragma once
-#include <cstddef>
-
-extern "C" {
-
-struct NephroidAttribute {
-  const char* name;
-  const char* value;
-};
-
-/// A picture lent for the time of a call. Interleaved channels, row 0 at the top; exactly one of floats, bytes and
-/// words is set.
-struct NephroidPicture {
-  int width, height, channel_count;
-  const char* const* channels;
-  const float* floats;
-  const unsigned char* bytes;
-  const NephroidAttribute* attributes;
-  std::size_t attribute_count;
-  bool integers = false; ///< read: the file's samples are integers
-  const unsigned short* words = nullptr;
-};
-
-/// Rows of a picture that is read piece by piece; `picture` has their height.
-struct NephroidBand {
-  NephroidPicture picture;
-  int first, height; ///< the first of them, and how many the whole has
-  int orientation;   ///< as Exif counts them, 1..8
-};
-
-/// Calls take(context, band) for one band after the other from the top, as long as it returns true. Null or the reason,
-/// as below.
-using NephroidReadBands = const char* (*)(const char* file, bool (*take)(void* context, const NephroidBand* band),
-                                          void* context);
-/// Calls take(context, picture) once and returns null, or returns the reason in words (valid until the thread's next
-/// call).
-using NephroidRead = const char* (*)(const char* file, void (*take)(void* context, const NephroidPicture* picture),
-                                     void* context);
-/// Encodes floats as 32-bit EXR (zip), bytes and words as PNG, and calls take(context, data, size) once. Null or the
-/// reason, as above.
-using NephroidEncode = const char* (*)(const NephroidPicture* picture,
-                                       void (*take)(void* context, const void* data, std::size_t size), void* context);
-/// Draws text, letters so many pixels high, with the named font: one channel, 0..1, no wider and higher than the text.
-/// Null or the reason.
-using NephroidText = const char* (*)(const char* text, int height, const char* font,
-                                     void (*take)(void* context, const NephroidPicture* picture), void* context);
-}
+#include "image/image.h"
 
 namespace nephroid::image {
-inline constexpr const char* module_name = "libnephroid_image_io.so";
-inline constexpr const char* read_symbol = "nephroid_image_read";
-inline constexpr const char* read_bands_symbol = "nephroid_image_read_bands";
-inline constexpr const char* encode_symbol = "nephroid_image_encode";
-inline constexpr const char* text_symbol = "nephroid_image_text";
+
+/// A picture to encode, lent for the time of a call. Exactly one of floats, bytes and words is set: floats become a
+/// 32-bit EXR (zip), the others a PNG.
+struct Samples {
+  int width, height;
+  const std::vector<std::string>& channels; ///< interleaved, row 0 at the top
+  const std::map<std::string, std::string>& attributes;
+  const float* floats = nullptr;
+  const unsigned char* bytes = nullptr;
+  const std::uint16_t* words = nullptr;
+};
+
+/// What OpenImageIO does not do, and why.
+struct Refused {
+  std::string reason;
+};
+
+/// What image.h says of these. They throw Refused.
+struct Module {
+  Image (*read)(const std::string& file);
+  void (*read_bands)(const std::string& file, const std::function<void(const Band&)>& use);
+  /// The bytes of the file.
+  std::vector<unsigned char> (*encode)(const Samples& picture);
+  Image (*text)(const std::string& words, int height, const std::string& font);
+};
+
+inline constexpr const char *module_name = "libnephroid_image_io.so", *module_symbol = "nephroid_image_module";
+
 } // namespace nephroid::image

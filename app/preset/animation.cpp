@@ -5,10 +5,9 @@
 
 #include "base/counted.h"
 #include "base/monotone_cubic.h"
-#include "base/numbers.h"
-#include "preset/check.h"
 #include "preset/describe.h"
 #include "preset/document.h"
+#include "preset/read.h"
 #include "preset/walks.h"
 
 #include <fmt/format.h>
@@ -37,16 +36,9 @@ std::string pointer_of(const Path& path) {
 
 /// The value at the path; null where there is none.
 const Json* find(const Json& json, const Path& path) {
-  const Json* at = &json;
-  for (const std::string& key : path) {
-    if (at->is_object() && at->contains(key))
-      at = &(*at)[key];
-    else if (const auto index = number_in<std::size_t>(key); at->is_array() && index && *index < at->size())
-      at = &(*at)[*index];
-    else
-      return nullptr;
-  }
-  return at;
+  Json::json_pointer at;
+  for (const std::string& key : path) at /= key;
+  return json.contains(at) ? &json[at] : nullptr;
 }
 
 bool is_numbers(const Json& json) {

@@ -12,8 +12,7 @@
 namespace nephroid::preset {
 
 /// Takes out of a preset's JSON, complete or not, what the engine does not know: settings of other engines, also in a
-/// reference's recipe; what presets of the engine have not (SettingsType::without); swept keys and tracks that lead
-/// into any of these. Returns their keys, as
+/// reference's recipe; SettingsType::without; swept keys and tracks that lead into any of these. Returns their keys, as
 /// --set takes them. Does nothing where there is no such engine.
 std::vector<std::string> take_foreign(Json& preset, std::string_view engine);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "preset/check.h"
+#include "preset/read.h"
 
 #include "base/counted.h"
 #include "base/error.h"
@@ -18,8 +18,6 @@ namespace {
 using Rows = std::vector<std::array<double, 2>>;
 
 double length(const Vec3& v) { return std::hypot(v[0], v[1], v[2]); }
-
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 /// Single precision cannot make an orthonormal frame from two directions less than about 0.01 degrees apart.
 bool parallel(const Vec3& a, const Vec3& b) {
@@ -106,7 +104,7 @@ void check_light(const Light& l, const std::string& pointer, const Where& where)
 }
 
 void check_camera(const Camera& c, const Where& where) {
-  const Vec3 forward = minus(c.target, c.position);
+  const Vec3 forward{c.target[0] - c.position[0], c.target[1] - c.position[1], c.target[2] - c.position[2]};
   if (no_direction(forward))
     throw bad_input(where("/scene/camera/target"), "is where the camera stands", "expected another point");
   check_up(c.up, forward, "/scene/camera/up", where);

@@ -3,18 +3,13 @@
 // walk over that.
 //
 //   v.about(name, sentence)           what the struct is called
-//   v.shorthand(bare, e, name)        a bare number or text in place of the struct: its field of that name, and its
-//   type e v.type(name, sentence, e)         the enumeration that chooses which further fields mean something:
-//   describe() goes on with those of
-//                                     that type
-//   v.field(name, sentence, x, more)  any other field; more: its unit, its range, ... (Field). x is a bool, int,
-//   std::uint64_t, double,
-//                                     std::string, an enumeration, a std::array or std::vector of numbers, a
-//                                     std::vector of std::string, a table (vector of pairs), a described struct, a
-//                                     vector of them, a map from names to them, or a std::optional of any of these.
+//   v.shorthand(bare, e, name)        a bare number or text in place of the struct: its field of that name, of type e
+//   v.type(name, sentence, e)         the enumeration that chooses the further fields: those of that type come next
+//   v.field(name, sentence, x, more)  any other field; more: its unit, its range, ... (Field). x is a bool, a number,
+//                                     a std::string, an enumeration, a described struct, a list or table of these, a
+//                                     map from names to them, or a std::optional of any of these (make_type).
 //   v.engine(name, sentence, s)       the word that names the preset's engine, whose settings s then are
-//   v.settings(s)                     the section of settings that is called as their engine; of a std::optional, that
-//   of the preset's
+//   v.settings(s)                     the section of settings that is called as their engine
 // Fields come in the order in which files are written.
 //
 // Limits are chosen so that nothing later overflows: lengths and positions stay below 1e7 units, so that their squares

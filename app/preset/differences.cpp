@@ -4,7 +4,6 @@
 #include "base/files.h"
 #include "preset/describe.h"
 #include "preset/document.h"
-#include "preset/read.h"
 #include "preset/walks.h"
 
 #include <fmt/format.h>
@@ -81,9 +80,8 @@ private:
 
   static bool is_sayable(const std::string& key) {
     const bool bracketed = key.find('[') != std::string::npos && key.back() == ']';
-    return !key.empty() && !bracketed && std::none_of(key.begin(), key.end(), [](unsigned char c) {
-      return c == '.' || c == '=' || c < 0x20 || c == 0x7f;
-    });
+    return !key.empty() && !bracketed &&
+           std::ranges::none_of(key, [](unsigned char c) { return c == '.' || c == '=' || c < 0x20 || c == 0x7f; });
   }
 
   static bool can_enter_list(const Json& before, const Json& after, const Json* raw) {
@@ -119,7 +117,7 @@ std::string override_of(const Edit& edit) {
   if (edit.value.is_string()) {
     const std::string word = edit.value.get<std::string>();
     const bool plain =
-        !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) { return c >= 0x20 && c != 0x7f; });
+        !word.empty() && std::ranges::all_of(word, [](unsigned char c) { return c >= 0x20 && c != 0x7f; });
     if (plain && word.find_first_of("{[\"") != 0 && !Json::accept(with_json_numbers(word))) return key + "=" + word;
   }
   return key + "=" + edit.value.dump();
@@ -152,6 +150,12 @@ std::string parent_from(const std::string& parent, const fs::path& from, const f
   return error || relative.empty() ? absolute_path(meant).string() : relative.generic_string();
 }
 
+Json nameless(const Preset& preset) {
+  Json json = as_json(preset);
+  for (const char* own : {"name", "description"}) json.erase(own);
+  return json;
+}
+
 /// What a child file of this parent has to say.
 Json child_of(const Preset& preset, const std::string& parent, const fs::path& file, const Json& sweep) {
   const Read base = read_without_sweep(Json{{"parent", parent}}.dump(), file);
@@ -160,10 +164,7 @@ Json child_of(const Preset& preset, const std::string& parent, const fs::path& f
   if (preset.name != stem_of(file)) child["name"] = preset.name;
   if (!preset.description.empty()) child["description"] = preset.description;
   if (base.sweep != sweep) child["sweep"] = sweep;
-  Json before = as_json(value_of(base.preset)), after = as_json(value_of(preset));
-  for (Json* json : {&before, &after})
-    for (const char* own : {"name", "description"}) json->erase(own);
-  for (const Edit& edit : Comparison(false).edits(before, after, base.document.value())) {
+  for (const Edit& edit : Comparison(false).edits(nameless(base.preset), nameless(preset), base.document.value())) {
     Json* slot = &child;
     for (const std::string& key : edit.path) slot = &(*slot)[key];
     *slot = edit.value;
@@ -199,8 +200,7 @@ Recipe recipe_of(const Preset& preset) {
   Recipe recipe{shipped.empty() ? absolute_path(preset.source).string() : shipped, {}};
   const Read on_disk = read_without_sweep(read_file(preset.source), preset.source);
   if (!on_disk.sweep.is_null()) recipe.overrides.emplace_back("sweep=null");
-  for (const Edit& edit :
-       Comparison(true).edits(as_json(value_of(on_disk.preset)), as_json(value_of(preset)), on_disk.document.value()))
+  for (const Edit& edit : Comparison(true).edits(as_json(on_disk.preset), as_json(preset), on_disk.document.value()))
     recipe.overrides.push_back(override_of(edit));
   std::string why;
   try {
@@ -216,7 +216,7 @@ std::string shell_word(const std::string& word) {
   const auto plain = [](unsigned char c) {
     return std::isalnum(c) || std::string_view("_-./=,:+@%").find(static_cast<char>(c)) != std::string_view::npos;
   };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  if (!word.empty() && std::ranges::all_of(word, plain)) return word;
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
@@ -241,9 +241,7 @@ Preset moved_to_file(Preset preset, const fs::path& file) {
 }
 
 std::vector<Difference> differences(const Preset& before, const Preset& after) {
-  Json a = as_json(value_of(before)), b = as_json(value_of(moved_to_file(after, before.source)));
-  for (Json* json : {&a, &b})
-    for (const char* own : {"name", "description"}) json->erase(own);
+  const Json a = nameless(before), b = nameless(moved_to_file(after, before.source));
   std::vector<Difference> all;
   for (const Edit& edit : Comparison(true).edits(a, b, a)) {
     std::string path;
@@ -261,7 +259,7 @@ std::vector<Difference> differences(const Preset& before, const Preset& after) {
 FileText file_text(const Preset& preset, const std::string& parent, const fs::path& file, const Sweep& sweep) {
   const Preset moved = moved_to_file(preset, file);
   const Json sweep_json = to_json(sweep);
-  Json all = as_json(value_of(moved));
+  Json all = as_json(moved);
   if (!sweep.empty()) all["sweep"] = sweep_json;
   FileText whole{pretty(all)};
   if (parent.empty()) return whole;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A preset as JSON before its fields are read: files with their parents merged, --set applied, and for every value the
-// place it came from. Private to preset/.
+// A preset as JSON before its fields are read: files with their parents merged, --set applied. Private to preset/.
 #pragma once
 #include "preset/json_text.h"
 #include "preset/origins.h"
@@ -21,8 +20,8 @@ public:
   /// For messages: "FILE#/pointer" or "--set a.b=c".
   Place where(const std::string& pointer) const { return origins_.where(pointer); }
 
-  /// A child's values over this one, which then is its parent. Where this and set() change the engine, what the new one
-  /// does not know goes first (change_engine.h).
+  /// A child's values over this one. Where this and set() change the engine, what the new one does not know goes first
+  /// (change_engine.h).
   void merge(const Json& over, const Origin& origin);
   /// Puts a value at a path of keys and list indices, making the objects on the way. Throws bad_input at origin where
   /// the path leads through a plain value or beyond the end of a list.
@@ -66,9 +65,8 @@ struct SweptDocument {
   std::string suffix; ///< ",threshold_deg=0.1,seed=2", unique within the sweep; empty where there is no sweep
 };
 
-/// Takes "sweep" out of the document. Runs come in the order of nested loops, the first key outermost. A key that an
-/// override sets is not swept. Throws bad_input where it is no object of non-empty lists, has over max_runs runs, or
-/// one key holds another.
+/// Takes "sweep" out of the document. A key that an override sets is not swept. Throws bad_input where it is no object
+/// of non-empty lists, has over max_runs runs, or one key holds another.
 std::vector<SweptDocument> expand_sweep(Document document, const std::vector<std::string>& overrides);
 
 /// The same as data: takes "sweep" out of the document and says which keys are swept.

@@ -2,10 +2,8 @@
 // What a description says about one field of a preset, about the words of an enumeration and about a whole struct: the
 // vocabulary of describe.h. No JSON here: the editor needs the same facts.
 #pragma once
-#include <concepts>
 #include <cstddef>
 #include <limits>
-#include <span>
 #include <string_view>
 #include <type_traits>
 
@@ -54,13 +52,13 @@ struct Field {
   std::string_view name = {};     ///< the key in JSON
   std::string_view sentence = {}; ///< for a person: the schema's description, the editor's tooltip
   std::string_view unit = {};     ///< as it reads after a number: "degrees", "nm"; empty for pure numbers
-  Bounds bounds = {};             ///< of a number and of every number in a vector
-  Count count = {};               ///< of a list
-  Columns columns = {};           ///< of a table of pairs
-  Text text = Text::text;         ///< of a string
+  Bounds bounds = {};             ///< each number's
+  Count count = {};               ///< a list's items
+  Columns columns = {};           ///< a table's pairs
+  Text text = Text::text;
   Names names = Names::nothing;
-  bool bare_number = false;        ///< of a list of numbers: a number stands for a list of one
-  std::string_view none_word = {}; ///< of an optional number: what JSON has where there is none, in place of null
+  bool bare_number = false;        ///< a number stands for a list of one
+  std::string_view none_word = {}; ///< what JSON has where there is no optional number, in place of null
   bool required = false;           ///< no default is sensible
 };
 
@@ -85,8 +83,8 @@ constexpr std::string_view word(E value) {
   return {};
 }
 
-inline constexpr Bounds index_bounds =
-    within(0.01, 100); ///< this and the next: shared by many fields; describe.h says why
+// Shared by many fields; describe.h says why.
+inline constexpr Bounds index_bounds = within(0.01, 100);
 inline constexpr Bounds wavelength_bounds = within(1, 1e6);
 inline constexpr Bounds coefficient_bounds = within(-1e6, 1e6);
 inline constexpr Bounds position_bounds = within(-1e7, 1e7);

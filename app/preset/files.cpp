@@ -8,7 +8,6 @@
 #include "preset/walks.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <system_error>

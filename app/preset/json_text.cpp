@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <regex>
 #include <set>
 #include <vector>
 
@@ -120,15 +121,12 @@ private:
 
 bool is_plain(const Json& value) { return !value.is_structured(); }
 
-/// Lists that read best on one line: of plain values.
-bool on_one_line(const Json& value) { return value.is_array() && std::all_of(value.begin(), value.end(), is_plain); }
-
 void print(const Json& value, int indent, std::string& out) {
   if (is_plain(value) || value.empty()) {
     out += json_text(value);
     return;
   }
-  if (on_one_line(value)) {
+  if (value.is_array() && std::ranges::all_of(value, is_plain)) { // reads best on one line
     for (std::size_t i = 0; i < value.size(); ++i) out += (i == 0 ? "[" : ", ") + json_text(value[i]);
     out += "]";
     return;
@@ -161,23 +159,14 @@ std::string printable(std::string_view text) {
 
 /// [+-] digits [. digits] [e [+-] digits], with a digit before or after the point.
 std::string json_number(const std::string& word) {
-  constexpr std::size_t longest = 64; // of a number that somebody types
-  const auto has = [&](std::size_t at, std::string_view any) {
-    return at < word.size() && any.find(word[at]) != std::string_view::npos;
-  };
-  const auto after_digits = [&](std::size_t from) {
-    return std::min(word.find_first_not_of("0123456789", from), word.size());
-  };
-  const std::size_t whole = has(0, "+-") ? 1 : 0, point = after_digits(whole);
-  const std::size_t fraction = point + (has(point, ".") ? 1 : 0),
-                    power = fraction > point ? after_digits(fraction) : point;
-  const std::size_t power_digits = power + (has(power, "eE") ? has(power + 1, "+-") ? 2 : 1 : 0),
-                    end = after_digits(power_digits);
-  const bool no_power = power_digits > power && end == power_digits, no_digits = point == whole && power == fraction;
-  if (word.size() > longest || end != word.size() || no_power || no_digits) return word;
-  return fmt::format("{}{}{}{}{}", word.front() == '-' ? "-" : "",
-                     point > whole ? word.substr(whole, point - whole) : "0", power > fraction ? "." : "",
-                     word.substr(fraction, power - fraction), word.substr(power));
+  constexpr std::size_t longest = 64; // that somebody types
+  static const std::regex number(R"(([+-]?)([0-9]*)\.?([0-9]*)((?:[eE][+-]?[0-9]+)?))");
+  std::smatch parts;
+  if (word.size() > longest || !std::regex_match(word, parts, number)) return word;
+  const std::string sign = parts[1], whole = parts[2], fraction = parts[3], power = parts[4];
+  if (whole.empty() && fraction.empty()) return word;
+  return fmt::format("{}{}{}{}{}", sign == "-" ? "-" : "", whole.empty() ? "0" : whole, fraction.empty() ? "" : ".",
+                     fraction, power);
 }
 
 } // namespace

@@ -9,8 +9,8 @@
 
 namespace nephroid::preset {
 
-using Json =
-    nlohmann::ordered_json; ///< keeps the order of keys: it is the order of a sweep's runs and of a written preset
+/// Keeps the order of keys: it is the order of a sweep's runs and of a written preset.
+using Json = nlohmann::ordered_json;
 
 /// Limits that keep hostile files harmless: reading stays fast and nothing recurses deeply.
 inline constexpr std::size_t max_file_bytes = 8 << 20;

@@ -57,9 +57,6 @@ Error at_origin(const Origins& origins, const std::string& pointer, const Error&
   return error.at(where);
 }
 
-/// At an item of the sweep's list, which says already what runs it is about.
-bool is_at_swept_value(const Error& error) { return error.place().pointer.value_or("").starts_with("/sweep/"); }
-
 /// "in frame 3 of the run 'lens,seed=2' of the sweep"; empty of a preset that stands alone.
 std::string part_of(const Provenance& provenance) {
   const std::string frame = provenance.frame ? fmt::format("in frame {}", *provenance.frame) : std::string();
@@ -80,7 +77,9 @@ void rethrow_at_origin(const Preset& preset, const Error& error) {
   const Error error_at_origin = pointer.empty() ? error : at_origin(*preset.provenance.origins, pointer, error);
   // A missing device is missing for every run, and what is interrupted names the run's folder.
   const bool may_be_of_one_run = error.kind() == ErrorKind::bad_input || error.kind() == ErrorKind::failed;
-  if (part.empty() || is_at_swept_value(error_at_origin) || !may_be_of_one_run) throw error_at_origin;
+  // An item of the sweep's list says already what runs it is about.
+  const bool is_at_swept_value = error_at_origin.place().pointer.value_or("").starts_with("/sweep/");
+  if (part.empty() || is_at_swept_value || !may_be_of_one_run) throw error_at_origin;
   throw error_at_origin.noting(part);
 }
 

@@ -18,15 +18,14 @@ struct Outline {
 
   Field field;
   Kind kind = Kind::object;
-  bool chooses = false; ///< a word that says which other fields its object has
-  bool is_engine_settings =
-      false;               ///< settings of the engine of that name: they mean something where it is the preset's
-  bool optional = false;   ///< may be null, and is by default
-  bool whole = false;      ///< of numbers
-  std::size_t size = 0;    ///< how many numbers a vector has; 0: a list of any length within field.count
-  std::vector<Word> words; ///< of a word, all of them
-  Json standard;           ///< the default; null of an object, whose fields have theirs
-  const ValueType* object = nullptr; ///< of an object, an item of a list or a map; null where there is no struct
+  bool chooses = false;              ///< a word that says which other fields its object has
+  bool is_engine_settings = false;   ///< settings of the engine of that name
+  bool optional = false;             ///< may be null, and is by default
+  bool whole = false;                ///< its numbers are
+  std::size_t size = 0;              ///< how many numbers a vector has; 0: a list of any length within field.count
+  std::vector<Word> words;           ///< all that a word may be
+  Json standard;                     ///< the default; null of an object, whose fields have theirs
+  const ValueType* object = nullptr; ///< its own, or that of a list's or a map's items; null where there is no struct
   std::string expected;              ///< what the field may be: "a number from 0 to 1 W", "one of point, spot"
 
   /// A default-constructed `object`.

@@ -15,18 +15,17 @@ namespace nephroid::preset {
 
 using Vec3 = std::array<double, 3>;
 
-/// What n(wavelength) does outside the data's own range. automatic: extrapolate a formula, hold a table.
+/// What n(wavelength) does outside the data's own range.
 enum class Extrapolation { automatic, hold, extrapolate, refuse };
 
 /// Index of refraction. JSON: a number (constant n), a string (a refractiveindex.info file), or an object with "type".
 struct Dispersion {
   enum class Type { constant, file, sellmeier, cauchy, table, points };
   Type type = Type::constant;
-  double n = 1.5;   ///< constant
-  std::string file; ///< file: refractiveindex.info YAML
-  std::vector<double> b,
-      c_um2; ///< sellmeier: n^2 = 1 + sum b l^2 / (l^2 - c), l in micrometres, c in square micrometres
-  std::vector<double> coefficients;         ///< cauchy: n = c0 + c1 / l^2 + c2 / l^4 ..., l in micrometres
+  double n = 1.5;                           ///< constant
+  std::string file;                         ///< file: refractiveindex.info YAML
+  std::vector<double> b, c_um2;             ///< sellmeier
+  std::vector<double> coefficients;         ///< cauchy
   std::vector<std::array<double, 2>> table; ///< table: (nm, n) linear; points: control points (nm, n), monotone cubic
   Extrapolation outside = Extrapolation::automatic;
   bool operator==(const Dispersion&) const = default;
@@ -37,14 +36,12 @@ struct LightSpectrum {
   enum class Type { illuminant, blackbody, lines, table };
   Type type = Type::illuminant;
   std::string illuminant = "D65";
-  double temperature_k = 6500; ///< blackbody
-  std::vector<std::array<double, 2>>
-      table; ///< table: (nm, relative power) linear; lines: (nm, relative power) of single wavelengths
+  double temperature_k = 6500;              ///< blackbody
+  std::vector<std::array<double, 2>> table; ///< table, lines: (nm, relative power)
   bool operator==(const LightSpectrum&) const = default;
 };
 
-/// A diffuse or mirror reflectance 0..1. JSON: a number, a string (ColorChecker patch, "blue sky"), or an object
-/// {"type":"table"}.
+/// 0..1. JSON: a number, a string (ColorChecker patch, "blue sky"), or an object {"type":"table"}.
 struct Reflectance {
   enum class Type { constant, patch, table };
   Type type = Type::constant;
@@ -125,13 +122,11 @@ struct Camera {
 struct Environment {
   enum class Type { file, constant };
   Type type = Type::file;
-  std::string
-      file; ///< file: a latitude-longitude picture, linear sRGB; its centre column looks along -z, its top row along +y
+  std::string file;      ///< file: its centre column looks along -z, its top row along +y
   Vec3 colour{1, 1, 1};  ///< constant: linear sRGB
   double radiance = 1;   ///< the luminance Y (W m^-2 sr^-1, no factor 683) of the colour (1, 1, 1)
-  double rotate_deg = 0; ///< file: turns the surroundings about +y, counterclockwise as seen from above
-  bool lights = false;   ///< engine 1: whether it is a light too; false: it is a backdrop, as where lamps light a scene
-                         ///< before a picture
+  double rotate_deg = 0; ///< file: about +y, counterclockwise as seen from above
+  bool lights = false;   ///< engine 1: false: a backdrop, as where lamps light a scene before a picture
   bool operator==(const Environment&) const = default;
 };
 
@@ -157,10 +152,10 @@ inline constexpr int max_passes = 1 << 20;
 struct Stop {
   /// The errors a run can stop at (measure/metrics.h defines each).
   enum class Metric { lab_mean, lab_rms, mse, rel_mse, rel_l2 };
-  std::optional<double> seconds; ///< of work
+  std::optional<double> seconds; ///< work only
   std::optional<int> passes;
-  std::optional<double> error; ///< on the reference's error where there is a reference, else on the run's own estimate
-  Metric metric = Metric::lab_mean; ///< of `error`
+  std::optional<double> error; ///< against the reference where there is one, else as the run estimates it
+  Metric metric = Metric::lab_mean;
   bool operator==(const Stop&) const = default;
 };
 
@@ -169,20 +164,18 @@ struct Reference {
   enum class Type { file, recipe };
   Type type = Type::file;
   std::string file; ///< file: a picture of the run's size, linear sRGB with 1 = white (8-bit files are decoded)
-  std::optional<Settings> settings; ///< recipe: of the engine; without: the run's own, made exact
-  int passes = 256;                 ///< recipe: of each of its two seeds
-  std::uint64_t seed =
-      1000000007; ///< recipe: the first of its two seeds, the other is the next; neither may be the run's
-  std::optional<double> seconds; ///< recipe: refuse to begin where it would take longer
+  std::optional<Settings> settings; ///< recipe: the engine's; without: the run's own, made exact
+  int passes = 256;                 ///< recipe: for each of its two seeds
+  std::uint64_t seed = 1000000007;  ///< recipe: the first of its two seeds; the other is the next
+  std::optional<double> seconds;    ///< recipe: refuse to begin where it would take longer
   bool operator==(const Reference&) const = default;
 };
 
 /// What a run notes about its error while it works.
 struct Measure {
-  bool estimate = true;    ///< keep two independent halves of every film, whose difference is an estimate of the error
-  bool perceptual = false; ///< also log iw_ssim, flip and hdr_flip, which cost more, against the reference
-  std::optional<std::string>
-      mask; ///< a picture of the run's size: pixels that are not 0 are measured a second time on their own
+  bool estimate = true;            ///< from two independent halves of every film
+  bool perceptual = false;         ///< iw_ssim, flip and hdr_flip against the reference too
+  std::optional<std::string> mask; ///< a picture of the run's size
   bool operator==(const Measure&) const = default;
 };
 
@@ -196,7 +189,7 @@ struct Key {
 /// How one field changes over the frames. Before its first key and after its last one it is held.
 struct Track {
   enum class Interpolation { linear, smooth };
-  std::string path; ///< of the field, as for --set: "scene.objects.0.transform.translate"
+  std::string path; ///< the field, as for --set: "scene.objects.0.transform.translate"
   Interpolation interpolation = Interpolation::linear;
   std::vector<Key> keys; ///< by rising frame, each frame once
   bool operator==(const Track&) const = default;
@@ -228,20 +221,19 @@ struct Provenance {
 struct Preset {
   enum class Unit { mm, cm, m };
   std::string name;
-  std::string description; ///< one line for `nephroid presets`
+  std::string description;
   Unit unit = Unit::m;
   std::uint64_t seed = 1;
   /// The luminance Y (W m^-2 sr^-1, no factor 683) that becomes 1 in the picture; nothing: "auto", which is a number
   /// once a run is ready (run::fitted_white).
   std::optional<double> white = 1;
   Scene scene;
-  Settings settings; ///< of its engine
+  Settings settings;
   Stop stop;
   std::optional<Reference> reference;
   Measure measure;
   std::optional<Animation> animation;
-  bool leave_out =
-      true; ///< what the scene does not need; false: everything is computed, which takes longer and changes no picture
+  bool leave_out = true; ///< false: everything is computed, which takes longer and changes no picture
 
   std::string source;    ///< the file it came from, for messages and look-ups; not a field of the JSON
   Provenance provenance; ///< not a field of the JSON either

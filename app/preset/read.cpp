@@ -3,7 +3,6 @@
 
 #include "base/nearest.h"
 #include "preset/animation.h"
-#include "preset/check.h"
 #include "preset/describe.h"
 #include "preset/document.h"
 #include "preset/walks.h"
@@ -20,8 +19,7 @@ namespace {
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
   std::string near = nearest(word.substr(0, 64), known);
   if (near.empty() && word.size() >= 3) // the unit left out: "fov" for "fov_deg"
-    if (const auto longer =
-            std::find_if(known.begin(), known.end(), [&](const std::string& k) { return k.starts_with(word); });
+    if (const auto longer = std::ranges::find_if(known, [&](const std::string& k) { return k.starts_with(word); });
         longer != known.end())
       near = *longer;
   return near.empty() ? std::string() : fmt::format("did you mean '{}'?", near);
@@ -195,8 +193,7 @@ private:
     if (!json.is_string()) refuse(json, pointer, expected(f, value.type()));
     const std::string& text = json.get_ref<const std::string&>();
     if (text.size() > 4096) refuse(json, pointer, "at most 4096 bytes");
-    if (f.text != Text::text &&
-        std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+    if (f.text != Text::text && std::ranges::any_of(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
       refuse(json, pointer, "one line without control characters");
     if (f.text == Text::file && text.empty()) refuse(json, pointer, expected(f, value.type()));
     value.as<std::string>() =

@@ -53,6 +53,12 @@ struct ShippedPreset {
 /// Every preset under presets_folder(), sorted by name.
 std::vector<ShippedPreset> shipped_presets();
 
+/// JSON Schema (2020-12) of a preset file, from the descriptions that reading goes by.
+std::string schema();
+
+/// Throws bad_input at where(pointer) of the first contradiction that no field can say alone.
+void check(const Preset& preset, const std::function<Place(const std::string& pointer)>& where);
+
 // A preset's sweep as data, for who edits it: which fields take which values. read_presets gives the runs at once.
 
 struct SweptField {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The descriptions as a JSON Schema (2020-12), for editors that check and complete while one types. It knows fields one
 // by one; what takes several of them (check.cpp) and file names are left to the program.
-#include "preset/schema.h"
+#include "preset/read.h"
 
 #include "preset/describe.h"
 #include "preset/walks.h"

@@ -3,8 +3,6 @@
 // what can be done with settings of a type is in the type, which settings_type.h makes from the struct's description.
 #pragma once
 #include <any>
-#include <functional>
-#include <string>
 #include <string_view>
 #include <vector>
 

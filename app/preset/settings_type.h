@@ -8,6 +8,7 @@
 #include "preset/value.h"
 
 #include <algorithm>
+#include <functional>
 #include <span>
 
 namespace nephroid::preset {
@@ -18,7 +19,7 @@ struct Preset;
 using Where = std::function<Place(const std::string& pointer)>;
 
 struct SettingsType {
-  std::string_view name;     ///< of the engine: the word in "engine" and the key of the section
+  std::string_view name;     ///< the engine's: the word in "engine" and the key of the section
   std::string_view sentence; ///< what the engine is for
   /// What one field cannot say alone, of a preset with these settings. Throws bad_input at where(pointer) of the first
   /// contradiction.
@@ -27,8 +28,8 @@ struct SettingsType {
   /// engine changes.
   std::span<const std::string_view> without;
 
-  const ValueType& (*section)();   ///< of the struct
-  const ValueType& (*recipe)();    ///< of a std::optional<Settings>, as far as it holds these
+  const ValueType& (*section)();   ///< the struct's type
+  const ValueType& (*recipe)();    ///< the type of a std::optional<Settings>, as far as it holds these
   void* (*of)(Settings& settings); ///< the struct that settings hold; null: that of another engine
   std::any (*make)();
   bool (*equal)(const std::any& a, const std::any& b);

@@ -39,15 +39,15 @@ struct Shorthand {
 /// A type that values have. `void*` is a value of it.
 struct ValueType {
   Kind kind = Kind::object;
-  const ValueType* item = nullptr; ///< of numbers, texts, tables, lists, maps and optional values
-  std::size_t size = 0;            ///< of numbers: how many there are; 0: any number
-  std::vector<Word> words = {};    ///< of a word, all
+  const ValueType* item = nullptr; ///< the type of what a list, a map or an optional value holds
+  std::size_t size = 0;            ///< how many numbers there are; 0: any number
+  std::vector<Word> words = {};    ///< all that a word may be
   std::string_view name = {}, sentence = {};
-  std::vector<Shorthand> shorthands = {}; ///< of an object
+  std::vector<Shorthand> shorthands = {}; ///< an object's
 
   std::size_t (*word)(const void*) = nullptr; ///< which one of words it is
   void (*choose)(void*, std::size_t) = nullptr;
-  std::size_t (*count)(const void*) = nullptr; ///< of items
+  std::size_t (*count)(const void*) = nullptr; ///< the number of items
   void (*resize)(void*, std::size_t) = nullptr;
   void* (*at)(void*, std::size_t) = nullptr;
   const std::string& (*key)(const void* map, std::size_t) = nullptr;

@@ -36,15 +36,12 @@ std::string expected_object(const ValueType& type) {
   return text.empty() ? "an object" : text.replace(text.size() - 2, 2, " or an object");
 }
 
-Json list_of(const Value& list) {
-  Json items = Json::array();
-  for (std::size_t i = 0; i < list.count(); ++i) items.push_back(as_json(list[i]));
-  return items;
-}
-
-Json map_of(const Value& map) {
-  Json items = Json::object();
-  for (std::size_t i = 0; i < map.count(); ++i) items[map.key(i)] = as_json(map[i]);
+/// A map's items by their names, or a list of them.
+Json items_of(const Value& value) {
+  const bool named = value.kind() == Kind::map;
+  Json items = named ? Json::object() : Json::array();
+  for (std::size_t i = 0; i < value.count(); ++i)
+    (named ? items[value.key(i)] : items.emplace_back()) = as_json(value[i]);
   return items;
 }
 
@@ -68,10 +65,9 @@ Json as_json(const Value& value) {
   if (kind == Kind::number) return value.as<double>();
   if (kind == Kind::text) return value.as<std::string>();
   if (kind == Kind::word) return std::string(value.word().name);
-  if (kind == Kind::map) return map_of(value);
   if (kind == Kind::object) return object_of(value);
   if (kind == Kind::optional) return value.count() > 0 ? as_json(value[0]) : Json();
-  return list_of(value);
+  return items_of(value);
 }
 
 std::string expected_number(const Field& f) {

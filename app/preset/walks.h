@@ -22,17 +22,13 @@ std::string expected_number(const Field& field);
 /// "1 to 16 items", "at most 2 items"
 std::string expected_count(const Count& count);
 
-// File names that a preset holds: a name that means one thing in its own folder, written so that it means the same in
-// another.
-
 /// The name that means from `folder` what `name` means from `own_folder`: name itself where both find the same file (or
 /// neither finds any), else an absolute path.
 std::string name_from(const std::filesystem::path& folder, const std::string& name,
                       const std::filesystem::path& own_folder);
 
-/// The name that means to `main`, a preset's file, what `name` means where it was given. A typed name is looked for in
-/// the current folder first, as everything else on a command line is. Where there is no such file, it is looked for as
-/// if the name stood in the preset's file.
+/// The name that means to `main`, a preset's file, what `name` means where it was given: a typed one in the current
+/// folder, unless there is no such file.
 std::string name_given(const Origin& main, const std::string& name, const Origin& origin);
 
 /// The preset as it reads from another folder.

@@ -8,7 +8,6 @@
 #include "preset/animation.h"
 #include "preset/read.h"
 #include "run/content.h"
-#include "run/folder.h"
 
 #include <fmt/format.h>
 
@@ -121,9 +120,8 @@ int run_in(const fs::path& folder, std::vector<std::string> words, ProgramResult
 std::string last_line(const std::string& text) {
   const std::size_t end = text.find_last_not_of(" \r\n\t");
   if (end == std::string::npos) return {};
-  const std::size_t begin = text.find_last_of("\r\n", end);
-  return text.substr(begin == std::string::npos ? 0 : begin + 1,
-                     end - (begin == std::string::npos ? 0 : begin + 1) + 1);
+  const std::size_t begin = text.find_last_of("\r\n", end) + 1; // npos + 1 is 0: the first line
+  return text.substr(begin, end + 1 - begin);
 }
 
 } // namespace

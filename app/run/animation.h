@@ -16,8 +16,7 @@ std::filesystem::path frame_folder(const std::filesystem::path& folder, int fram
 /// frame_0003.png in the animation's folder; beside it lies frame_0003.exr.
 std::filesystem::path frame_picture(const std::filesystem::path& folder, int frame);
 
-/// Puts the pictures of the frame's run beside those of the other frames: as links, which take no room, or as copies
-/// where the file system has no links. Throws failed with the system's reason.
+/// Puts the pictures of the frame's run beside those of the other frames, as links or else as copies. Throws failed.
 void show_frame(const std::filesystem::path& folder, int frame);
 /// Takes them away again, and animation.mp4 with them: before the frame is rendered another time.
 void hide_frame(const std::filesystem::path& folder, int frame);
@@ -30,14 +29,12 @@ std::vector<int> finished_frames(const std::filesystem::path& folder, const pres
 /// Removes frames from `first` on, each with its run, and then frames.csv and animation.mp4, which were of them too.
 void remove_frames(const std::filesystem::path& folder, int first);
 
-/// frames.csv: "frame,step,work,work_seconds,error", a row for each of these frames; the error is that of run.json's
-/// error_column, and empty where nothing measured it. Throws failed as all writing does, and bad_input where a run.json
-/// is damaged.
+/// frames.csv: "frame,step,work,work_seconds,error", a row for each of these frames; the error is empty where nothing
+/// measured it. Throws failed as all writing does, and bad_input where a run.json is damaged.
 void write_frame_figures(const std::filesystem::path& folder, const std::vector<int>& frames);
 
-/// Makes animation.mp4 (H.264, 4:2:0, edge lengths made even) of frame_0000.png to the last of so many frames in the
-/// folder, by the program ffmpeg. Returns nothing where it is written, else why it is not: there is no ffmpeg on the
-/// PATH, or what ffmpeg says.
+/// Makes animation.mp4 (H.264, 4:2:0, edge lengths made even) of so many frame_0000.png, ... by the program ffmpeg.
+/// Returns nothing where it is written, else why it is not.
 std::optional<std::string> make_video(const std::filesystem::path& folder, int frames, double fps);
 
 } // namespace nephroid::run

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// checkpoint.bin: a header, the job's own bytes, and a hash of everything before it, written and read piece by piece. A
-// file that was cut, changed or made for another preset, mesh or spectrum, or on another device, is refused; because it
-// is written whole, kill -9 leaves the checkpoint before or the new one, never half of one.
+// checkpoint.bin: a header, the job's own bytes, and a hash of everything before it, written and read piece by piece.
+// Because it is written whole, kill -9 leaves the checkpoint before or the new one, never half of one.
 #include "run/checkpoint.h"
 
 #include "base/build_info.h"
@@ -31,10 +30,9 @@ std::string text_of(const Word& word) { return {word.begin(), std::ranges::find(
 
 struct Header {
   std::array<char, 8> magic{'N', 'E', 'P', 'H', 'C', 'K', 'P', 'T'};
-  std::uint32_t format =
-      4; ///< of this header and of the history before the engine's own bytes (measure/measured_job.cpp)
-  std::uint32_t state = 0;                            ///< engine::Engine::state_version
-  Word engine{}, program{};                           ///< the engine's name, the program's version
+  std::uint32_t format = 4; ///< this header's and that of the history behind it (measure/measured_job.cpp)
+  std::uint32_t state = 0;  ///< engine::Engine::state_version
+  Word engine{}, program{}; ///< the engine's name, the program's version
   std::uint64_t device = 0, kernels = 0, content = 0; ///< hashes: another one of these gives other bits
 };
 static_assert(sizeof(Header) == 72, "the header has no padding: it is written as it is");

@@ -12,9 +12,8 @@
 
 namespace nephroid::run {
 
-/// checkpoint.bin in folder: written whole; bound to the engine and its state's version, to the settings and file
-/// contents that its sums depend on, and to the device, the kernels and the program's version, each of which may round
-/// in its own way.
+/// Written whole; bound to all that other bits may come of: the engine and its state's version, settings and contents
+/// of files, the device, the kernels and the program's version.
 void write_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, const compute::Context& context,
                       job::Job& job);
 /// What another process has to have alike so that it computes the same bits, each with a name for a message.

@@ -44,11 +44,6 @@ const plan::Input* find_input(const std::vector<plan::Input>& inputs, const std:
   return found == inputs.end() ? nullptr : &*found;
 }
 
-/// In a preset that lies elsewhere, the same file has its whole path.
-bool may_be_same(const plan::Input& a, const plan::Input& b) {
-  return a.file.ends_with("/" + b.file) || b.file.ends_with("/" + a.file);
-}
-
 /// The preset without what changes no sum.
 preset::Preset settings_only(preset::Preset preset) {
   preset.name = preset.description = preset.source = "";
@@ -77,8 +72,8 @@ std::vector<plan::Input> read_inputs(const preset::Preset& preset, const std::ve
 std::string changed_input(const std::vector<plan::Input>& before, const std::vector<plan::Input>& now) {
   for (const plan::Input& input : now) {
     const plan::Input* then = find_input(before, input.file);
-    for (auto other = before.begin(); !then && other != before.end(); ++other)
-      if (may_be_same(*other, input)) then = &*other;
+    for (auto other = before.begin(); !then && other != before.end(); ++other) // elsewhere it has its whole path
+      if (other->file.ends_with("/" + input.file) || input.file.ends_with("/" + other->file)) then = &*other;
     if (then && then->content != input.content)
       return fmt::format("the file '{}' {} since the run began", input.file,
                          input.content.empty() ? "is gone" : "has changed");

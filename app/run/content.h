@@ -18,9 +18,8 @@ std::string changed_input(const std::vector<plan::Input>& before, const std::vec
 /// The same since the run in the folder began, by its plan.json; empty also where that is damaged.
 std::string changed_input(const std::filesystem::path& folder, const std::vector<plan::Input>& now);
 
-/// A hash of the engine, its state's version, the settings that a picture's sums depend on (not: names, descriptions,
-/// stop, reference, mask) and the contents of the files that they name, whatever these are called. inputs: has them
-/// all.
+/// A hash of the engine, its state's version, the settings that a picture's sums depend on (not: names, stop,
+/// reference, mask) and the contents of the files that they name, which `inputs` has, whatever these are called.
 std::uint64_t content_hash(const preset::Preset& preset, const std::vector<plan::Input>& inputs);
 
 } // namespace nephroid::run

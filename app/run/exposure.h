@@ -14,10 +14,9 @@ namespace nephroid::run {
 /// bright. Two digits; 1 of a black picture.
 double white_for(const job::Picture& picture);
 
-/// The same of the preset's first whole picture, at most 256 pixels wide and high, whatever the preset's white is: what
-/// stands for "auto". 1 where white changes nothing of the engine's pictures. lender: lends its scene, as prepare takes
-/// it; then it is the small picture's run, and lends that. Throws as prepare and render_picture do, and interrupted
-/// where `watch` asks for it.
+/// The same of the preset's first whole picture, at most 256 pixels wide and high: what stands for "auto". 1 where
+/// white changes nothing of the engine's pictures. lender: lends its scene to the small picture's run, which it then
+/// is. Throws as prepare and render_picture do, and interrupted where `watch` asks for it.
 double fitted_white(preset::Preset preset, std::optional<Prepared>& lender, DeviceOnDemand& device,
                     const Watch& watch = {});
 

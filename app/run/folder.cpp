@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/folder.h"
 
-#include "base/files.h"
 #include "preset/read.h"
 #include "run/animation.h"
 #include "run/content.h"
 #include "run/write_run.h"
 
 #include <nlohmann/json.hpp>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -91,8 +88,7 @@ std::optional<double> white_of_run(const fs::path& folder) {
 
 void begin_run(const fs::path& folder, const Prepared& prepared) {
   std::error_code ignored;
-  for (const std::string& name : engine_files(folder))
-    fs::remove(folder / name, ignored); // of an older run, by its run.json
+  for (const std::string& name : engine_files(folder)) fs::remove(folder / name, ignored); // an older run's
   for (const char* name : results) fs::remove(folder / name, ignored);
   remove_pictures_after(folder, -1);
   remove_frames(folder, 0);

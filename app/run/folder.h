@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folder of a run, before and while it runs: whose it is, that it can be written to, that it holds one run's files
-// only.
+// The folder of a run, before and while it runs.
 #pragma once
-#include "base/file_lock.h"
+#include "base/files.h"
 #include "job/job.h"
 #include "run/prepare.h"
 
@@ -20,8 +19,7 @@ struct FolderContent {
   std::vector<std::string> files{"plan.json", "preset.json"}; ///< that each of those has
 };
 
-/// A folder that this process writes into, as long as this lives. One that was made for it and is still empty then is
-/// removed.
+/// A folder that this process writes into, as long as this lives. A new one that is still empty then is removed.
 class ClaimedFolder {
 public:
   /// Makes the folder if it is missing and shows that it can be written to, before anything is rendered. alone: else
@@ -42,13 +40,11 @@ private:
   } folder_;
 };
 
-/// A new run in a claimed folder: removes an older run's results and writes preset.json and plan.json. This and all
-/// writing below throws failed with the system's reason.
+/// Removes an older run's results and writes preset.json and plan.json. Writing throws failed with the system's reason.
 void begin_run(const std::filesystem::path& folder, const Prepared& prepared);
-/// Names of the pictures, curves and further files in the folder that are the engine's, by run.json; none where that is
-/// missing or damaged.
+/// The engine's files in the folder, by run.json; none where that is missing or damaged.
 std::vector<std::string> engine_files(const std::filesystem::path& folder);
-/// preset.json and plan.json alone: what begin_run and write_run write, and a resumed run whose stop differs.
+/// preset.json and plan.json alone.
 void write_settings(const std::filesystem::path& folder, const Prepared& prepared);
 struct FinishedRun {
   job::Progress progress; ///< its units are `words`

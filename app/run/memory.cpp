@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/memory.h"
 
-#include "base/files.h"
-#include "base/numbers.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <limits>
 #include <numeric>
 
 namespace nephroid::run {
@@ -41,18 +40,11 @@ plan::PlannedBuffer picture_and_files(const plan::Plan& plan, int width, int hei
 }
 
 std::optional<std::uint64_t> available_memory_bytes() {
-  std::string text;
-  try {
-    text = read_file("/proc/meminfo");
-  } catch (const Error&) {
-    return std::nullopt; // /proc is not mounted
-  }
-  const std::string_view key = "MemAvailable:";
-  const std::size_t at = text.find(key);
-  if (at == std::string::npos) return std::nullopt;
-  const std::size_t digits = std::min(text.find_first_not_of(' ', at + key.size()), text.size());
-  const auto kib = number_in<std::uint64_t>(std::string_view(text).substr(digits, text.find(' ', digits) - digits));
-  return kib ? std::optional(*kib * 1024) : std::nullopt;
+  std::ifstream file("/proc/meminfo"); // "MemAvailable:   12345 kB"; it may not be mounted
+  std::string key;
+  for (std::uint64_t kib = 0; file >> key >> kib; file.ignore(std::numeric_limits<std::streamsize>::max(), '\n'))
+    if (key == "MemAvailable:") return kib * 1024;
+  return std::nullopt;
 }
 
 void require_memory(const plan::Plan& plan, int width, int height, const compute::DeviceInfo& device,

@@ -20,9 +20,8 @@ plan::PlannedBuffer picture_and_files(const plan::Plan& plan, int width, int hei
 /// What the system says can be allocated without swapping, in bytes; empty where it does not say.
 std::optional<std::uint64_t> available_memory_bytes();
 
-/// Throws failed, saying what is needed and what there is, where the plan's buffers exceed the device's memory, one of
-/// them the device's largest buffer, or what this machine has to hold (for a cpu device its buffers too) exceeds
-/// `available` bytes. width, height: of the picture, for the message.
+/// Throws failed where the plan's buffers exceed the device's memory, one of them the device's largest buffer, or what
+/// this machine has to hold (for a cpu device its buffers too) `available` bytes. width, height: for the message.
 void require_memory(const plan::Plan& plan, int width, int height, const compute::DeviceInfo& device,
                     std::optional<std::uint64_t> available);
 

@@ -4,7 +4,6 @@
 #include "engine/engine.h"
 #include "run/content.h"
 #include "run/memory.h"
-#include "scene/camera_and_lights.h"
 
 #include <cstring>
 #include <utility>

@@ -34,11 +34,6 @@ std::shared_ptr<const measure::Reference> reference_of(const Prepared& prepared,
   return make_reference(prepared, context, options.watch.stop, [](double, double) {});
 }
 
-void stop_if_asked(const ReadyOptions& options) {
-  if (options.watch.stop.stop_requested())
-    throw Error(ErrorKind::interrupted, options.folder.string(), "interrupted before rendering began");
-}
-
 /// False where there is no checkpoint to go on from.
 bool load(ReadyRun& run, const compute::Context& context, const ReadyOptions& options) {
   try {
@@ -51,7 +46,8 @@ bool load(ReadyRun& run, const compute::Context& context, const ReadyOptions& op
 }
 
 void begin_or_resume(ReadyRun& run, const compute::Context& context, const ReadyOptions& options) {
-  stop_if_asked(options);
+  if (options.watch.stop.stop_requested())
+    throw Error(ErrorKind::interrupted, options.folder.string(), "interrupted before rendering began");
   run.resumed = load(run, context, options);
   if (!run.resumed) return begin_run(options.folder, *run.prepared);
   write_settings(options.folder, *run.prepared);

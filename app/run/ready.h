@@ -22,8 +22,8 @@ struct ReadyRun {
   std::shared_ptr<const measure::Reference> reference; ///< null where it is measured against none
   std::unique_ptr<ClaimedFolder> claimed;              ///< null where it writes no files
   bool resumed = false;                                ///< it goes on from a checkpoint
-  std::unique_ptr<job::Job> job; ///< measures itself; of another rank than 0: follows that of rank 0
-  std::string name_in_job;       ///< the name of the preset that the job was made of
+  std::unique_ptr<job::Job> job;                       ///< measures itself; on other ranks it follows that of rank 0
+  std::string name_in_job;                             ///< the name of the preset that the job was made of
 };
 
 /// What a front end adds to making a run ready. What is left out is not done.
@@ -43,11 +43,10 @@ struct ReadyOptions {
 };
 
 /// Makes `run` ready for the preset, in place of what it was. An earlier run lends its scene, as prepare takes it, and
-/// its job where that takes the preset on (job::Job::adopt) with its progress at 0: then it is as a new job, bit for
-/// bit, and keeps what does not change, such as a bake. A job that goes on with what it has would give other bits after
-/// a resume. Fits white where that is "auto". To be called within preset::at_origins. Throws as prepare,
-/// require_memory, make_job, ClaimedFolder, load_checkpoint and begin_run do, as `options` do, bad_input on a rank that
-/// would compute other bits than rank 0, and interrupted where the watch asks for it.
+/// its job where that takes the preset on (job::Job::adopt) with its progress at 0: as a new job, bit for bit, but that
+/// it keeps what does not change, such as a bake. Fits white where that is "auto". To be called within
+/// preset::at_origins. Throws as what it calls, bad_input on a rank that would compute other bits than rank 0, and
+/// interrupted where the watch asks for it.
 void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& options);
 
 /// Steps the run's job until it is finished or `stop` asks for its end. On another rank than 0 the job does what that

@@ -12,15 +12,14 @@ namespace nephroid::run {
 
 struct RecorderOptions {
   std::filesystem::path folder;         ///< that of the run (ReadyOptions::folder)
-  double checkpoint_seconds = 10;       ///< of work, from one checkpoint to the next
+  double checkpoint_seconds = 10;       ///< work from one checkpoint to the next
   std::vector<double> pictures_at = {}; ///< seconds of work, in order, each once
-  bool is_frame = false; ///< once it is finished, no checkpoint and no report: those of all frames would fill the disk
+  bool is_frame = false; ///< finished, it has no checkpoint and no report: those of all frames would fill the disk
 };
 
 /// While the run goes on: history.csv, pictures at times, a checkpoint now and then. Where these cannot be written the
-/// run goes on, since the disk may have room when it ends, and the work in hand is worth more. At the end: the picture
-/// first, which is what the run was for, then a checkpoint, then a report of a finished run that was measured; throws
-/// as write_run and write_checkpoint do.
+/// run goes on: the disk may have room when it ends. At the end: the picture, then a checkpoint, then a report of a
+/// finished run that was measured; throws as write_run and write_checkpoint do.
 class Recorder : public job::Observer {
 public:
   /// run: is ready, has a folder, and outlives this.
@@ -53,8 +52,8 @@ private:
   const ReadyRun& run_;
   RecorderOptions options_;
   double saved_at_ = 0;          ///< seconds of work at the newest checkpoint
-  std::size_t rows_written_ = 0; ///< of the history
-  std::size_t next_picture_ = 0; ///< of RecorderOptions::pictures_at
+  std::size_t rows_written_ = 0; ///< the history's
+  std::size_t next_picture_ = 0; ///< index in RecorderOptions::pictures_at
   bool has_warned_ = false, is_finished_ = false;
   job::Snapshot last_;
 };

@@ -10,7 +10,6 @@
 #include "engine/engine.h"
 #include "image/image.h"
 #include "measure/error_estimate.h"
-#include "measure/measured_job.h"
 #include "measure/read_picture.h"
 #include "preset/read.h"
 #include "preset/settings_type.h"
@@ -42,19 +41,17 @@ preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed) {
   return rendered;
 }
 
-fs::path references_folder() {
-  if (const fs::path folder = cache_folder("references"); !folder.empty()) return folder;
-  throw failed("reference", "there is no folder to keep it in: HOME is not set", "",
-               "set XDG_CACHE_HOME to a folder that can be written to");
-}
-
 fs::path cache_file(const Prepared& prepared, const compute::Context& context) {
   const preset::Preset recipe = recipe_preset(prepared.preset, prepared.preset.reference->seed);
   std::uint64_t hash = content_hash(recipe, prepared.plan->inputs);
   hash = hash_of(fmt::format("{} passes {}", version(), recipe.stop.passes.value()), hash);
   for (const std::string_view folder : {prepared.preset.settings.engine(), std::string_view("photons")})
     hash = hash_of(compute::kernel_sources(context, folder), hash);
-  return references_folder() / fmt::format("{:016x}.exr", hash);
+  const fs::path folder = cache_folder("references");
+  if (folder.empty())
+    throw failed("reference", "there is no folder to keep it in: HOME is not set", "",
+                 "set XDG_CACHE_HOME to a folder that can be written to");
+  return folder / fmt::format("{:016x}.exr", hash);
 }
 
 /// What a mean of two seeds is off by: half of their difference is a draw of its error, as halves of a film are. The

@@ -18,9 +18,8 @@ std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepare
 /// How making one goes on: 0..1, and the seconds of work so far.
 using ReferenceProgress = std::function<void(double fraction, double seconds)>;
 
-/// Renders the recipe with both of its seeds and puts their mean into the cache. Throws failed where it cannot be made:
-/// memory, a time above reference.seconds (known after the first passes), a cache that cannot be written to;
-/// interrupted where `stop` asks for it. Only for presets whose reference is a recipe.
+/// Renders the recipe with both of its seeds and puts their mean into the cache. Throws failed where it cannot be made
+/// (memory, a time above reference.seconds, the cache), interrupted where `stop` asks for it.
 std::shared_ptr<const measure::Reference> make_reference(const Prepared& prepared, const compute::Context& context,
                                                          const std::stop_token& stop,
                                                          const ReferenceProgress& progress);

@@ -13,19 +13,15 @@
 
 namespace nephroid::run {
 
-/// Writes image.exr, image.png, history.csv (where the snapshot has a history), preset.json, plan.json and run.json
-/// into folder (made if missing), each whole; no image where the snapshot's stands in for one. reference: what the run
-/// was measured against, or null.
+/// Writes image.exr, image.png, history.csv, preset.json, plan.json and run.json into folder (made if missing), each
+/// whole, as far as the snapshot has them. reference: what the run was measured against, or null.
 void write_run(const std::filesystem::path& folder, const Prepared& prepared, const compute::DeviceInfo& device,
                const job::Snapshot& snapshot, const measure::Reference* reference, bool finished);
-// A job's picture as files hold it: the last one, and those at chosen times of work, at-0010s.png and .exr, with
-// pictures.json, which says what error each has.
 
 /// Channels R, G, B (the sum), then NAME.R, NAME.G, NAME.B of each layer; no attributes yet.
 image::Image with_layers(const job::Picture& picture);
 
-/// STEM.exr with its layers, and as attributes the preset, its seed, the device and the program's version; and STEM.png
-/// as shown.
+/// STEM.exr with layers, and as attributes what made it; and STEM.png as shown.
 void write_picture(const std::filesystem::path& stem, const preset::Preset& preset, const compute::DeviceInfo& device,
                    const job::Picture& picture);
 
@@ -34,12 +30,12 @@ inline constexpr const char* pictures_file = "pictures.json";
 /// Errors by the names of a history's columns; what is undefined is null.
 nlohmann::ordered_json by_column(const std::vector<std::string>& columns, const std::vector<double>& values);
 
-/// The list in the folder's pictures.json, of {"seconds": as asked for, "work_seconds": when it was made, "picture":
-/// its file, "errors": by column}; empty where there is none.
+/// The list of pictures at chosen times, in the folder's pictures.json: {"seconds": as asked for, "work_seconds": when
+/// it was made, "picture": its file, "errors": by column}; empty where there is none.
 nlohmann::ordered_json pictures_at(const std::filesystem::path& folder);
 
-/// Writes both pictures and adds them to the list. Returns what it added. The errors are those of the newest row of the
-/// history where that is of `seconds` or later. Throws failed as write_run does.
+/// Writes at-0010s.png and .exr and adds them to the list. Returns what it added; the errors are those of the newest
+/// row of the history where that is of `seconds` or later.
 nlohmann::ordered_json write_picture_at(const std::filesystem::path& folder, double seconds, const Prepared& prepared,
                                         const compute::DeviceInfo& device, const job::Snapshot& snapshot);
 

@@ -14,8 +14,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 
 namespace nephroid::scene {
@@ -36,7 +38,7 @@ struct Box {
 /// What Embree's callbacks make: a Leaf, or an Inner node with its children.
 struct BuildNode {
   bool leaf = false;
-  std::uint32_t count = 0; ///< of primitives or children
+  std::uint32_t count = 0; ///< primitives or children
 };
 
 struct Inner : BuildNode {
@@ -227,11 +229,7 @@ Box refit_leaf(Bvh& bvh, int leaf, const Mesh& mesh) {
   const auto entry = static_cast<std::uint32_t>(~leaf);
   float* block = bvh.blocks.data() + (entry >> 4) * floats_per_block;
   Box box;
-  const auto number_at = [&](const float* place) {
-    std::uint32_t number = 0;
-    std::memcpy(&number, place, sizeof number);
-    return number;
-  };
+  const auto number_at = [](const float* place) { return std::bit_cast<std::uint32_t>(*place); };
   std::uint32_t before = no_primitive;
   for (std::uint32_t b = 0; b < (entry & 3); ++b, block += floats_per_block)
     for (std::size_t i = 0; i < triangles_per_block; ++i) {
@@ -306,7 +304,7 @@ Bvh build_bvh(const Mesh& mesh) {
   if (!root)
     throw failed("mesh", fmt::format("Embree built no tree over {} primitives (error {})", boxes.size(),
                                      int{rtcGetDeviceError(device.get())}));
-  boxes = {}; // of a large mesh as much as the tree
+  boxes = {}; // they take as much as the tree
   bvh.root = Layout(mesh, bvh).add(*root, 0, 1);
   if (bvh.nodes.empty()) bvh.nodes.resize(floats_per_node); // the root is a leaf
   return bvh;
@@ -318,8 +316,7 @@ void refit(Bvh& bvh, const Mesh& mesh) {
   for (std::size_t node = boxes.size(); node-- > 0;) // children come after their parents
     for (std::size_t i = 0; i < children_per_node; ++i) {
       float* to = bvh.nodes.data() + node * floats_per_node + i;
-      int child = 0;
-      std::memcpy(&child, to + 48, sizeof child);
+      const int child = std::bit_cast<int>(to[48]);
       if (child == 0) continue; // there is none: the root is nobody's child
       const Box box = child < 0 ? refit_leaf(bvh, child, mesh) : boxes[static_cast<std::size_t>(child)];
       set_box(to, box);

@@ -4,10 +4,7 @@
 #pragma once
 #include "scene/mesh.h"
 
-#include <functional>
-#include <limits>
 #include <map>
-#include <optional>
 #include <string>
 
 namespace nephroid::scene {
@@ -19,8 +16,8 @@ inline constexpr std::uint32_t no_primitive = ~0u; ///< an empty place of a bloc
 
 /// Layout is fixed by kernels/tracing/bvh.h, which has the description.
 struct Bvh {
-  std::vector<float> nodes;  ///< 64 floats a node; at least one node
-  std::vector<float> blocks; ///< 40 floats a block
+  std::vector<float> nodes; ///< at least one node
+  std::vector<float> blocks;
   bool has_ellipsoids = false;
   int root = 0;  ///< node index, or ~leaf
   int depth = 0; ///< nodes on the longest way from the root to a leaf: -DNEPHROID_BVH_DEPTH must be at least that

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vectors are checked, in double, then rounded once.
-#include "scene/camera_and_lights.h"
+#include "scene/scene.h"
 
 #include "base/error.h"
 #include "scene/materials.h"

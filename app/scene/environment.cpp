@@ -17,23 +17,18 @@
 namespace nephroid::scene {
 namespace {
 
-/// Textures are held in memory three times while they are read, and once on the device: 2 GiB of floats there.
+/// Textures are held in memory twice while they are read, and once on the device: 2 GiB of floats there.
 constexpr std::size_t most_texels = std::size_t{1} << 27;
 
-const char* fault_of(float value) {
-  return std::isnan(value) ? "is not a number" : std::isinf(value) ? "is infinite" : "is negative";
-}
-
 void check_texels(const std::vector<float>& rgb, int width, const Place& file) {
-  const auto bad =
-      std::find_if(rgb.begin(), rgb.end(), [](float value) { return !(value >= 0 && std::isfinite(value)); });
+  const auto bad = std::ranges::find_if(rgb, [](float value) { return !(value >= 0 && std::isfinite(value)); });
   if (bad == rgb.end()) return;
   const auto index = static_cast<std::size_t>(bad - rgb.begin()), texel = index / 3;
   const char* const channels[] = {"red", "green", "blue"};
+  const char* const fault = std::isnan(*bad) ? "is not a number" : std::isinf(*bad) ? "is infinite" : "is negative";
   throw bad_input(file,
                   fmt::format("{} of the texel in row {}, column {} (from 0) {}", channels[index % 3],
-                              texel / static_cast<std::size_t>(width), texel % static_cast<std::size_t>(width),
-                              fault_of(*bad)),
+                              texel / static_cast<std::size_t>(width), texel % static_cast<std::size_t>(width), fault),
                   "expected radiances of 0 or more", "mend the picture");
 }
 
@@ -43,24 +38,23 @@ void mend_negative_texels(std::vector<float>& rgb, const std::string& name, std:
   constexpr double next_to_nothing = 1e-3;
   double above = 0, below = 0;
   for (const float value : rgb) (value < 0 ? below : above) += std::abs(double(value));
-  const auto count = std::count_if(rgb.begin(), rgb.end(), [](float value) { return value < 0; });
+  const auto count = std::ranges::count_if(rgb, [](float value) { return value < 0; });
   if (count == 0 || !(below <= next_to_nothing * above)) return;
-  std::replace_if(
-      rgb.begin(), rgb.end(), [](float value) { return value < 0; }, 0.0f);
+  std::ranges::replace_if(
+      rgb, [](float value) { return value < 0; }, 0.0f);
   warnings.push_back(fmt::format("environment {}: {} below 0, in sum {:.1g} of all its light; they are taken as 0",
                                  name, counted(count, "value is", "values are"), below / above));
 }
 
-/// The film has 2^24 quanta for a mean texel (photons/background_stage.cpp). Says where one or few texels are so much
-/// brighter than half of the others that those get fewer than 16. Values of 0 do not count: they are black in any film.
+/// The film has 2^24 quanta for a mean texel (photons/background_stage.cpp). Says where few texels are so bright that
+/// half of the others, but for those of 0, get fewer than 16.
 void check_range(const std::vector<float>& rgb, const std::string& name, std::vector<std::string>& warnings) {
   const double mean = std::accumulate(rgb.begin(), rgb.end(), 0.0) / static_cast<double>(rgb.size()),
                least = 0x1p-20 * mean;
-  const auto lit = std::count_if(rgb.begin(), rgb.end(), [](float value) { return value > 0; });
-  const auto faint =
-      std::count_if(rgb.begin(), rgb.end(), [&](float value) { return value > 0 && double(value) < least; });
+  const auto lit = std::ranges::count_if(rgb, [](float value) { return value > 0; });
+  const auto faint = std::ranges::count_if(rgb, [&](float value) { return value > 0 && double(value) < least; });
   if (faint <= lit / 2) return;
-  std::vector<float> values; // of a large map only where there is something to say
+  std::vector<float> values; // copied only where there is something to say: maps are large
   values.reserve(static_cast<std::size_t>(lit));
   std::copy_if(rgb.begin(), rgb.end(), std::back_inserter(values), [](float value) { return value > 0; });
   const auto middle = values.begin() + lit / 2;
@@ -114,7 +108,7 @@ void add_texel(const Environment& environment, std::size_t texel, double steradi
 } // namespace
 
 bool Environment::is_black() const {
-  return !(radiance > 0) || std::all_of(rgb.begin(), rgb.end(), [](float value) { return value == 0; });
+  return !(radiance > 0) || std::ranges::all_of(rgb, [](float value) { return value == 0; });
 }
 
 Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Place& where,

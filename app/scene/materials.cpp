@@ -2,6 +2,7 @@
 #include "scene/materials.h"
 
 #include "base/error.h"
+#include "base/nearest.h"
 #include "optics/dispersion_file.h"
 #include "optics/spectrum.h"
 
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <system_error>
 
 namespace nephroid::scene {
@@ -38,8 +38,9 @@ std::optional<std::filesystem::path> shipped_material(const std::string& name) {
   return std::nullopt;
 }
 
-/// "N-BK7", of every file in presets/materials.
-std::set<std::string> shipped_names() {
+} // namespace
+
+std::set<std::string> shipped_materials() {
   std::set<std::string> names;
   std::error_code ignored;
   for (std::filesystem::directory_iterator entry(presets_folder_if_any() / "materials", ignored), end;
@@ -47,8 +48,6 @@ std::set<std::string> shipped_names() {
     if (entry->path().extension() == ".yml") names.insert(entry->path().stem().string());
   return names;
 }
-
-} // namespace
 
 std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Place& where) {
   try {
@@ -61,7 +60,19 @@ std::filesystem::path find_dispersion(const std::string& name, const FileFinder&
     if (!missing || !may_be_a_short_name) throw;
     throw FileNotFound(
         where, name,
-        fmt::format("{}; the program comes with {}", missing->looked_in(), fmt::join(shipped_names(), ", ")));
+        fmt::format("{}; the program comes with {}", missing->looked_in(), fmt::join(shipped_materials(), ", ")));
+  }
+}
+
+optics::DispersionCurve load_dispersion(const std::string& name) {
+  if (is_there(name)) return optics::load_dispersion(name);
+  try {
+    return optics::load_dispersion(find_dispersion(name, FileFinder(), name));
+  } catch (const FileNotFound& error) {
+    const std::set<std::string> materials = shipped_materials();
+    const std::string material = nearest(name, std::vector(materials.begin(), materials.end()));
+    if (material.empty()) throw;
+    throw error.noting(fmt::format("did you mean '{}'?", material));
   }
 }
 

@@ -7,6 +7,8 @@
 #include "preset/preset.h"
 #include "scene/scene.h"
 
+#include <set>
+
 namespace nephroid::scene {
 
 /// The preset's words for it, which knows nothing of optics, are the same in the same order.
@@ -19,6 +21,12 @@ inline optics::Extrapolation outside_policy(preset::Extrapolation outside) {
 /// The file of a preset's dispersion data: found as other files are, or a shipped material by its short name
 /// ("N-SF66"), which means the same from every folder.
 std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Place& where);
+
+/// The names of the shipped materials: "N-BK7".
+std::set<std::string> shipped_materials();
+
+/// The dispersion that a person names: a file, else a shipped material. Throws bad_input naming the folders searched.
+optics::DispersionCurve load_dispersion(const std::string& name);
 
 /// where (all four): the field's FILE#/json/pointer. They throw bad_input there with the reason that optics gives.
 optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Place& where);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <unordered_map>
@@ -15,18 +16,11 @@
 namespace nephroid::scene {
 namespace {
 
-struct VertexKey {
-  std::array<std::uint32_t, 6> bits{};
-  bool operator==(const VertexKey&) const = default;
-};
+using VertexKey = std::array<std::uint32_t, 6>; ///< bits of the position and the normal
 
 struct VertexHash {
   std::size_t operator()(const VertexKey& key) const {
-    std::uint64_t hash =
-        0xcbf29ce484222325u; // FNV-1a over words, then the finaliser of MurmurHash3 to spread the high bits
-    for (std::uint32_t word : key.bits) hash = (hash ^ word) * 0x100000001b3u;
-    hash = (hash ^ (hash >> 33)) * 0xff51afd7ed558ccdu;
-    return hash ^ (hash >> 33);
+    return std::hash<std::string_view>()({reinterpret_cast<const char*>(key.data()), sizeof key});
   }
 };
 
@@ -118,11 +112,11 @@ std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, bool compare_nor
   first.reserve(mesh.positions.size());
   std::vector<std::uint32_t> result(mesh.positions.size());
   for (std::uint32_t i = 0; i < result.size(); ++i) {
-    VertexKey key;
+    VertexKey key{};
     for (int axis = 0; axis < 3; ++axis) {
-      key.bits[axis] = std::bit_cast<std::uint32_t>(mesh.positions[i][axis] + 0.0f); // -0 becomes 0
+      key[axis] = std::bit_cast<std::uint32_t>(mesh.positions[i][axis] + 0.0f); // -0 becomes 0
       if (compare_normals && !mesh.normals.empty())
-        key.bits[3 + axis] = std::bit_cast<std::uint32_t>(mesh.normals[i][axis] + 0.0f);
+        key[3 + axis] = std::bit_cast<std::uint32_t>(mesh.normals[i][axis] + 0.0f);
     }
     result[i] = first.try_emplace(key, i).first->second;
   }

@@ -32,8 +32,7 @@ struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;    ///< one a position, unit; or empty
   std::vector<glm::uvec3> triangles; ///< counter-clockwise seen from outside
-  std::uint32_t mended_normals =
-      0; ///< of `normals`, those that a file had on the wrong side of its triangles, or not at all
+  std::uint32_t mended_normals = 0;  ///< those that a file had on the wrong side of its triangles, or not at all
   std::vector<Ellipsoid> ellipsoids; ///< primitives of the tree, numbered after the triangles
 };
 
@@ -59,9 +58,8 @@ void write_ply(const Mesh& mesh, ByteSink& to, std::string_view comment = {});
 
 /// What is wrong with a mesh. Vertices at equal positions count as one here, whatever their normals.
 struct MeshReport {
-  std::uint32_t degenerate = 0; ///< triangles without area: see drop_useless()
-  std::uint32_t duplicated =
-      0; ///< triangles equal to an earlier one, facing the same way; edges and volume leave them out
+  std::uint32_t degenerate = 0;    ///< triangles without area: see drop_useless()
+  std::uint32_t duplicated = 0;    ///< equal to an earlier one, facing the same way; edges and volume leave them out
   std::uint32_t open_edges = 0;    ///< edges with one triangle
   std::uint32_t crowded_edges = 0; ///< edges with more than two triangles, or two of the same direction
   double signed_volume = 0;        ///< negative: inside out

@@ -124,7 +124,7 @@ constexpr std::uint64_t most_bytes = std::uint64_t{256} << 20;
 
 struct CachedMesh {
   std::filesystem::path file;
-  std::uint64_t bytes = 0, hash = 0; ///< of the file
+  std::uint64_t bytes = 0, hash = 0; ///< the file's
   std::shared_ptr<const Mesh> mesh;
 };
 

@@ -24,8 +24,8 @@ bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle);
 std::vector<glm::vec3> mean_normals(const Mesh& mesh, const std::vector<std::uint32_t>& same);
 
 /// Assimp takes what is missing from a PLY file for zeros, and reserves memory for whatever a PLY or GLB header
-/// promises, so both are counted before it sees them (mesh_check.cpp). Throws bad_input at `where` if bytes open like a
-/// PLY or GLB file and end before what their header declares, or if the header makes no sense. Other files pass.
+/// promises. Throws bad_input at `where` if bytes open like such a file and end before what their header declares, or
+/// if the header makes no sense. Other files pass.
 void check_declared_size(std::string_view bytes, const Place& where);
 
 /// What the reader's program answers (reader/main.cpp), not yet looked at.

@@ -3,7 +3,6 @@
 // them.
 #include "scene/move.h"
 
-#include "scene/camera_and_lights.h"
 #include "scene/place.h"
 
 #include <fmt/format.h>
@@ -17,13 +16,6 @@ namespace {
 /// Shares of the largest coordinate of the two objects. Rays start 2^-21 of a triangle's coordinates off it
 /// (kernels/tracing/surface.h), so this is several times what either side's rays step over.
 constexpr double gap_share = 0x1p-18, touching_share = 0x1p-21;
-
-double largest_coordinate(const Bounds& a, const Bounds& b) {
-  double largest = 0;
-  for (int k = 0; k < 3; ++k)
-    largest = std::max({largest, std::abs(a.low[k]), std::abs(a.high[k]), std::abs(b.low[k]), std::abs(b.high[k])});
-  return largest;
-}
 
 /// The axis along which a face of `glass` lies in a face of the other's bounds, while they overlap along the other two;
 /// -1: none.
@@ -91,7 +83,7 @@ std::string label(const Scene& scene, std::size_t object) {
 void warn_if_between(Scene& scene, const std::vector<Bounds>& bounds, std::size_t i) {
   for (std::size_t j = 0; j < scene.objects.size(); ++j)
     if (i != j && scene.objects[i].ellipsoid_count + scene.objects[j].ellipsoid_count == 0 &&
-        touching_axis(bounds[i], bounds[j], touching_share * largest_coordinate(bounds[i], bounds[j])) >= 0)
+        touching_axis(bounds[i], bounds[j], touching_share * largest_coordinate(enclosing(bounds[i], bounds[j]))) >= 0)
       scene.warnings.push_back(
           fmt::format("{} lies exactly on {} and is too thin to be parted from it: light may be lost between them; "
                       "move it, make it thicker, or let them overlap",
@@ -131,7 +123,7 @@ void part_touching(Scene& scene) {
     if (material_of(scene, scene.objects[i]).type != Material::Type::dielectric) continue;
     for (std::size_t j = 0; j < scene.objects.size(); ++j) {
       if (i == j) continue;
-      const double largest = largest_coordinate(bounds[i], bounds[j]), tolerance = touching_share * largest;
+      const double largest = largest_coordinate(enclosing(bounds[i], bounds[j])), tolerance = touching_share * largest;
       const int axis = touching_axis(bounds[i], bounds[j], tolerance);
       if (axis < 0 || !can_coincide(scene.objects[i], bounds[i], scene.objects[j], bounds[j], tolerance)) continue;
       part(scene, scene.objects[i], bounds[i], bounds[j], axis, gap_share * largest);

@@ -10,15 +10,13 @@ namespace nephroid::scene {
 
 /// The scene with objects and camera where another preset has them. loaded: of `before`, from which `now` differs by
 /// the turns and translations of objects and by the camera. Scene::origin stays, so places differ from those of
-/// load_scene(now) by what single precision leaves; so do those of the gaps between things that touch. Nothing where
-/// objects go so far that load_scene would have to choose another origin: beyond twice the distance that they had.
-/// Throws bad_input as make_camera.
+/// load_scene(now) by what single precision leaves. Nothing where objects go so far that another origin is needed:
+/// beyond twice the distance that they had. Throws bad_input as make_camera.
 std::optional<Scene> move_objects(const Scene& loaded, const preset::Preset& before, const preset::Preset& now);
 
-/// Where two surfaces lie in one place, which of them a ray meets first is a matter of rounding, and light would be
-/// lost between them. Draws in every dielectric whose bounds end where another object's bounds begin, end or lie, so
-/// that a gap of air is left which single precision can tell (some 1e-6 of the larger object's coordinates), and says
-/// so in scene.warnings. What overlaps is left alone, and so is an ellipsoid that touches in a point.
+/// Where two surfaces lie in one place, light would be lost between them. Draws in every dielectric whose bounds end
+/// where another object's begin or end, so that a gap of air is left which single precision can tell (some 1e-6 of the
+/// larger object's coordinates), and says so in scene.warnings. An ellipsoid that touches in a point is left alone.
 void part_touching(Scene& scene);
 
 } // namespace nephroid::scene

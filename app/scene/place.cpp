@@ -49,12 +49,9 @@ Mesh transformed(const Mesh& mesh, const Placement& placement, const glm::dvec3&
 void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, const Place& where,
                   PlacedMesh& placed) {
   const Bounds bounds = placed_bounds(mesh, placement, where);
-  const glm::dvec3 low = bounds.low - origin, high = bounds.high - origin;
-  double farthest = 0, extent = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    farthest = std::max({farthest, std::abs(low[axis]), std::abs(high[axis])});
-    extent = std::max(extent, high[axis] - low[axis]);
-  }
+  const glm::dvec3 edges = bounds.high - bounds.low;
+  const double farthest = largest_coordinate({bounds.low - origin, bounds.high - origin}),
+               extent = std::max({edges.x, edges.y, edges.z});
   if (!(farthest <= max_coordinate))
     throw bad_input(where,
                     fmt::format("reaches {:g} units away from the refracting and mirroring objects' middle", farthest),
@@ -95,11 +92,7 @@ void check_thickness(const Mesh& mesh, double volume, const Place& where) {
 
 /// What is left of a place on an ellipsoid in single precision is the spacing of its coordinates.
 void check_thickness(const Ellipsoid& ellipsoid, const Place& where) {
-  const Bounds bounds = bounds_of(ellipsoid);
-  double largest = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    largest = std::max({largest, std::abs(bounds.low[axis]), std::abs(bounds.high[axis])});
-  refuse_thinner(2 * shortest_half_axis(ellipsoid), largest, where);
+  refuse_thinner(2 * shortest_half_axis(ellipsoid), largest_coordinate(bounds_of(ellipsoid)), where);
 }
 
 /// The shape of a dielectric that its preset turns inside out has no inside to enter.
@@ -139,6 +132,11 @@ void check_surface(const MeshReport& report, bool dielectric, PlacedMesh& placed
 }
 
 } // namespace
+
+double largest_coordinate(const Bounds& bounds) {
+  const glm::dvec3 largest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
+  return std::max({largest.x, largest.y, largest.z});
+}
 
 glm::dmat3 rotation(const preset::Vec3& rotate_deg) {
   glm::dmat3 result(1);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One object's mesh into the scene: transformed in double, moved to the scene's origin, rounded once, then checked.
-// Private to scene/.
+// One object's mesh into the scene: transformed in double, rounded once, then checked. Private to scene/.
 #pragma once
 #include "base/place.h"
 #include "preset/preset.h"
@@ -39,6 +38,9 @@ Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Place& 
 /// Throws bad_input at where: too large, too small or too far away for single precision.
 PlacedMesh place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric,
                  const Place& where);
+
+/// The largest distance of a side from a coordinate plane.
+double largest_coordinate(const Bounds& bounds);
 
 /// How far objects reach, in units, from the middle of the scene's coordinates.
 double scene_radius(const Scene& scene);

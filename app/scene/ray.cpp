@@ -3,8 +3,8 @@
 #include "scene/ray.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 namespace nephroid::scene {
@@ -106,11 +106,7 @@ struct Search {
 
 void test_leaf(const Bvh& bvh, int leaf, const Ray& ray, Search& search) {
   const float* block = bvh.blocks.data() + static_cast<std::size_t>(~leaf >> 4) * floats_per_block;
-  const auto number_of = [](const float* at) {
-    std::uint32_t primitive = 0;
-    std::memcpy(&primitive, at, sizeof primitive);
-    return primitive;
-  };
+  const auto number_of = [](const float* at) { return std::bit_cast<std::uint32_t>(*at); };
   for (int blocks = ~leaf & 3; blocks > 0; --blocks, block += floats_per_block)
     for (std::size_t i = 0; i < triangles_per_block; ++i) {
       const float* const number = block + 9 * triangles_per_block + i;
@@ -130,7 +126,7 @@ void push_children(const float* node, const Ray& ray, double t_max, std::vector<
   for (std::size_t i = 0; i < children_per_node; ++i) {
     StackEntry next;
     if (!ray.enters(node, i, t_max, next.entry)) continue;
-    std::memcpy(&next.child, node + 48 + i, sizeof next.child);
+    next.child = std::bit_cast<int>(node[48 + i]);
     waiting.push_back(next);
   }
   std::sort(waiting.begin() + static_cast<std::ptrdiff_t>(bottom), waiting.end(),

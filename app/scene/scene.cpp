@@ -3,15 +3,14 @@
 // objects.
 #include "scene/scene.h"
 
-#include "scene/camera_and_lights.h"
 #include "scene/materials.h"
 #include "scene/move.h"
 #include "scene/place.h"
-#include "scene/shapes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 
@@ -27,28 +26,6 @@ void check_names(const std::vector<preset::Object>& objects, const Place& where)
       throw bad_input(where / i / "name", fmt::format("'{}' is also object {}", objects[i].name, entry->second),
                       "a name of its own");
   }
-}
-
-/// Reads each file once, however many objects name it and however large it is.
-class Meshes {
-public:
-  Meshes(const FileFinder& finder, const Watch& watch) : finder_(finder), watch_(watch) {}
-  std::shared_ptr<const Mesh> get(const std::string& name, const Place& where) {
-    const std::filesystem::path file = finder_.find(name, where);
-    auto found = meshes_.find(file);
-    if (found == meshes_.end()) found = meshes_.emplace(file, load_mesh_once(file, watch_)).first;
-    return found->second;
-  }
-
-private:
-  const FileFinder& finder_;
-  const Watch& watch_;
-  std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
-};
-
-std::shared_ptr<const Mesh> object_mesh(const preset::Object& object, Meshes& meshes, const Place& where) {
-  if (object.mesh) return meshes.get(*object.mesh, where / "mesh");
-  return std::make_shared<const Mesh>(make_shape(*object.shape));
 }
 
 /// An object on its way: still in its own coordinates.
@@ -79,12 +56,6 @@ void append(Scene& scene, const Mesh& mesh) {
   all.normals.insert(all.normals.end(), mesh.normals.begin(), mesh.normals.end());
   for (const glm::uvec3& triangle : mesh.triangles) all.triangles.push_back(triangle + first);
   all.ellipsoids.insert(all.ellipsoids.end(), mesh.ellipsoids.begin(), mesh.ellipsoids.end());
-}
-
-void number_primitives(Scene& scene) {
-  for (const auto count : {&Object::triangle_count, &Object::ellipsoid_count})
-    for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
-      scene.object_of_primitive.insert(scene.object_of_primitive.end(), scene.objects[i].*count, i);
 }
 
 /// damaged: what the preset wants done about it. Throws bad_input at the object where that is `refuse`.
@@ -210,7 +181,14 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
     scene.materials.push_back(make_material(name, material, finder, where / "materials" / name, scene.warnings));
 
   check_names(preset.scene.objects, where / "objects");
-  Meshes meshes(finder, watch);
+  // Each file is read once, however many objects name it and however large it is.
+  std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes;
+  const auto mesh_of = [&](const preset::Object& object, const Place& at) {
+    if (object.shape) return std::make_shared<const Mesh>(make_shape(*object.shape));
+    const std::filesystem::path file = finder.find(*object.mesh, at / "mesh");
+    if (!meshes.contains(file)) meshes[file] = load_mesh_once(file, watch);
+    return meshes[file];
+  };
   std::vector<Pending> pending;
   for (std::size_t i = 0; i < preset.scene.objects.size(); ++i) {
     const preset::Object& object = preset.scene.objects[i];
@@ -218,7 +196,7 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
     const auto material =
         std::ranges::find(scene.materials, object.material, &Material::name) - scene.materials.begin();
     const Placement placement = make_placement(object.transform);
-    pending.push_back({object_mesh(object, meshes, object_where), placement, static_cast<int>(material), object_where});
+    pending.push_back({mesh_of(object, object_where), placement, static_cast<int>(material), object_where});
   }
   watch.begin("looking at the objects");
   scene.origin = choose_origin(pending, scene, preset.scene.camera);
@@ -226,7 +204,9 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
     add_object(scene, preset.scene.objects[i], pending[i], preset.scene.damaged_meshes);
     pending[i].mesh.reset(); // a large scene is not held twice
   }
-  number_primitives(scene);
+  for (const auto count : {&Object::triangle_count, &Object::ellipsoid_count})
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
+      scene.object_of_primitive.insert(scene.object_of_primitive.end(), scene.objects[i].*count, i);
   part_touching(scene);
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i) {
     scene.lights.push_back(make_light(preset.scene.lights[i], scene, where / "lights" / i));
@@ -273,6 +253,21 @@ Bounds bounds_of(const Scene& scene, const Object& object) {
   });
   for (const Ellipsoid& ellipsoid : ellipsoids_of(scene, object)) bounds = enclosing(bounds, bounds_of(ellipsoid));
   return bounds;
+}
+
+std::optional<Plane> plane_of(const Scene& scene, const Object& object) {
+  if (object.triangle_count == 0) return std::nullopt;
+  const glm::uvec3 first = triangles_of(scene, object).front();
+  const auto corner = [&](std::uint32_t vertex) { return glm::dvec3(scene.geometry.positions[vertex]); };
+  Plane plane{corner(first.x),
+              glm::normalize(glm::cross(corner(first.y) - corner(first.x), corner(first.z) - corner(first.x))), 0};
+  double largest = 0, highest = 0;
+  for_each_corner(scene, object, [&](const glm::dvec3& p) {
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    highest = std::max(highest, std::abs(plane.height(p)));
+  });
+  plane.tolerance = 1e-6 * largest;
+  return highest <= plane.tolerance ? std::optional(plane) : std::nullopt;
 }
 
 } // namespace nephroid::scene

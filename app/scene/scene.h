@@ -40,8 +40,8 @@ struct Object {
   int priority = 0;
   bool smooth = false; ///< interpolate vertex normals
   std::uint32_t first_triangle = 0, triangle_count = 0;
-  std::uint32_t first_ellipsoid = 0, ellipsoid_count = 0; ///< of Scene::geometry
-  Sphere bounds;                                          ///< encloses all of it
+  std::uint32_t first_ellipsoid = 0, ellipsoid_count = 0;
+  Sphere bounds;      ///< encloses all of it
   bool closed = true; ///< every edge is shared by exactly two triangles of opposite direction
 };
 
@@ -75,8 +75,7 @@ struct Camera {
   double tan_x = 1, tan_y = 1;
   int width = 0, height = 0;
   std::vector<int> inside; ///< dielectric objects that contain it, outermost first
-  int receiver = -1;       ///< a flat object: only the light on it is seen, through whatever stands before it
-                           ///< (formats/export/receiver.h)
+  int receiver = -1;       ///< an object whose light alone is seen, through whatever is before it (formats/export)
 
   std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
@@ -88,10 +87,10 @@ struct Scene {
   Camera camera;
   std::vector<Material> materials;
   std::vector<Object> objects;
-  std::vector<Light> lights; ///< of the preset; after them the environment, where it is one
+  std::vector<Light> lights; ///< the preset's; after them the environment, where it is one
   std::optional<Environment> environment;
   Mesh geometry; ///< every object's triangles, one after the other; normals for every vertex
-  std::vector<std::uint32_t> object_of_primitive; ///< of the triangles, then of the ellipsoids
+  std::vector<std::uint32_t> object_of_primitive; ///< the triangles', then the ellipsoids'
   std::vector<std::string> warnings; ///< one line each: open meshes, dropped triangles, extrapolated dispersion
 };
 
@@ -150,5 +149,31 @@ Bounds bounds_of(const Scene& scene, const Object& object);
 /// The matrix of preset::Transform::rotate_deg: about x, then y, then z, each counter-clockwise seen from the axis'
 /// positive end.
 glm::dmat3 rotation(const preset::Vec3& rotate_deg);
+
+/// The camera alone, for a view that changes while everything else stays. Throws bad_input at FILE#/scene/camera/...
+Camera make_camera(const preset::Camera& camera, const Scene& scene);
+
+/// where: FILE#/scene/lights/INDEX. Throws bad_input there: no direction, power, size or angle out of range, unknown
+/// spectrum.
+Light make_light(const preset::Light& light, const Scene& scene, const Place& where);
+
+/// The surface of a shape of preset.h, centred by its bounds on the origin, y up, with normals. Flat facets have
+/// vertices of their own, so their normals are exact; curved sides share theirs. quad: open, size x by z in the plane y
+/// = 0, facing +y. box, plate: size x, y, z. sphere: an exact one, not of triangles. cylinder: about the y axis, flat
+/// ends, a sharp rim. prism: stands along y; the apex edge at +z, the third side at -z, facing -z. brilliant: the round
+/// brilliant cut, table up: 57 facets and 16 of the girdle.
+Mesh make_shape(const preset::Shape& shape);
+
+/// The plane of a flat object, in the scene's coordinates.
+struct Plane {
+  glm::dvec3 point{0};
+  glm::dvec3 normal{0}; ///< unit, of the triangles' front
+  double tolerance = 0; ///< what rounding the corners to single precision may add to a height
+  /// The distance from the plane, in scene units; positive before the front.
+  double height(const glm::dvec3& p) const { return glm::dot(p - point, normal); }
+};
+
+/// Nothing where the object is not flat. Throws as triangles_of.
+std::optional<Plane> plane_of(const Scene& scene, const Object& object);
 
 } // namespace nephroid::scene

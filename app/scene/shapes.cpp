@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes from their closed forms, in double until the last step. around(angle) runs from +x towards -z:
 // counter-clockwise seen from above, so sides and caps face outwards when their corners are taken in rising order.
-#include "scene/shapes.h"
+#include "scene/scene.h"
 
 #include <array>
 #include <cmath>

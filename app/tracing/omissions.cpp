@@ -3,7 +3,7 @@
 
 #include "base/counted.h"
 #include "preset/choices.h"
-#include "scene/plane.h"
+#include "scene/scene.h"
 #include "tracing/targets.h"
 
 #include <fmt/format.h>

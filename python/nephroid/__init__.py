@@ -221,14 +221,14 @@ class Run:
     def error(self) -> float | None:
         """The newest error that it has measured, in the unit of stop.metric: against the reference, else its own
         estimate."""
-        column = self._snapshot_or_none()
-        values = column.history().get(column.error_column()) if column else None
+        shown = self._core.snapshot()
+        values = shown.history().get(shown.error_column()) if shown else None
         return float(values[-1]) if values is not None and len(values) else None
 
     @property
     def notes(self) -> list[str]:
         """What the plan and the pictures have to say."""
-        shown = self._snapshot_or_none()
+        shown = self._core.snapshot()
         return self._core.notes() + (shown.warnings if shown else [])
 
     def wait(self, seconds: float | None = None) -> Run:
@@ -266,9 +266,6 @@ class Run:
         self.close()
 
     # What there is
-
-    def _snapshot_or_none(self) -> _core.Snapshot | None:
-        return self._core.snapshot()
 
     def _snapshot(self) -> _core.Snapshot:
         while (shown := self._core.snapshot()) is None:

@@ -76,7 +76,7 @@ class Clusters:
 
 
 def clusters(material: Dispersion | str | ArrayLike, threshold_deg: float = 0.1, method: str = "optimal") -> Clusters:
-    """MetricSet of the 401 wavelengths may share a path.
+    """Which of the 401 wavelengths may share a path.
 
     material: a Dispersion, its name, or n for each of wavelengths_nm(). threshold_deg: the change of angle that is
     allowed in a cluster, in the mean. method: "optimal" or "thesis".

@@ -37,7 +37,7 @@ std::string glb(std::string json) {
 
 void read(std::string_view input) {
   const fs::path preset = folder() / "imported.json";
-  formats::import_gltf(write(input.starts_with("glTF") ? "scene.glb" : "scene.gltf", input), preset);
+  formats::import_scene(write(input.starts_with("glTF") ? "scene.glb" : "scene.gltf", input), preset);
   try {
     preset::read_preset(preset.string());
   } catch (const Error& refusal) {

@@ -3,7 +3,7 @@
 // are those of the object before, turned.
 #include "ui/view/gizmo_edits.h"
 
-#include "scene/camera_and_lights.h"
+#include "scene/scene.h"
 #include "scenes.h"
 #include "tests/support/loaded_scenes.h"
 #include "ui/view/gizmo.h"

@@ -2,7 +2,7 @@
 // Every field of the schema is edited through the panel "Parameters" by an injected mouse and keys: each type of each
 // object, each word of each choice. An edit changes its own field and nothing else; undo gives the same bytes.
 #include "parameters_fixture.h"
-#include "preset/schema.h"
+#include "preset/read.h"
 
 namespace nephroid::ui::parameters_schema_test {
 

@@ -54,7 +54,7 @@ std::string glb(Json json) {
 class GltfImport : public testing::Test {
 protected:
   formats::Imported import(const std::string& bytes, const std::string& name = "in.gltf") {
-    return formats::import_gltf(folder.write(name, bytes), folder.path() / "out.json");
+    return formats::import_scene(folder.write(name, bytes), folder.path() / "out.json");
   }
   preset::Preset imported(const Json& json) {
     made = import(json.dump());

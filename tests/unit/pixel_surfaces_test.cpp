@@ -3,8 +3,8 @@
 // against every triangle on its own, and where a look through a pixel ends, against Snell's law by hand.
 #include "photons/clusters/scene_clusters.h"
 #include "photons/pixel_surfaces.h"
-#include "scene/camera_and_lights.h"
 #include "scene/ray.h"
+#include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/presets.h"

@@ -4,7 +4,6 @@
 // value of the shipped presets replaced by one of a wrong type, and every preset cut off: one Error of bad input at the
 // place. `nephroid presets` and `nephroid schema`.
 #include "preset/read.h"
-#include "preset/schema.h"
 #include "tests/support/random_preset.h"
 
 #include <nlohmann/json.hpp>

@@ -3,7 +3,6 @@
 #include "preset/preset.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
-#include "scene/shapes.h"
 #include "tests/support/test.h"
 
 namespace nephroid::scene::shapes_test {

@@ -2,7 +2,6 @@
 #include "ui/state/files.h"
 
 #include "base/error.h"
-#include "preset/check.h"
 #include "preset/read.h"
 #include "scene/mesh.h"
 #include "ui/state/selection.h"

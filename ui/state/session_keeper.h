@@ -3,7 +3,7 @@
 // finds the sessions that earlier windows left. Each window has its own folder, which it holds locked: several windows
 // may be open.
 #pragma once
-#include "base/file_lock.h"
+#include "base/files.h"
 #include "ui/state/session.h"
 #include "ui/state/workbench.h"
 

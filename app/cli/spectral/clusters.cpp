@@ -9,7 +9,6 @@
 #include "photons/describe_settings.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "scene/materials.h"
 #include "spectral/engine.h"
 #include "spectral/settings.h"
 
@@ -76,10 +75,11 @@ Task make_task(const ClusterOptions& options) {
   if (options.preset.empty() == options.ior.empty())
     throw bad_input("clusters", options.ior.empty() ? "nothing to cluster" : "both a preset and --ior are given",
                     "expected a PRESET or --ior FILE");
-  if (is_dispersion(options.preset) && !is_there(options.preset + ".json"))
+  const bool is_dispersion = options.preset.ends_with(".yml") || scene::shipped_materials().contains(options.preset);
+  if (is_dispersion && !is_there(options.preset + ".json"))
     throw bad_input("clusters", fmt::format("'{}' is a dispersion file, not a preset", options.preset), {},
                     fmt::format("take it with --ior {}", options.preset));
-  Task task = options.ior.empty() ? preset_task(options) : Task{.curve = find_dispersion(options.ior)};
+  Task task = options.ior.empty() ? preset_task(options) : Task{.curve = scene::load_dispersion(options.ior)};
   if (options.outside != "automatic") task.outside = outside_policy(options.outside);
   if (options.threshold_deg) task.threshold_deg = *options.threshold_deg;
   if (options.method) task.method = chosen_of<ClusterMethod>(*options.method);

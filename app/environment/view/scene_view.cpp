@@ -2,7 +2,7 @@
 #include "environment/view/scene_view.h"
 
 #include "base/error.h"
-#include "scene/camera_and_lights.h"
+#include "scene/scene.h"
 
 #include <utility>
 

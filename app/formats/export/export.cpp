@@ -3,8 +3,8 @@
 
 #include "base/build_info.h"
 #include "base/files.h"
-#include "base/lower_case.h"
-#include "formats/export/gltf.h"
+#include "formats/export/glb.h"
+#include "formats/import/description.h"
 #include "measure/lab.h"
 #include "preset/read.h"
 
@@ -21,18 +21,6 @@ using Json = nlohmann::ordered_json;
 using namespace nlohmann::literals;
 
 constexpr const char* surroundings_file = "surroundings.exr";
-
-/// What any file system and shell takes.
-std::string file_of(const scene::Scene& scene, int object) {
-  std::string name = scene.objects[static_cast<std::size_t>(object)].name;
-  std::ranges::replace_if(
-      name,
-      [](char c) {
-        return !(lower_case({c}) >= "a" && lower_case({c}) <= "z") && !(c >= '0' && c <= '9') && c != '-' && c != '_';
-      },
-      '-');
-  return fmt::format("caustic-{}-{}.exr", object, name);
-}
 
 Json caustic_json(const scene::Scene& scene, const Caustic& caustic) {
   const Receiver& r = caustic.receiver;
@@ -111,7 +99,8 @@ Caustic::Caustic(const scene::Scene& scene, const Receiver& on, const job::Pictu
                                .channels = {"R", "G", "B"},
                                .data = {},
                                .attributes = {}},
-      file(file_of(scene, on.object)) {
+      file(fmt::format("caustic-{}-{}", on.object,
+                       file_name_of(scene.objects[static_cast<std::size_t>(on.object)].name, ".exr"))) {
   irradiance.attributes["nephroid:unit"] = "luminous W/m^2";
   const double area =
       on.width * on.height * scene.metres_per_unit * scene.metres_per_unit / (picture.width * picture.height);

@@ -44,32 +44,31 @@ std::size_t Glb::view(const void* bytes, std::size_t count) {
   return add("bufferViews", {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", count}});
 }
 
-std::size_t Glb::vectors(const std::vector<glm::vec3>& values, bool with_bounds) {
-  Json accessor{{"bufferView", view(values.data(), values.size() * 12)},
-                {"componentType", type_float},
-                {"count", values.size()},
-                {"type", "VEC3"}};
-  if (with_bounds) {
-    glm::vec3 low = values.front(), high = low;
-    for (const glm::vec3& v : values) low = glm::min(low, v), high = glm::max(high, v);
-    accessor["min"] = {low.x, low.y, low.z};
-    accessor["max"] = {high.x, high.y, high.z};
-  }
+std::size_t Glb::accessor(const void* bytes, std::size_t count, int component, const char* type, Json bounds) {
+  const std::size_t width = std::string_view(type) == "SCALAR" ? 1 : static_cast<std::size_t>(type[3] - '0');
+  Json accessor{
+      {"bufferView", view(bytes, 4 * count * width)}, {"componentType", component}, {"count", count}, {"type", type}};
+  accessor.update(bounds);
   return add("accessors", std::move(accessor));
 }
 
+std::size_t Glb::positions(const std::vector<glm::vec3>& values) {
+  glm::vec3 low = values.front(), high = low;
+  for (const glm::vec3& v : values) low = glm::min(low, v), high = glm::max(high, v);
+  return accessor(values.data(), values.size(), type_float, "VEC3",
+                  {{"min", {low.x, low.y, low.z}}, {"max", {high.x, high.y, high.z}}});
+}
+
+std::size_t Glb::normals(const std::vector<glm::vec3>& values) {
+  return accessor(values.data(), values.size(), type_float, "VEC3");
+}
+
 std::size_t Glb::places(const std::vector<glm::vec2>& values) {
-  return add("accessors", {{"bufferView", view(values.data(), values.size() * 8)},
-                           {"componentType", type_float},
-                           {"count", values.size()},
-                           {"type", "VEC2"}});
+  return accessor(values.data(), values.size(), type_float, "VEC2");
 }
 
 std::size_t Glb::corners(const std::vector<glm::uvec3>& triangles) {
-  return add("accessors", {{"bufferView", view(triangles.data(), triangles.size() * 12)},
-                           {"componentType", type_unsigned},
-                           {"count", 3 * triangles.size()},
-                           {"type", "SCALAR"}});
+  return accessor(triangles.data(), 3 * triangles.size(), type_unsigned, "SCALAR");
 }
 
 std::size_t Glb::png(std::string_view bytes) {

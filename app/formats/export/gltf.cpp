@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/export/gltf.h"
+#include "formats/export/glb.h"
 
 #include "formats/import/gltf_scene.h"
 #include "optics/colour.h"
@@ -47,9 +47,6 @@ Json turn_to(const glm::dvec3& forward, const glm::dvec3& up) {
   const glm::dquat q = glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(right, forward), -forward)));
   return {q.x, q.y, q.z, q.w};
 }
-
-/// Any direction across.
-glm::dvec3 across(const glm::dvec3& way) { return std::abs(way.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0); }
 
 /// As triangles, some 3 degrees each.
 void add(const scene::Ellipsoid& ellipsoid, scene::Mesh& mesh) {
@@ -193,7 +190,7 @@ private:
   }
 
   Json glass(const scene::Material& material) {
-    double thickness = 0; // of the largest object of it, in metres
+    double thickness = 0; // the largest object's, in metres
     for (const scene::Object& object : scene_.objects)
       if (&material_of(scene_, object) == &material)
         thickness = std::max(thickness, 2 * static_cast<double>(object.bounds.radius) * metres_);
@@ -259,8 +256,9 @@ private:
     glb_.use("KHR_lights_punctual");
     Json& lights = glb_.json["extensions"]["KHR_lights_punctual"]["lights"];
     lights.push_back(std::move(made));
+    const glm::dvec3 across = std::abs(light.direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     Json node{{"name", name},
-              {"rotation", turn_to(light.direction, across(light.direction))},
+              {"rotation", turn_to(light.direction, across)},
               {"extensions", {{"KHR_lights_punctual", {{"light", lights.size() - 1}}}}}};
     if (light.type != Type::directional) node["translation"] = three_numbers(placed(light.position));
     add_node(std::move(node));

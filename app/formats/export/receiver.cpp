@@ -2,10 +2,10 @@
 // A pinhole camera that looks straight at a plane shows all of it at one scale, and a white surface of irradiance E the
 // radiance E / pi. So the map is the picture of such a camera, for which nothing stands before the receiver
 // (scene::Camera::receiver).
-#include "formats/export/receiver.h"
+#include "formats/export/export.h"
 
 #include "optics/spectrum.h"
-#include "scene/plane.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +14,9 @@
 namespace nephroid::formats {
 namespace {
 
-constexpr double distance = 2; ///< of the camera from the receiver, over the receiver's longer edge
+constexpr double distance = 2; ///< from the camera to the receiver, over the receiver's longer edge
 
-/// The smallest of the rectangles along an edge of the first triangle: of a rectangle, and of a grid of them, that
-/// itself.
+/// The smallest rectangle along an edge of the first triangle: what is a rectangle has itself.
 Receiver rectangle(const scene::Scene& scene, int index, const scene::Plane& plane) {
   const scene::Object& object = scene.objects[static_cast<std::size_t>(index)];
   Receiver receiver;

@@ -3,260 +3,25 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "formats/import/gltf_scene.h"
-#include "optics/colour.h"
-#include "preset/read.h"
-#include "scene/scene.h"
+#include "base/numbers.h"
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <numbers>
-#include <set>
-#include <system_error>
 
 namespace nephroid::formats {
-namespace fs = std::filesystem;
-namespace {
 
 using std::numbers::pi;
 
-/// The triangles where they stand, and what a lamp in their place needs.
-struct Emitter {
-  glm::dvec3 centre{0}, normal{0}, edge{0};
-  double area = 0;
-  std::array<double, 2> size{};
-  bool flat = false, rectangle = false;
-};
-
-Emitter emitter_of(const scene::Mesh& mesh, const glm::dmat4& to_world) {
-  Emitter e;
-  std::vector<glm::dvec3> points;
-  for (const glm::vec3& p : mesh.positions) points.emplace_back(to_world * glm::dvec4(glm::dvec3(p), 1));
-  const double turn = glm::determinant(glm::dmat3(to_world)) < 0 ? -1 : 1;
-  double squarest = 2;
-  for (const glm::uvec3& t : mesh.triangles) {
-    const glm::dvec3 a = points[t.x], b = points[t.y], c = points[t.z], n = 0.5 * turn * glm::cross(b - a, c - a);
-    e.normal += n;
-    e.area += glm::length(n);
-    e.centre += glm::length(n) * (a + b + c) / 3.0;
-    for (const auto& [u, v] : {std::pair(b - a, c - a), std::pair(c - b, a - b), std::pair(a - c, b - c)}) {
-      const double product = glm::length(u) * glm::length(v),
-                   cosine = product > 0 ? std::abs(glm::dot(u, v)) / product : 2;
-      if (cosine < squarest) squarest = cosine, e.edge = glm::normalize(u);
-    }
-  }
-  if (!(e.area > 0)) return e;
-  e.centre /= e.area;
-  e.flat = glm::length(e.normal) > (1 - 1e-6) * e.area;
-  if (!e.flat) return e;
-  e.normal = glm::normalize(e.normal);
-  const glm::dvec3 other = glm::cross(e.normal, e.edge);
-  glm::dvec2 low(1e30), high(-1e30);
-  for (const glm::dvec3& p : points) {
-    const glm::dvec2 q(glm::dot(p - e.centre, e.edge), glm::dot(p - e.centre, other));
-    low = glm::min(low, q);
-    high = glm::max(high, q);
-  }
-  const glm::dvec2 box = high - low;
-  e.rectangle = std::abs(box.x * box.y - e.area) < 1e-3 * e.area;
-  const double shrink = std::sqrt(e.area / (box.x * box.y));
-  e.size = {box.x * shrink, box.y * shrink};
-  return e;
+void Description::note(const std::string& text) {
+  if (std::ranges::count(notes, text) == 0) notes.push_back(text);
 }
 
-double clamped_power(double watts) { return std::clamp(watts, 0.0, 1e9); }
-
-class PresetBuilder {
-public:
-  explicit PresetBuilder(Description& from) : from_(from) {
-    // A picture is right as our camera sees it where x, y and -z of the camera are right-handed. Else the whole world
-    // is mirrored.
-    if (from_.camera && glm::determinant(glm::dmat3(from_.camera->to_world)) > 0) mirror_[0][0] = -1;
-    made_.white = std::clamp(from_.unit, 1e-12, 1e12);
-    made_.scene.materials = from_.materials;
-  }
-
-  preset::Preset make(const std::string& name, const std::string& folder) {
-    made_.name = name;
-    made_.description = "Imported from " + name_of(from_.source.filename().string(), "a scene");
-    for (const DescribedShape& shape : from_.shapes) add(shape, folder);
-    if (made_.scene.objects.empty())
-      throw bad_input(from_.source.string(), "has no surface that can be taken over", "expected shapes");
-    for (const DescribedLight& light : from_.lights) add(light);
-    if (from_.surroundings) surround(*from_.surroundings);
-    if (from_.camera)
-      aim(*from_.camera);
-    else {
-      from_.note(from_.source, "has no camera with perspective: one that sees everything takes its place");
-      made_.scene.camera.target = scene::to_vec3(middle());
-      made_.scene.camera.position = scene::to_vec3(middle() + size() * glm::dvec3(0.3, 0.7, 1.2));
-    }
-    if (made_.scene.lights.empty() && !made_.scene.environment) {
-      from_.note(from_.source, "has no light that can be taken over: a lamp above everything takes its place");
-      preset::Light lamp;
-      lamp.position = scene::to_vec3(middle() + size() * glm::dvec3(-0.5, 1, 0.4));
-      lamp.power_w = clamped_power(10 * size() * size() * from_.unit);
-      made_.scene.lights.push_back(lamp);
-    }
-    return made_;
-  }
-
-private:
-  void see(const glm::dvec3& p) { bounds_ = scene::enclosing(bounds_, {p, p}); }
-  glm::dvec3 middle() const { return 0.5 * (bounds_.low + bounds_.high); }
-  double size() const { return std::max(glm::length(bounds_.high - bounds_.low), 1e-3); }
-
-  void add(const DescribedShape& shape, const std::string& folder) {
-    glm::dmat4 to_world = mirror_ * shape.to_world;
-    if (shape.mesh.empty()) to_world = to_world * glm::dmat4(glm::dmat3(shape.radius));
-    if (shape.glow) return glow(shape, to_world);
-    preset::Object object;
-    object.name = name_of(shape.name, "object");
-    for (int n = 2; !names_.insert(object.name).second; ++n)
-      object.name = fmt::format("{} {}", name_of(shape.name, "object"), n);
-    object.material = shape.material;
-    auto transform = transform_of(to_world);
-    if (shape.mesh.empty()) {
-      if (!transform) return from_.note(shape.where, "a sphere that is sheared is left out");
-      object.shape.emplace();
-      object.shape->radius = 1;
-      for (const double x : {-1.0, 1.0})
-        for (const double y : {-1.0, 1.0})
-          for (const double z : {-1.0, 1.0}) see(to_world * glm::dvec4(x, y, z, 1));
-    } else {
-      std::string key = shape.mesh;
-      if (!transform) { // a mesh that is sheared or flattened is written as it stands in the world
-        scene::Mesh mesh = from_.meshes.at(key);
-        mesh.normals.clear();
-        for (glm::vec3& p : mesh.positions) p = glm::vec3(to_world * glm::dvec4(glm::dvec3(p), 1));
-        if (glm::determinant(glm::dmat3(to_world)) < 0)
-          for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
-        key = from_.own_mesh(shape.name, std::move(mesh));
-        to_world = glm::dmat4(1);
-        transform.emplace();
-      }
-      const scene::Mesh& mesh = from_.meshes.at(key);
-      if (!mesh.normals.empty()) object.normals = preset::Object::Normals::smooth;
-      for (const glm::vec3& p : mesh.positions) see(to_world * glm::dvec4(glm::dvec3(p), 1));
-      object.mesh = folder + "/" + key;
-      used.insert(key);
-    }
-    object.transform = *transform;
-    made_.scene.objects.push_back(std::move(object));
-  }
-
-  /// A lamp takes the place of a surface that shines.
-  void glow(const DescribedShape& shape, const glm::dmat4& to_world) {
-    const LightColour colour = light_colour(scene::to_vec3(*shape.glow));
-    const double radiance = watts(colour); // W m^-2 sr^-1
-    preset::Light light;
-    light.spectrum = colour.spectrum;
-    if (shape.mesh.empty()) {
-      const double radius = std::cbrt(std::abs(glm::determinant(glm::dmat3(to_world))));
-      light.position = scene::to_vec3(glm::dvec3(to_world[3]));
-      light.power_w = clamped_power(pi * radiance * 4 * pi * radius * radius);
-      from_.note(shape.where, "a sphere that shines is left out: a point light of its power is in its centre");
-    } else {
-      const Emitter e = emitter_of(from_.meshes.at(shape.mesh), to_world);
-      light.position = scene::to_vec3(e.centre);
-      light.power_w = clamped_power(pi * radiance * e.area);
-      if (e.flat) {
-        light.type = preset::Light::Type::area;
-        light.direction = scene::to_vec3(e.normal);
-        const glm::dvec3 up = glm::cross(e.normal, e.edge);
-        light.up = scene::to_vec3(up);
-        light.size = e.size;
-        if (!e.rectangle)
-          from_.note(shape.where,
-                     "a flat surface that shines is left out: a rectangle of its area shines in its place");
-      } else
-        from_.note(shape.where, "a surface that shines is left out: a point light of its power is in its middle");
-    }
-    if (light.power_w > 0) made_.scene.lights.push_back(light);
-  }
-
-  double watts(const LightColour& colour) const { return colour.watts_per_lumen * most_lumens * from_.unit; }
-
-  void add(const DescribedLight& light) {
-    const LightColour colour = light_colour(scene::to_vec3(light.colour));
-    preset::Light made;
-    made.type = light.type;
-    made.spectrum = colour.spectrum;
-    made.position = scene::to_vec3(glm::dvec3(mirror_ * glm::dvec4(light.position, 1)));
-    const glm::dvec3 way = glm::dmat3(mirror_) * light.direction;
-    if (!(glm::length(way) > 0)) throw bad_input(light.where, "the light has no direction");
-    made.direction = scene::to_vec3(glm::normalize(way));
-    made.half_angle_deg = std::clamp(light.half_angle_deg, 0.01, 90.0);
-    const bool spot = light.type == preset::Light::Type::spot;
-    made.power_w =
-        clamped_power(watts(colour) * (spot ? 2 * pi * (1 - std::cos(glm::radians(made.half_angle_deg))) : 4 * pi));
-    made.irradiance_w_m2 = clamped_power(watts(colour));
-    if (!(watts(colour) > 0)) return from_.note(light.where, "a light that is black is left out");
-    made_.scene.lights.push_back(made);
-  }
-
-  void surround(const DescribedSurroundings& s) {
-    preset::Environment& e = made_.scene.environment.emplace();
-    e.lights = true;
-    e.radiance = s.scale * from_.unit;
-    if (s.file.empty()) {
-      e.type = preset::Environment::Type::constant;
-      e.colour = scene::to_vec3(s.colour);
-      return;
-    }
-    e.file = fs::absolute(s.file).lexically_normal().string();
-    // Ours looks along -z, and a turn is counterclockwise seen from above: (-sin a, 0, -cos a).
-    const glm::dvec3 centre = glm::dmat3(mirror_) * s.centre;
-    e.rotate_deg = glm::degrees(std::atan2(-centre.x, -centre.z));
-    if (mirror_[0][0] < 0)
-      from_.note(s.where, "the surroundings are mirrored with the scene in the file and are not here");
-  }
-
-  void aim(const DescribedCamera& c) {
-    preset::Camera& made = made_.scene.camera;
-    const glm::dmat4 to_world = mirror_ * c.to_world;
-    const glm::dvec3 position(to_world[3]), forward(to_world[2]), up(to_world[1]);
-    if (!(glm::length(forward) > 0) || !(glm::length(up) > 0))
-      throw bad_input(from_.source.string(), "the camera has no direction");
-    made.position = scene::to_vec3(position);
-    made.up = scene::to_vec3(glm::normalize(up));
-    made.fov_deg = std::clamp(c.fov_deg, 0.001, 179.9);
-    made.resolution = c.resolution;
-    const double ahead = glm::dot(middle() - position, glm::normalize(forward));
-    made.target = scene::to_vec3(position + glm::normalize(forward) * (ahead > 1e-3 * size() ? ahead : size()));
-  }
-
-  Description& from_;
-  preset::Preset made_;
-  glm::dmat4 mirror_{1};
-  std::set<std::string> names_;
-  scene::Bounds bounds_;
-
-public:
-  std::set<std::string> used; ///< keys of meshes
-};
-
-} // namespace
-
-std::string name_of(const std::string& text, const std::string& otherwise) {
-  std::string name;
-  for (const char c : text.substr(0, 60)) {
-    const auto byte = static_cast<unsigned char>(c);
-    name += std::isalnum(byte) || c == '-' || c == '_' || c == ' ' ? c : '-';
-  }
-  return name.empty() ? otherwise : name;
-}
-
-void Description::note(const Place& where, const std::string& text) {
-  std::string line = where.text() + ": " + text;
-  if (std::find(notes.begin(), notes.end(), line) == notes.end()) notes.push_back(std::move(line));
-}
-
-std::string Description::mesh_file(const fs::path& file, const Place& where) {
-  const std::string key = name_of(file.lexically_normal().string(), "mesh") + ".ply";
+std::string Description::mesh_file(const std::filesystem::path& file, const Place& where) {
+  const std::string key = file_name_of(file.lexically_normal().string(), ".ply");
   if (meshes.contains(key)) return key;
   if (!is_there(file)) throw bad_input(where, "the mesh " + file.string() + " is not there", {}, "put it there");
   meshes.emplace(key, scene::load_mesh(file));
@@ -264,10 +29,59 @@ std::string Description::mesh_file(const fs::path& file, const Place& where) {
 }
 
 std::string Description::own_mesh(const std::string& name, scene::Mesh mesh) {
-  std::string key = name_of(name, "mesh") + ".ply";
-  for (int n = 2; meshes.contains(key); ++n) key = fmt::format("{}-{}.ply", name_of(name, "mesh"), n);
+  std::string key = file_name_of(name, ".ply");
+  for (int n = 2; meshes.contains(key); ++n) key = file_name_of(name, fmt::format("-{}.ply", n).c_str());
   meshes.emplace(key, std::move(mesh));
   return key;
+}
+
+std::string name_of(const std::string& text, const std::string& otherwise) {
+  std::string name = text.substr(0, 60);
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_' && c != ' ') c = '-';
+  return name.empty() ? otherwise : name;
+}
+
+std::string file_name_of(const std::string& text, const char* ending) {
+  std::string name = name_of(text, "mesh");
+  std::ranges::replace(name, ' ', '-');
+  return name + ending;
+}
+
+std::string unique(const std::string& name, std::set<std::string>& taken) {
+  std::string free = name;
+  for (int n = 2; !taken.insert(free).second; ++n) free = fmt::format("{} {}", name, n);
+  return free;
+}
+
+std::optional<double> scene_number(std::string_view text) {
+  const auto number = typed_number<double>(text);
+  return number && std::abs(*number) <= 1e12 ? number : std::nullopt;
+}
+
+preset::Material glass_of(double n, const Place& where) {
+  if (!(n >= 0.01 && n <= 100)) throw bad_input(where, "its index of refraction is out of range");
+  preset::Material glass;
+  glass.type = preset::Material::Type::dielectric;
+  glass.dispersion.n = n;
+  return glass;
+}
+
+glm::dmat4 look_at(const glm::dvec3& origin, const glm::dvec3& target, const glm::dvec3& up, const Place& where) {
+  const glm::dvec3 way = target - origin, across = glm::cross(up, way);
+  if (!(glm::length(across) > 0)) throw bad_input(where, "looks nowhere, or up is the way it looks");
+  const glm::dvec3 z = glm::normalize(way), x = glm::normalize(across);
+  return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(origin, 1)};
+}
+
+glm::dmat4 rotated(const glm::dmat4& matrix, double degrees, const glm::dvec3& axis, const Place& where) {
+  if (!(glm::length(axis) > 0)) throw bad_input(where, "the axis has no direction");
+  return glm::rotate(matrix, glm::radians(degrees), axis);
+}
+
+double vertical_fov_deg(double degrees, double height, double extent) {
+  const double half = glm::radians(std::clamp(degrees, 0.001, 179.0)) / 2;
+  return glm::degrees(2 * std::atan(std::tan(half) * height / extent));
 }
 
 scene::Mesh polygon(const std::vector<glm::vec3>& corners) {
@@ -313,29 +127,6 @@ scene::Mesh open_cylinder(const glm::dvec3& from, const glm::dvec3& to, double r
     mesh.triangles.emplace_back(a, b + 1, a + 1);
   }
   return mesh;
-}
-
-Imported write_described(Description description, const fs::path& preset) {
-  PresetBuilder builder(description);
-  const preset::Preset made = builder.make(preset.stem().string(), preset.stem().string() + "-meshes");
-  std::erase_if(description.meshes, [&](const auto& mesh) { return !builder.used.contains(mesh.first); });
-  return write_imported(made, preset, description.meshes, {}, std::move(description.notes));
-}
-
-Imported write_imported(const preset::Preset& made, const fs::path& preset,
-                        const std::map<std::string, scene::Mesh>& meshes,
-                        const std::map<std::string, std::string>& glasses, std::vector<std::string> notes) {
-  const std::string text = preset::to_json(made);
-  preset::parse_preset(text, preset.string()); // what cannot be read again is not written
-  const fs::path folder = preset.parent_path() / (preset.stem().string() + "-meshes");
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw failed(folder.string(), "cannot be made: " + error.message(), {}, "choose another folder with -o");
-  for (const auto& [name, glass] : glasses) write_file_whole(folder / name, glass);
-  for (const auto& [name, mesh] : meshes)
-    write_file_whole(folder / name, [&mesh = mesh](ByteSink& to) { scene::write_ply(mesh, to); });
-  write_file_whole(preset, text);
-  return {preset, made.scene.objects.size(), meshes.size(), made.scene.lights.size(), std::move(notes)};
 }
 
 } // namespace nephroid::formats

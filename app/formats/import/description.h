@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the readers of Mitsuba and PBRT scenes find, in the file's own coordinates and units, and how it becomes a
-// preset: in one place, for both. Intensities are colours whose luminance is in the file's unit of power.
+// What the readers of glTF, Mitsuba and PBRT files find, in the file's own coordinates and units. import.cpp makes a
+// preset of it. Intensities are colours whose luminance is in the file's unit of power.
 #pragma once
 #include "base/place.h"
-#include "formats/import/import.h"
 #include "preset/preset.h"
 #include "scene/mesh.h"
 
@@ -12,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace nephroid::formats {
 
@@ -19,7 +19,7 @@ struct DescribedShape {
   Place where;
   std::string name;
   std::string mesh;               ///< a key of Description::meshes; empty: a sphere about the origin
-  double radius = 1;              ///< of the sphere
+  double radius = 1;              ///< the sphere's
   glm::dmat4 to_world{1};         ///< in the file's coordinates
   std::string material;           ///< a key of Description::materials
   std::optional<glm::dvec3> glow; ///< radiance of its outside
@@ -34,6 +34,7 @@ struct DescribedLight {
 };
 
 struct DescribedCamera {
+  Place where;
   glm::dmat4 to_world{1}; ///< x to the right of the picture, y up, z forward
   double fov_deg = 40;    ///< vertical
   std::array<int, 2> resolution{768, 576};
@@ -50,23 +51,45 @@ struct DescribedSurroundings {
 struct Description {
   std::filesystem::path source;
   double unit = 1; ///< luminance Y (W m^-2 sr^-1, no factor 683) of a radiance of 1 in the file, which is white there
+  bool fits_white = false; ///< the file has no radiance that is white: one is made of its lights
   std::optional<DescribedCamera> camera;
-  std::map<std::string, scene::Mesh> meshes;
+  std::map<std::string, scene::Mesh> meshes;  ///< by the names of their files
+  std::map<std::string, std::string> glasses; ///< dispersion files by their names, which materials have
   std::map<std::string, preset::Material> materials;
   std::vector<DescribedShape> shapes;
   std::vector<DescribedLight> lights;
+  std::vector<preset::Light> lamps; ///< lights that are in watts already
   std::optional<DescribedSurroundings> surroundings;
   std::vector<std::string> notes;
 
-  /// FILE:LINE: what is left out, and what is done instead; each once.
-  void note(const Place& where, const std::string& text);
-  /// Its key. where: of the shape, for the message where the file cannot be read.
+  /// A sentence on what is left out, and what is done instead; each once.
+  void note(const std::string& text);
+  /// FILE:LINE: the same.
+  void note(const Place& where, const std::string& text) { note(where.text() + ": " + text); }
+  /// Reads a mesh and returns its key. where: of the shape, for the message where the file cannot be read.
   std::string mesh_file(const std::filesystem::path& file, const Place& where);
+  /// Adds a mesh and returns its key.
   std::string own_mesh(const std::string& name, scene::Mesh mesh);
 };
 
 /// A text of a file as the name of something: one line, without what parts paths.
 std::string name_of(const std::string& text, const std::string& otherwise);
+/// The same as a file's name, without blanks.
+std::string file_name_of(const std::string& text, const char* ending);
+/// The name, with a number behind it where it is taken.
+std::string unique(const std::string& name, std::set<std::string>& taken);
+
+/// A number of a file; nothing if the text is none, or one that no scene has.
+std::optional<double> scene_number(std::string_view text);
+/// Throws bad_input at `where` if no glass has this index of refraction.
+preset::Material glass_of(double n, const Place& where);
+
+/// From a viewer's coordinates, x across `up` and the line of sight, z forward. Throws bad_input at `where`.
+glm::dmat4 look_at(const glm::dvec3& origin, const glm::dvec3& target, const glm::dvec3& up, const Place& where);
+/// The matrix, then a turn about the axis. Throws bad_input at `where` if the axis has no direction.
+glm::dmat4 rotated(const glm::dmat4& matrix, double degrees, const glm::dvec3& axis, const Place& where);
+/// The vertical field of view of a picture where `degrees` are seen across an extent; both in pixels.
+double vertical_fov_deg(double degrees, double height, double extent);
 
 /// A flat polygon with its corners in this order, seen from outside.
 scene::Mesh polygon(const std::vector<glm::vec3>& corners);
@@ -79,7 +102,7 @@ scene::Mesh open_cylinder(const glm::dvec3& from, const glm::dvec3& to, double r
 template <class Fade>
 double same_power_half_angle_deg(double outer_deg, const Fade& fade) {
   constexpr int steps = 4096;
-  double part = 0; // of the solid angle over 2 pi
+  double part = 0; // solid angle over 2 pi
   for (int i = 0; i < steps; ++i) {
     const double a = glm::radians(outer_deg) * (i + 0.5) / steps;
     part += fade(a) * std::sin(a) * glm::radians(outer_deg) / steps;
@@ -87,14 +110,8 @@ double same_power_half_angle_deg(double outer_deg, const Fade& fade) {
   return glm::degrees(std::acos(1 - part));
 }
 
-/// Throws bad_input where there is nothing to see.
-Imported write_described(Description description, const std::filesystem::path& preset);
-/// Writes the meshes, then the preset that names them.
-Imported write_imported(const preset::Preset& made, const std::filesystem::path& preset,
-                        const std::map<std::string, scene::Mesh>& meshes,
-                        const std::map<std::string, std::string>& glasses, std::vector<std::string> notes);
-
-Description read_mitsuba(const std::filesystem::path& file);
-Description read_pbrt(const std::filesystem::path& file);
+Description describe_gltf(const std::filesystem::path& file);
+Description describe_mitsuba(const std::filesystem::path& file);
+Description describe_pbrt(const std::filesystem::path& file);
 
 } // namespace nephroid::formats

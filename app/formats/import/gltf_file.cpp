@@ -164,24 +164,30 @@ bool GltfValue::truth(const char* key, bool standard) const {
   return (*json_)[key].get<bool>();
 }
 
-std::size_t GltfValue::checked_index(const GltfJson& json, const Place& where, std::size_t size, const char* of) const {
+std::size_t GltfValue::checked_index(const GltfJson& json, const Place& where, const GltfValue& root,
+                                     const char* list) const {
+  const std::size_t size = root.has(list) && root.json()[list].is_array() ? root.json()[list].size() : 0;
   if (!json.is_number_integer() || json.get<double>() < 0) refuse(where, "an index");
   if (json.get<double>() >= static_cast<double>(size))
-    throw bad_input(where, fmt::format("is {}, and there are {} {}", json.dump(), size, of));
+    throw bad_input(where, fmt::format("is {}, and there are {} {}", json.dump(), size, list));
   return json.get<std::size_t>();
 }
 
-std::size_t GltfValue::index(const char* key, std::size_t size, const char* of) const {
+std::size_t GltfValue::index(const char* key, const GltfValue& root, const char* list) const {
   if (!has(key)) throw bad_input(where_, fmt::format("has no \"{}\"", key));
-  return checked_index((*json_)[key], where_ / key, size, of);
+  return checked_index((*json_)[key], where_ / key, root, list);
 }
 
-std::vector<std::size_t> GltfValue::indices(const char* key, std::size_t size, const char* of) const {
+GltfValue GltfValue::item(const char* key, const GltfValue& root, const char* list) const {
+  return root.item(list, index(key, root, list));
+}
+
+std::vector<std::size_t> GltfValue::indices(const char* key, const GltfValue& root, const char* list) const {
   std::vector<std::size_t> all;
   if (!has(key)) return all;
   const GltfJson& value = (*json_)[key];
   if (!value.is_array()) refuse(where_ / key, "a list of indices");
-  for (std::size_t i = 0; i < value.size(); ++i) all.push_back(checked_index(value[i], where_ / key / i, size, of));
+  for (std::size_t i = 0; i < value.size(); ++i) all.push_back(checked_index(value[i], where_ / key / i, root, list));
   return all;
 }
 

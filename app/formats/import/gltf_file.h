@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A glTF 2.0 file as JSON with its binary chunk, and reading that JSON strictly: every wrong type and every index out
-// of range is an error at its place. Of buffers only sizes are looked at: the mesh reader, a program of its own, reads
-// them.
+// of range is an error at its place. The mesh reader, a program of its own, reads the buffers.
 #pragma once
 #include "base/place.h"
 
@@ -41,15 +40,17 @@ public:
   std::vector<GltfValue> list(const char* key) const;
   /// An item of a list of objects. Throws if the list has no such index.
   GltfValue item(const char* key, std::size_t index) const;
+  /// The item of root's list whose index this value has.
+  GltfValue item(const char* key, const GltfValue& root, const char* list) const;
 
   double number(const char* key, double standard) const;
   /// Whole and not negative, below 2^32.
   std::uint64_t count(const char* key, std::uint64_t standard) const;
   std::string text(const char* key) const; ///< empty without it
   bool truth(const char* key, bool standard) const;
-  /// A list of indices into a list of `size` items, called `of`.
-  std::vector<std::size_t> indices(const char* key, std::size_t size, const char* of) const;
-  std::size_t index(const char* key, std::size_t size, const char* of) const;
+  /// An index into root's list, and a list of such.
+  std::size_t index(const char* key, const GltfValue& root, const char* list) const;
+  std::vector<std::size_t> indices(const char* key, const GltfValue& root, const char* list) const;
   template <std::size_t N>
   std::array<double, N> numbers(const char* key, const std::array<double, N>& standard) const {
     std::array<double, N> values = standard;
@@ -59,7 +60,7 @@ public:
 
 private:
   void read_numbers(const char* key, double* values, std::size_t count) const;
-  std::size_t checked_index(const GltfJson& json, const Place& where, std::size_t size, const char* of) const;
+  std::size_t checked_index(const GltfJson& json, const Place& where, const GltfValue& root, const char* list) const;
 
   const GltfJson* json_;
   Place where_;

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
@@ -20,10 +20,9 @@ namespace {
 std::string decoded(const std::string& uri) {
   std::string name;
   for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned value = 0;
-    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
-                         std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
-    if (escaped) value = static_cast<unsigned>(std::stoul(uri.substr(i + 1, 2), nullptr, 16));
+    unsigned char value = 0;
+    const char *const digits = uri.data() + i + 1, *const end = digits + 2;
+    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, end, value, 16).ptr == end;
     name += escaped ? static_cast<char>(value) : uri[i];
     if (escaped) i += 2;
   }
@@ -48,13 +47,12 @@ public:
 
   GltfJson of(const GltfValue& primitive) {
     const GltfValue attributes = primitive.object("attributes");
-    const std::size_t count = root_.list("accessors").size();
     GltfJson one = GltfJson::object();
     one["mode"] = primitive.count("mode", 4);
-    one["attributes"]["POSITION"] = accessor(attributes.index("POSITION", count, "accessors"), 3);
+    one["attributes"]["POSITION"] = accessor(attributes.index("POSITION", root_, "accessors"), 3);
     if (attributes.has("NORMAL"))
-      one["attributes"]["NORMAL"] = accessor(attributes.index("NORMAL", count, "accessors"), 3);
-    if (primitive.has("indices")) one["indices"] = accessor(primitive.index("indices", count, "accessors"), 1);
+      one["attributes"]["NORMAL"] = accessor(attributes.index("NORMAL", root_, "accessors"), 3);
+    if (primitive.has("indices")) one["indices"] = accessor(primitive.index("indices", root_, "accessors"), 1);
     made_["asset"] = {{"version", "2.0"}};
     made_["scene"] = 0;
     // Lists by name: braces about one item may mean the item itself.
@@ -79,37 +77,34 @@ private:
     GltfJson copy = accessor.json();
     for (const char* unused : {"extensions", "extras", "name"}) copy.erase(unused);
     if (accessor.has("bufferView")) {
-      const GltfValue view =
-          root_.item("bufferViews", accessor.index("bufferView", root_.list("bufferViews").size(), "buffer views"));
+      const GltfValue view = accessor.item("bufferView", root_, "bufferViews");
       const std::uint64_t item = component * width, stride = std::max(view.count("byteStride", item), item);
       const std::uint64_t end = accessor.count("byteOffset", 0) + (count - 1) * stride + item,
                           length = view.count("byteLength", 0);
       if (end > length)
         throw bad_input(accessor.where(),
                         fmt::format("its {} items end at byte {} of a buffer view of {}", count, end, length));
-      copy["bufferView"] = this->view(accessor.index("bufferView", root_.list("bufferViews").size(), "buffer views"));
+      copy["bufferView"] = add_view(view);
     }
     if (accessor.has("sparse"))
       for (const char* part : {"indices", "values"}) {
         const GltfValue sparse = accessor.object("sparse").object(part);
-        copy["sparse"][part]["bufferView"] =
-            view(sparse.index("bufferView", root_.list("bufferViews").size(), "buffer views"));
+        copy["sparse"][part]["bufferView"] = add_view(sparse.item("bufferView", root_, "bufferViews"));
       }
     made_["accessors"].push_back(std::move(copy));
     return made_["accessors"].size() - 1;
   }
 
   static std::size_t component_bytes(const GltfValue& accessor) {
-    constexpr std::array<std::size_t, 7> bytes{1, 1, 2, 2, 0, 4, 4}; // of 5120 to 5126
+    constexpr std::array<std::size_t, 7> bytes{1, 1, 2, 2, 0, 4, 4}; // types 5120 to 5126
     const std::uint64_t type = accessor.count("componentType", 0);
     if (type < 5120 || type > 5126 || bytes[type - 5120] == 0)
       throw bad_input(accessor.where() / "componentType", "is no type of glTF", "expected 5120 to 5126");
     return bytes[type - 5120];
   }
 
-  std::size_t view(std::size_t index) {
-    const GltfValue view = root_.item("bufferViews", index);
-    const std::size_t buffer = view.index("buffer", buffers_.size(), "buffers");
+  std::size_t add_view(const GltfValue& view) {
+    const std::size_t buffer = view.index("buffer", root_, "buffers");
     const std::uint64_t end = view.count("byteOffset", 0) + view.count("byteLength", 0),
                         size = buffers_[buffer]["byteLength"].get<std::uint64_t>();
     if (end > size) throw bad_input(view.where(), fmt::format("ends at byte {} of a buffer of {}", end, size));

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace nephroid::formats {
 namespace {
@@ -29,11 +30,10 @@ glm::dmat4 local_matrix(const GltfValue& node) {
   return glm::scale(glm::translate(glm::dmat4(1), scene::to_dvec3(t)) * turn, scene::to_dvec3(s));
 }
 
-std::vector<std::size_t> roots_of(const GltfValue& root, std::size_t count) {
-  const std::vector<GltfValue> scenes = root.list("scenes");
-  if (scenes.empty()) throw bad_input(root.where(), "has no scene", "expected nodes to import");
-  return root.item("scenes", root.has("scene") ? root.index("scene", scenes.size(), "scenes") : 0)
-      .indices("nodes", count, "nodes");
+std::vector<std::size_t> roots_of(const GltfValue& root) {
+  if (root.list("scenes").empty()) throw bad_input(root.where(), "has no scene", "expected nodes to import");
+  return root.item("scenes", root.has("scene") ? root.index("scene", root, "scenes") : 0)
+      .indices("nodes", root, "nodes");
 }
 
 // In micrometres, as Cauchy's formula has them.
@@ -85,12 +85,6 @@ std::string advice_on_glass(const GltfValue& material, const std::string& name) 
       name, sign, name, material.extension("KHR_materials_ior").number("ior", 1.5));
 }
 
-double sum(const optics::Spectrum& spectrum) {
-  double all = 0;
-  for (const double value : spectrum) all += value;
-  return all;
-}
-
 } // namespace
 
 std::vector<GltfNode> nodes_of(const GltfFile& file) {
@@ -107,7 +101,7 @@ std::vector<GltfNode> nodes_of(const GltfFile& file) {
   const auto add = [&](const std::vector<std::size_t>& indices, const glm::dmat4& parent) {
     for (auto index = indices.rbegin(); index != indices.rend(); ++index) tasks.push_back({*index, parent});
   };
-  add(roots_of(root, all.size()), glm::dmat4(1));
+  add(roots_of(root), glm::dmat4(1));
   while (!tasks.empty()) {
     const Task task = tasks.back();
     tasks.pop_back();
@@ -116,7 +110,7 @@ std::vector<GltfNode> nodes_of(const GltfFile& file) {
       throw bad_input(node.where(), "the node has two parents, or nodes go round in a circle", "expected a tree");
     seen[task.index] = true;
     nodes.push_back({node, task.parent * local_matrix(node)});
-    add(node.indices("children", all.size(), "nodes"), nodes.back().to_world);
+    add(node.indices("children", root, "nodes"), nodes.back().to_world);
   }
   return nodes;
 }
@@ -223,7 +217,7 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
 }
 
 double lumens_per_watt(const optics::Spectrum& spectrum) {
-  return most_lumens * optics::to_xyz(spectrum)[1] / sum(spectrum);
+  return most_lumens * optics::to_xyz(spectrum)[1] / std::accumulate(spectrum.begin(), spectrum.end(), 0.0);
 }
 
 LightColour light_colour(const std::array<double, 3>& rgb) {

@@ -60,9 +60,8 @@ preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const
 /// What the light gives a surface that faces it at this point, in luminous watts a square metre: lux / 683.
 double luminous_irradiance(const preset::Light& light, const glm::dvec3& at);
 
-/// The triangles of the file's primitives. Each is handed to the mesh reader, a program of its own, as a glTF file that
-/// holds this primitive alone: so what is corrupt in it harms nobody, and nobody has to guess which of the reader's
-/// meshes is which of the file's.
+/// The triangles of the file's primitives. The mesh reader, a program of its own, gets each as a glTF file that holds
+/// it alone: so what is corrupt harms nobody, and it is clear which of the reader's meshes is which of the file's.
 class GltfMeshes {
 public:
   /// Throws bad_input where a buffer is missing or shorter than the file says. file outlives this.
@@ -79,7 +78,7 @@ private:
   GltfJson buffer(const GltfValue& value, std::size_t index) const;
 
   const GltfFile& file_;
-  std::filesystem::path folder_; ///< of what the reader reads; gone with this
+  std::filesystem::path folder_; ///< what the reader reads; gone with this
   std::vector<GltfJson> buffers_;
 };
 

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
+// From what a file describes to a preset and its meshes: in one place, for all formats.
 #include "formats/import/import.h"
 
 #include "base/counted.h"
+#include "base/files.h"
 #include "base/lower_case.h"
 #include "formats/import/description.h"
 #include "formats/import/gltf_scene.h"
+#include "preset/read.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <set>
+#include <system_error>
 
 namespace nephroid::formats {
 namespace fs = std::filesystem;
@@ -21,189 +23,241 @@ namespace {
 
 using std::numbers::pi;
 
-/// The name, with a number behind it where it is taken.
-std::string unique(const std::string& name, std::set<std::string>& taken) {
-  std::string free = name;
-  for (int n = 2; !taken.insert(free).second; ++n) free = fmt::format("{} {}", name, n);
-  return free;
+/// The triangles where they stand, and what a lamp in their place needs.
+struct Emitter {
+  glm::dvec3 centre{0}, normal{0}, edge{0};
+  double area = 0;
+  std::array<double, 2> size{};
+  bool flat = false, rectangle = false;
+};
+
+Emitter emitter_of(const scene::Mesh& mesh, const glm::dmat4& to_world) {
+  Emitter e;
+  std::vector<glm::dvec3> points;
+  for (const glm::vec3& p : mesh.positions) points.emplace_back(to_world * glm::dvec4(glm::dvec3(p), 1));
+  const double turn = glm::determinant(glm::dmat3(to_world)) < 0 ? -1 : 1;
+  double squarest = 2;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::dvec3 a = points[t.x], b = points[t.y], c = points[t.z], n = 0.5 * turn * glm::cross(b - a, c - a);
+    e.normal += n;
+    e.area += glm::length(n);
+    e.centre += glm::length(n) * (a + b + c) / 3.0;
+    for (const auto& [u, v] : {std::pair(b - a, c - a), std::pair(c - b, a - b), std::pair(a - c, b - c)}) {
+      const double product = glm::length(u) * glm::length(v),
+                   cosine = product > 0 ? std::abs(glm::dot(u, v)) / product : 2;
+      if (cosine < squarest) squarest = cosine, e.edge = glm::normalize(u);
+    }
+  }
+  if (!(e.area > 0)) return e;
+  e.centre /= e.area;
+  e.flat = glm::length(e.normal) > (1 - 1e-6) * e.area;
+  if (!e.flat) return e;
+  e.normal = glm::normalize(e.normal);
+  const glm::dvec3 other = glm::cross(e.normal, e.edge);
+  glm::dvec2 low(1e30), high(-1e30);
+  for (const glm::dvec3& p : points) {
+    const glm::dvec2 q(glm::dot(p - e.centre, e.edge), glm::dot(p - e.centre, other));
+    low = glm::min(low, q);
+    high = glm::max(high, q);
+  }
+  const glm::dvec2 box = high - low;
+  e.rectangle = std::abs(box.x * box.y - e.area) < 1e-3 * e.area;
+  const double shrink = std::sqrt(e.area / (box.x * box.y));
+  e.size = {box.x * shrink, box.y * shrink};
+  return e;
 }
 
-class Import {
+double clamped_power(double watts) { return std::clamp(watts, 0.0, 1e9); }
+
+class PresetBuilder {
 public:
-  Import(const GltfFile& file, fs::path preset)
-      : root_(file.json, file.where()), meshes_(file), preset_file_(std::move(preset)) {
-    for (const GltfNode& node : nodes_of(file)) {
-      if (node.value.has("mesh")) add_mesh(node);
-      if (node.value.has("skin")) note("skins are left out: meshes are as they rest");
-      if (node.value.has("camera")) add_camera(node);
-      if (node.value.object("extensions").has("KHR_lights_punctual")) add_light(node);
-    }
-    if (root_.has("animations") && !root_.list("animations").empty()) note("animations are left out");
-    if (made_.scene.objects.empty())
-      throw bad_input(root_.where(), "has no triangles in its scene", "expected meshes of triangles");
-    made_.name = preset_file_.stem().string();
-    made_.description = "Imported from " + name_of(file.file.filename().string(), "glTF");
-    if (!has_camera_) look_at_all();
-    if (made_.scene.lights.empty()) light_all();
-    expose();
+  /// folder: the name of the meshes' folder, beside the preset.
+  PresetBuilder(Description& from, std::string folder) : from_(from), folder_(std::move(folder)) {
+    // A picture is right as our camera sees it where x, y and -z of the camera are right-handed. Else the whole world
+    // is mirrored.
+    if (from_.camera && glm::determinant(glm::dmat3(from_.camera->to_world)) > 0) mirror_[0][0] = -1;
   }
 
-  Imported write() { return write_imported(made_, preset_file_, files_, glasses_, notes_); }
+  preset::Preset make(const std::string& name) {
+    made_.name = name;
+    made_.description = "Imported from " + name_of(from_.source.filename().string(), "a scene");
+    made_.scene.materials = from_.materials;
+    for (auto& [key, material] : made_.scene.materials)
+      if (!material.dispersion.file.empty()) material.dispersion.file = folder_ + "/" + material.dispersion.file;
+    for (const DescribedShape& shape : from_.shapes) add(shape);
+    if (made_.scene.objects.empty())
+      throw bad_input(from_.source.string(), "has no triangles in its scene, and no sphere",
+                      "expected a surface that can be taken over");
+    made_.scene.lights.insert(made_.scene.lights.end(), from_.lamps.begin(), from_.lamps.end());
+    for (const DescribedLight& light : from_.lights) add(light);
+    if (from_.surroundings) surround(*from_.surroundings);
+    if (from_.camera)
+      aim(*from_.camera);
+    else
+      look_at_all();
+    if (made_.scene.lights.empty() && !made_.scene.environment) light_all();
+    expose();
+    return made_;
+  }
 
 private:
-  void note(std::string text) {
-    if (std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(std::move(text));
-  }
-
-  /// Encloses a place that can be seen.
   void see(const glm::dvec3& p) { bounds_ = scene::enclosing(bounds_, {p, p}); }
   glm::dvec3 middle() const { return 0.5 * (bounds_.low + bounds_.high); }
   double size() const { return std::max(glm::length(bounds_.high - bounds_.low), 1e-3); }
 
-  void add_mesh(const GltfNode& node) {
-    const std::size_t index = node.value.index("mesh", root_.list("meshes").size(), "meshes");
-    const GltfValue mesh = root_.item("meshes", index);
-    const std::string name =
-        name_of(node.value.text("name"), name_of(mesh.text("name"), fmt::format("mesh {}", index)));
-    const auto transform = transform_of(node.to_world);
-    const std::vector<GltfValue> primitives = mesh.list("primitives");
-    for (std::size_t p = 0; p < primitives.size(); ++p) {
-      if (const auto mode = primitives[p].count("mode", 4); mode < 4) {
-        note(fmt::format("points and lines of '{}' are left out", name));
-        continue;
+  void add(const DescribedShape& shape) {
+    glm::dmat4 to_world = mirror_ * shape.to_world;
+    if (shape.mesh.empty()) to_world = to_world * glm::dmat4(glm::dmat3(shape.radius));
+    if (shape.glow) return glow(shape, to_world);
+    preset::Object object;
+    object.name = unique(name_of(shape.name, "object"), names_);
+    object.material = shape.material;
+    auto transform = transform_of(to_world);
+    if (shape.mesh.empty()) {
+      if (!transform) return from_.note(shape.where, "a sphere that is sheared is left out");
+      object.shape.emplace();
+      object.shape->radius = 1;
+      for (const double x : {-1.0, 1.0})
+        for (const double y : {-1.0, 1.0})
+          for (const double z : {-1.0, 1.0}) see(to_world * glm::dvec4(x, y, z, 1));
+    } else {
+      std::string key = shape.mesh;
+      if (!transform) { // a mesh that is sheared or flattened is written as it stands in the world
+        scene::Mesh mesh = from_.meshes.at(key);
+        mesh.normals.clear();
+        for (glm::vec3& p : mesh.positions) p = glm::vec3(to_world * glm::dvec4(glm::dvec3(p), 1));
+        if (glm::determinant(glm::dmat3(to_world)) < 0)
+          for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+        key = from_.own_mesh(shape.name, std::move(mesh));
+        to_world = glm::dmat4(1);
+        transform.emplace();
       }
-      if (primitives[p].has("targets")) note("morph targets are left out");
-      preset::Object object;
-      object.name = unique(name, object_names_);
-      object.material = material(primitives[p]);
-      // A mesh that is sheared or flattened by its node is written as it stands in the world.
-      const std::string file = mesh_file({index, p, transform ? 0 : object_names_.size()}, primitives[p], object.name,
-                                         transform ? glm::dmat4(1) : node.to_world);
-      object.mesh = preset_file_.stem().string() + "-meshes/" + file;
-      if (transform) object.transform = *transform;
-      if (!files_.at(file).normals.empty()) object.normals = preset::Object::Normals::smooth;
-      for (const glm::vec3& v : files_.at(file).positions)
-        see(transform ? glm::dvec3(node.to_world * glm::dvec4(glm::dvec3(v), 1)) : glm::dvec3(v));
-      made_.scene.objects.push_back(std::move(object));
+      const scene::Mesh& mesh = from_.meshes.at(key);
+      if (!mesh.normals.empty()) object.normals = preset::Object::Normals::smooth;
+      for (const glm::vec3& p : mesh.positions) see(to_world * glm::dvec4(glm::dvec3(p), 1));
+      object.mesh = folder_ + "/" + key;
+      used.insert(key);
     }
+    object.transform = *transform;
+    made_.scene.objects.push_back(std::move(object));
   }
 
-  /// Mesh, primitive, and 0 or a number of its own.
-  using MeshKey = std::array<std::size_t, 3>;
-
-  std::string mesh_file(const MeshKey& key, const GltfValue& primitive, const std::string& name,
-                        const glm::dmat4& baked) {
-    const auto [found, is_new] = names_.try_emplace(key);
-    if (!is_new) return found->second;
-    scene::Mesh mesh = meshes_.read(primitive);
-    if (baked != glm::dmat4(1)) {
-      mesh.normals.clear(); // those of the triangles follow the shear
-      for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dvec3(baked * glm::dvec4(glm::dvec3(p), 1)));
-      if (glm::determinant(glm::dmat3(baked)) < 0)
-        for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+  /// A lamp takes the place of a surface that shines.
+  void glow(const DescribedShape& shape, const glm::dmat4& to_world) {
+    const LightColour colour = light_colour(scene::to_vec3(*shape.glow));
+    const double radiance = watts(colour); // W m^-2 sr^-1
+    preset::Light light;
+    light.spectrum = colour.spectrum;
+    if (shape.mesh.empty()) {
+      const double radius = std::cbrt(std::abs(glm::determinant(glm::dmat3(to_world))));
+      light.position = scene::to_vec3(glm::dvec3(to_world[3]));
+      light.power_w = clamped_power(pi * radiance * 4 * pi * radius * radius);
+      from_.note(shape.where, "a sphere that shines is left out: a point light of its power is in its centre");
+    } else {
+      const Emitter e = emitter_of(from_.meshes.at(shape.mesh), to_world);
+      light.position = scene::to_vec3(e.centre);
+      light.power_w = clamped_power(pi * radiance * e.area);
+      if (e.flat) {
+        light.type = preset::Light::Type::area;
+        light.direction = scene::to_vec3(e.normal);
+        const glm::dvec3 up = glm::cross(e.normal, e.edge);
+        light.up = scene::to_vec3(up);
+        light.size = e.size;
+        if (!e.rectangle)
+          from_.note(shape.where,
+                     "a flat surface that shines is left out: a rectangle of its area shines in its place");
+      } else
+        from_.note(shape.where, "a surface that shines is left out: a point light of its power is in its middle");
     }
-    std::string file = name + ".ply";
-    std::replace(file.begin(), file.end(), ' ', '-');
-    for (int n = 2; files_.contains(file); ++n) file = fmt::format("{}-{}.ply", name, n);
-    files_.emplace(file, std::move(mesh));
-    return found->second = file;
+    if (light.power_w > 0) made_.scene.lights.push_back(light);
   }
 
-  std::string material(const GltfValue& primitive) {
-    constexpr std::size_t none = ~std::size_t{0};
-    const std::size_t index =
-        primitive.has("material") ? primitive.index("material", root_.list("materials").size(), "materials") : none;
-    const auto [found, is_new] = material_names_.try_emplace(index);
-    if (!is_new) return found->second;
-    if (index == none) {
-      found->second = unique("plain", taken_materials_);
-      made_.scene.materials[found->second] = {};
-      return found->second;
-    }
-    const GltfValue value = root_.item("materials", index);
-    found->second = unique(name_of(value.text("name"), fmt::format("material {}", index)), taken_materials_);
-    preset::Material& made = made_.scene.materials[found->second] = material_of(value, found->second, notes_);
-    if (made.type != preset::Material::Type::dielectric) return found->second;
-    if (std::string glass = absorbing_glass_file(value, made.dispersion); !glass.empty()) {
-      std::string file = found->second + ".yml";
-      std::replace(file.begin(), file.end(), ' ', '-');
-      made.dispersion = {};
-      made.dispersion.type = preset::Dispersion::Type::file;
-      made.dispersion.file = preset_file_.stem().string() + "-meshes/" + file;
-      glasses_.emplace(std::move(file), std::move(glass));
-    }
-    return found->second;
+  double watts(const LightColour& colour) const { return colour.watts_per_lumen * most_lumens * from_.unit; }
+
+  void add(const DescribedLight& light) {
+    const LightColour colour = light_colour(scene::to_vec3(light.colour));
+    preset::Light made;
+    made.type = light.type;
+    made.spectrum = colour.spectrum;
+    made.position = scene::to_vec3(glm::dvec3(mirror_ * glm::dvec4(light.position, 1)));
+    const glm::dvec3 way = glm::dmat3(mirror_) * light.direction;
+    if (!(glm::length(way) > 0)) throw bad_input(light.where, "the light has no direction");
+    made.direction = scene::to_vec3(glm::normalize(way));
+    made.half_angle_deg = std::clamp(light.half_angle_deg, 0.01, 90.0);
+    const bool spot = light.type == preset::Light::Type::spot;
+    made.power_w =
+        clamped_power(watts(colour) * (spot ? 2 * pi * (1 - std::cos(glm::radians(made.half_angle_deg))) : 4 * pi));
+    made.irradiance_w_m2 = clamped_power(watts(colour));
+    if (!(watts(colour) > 0)) return from_.note(light.where, "a light that is black is left out");
+    made_.scene.lights.push_back(made);
   }
 
-  void add_camera(const GltfNode& node) {
-    const GltfValue camera = root_.item("cameras", node.value.index("camera", root_.list("cameras").size(), "cameras"));
-    if (camera.text("type") != "perspective") return note("a camera without perspective is left out");
-    if (std::exchange(has_camera_, true)) return note("only the first camera is taken");
-    const GltfValue lens = camera.object("perspective");
-    const double fov = lens.number("yfov", 0.7), aspect = std::clamp(lens.number("aspectRatio", 1), 0.1, 10.0);
+  void surround(const DescribedSurroundings& s) {
+    preset::Environment& e = made_.scene.environment.emplace();
+    e.lights = true;
+    e.radiance = s.scale * from_.unit;
+    if (s.file.empty()) {
+      e.type = preset::Environment::Type::constant;
+      e.colour = scene::to_vec3(s.colour);
+      return;
+    }
+    e.file = fs::absolute(s.file).lexically_normal().string();
+    // Ours looks along -z, and a turn is counterclockwise seen from above: (-sin a, 0, -cos a).
+    const glm::dvec3 centre = glm::dmat3(mirror_) * s.centre;
+    e.rotate_deg = glm::degrees(std::atan2(-centre.x, -centre.z));
+    if (mirror_[0][0] < 0)
+      from_.note(s.where, "the surroundings are mirrored with the scene in the file and are not here");
+  }
+
+  void aim(const DescribedCamera& c) {
     preset::Camera& made = made_.scene.camera;
-    made.fov_deg = std::clamp(glm::degrees(fov), 0.001, 179.9);
-    made.resolution = aspect >= 1 ? std::array{static_cast<int>(std::lround(512 * aspect)), 512}
-                                  : std::array{512, static_cast<int>(std::lround(512 / aspect))};
-    const glm::dvec3 position(node.to_world[3]), forward = -glm::dvec3(node.to_world[2]), up(node.to_world[1]);
-    if (!(glm::length(forward) > 0) || !(glm::length(up) > 0))
-      throw bad_input(node.value.where(), "the camera has no direction");
+    const glm::dmat4 to_world = mirror_ * c.to_world;
+    const glm::dvec3 position(to_world[3]), forward(to_world[2]), up(to_world[1]);
+    if (!(glm::length(forward) > 0) || !(glm::length(up) > 0)) throw bad_input(c.where, "the camera has no direction");
     made.position = scene::to_vec3(position);
     made.up = scene::to_vec3(glm::normalize(up));
-    forward_ = glm::normalize(forward);
-  }
-
-  void add_light(const GltfNode& node) {
-    const GltfValue lights = root_.extension("KHR_lights_punctual");
-    const GltfValue own = node.value.extension("KHR_lights_punctual");
-    const GltfValue light = lights.item("lights", own.index("light", lights.list("lights").size(), "lights"));
-    made_.scene.lights.push_back(
-        light_of(light, node.to_world, name_of(light.text("name"), name_of(node.value.text("name"), "light")), notes_));
-  }
-
-  /// The file's camera looks along a line; ours at a point, about which the window turns it.
-  void aim() {
-    preset::Camera& camera = made_.scene.camera;
-    const glm::dvec3 position = scene::to_dvec3(camera.position);
-    const double ahead = glm::dot(middle() - position, forward_);
-    camera.target = scene::to_vec3(position + forward_ * (ahead > 1e-3 * size() ? ahead : size()));
+    made.fov_deg = std::clamp(c.fov_deg, 0.001, 179.9);
+    made.resolution = c.resolution;
+    // The file's camera looks along a line; ours at a point, about which the window turns it.
+    const double ahead = glm::dot(middle() - position, glm::normalize(forward));
+    made.target = scene::to_vec3(position + glm::normalize(forward) * (ahead > 1e-3 * size() ? ahead : size()));
   }
 
   void look_at_all() {
-    note("the file has no camera with perspective: one that sees everything takes its place");
+    from_.note("the file has no camera with perspective: one that sees everything takes its place");
     made_.scene.camera.target = scene::to_vec3(middle());
     made_.scene.camera.position = scene::to_vec3(middle() + size() * glm::dvec3(0.3, 0.7, 1.2));
   }
 
   void light_all() {
-    note("the file has no lights: a lamp above everything takes their place");
+    from_.note("the file has no lights that can be taken over: a lamp above everything takes their place");
     preset::Light lamp;
     lamp.position = scene::to_vec3(middle() + size() * glm::dvec3(-0.5, 1, 0.4));
-    lamp.power_w = 10 * size() * size();
+    lamp.power_w = clamped_power(10 * size() * size() * from_.unit);
     made_.scene.lights.push_back(lamp);
   }
 
-  /// White is a white surface in the middle of everything that faces every light.
+  /// Where the file does not say what is white, it is a white surface in the middle of everything that faces every
+  /// light.
   void expose() {
-    if (has_camera_) aim();
-    double irradiance = 0;
-    for (const preset::Light& light : made_.scene.lights) irradiance += luminous_irradiance(light, middle());
-    made_.white = irradiance > 0 ? std::clamp(irradiance / pi, 1e-12, 1e12) : 1;
+    double white = from_.unit;
+    if (from_.fits_white) {
+      double irradiance = 0;
+      for (const preset::Light& light : made_.scene.lights) irradiance += luminous_irradiance(light, middle());
+      white = irradiance > 0 ? irradiance / pi : 1;
+    }
+    made_.white = std::clamp(white, 1e-12, 1e12);
   }
 
-  GltfValue root_;
-  GltfMeshes meshes_;
-  fs::path preset_file_;
+  Description& from_;
+  std::string folder_;
   preset::Preset made_;
-  std::vector<std::string> notes_;
-  std::map<std::string, scene::Mesh> files_;   ///< by their names
-  std::map<std::string, std::string> glasses_; ///< dispersion files by their names
-  std::map<MeshKey, std::string> names_;       ///< of meshes that were read
-  std::map<std::size_t, std::string> material_names_;
-  std::set<std::string> object_names_, taken_materials_;
+  glm::dmat4 mirror_{1};
+  std::set<std::string> names_;
   scene::Bounds bounds_;
-  bool has_camera_ = false;
-  glm::dvec3 forward_{0, 0, -1};
+
+public:
+  std::set<std::string> used; ///< keys of meshes
 };
 
 } // namespace
@@ -216,15 +270,24 @@ std::string Imported::summary() const {
 }
 
 Imported import_scene(const fs::path& file, const fs::path& preset) {
-  const std::string kind = lower_case(file.extension().string());
-  if (kind == ".xml") return write_described(read_mitsuba(file), preset);
-  if (kind == ".pbrt") return write_described(read_pbrt(file), preset);
-  return import_gltf(file, preset);
-}
+  const std::string kind = lower_case(file.extension().string()), name = preset.stem().string();
+  Description description = (kind == ".xml" ? describe_mitsuba : kind == ".pbrt" ? describe_pbrt : describe_gltf)(file);
+  PresetBuilder builder(description, name + "-meshes");
+  const preset::Preset made = builder.make(name);
+  std::erase_if(description.meshes, [&](const auto& mesh) { return !builder.used.contains(mesh.first); });
 
-Imported import_gltf(const fs::path& file, const fs::path& preset) {
-  const GltfFile gltf = read_gltf(file);
-  return Import(gltf, preset).write();
+  const std::string text = preset::to_json(made);
+  preset::parse_preset(text, preset.string()); // what cannot be read again is not written
+  const fs::path folder = preset.parent_path() / (name + "-meshes");
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw failed(folder.string(), "cannot be made: " + error.message(), {}, "choose another folder with -o");
+  for (const auto& [key, glass] : description.glasses) write_file_whole(folder / key, glass);
+  for (const auto& [key, mesh] : description.meshes)
+    write_file_whole(folder / key, [&mesh = mesh](ByteSink& to) { scene::write_ply(mesh, to); });
+  write_file_whole(preset, text);
+  return {preset, made.scene.objects.size(), description.meshes.size(), made.scene.lights.size(),
+          std::move(description.notes)};
 }
 
 } // namespace nephroid::formats

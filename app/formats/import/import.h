@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A glTF 2.0 scene as a preset of engine 1: its meshes, camera, lights and materials. What has no counterpart is left
-// out and said.
-//
-// glTF is in metres, +y up, cameras look along -z: as here. Its meshes become PLY files, each once, in the frame of its
-// node. Extensions: KHR_lights_punctual, KHR_materials_ior, _transmission, _dispersion; of _volume that glass is solid.
+// A scene of another program as a preset of engine 1: its meshes, camera, lights and materials. What has no counterpart
+// is left out and said.
 #pragma once
 #include <cstddef>
 #include <filesystem>
@@ -21,12 +18,10 @@ struct Imported {
   std::string summary() const;
 };
 
-/// Reads FILE.gltf or FILE.glb and writes `preset` and, in the folder NAME-meshes beside it, its meshes; makes folders
-/// where needed. Nothing is there where it fails. Throws bad_input naming the file and the place in it: cut or no glTF,
-/// an index out of range, nodes in a circle, a buffer that is missing or too short, no triangle at all.
-Imported import_gltf(const std::filesystem::path& file, const std::filesystem::path& preset);
-
-/// The same of a Mitsuba scene (.xml), a PBRT scene (.pbrt), or else glTF.
+/// Reads a Mitsuba scene (.xml), a PBRT scene (.pbrt), or else glTF 2.0, and writes `preset` and, in the folder
+/// NAME-meshes beside it, its meshes, each once; makes folders where needed. Nothing is there where it fails. Throws
+/// bad_input naming the file and the place in it: cut or of another format, an index out of range, nodes in a circle, a
+/// buffer that is missing or too short, no surface at all.
 Imported import_scene(const std::filesystem::path& file, const std::filesystem::path& preset);
 
 } // namespace nephroid::formats

@@ -7,7 +7,7 @@
 #include "inverse/bending.h"
 #include "inverse/lens/lens.h"
 #include "inverse/light.h"
-#include "scene/camera_and_lights.h"
+#include "scene/scene.h"
 
 #include <fmt/format.h>
 

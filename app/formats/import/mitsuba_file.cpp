@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/import/mitsuba_file.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "formats/import/description.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+namespace nephroid::formats {
+namespace {
+
+constexpr int max_files = 100;
+
+std::size_t line_of(const std::string& text, std::ptrdiff_t offset) {
+  const auto end = text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, std::ssize(text));
+  return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
+}
+
+} // namespace
+
+std::string mitsuba_name(const std::string& name) {
+  std::string text;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool upper = name[i] >= 'A' && name[i] <= 'Z';
+    if (upper && i > 0 && name[i - 1] >= 'a' && name[i - 1] <= 'z') text += '_';
+    text += upper ? static_cast<char>(name[i] - 'A' + 'a') : name[i];
+  }
+  return text;
+}
+
+xml_node MitsubaFile::load(const std::filesystem::path& file) {
+  if (documents_.size() >= max_files) throw bad_input(file.string(), "is included too often, perhaps by itself");
+  Document& document = documents_.emplace_back();
+  document.file = file;
+  document.text = read_file(file);
+  const auto result = document.xml.load_buffer(document.text.data(), document.text.size());
+  if (!result)
+    throw bad_input(Place(file.string(), line_of(document.text, result.offset)),
+                    std::string("its XML is broken: ") + result.description(), "expected a Mitsuba scene",
+                    "check that the file is whole");
+  const xml_node scene = document.xml.child("scene");
+  if (!scene) throw bad_input(file.string(), "is no Mitsuba scene: it has no <scene>", "expected a Mitsuba scene");
+  return scene;
+}
+
+const MitsubaFile::Document& MitsubaFile::document_of(xml_node node) const {
+  const auto found = std::ranges::find_if(documents_, [&](const Document& d) { return d.xml.root() == node.root(); });
+  return found == documents_.end() ? documents_.front() : *found;
+}
+
+Place MitsubaFile::at(xml_node node) const {
+  const Document& document = document_of(node);
+  return {document.file.string(), line_of(document.text, node.offset_debug())};
+}
+
+void MitsubaFile::set_default(xml_node node) {
+  defaults_.try_emplace(node.attribute("name").value(), attribute(node, "value"));
+}
+
+std::string MitsubaFile::attribute(xml_node node, const char* key) const {
+  std::string text = node.attribute(key).value();
+  for (std::size_t from = text.find('$'); from != std::string::npos; from = text.find('$', from)) {
+    std::size_t to = from + 1;
+    while (to < text.size() && (std::isalnum(static_cast<unsigned char>(text[to])) || text[to] == '_')) ++to;
+    const auto found = defaults_.find(text.substr(from + 1, to - from - 1));
+    if (found == defaults_.end())
+      throw bad_input(at(node), text.substr(from, to - from) + " has no value", "expected a <default>");
+    text.replace(from, to - from, found->second);
+    from += found->second.size();
+  }
+  return text;
+}
+
+std::vector<double> MitsubaFile::numbers(xml_node node, const char* key) const {
+  std::string text = attribute(node, key);
+  std::ranges::replace(text, ',', ' ');
+  std::vector<double> values;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const auto value = scene_number(word);
+    if (!value) throw bad_input(at(node), fmt::format("\"{}\" is no number", text), "expected numbers");
+    values.push_back(*value);
+  }
+  return values;
+}
+
+double MitsubaFile::number_of(xml_node node, double standard, const char* key) const {
+  if (!node.attribute(key)) return standard;
+  const auto values = numbers(node, key);
+  if (values.size() != 1) throw bad_input(at(node), fmt::format("\"{}\" is no number", key), "expected one number");
+  return values[0];
+}
+
+glm::dvec3 MitsubaFile::vector_of(xml_node node, double standard, const char* key) const {
+  if (!node.attribute(key))
+    return {number_of(node, standard, "x"), number_of(node, standard, "y"), number_of(node, standard, "z")};
+  const auto v = numbers(node, key);
+  if (v.size() == 1) return glm::dvec3(v[0]);
+  if (v.size() != 3) throw bad_input(at(node), fmt::format("\"{}\" has {} numbers", key, v.size()), "expected three");
+  return {v[0], v[1], v[2]};
+}
+
+xml_node MitsubaFile::child(xml_node parent, const std::string& name) {
+  return parent.find_child([&](xml_node node) { return mitsuba_name(node.attribute("name").value()) == name; });
+}
+
+double MitsubaFile::number(xml_node parent, const std::string& name, double standard) const {
+  return number_of(child(parent, name), standard);
+}
+
+std::string MitsubaFile::text(xml_node parent, const std::string& name, const std::string& standard) const {
+  const xml_node node = child(parent, name);
+  return node ? attribute(node, "value") : standard;
+}
+
+glm::dvec3 MitsubaFile::point(xml_node parent, const std::string& name, const glm::dvec3& standard) const {
+  const xml_node node = child(parent, name);
+  return node ? vector_of(node, 0) : standard;
+}
+
+glm::dmat4 MitsubaFile::to_world(xml_node parent) const {
+  glm::dmat4 all(1);
+  for (const xml_node step : child(parent, "to_world").children())
+    if (step.type() == pugi::node_element) all = step_of(step) * all;
+  return all;
+}
+
+glm::dmat4 MitsubaFile::step_of(xml_node step) const {
+  const std::string kind = mitsuba_name(step.name());
+  const glm::dmat4 one(1);
+  if (kind == "translate") return glm::translate(one, vector_of(step, 0));
+  if (kind == "scale") return glm::scale(one, vector_of(step, 1));
+  if (kind == "rotate") return rotated(one, number_of(step, 0, "angle"), vector_of(step, 0), at(step));
+  if (kind == "lookat" || kind == "look_at")
+    return look_at(vector_of(step, 0, "origin"), vector_of(step, 0, "target"),
+                   step.attribute("up") ? vector_of(step, 0, "up") : glm::dvec3(0, 1, 0), at(step));
+  if (kind != "matrix")
+    throw bad_input(at(step), "<" + kind + "> is no transform", "expected translate, rotate, scale, matrix or lookat");
+  const auto v = numbers(step, "value");
+  if (v.size() == 16) return glm::transpose(glm::make_mat4(v.data()));
+  if (v.size() == 9) return glm::dmat4(glm::transpose(glm::make_mat3(v.data())));
+  throw bad_input(at(step), fmt::format("the matrix has {} numbers", v.size()), "expected 16 or 9");
+}
+
+} // namespace nephroid::formats

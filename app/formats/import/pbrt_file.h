@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The words of a PBRT file and of those that it includes, with their lines, and the parameters of its directives.
+#pragma once
+#include "base/place.h"
+
+#include <glm/glm.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace nephroid::formats {
+
+struct PbrtToken {
+  std::string text;    ///< without the quotes
+  bool quoted = false; ///< a string
+  Place where;
+};
+
+struct PbrtParameter {
+  std::string type, name;
+  std::vector<std::string> values;
+  Place where;
+  std::vector<double> numbers() const; ///< throws bad_input where one is no number
+};
+
+/// The parameters of a directive.
+struct PbrtParameters {
+  std::vector<PbrtParameter> all;
+  Place where; ///< the directive's
+  const PbrtParameter* find(const std::string& name) const;
+  std::string text(const std::string& name, const std::string& standard) const;
+  double number(const std::string& name, double standard) const;
+  glm::dvec3 vector(const std::string& name, const glm::dvec3& standard) const;
+};
+
+/// Reads the tokens in sequence. `where` is the place of the directive that needs one: bad_input names it if the file
+/// ends.
+class PbrtFile {
+public:
+  /// Throws bad_input at FILE:LINE: a string without an end, a file that is not there or includes itself.
+  explicit PbrtFile(const std::filesystem::path& file);
+
+  bool ended() const { return next_ == tokens_.size(); }
+  bool string_follows() const { return !ended() && tokens_[next_].quoted; }
+  const PbrtToken& token(const Place& where);
+  std::string string(const Place& where);
+  /// As many numbers, with or without brackets.
+  std::vector<double> numbers(const Place& where, std::size_t count);
+  PbrtParameters parameters(const Place& where);
+
+private:
+  void read(const std::filesystem::path& file, int depth);
+  void include_if_asked(const std::filesystem::path& file, int depth);
+
+  std::vector<PbrtToken> tokens_;
+  std::size_t next_ = 0;
+};
+
+} // namespace nephroid::formats
