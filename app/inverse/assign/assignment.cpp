@@ -3,7 +3,6 @@
 
 #include "inverse/assign/cost.h"
 #include "inverse/assign/footprint.h"
-#include "inverse/assign/squares.h"
 #include "inverse/bending.h"
 #include "inverse/facets/heights.h"
 #include "inverse/facets/solid.h"
@@ -15,6 +14,7 @@
 #include <utility>
 
 namespace nephroid::inverse {
+
 Assignment::Assignment(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
                        std::uint64_t seed)
     : given_(layout), layout_(layout), targets_(targets), seed_(seed), tones_(targets.size(), 1.0), wanted_(targets),
@@ -83,7 +83,7 @@ void Assignment::settle() {
     facets_.set_incoming(layout_);
     put(now);
   }
-  constexpr double least_tone = 0.01; // of a picture that no light has found yet
+  constexpr double least_tone = 0.01; // for a picture that no light has found yet
   for (std::size_t j = 0; j < tones_.size(); ++j) {
     const std::vector<double>& light = all_light()[j];
     tones_[j] = std::max(least_tone,
@@ -92,8 +92,7 @@ void Assignment::settle() {
   aim();
 }
 
-/// What one facet's Cost_N, thesis (6.1), weighs in the sum: both costs are means, one over the facets, one over all
-/// cells.
+/// The weight of one facet's Cost_N in the sum: both costs are means, one over the facets, one over all cells.
 double Assignment::smoothing_weight() const {
   return layout_.smoothing * static_cast<double>(layout_.cell_count() * targets_.size()) /
          static_cast<double>(layout_.facet_count());

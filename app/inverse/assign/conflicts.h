@@ -8,10 +8,8 @@ namespace nephroid::inverse {
 /// Light is misplaced in a picture where more falls than is wanted, and beside the receiver. Every facet in a cell has
 /// the same share of what is too much there.
 struct Conflicts {
-  std::vector<double> misplaced; ///< the part of all light that is misplaced in each picture: the error that it keeps,
-                                 ///< its floor
-  std::vector<std::vector<double>>
-      between; ///< [j][k]: part of all light that is misplaced in picture j for the sake of picture k
+  std::vector<double> misplaced; ///< the part of all light in each picture: its floor, the error that it keeps
+  std::vector<std::vector<double>> between; ///< [j][k]: the part that is misplaced in picture j for the sake of k
 };
 
 /// Finds misplaced light. `light` is that of facets with these slopes and heights, by their footprints.

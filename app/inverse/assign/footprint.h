@@ -88,14 +88,10 @@ void for_cells(const Layout& layout, const Footprint& print, const F& f) {
       f(index_at(print.x0 + i, print.y0 + k, layout.cells.x), print.cells[index_at(i, k, print.columns)]);
 }
 
-/// Adds the facet's light, `sign` times, to every receiver's: [receiver][cell], in units of facets that send all of
-/// theirs.
-void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign,
-               std::vector<std::vector<double>>& light, double height = 0);
-
-/// The light of all facets on every receiver. `heights` are those of their middles.
-void light_all(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights,
-               std::vector<std::vector<double>>& light);
+/// The light of all facets: [receiver][cell], in units of facets that send all of theirs. `heights` are those of their
+/// middles.
+std::vector<std::vector<double>> light_of_all(const Layout& layout, const std::vector<glm::dvec2>& slopes,
+                                              const std::vector<double>& heights);
 
 /// The light that all facets send, wherever it goes.
 double light_sent(const Layout& layout, const std::vector<glm::dvec2>& slopes);

@@ -13,19 +13,22 @@ namespace nephroid::inverse {
 /// threads changes no bit.
 class Refinement {
 public:
-  /// `weights` are those of the receivers' squares, `heights` those of the facets' middles. All but the weights outlive
-  /// it.
+  /// `heights` are those of the facets' middles. All but the weights outlive it.
   Refinement(const Layout& layout, const std::vector<Target>& targets, std::vector<double> weights,
              const std::vector<double>& heights);
 
   /// Takes one step along a line. The sum falls, or the refinement is finished.
   void advance(DeviceFacets& facets);
-  bool finished() const;
-  double fraction_done() const;
+  bool finished() const { return stuck_ || done_ >= most_steps; }
+  double fraction_done() const { return static_cast<double>(done_) / static_cast<double>(most_steps); }
 
   void state(State& state);
 
 private:
+  /// Sixty steps take as long as a sweep or two and gain two to fifteen hundredths of rel_l2, more where pictures are
+  /// fine.
+  static constexpr std::size_t most_steps = 60;
+
   double turn();
 
   const Layout& layout_;

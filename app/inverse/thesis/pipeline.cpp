@@ -69,8 +69,7 @@ std::int64_t Pipeline::trials_of(const Thesis& settings) {
 }
 
 Pipeline::Pipeline(const Layout& layout, const std::vector<Target>& targets, const Thesis& settings, std::uint64_t seed)
-    : layout_(layout), targets_(targets), settings_(settings), seed_(seed), reach_(2 * targets.size()),
-      light_(targets.size(), std::vector<double>(layout.cell_count())) {
+    : layout_(layout), targets_(targets), settings_(settings), seed_(seed), reach_(2 * targets.size()) {
   sizes_ = settings_.adjust == Thesis::Adjust::convergence ? std::vector<double>{1} : std::vector<double>();
   if (settings_.adjust == Thesis::Adjust::each)
     for (std::size_t j = 0; j < targets.size(); ++j) sizes_.insert(sizes_.end(), {1, 0, 0, 1});
@@ -177,7 +176,7 @@ double Pipeline::cost_of_drawn(const TrialResult& drawn) const {
 void Pipeline::keep(TrialResult drawn, double cost) {
   best_ = std::move(drawn);
   lowest_ = cost;
-  light_all(layout_, best_.slopes, heights(), light_);
+  light_ = light_of_all(layout_, best_.slopes, heights());
 }
 
 void Pipeline::end_trial() {
