@@ -78,6 +78,11 @@ struct Layout {
   glm::dvec2 cell() const { return receiver / glm::dvec2(cells); }
   std::size_t facet_count() const { return static_cast<std::size_t>(facets.x) * static_cast<std::size_t>(facets.y); }
   std::size_t cell_count() const { return static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y); }
+  /// The point where facets meet, at so many columns and rows from the top left; between them where they are no whole
+  /// numbers.
+  glm::dvec2 corner(double column, double row) const {
+    return {column * facet().x - size.x / 2, size.y / 2 - row * facet().y};
+  }
   /// The middle of facet i, row by row from the top.
   glm::dvec2 middle(std::size_t i) const { return middle_of(i, facets, size); }
   glm::dvec2 middle_of_cell(std::size_t i) const { return middle_of(i, cells, receiver); }

@@ -32,7 +32,6 @@ void write_facets(const Layout& layout, const Solid& solid, ByteSink& to);
 /// as facets are.
 image::Image height_map(const Layout& layout, const Solid& solid);
 void write_height_exr(const Layout& layout, const Solid& solid, ByteSink& to); ///< 32 bits
-void write_height_png(const Layout& layout, const Solid& solid,
-                      ByteSink& to); ///< 16 bits, of the relief: 0 is its deepest point
+void write_height_png(const Layout& layout, const Solid& solid, ByteSink& to); ///< 16 bits; 0: the deepest point
 
 } // namespace nephroid::inverse

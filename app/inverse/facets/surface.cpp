@@ -21,19 +21,17 @@ Grid parts_along_rows(const Grid& values) {
     parts.col(3) = 2 * values.col(1) - values.col(0);
     return parts;
   }
-  std::vector<double> over(
-      static_cast<std::size_t>(count)); // the diagonal beside the pivot, once rows before are taken away
+  Eigen::VectorXd over(count); // the diagonal beside the pivot, once rows before are taken away
   inner.col(0) = values.col(0) - values.col(1);
   over[0] = -1;
   for (Eigen::Index i = 1; i + 1 < count; ++i) {
-    const double pivot = 4 - over[static_cast<std::size_t>(i - 1)];
-    over[static_cast<std::size_t>(i)] = 1 / pivot;
+    const double pivot = 4 - over[i - 1];
+    over[i] = 1 / pivot;
     inner.col(i) = (6 * values.col(i) - inner.col(i - 1)) / pivot;
   }
   const Eigen::Index last = count - 1;
-  inner.col(last) =
-      (values.col(last) - values.col(last - 1) + inner.col(last - 1)) / (1 + over[static_cast<std::size_t>(last - 1)]);
-  for (Eigen::Index i = last - 1; i >= 0; --i) inner.col(i) -= over[static_cast<std::size_t>(i)] * inner.col(i + 1);
+  inner.col(last) = (values.col(last) - values.col(last - 1) + inner.col(last - 1)) / (1 + over[last - 1]);
+  for (Eigen::Index i = last - 1; i >= 0; --i) inner.col(i) -= over[i] * inner.col(i + 1);
   parts.col(0) = 3 * inner.col(0) - 3 * inner.col(1) + inner.col(2);
   parts.col(count + 1) = 3 * inner.col(last) - 3 * inner.col(last - 1) + inner.col(last - 2);
   return parts;
