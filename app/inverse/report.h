@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a snapshot has of a run: pictures of what is wanted and what is cast on each receiver, of the slopes and of
-// screens between receivers; and the files of a finished one.
+// What a snapshot has of a run: its figures, of which docs/inverse.md says what each is; pictures of what is wanted and
+// what is cast on each receiver, of the slopes and of screens between receivers; and the files of a finished one.
 #pragma once
+#include "inverse/assign/conflicts.h"
 #include "inverse/judgement.h"
 #include "inverse/method.h"
 #include "inverse/sheet.h"
@@ -29,6 +30,13 @@ struct RunState {
   /// after the receivers are the frames. The picture has colours where the judge has them.
   std::shared_ptr<const job::Picture> picture_of(std::size_t screen, double most) const;
 };
+
+/// The snapshot's group for a receiver's figures: its distance and size, and the search's and the judge's costs.
+std::string receiver_group(std::size_t receiver);
+
+/// Adds the costs, of all pictures and of each, and what the judge says once it has finished. `conflicts` are empty
+/// before the slopes are found.
+void add_figures(job::Snapshot& snapshot, const RunState& run, const std::optional<Conflicts>& conflicts);
 
 /// Adds the pictures of each receiver. Returns what each receiver shows.
 std::vector<std::shared_ptr<const job::Picture>> add_pictures(job::Snapshot& snapshot, const RunState& run);

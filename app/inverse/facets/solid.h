@@ -7,6 +7,8 @@
 #include "scene/mesh.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace nephroid::inverse {
 
