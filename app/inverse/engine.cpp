@@ -13,7 +13,6 @@
 #include <filesystem>
 
 namespace nephroid::inverse {
-
 namespace {
 
 /// A receiver with a drawing casts it now, or else the first one.
@@ -70,8 +69,7 @@ constinit const engine::Engine engine{
     .introduction = {.example = {.preset = "inverse/shapes",
                                  .title = "Designed glass",
                                  .sentence = "Say which pictures a piece of glass shall cast, and how far away. It is "
-                                             "found, judged by rays, and written as "
-                                             "a closed mesh.",
+                                             "found, judged by rays, and written as a closed mesh.",
                                  .run = "design glass that casts a ring, a cross and a disc"},
                      .new_scene = {.preset = new_scene, .what = "An object that casts two drawings"},
                      .result = {.file = glass_view_file,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of slopes once they are found: the solid, its judge, and the same with errors of making where they are
-// asked for.
+// What becomes of slopes once they are found: the solid, its judge, and where asked for the same with errors of making.
 #pragma once
 #include "inverse/tolerances.h"
 #include "mpi/rank_context.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stands where, in millimetres: facets about z = 0, light through the flat front at z = thickness, receivers at
-// z = -distance, all of them centred on the z axis, but for receivers with an offset. y is up, and row 0 of facets and
-// cells is at the top: a person who looks along the light sees the pictures as they are.
+// z = -distance; all centred on the z axis, but for receivers with an offset. y is up, and row 0 of facets and cells is
+// at the top: who looks along the light sees the pictures as they are.
 #pragma once
 #include "base/error.h"
 #include "inverse/settings.h"
@@ -22,8 +22,7 @@ struct Incoming {
   glm::dvec2 sines{0};  ///< x and y of its unit direction before the front: see bending.h
   glm::dvec2 around{0}; ///< its gradient as neighbours see it; at first, one that lights the last receiver's middle
   double power = 1;     ///< the power on the facet as if it lay flat, over the mean of all facets
-  glm::dmat2 spread{
-      0}; ///< change of the sines over x and y: a lamp's light has another direction at each place of the facet
+  glm::dmat2 spread{0}; ///< change of the sines over x and y: a lamp's light has another direction at each place
 };
 
 /// Where the light comes from, and how much of it falls on the facets.
@@ -34,7 +33,7 @@ struct Illumination {
   std::optional<std::vector<Incoming>> facets;
 };
 
-/// The index of a column and row in values that are kept row by row, `columns` of them a row.
+/// The index of a column and row in values row by row.
 inline std::size_t index_at(int column, int row, int columns) {
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
 }
@@ -50,11 +49,10 @@ struct Layout {
   glm::ivec2 cells{64, 64};         ///< cells of a receiver, across and down
   std::vector<double> distances;    ///< ascending
   std::vector<double> frames;       ///< distances of further screens, which only the judge looks at; ascending
-  std::optional<std::vector<double>> weights; ///< weight of each receiver's picture; none: they count alike
-  std::optional<std::vector<glm::dvec2>>
-      offsets;           ///< each receiver's middle, from the z axis; none: all are centred on it
-  double sun_radius = 0; ///< tangent of half the sun's angular diameter
-  double scatter = 0;    ///< standard deviation of a slope, along x and along y
+  std::optional<std::vector<double>> weights;     ///< weight of each receiver's picture; none: they count alike
+  std::optional<std::vector<glm::dvec2>> offsets; ///< each receiver's middle from the z axis; none: all are on it
+  double sun_radius = 0;                          ///< tangent of half the sun's angular diameter
+  double scatter = 0;                             ///< standard deviation of a slope, along x and along y
   Illumination light;
 
   bool free_heights = false;                                 ///< whether facets move along z; else they stand at z = 0
@@ -113,16 +111,15 @@ struct Layout {
   }
 };
 
-/// The solid makes heights equal that are closer than this part of a facet's shorter side. So it turns a facet by this
-/// much at most.
+/// The solid makes heights equal that are closer than this part of a facet's shorter side; so it turns a facet at most
+/// by this.
 inline constexpr double corners_join = 1e-4;
 
 /// A receiver's wanted light: a value for each cell, row 0 at the top; the values sum to 1.
 using Target = std::vector<double>;
 
-/// Reads the index. Throws bad_input where the index cannot be read or is 1, where a constraint or the light leaves no
-/// picture, where facets would reach the front or the nearest receiver, and where the farthest receiver is too far for
-/// the solid to aim at its cells.
+/// Throws bad_input where the index cannot be read or is 1, where a constraint or the light leaves no picture, where
+/// facets would reach the front or the nearest receiver, and where the solid cannot aim at the farthest one's cells.
 Layout make_layout(const preset::Preset& preset);
 
 /// A lattice of facets that stand for all: every facet, up to `a_side` of them a side.

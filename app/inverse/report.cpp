@@ -82,8 +82,7 @@ std::shared_ptr<const job::Picture> RunState::picture_of(std::size_t screen, dou
   if (!is_judged()) return received_picture(method.light(screen), most, layout);
   const Judge& judge = judgement->judge();
   if (layout.coloured()) return coloured_picture(judge.colours(screen), most, layout);
-  return received_picture(screen < targets.size() ? judge.light(screen) : judge.frame(screen - targets.size()), most,
-                          layout);
+  return received_picture(judge.light(screen), most, layout);
 }
 
 std::string receiver_group(std::size_t receiver) { return fmt::format("inverse/receivers/{}", receiver); }

@@ -23,7 +23,7 @@ struct Spectrum {
 
 /// What the object's material does to the light.
 struct Refraction {
-  double n = 1.5; ///< index of the object over that of what is around it: the mean over what counts of the light
+  double n = 1.5;                   ///< the mean index over what counts of the light
   std::optional<Spectrum> spectrum; ///< none: one index and no colours
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much worse the pictures become where the object is made or put up a little wrong, by the judge.
+// How much worse the pictures are, by the judge, where the object is made or put up a little wrong.
 #pragma once
 #include "inverse/judge.h"
 #include "mpi/rank_context.h"
@@ -8,10 +8,10 @@
 
 namespace nephroid::inverse {
 
-/// Judges one error at a time: heights that are off by 1, 5 and 20 micrometres, the object turned by a degree about its
-/// middle, and receivers that are 1 % too far. Milling and polishing leave heights off in waves along the surface, so
-/// neighbouring places are off alike; the figure is their root mean square. The waves' length decides the slopes that
-/// they add: see wave_mm.
+/// Judges the object with one error at a time: heights that are off by 1, 5 and 20 micrometres, the object turned by a
+/// degree about a level line through its middle, and receivers that are 1 % too far. Milling and polishing leave
+/// heights off in waves along the surface; the figure is their root mean square, and their length, wave_mm, decides the
+/// slopes that they add.
 class Tolerances {
 public:
   static constexpr int count = 5; ///< the number of errors
@@ -50,11 +50,10 @@ private:
 /// Length of the waves on the surface. Machines leave waviness that is 0.8 to 8 mm long.
 inline constexpr double wave_mm = 5;
 
-/// How often each triangle is cut into four where facets are wide beside such waves.
+/// How often each triangle is cut into four, so that those of wide facets can follow the waves.
 int halvings(const Layout& layout);
 
-/// Moves the surface, except the flat front, along z in waves of this root mean square. Triangles that are too wide for
-/// the waves are cut.
+/// Cuts triangles and moves the surface, but for the flat front, along z in waves of this root mean square.
 Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t seed);
 
 /// A section of workshop.md, and the same figures as CSV. `judged` has the costs without errors.
