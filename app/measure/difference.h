@@ -51,9 +51,9 @@ struct ColourBar {
   bool is_signed;
 };
 
-/// For a picture of this height; the bar is higher where the picture is too low for two numbers.
+/// The bar for a picture of this height; it is higher where the picture is too low for two numbers.
 ColourBar colour_bar(int picture_height, double scale, bool is_signed);
-/// With its left edge at column x, from the top.
+/// Draws it from the top, with its left edge at column x.
 void draw(Bitmap& bitmap, int x, const ColourBar& bar);
 
 /// Digits, '.', '-' and 'E', 5 x 9 units each and 2 apart; other characters are left out.
@@ -64,8 +64,7 @@ struct ColouredDifference {
   std::vector<unsigned char> rgba; ///< 4 a pixel, opaque
   double scale = 1;                ///< the value at the end of the colours
 };
-/// The map in the left top corner. scale: the value at the end of the colours, above 0; or 0: colour_scale of the
-/// values.
+/// The map in the left top corner. `scale` is the value at the end of the colours; 0: colour_scale of the values.
 ColouredDifference coloured_difference(const Pixels& picture, const Pixels& reference, DifferenceMetric metric,
                                        double scale = 0);
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// When to measure, what goes into a row, when the error is small enough.
 #include "measure/measured_job.h"
 
 #include "base/bytes.h"
@@ -20,12 +19,12 @@
 namespace nephroid::measure {
 namespace {
 
-/// A history in a checkpoint, before the job's own bytes, so that a resumed run goes on with one history: wall and
-/// measuring seconds, column names, rows. How they lie there is part of the checkpoint's format (run/checkpoint.cpp).
-/// from: what is read; null where the history is written. Throws bad_input where the checkpoint is cut.
+/// A history in a checkpoint, before the job's own bytes, so that a resumed run goes on with one history. How it lies
+/// there is part of the checkpoint's format (run/checkpoint.cpp). `from` is what is read; null where the history is
+/// written. Throws bad_input where the checkpoint is cut.
 void history_state(State state, const ByteSource* from, job::History& history, double& wall_seconds) {
-  /// Items of at least so many bytes each, which the rest of the checkpoint has to hold: so that no wrong count takes
-  /// all memory.
+  // Items of at least so many bytes each, which the rest of the checkpoint has to hold: no wrong count takes all
+  // memory.
   const auto sized = [&](auto& items, std::size_t bytes_each) {
     std::uint64_t count = items.size();
     state.value(count);
@@ -314,15 +313,14 @@ private:
   bool is_mean_square_ = false; ///< the error that may stop the run
   job::History history_;
   std::shared_ptr<const job::History> shown_;
-  std::optional<job::Snapshot>
-      unnoted_;               ///< the first whole picture, for which somebody waits: its row is made with the next step
-  std::vector<double> times_; ///< to measure at whatever it takes
+  std::optional<job::Snapshot> unnoted_; ///< the first whole picture, which somebody waits for: noted in the next step
+  std::vector<double> times_;            ///< to measure at whatever it takes
   Clock::time_point began_;
-  double wall_before_ = 0;    ///< of a resumed run's earlier parts
-  double last_seconds_ = 0;   ///< of work at the newest row
-  double next_ = 0;           ///< of work, when the next row is due
+  double wall_before_ = 0;    ///< a resumed run's earlier parts
+  double last_seconds_ = 0;   ///< work at the newest row
+  double next_ = 0;           ///< work when the next row is due
   double wanted_ = 0;         ///< when it would be if measuring took no time
-  double noting_seconds_ = 0; ///< of the newest row, without the picture that it is of
+  double noting_seconds_ = 0; ///< what the newest row took, without the picture that it is of
 };
 
 } // namespace

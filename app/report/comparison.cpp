@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/comparison.h"
+#include "report/report.h"
 
 #include "measure/run_curves.h"
 
@@ -29,7 +29,7 @@ std::string main_metric(const RunFolder& run) {
 
 std::vector<MetricCurves> curves_of(std::span<const RunFolder> runs) {
   std::vector<MetricCurves> all;
-  std::map<std::string, int> votes; // of the runs for the metric that they are judged by
+  std::map<std::string, int> votes; // how many runs are judged by the metric
   for (const RunFolder& run : runs) {
     if (!run.history) continue;
     ++votes[main_metric(run)];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/pictures.h"
+#include "report/report.h"
 
 #include "base/base64.h"
 #include "base/files.h"

@@ -19,7 +19,7 @@
 // A ray that has met so many surfaces is lost.
 #define MAX_SURFACES 16
 
-// normals: of each triangle, unit, out of the object; w: its PART_*.
+// `normals` has each triangle's unit normal, out of the object, and as w its PART_*.
 static inline DeviceWayOut follow(global const float* nodes, global const float* blocks, int root,
                                   global const float4* normals, float n, float3 from, float3 direction) {
   DeviceWayOut way = {(float4)(0.0f), (float4)(0.0f), 1.0f, 0.0f, 0, 0};
@@ -106,7 +106,7 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
       (float3)(at.x * front.facet_x - 0.5f * front.size_x, 0.5f * front.size_y - at.y * front.facet_y, front.thickness);
   if (front.is_round && length(place.xy / (float2)(front.size_x, front.size_y)) > 0.5f) return;
   float3 direction = front.direction.xyz;
-  float part = 1.0f / (float)rays; // of what falls on a facet
+  float part = 1.0f / (float)rays; // what a ray has of a facet's light
   if (front.lamp_weight > 0.0f) {
     const float3 way = place - front.lamp.xyz;
     const float distance = length(way);

@@ -30,9 +30,8 @@ std::vector<double> extended(const std::vector<double>& picture, const Margin& m
 /// other pictures lit.
 struct MissingLight {
   std::size_t missing = 0; ///< how many of its own cells are missing
-  double extension =
-      0; ///< s: how far from its lit cells the light of others' missing cells meets dark ones, at most; in cells
-  double overshoot = 0; ///< e: the part of that light that falls beside its receiver
+  double extension = 0;    ///< s: how far at most the light of others' missing cells falls from its lit ones, in cells
+  double overshoot = 0;    ///< e: the part of that light that falls beside its receiver
 };
 
 /// What is asked of each aim. A lattice of facets stands for all of them: every one up to 128 a side.

@@ -97,7 +97,7 @@ void Pipeline::adjust(const std::vector<double>& values) {
   }
 }
 
-/// Of the annealing in hand, from where it starts.
+/// The annealer of the stage in hand, from where it starts.
 std::optional<Annealer> Pipeline::annealer() const {
   const Thesis& s = settings_;
   const auto about = [](double start, double step, double limit) {
@@ -124,8 +124,8 @@ void Pipeline::find_needs() {
   needs_ = needs_of(layout_, wanted_, margins_);
 }
 
-/// (5.3): scales every cell by what is wanted over what was received, both as parts of their sums. A cell that receives
-/// nothing gets the largest factor; one that is to receive nothing has nothing to scale.
+/// (5.3): scales every cell by what is wanted over what was received, both as parts of their sums. A cell that received
+/// nothing gets the largest factor.
 void Pipeline::correct(const std::vector<std::vector<double>>& received) {
   for (std::size_t j = 0; j < pictures_.size(); ++j) {
     const double wanted_sum = sum_of(wanted_[j].picture), received_sum = sum_of(received[j]),

@@ -57,10 +57,10 @@ private:
   std::int64_t done_ = 0, accepted_ = 0;
 };
 
-/// A step is a trial: it draws all facets and takes their cost (5.2) against the adjusted pictures. The first trial has
-/// the pictures as they are. A stage ends with the values of its lowest cost; the object gets the first draw of these.
-/// Trials share their random numbers, so that a cost depends only on what is tried. Facets send light from their
-/// middles and all alike, as the thesis has it.
+/// A step is a trial: it draws all facets and takes their cost (5.2) against the adjusted pictures, at first the
+/// pictures as they are. A stage ends with the values of its lowest cost, whose first draw the object gets. Trials
+/// share their random numbers, so that a cost depends only on what is tried. Facets send light from their middles and
+/// all alike, as the thesis has it.
 class Pipeline final : public Method {
 public:
   /// The layout and the targets outlive it. Facets begin flat.
@@ -121,9 +121,8 @@ private:
   std::optional<Annealer> annealer_;
   std::vector<double> sizes_; ///< what the first annealing found
   std::vector<double> reach_; ///< k and o of all pictures: the proposal, later what the second annealing found
-  std::vector<std::vector<double>>
-      pictures_;                       ///< what light is aimed at, before it is extended: wanted_, later corrected
-  std::int64_t rounds_ = 0, idle_ = 0; ///< rounds of the correction: done, and without a gain
+  std::vector<std::vector<double>> pictures_; ///< light's aims before they are extended: wanted_, later corrected
+  std::int64_t rounds_ = 0, idle_ = 0;        ///< rounds of the correction: done, and without a gain
   TrialResult best_;
   double lowest_ = 1;                  ///< the cost of best_
   std::array<double, stages> costs_{}; ///< the lowest cost of each stage

@@ -43,8 +43,7 @@ private:
 
   const Layout& layout_;
   std::vector<double> distances_;
-  std::vector<std::vector<double>>
-      padded_; ///< pictures with a rim of one cell that has `beside`; all light beside counts as in cell 0
+  std::vector<std::vector<double>> padded_; ///< pictures with a rim of `beside`; light beside counts as in cell 0
   std::vector<std::vector<char>> lit_columns_, lit_rows_; ///< whether any cell of a column or a row of these is above 0
   int directions_;
   Thesis::Sampling sampling_;
