@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/engine.h"
 
-#include "base/error.h"
 #include "inverse/glass_view.h"
 #include "inverse/job.h"
 #include "inverse/judge.h"
@@ -10,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 namespace nephroid::inverse {
 namespace {

@@ -2,8 +2,6 @@
 // Engine 3, inverse caustics: one refractive object that casts several pictures at several distances (thesis, 5).
 #pragma once
 #include "engine/engine.h"
-#include "mpi/rank_context.h"
-#include "preset/preset.h"
 
 namespace nephroid::inverse {
 

@@ -3,9 +3,6 @@
 #pragma once
 #include "inverse/layout.h"
 
-#include <string>
-#include <vector>
-
 namespace nephroid::inverse {
 
 inline constexpr const char* glass_view_file = "view.json";

@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
-#include <utility>
 
 namespace nephroid::inverse {
 namespace {

@@ -5,8 +5,6 @@
 #include "job/job.h"
 #include "mpi/rank_context.h"
 
-#include <memory>
-
 namespace nephroid::inverse {
 
 /// Searches slopes until the method gains no more or until the preset's stop; then makes the solid and judges it.

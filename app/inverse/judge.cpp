@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <random>
-#include <utility>
 
 namespace nephroid::inverse {
 namespace {

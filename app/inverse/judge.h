@@ -4,18 +4,11 @@
 #pragma once
 #include "base/bytes.h"
 #include "check/check.h"
-#include "compute/compute.h"
 #include "inverse/assign/cost.h"
 #include "inverse/facets/solid.h"
-#include "inverse/layout.h"
 #include "kernels/inverse/facet_types.h"
 #include "mpi/rank_context.h"
 #include "scene/bvh.h"
-
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <vector>
 
 namespace nephroid::inverse {
 

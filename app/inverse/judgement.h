@@ -2,12 +2,6 @@
 // What becomes of slopes once they are found: the solid, its judge, and where asked for the same with errors of making.
 #pragma once
 #include "inverse/tolerances.h"
-#include "mpi/rank_context.h"
-
-#include <memory>
-#include <optional>
-#include <utility>
-#include <vector>
 
 namespace nephroid::inverse {
 

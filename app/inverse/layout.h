@@ -9,11 +9,8 @@
 
 #include <glm/glm.hpp>
 
-#include <cstddef>
 #include <limits>
-#include <optional>
 #include <span>
-#include <vector>
 
 namespace nephroid::inverse {
 

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A way to find the facets' slopes: what a run needs of it, whichever it is.
 #pragma once
-#include "base/bytes.h"
-#include "compute/compute.h"
 #include "inverse/assign/cost.h"
 #include "inverse/facets/solid.h"
-#include "inverse/layout.h"
 #include "job/job.h"
 #include "mpi/rank_context.h"
-
-#include <memory>
 
 namespace nephroid::inverse {
 

@@ -6,8 +6,6 @@
 #include "inverse/layout.h"
 #include "job/job.h"
 
-#include <span>
-
 namespace nephroid::inverse {
 
 struct ObjectView {

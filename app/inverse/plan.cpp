@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace nephroid::inverse {
 namespace {

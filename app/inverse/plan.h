@@ -4,11 +4,7 @@
 #include "inverse/layout.h"
 #include "plan/plan.h"
 
-#include <cstdint>
-#include <memory>
 #include <mutex>
-#include <string>
-#include <vector>
 
 namespace nephroid::inverse {
 

@@ -6,9 +6,6 @@
 #include "inverse/layout.h"
 #include "job/job.h"
 
-#include <string>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// The object's outline, seen along the light.

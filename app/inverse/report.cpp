@@ -9,9 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
-#include <span>
-#include <string>
 
 namespace nephroid::inverse {
 namespace {

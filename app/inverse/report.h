@@ -7,9 +7,6 @@
 #include "inverse/method.h"
 #include "inverse/sheet.h"
 
-#include <memory>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// What a run has so far; it exists while a snapshot is made.

@@ -3,12 +3,6 @@
 // judge gets its part.
 #pragma once
 #include "inverse/method.h"
-#include "mpi/rank_context.h"
-
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <vector>
 
 namespace nephroid::inverse {
 

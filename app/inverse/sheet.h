@@ -4,9 +4,6 @@
 #include "inverse/layout.h"
 #include "job/job.h"
 
-#include <span>
-#include <string>
-
 namespace nephroid::inverse {
 
 /// A grey picture: scale times the values, row by row from the top.

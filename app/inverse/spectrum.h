@@ -5,9 +5,6 @@
 
 #include <glm/glm.hpp>
 
-#include <optional>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// A piece of the light's spectrum. What counts for pictures is xyz.y: over all pieces it sums to 1.

@@ -7,10 +7,8 @@
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <random>
 
 namespace nephroid::inverse {
 namespace {

@@ -2,9 +2,6 @@
 // How much worse the pictures are, by the judge, where the object is made or put up a little wrong.
 #pragma once
 #include "inverse/judge.h"
-#include "mpi/rank_context.h"
-
-#include <optional>
 
 namespace nephroid::inverse {
 

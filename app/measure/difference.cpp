@@ -11,8 +11,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <string>
-#include <utility>
 
 namespace nephroid::measure {
 namespace {

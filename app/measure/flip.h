@@ -6,8 +6,6 @@
 #include "measure/metrics.h"
 
 #include <array>
-#include <span>
-#include <vector>
 
 namespace nephroid::measure {
 

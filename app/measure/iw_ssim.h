@@ -5,10 +5,6 @@
 #pragma once
 #include "measure/metrics.h"
 
-#include <optional>
-#include <span>
-#include <vector>
-
 namespace nephroid::measure {
 
 /// Below so many pixels a side the coarsest of the five scales is smaller than SSIM's window of 11.

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/measured_job.h"
 
-#include "base/bytes.h"
-#include "base/error.h"
-#include "job/history.h"
-#include "job/job.h"
 #include "measure/error_estimate.h"
 #include "preset/choices.h"
 
@@ -14,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace nephroid::measure {
 namespace {

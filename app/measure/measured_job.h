@@ -5,7 +5,6 @@
 #pragma once
 #include "job/job.h"
 #include "measure/metrics.h"
-#include "preset/preset.h"
 
 #include <chrono>
 

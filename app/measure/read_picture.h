@@ -4,9 +4,6 @@
 #include "job/job.h"
 #include "measure/metrics.h"
 
-#include <filesystem>
-#include <map>
-
 namespace nephroid::measure {
 
 struct LinearPicture {

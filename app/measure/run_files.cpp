@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <system_error>
 
 namespace nephroid::measure {
 namespace fs = std::filesystem;

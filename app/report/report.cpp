@@ -13,9 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <set>
 #include <sstream>
-#include <system_error>
 
 namespace nephroid::report {
 namespace fs = std::filesystem;

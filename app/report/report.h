@@ -10,7 +10,6 @@
 #include <map>
 #include <set>
 #include <span>
-#include <string>
 
 namespace nephroid::report {
 

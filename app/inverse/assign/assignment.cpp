@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/assign/assignment.h"
 
-#include "inverse/assign/cost.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
 #include "inverse/facets/heights.h"
-#include "inverse/facets/solid.h"
 #include "inverse/uniform.h"
 
 #include <algorithm>
 #include <numeric>
-#include <random>
-#include <utility>
 
 namespace nephroid::inverse {
 

@@ -3,9 +3,6 @@
 #pragma once
 #include "inverse/assign/refinement.h"
 #include "inverse/method.h"
-#include "mpi/rank_context.h"
-
-#include <optional>
 
 namespace nephroid::inverse {
 

@@ -4,8 +4,6 @@
 #pragma once
 #include "inverse/layout.h"
 
-#include <span>
-
 namespace nephroid::inverse {
 
 /// T is the wanted light, Z the light that is there.

@@ -5,7 +5,6 @@
 #include "inverse/bending.h"
 
 #include <algorithm>
-#include <span>
 
 namespace nephroid::inverse {
 static_assert(BEAMS == Beams::most && DISC_BEAMS == disc_beams);

@@ -3,15 +3,9 @@
 // pictures better (kernels/inverse).
 #pragma once
 #include "base/bytes.h"
-#include "compute/compute.h"
 #include "inverse/layout.h"
 #include "kernels/inverse/facet_types.h"
 #include "mpi/rank_context.h"
-
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
 
 namespace nephroid::inverse {
 

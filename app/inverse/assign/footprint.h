@@ -3,8 +3,6 @@
 #pragma once
 #include "inverse/layout.h"
 
-#include <array>
-
 namespace nephroid::inverse {
 
 /// A beam along one axis, in cells: a box `width` wide that another one smears, `blur` wide: a trapezoid of area 1.

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // All facets downhill at once.
 #pragma once
-#include "base/bytes.h"
 #include "inverse/assign/device_facets.h"
-
-#include <vector>
 
 namespace nephroid::inverse {
 

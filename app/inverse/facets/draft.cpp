@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/facets/solid.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
 namespace nephroid::inverse {
 namespace {
 

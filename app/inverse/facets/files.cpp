@@ -7,12 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 #include <limits>
-#include <span>
-#include <string_view>
-#include <vector>
 
 namespace nephroid::inverse {
 namespace {

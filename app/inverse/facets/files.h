@@ -2,11 +2,8 @@
 // The solid as files: meshes in millimetres, and what a workshop needs beside them: the object's figures, its facets as
 // a list, and a height map of their side.
 #pragma once
-#include "base/bytes.h"
 #include "image/image.h"
 #include "inverse/facets/solid.h"
-#include "inverse/layout.h"
-#include "scene/mesh.h"
 
 namespace nephroid::inverse {
 

@@ -3,9 +3,6 @@
 #pragma once
 #include "inverse/layout.h"
 
-#include <span>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// z of the facets' middles for which the walls between them are lowest: the least sum over shared edges of the

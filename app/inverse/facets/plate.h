@@ -5,11 +5,6 @@
 
 #include <glm/glm.hpp>
 
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// A rectangle on a plate, in millimetres from the plate's middle; y is up.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/facets/smooth_solid.h"
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "inverse/bending.h"
 #include "inverse/light.h"
@@ -10,7 +9,6 @@
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -2,11 +2,7 @@
 // A lens as one closed solid in millimetres: a smooth surface in triangles, flat sides, and the flat front at z =
 // thickness.
 #pragma once
-#include "base/place.h"
 #include "inverse/facets/solid.h"
-#include "inverse/facets/surface.h"
-
-#include <cstdint>
 
 namespace nephroid::inverse {
 

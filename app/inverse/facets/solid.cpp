@@ -6,12 +6,6 @@
 
 #include <glm/gtc/constants.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <utility>
-
 namespace nephroid::inverse {
 namespace {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/lens/lens.h"
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
@@ -12,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nephroid::inverse {
 namespace {

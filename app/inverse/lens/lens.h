@@ -2,14 +2,9 @@
 // One picture by a smooth surface: where the light has to go, heights whose slopes send it there, then what these lack
 // put right.
 #pragma once
-#include "base/bytes.h"
-#include "base/place.h"
-#include "inverse/facets/surface.h"
 #include "inverse/lens/transport.h"
 #include "inverse/method.h"
-#include "inverse/poisson.h"
 
-#include <functional>
 #include <limits>
 
 namespace nephroid::inverse {

@@ -8,8 +8,6 @@
 
 #include <glm/glm.hpp>
 
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// The back-and-forth method (Jacobs and Leger 2020, "A fast approach to optimal transport"). It steps along the

@@ -3,9 +3,6 @@
 // what will go wrong.
 #pragma once
 #include "inverse/layout.h"
-#include "inverse/settings.h"
-
-#include <string>
 
 namespace nephroid::inverse {
 

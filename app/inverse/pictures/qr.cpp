@@ -6,7 +6,6 @@
 #include <qrencode.h>
 
 #include <algorithm>
-#include <memory>
 
 namespace nephroid::inverse {
 namespace {

@@ -3,7 +3,6 @@
 #pragma once
 #include "base/files.h"
 #include "inverse/layout.h"
-#include "inverse/settings.h"
 
 namespace nephroid::inverse {
 

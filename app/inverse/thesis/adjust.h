@@ -3,9 +3,6 @@
 #pragma once
 #include "inverse/thesis/sampler.h"
 
-#include <cstddef>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// The picture with its sizes grown by `scale` about the receiver's middle, then moved by `shift` (parts of the

@@ -4,12 +4,6 @@
 #pragma once
 #include "inverse/method.h"
 #include "inverse/thesis/adjust.h"
-#include "inverse/thesis/sampler.h"
-
-#include <array>
-#include <memory>
-#include <optional>
-#include <random>
 
 namespace nephroid::inverse {
 

@@ -4,9 +4,7 @@
 #pragma once
 #include "base/bytes.h"
 #include "inverse/layout.h"
-#include "inverse/settings.h"
 
-#include <cstdint>
 #include <random>
 
 namespace nephroid::inverse {

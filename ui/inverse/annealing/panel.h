@@ -9,8 +9,6 @@
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
 
-#include <map>
-
 struct ImVec2;
 
 namespace nephroid::ui {

@@ -6,8 +6,6 @@
 #include "job/job.h"
 #include "ui/widgets/picture_texture.h"
 
-#include <map>
-
 struct ImVec2;
 
 namespace nephroid::ui {
