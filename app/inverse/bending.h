@@ -25,8 +25,7 @@ double slope_limit(double n);
 inline constexpr double usable_part = 0.95;
 inline double usable_slope(double n) { return usable_part * slope_limit(n); }
 
-/// The slope of light along -z behind a facet with this tilt against the front; infinite where light is reflected
-/// totally.
+/// The slope of light along -z behind a facet with this tilt against the front; infinite: it is reflected totally.
 double slope_behind(double tilt_radians, double n);
 
 /// n times the unit direction of light inside the object; |sines| < min(1, n).
@@ -49,8 +48,7 @@ Value last_good(Value good, Value bad, int halvings, const IsGood& is_good) {
 /// The slope behind a flat facet: light goes on as before the front.
 glm::dvec2 flat_slope(const glm::dvec2& sines);
 
-/// Whether light inside deviates to this slope by no more than usable_slope(n), and the facet's gradient is at most
-/// `steepest`.
+/// Whether light inside deviates to this slope by at most usable_slope(n), with a facet of at most this gradient.
 bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines = {}, double steepest = any_steepness);
 /// The slope itself where it is reachable; else the last reachable one on the way to it from flat_slope().
 glm::dvec2 nearest_reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines = {},

@@ -7,9 +7,8 @@ namespace nephroid::inverse {
 
 extern const engine::Engine engine;
 
-/// Whether a run of `before` can go on as one of `now` and keep its facets' slopes: where no more than the receivers'
-/// distances, offsets, weights and pictures differ, the stop, the camera and names; with methods other
-/// than assign, only the last two.
+/// Whether a run of `before` can go on as one of `now` and keep its slopes: where only the receivers' distances,
+/// offsets, weights and pictures, the stop, the camera and names differ; but for the method assign, only the last two.
 bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
 } // namespace nephroid::inverse

@@ -295,8 +295,7 @@ void Judge::state(State& state) {
 
 namespace {
 
-/// A single facet is a prism: light through its middle leaves with the slope that it was made for, from the place where
-/// it left.
+/// A single facet is a prism: light through its middle leaves with the slope that it was made for, from where it left.
 check::Result one_facet(const compute::Context& context, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   double farthest = 0;

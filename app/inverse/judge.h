@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The finished solid's own pictures: rays through its mesh, walls and all, by Snell's law, on the device
-// (kernels/inverse/judge.cl).
+// The finished solid's own pictures: rays through its mesh, by Snell's law, on the device (kernels/inverse/judge.cl).
 #pragma once
 #include "base/bytes.h"
 #include "check/check.h"
@@ -52,8 +51,7 @@ struct SolidOnDevice {
 std::uint64_t rays_of(const Layout& layout);
 
 /// Judges by rays that fall evenly on all facets, a jittered lattice on each, in rounds. The difference between even
-/// and odd rounds is noise. With a spectrum each ray of a facet has another part of it. The same seed gives the same
-/// bits on any number of threads.
+/// and odd rounds is noise. With a spectrum each ray of a facet has another part of it.
 class Judge {
 public:
   /// layout and targets outlive the judge. It takes two rounds, about four million rays, and two more where noise is

@@ -13,8 +13,8 @@
 namespace nephroid::inverse {
 namespace {
 
-/// The most that a facet can reach from z = 0 at its corners. The steepest one's normal is as far from the light inside
-/// as that for light straight on.
+/// The most that a facet can reach from z = 0: the steepest normal is as far from light inside as for light straight
+/// on.
 double most_relief(const Layout& layout) {
   double tilt = glm::length(layout.light.sines);
   if (layout.light.lamp)
@@ -26,8 +26,7 @@ double most_relief(const Layout& layout) {
   return std::min(std::tan(std::min(bent, upright)), layout.steepest) * glm::length(layout.facet()) / 2;
 }
 
-/// The least turn that brings a facet's light to a place of a receiver, as the slope of light that came straight on and
-/// is turned as far.
+/// The least turn that brings a facet's light to a place of a receiver, as a slope of light that came straight on.
 double least_turn(const Layout& layout, const glm::dvec2& to, double distance) {
   constexpr int across = 9;
   double closest = -1; // cosine
@@ -64,8 +63,7 @@ std::array<glm::dvec2, 16> farthest_lit(const Layout& layout, const Target& targ
   return to;
 }
 
-/// Free heights leave this part of the thickness, and of the way to the nearest receiver, where no constraint says
-/// more.
+/// Free heights leave this part of the thickness, and of the way to the nearest receiver.
 constexpr double spared = 0.1;
 
 double band_of(const Settings& s, const Place& own) {

@@ -73,8 +73,7 @@ struct Layout {
   glm::dvec2 cell() const { return receiver / glm::dvec2(cells); }
   std::size_t facet_count() const { return static_cast<std::size_t>(facets.x) * static_cast<std::size_t>(facets.y); }
   std::size_t cell_count() const { return static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y); }
-  /// The point where facets meet, at so many columns and rows from the top left; between them where they are no whole
-  /// numbers.
+  /// The point at so many facets across and down from the top left.
   glm::dvec2 corner(double column, double row) const {
     return {column * facet().x - size.x / 2, size.y / 2 - row * facet().y};
   }
@@ -108,8 +107,8 @@ struct Layout {
   }
 };
 
-/// The solid makes heights equal that are closer than this part of a facet's shorter side; so it turns a facet at most
-/// by this.
+/// The solid joins heights that are closer than this part of a facet's shorter side, and turns facets by as much at
+/// most.
 inline constexpr double corners_join = 1e-4;
 
 /// A receiver's wanted light: a value for each cell, row 0 at the top; the values sum to 1.

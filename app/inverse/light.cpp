@@ -15,8 +15,7 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Facets whose light falls in with a slope t meet 1 + t . g of it; above this value most of a facet lies in its
-/// neighbour's shadow.
+/// Facets meet 1 + t . g of light with slope t; above this value most of a facet lies in its neighbour's shadow.
 constexpr double most_shadow = 1;
 
 /// A lamp at distance a before the front, b thick, and a facet at r beside it. The sine q of the light's angle before
@@ -69,8 +68,8 @@ double solid_angle_of_front(const Layout& layout) {
   return sum;
 }
 
-/// The largest t . g of facets that send their light as near as the last receiver lets them to where it goes straight
-/// on; infinite where one cannot.
+/// The largest t . g of facets that send light where the last receiver is nearest to its straight way; infinite: one
+/// cannot.
 double worst_shadow(const Layout& layout) {
   constexpr int across = 9;
   double worst = 0;

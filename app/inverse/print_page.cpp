@@ -46,8 +46,7 @@ std::string marks(const glm::dvec2& middle, const glm::dvec2& size, const char* 
       middle.x - 3, middle.y, style, middle.x, top + 0.5);
 }
 
-/// The smallest sheet from A4 on that holds this below the lines of text, upright or across; where A0 is too small, one
-/// of its own.
+/// The smallest sheet from A4 on, upright or across, that holds this below lines of text; beyond A0, one of its own.
 glm::dvec2 sheet_for(const glm::dvec2& content) {
   const glm::dvec2 needed = glm::max(content + glm::dvec2(0, lines_above * text_line), glm::dvec2(115, 0)) + 2 * margin;
   for (const glm::dvec2& iso : {glm::dvec2(210, 297), {297, 420}, {420, 594}, {594, 841}, {841, 1189}})

@@ -39,10 +39,9 @@ Layout piece_of(const Layout& layout) {
   return piece;
 }
 
-/// The seconds that this machine takes to make a solid of so many triangles and to trace two rounds of the judge's rays
-/// through it. Two more rounds for noise are not counted. A piece of the object, 32 facets a side, is made and judged
-/// for some milliseconds. The time grows in proportion to triangles and rays, and by a quarter because a larger tree is
-/// slower.
+/// The seconds that this machine takes to make a solid of so many triangles and to trace two rounds of the judge's
+/// rays. A piece of the object, 32 facets a side, is made and judged for some milliseconds. The time grows in
+/// proportion to triangles and rays, and by a quarter because a larger tree is slower.
 double judge_seconds(const mpi::RankContext& context, const Layout& layout, std::uint64_t triangles) {
   const Layout piece = piece_of(layout);
   std::vector<glm::dvec2> slopes(piece.facet_count());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search for slopes: a method, step after step, until it gains no more or the preset's stop, of whose seconds the
-// judge gets its part.
+// The search for slopes: a method's steps, until it gains no more or the preset's stop, of whose seconds the judge has
+// some.
 #pragma once
 #include "inverse/method.h"
 

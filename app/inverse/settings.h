@@ -69,8 +69,7 @@ struct Light {
   double turn_deg = 0;                   ///< parallel: the side to which tilted light goes, counterclockwise from +x
   double distance_mm = 1000;             ///< point: from the front
   std::array<double, 2> offset_mm{0, 0}; ///< point: beside the middle of the object
-  /// With a spectrum, luminance counts, because people look at pictures, and the judge sees colours. Without one, the
-  /// light is one wavelength or a band.
+  /// With a spectrum, luminance counts and the judge sees colours. Without one, the light is a wavelength or a band.
   std::optional<preset::LightSpectrum> spectrum{};
   bool operator==(const Light&) const = default;
 };

@@ -8,8 +8,7 @@ namespace nephroid::inverse {
 
 /// A grey picture: scale times the values, row by row from the top.
 std::shared_ptr<const job::Picture> grey_picture(std::span<const double> values, double scale, const glm::ivec2& size);
-/// A grey picture in which 1 is the brightest wanted light, at the same energy. `most`: that light, as a part of all
-/// light.
+/// A grey picture in which 1 is the brightest wanted light, at the same energy. `most` is that, as a part of all light.
 std::shared_ptr<const job::Picture> received_picture(std::span<const double> light, double most, const Layout& layout);
 /// received_picture() in linear sRGB, where luminance counts; colours outside sRGB have negative values.
 std::shared_ptr<const job::Picture> coloured_picture(std::span<const glm::dvec3> xyz, double most,

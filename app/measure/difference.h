@@ -22,8 +22,7 @@ inline constexpr std::array<const char*, 6> difference_names{"lab",    "absolute
 
 /// A value a pixel, at most the largest float. Throws as compare does.
 std::vector<float> difference_map(const Pixels& picture, const Pixels& reference, DifferenceMetric metric);
-/// Where the colours end: a round number (1, 2, 5 times a power of ten) that 99 % of the values do not exceed; at least
-/// 1e-6.
+/// Where the colours end: 1, 2 or 5 times a power of ten that 99 % of the values do not exceed; at least 1e-6.
 double colour_scale(std::span<const float> values);
 /// A colour of the map, sRGB-encoded, 8 bits a channel: position 0..1, magma from black to light yellow; signed maps
 /// from blue over white at 0.5, no difference, to red. Positions outside are clipped, NaN is 0.

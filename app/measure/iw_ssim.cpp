@@ -62,8 +62,8 @@ struct Mixture {
 
   explicit Mixture(const Matrix& c) : n(static_cast<std::size_t>(c.rows())) {
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(c);
-    // Rounding makes eigenvalues negative: they become 0, and the others are scaled so that the variance stays (the
-    // authors' way).
+    // Rounding makes eigenvalues negative: they become 0, and the others are scaled so that the variance stays, as the
+    // authors do.
     const auto positive = solver.eigenvalues().cwiseMax(0).eval();
     const double scale = positive.sum() > 0 ? solver.eigenvalues().sum() / positive.sum() : 0;
     const double least = positive.maxCoeff() * static_cast<double>(most) * std::numeric_limits<double>::epsilon();
@@ -115,9 +115,8 @@ Distortion distortion(const Plane& reference, const Plane& picture, std::size_t 
   return {gain, variance_y - gain * covariance_xy};
 }
 
-/// Bits that eye and picture share with the scene, equation 22 of the paper: the sum over the eigenvalues of
-/// log2(1 + ((v + (1 + g^2) s) S L + s v) / s^2), with s the variance of the eye's own noise. One logarithm of the
-/// product: each factor is below 1e20.
+/// Bits that eye and picture share with the scene, equation 22: the sum over the eigenvalues of log2(1 + ((v + (1 +
+/// g^2) s) S L + s v) / s^2), with s the variance of the eye's own noise. It is one logarithm of the product.
 double bits(const Mixture& mixture, double strength, const Distortion& d) {
   constexpr double eye = 0.4;
   double product = 1;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// IW-SSIM: structural similarity over five scales, each place weighted by the information a person takes from it.
-// Wang and Li: Information Content Weighting for Perceptual Image Quality Assessment, IEEE Trans. Image Processing 20
-// (5), 2011.
+// IW-SSIM: structural similarity over five scales, each place weighted by the information a person takes from it. Wang
+// and Li: Information Content Weighting for Perceptual Image Quality Assessment, IEEE Trans. Image Processing, 2011.
 #pragma once
 #include "measure/metrics.h"
 

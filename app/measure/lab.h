@@ -9,7 +9,7 @@
 
 namespace nephroid::measure {
 
-/// For t above 1e-300. A third of the exponent gives 5 % (as in FreeBSD's cbrt), and each of Halley's steps cubes the
+/// For t above 1e-300. A third of the exponent gives 5 % (as in FreeBSD's cbrt); each of Halley's steps cubes the
 /// error.
 inline double cube_root(double t) {
   constexpr std::uint64_t bias = 715094163; // (1023 - 1023 / 3 - .03306235651) 2^20

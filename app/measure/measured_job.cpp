@@ -18,8 +18,7 @@ namespace {
 /// there is part of the checkpoint's format (run/checkpoint.cpp). `from` is what is read; null where the history is
 /// written. Throws bad_input where the checkpoint is cut.
 void history_state(State state, const ByteSource* from, job::History& history, double& wall_seconds) {
-  // Items of at least so many bytes each, which the rest of the checkpoint has to hold: no wrong count takes all
-  // memory.
+  // Items of at least so many bytes each, which the rest of the checkpoint must hold: no wrong count takes all memory.
   const auto sized = [&](auto& items, std::size_t bytes_each) {
     std::uint64_t count = items.size();
     state.value(count);
@@ -45,8 +44,8 @@ void history_state(State state, const ByteSource* from, job::History& history, d
   }
 }
 
-/// The rows with other columns: what a row has no value of is NaN. A resumed run may have got a reference that it had
-/// not before.
+/// The rows with other columns: NaN where a row has no value. A resumed run may have a reference that it had not
+/// before.
 std::vector<job::HistoryRow> rows_in_columns(const job::History& history, const std::vector<std::string>& columns) {
   std::vector<job::HistoryRow> rows = history.rows;
   for (job::HistoryRow& row : rows) {

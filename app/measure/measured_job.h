@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A job that measures itself: it steps another job, now and then compares its picture with a reference or with itself,
-// keeps the history and ends at the error that was asked for. The command line and the window get the same history by
-// the same means.
+// keeps the history and ends at the error that was asked for.
 #pragma once
 #include "job/job.h"
 #include "measure/metrics.h"

@@ -37,9 +37,8 @@ struct Metrics {
 
 enum class MetricSet { quick, full };
 
-/// FLIP's maps and IW-SSIM's are made of the whole pictures and averaged over the mask.
-/// Throws bad_input naming the picture: sizes that differ, NaN or infinity, a mask of another size or with no pixel
-/// that counts.
+/// FLIP's maps and IW-SSIM's are of the whole pictures, averaged over the mask. Throws bad_input naming the picture:
+/// sizes that differ, NaN or infinity, a mask of another size or with no pixel that counts.
 Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask = {}, MetricSet which = MetricSet::full);
 /// The same for several masks, one after the other, at little more than the cost of one.
 std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks,
@@ -71,8 +70,7 @@ const std::vector<Metric>& all_metrics();
 /// Their names and values.
 std::vector<std::pair<std::string, double>> named(const Metrics& metrics);
 
-/// The quick metrics again and again against one reference, whose share of the work is done once. 512 x 512: about 20
-/// ms a call.
+/// The quick metrics again and again against one reference, whose share is done once: 20 ms a call at 512 x 512.
 class QuickComparison {
 public:
   /// Throws as compare does. Copies what it needs of both.

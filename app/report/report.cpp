@@ -121,8 +121,7 @@ std::vector<fs::path> in_order(const fs::path& sweep, std::vector<fs::path> runs
   return ordered.empty() ? runs : ordered;
 }
 
-/// The run in a folder, or the runs in its folders; those that have begun but not ended are among them, for read_run to
-/// refuse.
+/// The run in a folder, or the runs in its folders, also those that have not ended: read_run refuses them.
 std::vector<fs::path> runs_in(const fs::path& folder) {
   const auto is_run = [](const fs::path& path) { return is_there(path / "run.json") || is_begun_run(path); };
   std::error_code error;
@@ -158,8 +157,8 @@ bool have_one_sweep(std::span<const RunFolder> runs) {
                      [&](const RunFolder& run) { return sweep_of(run) == sweep_of(runs.front()); });
 }
 
-/// Names that tell the runs apart: the preset's, with the folder where two have one name; of a sweep's runs the part
-/// that differs.
+/// Names that tell the runs apart: the preset's, with the folder where two are the same; of a sweep's the part that
+/// differs.
 std::vector<std::string> labels_of(std::span<const RunFolder> runs) {
   std::vector<std::string> names, swept, with_folder, with_path;
   for (const RunFolder& run : runs) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a report shows, as data: runs read back from their folders, their error curves held against each other, their
-// pictures.
+// What a report shows, as data: runs read back from their folders, their error curves side by side, their pictures.
 #pragma once
 #include "job/history.h"
 
@@ -47,8 +46,7 @@ std::set<std::filesystem::path> files_ending(const std::filesystem::path& folder
 std::vector<RunFolder> read_runs(std::span<const std::filesystem::path> folders);
 
 /// A run's pictures are image.exr, called "image", and every other EXR in its folder, by its name. "image" is compared
-/// with the run's reference where that has its size; else, as every other picture, with the first run's of that name
-/// and size.
+/// with the run's reference where that has its size; else, as the others, with the first run's of that name and size.
 struct Pictures {
   /// [{"name", "width", "height", "scale": the CIELAB distance at the end of the colours, 0 without differences,
   ///   "pictures": [{"kind": "run", "reference" or "difference", "runs": [whose it is], "from": a difference's run;
@@ -57,8 +55,7 @@ struct Pictures {
   /// Full size, as shown() at exposure 0, differences in the colours of map_colour.
   Json groups = Json::array();
   Json notes = Json::array(); ///< what is not there and why
-  /// For each run the reference that it was measured against; equal numbers are equal pictures. None: without a
-  /// reference.
+  /// For each run the reference that it was measured against, if any; equal numbers are equal pictures.
   std::vector<std::optional<std::size_t>> reference_of_run;
 };
 /// Throws bad_input for a picture that is damaged, and for NaN or infinity where there is something to compare with.
@@ -89,8 +86,7 @@ struct PageFile {
 };
 const std::vector<PageFile>& page_files();
 
-/// The page over the runs in these folders. Throws bad_input for a folder that is no run or holds an unfinished or
-/// damaged one.
+/// The page over the runs in these folders. Throws as report_data.
 std::string report_html(std::span<const std::filesystem::path> run_folders);
 
 } // namespace nephroid::report

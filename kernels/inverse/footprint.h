@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the light of one facet falls on a receiver: app/inverse/assign/footprint.h, which has the reasons, in single
+// Where the light of one facet falls on a receiver: app/inverse/assign/footprint.h, with the reasons, in single
 // precision.
 #ifndef NEPHROID_FOOTPRINT_H
 #define NEPHROID_FOOTPRINT_H
@@ -111,8 +111,7 @@ static inline float mean_above_0(float a, float b) {
   return fabs(a) >= 0.5f * b ? fmax(a, 0.0f) : (a + 0.5f * b) * (a + 0.5f * b) / (2.0f * b);
 }
 
-// What the neighbour at a side of x hides of light with this slope, in parts of the facet's width. x and y stand
-// for any two axes.
+// What the neighbour at a side of x hides of light with this slope, in parts of the facet. x and y: any two axes.
 static inline float hidden_by(global const DeviceLayout* layout, const Facet* facet, int2 to, float along, float g,
                               float g_other, int axis, float ratio, float meets) {
   if (to.x < 0 || to.y < 0 || to.x >= layout->columns || to.y >= layout->rows) return 0.0f;
@@ -274,8 +273,7 @@ static inline int4 cells_of(global const DeviceLayout* layout, const Footprint* 
                 edge_cell(ceil(print->y.middle + high.y + print->y.reach), layout->cells_y));
 }
 
-// How much of a footprint's light is on each cell of a tile. A single beam needs no tile; many are summed, tile after
-// tile.
+// How much of a footprint's light is on each cell of a tile. A single beam needs no tile; many are summed.
 #if NEPHROID_SPREAD
 #define TILE 8
 #define TILE_ROWS TILE

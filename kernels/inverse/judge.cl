@@ -64,9 +64,9 @@ __kernel void follow_rays(__global const float* nodes, __global const float* blo
 }
 
 #if NEPHROID_SPREAD
-// Number k of ray i of a facet, 0..1, more evenly spread than random ones: multiples of the powers of 1 / g, g being
-// the root of g^6 = g + 1 (Roberts 2018, the golden ratio in five dimensions), from a random begin. In fractions of
-// 2^32, which wrap around.
+// Number k of ray i of a facet, 0..1, more evenly spread than random ones: multiples of the powers of 1 / g, the root
+// of g^6 = g + 1 (Roberts 2018, the golden ratio in five dimensions), from a random begin. In fractions of 2^32, which
+// wrap.
 static inline float even_number(float begin, uint ray, uint power) {
   return (float)(((uint)(begin * 0x1p32f) + ray * power) >> 8) * 0x1p-24f;
 }
@@ -88,9 +88,8 @@ static inline void add_fate(global long* fates, uint item, int fate, float light
   add_exactly(fates + FATES * (item % FATE_SUMS) + fate, convert_long_rte(light * RAY_QUANTA));
 }
 
-// Rays first .. first + count - 1 of a round: a jittered lattice on each facet, one facet after the other. parts: of
-// the light's spectrum, as many as rays a facet, index and colour; each ray of a facet takes one. light: [screen][y, x,
-// z][cell].
+// Rays first .. first + count - 1 of a round: a jittered lattice on each facet, one facet after the other. Each ray of
+// a facet takes one of `parts`, an index and a colour of the spectrum. light: [screen][y, x, z][cell].
 __kernel void judge(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals,
                     DeviceFront front, __global const float4* parts, __global const DeviceReceiver* screens, uint2 seed,
                     uint turn, uint first_row, uint count, __global long* light, __global long* fates) {

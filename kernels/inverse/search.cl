@@ -7,8 +7,7 @@
 #define STEPS 2
 #define FINEST 0.25f
 
-// What the weighted squares would change by, were the facet's light, which counts as taken away, put back with this
-// slope.
+// What the weighted squares would change by, were the facet's light put back with this slope; it counts as taken away.
 static SEPARATE float score(const Search* s, float2 slope) {
   global const DeviceLayout* layout = s->layout;
   const Beams beams = beams_of(layout, &s->facet, slope);

@@ -36,8 +36,7 @@ static inline float neighbours_of(global const DeviceLayout* layout, int column,
 }
 
 // The sum of Cost_N over all facets (app/inverse/assign/cost.h) falls by n . pull where a facet of normal n is put
-// among its neighbours. The pull sums their normals, times one part in the facet's neighbours and one in each
-// neighbour's own.
+// among its neighbours: their normals, times one part in the facet's neighbours and one in each neighbour's own.
 static inline float3 pull_on(global const DeviceLayout* layout, global const DeviceIncoming* incoming,
                              global const float* heights, global const float2* slopes, uint index) {
   const int column = (int)(index % (uint)layout->columns), row = (int)(index / (uint)layout->columns);

@@ -15,8 +15,8 @@ namespace nephroid::inverse {
 /// pictures' tones follow the slopes after each sweep.
 class Assignment final : public Method {
 public:
-  /// The layout and the targets outlive it. Facets begin with random slopes. Throws failed where the device has not
-  /// enough memory.
+  /// The layout and the targets outlive it. Facets begin at random. Throws failed where the device has too little
+  /// memory.
   Assignment(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
              std::uint64_t seed);
 

@@ -22,9 +22,8 @@ public:
   /// The part of each facet's light that is misplaced, in the picture where that is largest.
   std::vector<double> facet_conflicts() const;
 
-  /// For picture j, each facet is moved where j gains most, as if j were alone. The facet's misplaced light in j is
-  /// then charged to the other pictures, by what they would lose by the move. Some facets stand for all: every one, up
-  /// to 32 a side.
+  /// For picture j, each facet is moved where j gains most, as if j were alone. Its misplaced light in j is then
+  /// charged to the other pictures, by what they would lose. Some facets stand for all: every one, up to 32 a side.
   Conflicts picture_conflicts() const;
 
 private:

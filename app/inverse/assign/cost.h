@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far light on a receiver is from the picture that is wanted, as runs report it and as the search lowers it, and
-// how unlike each other facets are.
+// How far light is from the picture that is wanted, as runs report it and the search lowers it; how unlike facets are.
 #pragma once
 #include "inverse/layout.h"
 

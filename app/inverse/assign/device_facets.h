@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The facets on the device: their slopes, the light that they send to the receivers, and which slopes would serve the
-// pictures better (kernels/inverse).
+// The facets on the device, their light, and which slopes would serve the pictures better (kernels/inverse).
 #pragma once
 #include "base/bytes.h"
 #include "inverse/layout.h"

@@ -16,8 +16,7 @@ namespace {
 
 double half_square(double t) { return t > 0 ? t * t / 2 : 0; }
 
-/// The first cell of so many in a row that beams between two places can touch, and the one behind the last. The places
-/// may be too far off for an int.
+/// The first of a row of cells that beams between two places can touch, and the one behind the last, however far off.
 glm::ivec2 touched(double from, double to, int cells) {
   const double end = cells, first = std::clamp(std::floor(from), 0.0, end);
   return {static_cast<int>(first), static_cast<int>(std::clamp(std::ceil(to), first, end))};
@@ -40,8 +39,7 @@ LitPart lit_part(const Layout& layout, std::size_t facet, const glm::dvec2& insi
   const auto columns = static_cast<std::size_t>(layout.facets.x);
   const glm::ivec2 at(facet % columns, facet / columns);
   const glm::dvec2 size = layout.facet();
-  // In parts of the facet's width: what a neighbour hides of light with this slope, which comes from its side or goes
-  // there.
+  // What the neighbour at a side hides of light with this slope, in parts of the facet's width.
   const auto hidden = [&](const glm::dvec2& light, int axis, int side) {
     glm::ivec2 to = at;
     to[axis] += axis == 0 ? side : -side; // rows count downwards

@@ -17,8 +17,7 @@ double part_before(const Beam& beam, double t);
 /// surfaces behind a flat facet. A disc of radius r has r^2 / 4 along an axis, a box of width b has b^2 / 12.
 double blur_width(const Layout& layout, double distance);
 
-/// In cells: a spectrum's line of light is cut into pieces that are at most so long, and a disc that is wider, as a box
-/// of its variance, becomes points.
+/// In cells: how long the pieces of a spectrum's line of light may be; how wide a box with a disc's variance.
 inline constexpr double piece_in_cells = 0.25, wide_in_cells = 0.5;
 
 /// The largest index minus the least, without the thousandth of what counts at either end of the spectrum.
@@ -52,10 +51,9 @@ struct Beams {
 /// The beams of a facet that sends light with this slope; `height` is z of its middle. From the point p of a facet with
 /// gradient g, light starts at z = g . p and meets a plane at (1 + slope g^T) p from where the middle's does: a
 /// parallelogram. Its projections on x and y are exact; how they depend on each other is not kept. A lamp's light has
-/// another slope at each p. A spectrum is a line of light along the change of the slope with the index: as many beams
-/// as make the pieces short beside a cell, 16 at most. The sun's disc and roughness, where they are wide beside a cell,
-/// are 8 beams, or 4 for each of up to 4 pieces of a spectrum. What is left of a blur is a box along each axis with its
-/// variance.
+/// another slope at each p. A spectrum is a line along the change of the slope with the index: as many beams as make
+/// its pieces short, 16 at most. The sun's disc and roughness, where they are wide, are 8 beams, or 4 for each of up to
+/// 4 pieces of a spectrum. What is left of a blur is a box along each axis with its variance.
 Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver,
                double height = 0);
 
@@ -70,10 +68,9 @@ Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& s
 /// How much light a facet sends, over what the mean facet would send lying flat. A facet of gradient g meets 1 + t . g
 /// of light with slope t. Along each axis its edge towards the light is g / 2 below its middle, in parts of its width,
 /// and a neighbour of gradient h (Incoming::around) ends h / 2 above its own: so t (g + h) / 2 / (1 + t . g) of the
-/// facet lies in the neighbour's shadow, more or less of it towards the ends of the edge, as g and h differ along it.
-/// In the same way a wall stops light that leaves with slope s within s (g + h) / 2 / (1 + s . g) of the other edge.
-/// The footprint is that of the rest. Neighbours do not count for light straight on, nor for facets of free heights,
-/// whose edges nearly meet.
+/// facet lies in shadow, more or less of it along the edge, as g and h differ there. In the same way a wall stops light
+/// that leaves with slope s within s (g + h) / 2 / (1 + s . g) of the other edge. Neighbours do not count for light
+/// straight on, nor for facets of free heights, whose edges nearly meet.
 double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& slope);
 
 /// Calls f(cell, part of the facet's light) for every cell of a footprint.
@@ -84,8 +81,7 @@ void for_cells(const Layout& layout, const Footprint& print, const F& f) {
       f(index_at(print.x0 + i, print.y0 + k, layout.cells.x), print.cells[index_at(i, k, print.columns)]);
 }
 
-/// The light of all facets: [receiver][cell], in units of facets that send all of theirs. `heights` are those of their
-/// middles.
+/// The light of all facets with these slopes and heights: [receiver][cell], in units of facets that send all of theirs.
 std::vector<std::vector<double>> light_of_all(const Layout& layout, const std::vector<glm::dvec2>& slopes,
                                               const std::vector<double>& heights);
 

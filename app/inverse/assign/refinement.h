@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// All facets downhill at once.
 #pragma once
 #include "inverse/assign/device_facets.h"
 
 namespace nephroid::inverse {
 
 /// Moves the slopes of all facets downhill at once, by conjugate gradients (Polak and Ribiere) on weighted_squares().
-/// Sweeps leave each facet at the best place among the others; by moving together, facets still gain. The number of
-/// threads changes no bit.
+/// Sweeps leave each facet at the best place among the others; together, they still gain.
 class Refinement {
 public:
   /// `heights` are those of the facets' middles. All but the weights outlive it.
@@ -22,8 +20,7 @@ public:
   void state(State& state);
 
 private:
-  /// Sixty steps take as long as a sweep or two and gain two to fifteen hundredths of rel_l2, more where pictures are
-  /// fine.
+  /// Sixty steps take as long as a sweep or two and gain 0.02 to 0.15 of rel_l2, more where pictures are fine.
   static constexpr std::size_t most_steps = 60;
 
   double turn();

@@ -4,8 +4,7 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Where no wall is, the strip is still so wide a part of a facet: triangles of no area are refused by readers of
-/// meshes.
+/// Where no wall is, the strip is still so wide a part of a facet: readers of meshes refuse triangles of no area.
 constexpr double least_given = 1e-3;
 /// The widest strip, in parts of a facet.
 constexpr double most_given = 0.4;
@@ -78,8 +77,7 @@ private:
             corner(a - 1, b, right_top)};
   }
 
-  /// f(the ids of a triangle, what the edges give that it stands between) for all triangles of the walls, clockwise
-  /// seen from above.
+  /// f(a triangle, what the edges give that it stands between) for all triangles of the walls, clockwise from above.
   template <class F>
   void for_walls(const F& f) {
     const auto strip = [&](glm::uint p, glm::uint q, glm::uint r, glm::uint s, double* given) {

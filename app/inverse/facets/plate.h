@@ -18,8 +18,7 @@ struct PlatePart {
 /// Returns the index of the first that found no place, if any.
 std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, std::vector<PlatePart>& bodies);
 
-/// Joins all bodies in one mesh: each is moved to its place, with its front (its highest z) at z = 0, and stays as
-/// closed as it is.
+/// Joins all bodies in one mesh: each is moved to its place, with its front (its highest z) at z = 0.
 scene::Mesh plate_mesh(const std::vector<scene::Mesh>& meshes, const std::vector<PlatePart>& places);
 
 } // namespace nephroid::inverse

@@ -23,8 +23,7 @@ double largest_stretch(const glm::dmat2& m) {
   return std::abs(half) + off;
 }
 
-/// Numbers of the vertices, and the mesh that they make. Edges of facets have vertices of their own, as many as the
-/// finer of both sides.
+/// Edges of facets have vertices of their own, as many as the finer of both sides.
 class SmoothBuilder {
 public:
   SmoothBuilder(const Layout& layout, const Surface& surface, const std::vector<int>& parts)
@@ -136,8 +135,7 @@ private:
       }
   }
 
-  /// A rectangle's sides, down from the front's rim, and the front: strips along y, one a column, so that rays find
-  /// their triangle soon.
+  /// A rectangle's sides and front. The front is strips along y, one a column, so that rays find their triangle soon.
   void make_rim() {
     const auto front = [&](int a, int b) { return solid_.add({grid_.corner(a, b), layout_.thickness}); };
     std::vector<std::uint32_t> upper, lower, left, right; // the front's edges

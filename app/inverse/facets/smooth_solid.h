@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A lens as one closed solid in millimetres: a smooth surface in triangles, flat sides, and the flat front at z =
-// thickness.
+// A lens as one closed solid in millimetres: a smooth surface in triangles, sides, and the flat front at z = thickness.
 #pragma once
 #include "inverse/facets/solid.h"
 
@@ -23,8 +22,7 @@ inline constexpr std::uint64_t most_stl_bytes = 4'000'000'000;
 /// Throws bad_input for so many triangles. `own` is where the settings stand.
 [[noreturn]] void refuse_mesh(const Place& own, double mesh_error, std::uint64_t triangles);
 
-/// Each part becomes triangles about its middle, with all corners of its neighbours on its sides. All vertices are on
-/// the surface.
+/// Each part becomes triangles about its middle, with its neighbours' corners on its sides; all are on the surface.
 Solid make_smooth_solid(const Layout& layout, const Surface& surface, const std::vector<int>& parts);
 
 /// Cuts a relief over the whole rectangle, which is all that `solid` has, along the ellipse within it, and closes it by

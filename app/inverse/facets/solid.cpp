@@ -19,17 +19,13 @@ struct Vertex {
   std::uint32_t id = 0;
 };
 
-/// A vertical line where four facets meet, and the vertices on it.
-///
-/// Each of the four facets ends at a height of its own, and a wall stands between each two neighbours. Along the line
-/// the walls' ends overlap; for every stretch of it to be an edge of two walls, a wall's end has vertices wherever
-/// another one begins or ends. One case remains. Where two facets across from each other are both higher than the two
-/// others, all four walls share the stretch between. There they are joined in pairs by edges of their own, told apart
-/// by one vertex more: at the lower end around the higher facets, at the upper end around the lower ones. So the
-/// surface does not touch itself in a vertex either.
-///
-/// Facets around are counted counter-clockwise seen from above (+z): 0 is at +x +y. Wall k stands between facets k and
-/// k + 1.
+/// A vertical line where four facets meet, and the vertices on it. Each facet ends at a height of its own, and a wall
+/// stands between each two neighbours. Along the line the walls' ends overlap; for every stretch of it to be an edge of
+/// two walls, a wall's end has vertices wherever another one begins or ends. Where two facets across from each other
+/// are both higher than the two others, all four walls share the stretch between. There they are joined in pairs by
+/// edges of their own, told apart by one vertex more: at the lower end around the higher facets, at the upper end
+/// around the lower ones. So the surface does not touch itself in a vertex either. Facets around are counted
+/// counter-clockwise seen from above (+z): 0 is at +x +y. Wall k stands between facets k and k + 1.
 struct Post {
   std::array<Vertex, 4> ends; ///< where each facet around ends; equal heights are one vertex
   /// Where all four walls share a stretch: vertices that pair them, ascending, and a low facet; the other is low + 2.
@@ -227,8 +223,7 @@ private:
       if (!is_facet(a + around[f].x, b + around[f].y)) return post(a, b).ends[f].id;
   }
 
-  /// Strips along y, one a column, so that rays find their triangle soon; the first and the last have the vertices of
-  /// their sides.
+  /// Strips along y, one a column, so that rays find their triangle soon; the outer ones share their sides' vertices.
   void make_front() {
     const auto side = [&](int a) {
       std::vector<Vertex> ascending; // along y, which stands for the height here

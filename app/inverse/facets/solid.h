@@ -58,10 +58,9 @@ Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes, co
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 
 /// make_solid() where the layout has a draft: walls lean, so that the solid can be milled and leaves a mould. `solid`
-/// has its facets. They keep their planes and give up a strip along each edge, where the wall to the neighbour leans.
-/// Both sides of an edge give equally much: enough that no wall is steeper than the draft allows, and at most four
-/// tenths of a facet's width. Four facets meet in a patch about their common corner. So the facets' side has one height
-/// at each point of the front.
+/// has its facets, which keep their planes and give up a strip along each edge. Both sides of an edge give equally
+/// much: enough that no wall is steeper than the draft allows, and at most four tenths of a facet's width. Four facets
+/// meet in a patch about their common corner. So the facets' side has one height at each point of the front.
 Solid with_leaning_walls(const Layout& layout, Solid solid);
 
 } // namespace nephroid::inverse

@@ -8,9 +8,8 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Replaces the values of each row by the parts of bells that have them at the nodes: bells are 1/6, 4/6 and 1/6 high
-/// there. At either end the third difference of the parts is 0, which with the second node's equation leaves c0 - c1 =
-/// f0 - f1.
+/// Replaces each row's values by the parts of bells that have them at the nodes: 1/6, 4/6 and 1/6 high there. At either
+/// end the third difference of the parts is 0, which with the second node's equation leaves c0 - c1 = f0 - f1.
 Grid parts_along_rows(const Grid& values) {
   const Eigen::Index count = values.cols();
   Grid parts(values.rows(), count + 2);

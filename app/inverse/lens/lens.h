@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One picture by a smooth surface: where the light has to go, heights whose slopes send it there, then what these lack
-// put right.
+// One picture by a smooth surface: where light has to go, heights that send it there, then what these lack put right.
 #pragma once
 #include "inverse/lens/transport.h"
 #include "inverse/method.h"

@@ -14,8 +14,7 @@ namespace {
 /// side has a step of its own: with one for both, that of the brighter picture's side overshoots.
 constexpr double grows = 1.25, shrinks = 0.8, much = 0.75, little = 0.25;
 
-/// min over j of (cell (i - j))^2 / 2 + f(j) for every i: the lower envelope of parabolas (Felzenszwalb and
-/// Huttenlocher 2012).
+/// min over j of (cell (i - j))^2 / 2 + f(j) for every i (Felzenszwalb and Huttenlocher 2012).
 void lower_envelope(const double* f, double* out, int count, double cell) {
   std::vector<int> of(static_cast<std::size_t>(count));
   std::vector<double> begins(static_cast<std::size_t>(count) + 1);

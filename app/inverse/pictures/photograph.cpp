@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture file as light a cell. It is read some rows at a time, so that 20000 x 12000 pixels take no more memory than
-// a small picture.
+// A picture file, read some rows at a time: 20000 x 12000 pixels take no more memory than a small picture.
 #include "inverse/pictures/target.h"
 
 #include "image/image.h"
@@ -20,8 +19,7 @@ struct CellCoverage {
   std::vector<double> parts;
 };
 
-/// What each pixel covers, in the order of the file, which lies in the middle of the cells. `pixel` is its side in
-/// cells.
+/// What each pixel covers, in the order of the file, which lies in the middle of the cells. `pixel`: its side in cells.
 std::vector<CellCoverage> covered_by(int pixels, bool backwards, double pixel, int cells) {
   std::vector<CellCoverage> all;
   for (int i = 0; i < pixels; ++i) {
@@ -57,8 +55,7 @@ FileRaster place_of(const Layout& layout, const glm::ivec2& file, int orientatio
   return place;
 }
 
-/// Luminance of linear sRGB. Integers are encoded, and hide what is transparent; colours of floats are multiplied by
-/// their alpha already.
+/// Luminance of linear sRGB. Integers are encoded and hide what is transparent; floats are multiplied by their alpha.
 class Luminance {
 public:
   Luminance() {

@@ -19,13 +19,12 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Steps towards the best light: the next ones gain less than a hundredth. Large pictures have to do with fewer, so
-/// that a plan is made in a second.
+/// Steps towards the best light: further ones gain less than a hundredth. Large pictures have fewer, for plans in a
+/// second.
 constexpr std::size_t step_limit = 60, fewest_steps = 8, most_products = 400'000'000;
 /// A picture that is further off at best is worth a word, in rel_l2.
 constexpr double far_off = 0.1;
-/// A cell that wants so many times the light of an even picture asks for strong lenses; with the advised background it
-/// is `bright`.
+/// A cell of so many times an even picture's light asks for strong lenses; with the advised background it is `bright`.
 constexpr double very_bright = 8, bright = 4;
 /// A lens that takes more of the thickness than this is worth a word.
 constexpr double deep = 0.5;
@@ -226,8 +225,8 @@ std::vector<std::string> workshop_notes(const Settings& settings, const Layout& 
   constexpr double much_light = 0.02, few_layers = 4;
   if (settings.method == Settings::Method::lens) return {};
   std::vector<std::string> notes;
-  // A facet like many sends light a quarter of the nearest receiver beside that one's middle. Its walls are about as
-  // high as it rises.
+  // A facet like many sends light a quarter of the nearest receiver beside its middle. Walls are about as high as it
+  // rises.
   const double slope = std::min(
                    std::hypot(glm::length(layout.receiver) / std::sqrt(2.0) / 4, glm::length(layout.offset(0))) /
                        layout.distances.front(),

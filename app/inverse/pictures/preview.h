@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be said before anything is designed: how close to its pictures an object of these facets comes at best, and
-// what will go wrong.
+// What can be said before anything is designed: how close to its pictures an object comes at best, and what goes wrong.
 #pragma once
 #include "inverse/layout.h"
 
 namespace nephroid::inverse {
 
-/// The layout that best_possible() takes: as it is, but for a lens, which gathers the light of its facets, with facets
-/// so small that they blur nothing.
+/// The layout for best_possible(): a lens gathers the light of its facets, which then are so small that they blur
+/// nothing.
 Layout blurring_layout(const Settings& settings, Layout layout);
 
 /// The closest to a target that facets of this size could cast, were it their only picture: the least squares to within

@@ -19,8 +19,7 @@ Target photograph(const std::filesystem::path& file, const Picture& picture, con
 std::vector<double> qr_cells(const std::string& text, const glm::ivec2& cells, const Place& where);
 
 /// In a drawing, each cell has the part of it that is covered; a file keeps its aspect. `where` is the picture's
-/// FILE#/json/pointer. Throws bad_input as photograph() and qr_cells(), and there for a drawing that leaves every cell
-/// dark.
+/// FILE#/json/pointer. Throws bad_input as the two above, and there for a drawing that leaves every cell dark.
 Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where);
 
 /// The targets of all receivers.

@@ -23,8 +23,8 @@ Margin margin_of(const std::vector<double>& picture, const Layout& layout);
 /// cell in between, and 0 after the last.
 std::vector<double> extended(const std::vector<double>& picture, const Margin& margin, double cells);
 
-/// What others' missing cells ask of one picture. A cell is missing where no facet's light through its middle finds all
-/// other pictures lit.
+/// What others' missing cells ask of a picture. A cell is missing where no facet's light through it finds all others
+/// lit.
 struct MissingLight {
   std::size_t missing = 0; ///< how many of its own cells are missing
   double extension = 0;    ///< s: how far at most the light of others' missing cells falls from its lit ones, in cells

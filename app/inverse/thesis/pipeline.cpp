@@ -123,8 +123,7 @@ void Pipeline::find_needs() {
   needs_ = needs_of(layout_, wanted_, margins_);
 }
 
-/// (5.3): scales every cell by what is wanted over what was received, both as parts of their sums. A cell that received
-/// nothing gets the largest factor.
+/// (5.3): scales every cell by what is wanted over what was received, in parts of their sums; at most by the limit.
 void Pipeline::correct(const std::vector<std::vector<double>>& received) {
   for (std::size_t j = 0; j < pictures_.size(); ++j) {
     const double wanted_sum = sum_of(wanted_[j].picture), received_sum = sum_of(received[j]),

@@ -54,7 +54,7 @@ private:
 /// A step is a trial: it draws all facets and takes their cost (5.2) against the adjusted pictures, at first the
 /// pictures as they are. A stage ends with the values of its lowest cost, whose first draw the object gets. Trials
 /// share their random numbers, so that a cost depends only on what is tried. Facets send light from their middles and
-/// all alike, as the thesis has it.
+/// all alike.
 class Pipeline final : public Method {
 public:
   /// The layout and the targets outlive it. Facets begin flat.

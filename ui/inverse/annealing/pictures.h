@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A snapshot's further pictures (job::NamedPicture) as textures; where the light of one facet falls on every receiver,
-// over them.
+// A snapshot's further pictures (job::NamedPicture) as textures, and where a facet's light falls, over them.
 #pragma once
 #include "inverse/assign/footprint.h"
 #include "job/job.h"
@@ -36,8 +35,8 @@ struct FacetBeam {
   std::vector<inverse::Footprint> prints; ///< on each receiver
 };
 
-/// slopes: a pixel a facet: slope along x, along y, height. Empty where it is of another number of facets than the
-/// layout, or the facet is outside.
+/// `slopes` has a pixel a facet: slope along x, along y, height. Empty where it has other facets, or the facet is
+/// outside.
 std::optional<FacetBeam> facet_beam(const job::Picture& slopes, const inverse::Layout& layout, const glm::ivec2& facet);
 
 /// A footprint on a receiver's picture, in cells from its top left corner.
@@ -53,11 +52,10 @@ double part_on(const inverse::Footprint& print);
 /// box of cells that it reaches on each.
 std::vector<std::vector<preset::Vec3>> lines_of(const FacetBeam& beam, const inverse::Layout& layout);
 
-/// A frame about the beam on a receiver's picture of so many cells, which lies from corner to corner; large enough to
-/// be found.
+/// A frame about the beam on a receiver's picture of so many cells, from corner to corner; large enough to be found.
 void draw_beam_frame(const inverse::Footprint& print, const glm::ivec2& cells, const ImVec2& low, const ImVec2& high);
-/// The cells about the beam, large, from corner to corner: how bright the picture is there, and the parts of the beam
-/// over it.
+/// The cells about the beam, large, from corner to corner: how bright the picture is there, the parts of the beam over
+/// it.
 void draw_beam_cells(const inverse::Footprint& print, const job::Picture& picture, const ImVec2& low,
                      const ImVec2& high);
 
