@@ -17,8 +17,7 @@ glm::dvec3 direction_of(const glm::dvec2& slope);
 /// n in - out has no part along the surface. Empty where the two are further apart than slope_limit allows, or alike.
 std::optional<glm::dvec3> facet_normal(const glm::dvec3& in, const glm::dvec3& out, double n);
 
-/// The largest slope that light along -z can be given: light outside, or inside, then runs along the surface. The
-/// deviation delta has cos delta = min(n, 1 / n).
+/// The largest slope that light along -z can be given; light in- or outside then runs along the surface.
 double slope_limit(double n);
 
 /// The part of slope_limit() that the engine uses: near the limit little light leaves, in a thin bundle.

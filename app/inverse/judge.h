@@ -62,8 +62,7 @@ public:
   void advance(); ///< judges a few rows of facets; light and outcomes are there once it has finished
   bool finished() const { return finished_; }
   double fraction_done() const; ///< the part done of the rounds that are planned so far
-  /// The light in each cell, in units of a facet's incident light: luminance where it is coloured, else energy.
-  /// Screens are the receivers, then the frames.
+  /// Each cell's luminance, or energy without colours, in facets' incident light. Screens: receivers, then frames.
   const std::vector<double>& light(std::size_t screen) const { return light_[screen]; }
   /// The XYZ of each cell of coloured light; y is light().
   std::vector<glm::dvec3> colours(std::size_t screen) const;

@@ -13,8 +13,7 @@
 namespace nephroid::inverse {
 namespace {
 
-/// The most that a facet can reach from z = 0: the steepest normal is as far from light inside as for light straight
-/// on.
+/// The most that a facet can reach from z = 0. The steepest turns light by as much as light straight on is turned.
 double most_relief(const Layout& layout) {
   double tilt = glm::length(layout.light.sines);
   if (layout.light.lamp)

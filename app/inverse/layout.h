@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands where, in millimetres: facets about z = 0, light through the flat front at z = thickness, receivers at
-// z = -distance; all centred on the z axis, but for receivers with an offset. y is up, and row 0 of facets and cells is
-// at the top: who looks along the light sees the pictures as they are.
+// What stands where, in millimetres: facets about z = 0, light through the flat front at z = thickness, receivers at z
+// = -distance, with their middles on the z axis but for an offset. y is up, and row 0 at the top, as seen along the
+// light.
 #pragma once
 #include "base/error.h"
 #include "inverse/settings.h"
@@ -107,8 +107,7 @@ struct Layout {
   }
 };
 
-/// The solid joins heights that are closer than this part of a facet's shorter side, and turns facets by as much at
-/// most.
+/// The solid joins heights closer than this part of a facet's shorter side; so it turns a facet by as much at most.
 inline constexpr double corners_join = 1e-4;
 
 /// A receiver's wanted light: a value for each cell, row 0 at the top; the values sum to 1.

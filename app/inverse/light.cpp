@@ -68,8 +68,7 @@ double solid_angle_of_front(const Layout& layout) {
   return sum;
 }
 
-/// The largest t . g of facets that send light where the last receiver is nearest to its straight way; infinite: one
-/// cannot.
+/// The largest t . g of facets whose light goes to the last receiver as straight as it can; infinite: one cannot.
 double worst_shadow(const Layout& layout) {
   constexpr int across = 9;
   double worst = 0;

@@ -12,8 +12,7 @@ Illumination make_illumination(Layout layout, const Light& light, const Place& w
 /// Illumination::facets, where sines and lamp are known. No `power` is above 0 where no light reaches any facet.
 std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout);
 
-/// The light at a facet's middle. `power` is relative to light that falls straight on; for a lamp, it is in units of
-/// the lamp's intensity over a square millimetre.
+/// The light at a facet's middle. `power`: over that straight on, or in a lamp's intensity over a square millimetre.
 Incoming incoming_at(const Layout& layout, const glm::dvec2& middle);
 
 /// The part of a rectangle that lies within the object's outline.

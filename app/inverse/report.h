@@ -3,9 +3,9 @@
 // what is cast on each receiver, of the slopes and of screens between receivers; and the files of a finished one.
 #pragma once
 #include "inverse/assign/conflicts.h"
-#include "inverse/judgement.h"
 #include "inverse/method.h"
 #include "inverse/sheet.h"
+#include "inverse/tolerances.h"
 
 namespace nephroid::inverse {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search for slopes: a method's steps, until it gains no more or the preset's stop, of whose seconds the judge has
-// some.
+// The search for slopes: a method's steps, until it gains no more or the preset's stop, less what the judge needs.
 #pragma once
 #include "inverse/method.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of engine 3: the section "inverse" of a preset. Lengths are in millimetres, whatever the preset's unit
-// is, because a workshop works in them.
+// The settings of engine 3: the section "inverse" of a preset. Lengths are millimetres, in which workshops work.
 #pragma once
 #include "preset/preset.h"
 

@@ -25,9 +25,8 @@ struct Captioned {
   std::string words;
 };
 
-/// Puts all pictures into one of this size, each in the shape of a receiver. Each list is a column, or each is a row,
-/// whichever gives larger pictures; one list alone may stand in two columns. Words that would be too small to read are
-/// left out, and all of them where there is no font.
+/// Puts all pictures into one of this size, each in the shape of a receiver. Lists are columns or rows, whichever gives
+/// larger pictures; one alone may be two columns. Words too small to read, or without a font, are left out.
 std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<Captioned>>& lists, const glm::dvec2& shape,
                                           int width, int height);
 

@@ -36,8 +36,7 @@ void turn(double radians, Layout& layout, Solid& solid) {
   layout.thickness += std::abs(sine) * layout.size.y / 2;
 }
 
-/// Each triangle as four, by the middles of its edges, which both triangles of an edge share: what is closed stays
-/// closed.
+/// Each triangle as four, by the middles of its edges, which two triangles share: what is closed stays closed.
 Solid halved(const Solid& solid) {
   Solid fine = solid;
   fine.mesh.triangles.clear();

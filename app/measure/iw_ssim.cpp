@@ -62,8 +62,7 @@ struct Mixture {
 
   explicit Mixture(const Matrix& c) : n(static_cast<std::size_t>(c.rows())) {
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(c);
-    // Rounding makes eigenvalues negative: they become 0, and the others are scaled so that the variance stays, as the
-    // authors do.
+    // Rounding makes eigenvalues negative: they become 0, and the others are scaled to the variance, as the authors do.
     const auto positive = solver.eigenvalues().cwiseMax(0).eval();
     const double scale = positive.sum() > 0 ? solver.eigenvalues().sum() / positive.sum() : 0;
     const double least = positive.maxCoeff() * static_cast<double>(most) * std::numeric_limits<double>::epsilon();

@@ -44,8 +44,7 @@ void history_state(State state, const ByteSource* from, job::History& history, d
   }
 }
 
-/// The rows with other columns: NaN where a row has no value. A resumed run may have a reference that it had not
-/// before.
+/// The rows with other columns, NaN where there is no value: a resumed run may have got a reference.
 std::vector<job::HistoryRow> rows_in_columns(const job::History& history, const std::vector<std::string>& columns) {
   std::vector<job::HistoryRow> rows = history.rows;
   for (job::HistoryRow& row : rows) {

@@ -157,8 +157,7 @@ bool have_one_sweep(std::span<const RunFolder> runs) {
                      [&](const RunFolder& run) { return sweep_of(run) == sweep_of(runs.front()); });
 }
 
-/// Names that tell the runs apart: the preset's, with the folder where two are the same; of a sweep's the part that
-/// differs.
+/// Names that tell the runs apart: the preset's, with the folder where needed; of a sweep's runs the part that differs.
 std::vector<std::string> labels_of(std::span<const RunFolder> runs) {
   std::vector<std::string> names, swept, with_folder, with_path;
   for (const RunFolder& run : runs) {

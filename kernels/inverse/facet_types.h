@@ -67,8 +67,7 @@ typedef struct {
 // A ray's light is counted in quanta; this many fall on a facet.
 #define RAY_QUANTA 0x1p32f
 
-// Where the light that falls on the front goes: inverse::RayOutcomes. Many places keep the sums: rays seldom meet
-// there.
+// Where the light on the front goes: inverse::RayOutcomes. Many places keep the sums, so that rays seldom meet there.
 #define FATE_REFLECTED 0
 #define FATE_LOST 1
 #define FATE_SENT 2

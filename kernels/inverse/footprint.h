@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the light of one facet falls on a receiver: app/inverse/assign/footprint.h, with the reasons, in single
-// precision.
+// Where the light of one facet falls on a receiver: app/inverse/assign/footprint.h in single precision.
 #ifndef NEPHROID_FOOTPRINT_H
 #define NEPHROID_FOOTPRINT_H
 
@@ -309,8 +308,7 @@ static inline int fill_tile(global const DeviceLayout* layout, const Footprint* 
 #define PART_ON(print, tile, x, y) (part_on((print).x, x) * (tile)[0])
 #endif
 
-// For every cell (x, y) that a footprint touches, of a tile that begins at `at`: PART_ON(print, tile, x, y) of its
-// light.
+// For every cell (x, y) that a footprint touches, of a tile from `at` on: PART_ON(print, tile, x, y) of its light.
 #define FOR_CELLS(layout, print, tile)                                                                                 \
   for (int4 box = cells_of(layout, &(print)), at = box; at.y < box.w; at.y += TILE_ROWS)                               \
     for (at.x = box.x; at.x < box.z; at.x += TILE)                                                                     \

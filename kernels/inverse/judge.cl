@@ -64,9 +64,8 @@ __kernel void follow_rays(__global const float* nodes, __global const float* blo
 }
 
 #if NEPHROID_SPREAD
-// Number k of ray i of a facet, 0..1, more evenly spread than random ones: multiples of the powers of 1 / g, the root
-// of g^6 = g + 1 (Roberts 2018, the golden ratio in five dimensions), from a random begin. In fractions of 2^32, which
-// wrap.
+// Number k of ray i of a facet, 0..1, spread evenly: multiples of the powers of 1 / g, the root of g^6 = g + 1 (Roberts
+// 2018, the golden ratio in five dimensions), from a random begin. In fractions of 2^32, which wrap around.
 static inline float even_number(float begin, uint ray, uint power) {
   return (float)(((uint)(begin * 0x1p32f) + ray * power) >> 8) * 0x1p-24f;
 }

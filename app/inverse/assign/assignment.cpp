@@ -65,9 +65,8 @@ void Assignment::put(const std::vector<glm::dvec2>& slopes) {
   forget();
 }
 
-/// Free heights stand where walls are lowest for the slopes that facets have; their light falls from there. Facets in
-/// one plane see their neighbours as these are now, in whose shadows they lie. Each picture is as bright as the light
-/// lets it be that reaches its receiver.
+/// Free heights stand where walls are lowest, and light falls from there. Facets in one plane see their neighbours as
+/// these are now. Each picture is as bright as the light that reaches its receiver.
 void Assignment::settle() {
   if (layout_.free_heights || layout_.light.facets) {
     const std::vector<glm::dvec2> now = slopes();

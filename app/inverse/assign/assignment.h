@@ -10,13 +10,11 @@ namespace nephroid::inverse {
 /// a random order, in batches. All facets of a batch look for their slopes at once, in the light before the batch. Each
 /// takes what it found if that is better than what it had and if it shares no cell with a facet before it; the others
 /// try again. So no batch raises the sum while pictures keep their tones, and the number of threads changes no bit.
-/// When a sweep gains less than three hundredths of the sum, a last sweep moves all facets together (Refinement), but
-/// where there is smoothing, which that does not know. Free heights, what facets see of their neighbours, and the
-/// pictures' tones follow the slopes after each sweep.
+/// When a sweep gains less than three hundredths of the sum, a last sweep moves all facets together (Refinement), which
+/// knows no smoothing. Free heights, what facets see of their neighbours, and pictures' tones follow after each sweep.
 class Assignment final : public Method {
 public:
-  /// The layout and the targets outlive it. Facets begin at random. Throws failed where the device has too little
-  /// memory.
+  /// The layout and the targets outlive it. Facets begin at random. Throws failed where the device lacks memory.
   Assignment(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
              std::uint64_t seed);
 

@@ -5,8 +5,7 @@
 
 namespace nephroid::inverse {
 
-/// Light is misplaced in a picture where more falls than is wanted, and beside the receiver. Every facet in a cell has
-/// the same share of what is too much there.
+/// Light is misplaced where more falls than is wanted, evenly among a cell's facets, and beside the receiver.
 struct Conflicts {
   std::vector<double> misplaced; ///< the part of all light in each picture: its floor, the error that it keeps
   std::vector<std::vector<double>> between; ///< [j][k]: the part that is misplaced in picture j for the sake of k

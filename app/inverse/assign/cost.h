@@ -37,9 +37,8 @@ double weighted_squares(const std::vector<Target>& targets, std::span<const doub
 /// The facet's unit normal, out of the object.
 glm::dvec3 normal_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope);
 
-/// The mean of Cost_N over all facets. Smoothing makes neighbours alike, so that the object is easier to make: the
-/// thesis' (6.1), Cost_S = alpha_N Cost_N + alpha_P Cost_P. A facet's Cost_N is 1 minus the mean of n . n' over its
-/// neighbours (four, but at the rim), with unit normals n.
+/// The mean of Cost_N over all facets: 1 minus the mean of n . n' over a facet's neighbours, with unit normals n. The
+/// thesis' (6.1), Cost_S = alpha_N Cost_N + alpha_P Cost_P, makes neighbours alike and the object easier to make.
 double roughness(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 
 } // namespace nephroid::inverse

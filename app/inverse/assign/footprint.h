@@ -31,9 +31,8 @@ struct IndexGroups {
 };
 IndexGroups index_groups(const Layout& layout, int count);
 
-/// Points on a circle, disc_beams or 4 of them, that stand for a disc with a variance of 1 along each axis;
-/// left_of_disc of the variance is a box about each point. Where the disc's radius is 0.5 to 1.2 cells, 8 points put
-/// 0.002 to 0.02 of its light elsewhere, a box alone 0.01 to 0.1.
+/// Points on a circle, disc_beams or 4, for a disc with a variance of 1 along each axis, left_of_disc of which is a box
+/// about each. Where the disc's radius is 0.5 to 1.2 cells, 8 put 0.002 to 0.02 of it elsewhere, one box 0.01 to 0.1.
 inline constexpr int disc_beams = 8;
 std::vector<glm::dvec2> disc_points(int count);
 constexpr double left_of_disc(int points) { return points == disc_beams ? 0.22 : 0.27; }

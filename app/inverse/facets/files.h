@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The solid as files: meshes in millimetres, and what a workshop needs beside them: the object's figures, its facets as
-// a list, and a height map of their side.
+// The solid as files: meshes in millimetres, and for a workshop the figures, the facets as a list and a height map.
 #pragma once
 #include "image/image.h"
 #include "inverse/facets/solid.h"

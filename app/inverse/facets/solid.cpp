@@ -151,9 +151,9 @@ private:
     }
   }
 
-  /// The wall over the line from post a to post b, at whose right hand (seen from above) facet p ends at ap and bp, and
-  /// facet q at the left at aq and bq. Its air is on the side of the higher facet. Where the facets' edges cross, it
-  /// has two parts. Returns the vertex of the crossing.
+  /// The wall over the line from post a to b, at whose right hand (seen from above) facet p ends at ap and bp, and q at
+  /// the left at aq and bq. Its air is on the higher facet's side. It has two parts where the edges cross, and returns
+  /// that vertex.
   std::optional<Vertex> wall(const Post& a, const Post& b, std::size_t wall_a, std::size_t wall_b,
                              std::array<Vertex, 4> ends, const glm::dvec2& at_a, const glm::dvec2& at_b, Part part) {
     const auto [ap, aq, bp, bq] = ends;

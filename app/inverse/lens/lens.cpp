@@ -237,8 +237,7 @@ void Lens::see() {
   sent_ = sent_by_.sum();
 }
 
-/// Light flows from where there is too much: along the gradient of a solution of Poisson's equation, over what is
-/// there.
+/// Light flows from where there is too much: along the gradient of Poisson's solution, over what is there.
 void Lens::correct() {
   Grid there = spread(sent_by_, corners_land(), wanted_.rows(), wanted_.cols());
   there *= wanted_.sum() / there.sum();

@@ -9,8 +9,7 @@
 namespace nephroid::inverse {
 
 /// Designs a lens for one receiver. The first step is the optimal transport and the surface that follows from it. Each
-/// further step corrects the surface by the light that it sends: light flows from where there is too much to where it
-/// lacks, as a solution of Poisson's equation says.
+/// further one lets the surface's light flow from where there is too much, by a solution of Poisson's equation.
 class Lens final : public Method {
 public:
   /// The layout and the target outlive it. `settings` is where the settings stand, for what solid() refuses.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where light has to go so that one picture becomes another on the shortest ways: optimal transport, whose map is the
-// gradient of a potential. So it is the one way that a smooth surface can bend light (Schwartzburg et al. 2014,
-// "High-contrast computational caustic design").
+// Where light has to go so that one picture becomes another on the shortest ways: optimal transport. Its map is the
+// gradient of a potential, as a smooth surface bends light (Schwartzburg et al. 2014, caustic design).
 #pragma once
 #include "base/bytes.h"
 #include "inverse/poisson.h"

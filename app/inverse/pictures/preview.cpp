@@ -19,8 +19,7 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Steps towards the best light: further ones gain less than a hundredth. Large pictures have fewer, for plans in a
-/// second.
+/// Steps towards the best light: further ones gain below a hundredth. Large pictures have fewer: a plan takes a second.
 constexpr std::size_t step_limit = 60, fewest_steps = 8, most_products = 400'000'000;
 /// A picture that is further off at best is worth a word, in rel_l2.
 constexpr double far_off = 0.1;
@@ -225,8 +224,7 @@ std::vector<std::string> workshop_notes(const Settings& settings, const Layout& 
   constexpr double much_light = 0.02, few_layers = 4;
   if (settings.method == Settings::Method::lens) return {};
   std::vector<std::string> notes;
-  // A facet like many sends light a quarter of the nearest receiver beside its middle. Walls are about as high as it
-  // rises.
+  // A facet like many sends light a quarter of the receiver beside its middle. Its walls are about as high as it rises.
   const double slope = std::min(
                    std::hypot(glm::length(layout.receiver) / std::sqrt(2.0) / 4, glm::length(layout.offset(0))) /
                        layout.distances.front(),

@@ -5,14 +5,12 @@
 
 namespace nephroid::inverse {
 
-/// The layout for best_possible(): a lens gathers the light of its facets, which then are so small that they blur
-/// nothing.
+/// The layout for best_possible(): the facets of a lens are so small that they blur nothing, as it gathers their light.
 Layout blurring_layout(const Settings& settings, Layout layout);
 
-/// The closest to a target that facets of this size could cast, were it their only picture: the least squares to within
-/// a tenth, by FISTA (Beck and Teboulle 2009); it sums to 1. Any light may be aimed at any cell. All of it is smeared
-/// as that of the facet that bends light to the middle cell least. So facets' size, the sun, roughness and dispersion
-/// count, but neither their number nor conflicts of pictures.
+/// The closest to a target that facets of this size could cast, were it their only picture, to within a tenth; it sums
+/// to 1. Light may be aimed at any cell. All of it is smeared as that of the facet that bends light to the middle cell
+/// least. It is the least squares, by FISTA (Beck and Teboulle 2009).
 Target best_possible(const Layout& layout, const Target& target, std::size_t receiver);
 std::vector<Target> best_possible(const Layout& layout, const std::vector<Target>& targets);
 

@@ -57,8 +57,7 @@ glm::dvec2 turned_back(const Picture& picture, const glm::dvec2& p) {
   return {c * p.x + s * p.y, c * p.y - s * p.x};
 }
 
-/// Brightness 0..1 of a drawing at p, without its background. p and `half`, the receiver's half width and height, are
-/// in parts of its shorter side; y is up.
+/// A drawing's brightness 0..1 at p, without background. p and `half` (the receiver) are in its shorter sides, y up.
 double brightness(const Picture& picture, const glm::dvec2& p, const glm::dvec2& half) {
   using Type = Picture::Type;
   const double r = glm::length(p);

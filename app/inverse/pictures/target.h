@@ -6,10 +6,9 @@
 
 namespace nephroid::inverse {
 
-/// A file's brightness in each cell, 0..1. First comes the luminance of linear sRGB over its maximum, with the
-/// picture's tone; then the mean over the pixels that a cell covers, with their parts; then levels and vignette. Cells
-/// that the file does not reach are dark. Throws bad_input, naming the file, where it cannot be read, has a value that
-/// is no light, or is one grey all over.
+/// A file's brightness in each cell, 0..1: the luminance of linear sRGB over its maximum, with the picture's tone; then
+/// the mean of the pixels that a cell covers; then levels and vignette. Cells beside the file are dark. Throws
+/// bad_input, naming the file, where it cannot be read, has a value that is no light, or is one grey all over.
 Target photograph(const std::filesystem::path& file, const Picture& picture, const Layout& layout);
 
 /// The brightness, 0 or 1, of each cell for a QR code (ISO/IEC 18004) in whole cells, row 0 at the top. Light modules

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis' pipeline (chapter 5): draws from the joint probability of the pictures, two annealings that adjust these,
-// and the correction of their intensity.
+// The thesis' pipeline (chapter 5): draws from the pictures' joint probability, two annealings, intensity correction.
 #pragma once
 #include "inverse/method.h"
 #include "inverse/thesis/adjust.h"
@@ -52,9 +51,8 @@ private:
 };
 
 /// A step is a trial: it draws all facets and takes their cost (5.2) against the adjusted pictures, at first the
-/// pictures as they are. A stage ends with the values of its lowest cost, whose first draw the object gets. Trials
-/// share their random numbers, so that a cost depends only on what is tried. Facets send light from their middles and
-/// all alike.
+/// pictures themselves. A stage ends with the values of its lowest cost, whose first draw the object gets. Trials share
+/// random numbers, so that a cost depends only on what is tried. Facets send light from their middles and all alike.
 class Pipeline final : public Method {
 public:
   /// The layout and the targets outlive it. Facets begin flat.

@@ -21,9 +21,9 @@ struct Draws {
   std::vector<int> cells; ///< [draw][aim]; -1: beside the receiver
 };
 
-/// A slope's probability is the product of the values that all pictures have where the facet's middle sends light with
-/// this slope. The slopes are a lattice over all that lead to a receiver and that the index can bend by. A slope that
-/// misses all receivers has probability 0.
+/// A slope's probability is the product of what all pictures have where the facet's middle sends such light. The slopes
+/// are a lattice over all that lead to a receiver and that the index can bend by; those that miss all have probability
+/// 0.
 class Sampler {
 public:
   Sampler(const Layout& layout, const std::vector<SamplingTarget>& aims, const Thesis& settings);

@@ -14,8 +14,7 @@
 namespace nephroid::ui {
 namespace {
 
-/// A log axis that follows the run reaches down to this part of the largest value: by rounding, what is missed is
-/// 1e-14.
+/// A log axis that follows the run reaches down to this part of the largest value: by rounding some are 1e-14.
 constexpr double log_range = 1e-4;
 
 using Ends = std::array<double, 2>;
