@@ -24,7 +24,7 @@ struct Refraction {
   std::optional<Spectrum> spectrum; ///< none: one index and no colours
 };
 
-/// Throws bad_input for an index that is 1 or not known for all of the light, and for a spectrum without power.
+/// Throws bad_input for an index that cannot be read, is 1 or not known everywhere, and for light without power.
 Refraction make_refraction(const preset::Preset& preset);
 
 /// Divides the spectrum, which is not empty, into parts of equal x + y + z, so that violet has its share. A part is

@@ -50,7 +50,7 @@ std::optional<EqualError> at_equal_error(const Curve& a, const Curve& b, double 
 /// 1, 2 and 5 times powers of ten from lowest to highest, both included, the largest first. Both above 0, else none.
 std::vector<double> round_levels(double lowest, double highest);
 
-/// A column of a history taken apart: "estimated_lab_mean" is the estimate of "lab_mean"; "masked_" is of a metric.
+/// A history's column taken apart: "estimated_lab_mean" estimates "lab_mean"; "masked_lab_mean" is a metric by itself.
 struct ErrorColumn {
   std::string metric;
   bool is_estimate = false;
