@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Error curves of runs held against each other.
 #include "report/report.h"
 
 #include "measure/run_curves.h"

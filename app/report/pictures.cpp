@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The pictures that a report shows, of runs and of their differences.
 #include "report/report.h"
 
 #include "base/base64.h"

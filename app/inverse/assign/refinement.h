@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The last sweep: all facets downhill at once.
 #pragma once
 #include "inverse/assign/device_facets.h"
 

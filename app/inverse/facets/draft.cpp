@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Walls that lean, so that the solid can be milled and leaves a mould.
 #include "inverse/facets/solid.h"
 
 namespace nephroid::inverse {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A round lens: its relief cut along an ellipse, and the side and the front that close it.
 #include "inverse/facets/smooth_solid.h"
 
 #include <algorithm>

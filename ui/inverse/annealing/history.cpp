@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The curves of a run as lines over sweeps, moves or seconds.
 #include "ui/inverse/annealing/panel.h"
 
 #include "measure/run_curves.h"
