@@ -12,7 +12,7 @@
 namespace nephroid::inverse {
 namespace {
 
-constexpr std::size_t group = 32;
+constexpr std::size_t work_group = 32;
 /// A step's rays, some milliseconds of two cores.
 constexpr int rays_a_slice = 1 << 15;
 
@@ -137,7 +137,7 @@ std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, 
   const auto index = static_cast<float>(n);
   const auto count = static_cast<std::uint32_t>(rays.size());
   on_device.program->kernel("follow_rays")
-      .run(count, group,
+      .run(count, work_group,
            {{"nodes", on_device.nodes},
             {"blocks", on_device.blocks},
             {"root", on_device.root},
@@ -201,7 +201,7 @@ void Judge::advance() {
 }
 
 void Judge::judge_rows(std::uint32_t first, std::uint32_t count, std::uint32_t turn) {
-  judge_.run(count, group,
+  judge_.run(count, work_group,
              {{"nodes", solid_.nodes},
               {"blocks", solid_.blocks},
               {"root", solid_.root},
