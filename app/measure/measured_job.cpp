@@ -2,6 +2,7 @@
 #include "measure/measured_job.h"
 
 #include "measure/error_estimate.h"
+#include "measure/run_curves.h"
 #include "preset/choices.h"
 
 #include <fmt/format.h>
@@ -91,8 +92,7 @@ public:
       if (!reference_->mask.empty()) masked_.emplace(reference_->pixels(), reference_->mask);
     }
     const std::string metric(preset::word(preset.stop.metric));
-    is_mean_square_ =
-        preset.stop.metric == preset::Stop::Metric::mse || preset.stop.metric == preset::Stop::Metric::rel_mse;
+    is_mean_square_ = metric_text(metric).is_mean_square();
     history_.target = preset.stop.error;
     name_columns();
     for (const std::string& column : {metric, "estimated_" + metric, std::string("estimated_lab_mean")})
