@@ -10,7 +10,6 @@
 
 namespace nephroid::inverse {
 
-/// The unit direction with this slope.
 glm::dvec3 direction_of(const glm::dvec2& slope);
 
 /// The unit normal, out of the object, of a surface that turns one unit vector, inside, into another: by Snell's law

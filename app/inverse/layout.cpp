@@ -102,7 +102,6 @@ void check_constraints(const Layout& l, const Settings& s, const Place& own) {
       too_shallow ? "choose a deeper relief or more facets" : "choose a larger angle or a receiver further away");
 }
 
-/// Refuses a cutter that does not fit onto a facet.
 void check_tool(const Layout& l, const Settings& s, const Place& own) {
   if (!s.tool_radius_mm) return;
   const double width = 2 * *s.tool_radius_mm;

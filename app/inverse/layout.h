@@ -65,7 +65,6 @@ struct Layout {
   bool blurs() const { return sun_radius > 0 || scatter > 0 || spectrum; }
   /// Whether light counts as luminance, else as energy.
   bool coloured() const { return spectrum && spectrum->coloured; }
-  /// The spectrum's parts; empty where there is no spectrum.
   std::span<const LightPart> parts() const { return spectrum ? spectrum->parts : std::span<const LightPart>(); }
   /// The light on each facet; empty where all get the same.
   std::span<const Incoming> incoming() const { return light.facets ? *light.facets : std::span<const Incoming>(); }

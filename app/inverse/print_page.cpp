@@ -55,7 +55,6 @@ glm::dvec2 sheet_for(const glm::dvec2& content) {
   return needed;
 }
 
-/// The content's middle on its sheet.
 glm::dvec2 middle_of(const glm::dvec2& content) {
   return {sheet_for(content).x / 2, margin + lines_above * text_line + content.y / 2};
 }

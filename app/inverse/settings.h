@@ -107,10 +107,8 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
-/// The settings of this engine, in the form that presets use.
 const preset::SettingsType& settings_type();
 
-/// The settings of a preset of this engine.
 inline Settings& settings(preset::Preset& preset) { return preset.settings.as<Settings>(); }
 inline const Settings& settings(const preset::Preset& preset) { return preset.settings.as<Settings>(); }
 

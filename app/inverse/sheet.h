@@ -19,7 +19,6 @@ std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wante
 std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> slopes, std::span<const double> heights,
                                                    const Layout& layout);
 
-/// A picture of a sheet and the words above it.
 struct Captioned {
   std::shared_ptr<const job::Picture> picture;
   std::string words;

@@ -18,7 +18,6 @@ struct Spectrum {
   bool coloured = false;        ///< whether luminance counts, else energy
 };
 
-/// What the object's material does to the light.
 struct Refraction {
   double n = 1.5;                   ///< the mean index over what counts of the light
   std::optional<Spectrum> spectrum; ///< none: one index and no colours

@@ -13,7 +13,6 @@
 namespace nephroid::inverse {
 namespace {
 
-/// An error, and how large it is.
 struct MakingError {
   std::string_view what;
   double waves_mm = 0, turn_deg = 0, farther = 0;

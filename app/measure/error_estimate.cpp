@@ -26,7 +26,6 @@ namespace {
 /// The square's pixels to each side: 49 are enough for a mean, and few enough for detail.
 constexpr int reach = 3;
 
-/// XYZ, 3 a pixel.
 std::vector<double> to_xyz(const std::vector<float>& rgb) {
   std::vector<double> xyz;
   xyz.reserve(rgb.size());

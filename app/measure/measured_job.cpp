@@ -229,7 +229,6 @@ private:
            progress.work_seconds >= (history_.measuring_seconds + noting_seconds_) / measuring_share;
   }
 
-  /// Adds a row.
   void note(const job::Snapshot& snapshot) {
     const auto begin = Clock::now();
     const job::Progress& progress = snapshot.progress;

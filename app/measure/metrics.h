@@ -67,7 +67,6 @@ struct Metric {
 };
 /// In the order of `nephroid compare`.
 const std::vector<Metric>& all_metrics();
-/// Their names and values.
 std::vector<std::pair<std::string, double>> named(const Metrics& metrics);
 
 /// The quick metrics again and again against one reference, whose share is done once: 20 ms a call at 512 x 512.

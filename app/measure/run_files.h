@@ -9,7 +9,6 @@
 
 namespace nephroid::measure {
 
-/// A JSON file of a run.
 class RunDocument {
 public:
   enum class Type { text, number, whole, flag, list, object, numbers };

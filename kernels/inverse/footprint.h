@@ -40,7 +40,6 @@ static inline float part_before(Beam beam, float t) {
   return at < 0.0f ? tail : 1.0f - tail;
 }
 
-// The part of a beam on a cell.
 static inline float part_on(Beam beam, int cell) {
   return part_before(beam, (float)(cell + 1)) - part_before(beam, (float)cell);
 }
@@ -190,7 +189,6 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
 }
 
 #if NEPHROID_SPREAD
-// Beam i's part of the light.
 static inline float part_of(global const DeviceLayout* layout, const Footprint* print, int i) {
   return layout->index_part[print->groups - 1 + i / print->points] / (float)print->points;
 }

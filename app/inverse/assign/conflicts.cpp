@@ -26,7 +26,6 @@ ConflictSearch::ConflictSearch(const Layout& layout, const std::vector<Target>& 
   weights_ = picture_weights(layout, wanted_);
 }
 
-/// The misplaced part of the facet's light.
 double ConflictSearch::misplaced(std::size_t facet, std::size_t receiver) const {
   double well = 0;
   for_cells(layout_, footprint(layout_, facet, slopes_[facet], receiver, heights_[facet]),

@@ -10,7 +10,6 @@
 namespace nephroid::inverse {
 namespace {
 
-/// f(neighbour) for each neighbour of a facet.
 template <class F>
 void for_neighbours(const glm::ivec2& facets, std::size_t facet, const F& f) {
   const auto columns = static_cast<std::size_t>(facets.x), rows = static_cast<std::size_t>(facets.y);

@@ -22,7 +22,6 @@ Cost cost_of(const Target& t, std::span<const double> z, double sent);
 std::vector<Cost> costs_of(const std::vector<Target>& targets, const std::vector<std::vector<double>>& light,
                            double sent);
 
-/// The mean of each figure.
 Cost mean(std::span<const Cost> costs);
 
 /// The weights of the pictures' squares. They are the layout's, scaled so that pictures of one weight count alike: a

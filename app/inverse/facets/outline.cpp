@@ -56,7 +56,6 @@ private:
     }
   }
 
-  /// Where an edge passes the ellipse.
   std::uint32_t crossing(std::uint32_t within, std::uint32_t beside) {
     const auto [known, is_new] = crossings_.try_emplace(std::uint64_t{within} << 32 | beside, 0);
     if (!is_new) return known->second;

@@ -32,7 +32,6 @@ struct Solid {
   double steepest_wall_deg = 90;                                              ///< between a wall and the front
   double relief() const { return highest - lowest; }
 
-  /// Adds a vertex and returns its number.
   std::uint32_t add(const glm::dvec3& at) {
     mesh.positions.emplace_back(at);
     return static_cast<std::uint32_t>(mesh.positions.size() - 1);

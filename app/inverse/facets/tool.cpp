@@ -40,7 +40,6 @@ double over_edge(const Top& top, const glm::dvec2& p, double radius, int across,
   return top.at(foot) + std::sqrt(in_line - t * t);
 }
 
-/// The same for the whole facet.
 double over_facet(const Top& top, const glm::dvec2& p, double radius) {
   const double length = std::sqrt(1 + glm::dot(top.gradient, top.gradient));
   const glm::dvec2 touches = glm::abs(p + radius / length * top.gradient - top.middle);

@@ -21,7 +21,6 @@ std::vector<double> qr_cells(const std::string& text, const glm::ivec2& cells, c
 /// FILE#/json/pointer. Throws bad_input as the two above, and there for a drawing that leaves every cell dark.
 Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where);
 
-/// The targets of all receivers.
 std::vector<Target> make_targets(const preset::Preset& preset, const Layout& layout);
 
 } // namespace nephroid::inverse

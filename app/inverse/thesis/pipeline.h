@@ -81,7 +81,6 @@ public:
 private:
   enum class Stage : std::int32_t { sampling, annealing_1, annealing_2, correction, done };
   static constexpr std::size_t stages = 4;
-  /// A trial's row in the history.
   struct Row {
     double stage = 0, temperature = 0, cost = 0, lowest = 0, accepted = 0, refused = 0;
   };

@@ -47,14 +47,12 @@ private:
   Thesis::Sampling sampling_;
 };
 
-/// The result of a trial.
 struct TrialResult {
   std::vector<std::vector<double>> light; ///< [receiver][cell]: mean of the draws, in facets
   std::vector<glm::dvec2> slopes;         ///< each facet's first draw; a facet without one has its flat slope
   std::uint64_t dark = 0;                 ///< facets whose joint probability is 0 everywhere: they send light nowhere
 };
 
-/// The slopes behind facets that are all flat.
 std::vector<glm::dvec2> flat_slopes(const Layout& layout);
 
 class Trial {
