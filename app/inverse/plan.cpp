@@ -19,8 +19,7 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Measured: a triangle of the solid, with its vertices and its tree while that is made, and of a copy with errors;
-/// what a facet takes on the host, with its pictures.
+/// Measured: a triangle of the solid with its tree, and of a copy with errors; a facet on the host, with its pictures.
 constexpr std::uint64_t triangle_bytes = 145, copied_triangle_bytes = 21, facet_bytes = 400;
 
 /// The solid's triangles, about: 14 a facet with its walls. A lens, whose surface is not known yet, takes as many as

@@ -26,8 +26,8 @@ struct Refraction {
 /// Throws bad_input for an index that cannot be read, is 1 or not known everywhere, and for light without power.
 Refraction make_refraction(const preset::Preset& preset);
 
-/// Divides the spectrum, which is not empty, into parts of equal x + y + z, so that violet has its share. A part is
-/// made of neighbours, and its index is their mean.
+/// Divides the spectrum, which is not empty, into parts of equal x + y + z. A part is of neighbours, with their mean
+/// index.
 std::vector<LightPart> equal_parts(const std::vector<LightPart>& spectrum, std::size_t count);
 
 } // namespace nephroid::inverse

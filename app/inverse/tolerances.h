@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much worse the pictures are, by the judge, where the object is made or put up a little wrong; and all that a run
-// judges.
+// What a run judges, and how much worse the pictures are where the object is made or put up a little wrong.
 #pragma once
 #include "inverse/judge.h"
 

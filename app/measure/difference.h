@@ -29,8 +29,7 @@ double colour_scale(std::span<const float> values);
 std::array<unsigned char, 3> map_colour(double position, bool is_signed = false);
 bool is_signed(DifferenceMetric metric);
 
-// The scale beside a difference picture: the colours from bottom to top, with numbers in seven-segment digits, so that
-// a picture needs no font. Not for windows, which have text.
+// The scale beside a difference picture, with seven-segment digits: it needs no font. Windows have their own.
 
 /// A picture to draw on, opaque dark grey at first.
 struct Bitmap {

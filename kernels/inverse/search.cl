@@ -155,8 +155,7 @@ static SEPARATE void note_lack(global const DeviceLayout* layout, const Footprin
     }
 }
 
-// Facets that hold all that they claimed have their cells to themselves, and take what they found if it is better
-// still.
+// Facets that hold all that they claimed have their cells to themselves; they take what they found if still better.
 __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long* light, __global const uint* order,
                    uint first, uint count, __global const float2* found, __global int* done,
                    __global const uint* claims, uint turn) {

@@ -28,8 +28,7 @@ public:
   double temperature() const; ///< that of the move in hand
   /// Moves all knobs at once. The same random numbers propose the same values.
   const std::vector<double>& propose(std::mt19937_64 random);
-  /// Takes the proposal where its cost is no higher than that of the values in hand, else with probability exp(-rise /
-  /// temperature). Returns whether it is the lowest so far.
+  /// Takes a cost that is no higher, else with probability exp(-rise / temperature). Returns whether it is the lowest.
   bool decide(double cost);
 
   const std::vector<double>& lowest() const { return lowest_; } ///< the values with the lowest cost
