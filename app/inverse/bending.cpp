@@ -44,8 +44,7 @@ glm::dvec2 facet_slope(const glm::dvec2& gradient, double n, const glm::dvec2& s
 glm::dvec2 flat_slope(const glm::dvec2& sines) { return sines / std::sqrt(1 - glm::dot(sines, sines)); }
 
 bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, double steepest) {
-  const double n2 = n > 1 ? n * n : 1 / (n * n),
-               most2 = usable_part * usable_part * (n2 - 1); // of usable_slope, squared
+  const double n2 = n > 1 ? n * n : 1 / (n * n), most2 = usable_part * usable_part * (n2 - 1); // usable_slope squared
   if (sines == glm::dvec2(0)) {
     if (glm::dot(slope, slope) > most2) return false;
   } else {
@@ -74,9 +73,8 @@ double transmitted(const glm::dvec2& slope, double n, const glm::dvec2& sines) {
   return normal ? 1 - optics::fresnel_reflectance(std::min(1.0, glm::dot(*normal, in)), n, 1) : 0;
 }
 
-// Snell's law for the unit normal N out of the object: out = k - (k.N - c) N with c^2 = 1 - k^2 + (k.N)^2, so that for
-// a change dk of k and dn of |k|, c dc = -n dn + (k.N) (dk.N) and dout = dk - (dk.N - dc) N. Of k only z answers to the
-// two: k_z = -sqrt(n^2 - sines^2).
+// Snell's law for the unit normal N out of the object: out = k - (k.N - c) N with c^2 = 1 - k^2 + (k.N)^2. So for a
+// change dk of k and dn of |k|, c dc = -n dn + (k.N) (dk.N) and dout = dk - (dk.N - dc) N; k_z = -sqrt(n^2 - sines^2).
 SlopeChange slope_change(const glm::dvec2& slope, double n, const glm::dvec2& sines) {
   const glm::dvec3 k = light_inside(sines, n), out = direction_of(slope);
   const std::optional<glm::dvec3> normal = facet_normal(k / n, out, n);

@@ -10,30 +10,25 @@
 
 namespace nephroid::inverse {
 
-/// The unit direction with this slope.
 glm::dvec3 direction_of(const glm::dvec2& slope);
 
-/// The unit normal, out of the object, of a surface that turns `in` (inside) into `out` (outside); both are unit
-/// vectors. By Snell's law n in - out has no part along the surface: n sin theta_1 = sin theta_2. It is empty where no
-/// surface does so: the two are further apart than slope_limit allows, or alike.
+/// The unit normal, out of the object, of a surface that turns one unit vector, inside, into another: by Snell's law
+/// n in - out has no part along the surface. Empty where the two are further apart than slope_limit allows, or alike.
 std::optional<glm::dvec3> facet_normal(const glm::dvec3& in, const glm::dvec3& out, double n);
 
-/// The largest slope that light along -z can be given. The outgoing light, or the light inside, then runs along the
-/// surface. The deviation delta has cos delta = min(n, 1 / n).
+/// The largest slope that light along -z can be given; light in- or outside then runs along the surface.
 double slope_limit(double n);
 
 /// The part of slope_limit() that the engine uses: near the limit little light leaves, in a thin bundle.
 inline constexpr double usable_part = 0.95;
 inline double usable_slope(double n) { return usable_part * slope_limit(n); }
 
-/// The slope of light along -z behind a facet with this tilt against the front; infinite where light is reflected
-/// totally.
+/// The slope of light along -z behind a facet with this tilt against the front; infinite: it is reflected totally.
 double slope_behind(double tilt_radians, double n);
 
 /// n times the unit direction of light inside the object; |sines| < min(1, n).
 glm::dvec3 light_inside(const glm::dvec2& sines, double n);
 
-/// The slope of light inside the object.
 glm::dvec2 slope_inside(const glm::dvec2& sines, double n);
 
 inline constexpr double any_steepness = std::numeric_limits<double>::infinity();
@@ -51,20 +46,17 @@ Value last_good(Value good, Value bad, int halvings, const IsGood& is_good) {
 /// The slope behind a flat facet: light goes on as before the front.
 glm::dvec2 flat_slope(const glm::dvec2& sines);
 
-/// Whether light inside deviates to this slope by no more than usable_slope(n), and the facet's gradient is at most
-/// `steepest`.
+/// Whether light inside deviates to this slope by at most usable_slope(n), with a facet of at most this gradient.
 bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines = {}, double steepest = any_steepness);
 /// The slope itself where it is reachable; else the last reachable one on the way to it from flat_slope().
 glm::dvec2 nearest_reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines = {},
                              double steepest = any_steepness);
 
-/// dz/dx and dz/dy of the facet that gives light this slope, which must be reachable. Its normal is along k - (slope,
-/// -1) / sqrt(1 + slope^2) with k = light_inside. For light straight on the gradient is -slope / (n sqrt(1 + slope^2) -
-/// 1).
+/// dz/dx and dz/dy of the facet that gives light this slope, which must be reachable. Its normal is along light_inside
+/// - direction_of(slope). For light straight on the gradient is -slope / (n sqrt(1 + slope^2) - 1).
 glm::dvec2 facet_gradient(const glm::dvec2& slope, double n, const glm::dvec2& sines = {});
 
-/// The inverse of facet_gradient(): the slope of light behind a facet with this gradient. Where light is totally
-/// reflected, it is that of light along the facet.
+/// The inverse of facet_gradient(). Where light is totally reflected, the slope is that of light along the facet.
 glm::dvec2 facet_slope(const glm::dvec2& gradient, double n, const glm::dvec2& sines = {});
 
 /// The part of the light inside that leaves through such a facet: 1 minus Fresnel's reflectance.

@@ -74,12 +74,11 @@ inline void describe(preset::Fields& v, Picture& p) {
   const bool round = p.type == Type::disc || p.type == Type::ring || p.type == Type::star || p.type == Type::face;
   const bool words = p.type == Type::text || p.type == Type::qr;
   const bool straight = p.type == Type::cross || p.type == Type::bars;
-  if (p.type == Type::file) v.field("file", "A picture file.", p.file, {.text = preset::Text::file, .required = true});
-  if (p.type == Type::file)
+  if (p.type == Type::file) {
+    v.field("file", "A picture file.", p.file, {.text = preset::Text::file, .required = true});
     v.field("tone",
             "Exponent on the file's luminance, of which the brightest pixel has 1: more than 1 darkens its greys.",
             p.tone, {.bounds = preset::within(0.1, 10)});
-  if (p.type == Type::file) {
     v.field("levels", "Contrast: brightness, after the tone, that becomes dark, and that which becomes the brightest.",
             p.levels, {.unit = "parts of the file's brightest", .bounds = preset::within(0, 1)});
     v.field("vignette", "Width of the edge over which the file fades to the background.", p.vignette,
@@ -106,8 +105,7 @@ inline void describe(preset::Fields& v, Receiver& r) {
           {.unit = "mm", .bounds = preset::within(0.01, 1e6), .required = true});
   v.field("offset_mm",
           "Of its middle beside that of the object: to the right and up. Pictures that are beside each other fight "
-          "less. With the method "
-          "'assign'.",
+          "less. With the method 'assign'.",
           r.offset_mm, {.unit = "mm", .bounds = preset::within(-1e6, 1e6)});
   v.field("picture", "What the object casts there: a file, or an object.", r.picture, {.required = true});
   v.field("weight",
@@ -130,8 +128,7 @@ inline void describe(preset::Fields& v, Light& l) {
   }
   v.field("spectrum",
           "Its colours: a CIE illuminant by name, or an object. Luminance counts then, and pictures are judged in "
-          "colours. Without it the "
-          "light is of wavelength_nm and band_nm, energy counts, and pictures are grey.",
+          "colours. Without it the light is of wavelength_nm and band_nm, energy counts, and pictures are grey.",
           l.spectrum);
 }
 
@@ -205,8 +202,7 @@ inline void describe(preset::Fields& v, Settings& s) {
   v.field("facets", "Facets across and down.", s.facets, {.bounds = within(1, 1024)});
   v.field("mesh_error",
           "Of the method \"lens\": how far the mesh's flat triangles may send light from where the smooth surface "
-          "sends it, in the mean of "
-          "squares. Half of it takes up to four times as many triangles.",
+          "sends it, in the mean of squares. Half of it takes up to four times as many triangles.",
           s.mesh_error, {.unit = "cells", .bounds = within(0.001, 10)});
   v.field("index", "Index of refraction: a number, a file or an object.", s.index);
   v.field("wavelength_nm", "The wavelength that the index is taken at, where light.spectrum does not say it.",

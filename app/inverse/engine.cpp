@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/engine.h"
 
-#include "base/error.h"
 #include "inverse/glass_view.h"
 #include "inverse/job.h"
 #include "inverse/judge.h"
@@ -10,10 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 namespace nephroid::inverse {
-
 namespace {
 
 /// A receiver with a drawing casts it now, or else the first one.
@@ -70,8 +67,7 @@ constinit const engine::Engine engine{
     .introduction = {.example = {.preset = "inverse/shapes",
                                  .title = "Designed glass",
                                  .sentence = "Say which pictures a piece of glass shall cast, and how far away. It is "
-                                             "found, judged by rays, and written as "
-                                             "a closed mesh.",
+                                             "found, judged by rays, and written as a closed mesh.",
                                  .run = "design glass that casts a ring, a cross and a disc"},
                      .new_scene = {.preset = new_scene, .what = "An object that casts two drawings"},
                      .result = {.file = glass_view_file,

@@ -16,12 +16,12 @@
 namespace nephroid::inverse {
 namespace {
 
-constexpr double irradiance = 1000; ///< of the sun
+constexpr double irradiance = 1000; ///< the sun's
 constexpr double reflectance = 0.8, ground_reflectance = 0.25;
 constexpr double fov_deg = 30;
 constexpr int view_height = 600, least_width = 600, most_width = 1800;
 
-/// From one object's middle to the next: the light beside a receiver falls beside the others, too.
+/// From one object's middle to the next, so that light beside a receiver falls beside the others, too.
 double spacing(const Layout& layout) { return 1.4 * 2 * layout.half_room().x; }
 
 double column(const Layout& layout, std::size_t receiver) {
@@ -57,8 +57,7 @@ preset::Object receiver_at(const Layout& layout, std::size_t receiver) {
   return quad;
 }
 
-/// Half of the rectangle about the object's middle, in the plane of its front, through which light comes straight to a
-/// receiver.
+/// Half of the rectangle in the plane of the front through which light comes straight to a receiver.
 glm::dvec2 half_lit(const Layout& layout, const glm::dvec3& falls) {
   glm::dvec2 half(0);
   for (std::size_t j = 0; j < layout.distances.size(); ++j)
@@ -68,8 +67,7 @@ glm::dvec2 half_lit(const Layout& layout, const glm::dvec3& falls) {
   return half;
 }
 
-/// Four dark strips around the object, as a screen with a hole for it, that stop what would pass it and reach a
-/// receiver; none where nothing would.
+/// Dark strips around the object, a screen with a hole for it, that stop what would pass it and reach a receiver.
 std::vector<preset::Object> mask(const Layout& layout, std::size_t receiver, const glm::dvec3& falls) {
   const glm::dvec2 inner = layout.size / 2.0, wanted = glm::max(half_lit(layout, falls), inner),
                    outer(std::min(wanted.x, spacing(layout) / 2), wanted.y);
@@ -123,7 +121,7 @@ preset::Camera camera(const Layout& layout, const glm::dvec3& falls) {
   return camera;
 }
 
-/// With the file, if any, where it is found from every folder.
+/// The preset's index, with its file, if any, where it is found from every folder.
 preset::Dispersion dispersion_of(const preset::Preset& preset) {
   preset::Dispersion index = settings(preset).index;
   const std::filesystem::path source(preset.source);
@@ -138,13 +136,13 @@ preset::Dispersion dispersion_of(const preset::Preset& preset) {
 
 std::string glass_view(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset) {
   const preset::LightSpectrum spectrum = settings(preset).light.spectrum.value_or(preset::LightSpectrum{});
-  const double luminous_part =
-      optics::to_xyz(scene::make_light_spectrum(spectrum, Place(preset.source)))[1]; // without its factor
-  double brightest = 0;                                                              // over light that is spread evenly
+  // The luminance without its factor.
+  const double luminous_part = optics::to_xyz(scene::make_light_spectrum(spectrum, Place(preset.source)))[1];
+  double brightest = 0; // over light that is spread evenly
   for (const Target& target : targets) brightest = std::max(brightest, *std::max_element(target.begin(), target.end()));
   brightest *= static_cast<double>(layout.cell_count());
   const glm::dvec3 falls = light_ray(layout, {0, 0, layout.thickness}).direction;
-  preset::Preset view; // of the engine that renders: the first
+  preset::Preset view; // the engine that renders is the default
   view.description = (preset.name.empty() ? "The object" : preset.name) + " as glass over its receivers";
   view.unit = preset::Preset::Unit::mm;
   view.white = irradiance * -falls.z * luminous_part * reflectance / glm::pi<double>() * brightest;

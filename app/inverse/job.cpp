@@ -2,8 +2,6 @@
 #include "inverse/job.h"
 
 #include "engine/engine.h"
-#include "inverse/assign/conflicts.h"
-#include "inverse/figures.h"
 #include "inverse/report.h"
 #include "inverse/search.h"
 
@@ -11,8 +9,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
-#include <utility>
 
 namespace nephroid::inverse {
 namespace {
@@ -22,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 constexpr double slice_seconds = 0.025;
-/// Of a run's work that the judge is, for its progress only.
+/// The judge's part of a run's work, for its progress only.
 constexpr double judge_part = 0.1;
 
 class InverseJob final : public job::Job {
@@ -63,7 +59,7 @@ public:
     is_watched_ = true;
     snapshot.in_view = object_.of(run, receivers);
     snapshot.progress = progress();
-    add_scalars(snapshot, run);
+    add_figures(snapshot, run, conflicts_);
     search_.show(snapshot);
     snapshot.phases = {{"slopes", search_.seconds()}, {"judge", judge_seconds_}};
     if (finished()) {
@@ -147,16 +143,6 @@ private:
     if (judgement_) conflicts_ = search.picture_conflicts();
   }
 
-  void add_scalars(job::Snapshot& snapshot, const RunState& run) const {
-    const bool judged = run.is_judged();
-    add_costs(snapshot, layout_, run.method.costs(), judged ? run.costs() : std::vector<Cost>());
-    if (judged) add_noise(snapshot, mean(judgement_->judge().noise(targets_)));
-    if (conflicts_) add_conflicts(snapshot, *conflicts_);
-    if (!judged) return;
-    add_fates(snapshot, judgement_->judge().outcomes());
-    add_object(snapshot, layout_, *judgement_->solid(), run.method.slopes());
-  }
-
   mpi::RankContext context_;
   preset::Preset preset_;
   Layout layout_;
@@ -166,8 +152,8 @@ private:
   double judge_seconds_ = 0;
   ObjectPicture object_;
   bool is_watched_ = false;                      ///< since the last search for conflicts
-  std::shared_ptr<const job::Picture> conflict_; ///< of the facets, as they were last looked at; null before
-  std::optional<Conflicts> conflicts_;           ///< of the pictures, once the slopes are found
+  std::shared_ptr<const job::Picture> conflict_; ///< how much each facet's pictures fight, as last looked at
+  std::optional<Conflicts> conflicts_;           ///< how the pictures fight, once the slopes are found
 };
 
 } // namespace

@@ -5,12 +5,9 @@
 #include "job/job.h"
 #include "mpi/rank_context.h"
 
-#include <memory>
-
 namespace nephroid::inverse {
 
 /// Searches slopes until the method gains no more or until the preset's stop; then makes the solid and judges it.
-/// `plan` is of the same preset.
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan,
                                    const mpi::RankContext& context);
 

@@ -8,14 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <random>
-#include <utility>
 
 namespace nephroid::inverse {
-
 namespace {
 
-constexpr std::size_t group = 32;
+constexpr std::size_t work_group = 32;
 /// A step's rays, some milliseconds of two cores.
 constexpr int rays_a_slice = 1 << 15;
 
@@ -28,7 +25,7 @@ shared::float4 four(const glm::dvec3& v, double w = 0) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
 
-/// Outward, of each triangle, and its part.
+/// Each triangle's outward normal and its part.
 std::vector<shared::float4> normals_of(const Solid& solid) {
   std::vector<shared::float4> normals;
   normals.reserve(solid.parts.size());
@@ -49,11 +46,9 @@ std::uint32_t part_step(int parts) {
 
 shared::DeviceFront front_of(const Layout& l, std::size_t screens) {
   const auto number = [](double value) { return static_cast<float>(value); };
-  const bool lamp = l.light.lamp.has_value();
-  const glm::dvec3 beside = l.light.lamp.value_or(glm::dvec3(0));
   return {.direction = four(light_ray(l, {0, 0, l.thickness}).direction),
-          .lamp = four(beside),
-          .lamp_weight = lamp ? number(lamp_weight(l)) : 0,
+          .lamp = four(l.light.lamp.value_or(glm::dvec3(0))),
+          .lamp_weight = l.light.lamp ? number(lamp_weight(l)) : 0,
           .n = number(l.n),
           .sun_radius = number(l.sun_radius),
           .scatter = number(l.scatter),
@@ -75,7 +70,7 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens) {
           .is_round = l.round ? 1 : 0};
 }
 
-/// Of receivers, then of the frames between them.
+/// The receivers, then the frames between them.
 std::vector<shared::DeviceReceiver> screens_of(const Layout& l) {
   std::vector<shared::DeviceReceiver> screens;
   const auto add = [&](double distance, const glm::dvec2& middle) {
@@ -90,14 +85,13 @@ std::vector<shared::DeviceReceiver> screens_of(const Layout& l) {
   return screens;
 }
 
-/// As the kernel has them, each over its share of the rays.
+/// The spectrum's parts as the kernel has them, each over its share of the rays.
 std::vector<shared::float4> parts_of(const Layout& l, int count) {
   std::vector<shared::float4> parts;
   if (l.spectrum)
     for (const LightPart& part : equal_parts(l.spectrum->parts, static_cast<std::size_t>(count))) {
       const glm::dvec3 xyz = part.xyz * static_cast<double>(count);
-      parts.push_back({static_cast<float>(part.n), static_cast<float>(xyz.x), static_cast<float>(xyz.y),
-                       static_cast<float>(xyz.z)});
+      parts.push_back(four({part.n, xyz.x, xyz.y}, xyz.z));
     }
   return parts;
 }
@@ -143,7 +137,7 @@ std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, 
   const auto index = static_cast<float>(n);
   const auto count = static_cast<std::uint32_t>(rays.size());
   on_device.program->kernel("follow_rays")
-      .run(count, group,
+      .run(count, work_group,
            {{"nodes", on_device.nodes},
             {"blocks", on_device.blocks},
             {"root", on_device.root},
@@ -207,7 +201,7 @@ void Judge::advance() {
 }
 
 void Judge::judge_rows(std::uint32_t first, std::uint32_t count, std::uint32_t turn) {
-  judge_.run(count, group,
+  judge_.run(count, work_group,
              {{"nodes", solid_.nodes},
               {"blocks", solid_.blocks},
               {"root", solid_.root},
@@ -301,8 +295,7 @@ void Judge::state(State& state) {
 
 namespace {
 
-/// A single facet is a prism: light through its middle leaves with the slope that it was made for, from the place where
-/// it left.
+/// A single facet is a prism: light through its middle leaves with the slope that it was made for, from where it left.
 check::Result one_facet(const compute::Context& context, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   double farthest = 0;

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The finished solid's own pictures: rays through its mesh, walls and all, by Snell's law, on the device
-// (kernels/inverse/judge.cl).
+// The finished solid's own pictures: rays through its mesh, by Snell's law, on the device (kernels/inverse/judge.cl).
 #pragma once
 #include "base/bytes.h"
 #include "check/check.h"
-#include "compute/compute.h"
 #include "inverse/assign/cost.h"
 #include "inverse/facets/solid.h"
-#include "inverse/layout.h"
 #include "kernels/inverse/facet_types.h"
 #include "mpi/rank_context.h"
 #include "scene/bvh.h"
-
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <vector>
 
 namespace nephroid::inverse {
 
@@ -58,9 +50,8 @@ struct SolidOnDevice {
 /// How many rays fall on the facets of such an object in a round.
 std::uint64_t rays_of(const Layout& layout);
 
-/// Judges by rays that fall evenly on all facets, a jittered lattice on each, in rounds. Each round has its own random
-/// numbers, so the difference between even and odd rounds is noise. With a spectrum each ray of a facet has another
-/// part of it. The same seed gives the same bits on any number of threads.
+/// Judges by rays that fall evenly on all facets, a jittered lattice on each, in rounds. The difference between even
+/// and odd rounds is noise. With a spectrum each ray of a facet has another part of it.
 class Judge {
 public:
   /// layout and targets outlive the judge. It takes two rounds, about four million rays, and two more where noise is
@@ -71,12 +62,9 @@ public:
   void advance(); ///< judges a few rows of facets; light and outcomes are there once it has finished
   bool finished() const { return finished_; }
   double fraction_done() const; ///< the part done of the rounds that are planned so far
-  /// The light in each cell, in units of a facet's incident light: luminance where it is coloured, else energy.
-  const std::vector<double>& light(std::size_t receiver) const { return light_[receiver]; }
-  const std::vector<double>& frame(std::size_t i) const {
-    return light_[layout_.distances.size() + i];
-  } ///< the light on layout.frames
-  /// The XYZ of each cell of coloured light; y is light(). Screens are the receivers, then the frames.
+  /// Each cell's luminance, or energy without colours, in facets' incident light. Screens: receivers, then frames.
+  const std::vector<double>& light(std::size_t screen) const { return light_[screen]; }
+  /// The XYZ of each cell of coloured light; y is light().
   std::vector<glm::dvec3> colours(std::size_t screen) const;
   RayOutcomes outcomes() const;
   std::vector<Cost> costs(const std::vector<Target>& targets) const; ///< a cost for each receiver
@@ -89,7 +77,7 @@ private:
   static inline const std::vector<Target> no_targets{};
 
   void judge_rows(std::uint32_t first, std::uint32_t count, std::uint32_t turn);
-  void end_pair(); ///< ends a pair of rounds
+  void end_pair();
   void read_sums();
 
   mpi::RankContext context_;
@@ -98,10 +86,9 @@ private:
   SolidOnDevice solid_;
   shared::uint2 seed_;
   shared::DeviceFront front_{};
-  compute::Buffer<shared::float4> parts_;           ///< the spectrum's parts: index and XYZ
-  compute::Buffer<shared::DeviceReceiver> screens_; ///< the receivers, then the frames
-  std::array<compute::Buffer<std::int64_t>, 2>
-      light_on_screens_; ///< sums of even and of odd rounds: [screen][y, x, z][cell]
+  compute::Buffer<shared::float4> parts_;                         ///< the spectrum's parts: index and XYZ
+  compute::Buffer<shared::DeviceReceiver> screens_;               ///< the receivers, then the frames
+  std::array<compute::Buffer<std::int64_t>, 2> light_on_screens_; ///< even and odd rounds: [screen][y, x, z][cell]
   compute::Buffer<std::int64_t> outcomes_;
   compute::Kernel judge_;
   int row_ = 0, round_ = 0;

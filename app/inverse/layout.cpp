@@ -13,8 +13,7 @@
 namespace nephroid::inverse {
 namespace {
 
-/// The most that a facet can reach from z = 0 at its corners: the normal of the steepest one is as far from the light
-/// inside as that of the steepest one for light straight on.
+/// The most that a facet can reach from z = 0. The steepest turns light by as much as light straight on is turned.
 double most_relief(const Layout& layout) {
   double tilt = glm::length(layout.light.sines);
   if (layout.light.lamp)
@@ -26,8 +25,7 @@ double most_relief(const Layout& layout) {
   return std::min(std::tan(std::min(bent, upright)), layout.steepest) * glm::length(layout.facet()) / 2;
 }
 
-/// The least turn that brings a facet's light to a place of a receiver, as the slope of light that came straight on and
-/// is turned as far.
+/// The least turn that brings a facet's light to a place of a receiver, as a slope of light that came straight on.
 double least_turn(const Layout& layout, const glm::dvec2& to, double distance) {
   constexpr int across = 9;
   double closest = -1; // cosine
@@ -64,8 +62,7 @@ std::array<glm::dvec2, 16> farthest_lit(const Layout& layout, const Target& targ
   return to;
 }
 
-/// Free heights leave this part of the thickness, and of the way to the nearest receiver, where no constraint says
-/// more.
+/// Free heights leave this part of the thickness, and of the way to the nearest receiver.
 constexpr double spared = 0.1;
 
 double band_of(const Settings& s, const Place& own) {
@@ -83,7 +80,7 @@ double band_of(const Settings& s, const Place& own) {
   return std::min(band, s.thickness_mm - *s.min_thickness_mm);
 }
 
-/// Constraints that keep light within the cell that it would reach straight on leave no picture.
+/// Refuses constraints that keep light within the cell that it would reach straight on.
 void check_constraints(const Layout& l, const Settings& s, const Place& own) {
   const double slope = std::min(l.cell().x, l.cell().y) / l.distances.back();
   if (usable_slope(l) >= slope || usable_slope(l.n) < slope) return;
@@ -105,7 +102,6 @@ void check_constraints(const Layout& l, const Settings& s, const Place& own) {
       too_shallow ? "choose a deeper relief or more facets" : "choose a larger angle or a receiver further away");
 }
 
-/// A cutter must fit onto a facet.
 void check_tool(const Layout& l, const Settings& s, const Place& own) {
   if (!s.tool_radius_mm) return;
   const double width = 2 * *s.tool_radius_mm;
@@ -124,7 +120,7 @@ void check_tool(const Layout& l, const Settings& s, const Place& own) {
                               static_cast<int>(l.size.y / width)));
 }
 
-/// Light must be aimed at a cell, by facets that the solid turns a little.
+/// Refuses cells at which the solid, which turns facets a little, cannot aim.
 void check_aim(const Layout& l, const Place& own) {
   const double cell = std::min(l.cell().x, l.cell().y), turn = std::abs(l.n - 1) * corners_join,
                last = l.distances.back();
@@ -137,7 +133,7 @@ void check_aim(const Layout& l, const Place& own) {
                   "choose a nearer receiver, a larger receiver_mm or fewer cells");
 }
 
-/// Facets must leave the object in one piece, and the nearest receiver free.
+/// Refuses facets that could cut the object in two or reach the nearest receiver.
 void check_room(const Layout& l, const Place& own) {
   const double relief = most_relief(l);
   const auto refuse = [&](const Place& where, double value, const char* what) {
@@ -159,7 +155,7 @@ auto of_receivers(const Settings& s, const Of& of) {
   return values;
 }
 
-/// So many between each receiver and the next.
+/// Distances of the frames between each receiver and the next.
 std::vector<double> frames_of(const Settings& s) {
   std::vector<double> frames;
   for (std::size_t j = 1; j < s.receivers.size(); ++j)

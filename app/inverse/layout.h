@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands where, in millimetres: facets about z = 0, light through the flat front at z = thickness, receivers at
-// z = -distance, all of them centred on the z axis, but for receivers with an offset. y is up, and row 0 of facets and
-// cells is at the top: a person who looks along the light sees the pictures as they are.
+// What stands where, in millimetres: facets about z = 0, light through the flat front at z = thickness, receivers at z
+// = -distance, with their middles on the z axis but for an offset. y is up, and row 0 at the top, as seen along the
+// light.
 #pragma once
 #include "base/error.h"
 #include "inverse/settings.h"
@@ -9,11 +9,8 @@
 
 #include <glm/glm.hpp>
 
-#include <cstddef>
 #include <limits>
-#include <optional>
 #include <span>
-#include <vector>
 
 namespace nephroid::inverse {
 
@@ -22,8 +19,7 @@ struct Incoming {
   glm::dvec2 sines{0};  ///< x and y of its unit direction before the front: see bending.h
   glm::dvec2 around{0}; ///< its gradient as neighbours see it; at first, one that lights the last receiver's middle
   double power = 1;     ///< the power on the facet as if it lay flat, over the mean of all facets
-  glm::dmat2 spread{
-      0}; ///< change of the sines over x and y: a lamp's light has another direction at each place of the facet
+  glm::dmat2 spread{0}; ///< change of the sines over x and y: a lamp's light has another direction at each place
 };
 
 /// Where the light comes from, and how much of it falls on the facets.
@@ -34,7 +30,7 @@ struct Illumination {
   std::optional<std::vector<Incoming>> facets;
 };
 
-/// The index of a column and row in values that are kept row by row, `columns` of them a row.
+/// The index of a column and row in values row by row.
 inline std::size_t index_at(int column, int row, int columns) {
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
 }
@@ -50,11 +46,10 @@ struct Layout {
   glm::ivec2 cells{64, 64};         ///< cells of a receiver, across and down
   std::vector<double> distances;    ///< ascending
   std::vector<double> frames;       ///< distances of further screens, which only the judge looks at; ascending
-  std::optional<std::vector<double>> weights; ///< weight of each receiver's picture; none: they count alike
-  std::optional<std::vector<glm::dvec2>>
-      offsets;           ///< each receiver's middle, from the z axis; none: all are centred on it
-  double sun_radius = 0; ///< tangent of half the sun's angular diameter
-  double scatter = 0;    ///< standard deviation of a slope, along x and along y
+  std::optional<std::vector<double>> weights;     ///< weight of each receiver's picture; none: they count alike
+  std::optional<std::vector<glm::dvec2>> offsets; ///< each receiver's middle from the z axis; none: all are on it
+  double sun_radius = 0;                          ///< tangent of half the sun's angular diameter
+  double scatter = 0;                             ///< standard deviation of a slope, along x and along y
   Illumination light;
 
   bool free_heights = false;                                 ///< whether facets move along z; else they stand at z = 0
@@ -70,7 +65,6 @@ struct Layout {
   bool blurs() const { return sun_radius > 0 || scatter > 0 || spectrum; }
   /// Whether light counts as luminance, else as energy.
   bool coloured() const { return spectrum && spectrum->coloured; }
-  /// The spectrum's parts; empty where there is no spectrum.
   std::span<const LightPart> parts() const { return spectrum ? spectrum->parts : std::span<const LightPart>(); }
   /// The light on each facet; empty where all get the same.
   std::span<const Incoming> incoming() const { return light.facets ? *light.facets : std::span<const Incoming>(); }
@@ -78,6 +72,10 @@ struct Layout {
   glm::dvec2 cell() const { return receiver / glm::dvec2(cells); }
   std::size_t facet_count() const { return static_cast<std::size_t>(facets.x) * static_cast<std::size_t>(facets.y); }
   std::size_t cell_count() const { return static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y); }
+  /// The point at so many facets across and down from the top left.
+  glm::dvec2 corner(double column, double row) const {
+    return {column * facet().x - size.x / 2, size.y / 2 - row * facet().y};
+  }
   /// The middle of facet i, row by row from the top.
   glm::dvec2 middle(std::size_t i) const { return middle_of(i, facets, size); }
   glm::dvec2 middle_of_cell(std::size_t i) const { return middle_of(i, cells, receiver); }
@@ -108,16 +106,14 @@ struct Layout {
   }
 };
 
-/// The solid makes heights equal that are closer than this part of a facet's shorter side. So it turns a facet by this
-/// much at most.
+/// The solid joins heights closer than this part of a facet's shorter side; so it turns a facet by as much at most.
 inline constexpr double corners_join = 1e-4;
 
 /// A receiver's wanted light: a value for each cell, row 0 at the top; the values sum to 1.
 using Target = std::vector<double>;
 
-/// Reads the index. Throws bad_input where the index cannot be read or is 1, where a constraint or the light leaves no
-/// picture, where facets would reach the front or the nearest receiver, and where the farthest receiver is too far for
-/// the solid to aim at its cells.
+/// Throws bad_input where the index cannot be read or is 1, where a constraint or the light leaves no picture, where
+/// facets would reach the front or the nearest receiver, and where the solid cannot aim at the farthest one's cells.
 Layout make_layout(const preset::Preset& preset);
 
 /// A lattice of facets that stand for all: every facet, up to `a_side` of them a side.

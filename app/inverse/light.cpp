@@ -15,8 +15,7 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Facets whose light falls in with a slope t meet 1 + t . g of it; above this value most of a facet lies in its
-/// neighbour's shadow.
+/// Facets meet 1 + t . g of light with slope t; above this value most of a facet lies in its neighbour's shadow.
 constexpr double most_shadow = 1;
 
 /// A lamp at distance a before the front, b thick, and a facet at r beside it. The sine q of the light's angle before
@@ -69,8 +68,7 @@ double solid_angle_of_front(const Layout& layout) {
   return sum;
 }
 
-/// The largest t . g of facets that send their light to the place of the last receiver that is nearest to where it goes
-/// straight on. Infinite where one cannot.
+/// The largest t . g of facets whose light goes to the last receiver as straight as it can; infinite: one cannot.
 double worst_shadow(const Layout& layout) {
   constexpr int across = 9;
   double worst = 0;
@@ -186,14 +184,14 @@ double part_within(const Layout& layout, const glm::dvec2& middle, const glm::dv
     const glm::dvec2 part = glm::max(high - low, glm::dvec2(0)) / size;
     return part.x * part.y;
   }
-  constexpr int across = 8; // of points that are counted, where the rim may cross it
+  constexpr int across = 8; // points that are counted where the rim may cross it
   const double away = glm::length(middle / half), reach = glm::length(size / half) / 2;
   if (away + reach < 1) return 1;
   if (away - reach > 1) return 0;
   int within = 0;
   for (int i = 0; i < across * across; ++i) {
-    const glm::dvec2 at = middle + ((glm::dvec2(i % across, i / across) + 0.5) / (1.0 * across) - 0.5) *
-                                       size; // NOLINT(bugprone-integer-division)
+    const glm::dvec2 cell(i % across, i / across); // NOLINT(bugprone-integer-division)
+    const glm::dvec2 at = middle + ((cell + 0.5) / (1.0 * across) - 0.5) * size;
     within += glm::length(at / half) <= 1;
   }
   return within / (1.0 * across * across);
@@ -203,7 +201,7 @@ LightRay light_ray(const Layout& layout, const glm::dvec3& front) {
   if (!layout.light.lamp)
     return {glm::dvec3(layout.light.sines, -std::sqrt(1 - glm::dot(layout.light.sines, layout.light.sines))), 1};
   const glm::dvec3 way = front - *layout.light.lamp;
-  const double length = glm::length(way), angle = -way.z / (length * length * length); // of a square millimetre
+  const double length = glm::length(way), angle = -way.z / (length * length * length); // that a square mm takes
   return {way / length, angle * lamp_weight(layout)};
 }
 

@@ -6,15 +6,13 @@
 namespace nephroid::inverse {
 
 /// The illumination of a layout whose light is not known yet. Throws bad_input, naming a tilt or distance that works,
-/// for light from behind the front, and where facets would stand in each other's light; also where no light that enters
-/// through the front reaches a facet.
+/// for light from behind the front, where facets would stand in each other's light, and where none reaches a facet.
 Illumination make_illumination(Layout layout, const Light& light, const Place& where);
 
 /// Illumination::facets, where sines and lamp are known. No `power` is above 0 where no light reaches any facet.
 std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout);
 
-/// The light at a facet's middle. `power` is relative to light that falls straight on; for a lamp, it is in units of
-/// the lamp's intensity over a square millimetre.
+/// The light at a facet's middle. `power`: over that straight on, or in a lamp's intensity over a square millimetre.
 Incoming incoming_at(const Layout& layout, const glm::dvec2& middle);
 
 /// The part of a rectangle that lies within the object's outline.

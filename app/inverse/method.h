@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A way to find the facets' slopes: what a run needs of it, whichever it is.
 #pragma once
-#include "base/bytes.h"
-#include "compute/compute.h"
 #include "inverse/assign/cost.h"
 #include "inverse/facets/solid.h"
-#include "inverse/layout.h"
 #include "job/job.h"
 #include "mpi/rank_context.h"
-
-#include <memory>
 
 namespace nephroid::inverse {
 
@@ -28,8 +23,7 @@ public:
 
   virtual const std::vector<glm::dvec2>& slopes() const = 0; ///< the slopes so far
   virtual std::vector<double> heights() const = 0;           ///< z of the middles of the facets with these slopes
-  virtual const std::vector<double>& light(std::size_t receiver) const = 0; ///< the light of these slopes, by their
-                                                                            ///< footprints
+  virtual const std::vector<double>& light(std::size_t receiver) const = 0; ///< these slopes' light, by footprints
   virtual std::vector<Cost> costs() const = 0;                              ///< the costs of that light
   virtual Solid solid() const = 0;                                          ///< a solid whose facets have these slopes
   /// Takes on the layout's new distances, offsets or weights, or new targets. Facets keep their slopes, and the search
@@ -41,9 +35,5 @@ public:
   /// All that the method needs to go on with the same bits.
   virtual void state(State& state) = 0;
 };
-
-/// Makes the preset's method. The layout and the targets outlive it.
-std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& layout,
-                                    const std::vector<Target>& targets, const mpi::RankContext& context);
 
 } // namespace nephroid::inverse

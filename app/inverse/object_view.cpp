@@ -21,7 +21,7 @@ using glm::dvec3;
 /// Surfaces that a path is followed through; what it sees then is left out.
 constexpr int most_surfaces = 6;
 constexpr double without_end = std::numeric_limits<double>::infinity();
-/// Of a receiver: its sheet where no light falls, its rim, and how wide that is in parts of its shorter side.
+/// A receiver's sheet where no light falls, its rim, and how wide that is in parts of its shorter side.
 constexpr double empty_sheet = 0.02, rim = 0.25, rim_width = 0.008;
 /// What is left of red, green and blue after a way as long as the object's longer side.
 constexpr dvec3 tint{0.72, 0.88, 0.84};
@@ -30,8 +30,7 @@ constexpr dvec3 tint{0.72, 0.88, 0.84};
 dvec3 backdrop(const dvec3& d) {
   return glm::mix(dvec3(0.012, 0.013, 0.016), dvec3(0.03, 0.035, 0.045), 0.5 + 0.5 * d.z);
 }
-/// The same with six upright lamps around, which the glass mirrors and bends; seen directly they would outshine the
-/// pictures.
+/// The room with six upright lamps, which only the glass shows: seen directly they would outshine the pictures.
 dvec3 room(const dvec3& d) {
   const double lamps = std::pow(std::abs(std::cos(3 * std::atan2(d.y, d.x))), 6) * std::exp(-2 * d.z * d.z);
   return backdrop(d) + lamps * dvec3(0.55, 0.62, 0.7);
@@ -183,7 +182,7 @@ private:
   double lowest_ = 0; ///< z of the facets
 };
 
-/// Of a camera: unit vectors to the right, up and ahead.
+/// A camera's unit vectors to the right, up and ahead.
 struct Axes {
   dvec3 right, up, ahead;
 };

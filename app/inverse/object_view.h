@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The object while it is designed, as the window shows it: glass, with its receivers below it as sheets of light. A
-// quick look along one path a pixel, not a rendering: light is the search's or the judge's, walls between facets are
-// not drawn, and no receiver hides another.
+// The object while it is designed, as the window shows it: glass over its receivers, which are sheets of light. It is
+// one path a pixel, no rendering: walls between facets are not drawn, and no receiver hides another.
 #pragma once
 #include "inverse/layout.h"
 #include "job/job.h"
-
-#include <span>
 
 namespace nephroid::inverse {
 

@@ -15,23 +15,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace nephroid::inverse {
 namespace {
 
-/// Measured: a triangle of the solid, with its vertices and its tree while that is made, and of a copy with errors;
-/// what a facet takes on the host, with its pictures.
+/// Measured: a triangle of the solid with its tree, and of a copy with errors; a facet on the host, with its pictures.
 constexpr std::uint64_t triangle_bytes = 145, copied_triangle_bytes = 21, facet_bytes = 400;
 
-/// Of the solid, about: some 14 a facet with its walls. Of a lens, whose surface is not known yet, as many as
-/// photographs took, or a fifth of that for a drawing: mesh_parts() cuts facets into the more parts the more they bend
-/// light.
+/// The solid's triangles, about: 14 a facet with its walls. A lens, whose surface is not known yet, takes as many as
+/// photographs took, or a fifth of that for a drawing: mesh_parts() cuts facets the finer the more they bend light.
 std::uint64_t triangles_of(const Settings& s, const Layout& l) {
   if (s.method != Settings::Method::lens) return 14 * l.facet_count();
   const Layout mesh = mesh_layout(l);
-  const double miss = std::max(mesh.facet().x, mesh.facet().y) / std::min(l.cell().x, l.cell().y) /
-                      2; // of light that is gathered in a point
+  // How far off light is where it is gathered in a point, in cells.
+  const double miss = std::max(mesh.facet().x, mesh.facet().y) / std::min(l.cell().x, l.cell().y) / 2;
   const double bends = s.receivers.front().picture.type == Picture::Type::file ? 24 : 4.5;
   return static_cast<std::uint64_t>((4 + bends * std::pow(miss / s.mesh_error, 2)) *
                                     static_cast<double>(mesh.facet_count()));
@@ -98,7 +95,7 @@ InversePlan make_plan(const preset::Preset& preset) {
   plan.defines = facet_defines(l);
   plan.smaller = "choose fewer inverse.facets, inverse.cells or inverse.frames, or a smaller scene.camera.resolution";
   plan.passes = passes_of(s, l);
-  const std::uint64_t light_channels = l.coloured() ? 6 : 2; // of even and odd rounds
+  const std::uint64_t light_channels = l.coloured() ? 6 : 2; // even and odd rounds
   const int cut = 2 * halvings(l);
   const std::uint64_t with_errors = (cut > 0 ? triangle_bytes : copied_triangle_bytes) * (triangles << cut) +
                                     light_channels * sizeof(std::int64_t) * l.cell_count() * l.distances.size();
@@ -120,9 +117,9 @@ std::vector<std::string> notes_of(const preset::Preset& preset, const Design& de
   const Settings& s = settings(preset);
   const Layout& l = design.layout;
   std::vector<std::string> notes;
+  // A lens gathers a drawing's light.
   const bool drawn_by_lens = s.method == Settings::Method::lens && s.receivers[0].picture.type != Picture::Type::file;
-  if (!drawn_by_lens && (l.facet().x > l.cell().x / 2 * 1.001 ||
-                         l.facet().y > l.cell().y / 2 * 1.001)) // a lens gathers a drawing's light
+  if (!drawn_by_lens && (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001))
     notes.push_back(fmt::format(
         "facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
         "soft; choose more facets or fewer cells",

@@ -4,11 +4,7 @@
 #include "inverse/layout.h"
 #include "plan/plan.h"
 
-#include <cstdint>
-#include <memory>
 #include <mutex>
-#include <string>
-#include <vector>
 
 namespace nephroid::inverse {
 
@@ -35,7 +31,7 @@ struct InversePlan : plan::Plan {
   std::uint64_t triangles = 0; ///< how many the solid has, about
 };
 
-/// The plan without its notes. Throws bad_input as Design, and for a mesh that would be too large.
+/// The plan without its notes. Throws bad_input as Design does, and for a mesh that would be too large.
 InversePlan make_plan(const preset::Preset& preset);
 
 /// What a run should say once about the design. It computes how close the pictures come at best.

@@ -38,8 +38,8 @@ void transform_rows(Grid& grid, Transform way) {
     std::vector<Complex> values(static_cast<std::size_t>(count)), changed(values);
     for (std::size_t pair = range.begin; pair < range.end; ++pair) {
       double* const a = grid.row(2 * static_cast<Eigen::Index>(pair)).data();
-      double* const b = grid.row(std::min(2 * static_cast<Eigen::Index>(pair) + 1, last))
-                            .data(); // of an odd number the last one twice
+      // The last one twice where their number is odd.
+      double* const b = grid.row(std::min(2 * static_cast<Eigen::Index>(pair) + 1, last)).data();
       const auto at = [](std::vector<Complex>& of, Eigen::Index i) -> Complex& {
         return of[static_cast<std::size_t>(i)];
       };

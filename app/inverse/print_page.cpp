@@ -13,6 +13,7 @@ namespace nephroid::inverse {
 namespace {
 
 constexpr double margin = 12, text_line = 6; // mm
+constexpr double lines_above = 4;            // lines of text above what is shown
 constexpr const char *solid_line = "stroke=\"black\" stroke-width=\"0.2\"",
                      *dashed_line = "stroke=\"red\" stroke-width=\"0.2\" stroke-dasharray=\"2 2\"";
 
@@ -22,7 +23,6 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
-/// About a middle.
 std::string outline(const glm::dvec2& middle, const glm::dvec2& size, const char* style) {
   return fmt::format("<rect x=\"{:.6g}\" y=\"{:.6g}\" width=\"{:.6g}\" height=\"{:.6g}\" fill=\"none\" {}/>\n",
                      middle.x - size.x / 2, middle.y - size.y / 2, size.x, size.y, style);
@@ -46,19 +46,23 @@ std::string marks(const glm::dvec2& middle, const glm::dvec2& size, const char* 
       middle.x - 3, middle.y, style, middle.x, top + 0.5);
 }
 
-/// Of a page that has so much in it below its lines of text: the smallest sheet from A4 on that holds it, upright or
-/// across; where A0 is too small, one of its own.
-glm::dvec2 sheet_for(const glm::dvec2& content, double lines) {
-  const glm::dvec2 needed = glm::max(content + glm::dvec2(0, lines * text_line), glm::dvec2(115, 0)) + 2 * margin;
+/// The smallest sheet from A4 on, upright or across, that holds this below lines of text; beyond A0, one of its own.
+glm::dvec2 sheet_for(const glm::dvec2& content) {
+  const glm::dvec2 needed = glm::max(content + glm::dvec2(0, lines_above * text_line), glm::dvec2(115, 0)) + 2 * margin;
   for (const glm::dvec2& iso : {glm::dvec2(210, 297), {297, 420}, {420, 594}, {594, 841}, {841, 1189}})
     for (const glm::dvec2& sheet : {iso, glm::dvec2(iso.y, iso.x)})
       if (needed.x <= sheet.x && needed.y <= sheet.y) return sheet;
   return needed;
 }
 
-/// With the line that shows whether it was printed in real size, and two lines of text.
-std::string begun(const glm::dvec2& sheet, const std::string& name, const std::string& first,
+glm::dvec2 middle_of(const glm::dvec2& content) {
+  return {sheet_for(content).x / 2, margin + lines_above * text_line + content.y / 2};
+}
+
+/// A page's begin: the line that shows whether it was printed in real size, and two lines of text.
+std::string begun(const glm::dvec2& content, const std::string& name, const std::string& first,
                   const std::string& second) {
+  const glm::dvec2 sheet = sheet_for(content);
   return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.6g}mm\" height=\"{1:.6g}mm\" "
                      "viewBox=\"0 0 {0:.6g} {1:.6g}\" font-family=\"sans-serif\" font-size=\"3.5\" stroke=\"none\">\n"
                      "<rect width=\"{0:.6g}\" height=\"{1:.6g}\" fill=\"white\"/>\n",
@@ -69,14 +73,11 @@ std::string begun(const glm::dvec2& sheet, const std::string& name, const std::s
          text(margin, margin + 2 * text_line, first) + text(margin, margin + 3 * text_line, second);
 }
 
-constexpr double lines_above = 4; // of text
-
 } // namespace
 
 std::string object_page(const Layout& layout, const std::string& name) {
-  const glm::dvec2 sheet = sheet_for(layout.size, lines_above),
-                   middle(sheet.x / 2, margin + lines_above * text_line + layout.size.y / 2);
-  return begun(sheet, name,
+  const glm::dvec2 middle = middle_of(layout.size);
+  return begun(layout.size, name,
                fmt::format("The object, {:.6g} x {:.6g} mm, seen along the light:", layout.size.x, layout.size.y),
                "its flat front, where light enters, is on your side; the arrow is up.") +
          object_outline(layout, middle, solid_line) + marks(middle, layout.size, solid_line) + "</svg>\n";
@@ -84,10 +85,9 @@ std::string object_page(const Layout& layout, const std::string& name) {
 
 std::string receiver_page(const Layout& layout, std::size_t receiver, const job::Picture& cast,
                           const std::string& name) {
-  const glm::dvec2 most = glm::max(layout.size, layout.receiver), sheet = sheet_for(most, lines_above),
-                   middle(sheet.x / 2, margin + lines_above * text_line + most.y / 2),
+  const glm::dvec2 content = glm::max(layout.size, layout.receiver), middle = middle_of(content),
                    corner = middle - layout.receiver / 2.0, offset = layout.offset(receiver);
-  return begun(sheet, name,
+  return begun(content, name,
                fmt::format("Receiver {}: {:.6g} x {:.6g} mm, {:.6g} mm from the facets, seen along the light",
                            receiver + 1, layout.receiver.x, layout.receiver.y, layout.distances[receiver]),
                offset == glm::dvec2(0) ? "(red: the object)"
@@ -103,10 +103,9 @@ std::string receiver_page(const Layout& layout, std::size_t receiver, const job:
 }
 
 std::string plate_page(const glm::dvec2& plate, const std::vector<PlatePart>& bodies) {
-  const glm::dvec2 sheet = sheet_for(plate, lines_above),
-                   middle(sheet.x / 2, margin + lines_above * text_line + plate.y / 2);
+  const glm::dvec2 middle = middle_of(plate);
   std::string page =
-      begun(sheet, "The plate", fmt::format("{:.6g} x {:.6g} mm, seen along the light:", plate.x, plate.y),
+      begun(plate, "The plate", fmt::format("{:.6g} x {:.6g} mm, seen along the light:", plate.x, plate.y),
             "the flat fronts are on your side; the arrows are up.") +
       outline(middle, plate, dashed_line);
   for (const PlatePart& body : bodies) {

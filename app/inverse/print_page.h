@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pages to print in real size: SVG whose unit is the millimetre, on the smallest ISO sheet from A4 on that holds what
-// is shown.
+// Pages to print in real size: SVG in millimetres, on the smallest ISO sheet from A4 on that holds what is shown.
 #pragma once
 #include "inverse/facets/plate.h"
 #include "inverse/layout.h"
 #include "job/job.h"
-
-#include <string>
-#include <vector>
 
 namespace nephroid::inverse {
 

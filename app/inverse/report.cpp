@@ -9,14 +9,61 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
-#include <span>
-#include <string>
 
 namespace nephroid::inverse {
 namespace {
 
-/// What the object is made of, in words.
+void add(job::Snapshot& snapshot, const std::string& group,
+         std::initializer_list<std::pair<const char*, double>> figures) {
+  for (const auto& [name, value] : figures) snapshot.scalars.push_back({group, name, value});
+}
+
+void add_cost(job::Snapshot& snapshot, const std::string& group, const Cost& c) {
+  add(snapshot, group, {{"cost", c.cost}, {"cost_all", c.cost_all}, {"rel_l2", c.rel_l2}, {"missed", c.missed}});
+}
+
+void add_costs(job::Snapshot& snapshot, const RunState& run) {
+  const std::vector<Cost> believed = run.method.costs(), judged = run.is_judged() ? run.costs() : std::vector<Cost>();
+  add_cost(snapshot, "believed", mean(believed));
+  if (!judged.empty()) add_cost(snapshot, "judged", mean(judged));
+  for (std::size_t j = 0; j < believed.size(); ++j) {
+    add(snapshot, receiver_group(j),
+        {{"distance_mm", run.layout.distances[j]},
+         {"width_mm", run.layout.receiver.x},
+         {"height_mm", run.layout.receiver.y},
+         {"believed_cost", believed[j].cost},
+         {"believed_rel_l2", believed[j].rel_l2}});
+    if (!judged.empty()) add_cost(snapshot, receiver_group(j), judged[j]);
+  }
+  if (judged.empty()) return;
+  const Cost noise = mean(run.judgement->judge().noise(run.targets));
+  add(snapshot, "judged", {{"noise_cost", noise.cost}, {"noise_rel_l2", noise.rel_l2}});
+}
+
+void add_conflicts(job::Snapshot& snapshot, const Conflicts& conflicts) {
+  for (std::size_t j = 0; j < conflicts.misplaced.size(); ++j) {
+    snapshot.scalars.push_back({"conflicts", fmt::format("floor_{}", j + 1), conflicts.misplaced[j]});
+    for (std::size_t k = j + 1; k < conflicts.misplaced.size(); ++k)
+      snapshot.scalars.push_back(
+          {"conflicts", fmt::format("{}_{}", j + 1, k + 1), conflicts.between[j][k] + conflicts.between[k][j]});
+  }
+}
+
+void add_object(job::Snapshot& snapshot, const Layout& layout, const Solid& solid,
+                const std::vector<glm::dvec2>& slopes) {
+  add(snapshot, "object",
+      {{"index", layout.n},
+       {"slope_limit", usable_slope(layout)},
+       {"relief_mm", solid.relief()},
+       {"thinnest_mm", layout.thickness - solid.highest},
+       {"highest_wall_mm", solid.highest_wall},
+       {"wall_area_mm2", solid.wall_area},
+       {"steepest_wall_deg", solid.wall_area > 0 ? solid.steepest_wall_deg : 0},
+       {"roughness", roughness(layout, slopes)},
+       {"steepest_deg", solid.steepest_deg},
+       {"triangles", static_cast<double>(solid.mesh.triangles.size())}});
+}
+
 std::string material_of(const Settings& s, double n) {
   const std::string name = s.index.type == preset::Dispersion::Type::file ? s.index.file + ", " : "";
   return fmt::format("{}index of refraction {:.6g} {}", name, n,
@@ -32,8 +79,18 @@ std::shared_ptr<const job::Picture> RunState::picture_of(std::size_t screen, dou
   if (!is_judged()) return received_picture(method.light(screen), most, layout);
   const Judge& judge = judgement->judge();
   if (layout.coloured()) return coloured_picture(judge.colours(screen), most, layout);
-  return received_picture(screen < targets.size() ? judge.light(screen) : judge.frame(screen - targets.size()), most,
-                          layout);
+  return received_picture(judge.light(screen), most, layout);
+}
+
+std::string receiver_group(std::size_t receiver) { return fmt::format("inverse/receivers/{}", receiver); }
+
+void add_figures(job::Snapshot& snapshot, const RunState& run, const std::optional<Conflicts>& conflicts) {
+  add_costs(snapshot, run);
+  if (conflicts) add_conflicts(snapshot, *conflicts);
+  if (!run.is_judged()) return;
+  const RayOutcomes f = run.judgement->judge().outcomes();
+  add(snapshot, "light", {{"sent", f.sent}, {"reflected", f.reflected}, {"lost", f.lost}, {"by_walls", f.by_walls}});
+  add_object(snapshot, run.layout, *run.judgement->solid(), run.method.slopes());
 }
 
 std::vector<std::shared_ptr<const job::Picture>> add_pictures(job::Snapshot& snapshot, const RunState& run) {
@@ -83,8 +140,8 @@ void add_frames(job::Snapshot& snapshot, const RunState& run) {
 void add_files(job::Snapshot& snapshot, const RunState& run) {
   const Judgement& judgement = *run.judgement;
   const std::string name = run.preset.name.empty() ? "The object" : run.preset.name;
-  const auto layout =
-      std::make_shared<const Layout>(run.layout); // one for all files: a lamp's has a table of the facets
+  // One for all files: a lamp's has a table of the facets.
+  const auto layout = std::make_shared<const Layout>(run.layout);
   const auto add = [&](const std::string& file, auto write) {
     snapshot.files.push_back(
         {file, [write, solid = judgement.solid(), layout](ByteSink& to) { write(*layout, *solid, to); }});

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a snapshot has of a run: pictures of what is wanted and what is cast on each receiver, of the slopes and of
-// screens between receivers; and the files of a finished one.
+// What a snapshot has of a run: its figures, of which docs/inverse.md says what each is; pictures of what is wanted and
+// what is cast on each receiver, of the slopes and of screens between receivers; and the files of a finished one.
 #pragma once
-#include "inverse/judgement.h"
+#include "inverse/assign/conflicts.h"
 #include "inverse/method.h"
 #include "inverse/sheet.h"
-
-#include <memory>
-#include <vector>
+#include "inverse/tolerances.h"
 
 namespace nephroid::inverse {
 
@@ -30,19 +28,23 @@ struct RunState {
   std::shared_ptr<const job::Picture> picture_of(std::size_t screen, double most) const;
 };
 
+/// The snapshot's group for a receiver's figures: its distance and size, and the search's and the judge's costs.
+std::string receiver_group(std::size_t receiver);
+
+/// Adds the costs, of all pictures and of each, and what the judge says once it has finished.
+void add_figures(job::Snapshot& snapshot, const RunState& run, const std::optional<Conflicts>& conflicts);
+
 /// Adds the pictures of each receiver. Returns what each receiver shows.
 std::vector<std::shared_ptr<const job::Picture>> add_pictures(job::Snapshot& snapshot, const RunState& run);
 
 /// Adds the pictures of receivers and frames in the order of their distance, as a screen that moves away would show
-/// them. A receiver's is as bright as is wanted there; between receivers the brightness is interpolated. The run must
-/// be judged.
+/// them, each as bright as is wanted there; between receivers that is interpolated. The run must be judged.
 void add_frames(job::Snapshot& snapshot, const RunState& run);
 
 /// Adds meshes, tables, pages for the workshop, and the object as a scene of its own. The run must be judged.
 void add_files(job::Snapshot& snapshot, const RunState& run);
 
-/// The object as the window's camera sees it. The picture stays until a quarter of a step, the judge or the camera
-/// changes it.
+/// The object as the window's camera sees it; it stays until a quarter of a step, the judge or the camera changes it.
 class ObjectPicture {
 public:
   std::shared_ptr<const job::Picture> of(const RunState& run,

@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search for slopes: a method, step after step, until it gains no more or the preset's stop, of whose seconds the
-// judge gets its part.
+// The search for slopes: a method's steps, until it gains no more or the preset's stop, less what the judge needs.
 #pragma once
 #include "inverse/method.h"
-#include "mpi/rank_context.h"
-
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <vector>
 
 namespace nephroid::inverse {
 
 class Search {
 public:
-  /// triangles: how many the solid has, about. preset, layout and targets outlive the search.
+  /// The solid has about so many triangles. preset, layout and targets outlive the search.
   Search(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets,
          std::uint64_t triangles, const mpi::RankContext& context);
 
   const Method& method() const { return *method_; }
-  /// Whether the search is over. Where seconds end it, this asks how long the judge takes. Every rank gets the same
-  /// answer.
+  /// Where seconds end the search, this asks how long the judge takes. Every rank gets the same answer.
   bool is_over();
   /// Does a short piece of work. Returns true where a step is complete now.
   bool advance();
@@ -28,7 +20,7 @@ public:
   /// Counts the stop from here and keeps the facets' slopes, after the preset, the layout and the targets have changed.
   void go_on();
 
-  double seconds() const { return seconds_; } ///< seconds of work
+  double seconds() const { return seconds_; }
   void add_seconds(double seconds) { seconds_ += seconds; }
   /// The part of the stop that is done, 0..1.
   double fraction_done() const;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of engine 3: the section "inverse" of a preset. Lengths are in millimetres, whatever the preset's unit
-// is, because a workshop works in them.
+// The settings of engine 3: the section "inverse" of a preset. Lengths are millimetres, in which workshops work.
 #pragma once
 #include "preset/preset.h"
 
@@ -69,8 +68,7 @@ struct Light {
   double turn_deg = 0;                   ///< parallel: the side to which tilted light goes, counterclockwise from +x
   double distance_mm = 1000;             ///< point: from the front
   std::array<double, 2> offset_mm{0, 0}; ///< point: beside the middle of the object
-  /// With a spectrum, luminance counts, because people look at pictures, and the judge sees colours. Without one, the
-  /// light is one wavelength or a band.
+  /// With a spectrum, luminance counts and the judge sees colours. Without one, the light is a wavelength or a band.
   std::optional<preset::LightSpectrum> spectrum{};
   bool operator==(const Light&) const = default;
 };
@@ -109,10 +107,8 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
-/// The settings of this engine, in the form that presets use.
 const preset::SettingsType& settings_type();
 
-/// The settings of a preset of this engine.
 inline Settings& settings(preset::Preset& preset) { return preset.settings.as<Settings>(); }
 inline const Settings& settings(const preset::Preset& preset) { return preset.settings.as<Settings>(); }
 

@@ -10,19 +10,18 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Into a rectangle of pixels, each by the cell that it shows.
+/// Fills a rectangle of pixels, each by the cell that it shows.
 void paste(const job::Picture& from, job::Picture& into, int left, int top, int width, int height) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const int u = x * from.width / width, v = y * from.height / height;
-      const float* const pixel = from.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(v) * from.width + u);
-      std::copy_n(pixel, 3, into.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(top + y) * into.width + left + x));
+      std::copy_n(&from.rgb[3 * index_at(u, v, from.width)], 3, &into.rgb[3 * index_at(left + x, top + y, into.width)]);
     }
 }
 
 /// Pictures of one size in columns and rows, each below a line of words, with the room that is left between them.
 struct SlotGrid {
-  glm::ivec2 counts, slot, size; ///< of a slot and of the picture in it, in pixels
+  glm::ivec2 counts, slot, size; ///< size: that of the picture in a slot, in pixels
   int line = 0;                  ///< height of the words' line; 0: there is no room for words
 
   glm::ivec2 corner(const glm::ivec2& at) const { return at * slot + (slot - size - glm::ivec2(0, line)) / 2; }
@@ -41,9 +40,9 @@ SlotGrid grid_of(const glm::ivec2& counts, const glm::dvec2& shape, const glm::i
   return grid;
 }
 
-/// White, at the left of the box and in its middle, as large as fits.
+/// White words, at the left of the box and in its middle, as large as fits.
 void write(const std::string& words, job::Picture& into, const glm::ivec2& corner, const glm::ivec2& box) {
-  constexpr int least = 7; // of a letter, in pixels
+  constexpr int least = 7; // pixels of a letter
   if (box.y == 0 || words.empty()) return;
   try {
     const auto height = [](const glm::ivec2& room) { return room.y * 6 / 10; };
@@ -56,10 +55,8 @@ void write(const std::string& words, job::Picture& into, const glm::ivec2& corne
     const int top = corner.y + std::max(0, box.y - text.height) / 2;
     for (int y = 0; y < std::min(text.height, box.y); ++y)
       for (int x = 0; x < std::min(text.width, box.x); ++x) {
-        const float value =
-            text.data[static_cast<std::size_t>(y) * static_cast<std::size_t>(text.width) + static_cast<std::size_t>(x)];
-        float* const pixel = into.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(top + y) * into.width + corner.x + x);
-        for (int c = 0; c < 3; ++c) pixel[c] = std::max(pixel[c], value);
+        float* const pixel = &into.rgb[3 * index_at(corner.x + x, top + y, into.width)];
+        for (int c = 0; c < 3; ++c) pixel[c] = std::max(pixel[c], text.data[index_at(x, y, text.width)]);
       }
   } catch (const Error&) { // without the font the pictures are all there is
   }
@@ -120,15 +117,13 @@ std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<Captione
   auto picture = std::make_shared<job::Picture>();
   picture->width = width;
   picture->height = height;
-  picture->rgb.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-                      0.02f); // a grey that parts black pictures
+  picture->rgb.assign(3 * index_at(0, height, width), 0.02f); // a grey that parts black pictures
   const glm::ivec2 counts(lists.size(), lists.front().size());
   const auto grid_with = [&](int across, int down) { return grid_of({across, down}, shape, {width, height}); };
   const SlotGrid upright = grid_with(counts.x, counts.y), lying = grid_with(counts.y, counts.x);
   const bool lies = lying.size.x > upright.size.x;
   SlotGrid grid = lies ? lying : upright;
-  const SlotGrid square =
-      grid_with(2, (counts.y + 1) / 2); // of one list, which in a row would leave most of a square sheet empty
+  const SlotGrid square = grid_with(2, (counts.y + 1) / 2); // one list in a row would leave a square sheet empty
   const bool wraps = counts.x == 1 && square.size.x > grid.size.x;
   if (wraps) grid = square;
   for (int list = 0; list < counts.x; ++list)

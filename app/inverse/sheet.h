@@ -4,15 +4,11 @@
 #include "inverse/layout.h"
 #include "job/job.h"
 
-#include <span>
-#include <string>
-
 namespace nephroid::inverse {
 
 /// A grey picture: scale times the values, row by row from the top.
 std::shared_ptr<const job::Picture> grey_picture(std::span<const double> values, double scale, const glm::ivec2& size);
-/// A grey picture in which 1 is the brightest wanted light, at the same energy. `most`: that light, as a part of all
-/// light.
+/// A grey picture in which 1 is the brightest wanted light, at the same energy. `most` is that, as a part of all light.
 std::shared_ptr<const job::Picture> received_picture(std::span<const double> light, double most, const Layout& layout);
 /// received_picture() in linear sRGB, where luminance counts; colours outside sRGB have negative values.
 std::shared_ptr<const job::Picture> coloured_picture(std::span<const glm::dvec3> xyz, double most,
@@ -23,15 +19,13 @@ std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wante
 std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> slopes, std::span<const double> heights,
                                                    const Layout& layout);
 
-/// A picture of a sheet and the words above it.
 struct Captioned {
   std::shared_ptr<const job::Picture> picture;
   std::string words;
 };
 
-/// Puts all pictures into one of this size, each in the shape of a receiver. Each list is a column, or each is a row,
-/// whichever gives larger pictures; one list alone may stand in two columns. Words that would be too small to read are
-/// left out, and all of them where there is no font.
+/// Puts all pictures into one of this size, each in the shape of a receiver. Lists are columns or rows, whichever gives
+/// larger pictures; one alone may be two columns. Words too small to read, or without a font, are left out.
 std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<Captioned>>& lists, const glm::dvec2& shape,
                                           int width, int height);
 

@@ -13,7 +13,7 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Of wavelengths that stand for a band.
+/// Wavelengths that stand for a band.
 constexpr int band_samples = 400;
 
 double weight_of(const LightPart& part) { return part.xyz.x + part.xyz.y + part.xyz.z; }

@@ -5,9 +5,6 @@
 
 #include <glm/glm.hpp>
 
-#include <optional>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// A piece of the light's spectrum. What counts for pictures is xyz.y: over all pieces it sums to 1.
@@ -21,18 +18,16 @@ struct Spectrum {
   bool coloured = false;        ///< whether luminance counts, else energy
 };
 
-/// What the object's material does to the light.
 struct Refraction {
-  double n = 1.5; ///< index of the object over that of what is around it: the mean over what counts of the light
+  double n = 1.5;                   ///< the mean index over what counts of the light
   std::optional<Spectrum> spectrum; ///< none: one index and no colours
 };
 
-/// Throws bad_input where the index cannot be read, is 1 or is not known for all of the light, and for a spectrum
-/// without power.
+/// Throws bad_input for an index that cannot be read, is 1 or not known everywhere, and for light without power.
 Refraction make_refraction(const preset::Preset& preset);
 
-/// Divides the spectrum, which is not empty, into parts of equal x + y + z, so that violet has its share. A part is
-/// made of neighbours, and its index is their mean.
+/// Divides the spectrum, which is not empty, into parts of equal x + y + z. A part is of neighbours, with their mean
+/// index.
 std::vector<LightPart> equal_parts(const std::vector<LightPart>& spectrum, std::size_t count);
 
 } // namespace nephroid::inverse

@@ -7,27 +7,24 @@
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <random>
 
 namespace nephroid::inverse {
 namespace {
 
-/// A layout and solid with an error.
-struct PerturbedSolid {
+struct MakingError {
   std::string_view what;
   double waves_mm = 0, turn_deg = 0, farther = 0;
 };
-constexpr std::array<PerturbedSolid, Tolerances::count> errors{
-    PerturbedSolid{.what = "heights off by 1 um", .waves_mm = 0.001},
-    PerturbedSolid{.what = "heights off by 5 um", .waves_mm = 0.005},
-    PerturbedSolid{.what = "heights off by 20 um", .waves_mm = 0.02},
-    PerturbedSolid{.what = "turned by 1 degree", .turn_deg = 1},
-    PerturbedSolid{.what = "receivers 1 % farther", .farther = 0.01}};
+constexpr std::array<MakingError, Tolerances::count> errors{
+    MakingError{.what = "heights off by 1 um", .waves_mm = 0.001},
+    MakingError{.what = "heights off by 5 um", .waves_mm = 0.005},
+    MakingError{.what = "heights off by 20 um", .waves_mm = 0.02},
+    MakingError{.what = "turned by 1 degree", .turn_deg = 1},
+    MakingError{.what = "receivers 1 % farther", .farther = 0.01}};
 
-/// About the x axis. Rays begin in front of what is turned towards them.
+/// Turns the solid about the x axis through its middle. Rays begin in front of what is turned towards them.
 void turn(double radians, Layout& layout, Solid& solid) {
   const double sine = std::sin(radians), cosine = std::cos(radians), pivot = layout.thickness / 2;
   for (glm::vec3& p : solid.mesh.positions) {
@@ -38,8 +35,7 @@ void turn(double radians, Layout& layout, Solid& solid) {
   layout.thickness += std::abs(sine) * layout.size.y / 2;
 }
 
-/// Each triangle as four, by the middles of its edges: a closed surface stays closed, because both triangles of an edge
-/// have the same middle.
+/// Each triangle as four, by the middles of its edges, which two triangles share: what is closed stays closed.
 Solid halved(const Solid& solid) {
   Solid fine = solid;
   fine.mesh.triangles.clear();
@@ -98,7 +94,7 @@ double Tolerances::fraction_done() const {
 }
 
 void Tolerances::begin() {
-  const PerturbedSolid& wrong = errors[rows_.size()];
+  const MakingError& wrong = errors[rows_.size()];
   changed_layout_ = layout_;
   changed_layout_.frames.clear();
   for (double& distance : changed_layout_.distances) distance *= 1 + wrong.farther;

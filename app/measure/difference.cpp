@@ -11,8 +11,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <string>
-#include <utility>
 
 namespace nephroid::measure {
 namespace {
@@ -38,8 +36,7 @@ double value(const float* a, const float* b, DifferenceMetric metric) {
     return channel_mean(a, b, [](double x, double y) { return std::fabs(x - y) / (std::fabs(y) + 0.01); });
   case DifferenceMetric::square: return channel_mean(a, b, [](double x, double y) { return (x - y) * (x - y); });
   case DifferenceMetric::luminance: return luminance(a) - luminance(b);
-  case DifferenceMetric::flip: // not of a pixel alone: flip_map
-    break;
+  case DifferenceMetric::flip: break; // flip_map: a pixel alone does not tell
   }
   return 0;
 }
@@ -64,7 +61,7 @@ std::array<float, 3> diverging(double position) {
 using Colour = std::array<unsigned char, 3>;
 constexpr Colour ground{32, 32, 32}, ink{224, 224, 224};
 
-// All in units of a stroke.
+// Lengths in strokes of a digit.
 constexpr int digit_width = 5, digit_height = 9, digit_step = digit_width + 2, point_step = 3;
 constexpr int bar_margin = 6, bar_width = 14, gap = 4, longest_number = 7; ///< "-2.5E-7"
 
@@ -149,9 +146,8 @@ void draw(Bitmap& bitmap, int x, const ColourBar& bar) {
     bitmap.fill(left, top + y, bar_width * bar.unit, 1, map_colour(1 - (y + 0.5) / length, bar.is_signed));
   for (int i = 0; i < bar.numbers; ++i) {
     const double share = static_cast<double>(i) / (bar.numbers - 1);
-    const int middle =
-        top +
-        static_cast<int>(std::lround((1 - share) * (length - bar.unit))); // of the number: no stroke, it reads as minus
+    const int middle = top + static_cast<int>(std::lround((1 - share) * (length - bar.unit)));
+    // No stroke leads from the bar to the number: it would read as minus.
     draw_number(bitmap, right + gap * bar.unit, middle - digit_height / 2 * bar.unit, bar.unit,
                 number_text(bar.scale * (bar.is_signed ? 2 * share - 1 : share)));
   }
@@ -177,7 +173,7 @@ double colour_scale(std::span<const float> values) {
   std::vector<float> sizes(values.size());
   std::transform(values.begin(), values.end(), sizes.begin(), [](float v) { return std::fabs(v); });
   if (sizes.empty()) return least;
-  const std::size_t rank = (99 * sizes.size() + 99) / 100 - 1; // of 100 values the 99th
+  const std::size_t rank = (99 * sizes.size() + 99) / 100 - 1; // the 99th where there are 100
   const auto nth = sizes.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(sizes.begin(), nth, sizes.end());
   for (int power = -6;; ++power) // floats end at 3.4e38, so this ends
@@ -209,9 +205,9 @@ ColouredDifference coloured_difference(const Pixels& picture, const Pixels& refe
   Bitmap drawn(result.width, result.height);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
-      const double share =
-          map[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x)] /
-          scale;
+      const auto pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x);
+      const double share = map[pixel] / scale;
       drawn.set(x, y, map_colour(both_ways ? (1 + share) / 2 : share, both_ways));
     }
   draw(drawn, picture.width, bar);

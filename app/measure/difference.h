@@ -22,16 +22,14 @@ inline constexpr std::array<const char*, 6> difference_names{"lab",    "absolute
 
 /// A value a pixel, at most the largest float. Throws as compare does.
 std::vector<float> difference_map(const Pixels& picture, const Pixels& reference, DifferenceMetric metric);
-/// Where the colours end: a round number (1, 2, 5 times a power of ten) that 99 % of the values do not exceed; at least
-/// 1e-6.
+/// Where the colours end: 1, 2 or 5 times a power of ten that 99 % of the values do not exceed; at least 1e-6.
 double colour_scale(std::span<const float> values);
 /// A colour of the map, sRGB-encoded, 8 bits a channel: position 0..1, magma from black to light yellow; signed maps
 /// from blue over white at 0.5, no difference, to red. Positions outside are clipped, NaN is 0.
 std::array<unsigned char, 3> map_colour(double position, bool is_signed = false);
 bool is_signed(DifferenceMetric metric);
 
-// The scale beside a difference picture: the colours from bottom to top, with numbers in seven-segment digits, so that
-// a picture needs no font. Not for windows, which have text.
+// The scale beside a difference picture, with seven-segment digits: it needs no font. Windows have their own.
 
 /// A picture to draw on, opaque dark grey at first.
 struct Bitmap {
@@ -51,9 +49,9 @@ struct ColourBar {
   bool is_signed;
 };
 
-/// For a picture of this height; the bar is higher where the picture is too low for two numbers.
+/// The bar for a picture of this height; it is higher where the picture is too low for two numbers.
 ColourBar colour_bar(int picture_height, double scale, bool is_signed);
-/// With its left edge at column x, from the top.
+/// Draws it from the top, with its left edge at column x.
 void draw(Bitmap& bitmap, int x, const ColourBar& bar);
 
 /// Digits, '.', '-' and 'E', 5 x 9 units each and 2 apart; other characters are left out.
@@ -64,8 +62,7 @@ struct ColouredDifference {
   std::vector<unsigned char> rgba; ///< 4 a pixel, opaque
   double scale = 1;                ///< the value at the end of the colours
 };
-/// The map in the left top corner. scale: the value at the end of the colours, above 0; or 0: colour_scale of the
-/// values.
+/// The map in the left top corner. `scale` is the value at the end of the colours; 0: colour_scale of the values.
 ColouredDifference coloured_difference(const Pixels& picture, const Pixels& reference, DifferenceMetric metric,
                                        double scale = 0);
 

@@ -4,8 +4,9 @@
 //
 //   n = mean of d^2                      the noise's variance
 //   v = mean of (m - m_bar)^2            the picture's own and the noise's together
-//   p = m_bar^2 / n                      about how many photons a pixel has: mean^2 / variance of a Poisson
-//   distribution w = 1 - min(n / v, 1) / (1 + p^2) e = sqrt(w) d + (1 - w) (m - m_bar)
+//   p = m_bar^2 / n                      about how many photons a pixel has: a Poisson's mean^2 / variance
+//   w = 1 - min(n / v, 1) / (1 + p^2)
+//   e = sqrt(w) d + (1 - w) (m - m_bar)
 //
 // With many photons a pixel, w is 1 and e is the draw. With less than about one, w is Wiener's share of the picture in
 // what is seen, and e takes in what m differs from its surroundings by; its variance is then w n + (1 - w)^2 v = w n +
@@ -22,10 +23,9 @@
 namespace nephroid::measure {
 namespace {
 
-constexpr int reach =
-    3; ///< of the square, in pixels to each side: 49 pixels are enough for a mean, and few enough for detail
+/// The square's pixels to each side: 49 are enough for a mean, and few enough for detail.
+constexpr int reach = 3;
 
-/// XYZ, 3 a pixel.
 std::vector<double> to_xyz(const std::vector<float>& rgb) {
   std::vector<double> xyz;
   xyz.reserve(rgb.size());
@@ -34,7 +34,7 @@ std::vector<double> to_xyz(const std::vector<float>& rgb) {
   return xyz;
 }
 
-/// Takes e from one of X, Y, Z of the picture m. d: the draw.
+/// Takes e from one of X, Y, Z of the picture m; d is the draw.
 void subtract_error(std::vector<double>& m, const std::vector<double>& d, std::size_t channel, int width, int height) {
   const auto of = [&](const std::vector<double>& values) {
     return [&](std::size_t pixel) { return values[3 * pixel + channel]; };

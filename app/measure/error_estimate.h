@@ -6,9 +6,7 @@
 
 namespace nephroid::measure {
 
-/// The quick metrics of the picture against the truth, as far as the picture itself tells, of the mask's pixels. It
-/// needs picture.error_draw.
-///
+/// The quick metrics of the picture against the truth, as far as the picture itself tells. It needs picture.error_draw.
 /// mse and rel_l2 are of the draw itself, which has the error's variance in every pixel. CIELAB and rel_mse are not
 /// linear, so there it matters where the truth lies: a pixel that no photon has reached yet has a picture and a draw of
 /// 0, and is wrong all the same; and the picture is bright where its noise is, so that it must not be what rel_mse

@@ -19,8 +19,7 @@ namespace {
 
 using ColourImage = FLIP::image<FLIP::color3>;
 
-/// FLIP's filters reach no further than this many rows: 3 standard deviations of the widest, the yellow-blue one,
-/// are 9.1 pixels.
+/// FLIP's filters reach no further than this: 3 standard deviations of the widest, the yellow-blue one, are 9.1 pixels.
 constexpr int filter_rows = 10;
 
 /// Rows of the pictures: those of which the error is wanted, and all that the filters see for them.

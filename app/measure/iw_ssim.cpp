@@ -19,8 +19,8 @@ using Neighbours = std::array<double, most>;
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most>;
 
 constexpr std::size_t weights_block_rows = 16;
-constexpr double tiny =
-    1e-15; ///< the authors' threshold: a variance or a weight below counts as none (2.2e-16 moves results by 1e-6)
+/// The authors' threshold: a variance or a weight below counts as none (2.2e-16 moves results by 1e-6).
+constexpr double tiny = 1e-15;
 
 /// The 3 x 3 pixels about (x, y), then the parent's pixel if there is one. Returns how many.
 std::size_t gather(Neighbours& y, const Plane& plane, const Plane& parent, std::size_t column, std::size_t row) {
@@ -58,13 +58,11 @@ Matrix covariance(const Plane& plane, const Plane& parent, std::size_t n) {
 struct Mixture {
   std::size_t n = 0;
   std::array<double, most> eigenvalues{};
-  std::array<Neighbours, most>
-      inverse{}; ///< of the covariance; on what it spans where it is singular (a flat reference: zero)
+  std::array<Neighbours, most> inverse{}; ///< the covariance's, on what that spans (a flat reference: zero)
 
   explicit Mixture(const Matrix& c) : n(static_cast<std::size_t>(c.rows())) {
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(c);
-    // Rounding makes eigenvalues negative: they become 0, and the others are scaled so that the variance stays (the
-    // authors' way).
+    // Rounding makes eigenvalues negative: they become 0, and the others are scaled to the variance, as the authors do.
     const auto positive = solver.eigenvalues().cwiseMax(0).eval();
     const double scale = positive.sum() > 0 ? solver.eigenvalues().sum() / positive.sum() : 0;
     const double least = positive.maxCoeff() * static_cast<double>(most) * std::numeric_limits<double>::epsilon();
@@ -116,9 +114,8 @@ Distortion distortion(const Plane& reference, const Plane& picture, std::size_t 
   return {gain, variance_y - gain * covariance_xy};
 }
 
-/// Bits that eye and picture share with the scene, equation 22 of the paper: the sum over the eigenvalues of
-/// log2(1 + ((v + (1 + g^2) s) S L + s v) / s^2), with s the variance of the eye's own noise. One logarithm of the
-/// product: each factor is below 1e20.
+/// Bits that eye and picture share with the scene, equation 22: the sum over the eigenvalues of log2(1 + ((v + (1 +
+/// g^2) s) S L + s v) / s^2), with s the variance of the eye's own noise. It is one logarithm of the product.
 double bits(const Mixture& mixture, double strength, const Distortion& d) {
   constexpr double eye = 0.4;
   double product = 1;
@@ -129,10 +126,8 @@ double bits(const Mixture& mixture, double strength, const Distortion& d) {
   return result < tiny ? 0 : result;
 }
 
-/// How much a person learns from each place of a pyramid's level (Wang and Li: Information Content Weighting for
-/// Perceptual Image Quality Assessment, IEEE Trans. Image Processing 20 (5), 2011): a weight a pixel of the level, its
-/// outermost ring of pixels left out, in bits: 2 less wide and high than the level. Reference and picture: the same
-/// level of both pyramids; parent: of the reference, as large as the level, or empty where it is not to be used.
+/// How much a person learns from each place of a level of both pyramids, in bits: a weight a pixel, without the
+/// outermost ring. `parent` is that of the reference, as large as the level, or empty where it is not to be used.
 Plane information_weights(const Plane& reference, const Plane& picture, const Plane& parent) {
   Neighbours example{};
   const Mixture mixture(covariance(reference, parent, gather(example, reference, parent, 1, 1)));
@@ -150,8 +145,8 @@ Plane information_weights(const Plane& reference, const Plane& picture, const Pl
 }
 
 constexpr int scale_count = 5;
-constexpr std::array<double, scale_count> scale_weights{0.0448, 0.2856, 0.3001, 0.2363,
-                                                        0.1333}; ///< Wang et al. 2003; sum 1.0001
+/// Wang et al. 2003; their sum is 1.0001.
+constexpr std::array<double, scale_count> scale_weights{0.0448, 0.2856, 0.3001, 0.2363, 0.1333};
 constexpr std::size_t window = 11, margin = window / 2;
 constexpr double luminance_constant = (0.01 * 255) * (0.01 * 255), contrast_constant = (0.03 * 255) * (0.03 * 255);
 constexpr std::size_t block_rows = 32;
@@ -240,8 +235,7 @@ struct ScaleMask {
   }
 };
 
-/// The mean of the similarities that count, weighted where there are weights (of all but the outermost ring of the
-/// level's pixels).
+/// The mean of the similarities that count, weighted where there are weights.
 std::optional<double> pooled(const Plane& similarity, const Plane* weights, const ScaleMask& mask) {
   double sum = 0, weight_sum = 0, plain_sum = 0;
   std::size_t windows = 0;

@@ -9,8 +9,7 @@
 
 namespace nephroid::measure {
 
-/// For t above 1e-300. A third of the exponent gives 5 % (as in FreeBSD's cbrt), and each of Halley's steps cubes the
-/// error.
+/// For t above 1e-300. A third of the exponent gives 5 % (as FreeBSD's cbrt); Halley's steps cube the error.
 inline double cube_root(double t) {
   constexpr std::uint64_t bias = 715094163; // (1023 - 1023 / 3 - .03306235651) 2^20
   const std::uint64_t high = (std::bit_cast<std::uint64_t>(t) >> 32) / 3 + bias;

@@ -71,13 +71,11 @@ void subtract_enlarged(Plane& plane, const Plane& low) {
   for (std::size_t i = 0; i < plane.values.size(); ++i) plane.values[i] -= enlarged.values[i];
 }
 
-/// Sample j of a line of n that was enlarged to 4 n - 3 and extended by one sample at either end, of which every second
-/// is kept.
+/// Every second sample j of a line of n that was enlarged to 4 n - 3 and extended by one sample at either end.
 struct EnlargedLine {
   std::size_t n;
 
-  /// The enlarged line: its centres lie (k + 1/2) n / (4 n - 3) - 1/2 from the first pixel's centre; outside, the end
-  /// goes on.
+  /// The enlarged line: its centres lie (k + 1/2) n / (4 n - 3) - 1/2 from the first pixel's; outside, the end goes on.
   template <class At>
   double between(std::size_t k, const At& at) const {
     const double length = static_cast<double>(4 * n - 3), last = static_cast<double>(n - 1);

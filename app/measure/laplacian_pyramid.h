@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Laplacian pyramid of Burt and Adelson (1983) as IW-SSIM takes it: the conventions are those of Simoncelli's
-// matlabPyrTools.
+// The Laplacian pyramid of Burt and Adelson (1983) as IW-SSIM takes it: by Simoncelli's conventions (matlabPyrTools).
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -18,9 +17,8 @@ struct Plane {
   const double* row(std::size_t y) const { return values.data() + y * width; }
 };
 
-/// `levels` planes: level 0 has the picture's size, each further one half of it, rounded up; the last is the low pass
-/// that is left. Every level but the last is its low pass minus what the next level tells of it. Sides of at least 2 at
-/// every level.
+/// `levels` planes: level 0 has the picture's size, each further one half of it, rounded up, at least 2. Every level is
+/// its low pass minus what the next level tells of it, but the last, which is the low pass that is left.
 std::vector<Plane> laplacian_pyramid(Plane picture, int levels);
 
 /// The parent of a level as large as twice itself, cropped to width x height: bilinear between pixel centres to 4 n -

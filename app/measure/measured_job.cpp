@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// When to measure, what goes into a row, when the error is small enough.
 #include "measure/measured_job.h"
 
-#include "base/bytes.h"
-#include "base/error.h"
-#include "job/history.h"
-#include "job/job.h"
 #include "measure/error_estimate.h"
+#include "measure/run_curves.h"
 #include "preset/choices.h"
 
 #include <fmt/format.h>
@@ -15,17 +11,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace nephroid::measure {
 namespace {
 
-/// A history in a checkpoint, before the job's own bytes, so that a resumed run goes on with one history: wall and
-/// measuring seconds, column names, rows. How they lie there is part of the checkpoint's format (run/checkpoint.cpp).
-/// from: what is read; null where the history is written. Throws bad_input where the checkpoint is cut.
+/// A history in a checkpoint, before the job's own bytes, so that a resumed run goes on with one history. How it lies
+/// there is part of the checkpoint's format (run/checkpoint.cpp). `from` is what is read; null where the history is
+/// written. Throws bad_input where the checkpoint is cut.
 void history_state(State state, const ByteSource* from, job::History& history, double& wall_seconds) {
-  /// Items of at least so many bytes each, which the rest of the checkpoint has to hold: so that no wrong count takes
-  /// all memory.
+  // Items of at least so many bytes each, which the rest of the checkpoint must hold: no wrong count takes all memory.
   const auto sized = [&](auto& items, std::size_t bytes_each) {
     std::uint64_t count = items.size();
     state.value(count);
@@ -51,8 +45,7 @@ void history_state(State state, const ByteSource* from, job::History& history, d
   }
 }
 
-/// The rows with other columns: what a row has no value of is NaN. A resumed run may have got a reference that it had
-/// not before.
+/// The rows with other columns, NaN where there is no value: a resumed run may have got a reference.
 std::vector<job::HistoryRow> rows_in_columns(const job::History& history, const std::vector<std::string>& columns) {
   std::vector<job::HistoryRow> rows = history.rows;
   for (job::HistoryRow& row : rows) {
@@ -99,8 +92,7 @@ public:
       if (!reference_->mask.empty()) masked_.emplace(reference_->pixels(), reference_->mask);
     }
     const std::string metric(preset::word(preset.stop.metric));
-    is_mean_square_ =
-        preset.stop.metric == preset::Stop::Metric::mse || preset.stop.metric == preset::Stop::Metric::rel_mse;
+    is_mean_square_ = metric_text(metric).is_mean_square();
     history_.target = preset.stop.error;
     name_columns();
     for (const std::string& column : {metric, "estimated_" + metric, std::string("estimated_lab_mean")})
@@ -237,7 +229,6 @@ private:
            progress.work_seconds >= (history_.measuring_seconds + noting_seconds_) / measuring_share;
   }
 
-  /// Adds a row.
   void note(const job::Snapshot& snapshot) {
     const auto begin = Clock::now();
     const job::Progress& progress = snapshot.progress;
@@ -314,15 +305,14 @@ private:
   bool is_mean_square_ = false; ///< the error that may stop the run
   job::History history_;
   std::shared_ptr<const job::History> shown_;
-  std::optional<job::Snapshot>
-      unnoted_;               ///< the first whole picture, for which somebody waits: its row is made with the next step
-  std::vector<double> times_; ///< to measure at whatever it takes
+  std::optional<job::Snapshot> unnoted_; ///< the first whole picture, which somebody waits for: noted in the next step
+  std::vector<double> times_;            ///< to measure at whatever it takes
   Clock::time_point began_;
-  double wall_before_ = 0;    ///< of a resumed run's earlier parts
-  double last_seconds_ = 0;   ///< of work at the newest row
-  double next_ = 0;           ///< of work, when the next row is due
+  double wall_before_ = 0;    ///< a resumed run's earlier parts
+  double last_seconds_ = 0;   ///< work at the newest row
+  double next_ = 0;           ///< work when the next row is due
   double wanted_ = 0;         ///< when it would be if measuring took no time
-  double noting_seconds_ = 0; ///< of the newest row, without the picture that it is of
+  double noting_seconds_ = 0; ///< what the newest row took, without the picture that it is of
 };
 
 } // namespace

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A job that measures itself: it steps another job, now and then compares its picture with a reference or with itself,
-// keeps the history and ends at the error that was asked for. The command line and the window get the same history by
-// the same means.
+// keeps the history and ends at the error that was asked for.
 #pragma once
 #include "job/job.h"
 #include "measure/metrics.h"
-#include "preset/preset.h"
 
 #include <chrono>
 
@@ -16,11 +14,11 @@ struct Reference {
   int width = 0, height = 0;
   std::vector<float> rgb;             ///< linear sRGB, 3 a pixel
   std::string origin;                 ///< the file, also that of a recipe in the cache
-  std::optional<Metrics> noise_floor; ///< of a recipe: one of its two seeds against the mean of both, which `rgb` is
-  std::optional<Metrics> masked_noise_floor; ///< the same of the mask's pixels
+  std::optional<Metrics> noise_floor; ///< a recipe's: one of its two seeds against the mean of both, which `rgb` is
+  std::optional<Metrics> masked_noise_floor; ///< the same within the mask
   std::vector<unsigned char> mask;           ///< one a pixel, or empty
   std::vector<job::Layer> layers = {};       ///< where it is a picture of a run, which has them; else empty
-  std::vector<float> error_draw = {}; ///< of a recipe: one seed minus the mean of both, laid out like `rgb`; else empty
+  std::vector<float> error_draw = {}; ///< a recipe's: one seed minus the mean of both, laid out like `rgb`; else empty
 
   Pixels pixels() const { return {width, height, rgb, origin}; }
 };

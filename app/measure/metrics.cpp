@@ -196,8 +196,7 @@ Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask, Metri
 
 const std::vector<Metric>& all_metrics() {
   using enum Metric::Kind;
-  // A distance falls with the root of the samples, a mean square with their number. FLIP bends small differences
-  // upwards by a power.
+  // Distances fall with the root of the samples, mean squares with their number. FLIP bends small differences upwards.
   static const std::vector<Metric> metrics{
       metric<&Metrics::lab_mean>("lab_mean", estimated,
                                  "distance in CIELAB, mean of the pixels (0 is equal, about 2.3 just noticeable)",

@@ -23,25 +23,22 @@ struct Pixels {
 using Mask = std::span<const unsigned char>;
 
 struct Metrics {
-  double lab_mean = 0, lab_rms = 0,
-         lab_max = 0; ///< distance of a pixel in CIELAB (D65), not clipped above: mean, root mean square, largest
-  double mse = 0;     ///< mean of (a - b)^2 over pixels and channels
-  double rel_mse = 0; ///< mean of (a - b)^2 / (b^2 + 0.01)
-  double rel_l2 = 0;  ///< |a - b| / |b|; of a black reference 0 where a is black too, else infinity
-  std::optional<double> psnr_db; ///< of sRGB-encoded clipped pictures, peak 1; none where those are identical
-  std::optional<double>
-      iw_ssim; ///< Wang and Li 2011; none below 161 pixels a side, or where only quick ones were asked for
-  std::optional<double>
-      flip; ///< Andersson et al. 2020, 67.02 pixels a degree; none where only quick ones were asked for
-  std::optional<double> hdr_flip; ///< Andersson et al. 2021; none where only quick ones were asked for
+  double lab_mean = 0, lab_rms = 0, lab_max = 0; ///< a pixel's distance in CIELAB (D65), not clipped above
+  double mse = 0;                                ///< mean of (a - b)^2 over pixels and channels
+  double rel_mse = 0;                            ///< mean of (a - b)^2 / (b^2 + 0.01)
+  double rel_l2 = 0;             ///< |a - b| / |b|; of a black reference 0 where a is black too, else infinity
+  std::optional<double> psnr_db; ///< sRGB-encoded clipped pictures', peak 1; none where those are identical
+  // None where only quick ones were asked for.
+  std::optional<double> iw_ssim;  ///< Wang and Li 2011; none below 161 pixels a side
+  std::optional<double> flip;     ///< Andersson et al. 2020, 67.02 pixels a degree
+  std::optional<double> hdr_flip; ///< Andersson et al. 2021
   std::size_t pixels = 0;         ///< that were counted
 };
 
-enum class MetricSet { quick, full }; ///< metrics
+enum class MetricSet { quick, full };
 
-/// FLIP's maps and IW-SSIM's are made of the whole pictures and averaged over the mask.
-/// Throws bad_input naming the picture: sizes that differ, NaN or infinity, a mask of another size or with no pixel
-/// that counts.
+/// FLIP's maps and IW-SSIM's are of the whole pictures, averaged over the mask. Throws bad_input naming the picture:
+/// sizes that differ, NaN or infinity, a mask of another size or with no pixel that counts.
 Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask = {}, MetricSet which = MetricSet::full);
 /// The same for several masks, one after the other, at little more than the cost of one.
 std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks,
@@ -70,11 +67,9 @@ struct Metric {
 };
 /// In the order of `nephroid compare`.
 const std::vector<Metric>& all_metrics();
-/// Their names and values.
 std::vector<std::pair<std::string, double>> named(const Metrics& metrics);
 
-/// The quick metrics again and again against one reference, whose share of the work is done once. 512 x 512: about 20
-/// ms a call.
+/// The quick metrics again and again against one reference, whose share is done once: 20 ms a call at 512 x 512.
 class QuickComparison {
 public:
   /// Throws as compare does. Copies what it needs of both.

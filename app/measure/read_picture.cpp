@@ -8,16 +8,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 
 namespace nephroid::measure {
 namespace {
-
-void decode(std::vector<float>& rgb) {
-  for_ranges(rgb.size(), std::size_t{1} << 15, [&](std::size_t, Range range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) rgb[i] = static_cast<float>(image::decoded_srgb(rgb[i]));
-  });
-}
 
 /// "caustic", where there is a channel "caustic.R".
 std::vector<std::string> layer_names(const image::Image& picture) {
@@ -49,7 +42,11 @@ image::Image layer_of(const image::Image& picture, const std::string& layer, con
 
 LinearPicture linear(image::Image picture, const std::filesystem::path& file) {
   image::Rgb rgb = image::rgb_of(picture, file.string());
-  if (picture.integers) decode(rgb.values);
+  if (picture.integers)
+    for_ranges(rgb.values.size(), std::size_t{1} << 15, [&](std::size_t, Range range) {
+      for (std::size_t i = range.begin; i < range.end; ++i)
+        rgb.values[i] = static_cast<float>(image::decoded_srgb(rgb.values[i]));
+    });
   return {picture.width, picture.height,   std::move(rgb.values),        file.string(),
           rgb.grey,      picture.integers, std::move(picture.attributes)};
 }

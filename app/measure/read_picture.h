@@ -4,9 +4,6 @@
 #include "job/job.h"
 #include "measure/metrics.h"
 
-#include <filesystem>
-#include <map>
-
 namespace nephroid::measure {
 
 struct LinearPicture {
@@ -20,15 +17,13 @@ struct LinearPicture {
   Pixels pixels() const { return {width, height, rgb, name}; }
 };
 
-/// Files of floats (EXR, HDR, PFM, float TIFF) are linear; files of integers (PNG, JPEG, TIFF) are sRGB-encoded and are
-/// decoded. The channels R, G, B or, alone or with alpha, Y; alpha and further layers are left out. Values may be NaN
-/// or infinite: comparisons refuse them. Throws bad_input naming the file: no picture, or its channels where they are
-/// others.
+/// Files of floats (EXR, HDR, PFM, float TIFF) are linear; files of integers (PNG, JPEG, TIFF) are decoded from sRGB.
+/// The channels R, G, B or, alone or with alpha, Y; alpha and layers are left out. Values may be NaN or infinite:
+/// comparisons refuse them. Throws bad_input naming the file: no picture, or other channels.
 LinearPicture read_linear_rgb(const std::filesystem::path& file);
 /// The same, and in `layers` those that the file has, as read_linear_layer reads them: NAME.R, NAME.G, NAME.B.
 LinearPicture read_linear_rgb(const std::filesystem::path& file, std::vector<job::Layer>& layers);
-/// The same of one of its layers, whose channels are LAYER.R, LAYER.G, LAYER.B. Throws bad_input naming the layers
-/// there are.
+/// One of its layers, whose channels are LAYER.R, LAYER.G, LAYER.B. Throws bad_input naming the layers there are.
 LinearPicture read_linear_layer(const std::filesystem::path& file, const std::string& layer);
 
 /// As people open what any program wrote.
@@ -37,8 +32,7 @@ struct OpenedPicture {
   std::vector<job::Layer> layers; ///< those of the file
   std::string stands_in; ///< the file has no R, G, B or Y of its own: its first layer, which the picture is; else empty
 };
-/// As read_linear_rgb, and where the file has layers alone ("caustic.R"), the first of them. Throws bad_input as that
-/// does.
+/// As read_linear_rgb, and where the file has layers alone ("caustic.R"), the first of them.
 OpenedPicture open_picture(const std::filesystem::path& file);
 
 /// One value a pixel: 1 where any of R, G, B (or Y) is not 0, else 0. Throws bad_input naming the file: as above,

@@ -30,8 +30,7 @@ double seconds_on_segment(const Curve& curve, std::size_t end, double error) {
 
 constexpr std::string_view estimated_prefix = "estimated_", masked = "masked_";
 
-/// How many times the floor is an error of which the floor, at a right angle to it, makes up `share`: 1 - sqrt(1 -
-/// 1/k^2) = share, where k = 2 gives 13 % and k = 3 gives 6 %. Of mean squares k squared.
+/// k times the floor (mean squares: k^2), where the floor, at a right angle, makes up 1 - sqrt(1 - 1/k^2) of an error.
 double above_floor(const RunCurves& curves, double times) {
   if (curves.is_judged_by_estimate()) return 0;
   return curves.noise_floor * (metric_text(curves.metric).is_mean_square() ? times * times : times);

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The curves of one run, metric by metric, as the window and the report draw and compare them; what the columns of a
 // history are called; and what is read off curves of error against time: slopes, the time to an error, speed-ups at
-// equal error. Pure functions. Between its points a curve is a straight line on two logarithmic axes, where Monte
-// Carlo's error = c / sqrt(t) is one.
+// equal error. Between its points a curve is a straight line on two logarithmic axes, as Monte Carlo's c / sqrt(t) is.
 #pragma once
 #include "job/history.h"
 #include "measure/metrics.h"
 
 namespace nephroid::measure {
 
-/// Whether a value has a place on a logarithmic axis: above 0, and within 1e-100..1e100 so that its powers are finite
-/// as well.
+/// Whether a value has a place on a logarithmic axis: within 1e-100..1e100, so that its powers are finite as well.
 bool can_be_drawn(double value);
 
 /// Errors at times, in the order of time; on logarithmic axes all can be drawn.
@@ -38,8 +36,7 @@ std::optional<ErrorRange> errors_reached(const Curve& curve);
 /// The errors that both curves came down to, not below lowest_error; nothing where there are none.
 std::optional<ErrorRange> errors_both_reached(const Curve& a, const Curve& b, double lowest_error = 0);
 
-/// When the curve first falls to the error; nothing where it never does, or begins below it: then nobody knows when it
-/// was there.
+/// When the curve first falls to the error; nothing where it never does, or begins below it.
 std::optional<double> seconds_to_reach(const Curve& curve, double error);
 
 struct EqualError {
@@ -53,16 +50,14 @@ std::optional<EqualError> at_equal_error(const Curve& a, const Curve& b, double 
 /// 1, 2 and 5 times powers of ten from lowest to highest, both included, the largest first. Both above 0, else none.
 std::vector<double> round_levels(double lowest, double highest);
 
-/// A column of a history taken apart: "estimated_lab_mean" is the estimate of "lab_mean"; a mask's metrics
-/// ("masked_lab_mean") are metrics of their own.
+/// A history's column taken apart: "estimated_lab_mean" estimates "lab_mean"; "masked_lab_mean" is a metric by itself.
 struct ErrorColumn {
   std::string metric;
   bool is_estimate = false;
 };
 ErrorColumn error_column_of(std::string_view column);
 
-/// The text of a metric, by its name. A column that an engine adds (cost, temperature) is called by its name and is no
-/// error.
+/// The text of a metric, by its name. A column that an engine adds (cost, temperature) is no error.
 MetricText metric_text(std::string_view metric);
 
 /// Every metric that a history has a column of, in their order, each once.
@@ -82,8 +77,7 @@ struct RunCurves {
   /// Errors below it are not compared: twice the floor (four times that of a mean square), where 13 % of the error are
   /// the reference's. 0 for estimates and where no floor is known.
   double lowest_meaningful() const;
-  /// The slope of the judged curve down to three times the floor (nine times), where 6 % of the error are the
-  /// reference's.
+  /// The slope of the judged curve down to three times the floor (nine times), where 6 % are the reference's.
   std::optional<PowerLaw> slope() const;
 };
 /// Whether the metric is an error, or the run itself is judged by it.

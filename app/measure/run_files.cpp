@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <system_error>
 
 namespace nephroid::measure {
 namespace fs = std::filesystem;
@@ -174,8 +173,7 @@ job::History read_history(const std::filesystem::path& file) {
       history.columns = columns_of(row, place);
     else
       history.rows.push_back(row_of(row, history.columns, place));
-    // A cut number is a number as well, so the end of the last line is looked for; after the line, which may show a
-    // better reason.
+    // A cut number is a number as well, so the last line's end is looked for, after what may show a better reason.
     if (end == std::string_view::npos)
       throw bad_input(place, "the file is cut in this line", "every line ends with a line feed");
     const std::size_t count = history.rows.size();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of a run read back: JSON with the place of whatever is missing or of another type than a run writes, and
-// its error history.
+// The files of a run read back: JSON, with the place of what is missing or of another type, and its error history.
 #pragma once
 #include "job/history.h"
 
@@ -10,13 +9,11 @@
 
 namespace nephroid::measure {
 
-/// A JSON file of a run.
 class RunDocument {
 public:
   enum class Type { text, number, whole, flag, list, object, numbers };
 
-  /// Throws bad_input naming the file: missing, empty, cut, no JSON, no object, nested deeper than anything a run
-  /// writes.
+  /// Throws bad_input naming the file: missing, empty, cut, no JSON, no object, nested too deep.
   explicit RunDocument(const std::filesystem::path& file);
 
   const nlohmann::ordered_json& json() const { return json_; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/comparison.h"
+// Error curves of runs held against each other.
+#include "report/report.h"
 
 #include "measure/run_curves.h"
 
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 namespace nephroid::report {
 namespace {
@@ -23,16 +23,12 @@ struct MetricCurves {
   bool falls = false;
 };
 
-std::string main_metric(const RunFolder& run) {
-  return run.history ? measure::error_column_of(run.history->error_column).metric : "";
-}
-
 std::vector<MetricCurves> curves_of(std::span<const RunFolder> runs) {
   std::vector<MetricCurves> all;
-  std::map<std::string, int> votes; // of the runs for the metric that they are judged by
+  std::map<std::string, int> votes; // how many runs are judged by the metric
   for (const RunFolder& run : runs) {
     if (!run.history) continue;
-    ++votes[main_metric(run)];
+    ++votes[measure::error_column_of(run.history->error_column).metric];
     for (const std::string& metric : measure::metric_names(*run.history))
       if (std::none_of(all.begin(), all.end(), [&](const auto& other) { return other.metric == metric; }))
         all.push_back({metric, {}});

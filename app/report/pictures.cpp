@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/pictures.h"
+// The pictures that a report shows, of runs and of their differences.
+#include "report/report.h"
 
 #include "base/base64.h"
 #include "base/files.h"
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 namespace nephroid::report {
 namespace fs = std::filesystem;

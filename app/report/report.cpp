@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From folders to data, and the data into the page, which holds its style, its script and the chart library itself.
 // What every run writes is required: a report with holes would be believed.
-
 #include "report/report.h"
 
 #include "base/files.h"
@@ -9,16 +8,12 @@
 #include "base/numbers.h"
 #include "measure/difference.h"
 #include "measure/run_files.h"
-#include "report/comparison.h"
-#include "report/pictures.h"
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <set>
 #include <sstream>
-#include <system_error>
 
 namespace nephroid::report {
 namespace fs = std::filesystem;
@@ -114,9 +109,7 @@ Json read_curves(const fs::path& folder) {
 /// A run's folder before or while it runs: begin_run has written these two, nothing has written run.json.
 bool is_begun_run(const fs::path& folder) { return is_there(folder / "plan.json") && is_there(folder / "preset.json"); }
 
-/// The run in a folder, or the runs in its folders; those that have begun but not ended are among them, for read_run to
-/// refuse. Of a sweep's runs those that its file names, as far as they are there. An earlier sweep may have left
-/// others.
+/// The runs that a sweep's file names, as far as they are there: an earlier sweep may have left others.
 std::vector<fs::path> in_order(const fs::path& sweep, std::vector<fs::path> runs) {
   if (!is_there(sweep / sweep_file)) return runs;
   const RunDocument order(sweep / sweep_file);
@@ -128,6 +121,7 @@ std::vector<fs::path> in_order(const fs::path& sweep, std::vector<fs::path> runs
   return ordered.empty() ? runs : ordered;
 }
 
+/// The run in a folder, or the runs in its folders, also those that have not ended: read_run refuses them.
 std::vector<fs::path> runs_in(const fs::path& folder) {
   const auto is_run = [](const fs::path& path) { return is_there(path / "run.json") || is_begun_run(path); };
   std::error_code error;
@@ -163,8 +157,7 @@ bool have_one_sweep(std::span<const RunFolder> runs) {
                      [&](const RunFolder& run) { return sweep_of(run) == sweep_of(runs.front()); });
 }
 
-/// Names that tell the runs apart: the preset's, with the folder where two have one name; of a sweep's runs the part
-/// that differs.
+/// Names that tell the runs apart: the preset's, with the folder where needed; of a sweep's runs the part that differs.
 std::vector<std::string> labels_of(std::span<const RunFolder> runs) {
   std::vector<std::string> names, swept, with_folder, with_path;
   for (const RunFolder& run : runs) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refraction at a facet, from inside the object to what is around it: app/inverse/bending.h, which says what slopes and
-// sines are, in single precision.
+// Refraction at a facet, from inside the object to what is around it: app/inverse/bending.h in single precision.
 #ifndef NEPHROID_BENDING_H
 #define NEPHROID_BENDING_H
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structs that engine 3's host code writes and its kernels read: app/inverse/layout.h in single precision. Lengths are
-// in millimetres.
+// Structs that engine 3's host code writes and its kernels read: app/inverse/layout.h in single precision, millimetres.
 #ifndef NEPHROID_FACET_TYPES_H
 #define NEPHROID_FACET_TYPES_H
 
@@ -68,8 +67,7 @@ typedef struct {
 // A ray's light is counted in quanta; this many fall on a facet.
 #define RAY_QUANTA 0x1p32f
 
-// Where the light that falls on the front goes: inverse::RayOutcomes. Sums are kept in many places, so that rays seldom
-// meet there.
+// Where the light on the front goes: inverse::RayOutcomes. Many places keep the sums, so that rays seldom meet there.
 #define FATE_REFLECTED 0
 #define FATE_LOST 1
 #define FATE_SENT 2

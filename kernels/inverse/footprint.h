@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the light of one facet falls on a receiver: app/inverse/assign/footprint.h, which has the reasons, in single
-// precision.
+// Where the light of one facet falls on a receiver: app/inverse/assign/footprint.h in single precision.
 #ifndef NEPHROID_FOOTPRINT_H
 #define NEPHROID_FOOTPRINT_H
 
@@ -41,7 +40,6 @@ static inline float part_before(Beam beam, float t) {
   return at < 0.0f ? tail : 1.0f - tail;
 }
 
-// The part of a beam on a cell.
 static inline float part_on(Beam beam, int cell) {
   return part_before(beam, (float)(cell + 1)) - part_before(beam, (float)cell);
 }
@@ -111,8 +109,7 @@ static inline float mean_above_0(float a, float b) {
   return fabs(a) >= 0.5f * b ? fmax(a, 0.0f) : (a + 0.5f * b) * (a + 0.5f * b) / (2.0f * b);
 }
 
-// What the neighbour at a side of x hides of light with this slope, in parts of the facet's width. x and y stand
-// for any two axes.
+// What the neighbour at a side of x hides of light with this slope, in parts of the facet. x and y: any two axes.
 static inline float hidden_by(global const DeviceLayout* layout, const Facet* facet, int2 to, float along, float g,
                               float g_other, int axis, float ratio, float meets) {
   if (to.x < 0 || to.y < 0 || to.x >= layout->columns || to.y >= layout->rows) return 0.0f;
@@ -192,7 +189,6 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
 }
 
 #if NEPHROID_SPREAD
-// Beam i's part of the light.
 static inline float part_of(global const DeviceLayout* layout, const Footprint* print, int i) {
   return layout->index_part[print->groups - 1 + i / print->points] / (float)print->points;
 }
@@ -274,8 +270,7 @@ static inline int4 cells_of(global const DeviceLayout* layout, const Footprint* 
                 edge_cell(ceil(print->y.middle + high.y + print->y.reach), layout->cells_y));
 }
 
-// How much of a footprint's light is on each cell of a tile. A single beam needs no tile; many are summed, tile after
-// tile.
+// How much of a footprint's light is on each cell of a tile. A single beam needs no tile; many are summed.
 #if NEPHROID_SPREAD
 #define TILE 8
 #define TILE_ROWS TILE
@@ -311,8 +306,7 @@ static inline int fill_tile(global const DeviceLayout* layout, const Footprint* 
 #define PART_ON(print, tile, x, y) (part_on((print).x, x) * (tile)[0])
 #endif
 
-// For every cell (x, y) that a footprint touches, of a tile that begins at `at`: PART_ON(print, tile, x, y) of its
-// light.
+// For every cell (x, y) that a footprint touches, of a tile from `at` on: PART_ON(print, tile, x, y) of its light.
 #define FOR_CELLS(layout, print, tile)                                                                                 \
   for (int4 box = cells_of(layout, &(print)), at = box; at.y < box.w; at.y += TILE_ROWS)                               \
     for (at.x = box.x; at.x < box.z; at.x += TILE)                                                                     \

@@ -19,7 +19,7 @@
 // A ray that has met so many surfaces is lost.
 #define MAX_SURFACES 16
 
-// normals: of each triangle, unit, out of the object; w: its PART_*.
+// `normals` has each triangle's unit normal, out of the object, and as w its PART_*.
 static inline DeviceWayOut follow(global const float* nodes, global const float* blocks, int root,
                                   global const float4* normals, float n, float3 from, float3 direction) {
   DeviceWayOut way = {(float4)(0.0f), (float4)(0.0f), 1.0f, 0.0f, 0, 0};
@@ -64,9 +64,8 @@ __kernel void follow_rays(__global const float* nodes, __global const float* blo
 }
 
 #if NEPHROID_SPREAD
-// Number k of ray i of a facet, 0..1, more evenly spread than random ones: multiples of the powers of 1 / g, g being
-// the root of g^6 = g + 1 (Roberts 2018, the golden ratio in five dimensions), from a random begin. In fractions of
-// 2^32, which wrap around.
+// Number k of ray i of a facet, 0..1, spread evenly: multiples of the powers of 1 / g, the root of g^6 = g + 1 (Roberts
+// 2018, the golden ratio in five dimensions), from a random begin. In fractions of 2^32, which wrap around.
 static inline float even_number(float begin, uint ray, uint power) {
   return (float)(((uint)(begin * 0x1p32f) + ray * power) >> 8) * 0x1p-24f;
 }
@@ -88,9 +87,8 @@ static inline void add_fate(global long* fates, uint item, int fate, float light
   add_exactly(fates + FATES * (item % FATE_SUMS) + fate, convert_long_rte(light * RAY_QUANTA));
 }
 
-// Rays first .. first + count - 1 of a round: a jittered lattice on each facet, one facet after the other. parts: of
-// the light's spectrum, as many as rays a facet, index and colour; each ray of a facet takes one. light: [screen][y, x,
-// z][cell].
+// Rays first .. first + count - 1 of a round: a jittered lattice on each facet, one facet after the other. Each ray of
+// a facet takes one of `parts`, an index and a colour of the spectrum. light: [screen][y, x, z][cell].
 __kernel void judge(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals,
                     DeviceFront front, __global const float4* parts, __global const DeviceReceiver* screens, uint2 seed,
                     uint turn, uint first_row, uint count, __global long* light, __global long* fates) {
@@ -106,7 +104,7 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
       (float3)(at.x * front.facet_x - 0.5f * front.size_x, 0.5f * front.size_y - at.y * front.facet_y, front.thickness);
   if (front.is_round && length(place.xy / (float2)(front.size_x, front.size_y)) > 0.5f) return;
   float3 direction = front.direction.xyz;
-  float part = 1.0f / (float)rays; // of what falls on a facet
+  float part = 1.0f / (float)rays; // what a ray has of a facet's light
   if (front.lamp_weight > 0.0f) {
     const float3 way = place - front.lamp.xyz;
     const float distance = length(way);

@@ -69,9 +69,8 @@ static inline float2 along_lack(global const DeviceLayout* layout, const Footpri
   return sum;
 }
 
-// Of the weighted squares, by each facet's slope. That its footprint's size and its light change with it too is less
-// than a hundredth of that where a facet is small beside the distances, and left out. Of facets first .. first + count
-// - 1.
+// The gradient of the weighted squares by the slopes of facets first .. first + count - 1. That a footprint's size and
+// light change with the slope too is left out: less than a hundredth where a facet is small beside the distances.
 __kernel void find_gradient(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
                             __global const DeviceIncoming* incoming, __global const float* heights,
                             __global const float2* slopes, __global const float* lack, uint first, uint count,

@@ -10,7 +10,6 @@ static inline size_t cell_at(global const DeviceLayout* layout, int receiver, in
   return ((size_t)receiver * (size_t)layout->cells_y + (size_t)y) * (size_t)layout->cells_x + (size_t)x;
 }
 
-// A part of a facet's light in quanta.
 static inline long quanta_of(float light) { return convert_long_rte(light * FACET_QUANTA); }
 
 // What lacks in a cell: the change of the weighted squares with its light, 2 weight (Z - T).

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facets of a batch look for slopes that are worth to be scored exactly: by what lacks about the middle of the light
-// that they would send.
+// Facets of a batch look for slopes that are worth to be scored exactly: by what lacks about the middle of their light.
 #include "kernels/inverse/search.h"
 #include "kernels/tracing/registers.h"
 
@@ -56,14 +55,12 @@ __kernel void smear_x(__global const DeviceLayout* layout, __global const Device
   (float8)((from)[i.s0], (from)[i.s1], (from)[i.s2], (from)[i.s3], (from)[i.s4], (from)[i.s5], (from)[i.s6],           \
            (from)[i.s7])
 
-// Eight slopes at a time, of which each is the best of those that were tried in its place; infinite: none was
-// reachable.
+// Eight slopes at a time, each the best of those that were tried in its place; infinite: none was reachable.
 typedef struct {
   float8 lowest, x, y;
 } Eight;
 
-// Tries slopes on a lattice, `count` across and down from x and y on: by the sum of what lacks where a facet's light
-// falls.
+// Tries slopes on a lattice, `count` across and down from x and y on: by the sum of what lacks where light falls.
 static SEPARATE void try_lattice(const Search* s, global const float* smeared, float8 x_from, float8 y_from,
                                  float2 step, int2 count, Eight* best) {
   global const DeviceLayout* layout = s->layout;

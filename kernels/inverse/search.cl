@@ -7,8 +7,7 @@
 #define STEPS 2
 #define FINEST 0.25f
 
-// What the weighted squares would change by, were the facet's light, which counts as taken away, put back with this
-// slope.
+// What the weighted squares would change by, were the facet's light put back with this slope; it counts as taken away.
 static SEPARATE float score(const Search* s, float2 slope) {
   global const DeviceLayout* layout = s->layout;
   const Beams beams = beams_of(layout, &s->facet, slope);
@@ -132,12 +131,8 @@ __kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, ui
   }
 #if NEPHROID_SMOOTHS
   __global uint* facets = claims + cell_at(layout, layout->receivers, 0, 0);
-  const int column = (int)(index % (uint)layout->columns), row = (int)(index / (uint)layout->columns);
   atomic_min(facets + index, key);
-  if (column > 0) atomic_min(facets + index - 1, key);
-  if (column + 1 < layout->columns) atomic_min(facets + index + 1, key);
-  if (row > 0) atomic_min(facets + index - layout->columns, key);
-  if (row + 1 < layout->rows) atomic_min(facets + index + layout->columns, key);
+  for (int side = 0; side < 4; ++side) atomic_min(facets + neighbour(layout, index, side), key);
 #endif
 }
 
@@ -160,8 +155,7 @@ static SEPARATE void note_lack(global const DeviceLayout* layout, const Footprin
     }
 }
 
-// Facets that hold all that they claimed have their cells to themselves. They take what they found if it is better
-// still.
+// Facets that hold all that they claimed have their cells to themselves; they take what they found if still better.
 __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long* light, __global const uint* order,
                    uint first, uint count, __global const float2* found, __global int* done,
                    __global const uint* claims, uint turn) {
@@ -177,12 +171,9 @@ __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long
   }
 #if NEPHROID_SMOOTHS
   __global const uint* facets = claims + cell_at(layout, layout->receivers, 0, 0);
-  const int column = (int)(index % (uint)layout->columns), row = (int)(index / (uint)layout->columns);
-  if (facets[index] != key || (column > 0 && facets[index - 1] != key) ||
-      (column + 1 < layout->columns && facets[index + 1] != key) ||
-      (row > 0 && facets[index - layout->columns] != key) ||
-      (row + 1 < layout->rows && facets[index + layout->columns] != key))
-    return;
+  if (facets[index] != key) return;
+  for (int side = 0; side < 4; ++side)
+    if (facets[neighbour(layout, index, side)] != key) return;
 #endif
   done[i] = 1;
   const Search s = search_of(layout, receivers, incoming, heights, slopes, lack, smoothing, index);

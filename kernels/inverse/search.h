@@ -31,24 +31,31 @@ typedef struct {
 } Search;
 
 #if NEPHROID_SMOOTHS
-static inline float neighbours_of(global const DeviceLayout* layout, int column, int row) {
-  return (float)((column > 0) + (column + 1 < layout->columns) + (row > 0) + (row + 1 < layout->rows));
+// The facet at a side, 0 .. 3; at the rim the facet itself.
+static inline uint neighbour(global const DeviceLayout* layout, uint index, int side) {
+  const int column = (int)(index % (uint)layout->columns) + (side == 0) - (side == 1),
+            row = (int)(index / (uint)layout->columns) + (side == 2) - (side == 3);
+  const bool is_facet = column >= 0 && row >= 0 && column < layout->columns && row < layout->rows;
+  return is_facet ? (uint)(row * layout->columns + column) : index;
+}
+
+static inline float neighbours_of(global const DeviceLayout* layout, uint index) {
+  float count = 0.0f;
+  for (int side = 0; side < 4; ++side) count += neighbour(layout, index, side) != index;
+  return count;
 }
 
 // The sum of Cost_N over all facets (app/inverse/assign/cost.h) falls by n . pull where a facet of normal n is put
-// among its neighbours. The pull sums their normals, times one part in the facet's neighbours and one in each
-// neighbour's own.
+// among its neighbours: their normals, times one part in the facet's neighbours and one in each neighbour's own.
 static inline float3 pull_on(global const DeviceLayout* layout, global const DeviceIncoming* incoming,
                              global const float* heights, global const float2* slopes, uint index) {
-  const int column = (int)(index % (uint)layout->columns), row = (int)(index / (uint)layout->columns);
-  const float own = neighbours_of(layout, column, row);
+  const float own = neighbours_of(layout, index);
   float3 sum = (float3)(0.0f);
   for (int side = 0; side < 4; ++side) {
-    const int c = column + (side == 0) - (side == 1), r = row + (side == 2) - (side == 3);
-    if (c < 0 || r < 0 || c >= layout->columns || r >= layout->rows) continue;
-    const uint other = (uint)(r * layout->columns + c);
+    const uint other = neighbour(layout, index, side);
+    if (other == index) continue;
     const Facet facet = facet_at(layout, incoming, heights, other);
-    sum += (1.0f / own + 1.0f / neighbours_of(layout, c, r)) * facet_normal(slopes[other], layout->n, facet.sines);
+    sum += (1.0f / own + 1.0f / neighbours_of(layout, other)) * facet_normal(slopes[other], layout->n, facet.sines);
   }
   return sum;
 }

@@ -3,7 +3,7 @@
 #include "base/files.h"
 #include "measure/run_files.h"
 #include "plan/plan.h"
-#include "report/comparison.h"
+#include "report/report.h"
 #include "tests/fuzz/harness.h"
 
 namespace nephroid::fuzz {

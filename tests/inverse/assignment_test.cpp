@@ -30,8 +30,7 @@ TEST(Assignment, NeverLosesAndSoonHasThePictures) {
   EXPECT_GT(begin, 0.3);
   EXPECT_LT(mean(a.costs()).cost, 0.15);
   // No facet's light was lost on the way: nobody moved in another's cells.
-  std::vector<std::vector<double>> light(2, std::vector<double>(layout.cell_count()));
-  light_all(layout, a.slopes(), a.heights(), light);
+  const std::vector<std::vector<double>> light = light_of_all(layout, a.slopes(), a.heights());
   for (std::size_t c = 0; c < light[0].size(); ++c) EXPECT_NEAR(a.light(0)[c], light[0][c], 1e-4);
 }
 

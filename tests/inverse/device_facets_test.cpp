@@ -2,8 +2,8 @@
 // Kernels of facets against the host, which has double precision: the light that facets send, and how the weighted
 // squares change with a slope.
 #include "inverse/assign/device_facets.h"
+#include "inverse/assign/cost.h"
 #include "inverse/assign/footprint.h"
-#include "inverse/assign/squares.h"
 #include "inverse/bending.h"
 #include "inverse/light.h"
 #include "tests/inverse/searches.h"
@@ -65,9 +65,7 @@ TEST_P(DeviceFacetsTest, SendTheirLightAsTheHostSays) {
   DeviceFacets facets(test::shared_context(), l, targets, picture_weights(l, targets));
   const std::vector<double> z = heights(l);
   facets.put(slopes(l), z);
-  std::vector<std::vector<double>> truth(2, std::vector<double>(l.cell_count()));
-  light_all(l, facets.slopes(), z, truth);
-  const std::vector<std::vector<double>> light = facets.light();
+  const std::vector<std::vector<double>> truth = light_of_all(l, facets.slopes(), z), light = facets.light();
   for (const std::size_t j : {0u, 1u}) {
     double apart = 0, all = 0;
     for (std::size_t c = 0; c < l.cell_count(); ++c) {
@@ -87,8 +85,7 @@ TEST_P(DeviceFacetsTest, KnowTheGradient) {
   DeviceFacets facets(test::shared_context(), l, targets, weights);
   facets.put(slopes(l), z);
   const std::vector<glm::dvec2> all = facets.slopes(), gradient = facets.gradient();
-  std::vector<std::vector<double>> light(2, std::vector<double>(l.cell_count()));
-  light_all(l, all, z, light);
+  const std::vector<std::vector<double>> light = light_of_all(l, all, z);
   double apart = 0, norm = 0;
   for (std::size_t i = 0; i < all.size(); i += 7)
     for (int axis = 0; axis < 2; ++axis) {

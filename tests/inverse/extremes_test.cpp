@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme objects, lights and receivers of engine 3. docs/notebook/extremes.md sums it up.
-#include "inverse/figures.h"
 #include "inverse/job.h"
+#include "inverse/report.h"
 #include "tests/support/extremes.h"
 
 #include <nlohmann/json.hpp>

@@ -66,8 +66,9 @@ TEST(Judge, LooksBetweenReceiversToo) {
   for (const std::size_t i : {0u, 1u}) {
     glm::dvec2 mean(0);
     for (std::size_t c = 0; c < 6400; ++c)
-      mean += judge.frame(i)[c] * glm::dvec2(static_cast<double>(c % 80) - 39.5, 39.5 - static_cast<double>(c / 80));
-    EXPECT_NEAR(glm::length(mean / total(judge.frame(i)) -
+      mean += judge.light(layout.distances.size() + i)[c] *
+              glm::dvec2(static_cast<double>(c % 80) - 39.5, 39.5 - static_cast<double>(c / 80));
+    EXPECT_NEAR(glm::length(mean / total(judge.light(layout.distances.size() + i)) -
                             (slope * layout.frames[i] -
                              glm::mix(layout.offset(0), layout.offset(1), layout.frames[i] / 100 - 1))),
                 0, 0.1);

@@ -2,6 +2,7 @@
 // A search that takes a moment: two receivers, a ring and a disc.
 #pragma once
 #include "inverse/assign/assignment.h"
+#include "inverse/assign/footprint.h"
 #include "inverse/pictures/target.h"
 #include "tests/support/render.h"
 #include "tests/support/test.h"
@@ -24,6 +25,15 @@ inline Spectrum band(double n, double width) {
 inline std::vector<Target> ring_and_disc(const Layout& layout) {
   return {make_target({.type = Picture::Type::ring}, layout, FileFinder(), "ring"),
           make_target({}, layout, FileFinder(), "disc")};
+}
+
+/// Adds the facet's light, `sign` times, to every receiver's.
+inline void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign,
+                      std::vector<std::vector<double>>& light, double height = 0) {
+  const double power = sign * facet_power(layout, facet, slope);
+  for (std::size_t j = 0; j < light.size(); ++j)
+    for_cells(layout, footprint(layout, facet, slope, j, height),
+              [&](std::size_t cell, double part) { light[j][cell] += power * part; });
 }
 
 inline void sweep(Assignment& a, int sweeps) {

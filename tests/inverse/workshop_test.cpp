@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a workshop gets: walls that lean, errors of making and what they do, the page to print.
-#include "inverse/facets/draft.h"
 #include "inverse/facets/files.h"
 #include "inverse/facets/plate.h"
 #include "inverse/facets/tool.h"

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/assign/assignment.h"
 
-#include "inverse/assign/cost.h"
 #include "inverse/assign/footprint.h"
-#include "inverse/assign/squares.h"
 #include "inverse/bending.h"
 #include "inverse/facets/heights.h"
-#include "inverse/facets/solid.h"
 #include "inverse/uniform.h"
 
 #include <algorithm>
 #include <numeric>
-#include <random>
-#include <utility>
 
 namespace nephroid::inverse {
+
 Assignment::Assignment(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
                        std::uint64_t seed)
     : given_(layout), layout_(layout), targets_(targets), seed_(seed), tones_(targets.size(), 1.0), wanted_(targets),
@@ -69,9 +65,8 @@ void Assignment::put(const std::vector<glm::dvec2>& slopes) {
   forget();
 }
 
-/// Free heights stand where walls are lowest for the slopes that facets have; their light falls from there. Facets in
-/// one plane see their neighbours as these are now, in whose shadows they lie. Each picture is as bright as the light
-/// lets it be that reaches its receiver.
+/// Free heights stand where walls are lowest, and light falls from there. Facets in one plane see their neighbours as
+/// these are now. Each picture is as bright as the light that reaches its receiver.
 void Assignment::settle() {
   if (layout_.free_heights || layout_.light.facets) {
     const std::vector<glm::dvec2> now = slopes();
@@ -83,7 +78,7 @@ void Assignment::settle() {
     facets_.set_incoming(layout_);
     put(now);
   }
-  constexpr double least_tone = 0.01; // of a picture that no light has found yet
+  constexpr double least_tone = 0.01; // for a picture that no light has found yet
   for (std::size_t j = 0; j < tones_.size(); ++j) {
     const std::vector<double>& light = all_light()[j];
     tones_[j] = std::max(least_tone,
@@ -92,8 +87,7 @@ void Assignment::settle() {
   aim();
 }
 
-/// What one facet's Cost_N, thesis (6.1), weighs in the sum: both costs are means, one over the facets, one over all
-/// cells.
+/// The weight of one facet's Cost_N in the sum: both costs are means, one over the facets, one over all cells.
 double Assignment::smoothing_weight() const {
   return layout_.smoothing * static_cast<double>(layout_.cell_count() * targets_.size()) /
          static_cast<double>(layout_.facet_count());

@@ -3,23 +3,18 @@
 #pragma once
 #include "inverse/assign/refinement.h"
 #include "inverse/method.h"
-#include "mpi/rank_context.h"
-
-#include <optional>
 
 namespace nephroid::inverse {
 
 /// Lowers weighted_squares(), and what smoothing adds to it (cost.h), on the device. A sweep goes through all facets in
-/// a random order, in batches. Every facet of a batch looks for its slope at once, in the light as it is before the
-/// batch. A facet takes what it found if that is better than what it had and if it shares no cell with a facet before
-/// it; the others try again. So no batch raises the sum while pictures keep their tones, and the number of threads
-/// changes no bit. When a sweep gains less than three hundredths of the sum, a last sweep moves all facets together:
-/// see Refinement. It knows no smoothing and is left out where there is some. Free heights, what facets see of their
-/// neighbours, and the pictures' tones follow the slopes after each sweep.
+/// a random order, in batches. All facets of a batch look for their slopes at once, in the light before the batch. Each
+/// takes what it found if that is better than what it had and if it shares no cell with a facet before it; the others
+/// try again. So no batch raises the sum while pictures keep their tones, and the number of threads changes no bit.
+/// When a sweep gains less than three hundredths of the sum, a last sweep moves all facets together (Refinement), which
+/// knows no smoothing. Free heights, what facets see of their neighbours, and pictures' tones follow after each sweep.
 class Assignment final : public Method {
 public:
-  /// The layout and the targets outlive it. Facets begin with random slopes. Throws failed where the device has not
-  /// enough memory.
+  /// The layout and the targets outlive it. Facets begin at random. Throws failed where the device lacks memory.
   Assignment(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
              std::uint64_t seed);
 
@@ -58,8 +53,7 @@ private:
   Layout layout_; ///< given_, but with facets that see their neighbours as they are
   const std::vector<Target>& targets_;
   std::uint64_t seed_;
-  std::vector<double>
-      tones_; ///< part of all light that reaches each picture's receiver, at least a hundredth; in the state
+  std::vector<double> tones_;  ///< part of all light on each picture's receiver, at least a hundredth; in the state
   std::vector<Target> wanted_; ///< the targets in their tones
   std::vector<double> weights_;
   std::vector<double> heights_; ///< z of the facets' middles; in the state

@@ -2,14 +2,13 @@
 #include "inverse/assign/conflicts.h"
 
 #include "base/parallel.h"
+#include "inverse/assign/cost.h"
 #include "inverse/assign/footprint.h"
-#include "inverse/assign/squares.h"
 #include "inverse/bending.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 namespace nephroid::inverse {
 
@@ -27,7 +26,6 @@ ConflictSearch::ConflictSearch(const Layout& layout, const std::vector<Target>& 
   weights_ = picture_weights(layout, wanted_);
 }
 
-/// Part of the facet's light.
 double ConflictSearch::misplaced(std::size_t facet, std::size_t receiver) const {
   double well = 0;
   for_cells(layout_, footprint(layout_, facet, slopes_[facet], receiver, heights_[facet]),
@@ -73,7 +71,7 @@ std::vector<glm::dvec2> ConflictSearch::best_places(std::size_t receiver) const 
                lamp = layout_.light.lamp
                           ? distance / (layout_.light.lamp->z - layout_.thickness + layout_.thickness / layout_.n)
                           : 0;
-  const auto parts = [&](int axis, int at) { // of a beam on the middle of a cell: the first cell, and the part on each
+  const auto parts = [&](int axis, int at) { // a beam on the middle of a cell: its first cell, and its part on each
     const double cell = layout_.cell()[axis], width = layout_.facet()[axis] * (1 + lamp) / cell,
                  blur = blur_width(layout_, distance) / cell;
     const Beam beam{at + 0.5, width, blur};

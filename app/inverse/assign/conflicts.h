@@ -5,13 +5,10 @@
 
 namespace nephroid::inverse {
 
-/// Light is misplaced in a picture where more falls than is wanted, and beside the receiver. Every facet in a cell has
-/// the same share of what is too much there.
+/// Light is misplaced where more falls than is wanted, evenly among a cell's facets, and beside the receiver.
 struct Conflicts {
-  std::vector<double> misplaced; ///< the part of all light that is misplaced in each picture: the error that it keeps,
-                                 ///< its floor
-  std::vector<std::vector<double>>
-      between; ///< [j][k]: part of all light that is misplaced in picture j for the sake of picture k
+  std::vector<double> misplaced; ///< the part of all light in each picture: its floor, the error that it keeps
+  std::vector<std::vector<double>> between; ///< [j][k]: the part that is misplaced in picture j for the sake of k
 };
 
 /// Finds misplaced light. `light` is that of facets with these slopes and heights, by their footprints.
@@ -24,9 +21,8 @@ public:
   /// The part of each facet's light that is misplaced, in the picture where that is largest.
   std::vector<double> facet_conflicts() const;
 
-  /// For picture j, each facet is moved where j gains most, as if j were alone. The facet's misplaced light in j is
-  /// then charged to the other pictures, by what they would lose by the move. Some facets stand for all: every one, up
-  /// to 32 a side.
+  /// For picture j, each facet is moved where j gains most, as if j were alone. Its misplaced light in j is then
+  /// charged to the other pictures, by what they would lose. Some facets stand for all: every one, up to 32 a side.
   Conflicts picture_conflicts() const;
 
 private:

@@ -10,7 +10,6 @@
 namespace nephroid::inverse {
 namespace {
 
-/// f(neighbour) for each neighbour of a facet.
 template <class F>
 void for_neighbours(const glm::ivec2& facets, std::size_t facet, const F& f) {
   const auto columns = static_cast<std::size_t>(facets.x), rows = static_cast<std::size_t>(facets.y);
@@ -62,6 +61,27 @@ Cost mean(std::span<const Cost> costs) {
   }
   const double count = static_cast<double>(costs.size());
   return {sum.cost / count, sum.cost_all / count, sum.rel_l2 / count, sum.missed / count};
+}
+
+std::vector<double> picture_weights(const Layout& layout, const std::vector<Target>& targets) {
+  std::vector<double> weights;
+  for (std::size_t j = 0; j < targets.size(); ++j) {
+    const double most =
+        *std::max_element(targets[j].begin(), targets[j].end()) * static_cast<double>(layout.facet_count());
+    weights.push_back((layout.weights ? (*layout.weights)[j] : 1) / (most * most));
+  }
+  return weights;
+}
+
+double weighted_squares(const std::vector<Target>& targets, std::span<const double> weights,
+                        const std::vector<std::vector<double>>& light, std::size_t facets) {
+  double sum = 0;
+  for (std::size_t j = 0; j < light.size(); ++j)
+    for (std::size_t c = 0; c < light[j].size(); ++c) {
+      const double over = light[j][c] - static_cast<double>(facets) * targets[j][c];
+      sum += weights[j] * over * over;
+    }
+  return sum;
 }
 
 glm::dvec3 normal_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope) {

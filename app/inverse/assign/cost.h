@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far light on a receiver is from the picture that is wanted, and how unlike each other facets are.
+// How far light is from the picture that is wanted, as runs report it and the search lowers it; how unlike facets are.
 #pragma once
 #include "inverse/layout.h"
-
-#include <span>
 
 namespace nephroid::inverse {
 
@@ -24,17 +22,22 @@ Cost cost_of(const Target& t, std::span<const double> z, double sent);
 std::vector<Cost> costs_of(const std::vector<Target>& targets, const std::vector<std::vector<double>>& light,
                            double sent);
 
-/// The mean of each figure.
 Cost mean(std::span<const Cost> costs);
 
-// Smoothing makes neighbouring facets alike, so that the object is easier to make: the thesis' (6.1), Cost_S = alpha_N
-// Cost_N + alpha_P Cost_P. A facet's Cost_N is 1 minus the mean of n . n' over its neighbours (four, but at the rim),
-// with unit normals n.
+/// The weights of the pictures' squares. They are the layout's, scaled so that pictures of one weight count alike: a
+/// cost is of light over its maximum, and a mean over the cells with light in them.
+std::vector<double> picture_weights(const Layout& layout, const std::vector<Target>& targets);
+
+/// What the search lowers: the sum of weight * (Z - T)^2 over receivers and cells, with as much wanted light as there
+/// are facets. `light` is [receiver][cell], in units of facets that send all of theirs.
+double weighted_squares(const std::vector<Target>& targets, std::span<const double> weights,
+                        const std::vector<std::vector<double>>& light, std::size_t facets);
 
 /// The facet's unit normal, out of the object.
 glm::dvec3 normal_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope);
 
-/// The mean of Cost_N over all facets.
+/// The mean of Cost_N over all facets: 1 minus the mean of n . n' over a facet's neighbours, with unit normals n. The
+/// thesis' (6.1), Cost_S = alpha_N Cost_N + alpha_P Cost_P, makes neighbours alike and the object easier to make.
 double roughness(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 
 } // namespace nephroid::inverse

@@ -5,7 +5,6 @@
 #include "inverse/bending.h"
 
 #include <algorithm>
-#include <span>
 
 namespace nephroid::inverse {
 static_assert(BEAMS == Beams::most && DISC_BEAMS == disc_beams);
@@ -24,7 +23,6 @@ Pair pair_of(const glm::dvec2& v) { return {static_cast<float>(v.x), static_cast
 
 std::vector<glm::dvec2> wide(const std::vector<Pair>& pairs) {
   std::vector<glm::dvec2> values;
-  values.reserve(pairs.size());
   for (const Pair& p : pairs) values.emplace_back(p[0], p[1]);
   return values;
 }
@@ -39,7 +37,7 @@ std::vector<shared::DeviceReceiver> receivers_of(const Layout& layout, std::span
   return receivers;
 }
 
-/// In facets.
+/// The wanted light, in facets.
 std::vector<float> wanted_of(const Layout& layout, const std::vector<Target>& targets) {
   std::vector<float> wanted;
   for (const Target& target : targets)
@@ -74,8 +72,7 @@ std::size_t batch_of(const Layout& l) {
   return std::clamp<std::size_t>(l.cell_count() / std::max<std::size_t>(128, 8 * touched), 1, most);
 }
 
-} // namespace
-
+/// The layout in the kernels' form.
 shared::DeviceLayout device_layout(const Layout& l) {
   const auto number = [](double value) { return static_cast<float>(value); };
   shared::DeviceLayout made{.size_x = number(l.size.x),
@@ -145,6 +142,8 @@ std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout) {
   return incoming;
 }
 
+} // namespace
+
 compute::Defines facet_defines(const Layout& layout) {
   return {{"NEPHROID_INCOMING", layout.light.facets ? "1" : "0"},
           {"NEPHROID_SPREAD", layout.blurs() ? "1" : "0"},
@@ -186,6 +185,8 @@ void DeviceFacets::aim(const Layout& layout, const std::vector<Target>& targets,
   find_lack();
 }
 
+void DeviceFacets::set_incoming(const Layout& layout) { incoming_.write(incoming_of(layout)); }
+
 void DeviceFacets::find_lack() {
   find_lack_.run(
       cells_, group,
@@ -198,13 +199,7 @@ void DeviceFacets::put(const std::vector<glm::dvec2>& slopes, const std::vector<
   slopes_.write(narrow);
   heights_.write(std::vector<float>(heights.begin(), heights.end()));
   light_.fill_zero();
-  add_light_.run(facets_, group,
-                 {{"layout", layout_},
-                  {"receivers", receivers_},
-                  {"incoming", incoming_},
-                  {"heights", heights_},
-                  {"slopes", slopes_},
-                  {"light", light_}});
+  add_light_.run(facets_, group, facet_arguments(), {{"light", light_}});
   find_lack();
 }
 
@@ -226,19 +221,34 @@ void DeviceFacets::begin_sweep(const std::vector<std::uint32_t>& order, std::int
   turn_ = all_turns; // the next one begins anew
 }
 
+std::vector<compute::Argument> DeviceFacets::facet_arguments() const {
+  return {{"layout", layout_},
+          {"receivers", receivers_},
+          {"incoming", incoming_},
+          {"heights", heights_},
+          {"slopes", slopes_}};
+}
+
+/// The batch outlives them.
+std::vector<compute::Argument> DeviceFacets::batch_arguments(const Batch& batch) const {
+  std::vector<compute::Argument> arguments = facet_arguments();
+  arguments.insert(arguments.end(), {{"lack", lack_},
+                                     {"smoothing", batch.smoothing},
+                                     {"order", order_},
+                                     {"first", batch.first},
+                                     {"count", batch.count}});
+  return arguments;
+}
+
 /// Each rank looks for some of the facets. Then all know of all.
-void DeviceFacets::find_better(std::size_t first, std::size_t count, double smoothing) {
+void DeviceFacets::find_better(const Batch& batch) {
   const Communicator& communicator = context_.communicator();
   const std::size_t ranks = static_cast<std::size_t>(communicator.size()),
-                    rank = static_cast<std::size_t>(communicator.rank());
+                    rank = static_cast<std::size_t>(communicator.rank()), count = batch.count;
   const std::size_t begin = count * rank / ranks, own = count * (rank + 1) / ranks - begin;
-  const auto first_facet = static_cast<std::uint32_t>(first + begin), facets = static_cast<std::uint32_t>(own);
-  const auto weight = static_cast<float>(smoothing);
-  const compute::Argument shared[] = {{"layout", layout_},   {"receivers", receivers_}, {"incoming", incoming_},
-                                      {"heights", heights_}, {"slopes", slopes_},       {"lack", lack_},
-                                      {"smoothing", weight}, {"order", order_},         {"first", first_facet},
-                                      {"count", facets}};
   if (own > 0) {
+    const Batch part{batch.first + static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(own), batch.smoothing};
+    const std::vector<compute::Argument> shared = batch_arguments(part);
     propose_.run(own, group, shared,
                  {{"smeared", smeared_}, {"seed", seed_}, {"sweep", sweep_}, {"candidates", candidates_}});
     improve_.run(own, group, shared,
@@ -250,16 +260,13 @@ void DeviceFacets::find_better(std::size_t first, std::size_t count, double smoo
 }
 
 void DeviceFacets::improve(std::size_t first, std::size_t count, double smoothing) {
-  const auto first_facet = static_cast<std::uint32_t>(first), facets = static_cast<std::uint32_t>(count);
-  const auto weight = static_cast<float>(smoothing);
-  const compute::Argument shared[] = {{"layout", layout_},   {"receivers", receivers_}, {"incoming", incoming_},
-                                      {"heights", heights_}, {"slopes", slopes_},       {"lack", lack_},
-                                      {"smoothing", weight}, {"order", order_},         {"first", first_facet},
-                                      {"count", facets}};
+  const Batch batch{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
+                    static_cast<float>(smoothing)};
+  const std::vector<compute::Argument> shared = batch_arguments(batch);
   smear_y_.run(rows_, 1, {{"layout", layout_}, {"receivers", receivers_}, {"lack", lack_}, {"along_y", along_y_}});
   smear_x_.run(rows_, 1,
                {{"layout", layout_}, {"receivers", receivers_}, {"along_y", along_y_}, {"smeared", smeared_}});
-  find_better(first, count, smoothing);
+  find_better(batch);
   for (int i = 0; i < turns; ++i, ++turn_) {
     if (turn_ >= all_turns) {
       claims_.write(std::vector<std::uint32_t>(claims_.size(), ~0u));
@@ -283,16 +290,8 @@ std::vector<glm::dvec2> DeviceFacets::gradient() {
   if (!communicator.is_alone()) gradient_.fill_zero();
   Partition(communicator, facets).for_own(0, facets, [&](std::int64_t begin, std::int64_t own) {
     const auto first = static_cast<std::uint32_t>(begin), count = static_cast<std::uint32_t>(own);
-    find_gradient_.run(count, group,
-                       {{"layout", layout_},
-                        {"receivers", receivers_},
-                        {"incoming", incoming_},
-                        {"heights", heights_},
-                        {"slopes", slopes_},
-                        {"lack", lack_},
-                        {"first", first},
-                        {"count", count},
-                        {"gradient", gradient_}});
+    find_gradient_.run(count, group, facet_arguments(),
+                       {{"lack", lack_}, {"first", first}, {"count", count}, {"gradient", gradient_}});
   });
   return wide(context_.all_reduced_or(gradient_));
 }

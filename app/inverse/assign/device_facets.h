@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The facets on the device: their slopes, the light that they send to the receivers, and which slopes would serve the
-// pictures better (kernels/inverse).
+// The facets on the device, their light, and which slopes would serve the pictures better (kernels/inverse).
 #pragma once
 #include "base/bytes.h"
-#include "compute/compute.h"
 #include "inverse/layout.h"
 #include "kernels/inverse/facet_types.h"
 #include "mpi/rank_context.h"
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 namespace nephroid::inverse {
-
-/// The layout in the kernels' form.
-shared::DeviceLayout device_layout(const Layout& layout);
-
-std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout);
 
 /// Defines that tell kernels what to leave out.
 compute::Defines facet_defines(const Layout& layout);
@@ -36,7 +24,7 @@ public:
   void aim(const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights);
 
   /// Takes on the light on the facets, and their neighbours as they are now.
-  void set_incoming(const Layout& layout) { incoming_.write(incoming_of(layout)); }
+  void set_incoming(const Layout& layout);
 
   /// Puts all facets' light on the receivers. `heights` are those of their middles.
   void put(const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights);
@@ -46,8 +34,7 @@ public:
 
   /// Sets a sweep's order and its number, from which its random numbers come.
   void begin_sweep(const std::vector<std::uint32_t>& order, std::int64_t sweep, std::uint64_t seed);
-  /// How many facets a batch has.
-  std::size_t batch() const { return batch_; }
+  std::size_t batch() const { return batch_; } ///< how many facets a batch has
   /// Facets first .. first + count - 1 of the order look for better slopes and take them. Each gains what it would gain
   /// alone. `smoothing` is the weight of a facet's Cost_N in the sum.
   void improve(std::size_t first, std::size_t count, double smoothing);
@@ -74,8 +61,15 @@ private:
   std::uint32_t sweep_ = 0, turn_ = 0;
   shared::uint2 seed_{};
 
+  /// Facets first .. first + count - 1 of the order, and what improve() is told.
+  struct Batch {
+    std::uint32_t first, count;
+    float smoothing;
+  };
+  std::vector<compute::Argument> facet_arguments() const;
+  std::vector<compute::Argument> batch_arguments(const Batch& batch) const;
   void find_lack();
-  void find_better(std::size_t first, std::size_t count, double smoothing);
+  void find_better(const Batch& batch);
 };
 
 } // namespace nephroid::inverse

@@ -16,8 +16,7 @@ namespace {
 
 double half_square(double t) { return t > 0 ? t * t / 2 : 0; }
 
-/// The cells of a row of so many that beams between two places can touch: the first one and the one behind the last.
-/// Far off no int would hold a cell.
+/// The first of a row of cells that beams between two places can touch, and the one behind the last, however far off.
 glm::ivec2 touched(double from, double to, int cells) {
   const double end = cells, first = std::clamp(std::floor(from), 0.0, end);
   return {static_cast<int>(first), static_cast<int>(std::clamp(std::ceil(to), first, end))};
@@ -34,14 +33,13 @@ double mean_above_0(double a, double b) {
   return std::abs(a) >= b / 2 ? std::max(a, 0.0) : (a + b / 2) * (a + b / 2) / (2 * b);
 }
 
-/// inside: the slope of the light in the object. g: the facet's gradient.
+/// `inside` is the slope of the light in the object, g the facet's gradient.
 LitPart lit_part(const Layout& layout, std::size_t facet, const glm::dvec2& inside, const glm::dvec2& slope,
                  const glm::dvec2& g) {
   const auto columns = static_cast<std::size_t>(layout.facets.x);
   const glm::ivec2 at(facet % columns, facet / columns);
   const glm::dvec2 size = layout.facet();
-  // In parts of the facet's width: what a neighbour hides of light with this slope, which comes from its side or goes
-  // there.
+  // What the neighbour at a side hides of light with this slope, in parts of the facet's width.
   const auto hidden = [&](const glm::dvec2& light, int axis, int side) {
     glm::ivec2 to = at;
     to[axis] += axis == 0 ? side : -side; // rows count downwards
@@ -82,7 +80,7 @@ void part_colours(const Layout& layout, const glm::dvec2& by_index, double longe
   blur.variance += groups.within * by_index * by_index;
 }
 
-/// Each beam becomes `points`. spread: a variance of 1 becomes that of the blur.
+/// Each beam becomes `points`; `spread` makes of a variance of 1 that of the blur.
 void part_disc(const glm::dmat2& spread, int points, Blur& blur) {
   const std::vector<glm::dvec2> disc = disc_points(points);
   for (int k = blur.count - 1; k >= 0; --k) {
@@ -98,7 +96,7 @@ void part_disc(const glm::dmat2& spread, int points, Blur& blur) {
   blur.variance += left_of_disc(points) * glm::dvec2(glm::dot(x, x), glm::dot(y, y));
 }
 
-/// fine: a cell as a slope.
+/// `fine` is a cell as a slope.
 Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, double fine) {
   Blur blur;
   if (!(layout.scatter > 0 || layout.sun_radius > 0 || layout.spectrum)) return blur;
@@ -112,7 +110,7 @@ Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, 
   if (layout.spectrum)
     part_colours(layout, change.by_index, piece_in_cells * fine, is_wide ? Beams::most / 4 : Beams::most, blur);
   if (is_wide) {
-    glm::dmat2 root(0); // of the covariance: root root^T
+    glm::dmat2 root(0); // root root^T is the covariance
     root[0][0] = std::sqrt(both[0][0]);
     root[0][1] = both[0][1] / root[0][0];
     root[1][1] = std::sqrt(std::max(0.0, both[1][1] - root[0][1] * root[0][1]));
@@ -122,11 +120,7 @@ Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, 
   return blur;
 }
 
-} // namespace
-
-namespace {
-
-/// The least and the most of all but the ends of the spectrum.
+/// The least and the greatest index, but for the ends of the spectrum.
 glm::dvec2 index_ends(const Layout& layout) {
   constexpr double beyond = 1e-3;
   glm::dvec2 ends(std::numeric_limits<double>::infinity(), 0);
@@ -268,24 +262,17 @@ double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& sl
          transmitted({0, 0}, n);
 }
 
-void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign,
-               std::vector<std::vector<double>>& light, double height) {
-  const double power = sign * facet_power(layout, facet, slope);
-  for (std::size_t j = 0; j < light.size(); ++j)
-    for_cells(layout, footprint(layout, facet, slope, j, height),
-              [&](std::size_t cell, double part) { light[j][cell] += power * part; });
-}
-
-void light_all(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights,
-               std::vector<std::vector<double>>& light) {
+std::vector<std::vector<double>> light_of_all(const Layout& layout, const std::vector<glm::dvec2>& slopes,
+                                              const std::vector<double>& heights) {
+  std::vector<std::vector<double>> light(layout.distances.size(), std::vector<double>(layout.cell_count()));
   for_blocks(light.size(), [&](std::size_t j) {
-    std::fill(light[j].begin(), light[j].end(), 0.0);
     for (std::size_t i = 0; i < slopes.size(); ++i) {
       const double power = facet_power(layout, i, slopes[i]);
       for_cells(layout, footprint(layout, i, slopes[i], j, heights[i]),
                 [&](std::size_t cell, double part) { light[j][cell] += power * part; });
     }
   });
+  return light;
 }
 
 double light_sent(const Layout& layout, const std::vector<glm::dvec2>& slopes) {

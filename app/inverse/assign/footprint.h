@@ -3,47 +3,42 @@
 #pragma once
 #include "inverse/layout.h"
 
-#include <array>
-
 namespace nephroid::inverse {
 
-/// A beam along one axis, in cells: a box of `width` that another box of `blur` smears; a trapezoid.
+/// A beam along one axis, in cells: a box `width` wide that another one smears, `blur` wide: a trapezoid of area 1.
 struct Beam {
   double middle = 0, width = 1, blur = 0;
 };
 
-/// The part of a beam before t.
+/// The part of a beam that is left of t.
 double part_before(const Beam& beam, double t);
 
-/// The width of a box that smears as the sun's disc and rough surfaces do behind a flat facet: it has their variance. A
-/// disc of radius r has r^2 / 4 along an axis, a box of width b has b^2 / 12. In millimetres on a receiver at this
-/// distance.
+/// The width in millimetres, on a receiver at this distance, of a box with the variance of the sun's disc and rough
+/// surfaces behind a flat facet. A disc of radius r has r^2 / 4 along an axis, a box of width b has b^2 / 12.
 double blur_width(const Layout& layout, double distance);
 
-/// A line of indices is cut until its pieces are this short, and a disc that is wider becomes points; in parts of a
-/// cell.
+/// In cells: how long the pieces of a spectrum's line of light may be; how wide a box with a disc's variance.
 inline constexpr double piece_in_cells = 0.25, wide_in_cells = 0.5;
 
-/// The largest index minus the least, without a thousandth of what counts at either end of the spectrum.
+/// The largest index minus the least, without the thousandth of what counts at either end of the spectrum.
 double index_spread(const Layout& layout);
 
-/// The line of indices in pieces of equal length. `over` is each piece's mean index minus layout.n, `parts` its part of
-/// what counts, `within` the variance that is left in the pieces. Light beyond an end is counted there.
+/// The spectrum's indices in `count` ranges of equal width. `over` is a range's mean index minus layout.n, `parts` its
+/// part of what counts, `within` the variance that is left in the ranges. Light beyond an end is counted there.
 struct IndexGroups {
   std::vector<double> over, parts;
   double within = 0;
 };
 IndexGroups index_groups(const Layout& layout, int count);
 
-/// Points on a circle that stand for a disc with a variance of 1 along each axis, disc_beams or 4 of them. Some of the
-/// variance is left for a box about each point. With such boxes 8 points are close to a disc also between the axes.
-/// Where its radius is 0.5 to 1.2 cells, 0.002 to 0.02 of the disc falls elsewhere; with a box alone it is 0.01 to 0.1.
+/// Points on a circle, disc_beams or 4, for a disc with a variance of 1 along each axis, left_of_disc of which is a box
+/// about each. Where the disc's radius is 0.5 to 1.2 cells, 8 put 0.002 to 0.02 of it elsewhere, one box 0.01 to 0.1.
 inline constexpr int disc_beams = 8;
 std::vector<glm::dvec2> disc_points(int count);
 constexpr double left_of_disc(int points) { return points == disc_beams ? 0.22 : 0.27; }
 
-/// A facet's light on its way to a receiver, in cells: beams that are alike, each with its shift from the middle and
-/// its part of the light. A beam is a product: what lands in a cell is the part along x times the part along y.
+/// A facet's light on a receiver, in cells: `count` beams of one shape, each with its shift from x.middle and y.middle
+/// and its part of the light. A cell gets a beam's part along x times its part along y.
 struct Beams {
   static constexpr int most = 16;
   Beam x, y;
@@ -52,18 +47,16 @@ struct Beams {
   std::array<double, most> parts{1};
 };
 
-/// The beams of a facet with this slope. The light of a facet with gradient g starts at z = g . p and hits a plane at
-/// (1 + slope g^T) p from its middle: a parallelogram, smaller along the slope than the facet. A lamp's light has
-/// another slope at each p. The shadow along x and along y is exact; how both depend on each other off the axes is not
-/// kept. A spectrum is a line along the change of the slope with the index; it has as many beams as make the rest of
-/// each short beside a cell. The sun's disc and roughness, where they are wide beside a cell, are 8 beams, or 4 where
-/// the light has a spectrum. What is left of a blur is a box along each axis with its variance. `height` is z of the
-/// facet's middle: light goes further from there.
+/// The beams of a facet that sends light with this slope; `height` is z of its middle. From the point p of a facet with
+/// gradient g, light starts at z = g . p and meets a plane at (1 + slope g^T) p from where the middle's does: a
+/// parallelogram. Its projections on x and y are exact; how they depend on each other is not kept. A lamp's light has
+/// another slope at each p. A spectrum is a line along the change of the slope with the index: as many beams as make
+/// its pieces short, 16 at most. The sun's disc and roughness, where they are wide, are 8 beams, or 4 for each of up to
+/// 4 pieces of a spectrum. What is left of a blur is a box along each axis with its variance.
 Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver,
                double height = 0);
 
-/// A facet's light in cells of a receiver: column x0 + i, row y0 + k get cells[k * columns + i]. Cells beside the
-/// receiver are left out.
+/// A facet's light in a receiver's cells: column x0 + i, row y0 + k get cells[k * columns + i] of it.
 struct Footprint {
   int x0 = 0, y0 = 0, columns = 0, rows = 0;
   std::vector<double> cells;
@@ -72,15 +65,14 @@ Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& s
                     double height = 0);
 
 /// How much light a facet sends, over what the mean facet would send lying flat. A facet of gradient g meets 1 + t . g
-/// of light with slope t. Its edge towards the light is g / 2 below its middle, in parts of its width; a neighbour of
-/// gradient h ends h / 2 above its own middle. So t (g + h) / 2 / (1 + t . g) of the facet lies in the neighbour's
-/// shadow, along x and along y. This grows or falls towards the ends of the edge, as g and h differ along it. In the
-/// same way a wall stops light that leaves with slope s within s (g + h) / 2 / (1 + s . g) of the other edge. The
-/// footprint is of what is left. h is what the layout says of the neighbour (Incoming::around). Neighbours do not count
-/// for light straight on, nor for facets of free heights, whose edges nearly meet.
+/// of light with slope t. Along each axis its edge towards the light is g / 2 below its middle, in parts of its width,
+/// and a neighbour of gradient h (Incoming::around) ends h / 2 above its own: so t (g + h) / 2 / (1 + t . g) of the
+/// facet lies in shadow, more or less of it along the edge, as g and h differ there. In the same way a wall stops light
+/// that leaves with slope s within s (g + h) / 2 / (1 + s . g) of the other edge. Neighbours do not count for light
+/// straight on, nor for facets of free heights, whose edges nearly meet.
 double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& slope);
 
-/// Calls f(cell, part of the facet's light) for every cell of the receiver that gets some.
+/// Calls f(cell, part of the facet's light) for every cell of a footprint.
 template <class F>
 void for_cells(const Layout& layout, const Footprint& print, const F& f) {
   for (int k = 0; k < print.rows; ++k)
@@ -88,16 +80,11 @@ void for_cells(const Layout& layout, const Footprint& print, const F& f) {
       f(index_at(print.x0 + i, print.y0 + k, layout.cells.x), print.cells[index_at(i, k, print.columns)]);
 }
 
-/// Adds the facet's light, `sign` times, to every receiver's: [receiver][cell], in units of facets that send all of
-/// theirs.
-void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign,
-               std::vector<std::vector<double>>& light, double height = 0);
+/// The light of all facets with these slopes and heights: [receiver][cell], in units of facets that send all of theirs.
+std::vector<std::vector<double>> light_of_all(const Layout& layout, const std::vector<glm::dvec2>& slopes,
+                                              const std::vector<double>& heights);
 
-/// The light of all facets on every receiver. `heights` are those of their middles.
-void light_all(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights,
-               std::vector<std::vector<double>>& light);
-
-/// The light that all facets send, wherever it goes.
+/// The light that all facets send, wherever it goes, in the unit of facet_power().
 double light_sent(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 
 } // namespace nephroid::inverse

@@ -2,25 +2,22 @@
 #include "inverse/assign/refinement.h"
 
 #include "base/parallel.h"
-#include "inverse/assign/squares.h"
+#include "inverse/assign/cost.h"
 #include "inverse/bending.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace nephroid::inverse {
 namespace {
 
-/// Steps. Sixty take as long as a sweep or two and gain two to fifteen hundredths of rel_l2, more where pictures are
-/// fine.
-constexpr std::size_t most_steps = 60;
 /// Lengths tried along a line.
 constexpr int most_tries = 6;
 /// The first step moves facets by so many cells of the last receiver, as a root mean square.
 constexpr double first_step = 0.05;
 /// A line's step is good where the sum falls by this part of what the gradient promises.
 constexpr double promise = 0.1;
+
 double dot(const std::vector<glm::dvec2>& a, const std::vector<glm::dvec2>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += glm::dot(a[i], b[i]);
@@ -33,10 +30,6 @@ Refinement::Refinement(const Layout& layout, const std::vector<Target>& targets,
                        const std::vector<double>& heights)
     : layout_(layout), targets_(targets), weights_(std::move(weights)), heights_(heights),
       gradient_(layout.facet_count()), before_(layout.facet_count()), direction_(layout.facet_count()) {}
-
-bool Refinement::finished() const { return stuck_ || done_ >= most_steps; }
-
-double Refinement::fraction_done() const { return static_cast<double>(done_) / static_cast<double>(most_steps); }
 
 /// The new direction, and how the sum changes along it.
 double Refinement::turn() {
@@ -68,8 +61,8 @@ void Refinement::advance(DeviceFacets& facets) {
     facets.put(moved, heights_);
     // The parabola through both sums with the slope at the first: its lowest point is the next length.
     const double to = weighted_squares(targets_, weights_, facets.light(), slopes.size()),
-                 bend = (to - from - step_ * change) / (step_ * step_);
-    const double lowest = bend > 0 ? -change / (2 * bend) : 4 * step_;
+                 bend = (to - from - step_ * change) / (step_ * step_),
+                 lowest = bend > 0 ? -change / (2 * bend) : 4 * step_;
     if (to < from + promise * step_ * change) {
       step_ = std::clamp(lowest, step_ / 4, 4 * step_);
       return;

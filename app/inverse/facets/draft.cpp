@@ -1,32 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/facets/draft.h"
-
-#include "inverse/bending.h"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
+// Walls that lean, so that the solid can be milled and leaves a mould.
+#include "inverse/facets/solid.h"
 
 namespace nephroid::inverse {
 namespace {
 
-/// Where no wall is, the strip is still so wide a part of a facet: triangles of no area are refused by readers of
-/// meshes.
+/// Where no wall is, the strip is still so wide a part of a facet: readers of meshes refuse triangles of no area.
 constexpr double least_given = 1e-3;
+/// The widest strip, in parts of a facet.
+constexpr double most_given = 0.4;
 /// Strips are widened so often until their walls lean enough.
 constexpr int most_widenings = 20;
 
-/// Of a facet, as they are seen from +z.
+/// A facet's corners as they are seen from +z.
 enum Corner : std::size_t { left_top, right_top, right_bottom, left_bottom };
 
 class DraftBuilder {
 public:
-  DraftBuilder(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights)
-      : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y), beside_(count(nx_ + 1, ny_)),
-        below_(count(nx_, ny_ + 1)) {
-    for (std::size_t i = 0; i < slopes.size(); ++i)
-      solid_.facets.push_back({slopes[i], facet_gradient(slopes[i], layout.n, layout.sines_on(i)), heights[i]});
+  DraftBuilder(const Layout& layout, Solid solid)
+      : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y), beside_(index_at(0, ny_, nx_ + 1)),
+        below_(index_at(0, ny_ + 1, nx_)), solid_(std::move(solid)) {
     for (int b = 0; b < ny_; ++b)
       for (int a = 1; a < nx_; ++a) beside(a, b) = least_given * layout.facet().x;
     for (int b = 1; b < ny_; ++b)
@@ -39,17 +32,13 @@ public:
     place_corners();
     for (int b = 0; b < ny_; ++b)
       for (int a = 0; a < nx_; ++a) facet(a, b);
-    for_walls([&](const std::array<glm::uint, 3>& ids, auto) { triangle(ids, Part::wall); });
+    for_walls([&](const std::array<glm::uint, 3>& t, auto) { solid_.add(t[0], t[1], t[2], Part::wall); });
     close();
     measure();
     return std::move(solid_);
   }
 
 private:
-  static std::size_t count(int columns, int rows) {
-    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  }
-
   /// What each side of an edge gives up: of the edge at the left of facet (a, b), and of that above it. 0 on the rim.
   double& beside(int a, int b) { return beside_[index_at(a, b, nx_ + 1)]; }
   double& below(int a, int b) { return below_[index_at(a, b, nx_)]; }
@@ -72,14 +61,13 @@ private:
       for (int a = 1; a < nx_; ++a) {
         double z = 0;
         for (const glm::uint id : around(a, b)) z += places_[id].z / 4;
-        add({a * layout_.facet().x - layout_.size.x / 2, layout_.size.y / 2 - b * layout_.facet().y, z});
+        add({layout_.corner(a, b), z});
       }
   }
 
   glm::uint add(const glm::dvec3& place) {
     places_.push_back(place);
-    solid_.mesh.positions.emplace_back(place);
-    return static_cast<glm::uint>(places_.size() - 1);
+    return solid_.add(place);
   }
 
   glm::uint corner(int a, int b, Corner k) const { return static_cast<glm::uint>(4 * index_at(a, b, nx_) + k); }
@@ -90,8 +78,7 @@ private:
             corner(a - 1, b, right_top)};
   }
 
-  /// f(the ids of a triangle, what the edges give that it stands between) for all triangles of the walls, clockwise
-  /// seen from above.
+  /// f(a triangle, what the edges give that it stands between) for all triangles of the walls, clockwise from above.
   template <class F>
   void for_walls(const F& f) {
     const auto strip = [&](glm::uint p, glm::uint q, glm::uint r, glm::uint s, double* given) {
@@ -142,14 +129,9 @@ private:
     return changed;
   }
 
-  void triangle(const std::array<glm::uint, 3>& t, Part part) {
-    solid_.mesh.triangles.emplace_back(t[0], t[1], t[2]);
-    solid_.parts.push_back(part);
-  }
-
   void facet(int a, int b) {
-    triangle({corner(a, b, left_top), corner(a, b, right_top), corner(a, b, right_bottom)}, Part::facet);
-    triangle({corner(a, b, left_top), corner(a, b, right_bottom), corner(a, b, left_bottom)}, Part::facet);
+    solid_.add(corner(a, b, left_top), corner(a, b, right_top), corner(a, b, right_bottom), Part::facet);
+    solid_.add(corner(a, b, left_top), corner(a, b, right_bottom), corner(a, b, left_bottom), Part::facet);
   }
 
   /// Sides up from the rim, and the front, a fan about its middle.
@@ -170,28 +152,17 @@ private:
     for (std::size_t i = 0; i < rim.size(); ++i) {
       const std::size_t next = (i + 1) % rim.size();
       const glm::uint up = first + static_cast<glm::uint>(i), next_up = first + static_cast<glm::uint>(next);
-      triangle({rim[i], rim[next], next_up}, Part::side);
-      triangle({rim[i], next_up, up}, Part::side);
-      triangle({middle, up, next_up}, Part::front);
+      solid_.add(rim[i], rim[next], next_up, Part::side);
+      solid_.add(rim[i], next_up, up, Part::side);
+      solid_.add(middle, up, next_up, Part::front);
     }
   }
 
   void measure() {
-    solid_.lowest = std::numeric_limits<double>::infinity();
-    solid_.highest = -solid_.lowest;
-    for (std::size_t i = 0; i < 4 * solid_.facets.size(); ++i) {
-      solid_.lowest = std::min(solid_.lowest, places_[i].z);
-      solid_.highest = std::max(solid_.highest, places_[i].z);
-    }
-    for (const Facet& f : solid_.facets)
-      solid_.steepest_deg = std::max(solid_.steepest_deg, glm::degrees(std::atan(glm::length(f.gradient))));
+    for (std::size_t i = 0; i < 4 * solid_.facets.size(); ++i) solid_.reach(places_[i].z);
     solid_.steepest_wall_deg = 0;
     for_walls([&](const std::array<glm::uint, 3>& t, auto) {
-      double low = places_[t[0]].z, high = low;
-      for (const glm::uint id : t) {
-        low = std::min(low, places_[id].z);
-        high = std::max(high, places_[id].z);
-      }
+      const auto [low, high] = std::minmax({places_[t[0]].z, places_[t[1]].z, places_[t[2]].z});
       solid_.highest_wall = std::max(solid_.highest_wall, high - low);
       solid_.wall_area += glm::length(glm::cross(places_[t[1]] - places_[t[0]], places_[t[2]] - places_[t[0]])) / 2;
       solid_.steepest_wall_deg =
@@ -202,15 +173,12 @@ private:
   const Layout& layout_;
   int nx_, ny_;
   std::vector<double> beside_, below_;
-  std::vector<glm::dvec3> places_; ///< of the vertices, in double precision
+  std::vector<glm::dvec3> places_; ///< the vertices in double precision
   Solid solid_;
 };
 
 } // namespace
 
-Solid make_drafted_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes,
-                         const std::vector<double>& heights) {
-  return DraftBuilder(layout, slopes, heights).build();
-}
+Solid with_leaning_walls(const Layout& layout, Solid solid) { return DraftBuilder(layout, std::move(solid)).build(); }
 
 } // namespace nephroid::inverse

@@ -7,12 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 #include <limits>
-#include <span>
-#include <string_view>
-#include <vector>
 
 namespace nephroid::inverse {
 namespace {
@@ -28,7 +24,6 @@ std::string scale_of(const Layout& layout) {
                      layout.round ? "; 0 beside the object" : "");
 }
 
-/// What one step of the 16-bit map is.
 double step_mm(const Solid& solid) { return solid.relief() / std::numeric_limits<std::uint16_t>::max(); }
 
 std::string png_scale(const Layout& layout, const Solid& solid) {
@@ -54,10 +49,10 @@ std::string reach_of(const Layout& layout, const Solid& solid, double radius) {
 }
 
 std::string layers_of(const Solid& solid, double layer) {
-  return fmt::format("{:.0f} in the relief. A layer's top is flat and bends no light: polish or coat the steps away, "
-                     "or print with the front "
-                     "upright",
-                     std::ceil(solid.relief() / layer));
+  return fmt::format(
+      "{:.0f} in the relief. A layer's top is flat and bends no light: polish or coat the steps away, or "
+      "print with the front upright",
+      std::ceil(solid.relief() / layer));
 }
 
 } // namespace
@@ -68,8 +63,7 @@ void write_obj(const scene::Mesh& mesh, ByteSink& to) {
   for (const glm::uvec3& t : mesh.triangles) write_text(fmt::format("f {} {} {}\n", t.x + 1, t.y + 1, t.z + 1), to);
 }
 
-/// 80 bytes of title, the number of triangles, then for each its normal, its corners and two empty bytes;
-/// little-endian.
+// 80 bytes of title, the number of triangles, then for each its normal, its corners and two empty bytes; little-endian.
 void write_stl(const scene::Mesh& mesh, ByteSink& to) {
   std::string title = mesh_title;
   title.resize(80, ' ');

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The solid as files: meshes in millimetres, and what a workshop needs beside them: the object's figures, its facets as
-// a list, and a height map of their side.
+// The solid as files: meshes in millimetres, and for a workshop the figures, the facets as a list and a height map.
 #pragma once
-#include "base/bytes.h"
 #include "image/image.h"
 #include "inverse/facets/solid.h"
-#include "inverse/layout.h"
-#include "scene/mesh.h"
 
 namespace nephroid::inverse {
 
@@ -27,12 +23,10 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
 /// JSON: the grid's size, what a facet's numbers are, and a line of them for each facet, row by row from the top.
 void write_facets(const Layout& layout, const Solid& solid, ByteSink& to);
 
-/// The object's thickness in millimetres over its flat front, seen from the facets' side: +x is at the left, +y at the
-/// top. Pixels divide all facets alike, some 1024 across the object and at least 4 across a facet. They may be oblong,
-/// as facets are.
+/// The object's thickness in millimetres, seen from the facets' side: +x is at the left, +y at the top. Pixels divide
+/// all facets alike, some 1024 across the object and at least 4 across a facet. They may be oblong, as facets are.
 image::Image height_map(const Layout& layout, const Solid& solid);
 void write_height_exr(const Layout& layout, const Solid& solid, ByteSink& to); ///< 32 bits
-void write_height_png(const Layout& layout, const Solid& solid,
-                      ByteSink& to); ///< 16 bits, of the relief: 0 is its deepest point
+void write_height_png(const Layout& layout, const Solid& solid, ByteSink& to); ///< 16 bits; 0: the deepest point
 
 } // namespace nephroid::inverse

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace nephroid::inverse {
 namespace {
@@ -19,9 +18,8 @@ using FacetGrid = Eigen::MatrixXd; // (column, row): columns of facets vary fast
 struct Steps {
   Eigen::Index across, down;
   glm::dvec2 facet;
-  FacetGrid rise_x,
-      rise_y; ///< how much a facet's neighbour at +x, or below, must be higher for their edges to meet in the middle
-  FacetGrid reach; ///< from a facet's middle to its highest corner
+  FacetGrid rise_x, rise_y; ///< how much higher the neighbour at +x, or below, is where the edges' middles meet
+  FacetGrid reach;          ///< from a facet's middle to its highest corner
 };
 
 Steps steps_of(const Layout& layout, std::span<const glm::dvec2> gradients) {
@@ -37,7 +35,7 @@ Steps steps_of(const Layout& layout, std::span<const glm::dvec2> gradients) {
   return s;
 }
 
-/// Without bounds. An edge weighs as much as it is long.
+/// Heights without bounds. An edge weighs as much as it is long.
 FacetGrid free_heights(const Steps& s) {
   FacetGrid right = FacetGrid::Zero(s.across, s.down);
   for (Eigen::Index y = 0; y < s.down; ++y)
@@ -70,7 +68,7 @@ double between_neighbours(const Steps& s, const FacetGrid& h, Eigen::Index x, Ei
 
 void relax(const Steps& s, double band, FacetGrid& h) {
   constexpr int most_rounds = 1000;
-  constexpr double still = 1e-4; // of a facet's side
+  constexpr double still = 1e-4; // in parts of a facet's side
   const double over = 2 / (1 + glm::pi<double>() / static_cast<double>(std::max({s.across, s.down, Eigen::Index{4}})));
   for (int round = 0; round < most_rounds; ++round) {
     double most = 0;

@@ -3,16 +3,12 @@
 #pragma once
 #include "inverse/layout.h"
 
-#include <span>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// z of the facets' middles for which the walls between them are lowest: the least sum over shared edges of the
-/// integral of the squared step. Without a band that is Poisson's equation on the grid of facets, which a cosine
-/// transform solves; the middle of the relief is at z = 0. With layout.band no corner is further than that from z = 0:
-/// the same least squares under these bounds, by projected successive overrelaxation from the clamped solution on
-/// (Cryer 1971). Each facet has its gradient in `gradients` and must fit into the band by itself.
+/// integral of the squared step. Without a band that is Poisson's equation on the grid of facets; the middle of the
+/// relief is at z = 0. With layout.band no corner is further than that from z = 0: the same least squares under these
+/// bounds, by projected successive overrelaxation (Cryer 1971). Each facet must fit into the band by itself.
 std::vector<double> least_steps(const Layout& layout, std::span<const glm::dvec2> gradients);
 
 /// Heights as the layout says: free, or all of them 0.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/facets/outline.h"
+// A round lens: its relief cut along an ellipse, and the side and the front that close it.
+#include "inverse/facets/smooth_solid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ constexpr double moves = 0.2;
 class Cutter {
 public:
   Cutter(const Layout& layout, const Surface& surface, Solid& solid)
-      : surface_(surface), half_(layout.size / 2.0), front_(layout.thickness), mesh_(solid.mesh), parts_(solid.parts) {}
+      : surface_(surface), half_(layout.size / 2.0), front_(layout.thickness), solid_(solid), mesh_(solid.mesh) {}
 
   void cut() {
     find_sides();
@@ -26,17 +27,12 @@ public:
     whole.swap(mesh_.triangles);
     for (const glm::uvec3& t : whole) cut_triangle(t);
     drop_unused();
-    parts_.assign(mesh_.triangles.size(), Part::facet);
+    solid_.parts.assign(mesh_.triangles.size(), Part::facet);
     close(rim());
   }
 
 private:
   glm::dvec2 at(std::uint32_t id) const { return glm::dvec2(mesh_.positions[id].x, mesh_.positions[id].y); }
-
-  std::uint32_t add(const glm::dvec2& p, double z) {
-    mesh_.positions.emplace_back(glm::dvec3(p, z));
-    return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
-  }
 
   void find_sides() {
     std::vector<double> shortest(mesh_.positions.size(), std::numeric_limits<double>::infinity());
@@ -60,14 +56,13 @@ private:
     }
   }
 
-  /// Where an edge passes the ellipse.
   std::uint32_t crossing(std::uint32_t within, std::uint32_t beside) {
     const auto [known, is_new] = crossings_.try_emplace(std::uint64_t{within} << 32 | beside, 0);
     if (!is_new) return known->second;
     const glm::dvec2 from = at(within) / half_, way = at(beside) / half_ - from; // |from + t way| = 1
     const double a = glm::dot(way, way), b = glm::dot(from, way), c = glm::dot(from, from) - 1;
     const glm::dvec2 p = (from + way * ((std::sqrt(b * b - a * c) - b) / a)) * half_;
-    return known->second = add(p, surface_.at(p).z);
+    return known->second = solid_.add({p, surface_.at(p).z});
   }
 
   void cut_triangle(const glm::uvec3& t) {
@@ -116,18 +111,13 @@ private:
     return ring;
   }
 
-  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, Part part) {
-    mesh_.triangles.emplace_back(a, b, c);
-    parts_.push_back(part);
-  }
-
   void close(const std::vector<std::uint32_t>& ring) {
     std::vector<std::uint32_t> above;
-    for (const std::uint32_t id : ring) above.push_back(add(at(id), front_));
+    for (const std::uint32_t id : ring) above.push_back(solid_.add({at(id), front_}));
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const std::size_t k = (i + 1) % ring.size();
-      triangle(ring[k], ring[i], above[i], Part::side);
-      triangle(ring[k], above[i], above[k], Part::side);
+      solid_.add(ring[k], ring[i], above[i], Part::side);
+      solid_.add(ring[k], above[i], above[k], Part::side);
     }
     make_front(above);
   }
@@ -135,8 +125,8 @@ private:
   /// Strips along y between the upper and the lower half, so that rays find their triangle soon.
   void make_front(std::vector<std::uint32_t> ring) {
     const auto x_of = [&](std::uint32_t id) { return mesh_.positions[id].x; };
-    std::rotate(ring.begin(), std::ranges::min_element(ring, {}, x_of),
-                ring.end()); // clockwise from the left: the upper half first
+    // Clockwise from the left: the upper half first.
+    std::rotate(ring.begin(), std::ranges::min_element(ring, {}, x_of), ring.end());
     const auto right = std::ranges::max_element(ring, {}, x_of);
     const std::vector<std::uint32_t> upper(ring.begin(), right + 1);
     std::vector<std::uint32_t> lower(ring.rbegin(), std::make_reverse_iterator(right));
@@ -146,7 +136,8 @@ private:
       const bool along_lower =
           k + 1 == upper.size() || (i + 1 < lower.size() && x_of(lower[i + 1]) < x_of(upper[k + 1]));
       const std::uint32_t next = along_lower ? lower[i + 1] : upper[k + 1];
-      if (lower[i] != upper[k] && next != lower[i] && next != upper[k]) triangle(lower[i], next, upper[k], Part::front);
+      if (lower[i] != upper[k] && next != lower[i] && next != upper[k])
+        solid_.add(lower[i], next, upper[k], Part::front);
       ++(along_lower ? i : k);
     }
   }
@@ -154,10 +145,10 @@ private:
   const Surface& surface_;
   glm::dvec2 half_;
   double front_;
-  scene::Mesh& mesh_;
-  std::vector<Part>& parts_;
+  Solid& solid_;
+  scene::Mesh& mesh_; ///< the solid's
   std::vector<Side> sides_;
-  std::unordered_map<std::uint64_t, std::uint32_t> crossings_; ///< of a corner within and one beside
+  std::unordered_map<std::uint64_t, std::uint32_t> crossings_; ///< between a corner within and one beside
 };
 
 } // namespace

@@ -8,7 +8,7 @@
 namespace nephroid::inverse {
 
 std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, std::vector<PlatePart>& bodies) {
-  constexpr double slack = 1e-6; // of sums that are rounded
+  constexpr double slack = 1e-6; // sums are rounded
   std::vector<std::size_t> order(bodies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),

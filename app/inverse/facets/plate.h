@@ -5,11 +5,6 @@
 
 #include <glm/glm.hpp>
 
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// A rectangle on a plate, in millimetres from the plate's middle; y is up.
@@ -18,13 +13,12 @@ struct PlatePart {
   glm::dvec2 size{0}, middle{0};
 };
 
-/// Puts rectangles on shelves, the highest first, from the plate's upper edge down (next-fit decreasing height:
-/// Coffman, Garey, Johnson and Tarjan 1980). `gap` is left between them and at the plate's rim. Nothing is turned.
-/// Returns the index of the first that found no place, if any.
+/// Puts rectangles, which are not turned, on shelves, the highest first, from the plate's upper edge down (next-fit
+/// decreasing height: Coffman et al. 1980), with `gap` between them and at the rim. Returns the first that found no
+/// place.
 std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, std::vector<PlatePart>& bodies);
 
-/// Joins all bodies in one mesh: each is moved to its place, with its front (its highest z) at z = 0, and stays as
-/// closed as it is.
+/// Joins all bodies in one mesh: each is moved to its place, with its front (its highest z) at z = 0.
 scene::Mesh plate_mesh(const std::vector<scene::Mesh>& meshes, const std::vector<PlatePart>& places);
 
 } // namespace nephroid::inverse

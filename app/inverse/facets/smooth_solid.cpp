@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/facets/smooth_solid.h"
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "inverse/bending.h"
-#include "inverse/facets/outline.h"
 #include "inverse/light.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -26,8 +23,7 @@ double largest_stretch(const glm::dmat2& m) {
   return std::abs(half) + off;
 }
 
-/// Numbers of the vertices, and the mesh that they make. Edges of facets have vertices of their own, as many as the
-/// finer of both sides.
+/// Edges of facets have vertices of their own, as many as the finer of both sides.
 class SmoothBuilder {
 public:
   SmoothBuilder(const Layout& layout, const Surface& surface, const std::vector<int>& parts)
@@ -74,9 +70,8 @@ private:
 
   /// x and y in facets from the top left corner.
   std::uint32_t add(double x, double y) {
-    const glm::dvec2 p(x * grid_.facet().x - layout_.size.x / 2, layout_.size.y / 2 - y * grid_.facet().y);
-    solid_.mesh.positions.emplace_back(glm::dvec3(p, surface_.at(p).z));
-    return static_cast<std::uint32_t>(solid_.mesh.positions.size() - 1);
+    const glm::dvec2 p = grid_.corner(x, y);
+    return solid_.add({p, surface_.at(p).z});
   }
 
   void number_edges() {
@@ -101,11 +96,6 @@ private:
   std::uint32_t on_down(int a, int b, int i) const {
     if (i == 0 || i == down(a, b)) return corners_[index_at(a, b + (i > 0), nx_ + 1)];
     return down_[index_at(a, b, nx_ + 1)] + static_cast<std::uint32_t>(i - 1);
-  }
-
-  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, Part part) {
-    solid_.mesh.triangles.emplace_back(a, b, c);
-    solid_.parts.push_back(part);
   }
 
   void make_facets() {
@@ -140,20 +130,15 @@ private:
             for (int i = left / k - 1; u == 0 && i > 0; --i) ring.push_back(on_down(column, row, v * (left / k) + i));
             const std::uint32_t middle = add(column + (u + 0.5) / k, row + (v + 0.5) / k);
             for (std::size_t i = 0; i < ring.size(); ++i)
-              triangle(middle, ring[i], ring[(i + 1) % ring.size()], Part::facet);
+              solid_.add(middle, ring[i], ring[(i + 1) % ring.size()], Part::facet);
           }
       }
   }
 
-  /// Of a rectangle: the sides, down from the front's rim, and the front: strips along y, one a column, so that rays
-  /// find their triangle soon.
+  /// A rectangle's sides and front. The front is strips along y, one a column, so that rays find their triangle soon.
   void make_rim() {
-    const auto front = [&](int a, int b) {
-      solid_.mesh.positions.emplace_back(a * grid_.facet().x - layout_.size.x / 2,
-                                         layout_.size.y / 2 - b * grid_.facet().y, layout_.thickness);
-      return static_cast<std::uint32_t>(solid_.mesh.positions.size() - 1);
-    };
-    std::vector<std::uint32_t> upper, lower, left, right; // of the front
+    const auto front = [&](int a, int b) { return solid_.add({grid_.corner(a, b), layout_.thickness}); };
+    std::vector<std::uint32_t> upper, lower, left, right; // the front's edges
     for (int a = 0; a <= nx_; ++a) upper.push_back(front(a, 0));
     for (int a = 0; a <= nx_; ++a) lower.push_back(front(a, ny_));
     for (int b = 0; b <= ny_; ++b) left.push_back(b == 0 ? upper.front() : b == ny_ ? lower.front() : front(0, b));
@@ -161,9 +146,9 @@ private:
     const auto side = [&](std::uint32_t from, std::uint32_t to, int count, const auto& point,
                           bool turned) { // from, to: at the front
       for (int i = 0; i < count; ++i)
-        turned ? triangle(from, point(i), point(i + 1), Part::side)
-               : triangle(from, point(i + 1), point(i), Part::side);
-      turned ? triangle(from, point(count), to, Part::side) : triangle(from, to, point(count), Part::side);
+        turned ? solid_.add(from, point(i), point(i + 1), Part::side)
+               : solid_.add(from, point(i + 1), point(i), Part::side);
+      turned ? solid_.add(from, point(count), to, Part::side) : solid_.add(from, to, point(count), Part::side);
     };
     for (int a = 0; a < nx_; ++a) {
       const auto i = static_cast<std::size_t>(a);
@@ -182,25 +167,22 @@ private:
     for (int a = 0; a < nx_; ++a) {
       const auto i = static_cast<std::size_t>(a);
       if (a == 0)
-        for (std::size_t b = 0; b + 1 < left.size(); ++b) triangle(left[b], left[b + 1], upper[1], Part::front);
+        for (std::size_t b = 0; b + 1 < left.size(); ++b) solid_.add(left[b], left[b + 1], upper[1], Part::front);
       else
-        triangle(upper[i], lower[i], upper[i + 1], Part::front);
+        solid_.add(upper[i], lower[i], upper[i + 1], Part::front);
       if (a + 1 == nx_)
-        for (std::size_t b = 0; b + 1 < right.size(); ++b) triangle(lower[i], right[b + 1], right[b], Part::front);
+        for (std::size_t b = 0; b + 1 < right.size(); ++b) solid_.add(lower[i], right[b + 1], right[b], Part::front);
       else
-        triangle(lower[i], lower[i + 1], upper[i + 1], Part::front);
+        solid_.add(lower[i], lower[i + 1], upper[i + 1], Part::front);
     }
   }
 
   void measure() {
-    solid_.lowest = std::numeric_limits<double>::infinity();
-    solid_.highest = -solid_.lowest;
     const scene::Mesh& mesh = solid_.mesh;
     for (std::size_t t = 0; t < solid_.parts.size() && solid_.parts[t] == Part::facet; ++t) {
       const glm::dvec3 a = mesh.positions[mesh.triangles[t].x], b = mesh.positions[mesh.triangles[t].y],
                        c = mesh.positions[mesh.triangles[t].z], across = glm::cross(b - a, c - a);
-      solid_.lowest = std::min({solid_.lowest, a.z, b.z, c.z});
-      solid_.highest = std::max({solid_.highest, a.z, b.z, c.z});
+      for (const double z : {a.z, b.z, c.z}) solid_.reach(z);
       solid_.steepest_deg =
           std::max(solid_.steepest_deg, glm::degrees(std::atan2(glm::length(glm::dvec2(across)), std::abs(across.z))));
     }
@@ -234,7 +216,7 @@ Layout mesh_layout(Layout layout) {
 
 std::vector<int> mesh_parts(const Layout& of, const Surface& surface, double mesh_error) {
   const Layout layout = mesh_layout(of);
-  std::vector<double> misses(layout.facet_count()); // of facets in one part, in cells
+  std::vector<double> misses(layout.facet_count()); // by how many cells facets in one part miss
   const double side = std::max(layout.facet().x, layout.facet().y) / std::min(layout.cell().x, layout.cell().y);
   for_ranges(misses.size(), 4096, [&](std::size_t, const Range& range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {

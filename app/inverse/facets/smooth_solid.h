@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A lens as one closed solid in millimetres: a smooth surface in triangles, flat sides, and the flat front at z =
-// thickness.
+// A lens as one closed solid in millimetres: a smooth surface in triangles, sides, and the flat front at z = thickness.
 #pragma once
-#include "base/place.h"
 #include "inverse/facets/solid.h"
-#include "inverse/facets/surface.h"
-
-#include <cstdint>
 
 namespace nephroid::inverse {
 
@@ -14,11 +9,10 @@ namespace nephroid::inverse {
 Layout mesh_layout(Layout layout);
 
 /// How many parts each of mesh_layout()'s facets has along a side, a power of two up to 64. With so many, flat
-/// triangles send light no further from where the surface sends it than mesh_error cells, in the mean of squares over
-/// the facets. A triangle is as steep as the surface half a part's side away from its corners at most. Where the
-/// surface's slope changes by C a millimetre, light behind it moves by distance (n - 1) (1 + g^2) C a millimetre, for
-/// light nearly straight on. The mesh with the fewest triangles has parts in proportion to the square root of what a
-/// whole facet would miss by.
+/// triangles send light at most mesh_error cells from where the surface sends it, in the mean of squares over the
+/// facets. A triangle is as steep as the surface half a part's side away from its corners at most. Where the surface's
+/// slope changes by C a millimetre, light nearly straight on moves by distance (n - 1) (1 + g^2) C a millimetre. The
+/// mesh has the fewest triangles with parts in proportion to the square root of what a whole facet would miss by.
 std::vector<int> mesh_parts(const Layout& layout, const Surface& surface, double mesh_error);
 
 std::uint64_t count_triangles(const Layout& layout, const std::vector<int>& parts);
@@ -28,8 +22,12 @@ inline constexpr std::uint64_t most_stl_bytes = 4'000'000'000;
 /// Throws bad_input for so many triangles. `own` is where the settings stand.
 [[noreturn]] void refuse_mesh(const Place& own, double mesh_error, std::uint64_t triangles);
 
-/// Each part becomes triangles about its middle, with all corners of its neighbours on its sides. All vertices are on
-/// the surface.
+/// Each part becomes triangles about its middle, with its neighbours' corners on its sides; all are on the surface.
 Solid make_smooth_solid(const Layout& layout, const Surface& surface, const std::vector<int>& parts);
+
+/// Cuts a relief over the whole rectangle, which is all that `solid` has, along the ellipse within it, and closes it by
+/// its side and front (outline.cpp). Triangles with no corner within the ellipse are left out, the others cut. Corners
+/// close to the ellipse are moved onto it first, so that no triangle becomes much thinner than it was.
+void cut_round(const Layout& layout, const Surface& surface, Solid& solid);
 
 } // namespace nephroid::inverse

@@ -2,16 +2,9 @@
 #include "inverse/facets/solid.h"
 
 #include "inverse/bending.h"
-#include "inverse/facets/draft.h"
 #include "inverse/facets/heights.h"
 
 #include <glm/gtc/constants.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <utility>
 
 namespace nephroid::inverse {
 namespace {
@@ -26,19 +19,15 @@ struct Vertex {
   std::uint32_t id = 0;
 };
 
-/// A vertical line where four facets meet, and the vertices on it.
-///
-/// Each of the four facets ends at a height of its own, and a wall stands between each two neighbours. Along the line
-/// the walls' ends overlap; for every stretch of it to be an edge of two walls, a wall's end has vertices wherever
-/// another one begins or ends. One case remains. Where two facets across from each other are both higher than the two
-/// others, all four walls share the stretch between. There they are joined in pairs by edges of their own, told apart
-/// by one vertex more: at the lower end around the higher facets, at the upper end around the lower ones. So the
-/// surface does not touch itself in a vertex either.
-///
-/// Facets around are counted counter-clockwise seen from above (+z): 0 is at +x +y. Wall k stands between facets k and
-/// k + 1.
+/// A vertical line where four facets meet, and the vertices on it. Each facet ends at a height of its own, and a wall
+/// stands between each two neighbours. Along the line the walls' ends overlap; for every stretch of it to be an edge of
+/// two walls, a wall's end has vertices wherever another one begins or ends. Where two facets across from each other
+/// are both higher than the two others, all four walls share the stretch between. There they are joined in pairs by
+/// edges of their own, told apart by one vertex more: at the lower end around the higher facets, at the upper end
+/// around the lower ones. So the surface does not touch itself in a vertex either. Facets around are counted
+/// counter-clockwise seen from above (+z): 0 is at +x +y. Wall k stands between facets k and k + 1.
 struct Post {
-  std::array<Vertex, 4> ends; ///< of each facet around; equal heights are one vertex
+  std::array<Vertex, 4> ends; ///< where each facet around ends; equal heights are one vertex
   /// Where all four walls share a stretch: vertices that pair them, ascending, and a low facet; the other is low + 2.
   std::array<Vertex, 3> pairs{};
   std::optional<std::size_t> low;
@@ -51,35 +40,31 @@ void join_close_heights(std::array<double, 4>& heights, double joins) {
     if (heights[order[i]] - heights[order[i - 1]] < joins) heights[order[i]] = heights[order[i - 1]];
 }
 
-Vertex add_vertex(const glm::dvec2& at, double z, scene::Mesh& mesh) {
-  mesh.positions.emplace_back(glm::vec3(glm::dvec3(at, z)));
-  return {z, static_cast<std::uint32_t>(mesh.positions.size() - 1)};
-}
+Vertex add_vertex(const glm::dvec2& at, double z, Solid& solid) { return {z, solid.add({at, z})}; }
 
-void pair_walls(Post& post, const glm::dvec2& at, scene::Mesh& mesh) {
+void pair_walls(Post& post, const glm::dvec2& at, Solid& solid) {
   for (const std::size_t low : {std::size_t{0}, std::size_t{1}}) {
     const double bottom = std::max(post.ends[low].z, post.ends[low + 2].z),
                  top = std::min(post.ends[low + 1].z, post.ends[(low + 3) % 4].z);
     if (bottom >= top) continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const double part = 0.25 * static_cast<double>(i + 1);
-      post.pairs[i] = add_vertex(at, (1 - part) * bottom + part * top, mesh);
+      post.pairs[i] = add_vertex(at, (1 - part) * bottom + part * top, solid);
     }
     post.low = low;
   }
 }
 
-/// Heights that are closer than `joins` become one, so that no triangle is thinner than single precision can tell. at:
-/// x and y.
-Post make_post(const glm::dvec2& at, std::array<double, 4> heights, double joins, scene::Mesh& mesh) {
+/// Heights that are closer than `joins` become one, so that no triangle is thinner than single precision can tell.
+Post make_post(const glm::dvec2& at, std::array<double, 4> heights, double joins, Solid& solid) {
   join_close_heights(heights, joins);
   Post post;
   for (std::size_t f = 0; f < 4; ++f) {
     const auto before = std::find(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(f), heights[f]);
     const auto same = static_cast<std::size_t>(before - heights.begin());
-    post.ends[f] = same < f ? post.ends[same] : add_vertex(at, heights[f], mesh);
+    post.ends[f] = same < f ? post.ends[same] : add_vertex(at, heights[f], solid);
   }
-  pair_walls(post, at, mesh);
+  pair_walls(post, at, solid);
   return post;
 }
 
@@ -106,11 +91,9 @@ std::vector<Vertex> end_of_wall(const Post& post, std::size_t wall) {
 
 class Builder {
 public:
-  Builder(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights)
-      : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y) {
-    for (std::size_t i = 0; i < slopes.size(); ++i)
-      solid_.facets.push_back({slopes[i], facet_gradient(slopes[i], layout.n, layout.sines_on(i)), heights[i]});
-  }
+  /// `solid` has its facets.
+  Builder(const Layout& layout, Solid solid)
+      : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y), solid_(std::move(solid)) {}
 
   Solid build() {
     make_posts();
@@ -128,17 +111,11 @@ private:
 
   bool is_facet(int column, int row) const { return column >= 0 && row >= 0 && column < nx_ && row < ny_; }
 
-  /// Of the corner of a facet that lies at +-half from its middle; beside the object the front's height, which makes
-  /// sides of walls.
-  double height(int column, int row, const glm::dvec2& half) const {
+  /// z of a facet at so much from its middle; beside the object that of the front, which makes sides of walls.
+  double height(int column, int row, const glm::dvec2& from_middle) const {
     if (!is_facet(column, row)) return layout_.thickness;
     const Facet& facet = solid_.facets[index_at(column, row, nx_)];
-    return facet.height + glm::dot(facet.gradient, half);
-  }
-
-  glm::dvec2 place(int a, int b) const {
-    const glm::dvec2 facet = layout_.facet();
-    return {a * facet.x - layout_.size.x / 2, layout_.size.y / 2 - b * facet.y};
+    return facet.height + glm::dot(facet.gradient, from_middle);
   }
 
   const Post& post(int a, int b) const { return posts_[index_at(a, b, nx_ + 1)]; }
@@ -152,30 +129,14 @@ private:
         std::max(corners_join * std::min(layout_.facet().x, layout_.facet().y), tells_apart * farthest);
     const std::array<glm::dvec2, 4> corner{
         glm::dvec2{-half.x, -half.y}, {half.x, -half.y}, {half.x, half.y}, {-half.x, half.y}};
-    posts_.reserve(index_at(0, ny_ + 1, nx_ + 1));
-    solid_.lowest = std::numeric_limits<double>::infinity();
-    solid_.highest = -solid_.lowest;
     for (int b = 0; b <= ny_; ++b)
       for (int a = 0; a <= nx_; ++a) {
         std::array<double, 4> heights{};
         for (std::size_t f = 0; f < 4; ++f) heights[f] = height(a + around[f].x, b + around[f].y, corner[f]);
-        posts_.push_back(make_post(place(a, b), heights, closest, solid_.mesh));
+        posts_.push_back(make_post(layout_.corner(a, b), heights, closest, solid_));
         for (std::size_t f = 0; f < 4; ++f)
-          if (is_facet(a + around[f].x, b + around[f].y)) {
-            solid_.lowest = std::min(solid_.lowest, heights[f]);
-            solid_.highest = std::max(solid_.highest, heights[f]);
-          }
+          if (is_facet(a + around[f].x, b + around[f].y)) solid_.reach(heights[f]);
       }
-    for (const Facet& f : solid_.facets) lean(f.gradient);
-  }
-
-  void lean(const glm::dvec2& gradient) {
-    solid_.steepest_deg = std::max(solid_.steepest_deg, glm::degrees(std::atan(glm::length(gradient))));
-  }
-
-  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, Part part) {
-    solid_.mesh.triangles.emplace_back(a, b, c);
-    solid_.parts.push_back(part);
   }
 
   /// Between two vertical lines; seen from the side where `a` is at the left, it faces the viewer unless it is turned.
@@ -186,13 +147,13 @@ private:
       const std::uint32_t next = on_a ? a[++i].id : 0;
       const std::uint32_t low_a = on_a ? a[i - 1].id : a[i].id, low_b = b[k].id;
       const std::uint32_t third = on_a ? next : b[++k].id;
-      turned ? triangle(low_b, low_a, third, part) : triangle(low_a, low_b, third, part);
+      turned ? solid_.add(low_b, low_a, third, part) : solid_.add(low_a, low_b, third, part);
     }
   }
 
-  /// The wall over the line from post a to post b, at whose right hand (seen from above) facet p ends at ap and bp, and
-  /// facet q at the left at aq and bq. Its air is on the side of the higher facet. Where the facets' edges cross, it
-  /// has two parts. Returns the vertex of the crossing.
+  /// The wall over the line from post a to b, at whose right hand (seen from above) facet p ends at ap and bp, and q at
+  /// the left at aq and bq. Its air is on the higher facet's side. It has two parts where the edges cross, and returns
+  /// that vertex.
   std::optional<Vertex> wall(const Post& a, const Post& b, std::size_t wall_a, std::size_t wall_b,
                              std::array<Vertex, 4> ends, const glm::dvec2& at_a, const glm::dvec2& at_b, Part part) {
     const auto [ap, aq, bp, bq] = ends;
@@ -204,14 +165,13 @@ private:
       return std::nullopt;
     }
     const double t = height_a / (height_a - height_b);
-    const Vertex crossing{ap.z + t * (bp.z - ap.z), static_cast<std::uint32_t>(solid_.mesh.positions.size())};
-    solid_.mesh.positions.emplace_back(glm::vec3(glm::dvec3(at_a + t * (at_b - at_a), crossing.z)));
+    const Vertex crossing = add_vertex(at_a + t * (at_b - at_a), ap.z + t * (bp.z - ap.z), solid_);
     strip(end_a, {crossing}, height_a < 0, part);
     strip({crossing}, end_b, height_b < 0, part);
     return crossing;
   }
 
-  /// A wall that is over_a high at one end and over_b at the other; of different signs where the facets' edges cross.
+  /// A wall that is so high at its ends; the signs differ where the facets' edges cross.
   void measure(double height_a, double height_b, double length) {
     const double a = std::abs(height_a), b = std::abs(height_b);
     solid_.highest_wall = std::max({solid_.highest_wall, a, b});
@@ -226,14 +186,14 @@ private:
     for (int b = 0; b < ny_; ++b) // down from each post: wall 2 of the upper one, wall 0 of the lower one
       for (int a = 0; a <= nx_; ++a) {
         const Post &up = post(a, b), &down = post(a, b + 1);
-        down_.push_back(wall(up, down, 2, 0, {up.ends[2], up.ends[3], down.ends[1], down.ends[0]}, place(a, b),
-                             place(a, b + 1), part_between(a - 1, b, a, b)));
+        down_.push_back(wall(up, down, 2, 0, {up.ends[2], up.ends[3], down.ends[1], down.ends[0]}, layout_.corner(a, b),
+                             layout_.corner(a, b + 1), part_between(a - 1, b, a, b)));
       }
     for (int b = 0; b <= ny_; ++b) // across: wall 3 of the left one, wall 1 of the right one
       for (int a = 0; a < nx_; ++a) {
         const Post &left = post(a, b), &right = post(a + 1, b);
         across_.push_back(wall(left, right, 3, 1, {left.ends[3], left.ends[0], right.ends[2], right.ends[1]},
-                               place(a, b), place(a + 1, b), part_between(a, b, a, b - 1)));
+                               layout_.corner(a, b), layout_.corner(a + 1, b), part_between(a, b, a, b - 1)));
       }
   }
 
@@ -253,28 +213,22 @@ private:
     corner(column, row + 1, 0);
     crossing(down_[index_at(column, row, nx_ + 1)]);
     const auto facet = index_at(column, row, nx_);
-    fan(glm::dvec3(layout_.middle(facet), solid_.facets[facet].height), ring, Part::facet);
+    const std::uint32_t middle = solid_.add({layout_.middle(facet), solid_.facets[facet].height});
+    for (std::size_t i = 0; i < ring.size(); ++i) solid_.add(middle, ring[i], ring[(i + 1) % ring.size()], Part::facet);
   }
 
-  void fan(const glm::dvec3& middle, const std::vector<std::uint32_t>& ring, Part part) {
-    const auto id = static_cast<std::uint32_t>(solid_.mesh.positions.size());
-    solid_.mesh.positions.emplace_back(glm::vec3(middle));
-    for (std::size_t i = 0; i < ring.size(); ++i) triangle(id, ring[i], ring[(i + 1) % ring.size()], part);
-  }
-
-  /// Of a post on the rim, whose facets beside the object end at the front's height.
+  /// The vertex of a post on the rim at the front's height, where the facets beside the object end.
   std::uint32_t at_front(int a, int b) const {
     for (std::size_t f = 0;; ++f)
       if (!is_facet(a + around[f].x, b + around[f].y)) return post(a, b).ends[f].id;
   }
 
-  /// Strips along y, one a column, so that rays find their triangle soon; the first and the last have the vertices of
-  /// their sides.
+  /// Strips along y, one a column, so that rays find their triangle soon; the outer ones share their sides' vertices.
   void make_front() {
     const auto side = [&](int a) {
       std::vector<Vertex> ascending; // along y, which stands for the height here
       const int step = a == 0 || a == nx_ ? 1 : ny_;
-      for (int b = ny_; b >= 0; b -= step) ascending.push_back({place(a, b).y, at_front(a, b)});
+      for (int b = ny_; b >= 0; b -= step) ascending.push_back({layout_.corner(a, b).y, at_front(a, b)});
       return ascending;
     };
     for (int a = 0; a < nx_; ++a) strip(side(a), side(a + 1), false, Part::front);
@@ -283,15 +237,19 @@ private:
   const Layout& layout_;
   int nx_, ny_;
   std::vector<Post> posts_;
-  std::vector<std::optional<Vertex>> down_, across_; ///< crossings, of the lines from a post down and to the right
+  std::vector<std::optional<Vertex>> down_, across_; ///< crossings on the lines from a post down and to the right
   Solid solid_;
 };
 
 } // namespace
 
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights) {
-  if (layout.draft > 0) return make_drafted_solid(layout, slopes, heights);
-  return Builder(layout, slopes, heights).build();
+  Solid solid;
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    solid.facets.push_back({slopes[i], facet_gradient(slopes[i], layout.n, layout.sines_on(i)), heights[i]});
+    solid.lean(solid.facets.back().gradient);
+  }
+  return layout.draft > 0 ? with_leaning_walls(layout, std::move(solid)) : Builder(layout, std::move(solid)).build();
 }
 
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes) {

@@ -8,9 +8,8 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Replaces the values of each row by the parts of bells that have them at the nodes: bells are 1/6, 4/6 and 1/6 high
-/// there. At either end the third difference of the parts is 0, which with the second node's equation leaves c0 - c1 =
-/// f0 - f1.
+/// Replaces each row's values by the parts of bells that have them at the nodes: 1/6, 4/6 and 1/6 high there. At either
+/// end the third difference of the parts is 0, which with the second node's equation leaves c0 - c1 = f0 - f1.
 Grid parts_along_rows(const Grid& values) {
   const Eigen::Index count = values.cols();
   Grid parts(values.rows(), count + 2);
@@ -21,19 +20,17 @@ Grid parts_along_rows(const Grid& values) {
     parts.col(3) = 2 * values.col(1) - values.col(0);
     return parts;
   }
-  std::vector<double> over(
-      static_cast<std::size_t>(count)); // the diagonal beside the pivot, once rows before are taken away
+  Eigen::VectorXd over(count); // the diagonal beside the pivot, once rows before are taken away
   inner.col(0) = values.col(0) - values.col(1);
   over[0] = -1;
   for (Eigen::Index i = 1; i + 1 < count; ++i) {
-    const double pivot = 4 - over[static_cast<std::size_t>(i - 1)];
-    over[static_cast<std::size_t>(i)] = 1 / pivot;
+    const double pivot = 4 - over[i - 1];
+    over[i] = 1 / pivot;
     inner.col(i) = (6 * values.col(i) - inner.col(i - 1)) / pivot;
   }
   const Eigen::Index last = count - 1;
-  inner.col(last) =
-      (values.col(last) - values.col(last - 1) + inner.col(last - 1)) / (1 + over[static_cast<std::size_t>(last - 1)]);
-  for (Eigen::Index i = last - 1; i >= 0; --i) inner.col(i) -= over[static_cast<std::size_t>(i)] * inner.col(i + 1);
+  inner.col(last) = (values.col(last) - values.col(last - 1) + inner.col(last - 1)) / (1 + over[last - 1]);
+  for (Eigen::Index i = last - 1; i >= 0; --i) inner.col(i) -= over[i] * inner.col(i + 1);
   parts.col(0) = 3 * inner.col(0) - 3 * inner.col(1) + inner.col(2);
   parts.col(count + 1) = 3 * inner.col(last) - 3 * inner.col(last - 1) + inner.col(last - 2);
   return parts;

@@ -6,8 +6,7 @@
 
 namespace nephroid::inverse {
 
-/// A cubic spline through a value at each node, along columns and along rows, with quadratic pieces at the rim. Lengths
-/// are in nodes.
+/// A cubic spline through a value at each node, along columns and rows; quadratic at the rim. Lengths are in nodes.
 class Spline {
 public:
   /// `values` has at least two nodes either way.

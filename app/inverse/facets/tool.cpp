@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace nephroid::inverse {
@@ -25,8 +24,8 @@ Top top_of(const Layout& layout, const Solid& solid, int column, int row) {
   return {layout.middle(i), layout.facet() / 2.0, -solid.facets[i].gradient, -solid.facets[i].height};
 }
 
-/// How deep the middle of a ball over p may go before the ball meets the facet's edge: greatest over the edge of its
-/// height plus sqrt(radius^2 - distance^2). across: the axis that the edge is at `side` of.
+/// How deep the middle of a ball over p may go before the ball meets the facet's edge at `side` of the axis `across`:
+/// greatest over the edge of its height plus sqrt(radius^2 - distance^2).
 double over_edge(const Top& top, const glm::dvec2& p, double radius, int across, double side) {
   const int along = 1 - across;
   glm::dvec2 foot = p;
@@ -41,7 +40,6 @@ double over_edge(const Top& top, const glm::dvec2& p, double radius, int across,
   return top.at(foot) + std::sqrt(in_line - t * t);
 }
 
-/// The same of all of the facet.
 double over_facet(const Top& top, const glm::dvec2& p, double radius) {
   const double length = std::sqrt(1 + glm::dot(top.gradient, top.gradient));
   const glm::dvec2 touches = glm::abs(p + radius / length * top.gradient - top.middle);
@@ -84,7 +82,7 @@ double unreached_part(const Layout& layout, const Solid& solid, double radius) {
 }
 
 Valley tightest_valley(const Layout& layout, const Surface& surface) {
-  constexpr double flat = 1e-6; // of a curvature in 1 / mm
+  constexpr double flat = 1e-6; // 1 / mm
   Valley tightest;
   for (std::size_t i = 0; i < layout.facet_count(); ++i) {
     if (layout.is_beside(layout.middle(i))) continue;

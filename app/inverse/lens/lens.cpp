@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/lens/lens.h"
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
@@ -12,21 +11,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nephroid::inverse {
 namespace {
 
 /// Cells of the finest grid along its longer side: several a cell of the picture.
 int most_cells(const Layout& layout) { return std::clamp(4 * std::max(layout.cells.x, layout.cells.y), 128, 512); }
-/// Of the transport's: corrections do the rest sooner.
+/// The transport's cells: corrections do the rest sooner.
 int transport_cells(const Layout& layout) { return std::min(256, most_cells(layout)); }
 
-/// Steps of it.
+/// Steps of the transport.
 constexpr int moves = 40;
-/// How often heights are made anew from where the transport sends the light: it starts from them.
+/// How often heights are made from where the transport sends the light, which starts from the heights before.
 constexpr int rounds = 3;
-/// A correction that gains a smaller part of the error gains too little.
+/// A correction that gains less, in parts of the error, gains too little.
 constexpr double worth = 0.02;
 
 glm::dvec2 domain_of(const Layout& layout) { return glm::max(layout.size, layout.receiver); }
@@ -37,8 +35,7 @@ int parts_of_facet(const Layout& layout) {
   return std::clamp(static_cast<int>(std::ceil(3 * std::max(a_cell.x, a_cell.y))), 1, 4);
 }
 
-/// What a centred rectangle of so many cells brings to each cell of a grid over the domain, by the parts in which they
-/// overlap.
+/// The values of a centred rectangle's cells on a grid over the domain, by the parts in which cells overlap.
 Grid on_grid(const Layout& layout, int grid_cells, const glm::dvec2& rectangle, const glm::ivec2& cells,
              const std::vector<double>& values) {
   const glm::dvec2 domain = domain_of(layout);
@@ -110,7 +107,7 @@ Lens::Lens(const Layout& layout, const Target& target, double mesh_error, Place 
 }
 
 std::uint64_t Lens::bytes(const Layout& layout) {
-  constexpr std::uint64_t grids = 24; // of the transport, the flow, and of light that is added up in blocks
+  constexpr std::uint64_t grids = 24; // the transport's, the flow's, and those of light that is added up in blocks
   const auto parts = static_cast<std::uint64_t>(parts_of_facet(layout)),
              cells = static_cast<std::uint64_t>(most_cells(layout));
   const std::uint64_t bytes_a_node = sizeof(double) + sizeof(glm::dvec2) + (layout.light.facets ? sizeof(Incoming) : 0);
@@ -125,7 +122,7 @@ std::size_t Lens::facet_at(const glm::dvec2& p) const {
   return index_at(inside.x, inside.y, layout_.facets.x);
 }
 
-/// Of light on a point of the surface, by the facet about it.
+/// The light on a point of the surface, by the facet about it.
 Incoming Lens::incoming_at(const glm::dvec2& p, double height) const {
   if (!layout_.light.facets) return {};
   const std::size_t facet = facet_at(p);
@@ -134,10 +131,12 @@ Incoming Lens::incoming_at(const glm::dvec2& p, double height) const {
   return in;
 }
 
+/// p from the domain's top left corner, y down.
+glm::dvec2 Lens::from_corner(const glm::dvec2& p) const { return {p.x + domain_.x / 2, domain_.y / 2 - p.y}; }
+
 /// Where the transport sends the light that leaves at p, on the receiver.
 glm::dvec2 Lens::goal(const glm::dvec2& p) const {
-  const glm::dvec2 cell = domain_ / transport_.cells();
-  const glm::dvec2 to = cell * transport_.map(glm::dvec2(p.x + domain_.x / 2, domain_.y / 2 - p.y) / cell);
+  const glm::dvec2 cell = domain_ / transport_.cells(), to = cell * transport_.map(from_corner(p) / cell);
   return {to.x - domain_.x / 2, domain_.y / 2 - to.y};
 }
 
@@ -152,14 +151,14 @@ Grid Lens::bent(const std::function<glm::dvec2(const glm::dvec2&, const Surface:
   const glm::dvec2 facet = layout_.facet();
   const double distance = layout_.distances.front();
   const auto lacks = [&](double column, double row) { // by how much the surface is not steep enough
-    const glm::dvec2 p(column * facet.x - layout_.size.x / 2, layout_.size.y / 2 - row * facet.y);
+    const glm::dvec2 p = layout_.corner(column, row);
     const Surface::At at = surface_.at(p);
     const glm::dvec2 sines = incoming_at(p, at.z).sines,
                      slope = (goal_of(p, at) - p) / std::max(distance + at.z, 0.01 * distance);
     return facet_gradient(nearest_reachable(slope, layout_.n, sines, layout_.steepest), layout_.n, sines) - at.gradient;
   };
   const Eigen::Index rows = heights_.rows(), columns = heights_.cols();
-  Grid across = Grid::Zero(rows, columns), down = across; // of the edges to the right and below
+  Grid across = Grid::Zero(rows, columns), down = across; // along the edges to the right and below
   for_ranges(static_cast<std::size_t>(rows), 16, [&](std::size_t, const Range& range) {
     for (auto y = static_cast<Eigen::Index>(range.begin); y < static_cast<Eigen::Index>(range.end); ++y)
       for (Eigen::Index x = 0; x < columns; ++x) {
@@ -177,7 +176,7 @@ Grid Lens::bent(const std::function<glm::dvec2(const glm::dvec2&, const Surface:
   return heights;
 }
 
-/// Of the surface within the outline: at the facets' corners, those beside a round one being moved onto it.
+/// The surface's z within the outline: at the facets' corners, those beside a round one being moved onto it.
 glm::dvec2 Lens::lowest_highest(const Grid& heights) const {
   if (!layout_.round) return {heights.minCoeff(), heights.maxCoeff()};
   const Surface surface(layout_.size, heights);
@@ -200,24 +199,22 @@ void Lens::set_heights(Grid heights) {
 std::vector<glm::dvec2> Lens::corners_land() const {
   const std::size_t columns = static_cast<std::size_t>(fine_.facets.x) + 1,
                     rows = static_cast<std::size_t>(fine_.facets.y) + 1;
-  const glm::dvec2 cell = domain_ / glm::dvec2(wanted_.cols(), wanted_.rows());
+  const glm::dvec2 cell = fine_cell();
   std::vector<glm::dvec2> corners(rows * columns);
   for_ranges(rows, 16, [&](std::size_t, const Range& range) {
     for (std::size_t i = range.begin * columns; i < range.end * columns; ++i) {
-      const glm::dvec2 p = glm::dvec2(i % columns, i / columns) * fine_.facet() * glm::dvec2(1, -1) +
-                           layout_.size * glm::dvec2(-0.5, 0.5);
-      const glm::dvec2 to = landing(p, surface_.at(p));
-      corners[i] = glm::dvec2(to.x + domain_.x / 2, domain_.y / 2 - to.y) / cell;
+      const glm::dvec2 p = fine_.corner(static_cast<double>(i % columns), static_cast<double>(i / columns));
+      corners[i] = from_corner(landing(p, surface_.at(p))) / cell;
     }
   });
   return corners;
 }
 
-/// The light of the surface, as that of its facets' parts.
+/// Finds the surface's light, as that of its facets' parts.
 void Lens::see() {
   const std::size_t columns = static_cast<std::size_t>(fine_.facets.x), rows = static_cast<std::size_t>(fine_.facets.y),
                     blocks = 8;
-  std::vector<std::vector<std::vector<double>>> light(blocks, {std::vector<double>(layout_.cell_count())});
+  std::vector<std::vector<double>> light(blocks, std::vector<double>(layout_.cell_count()));
   sent_by_.resize(fine_.facets.y, fine_.facets.x);
   const double part = static_cast<double>(layout_.facet_count()) / static_cast<double>(fine_.facet_count());
   for_blocks(blocks, [&](std::size_t block) {
@@ -226,12 +223,12 @@ void Lens::see() {
       const glm::dvec2 slope = facet_slope(at.gradient, layout_.n, incoming_at(fine_.middle(i), at.z).sines);
       sent_by_.data()[i] = part * facet_power(fine_, i, slope);
       for_cells(fine_, footprint(fine_, i, slope, 0, at.z),
-                [&](std::size_t cell, double of) { light[block][0][cell] += sent_by_.data()[i] * of; });
+                [&](std::size_t cell, double of) { light[block][cell] += sent_by_.data()[i] * of; });
     }
   });
   light_ = std::move(light.front());
   for (std::size_t block = 1; block < blocks; ++block)
-    for (std::size_t c = 0; c < light_.front().size(); ++c) light_.front()[c] += light[block][0][c];
+    for (std::size_t c = 0; c < light_.size(); ++c) light_[c] += light[block][c];
   for (std::size_t i = 0; i < slopes_.size(); ++i) {
     const glm::dvec2 p = layout_.middle(i);
     const Surface::At at = surface_.at(p);
@@ -240,21 +237,17 @@ void Lens::see() {
   sent_ = sent_by_.sum();
 }
 
-/// Light flows from where there is too much of it: along the gradient of the solution of Poisson's equation, as fast as
-/// what is there lets it.
+/// Light flows from where there is too much: along the gradient of Poisson's solution, over what is there.
 void Lens::correct() {
   Grid there = spread(sent_by_, corners_land(), wanted_.rows(), wanted_.cols());
   there *= wanted_.sum() / there.sum();
-  const Grid potential = flow_of_.solve(wanted_ - there);
-  const Spline flow(potential);
-  const Spline amount(Grid((wanted_ + there) / 2));
+  const Spline flow(flow_of_.solve(wanted_ - there)), amount(Grid((wanted_ + there) / 2));
   const double least = 0.05 * wanted_.mean();
-  const glm::dvec2 cell = domain_ / glm::dvec2(wanted_.cols(), wanted_.rows()), cells(wanted_.cols(), wanted_.rows());
+  const glm::dvec2 cell = fine_cell(), cells(wanted_.cols(), wanted_.rows());
   set_heights(bent([&](const glm::dvec2& p, const Surface::At& at) {
     const glm::dvec2 to = landing(p, at);
     if (layout_.is_beside(p)) return to; // there is no light to move
-    const glm::dvec2 on_grid =
-        glm::clamp(glm::dvec2(to.x + domain_.x / 2, domain_.y / 2 - to.y) / cell - 0.5, glm::dvec2(0), cells - 1.0);
+    const glm::dvec2 on_grid = glm::clamp(from_corner(to) / cell - 0.5, glm::dvec2(0), cells - 1.0);
     const glm::dvec2 move = flow.at(on_grid).gradient * (share_ / std::max(least, amount.at(on_grid).value));
     return to + move * cell * glm::dvec2(1, -1);
   }));
@@ -290,18 +283,18 @@ std::vector<double> Lens::heights() const {
   return middles;
 }
 
-/// Of the thickness, and of the way to the receiver: as with free heights, a tenth is left.
-constexpr double most_of_thickness = 0.9;
+/// The part of the thickness, and of the way to the receiver, that a relief may take: free heights leave a tenth, too.
+constexpr double most_of_room = 0.9;
 
 Solid Lens::solid() const {
   const double reach = this->reach(); // and as far below z = 0
   const auto refuse = [&](const Place& where, double value) {
     throw bad_input(where, fmt::format("is {} mm, and half of the lens's relief is {:.4g} mm", value, reach),
-                    fmt::format("expected at least {:.4g} mm", reach / most_of_thickness),
+                    fmt::format("expected at least {:.4g} mm", reach / most_of_room),
                     "choose a larger value or a receiver further away");
   };
-  if (reach > most_of_thickness * layout_.thickness) refuse(settings_ / "thickness_mm", layout_.thickness);
-  if (reach > most_of_thickness * layout_.distances.front())
+  if (reach > most_of_room * layout_.thickness) refuse(settings_ / "thickness_mm", layout_.thickness);
+  if (reach > most_of_room * layout_.distances.front())
     refuse(settings_ / "receivers" / 0 / "distance_mm", layout_.distances.front());
   if (reach > layout_.band)
     throw bad_input(settings_, fmt::format("the lens's relief is {:.4g} mm", 2 * reach),

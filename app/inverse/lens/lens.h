@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// One picture by a smooth surface: where the light has to go, heights whose slopes send it there, then what these lack
-// put right.
+// One picture by a smooth surface: where light has to go, heights that send it there, then what these lack put right.
 #pragma once
-#include "base/bytes.h"
-#include "base/place.h"
-#include "inverse/facets/surface.h"
 #include "inverse/lens/transport.h"
 #include "inverse/method.h"
-#include "inverse/poisson.h"
 
-#include <functional>
 #include <limits>
 
 namespace nephroid::inverse {
 
 /// Designs a lens for one receiver. The first step is the optimal transport and the surface that follows from it. Each
-/// further step corrects the surface by the light that it sends: light flows from where there is too much to where it
-/// lacks, as a solution of Poisson's equation says.
+/// further one lets the surface's light flow from where there is too much, by a solution of Poisson's equation.
 class Lens final : public Method {
 public:
   /// The layout and the target outlive it. `settings` is where the settings stand, for what solid() refuses.
@@ -33,8 +26,8 @@ public:
   const std::vector<glm::dvec2>& slopes() const override { return slopes_; }
   std::vector<double> heights() const override;
   double relief() const { return 2 * reach(); } ///< from the lowest of the facets' corners to the highest
-  const std::vector<double>& light(std::size_t) const override { return light_.front(); }
-  std::vector<Cost> costs() const override { return {cost_of(target_, light_.front(), sent_)}; }
+  const std::vector<double>& light(std::size_t) const override { return light_; }
+  std::vector<Cost> costs() const override { return {cost_of(target_, light_, sent_)}; }
   Solid solid() const override;
   void show(job::Snapshot& made) const override;
 
@@ -47,6 +40,8 @@ private:
   static constexpr std::int64_t most_stale = 2;
 
   void correct();
+  glm::dvec2 fine_cell() const { return domain_ / glm::dvec2(wanted_.cols(), wanted_.rows()); }
+  glm::dvec2 from_corner(const glm::dvec2& p) const;
   glm::dvec2 goal(const glm::dvec2& p) const;
   std::size_t facet_at(const glm::dvec2& p) const;
   Incoming incoming_at(const glm::dvec2& p, double height = 0) const;
@@ -75,8 +70,8 @@ private:
   Grid heights_, best_heights_;                           ///< z of the facets' corners, millimetres
   Surface surface_;
   std::vector<glm::dvec2> slopes_;
-  std::vector<std::vector<double>> light_; ///< the light on the one receiver, in facets
-  Grid sent_by_;                           ///< the light that each part of a facet sends, in facets
+  std::vector<double> light_; ///< the light on the receiver, in facets
+  Grid sent_by_;              ///< the light that each part of a facet sends, in facets
   double sent_ = 0;
 };
 

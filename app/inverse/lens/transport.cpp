@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
-#include <vector>
 
 namespace nephroid::inverse {
 namespace {
@@ -16,8 +14,7 @@ namespace {
 /// side has a step of its own: with one for both, that of the brighter picture's side overshoots.
 constexpr double grows = 1.25, shrinks = 0.8, much = 0.75, little = 0.25;
 
-/// min over j of (cell (i - j))^2 / 2 + f(j) for every i: the lower envelope of parabolas (Felzenszwalb and
-/// Huttenlocher 2012).
+/// min over j of (cell (i - j))^2 / 2 + f(j) for every i (Felzenszwalb and Huttenlocher 2012).
 void lower_envelope(const double* f, double* out, int count, double cell) {
   std::vector<int> of(static_cast<std::size_t>(count));
   std::vector<double> begins(static_cast<std::size_t>(count) + 1);
@@ -44,8 +41,7 @@ void lower_envelope(const double* f, double* out, int count, double cell) {
   }
 }
 
-/// Of a potential at the corner between four cells, in the unit of the potential over that of `cell`; on the rim that
-/// of the nearest corner inside.
+/// A potential's gradient at the corner between four cells; on the rim that of the nearest corner inside.
 glm::dvec2 gradient_at(const Grid& u, int column, int row, double cell) {
   const int right = std::clamp(column, 1, static_cast<int>(u.cols()) - 1), left = right - 1;
   const int down = std::clamp(row, 1, static_cast<int>(u.rows()) - 1), up = down - 1;
@@ -69,6 +65,16 @@ std::span<double> values(Grid& grid) { return {grid.data(), static_cast<std::siz
 
 /// Samples along a side: two for each cell that it is stretched over.
 constexpr double most_samples = 32;
+
+/// The light of `from` where x -> x - gradient(potential)(x) brings it. `cell` is the side of a cell.
+Grid pushed(const Grid& from, const Grid& potential, double cell) {
+  const auto rows = static_cast<int>(from.rows()), columns = static_cast<int>(from.cols());
+  std::vector<glm::dvec2> corners;
+  corners.reserve(index_at(0, rows + 1, columns + 1));
+  for (int y = 0; y <= rows; ++y)
+    for (int x = 0; x <= columns; ++x) corners.push_back(glm::dvec2(x, y) - gradient_at(potential, x, y, cell) / cell);
+  return spread(from, corners, rows, columns);
+}
 
 } // namespace
 
@@ -116,20 +122,6 @@ Grid spread(const Grid& light, const std::vector<glm::dvec2>& corners, Eigen::In
   for (const Grid& part : parts) sum += part;
   return sum;
 }
-
-namespace {
-
-/// Light of `from` where x -> x - gradient(potential)(x) brings it. cell: side of a cell.
-Grid pushed(const Grid& from, const Grid& potential, double cell) {
-  const auto rows = static_cast<int>(from.rows()), columns = static_cast<int>(from.cols());
-  std::vector<glm::dvec2> corners;
-  corners.reserve(index_at(0, rows + 1, columns + 1));
-  for (int y = 0; y <= rows; ++y)
-    for (int x = 0; x <= columns; ++x) corners.push_back(glm::dvec2(x, y) - gradient_at(potential, x, y, cell) / cell);
-  return spread(from, corners, rows, columns);
-}
-
-} // namespace
 
 Transport::Transport(Grid from, Grid to)
     : from_(std::move(from)), to_(std::move(to)),

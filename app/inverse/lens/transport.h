@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where light has to go so that one picture becomes another on the shortest ways: optimal transport, whose map is the
-// gradient of a potential. So it is the one way that a smooth surface can bend light (Schwartzburg et al. 2014,
-// "High-contrast computational caustic design").
+// Where light has to go so that one picture becomes another on the shortest ways: optimal transport. Its map is the
+// gradient of a potential, as a smooth surface bends light (Schwartzburg et al. 2014, caustic design).
 #pragma once
 #include "base/bytes.h"
 #include "inverse/poisson.h"
 
 #include <glm/glm.hpp>
 
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// The back-and-forth method (Jacobs and Leger 2020, "A fast approach to optimal transport"). It steps along the
-/// gradient of the dual problem, by turns in its two potentials, in the metric in which the gradient is a solution of
-/// Poisson's equation. Lengths are in parts of the grid's longer side. Both pictures are on the same grid of square
-/// cells and have the same sum.
+/// gradient of the dual problem, by turns in its two potentials, in the metric in which the gradient solves Poisson's
+/// equation. Lengths are in parts of the grid's longer side. Both pictures are on one grid of square cells.
 class Transport {
 public:
   Transport(Grid from, Grid to);
@@ -47,8 +43,7 @@ private:
 };
 
 /// The light of quads whose corners land at these places, in cells of the result; each sample is spread over the four
-/// cells about it. `corners` is row by row, one more across and down than `light`. Light beside the result goes to its
-/// rim.
+/// cells about it. `corners` is row by row, one more either way than `light`. Light beside goes to the rim.
 Grid spread(const Grid& light, const std::vector<glm::dvec2>& corners, Eigen::Index rows, Eigen::Index columns);
 
 /// min over y of |x - y|^2 / 2 - f(y), over the middles of cells.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture file as light a cell. It is read some rows at a time, so that 20000 x 12000 pixels take no more memory than
-// a small picture.
-#include "inverse/pictures/photograph.h"
+// A picture file, read some rows at a time: 20000 x 12000 pixels take no more memory than a small picture.
+#include "inverse/pictures/target.h"
 
 #include "image/image.h"
 
@@ -20,7 +19,7 @@ struct CellCoverage {
   std::vector<double> parts;
 };
 
-/// Of each pixel in the order of the file, which lie in the middle of the cells. pixel: its side in cells.
+/// What each pixel covers, in the order of the file, which lies in the middle of the cells. `pixel`: its side in cells.
 std::vector<CellCoverage> covered_by(int pixels, bool backwards, double pixel, int cells) {
   std::vector<CellCoverage> all;
   for (int i = 0; i < pixels; ++i) {
@@ -36,8 +35,8 @@ std::vector<CellCoverage> covered_by(int pixels, bool backwards, double pixel, i
 /// Where the pixels of a file lie on the receiver. Exif's orientations 5 to 8 have the file's rows upright.
 struct FileRaster {
   bool turned = false;
-  glm::dvec2 half{0};                      ///< of the whole picture's size, millimetres
-  std::vector<CellCoverage> columns, rows; ///< of the file; turned: its columns cover rows of cells
+  glm::dvec2 half{0};                      ///< half the whole picture's size, millimetres
+  std::vector<CellCoverage> columns, rows; ///< what the file's cover; turned: its columns cover rows of cells
 };
 
 FileRaster place_of(const Layout& layout, const glm::ivec2& file, int orientation) {
@@ -56,8 +55,7 @@ FileRaster place_of(const Layout& layout, const glm::ivec2& file, int orientatio
   return place;
 }
 
-/// Luminance of linear sRGB. Integers are encoded, and hide what is transparent; colours of floats are multiplied by
-/// their alpha already.
+/// Luminance of linear sRGB. Integers are encoded and hide what is transparent; floats are multiplied by their alpha.
 class Luminance {
 public:
   Luminance() {
@@ -106,7 +104,7 @@ Target photograph(const std::filesystem::path& file, const Picture& picture, con
   Target target(layout.cell_count());
   std::optional<FileRaster> place;
   double low = std::numeric_limits<double>::infinity(), high = 0;
-  std::vector<double> along; // of a row of the file, a value a cell
+  std::vector<double> along; // a row of the file, a value a cell
   image::read_bands(file, [&](const image::Band& band) {
     const int width = band.rows.width;
     if (!place) place = place_of(layout, {width, band.height}, band.orientation);

@@ -15,18 +15,15 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 namespace nephroid::inverse {
 namespace {
 
-/// Steps towards the best light: after so many the next ones gain less than a hundredth. Large pictures have to do with
-/// fewer, so that a plan is made in a second.
+/// Steps towards the best light: further ones gain below a hundredth. Large pictures have fewer: a plan takes a second.
 constexpr std::size_t step_limit = 60, fewest_steps = 8, most_products = 400'000'000;
 /// A picture that is further off at best is worth a word, in rel_l2.
 constexpr double far_off = 0.1;
-/// A cell that wants so many times the light of an even picture asks for strong lenses; with the background that is
-/// advised it is `bright`.
+/// A cell of so many times an even picture's light asks for strong lenses; with the advised background it is `bright`.
 constexpr double very_bright = 8, bright = 4;
 /// A lens that takes more of the thickness than this is worth a word.
 constexpr double deep = 0.5;
@@ -37,7 +34,7 @@ struct Smear {
   std::vector<double> parts;
 };
 
-/// Along both axes; what it is off them is left out.
+/// A footprint as if it were the product of what it is along each axis.
 struct AxisBlur {
   Smear x, y;
 };
@@ -67,7 +64,7 @@ AxisBlur smears_of(const Layout& layout, std::size_t receiver) {
   return smears;
 }
 
-/// Along one axis; back: from where light falls to where it was aimed. Light beside the receiver is left out.
+/// Light smeared along one axis; `back`: from where it falls to where it was aimed. Light beside the cells is left out.
 std::vector<double> smeared(const std::vector<double>& light, const glm::ivec2& cells, const Smear& smear, int axis,
                             bool back) {
   std::vector<double> result(light.size());
@@ -108,12 +105,12 @@ void make_light(std::vector<double>& values) {
   for (double& value : values) value = std::max(0.0, value - less);
 }
 
-/// Over an even picture.
+/// The brightest cell over an even picture's.
 double brightest(const Target& target) {
   return *std::max_element(target.begin(), target.end()) * static_cast<double>(target.size());
 }
 
-/// Of the light of one facet, in millimetres: of a box with its variance over cells.
+/// The width of a facet's light in millimetres: that of a box with its variance.
 double width(const Smear& smear, double cell) {
   double sum = 0, first = 0, second = 0;
   for (std::size_t i = 0; i < smear.parts.size(); ++i) {
@@ -227,14 +224,13 @@ std::vector<std::string> workshop_notes(const Settings& settings, const Layout& 
   constexpr double much_light = 0.02, few_layers = 4;
   if (settings.method == Settings::Method::lens) return {};
   std::vector<std::string> notes;
-  // A facet like many: it sends light a quarter of the nearest receiver beside that one's middle. Its walls are about
-  // as high as it rises.
+  // A facet like many sends light a quarter of the receiver beside its middle. Its walls are about as high as it rises.
   const double slope = std::min(
                    std::hypot(glm::length(layout.receiver) / std::sqrt(2.0) / 4, glm::length(layout.offset(0))) /
                        layout.distances.front(),
                    usable_slope(layout)),
                steepness = glm::length(facet_gradient({slope, 0}, layout.n)), rise = steepness * layout.facet().x,
-               walls = layout.free_heights ? 1.0 / 3 : 1; // of that height, measured
+               walls = layout.free_heights ? 1.0 / 3 : 1; // their part of that height, measured
   // Four walls; to each the facet gives half of the wall's height times the draft's tangent.
   if (const double light = 2 * layout.draft * steepness * walls; light > much_light)
     notes.push_back(fmt::format(
@@ -242,10 +238,10 @@ std::vector<std::string> workshop_notes(const Settings& settings, const Layout& 
         "receivers further away, a smaller draft_deg or free heights",
         settings.draft_deg, 100 * light));
   if (settings.layer_mm && rise < few_layers * *settings.layer_mm)
-    notes.push_back(fmt::format("a facet that sends light a quarter of receiver 1 beside its middle rises by {:.2g} "
-                                "mm, {:.2g} layers of {} mm; choose "
-                                "thinner layers or fewer facets",
-                                rise, rise / *settings.layer_mm, *settings.layer_mm));
+    notes.push_back(
+        fmt::format("a facet that sends light a quarter of receiver 1 beside its middle rises by {:.2g} mm, "
+                    "{:.2g} layers of {} mm; choose thinner layers or fewer facets",
+                    rise, rise / *settings.layer_mm, *settings.layer_mm));
   return notes;
 }
 

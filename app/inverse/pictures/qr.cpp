@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only file that includes libqrencode.
-#include "inverse/pictures/qr.h"
+#include "inverse/pictures/target.h"
 
 #include <fmt/format.h>
 #include <qrencode.h>
 
 #include <algorithm>
-#include <memory>
 
 namespace nephroid::inverse {
 namespace {
@@ -43,14 +42,13 @@ std::vector<double> qr_cells(const std::string& text, const glm::ivec2& cells, c
         fmt::format("expected at least {} cells across and down, better {}", across, 2 * across),
         "choose more cells or a shorter text");
   const glm::ivec2 corner = (cells - across * module) / 2;
-  std::vector<double> lit(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y));
+  std::vector<double> lit(index_at(0, cells.y, cells.x));
   for (int y = 0; y < across * module; ++y)
     for (int x = 0; x < across * module; ++x) {
       const int u = x / module - quiet, v = y / module - quiet;
       const bool inside = u >= 0 && v >= 0 && u < code->width && v < code->width;
       const bool dark = inside && (code->data[v * code->width + u] & 1); // bit 0 is the colour, 1 is dark
-      lit[static_cast<std::size_t>(corner.y + y) * static_cast<std::size_t>(cells.x) +
-          static_cast<std::size_t>(corner.x + x)] = dark ? 0 : 1;
+      lit[index_at(corner.x + x, corner.y + y, cells.x)] = dark ? 0 : 1;
     }
   return lit;
 }

@@ -2,8 +2,6 @@
 #include "inverse/pictures/target.h"
 
 #include "image/image.h"
-#include "inverse/pictures/photograph.h"
-#include "inverse/pictures/qr.h"
 
 #include <glm/gtc/constants.hpp>
 
@@ -59,8 +57,7 @@ glm::dvec2 turned_back(const Picture& picture, const glm::dvec2& p) {
   return {c * p.x + s * p.y, c * p.y - s * p.x};
 }
 
-/// Brightness 0..1 of a drawing at p, without its background; p in parts of the receiver's shorter side from its
-/// middle, y up. half: the receiver's half width and height in the same parts.
+/// A drawing's brightness 0..1 at p, without background. p and `half` (the receiver) are in its shorter sides, y up.
 double brightness(const Picture& picture, const glm::dvec2& p, const glm::dvec2& half) {
   using Type = Picture::Type;
   const double r = glm::length(p);
@@ -76,7 +73,7 @@ double brightness(const Picture& picture, const glm::dvec2& p, const glm::dvec2&
   if (picture.type == Type::face) return face(turned / picture.radius);
   const double turn = glm::radians(picture.turn_deg);
   const double reach =
-      half.x * std::abs(std::cos(turn)) + half.y * std::abs(std::sin(turn)); // of the receiver along the gradient
+      half.x * std::abs(std::cos(turn)) + half.y * std::abs(std::sin(turn)); // how far the receiver reaches along it
   return std::clamp((turned.x / reach + 1) / 2, 0.0, 1.0);
 }
 
@@ -86,7 +83,7 @@ constexpr int samples = 8;
 double shorter_side(const Layout& layout) { return std::min(layout.receiver.x, layout.receiver.y); }
 glm::dvec2 half_receiver(const Layout& layout) { return layout.receiver / shorter_side(layout) / 2.0; }
 
-/// brightness(p): 0..1, p in parts of the receiver's shorter side from its middle, y up.
+/// Each cell's mean of brightness_at(p), with p as brightness() has it.
 template <class F>
 Target draw(const Layout& layout, const F& brightness_at) {
   Target target;

@@ -3,14 +3,10 @@
 #pragma once
 #include "inverse/thesis/sampler.h"
 
-#include <cstddef>
-#include <vector>
-
 namespace nephroid::inverse {
 
-/// The picture with its sizes grown by `scale` about the receiver's middle, then moved by `shift` (parts of the
-/// receiver, right and down). A cell has the mean of what covers it; what leaves the receiver is cut off. The brightest
-/// cell is 1; all are 0 where nothing is left.
+/// The picture with its sizes grown by `scale` about its middle, then moved by `shift` (parts of the receiver, right
+/// and down). A cell has the mean of what covers it. The brightest cell is 1; all are 0 where nothing is left.
 std::vector<double> moved(const Target& picture, const Layout& layout, double scale, const glm::dvec2& shift);
 
 /// How far a picture's dark cells are from its lit ones.
@@ -22,17 +18,14 @@ struct Margin {
 /// The picture must have a lit cell.
 Margin margin_of(const std::vector<double>& picture, const Layout& layout);
 
-/// The picture extended by `cells` beyond its lit cells: a dark cell has what the nearest lit one has, less with every
-/// cell in between, and 0 after the last.
+/// The picture extended by `cells`: a dark cell has what the nearest lit one has, less with every cell in between.
 std::vector<double> extended(const std::vector<double>& picture, const Margin& margin, double cells);
 
-/// What others' missing cells ask of one picture. A cell is missing where no facet's light through its middle finds all
-/// other pictures lit.
+/// What others' missing cells ask of a picture: cells through which no facet's light finds all others lit.
 struct MissingLight {
   std::size_t missing = 0; ///< how many of its own cells are missing
-  double extension =
-      0; ///< s: how far from its lit cells the light of others' missing cells meets dark ones, at most; in cells
-  double overshoot = 0; ///< e: the part of that light that falls beside its receiver
+  double extension = 0;    ///< s: how far at most the light of others' missing cells falls from its lit ones, in cells
+  double overshoot = 0;    ///< e: the part of that light that falls beside its receiver
 };
 
 /// What is asked of each aim. A lattice of facets stands for all of them: every one up to 128 a side.

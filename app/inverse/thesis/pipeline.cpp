@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 namespace nephroid::inverse {
 namespace {
@@ -69,8 +68,7 @@ std::int64_t Pipeline::trials_of(const Thesis& settings) {
 }
 
 Pipeline::Pipeline(const Layout& layout, const std::vector<Target>& targets, const Thesis& settings, std::uint64_t seed)
-    : layout_(layout), targets_(targets), settings_(settings), seed_(seed), reach_(2 * targets.size()),
-      light_(targets.size(), std::vector<double>(layout.cell_count())) {
+    : layout_(layout), targets_(targets), settings_(settings), seed_(seed), reach_(2 * targets.size()) {
   sizes_ = settings_.adjust == Thesis::Adjust::convergence ? std::vector<double>{1} : std::vector<double>();
   if (settings_.adjust == Thesis::Adjust::each)
     for (std::size_t j = 0; j < targets.size(); ++j) sizes_.insert(sizes_.end(), {1, 0, 0, 1});
@@ -98,7 +96,7 @@ void Pipeline::adjust(const std::vector<double>& values) {
   }
 }
 
-/// Of the annealing in hand, from where it starts.
+/// The annealer of the stage in hand, from where it starts.
 std::optional<Annealer> Pipeline::annealer() const {
   const Thesis& s = settings_;
   const auto about = [](double start, double step, double limit) {
@@ -125,8 +123,7 @@ void Pipeline::find_needs() {
   needs_ = needs_of(layout_, wanted_, margins_);
 }
 
-/// (5.3): scales every cell by what is wanted over what was received, both as parts of their sums. A cell that receives
-/// nothing gets the largest factor; one that is to receive nothing has nothing to scale.
+/// (5.3): scales every cell by what is wanted over what was received, in parts of their sums; at most by the limit.
 void Pipeline::correct(const std::vector<std::vector<double>>& received) {
   for (std::size_t j = 0; j < pictures_.size(); ++j) {
     const double wanted_sum = sum_of(wanted_[j].picture), received_sum = sum_of(received[j]),
@@ -177,7 +174,7 @@ double Pipeline::cost_of_drawn(const TrialResult& drawn) const {
 void Pipeline::keep(TrialResult drawn, double cost) {
   best_ = std::move(drawn);
   lowest_ = cost;
-  light_all(layout_, best_.slopes, heights(), light_);
+  light_ = light_of_all(layout_, best_.slopes, heights());
 }
 
 void Pipeline::end_trial() {

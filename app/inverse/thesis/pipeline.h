@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis' pipeline (chapter 5): draws from the joint probability of the pictures, two annealings that adjust these,
-// and the correction of their intensity.
+// The thesis' pipeline (chapter 5): draws from the pictures' joint probability, two annealings, intensity correction.
 #pragma once
 #include "inverse/method.h"
 #include "inverse/thesis/adjust.h"
-#include "inverse/thesis/sampler.h"
-
-#include <array>
-#include <memory>
-#include <optional>
-#include <random>
 
 namespace nephroid::inverse {
 
@@ -35,8 +28,7 @@ public:
   double temperature() const; ///< that of the move in hand
   /// Moves all knobs at once. The same random numbers propose the same values.
   const std::vector<double>& propose(std::mt19937_64 random);
-  /// Takes the proposal where its cost is no higher than that of the values in hand, else with probability exp(-rise /
-  /// temperature). Returns whether it is the lowest so far.
+  /// Takes a cost that is no higher, else with probability exp(-rise / temperature). Returns whether it is the lowest.
   bool decide(double cost);
 
   const std::vector<double>& lowest() const { return lowest_; } ///< the values with the lowest cost
@@ -57,10 +49,9 @@ private:
   std::int64_t done_ = 0, accepted_ = 0;
 };
 
-/// A step is a trial: it draws all facets and takes their cost (5.2) against the adjusted pictures. The first trial has
-/// the pictures as they are. A stage ends with the values of its lowest cost; the object gets the first draw of these.
-/// Trials share their random numbers, so that a cost depends only on what is tried. Facets send light from their
-/// middles and all alike, as the thesis has it.
+/// A step is a trial: it draws all facets and takes their cost (5.2) against the adjusted pictures, at first the
+/// pictures themselves. A stage ends with the values of its lowest cost, whose first draw the object gets. Trials share
+/// random numbers, so that a cost depends only on what is tried. Facets send light from their middles and all alike.
 class Pipeline final : public Method {
 public:
   /// The layout and the targets outlive it. Facets begin flat.
@@ -89,7 +80,6 @@ public:
 private:
   enum class Stage : std::int32_t { sampling, annealing_1, annealing_2, correction, done };
   static constexpr std::size_t stages = 4;
-  /// A trial's row in the history.
   struct Row {
     double stage = 0, temperature = 0, cost = 0, lowest = 0, accepted = 0, refused = 0;
   };
@@ -121,9 +111,8 @@ private:
   std::optional<Annealer> annealer_;
   std::vector<double> sizes_; ///< what the first annealing found
   std::vector<double> reach_; ///< k and o of all pictures: the proposal, later what the second annealing found
-  std::vector<std::vector<double>>
-      pictures_;                       ///< what light is aimed at, before it is extended: wanted_, later corrected
-  std::int64_t rounds_ = 0, idle_ = 0; ///< rounds of the correction: done, and without a gain
+  std::vector<std::vector<double>> pictures_; ///< light's aims before they are extended: wanted_, later corrected
+  std::int64_t rounds_ = 0, idle_ = 0;        ///< rounds of the correction: done, and without a gain
   TrialResult best_;
   double lowest_ = 1;                  ///< the cost of best_
   std::array<double, stages> costs_{}; ///< the lowest cost of each stage

@@ -28,9 +28,9 @@ struct Sampler::Axis {
 
 struct Sampler::Lattice {
   Axis x, y;
-  std::vector<double> sums; ///< of the products of all rows up to this one
-  double most = 0;          ///< of the products
-  glm::dvec2 sines{0};      ///< of the light on the facet
+  std::vector<double> sums; ///< sums of the products of all rows up to this one
+  double most = 0;          ///< the largest product
+  glm::dvec2 sines{0};      ///< those of the light on the facet
 };
 
 Sampler::Sampler(const Layout& layout, const std::vector<SamplingTarget>& aims, const Thesis& settings)

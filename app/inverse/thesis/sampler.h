@@ -4,9 +4,7 @@
 #pragma once
 #include "base/bytes.h"
 #include "inverse/layout.h"
-#include "inverse/settings.h"
 
-#include <cstdint>
 #include <random>
 
 namespace nephroid::inverse {
@@ -23,9 +21,9 @@ struct Draws {
   std::vector<int> cells; ///< [draw][aim]; -1: beside the receiver
 };
 
-/// A slope's probability is the product of the values that all pictures have where the facet's middle sends light with
-/// this slope. The slopes are a lattice over all that lead to a receiver and that the index can bend by. A slope that
-/// misses all receivers has probability 0.
+/// A slope's probability is the product of what all pictures have where the facet's middle sends such light. The slopes
+/// are a lattice over all that lead to a receiver and that the index can bend by; those that miss all have probability
+/// 0.
 class Sampler {
 public:
   Sampler(const Layout& layout, const std::vector<SamplingTarget>& aims, const Thesis& settings);
@@ -43,21 +41,18 @@ private:
 
   const Layout& layout_;
   std::vector<double> distances_;
-  std::vector<std::vector<double>>
-      padded_; ///< pictures with a rim of one cell that has `beside`; all light beside counts as in cell 0
+  std::vector<std::vector<double>> padded_; ///< pictures with a rim of `beside`; light beside counts as in cell 0
   std::vector<std::vector<char>> lit_columns_, lit_rows_; ///< whether any cell of a column or a row of these is above 0
   int directions_;
   Thesis::Sampling sampling_;
 };
 
-/// The result of a trial.
 struct TrialResult {
   std::vector<std::vector<double>> light; ///< [receiver][cell]: mean of the draws, in facets
   std::vector<glm::dvec2> slopes;         ///< each facet's first draw; a facet without one has its flat slope
   std::uint64_t dark = 0;                 ///< facets whose joint probability is 0 everywhere: they send light nowhere
 };
 
-/// The slopes behind facets that are all flat.
 std::vector<glm::dvec2> flat_slopes(const Layout& layout);
 
 class Trial {

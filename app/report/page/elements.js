@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The data that stands in the page (data.h says what), and the pieces that the page is built from. What files say becomes text nodes,
+// The data that stands in the page (report.h says what), and the pieces that the page is built from. What files say becomes text nodes,
 // never HTML.
 "use strict";
 

@@ -32,7 +32,7 @@ function viewer({ name, width, height, scale, pictures }) {
   });
   // What is shown; the run that was shown last, whose difference `d` shows and whose reference `r`.
   let shown = 0, run = pictures[0].runs[0];
-  let zoom = 1, x = 0, y = 0; // of the pictures, x and y in pixels of the page
+  let zoom = 1, x = 0, y = 0; // where the pictures are, x and y in pixels of the page
 
   function show(index) {
     shown = (index + images.length) % images.length;
@@ -49,7 +49,7 @@ function viewer({ name, width, height, scale, pictures }) {
     for (const image of images) image.style.transform = `translate(${x}px, ${y}px) scale(${zoom})`;
     stage.classList.toggle("near", zoom * stage.clientWidth >= 2 * width);
   }
-  // Of the pictures of a kind the one of the run; where there is none, or it is a reference and shown already, the next one.
+  // Shows the run's picture of a kind; where there is none, or it is a reference and shown already, the next one.
   function showKind(kind) {
     const matches = [...pictures.keys()].filter(i => pictures[i].kind === kind), ofRun = matches.find(i => pictures[i].runs.includes(run));
     if (!matches.length) return;
@@ -82,7 +82,7 @@ function viewer({ name, width, height, scale, pictures }) {
   return made;
 }
 
-let activeKeys = null; // of the viewer that keys go to
+let activeKeys = null; // the viewer's that keys go to
 document.addEventListener("keydown", event => {
   const act = activeKeys?.[event.key];
   if (!act || event.ctrlKey || event.altKey || event.metaKey) return;

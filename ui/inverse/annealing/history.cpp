@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The curves of a run as lines over sweeps, moves or seconds.
 #include "ui/inverse/annealing/panel.h"
 
 #include "measure/run_curves.h"
@@ -14,8 +15,7 @@
 namespace nephroid::ui {
 namespace {
 
-/// A log axis that follows the run reaches down to this part of the largest value: what is missed may be 1e-14, by
-/// rounding alone.
+/// A log axis that follows the run reaches down to this part of the largest value: by rounding some are 1e-14.
 constexpr double log_range = 1e-4;
 
 using Ends = std::array<double, 2>;

@@ -2,7 +2,7 @@
 #include "ui/inverse/annealing/panel.h"
 
 #include "base/error.h"
-#include "inverse/figures.h"
+#include "inverse/report.h"
 #include "ui/state/files.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"

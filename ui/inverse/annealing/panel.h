@@ -9,14 +9,11 @@
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
 
-#include <map>
-
 struct ImVec2;
 
 namespace nephroid::ui {
 
-/// The curves of a run (job::Curve) as lines over sweeps, moves or seconds: the cost, and whatever else an engine notes
-/// about its search.
+/// The curves of a run (job::Curve) as lines over sweeps, moves or seconds: the cost, and what else an engine notes.
 struct HistoryLine {
   std::string name; ///< its column
   std::vector<double> x, y;
@@ -33,8 +30,7 @@ struct HistoryPlotStyle {
   bool seconds = false; ///< drawn over the column "seconds" where the curve has one; else over the curve's first
 };
 
-/// Every column of a curve but its first and "seconds". What is not finite is left out, and on a log axis what is not
-/// above 0.
+/// Every column of a curve but its first and "seconds", without what is not finite, or on a log axis not above 0.
 HistoryLines history_lines(const job::Curve& curve, const HistoryPlotStyle& look);
 
 class HistoryPlot {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A snapshot's further pictures (job::NamedPicture) as textures; where the light of one facet falls on every receiver,
-// over them.
+// A snapshot's further pictures (job::NamedPicture) as textures, and where a facet's light falls, over them.
 #pragma once
 #include "inverse/assign/footprint.h"
 #include "job/job.h"
 #include "ui/widgets/picture_texture.h"
-
-#include <map>
 
 struct ImVec2;
 
@@ -38,8 +35,7 @@ struct FacetBeam {
   std::vector<inverse::Footprint> prints; ///< on each receiver
 };
 
-/// slopes: a pixel a facet: slope along x, along y, height. Empty where it is of another number of facets than the
-/// layout, or the facet is outside.
+/// `slopes` has a pixel a facet: slope along x, along y, height. Empty for a layout of other facets or a facet outside.
 std::optional<FacetBeam> facet_beam(const job::Picture& slopes, const inverse::Layout& layout, const glm::ivec2& facet);
 
 /// A footprint on a receiver's picture, in cells from its top left corner.
@@ -51,15 +47,12 @@ std::optional<BeamBox> box_of(const inverse::Footprint& print);
 /// The part of the beam that is on the receiver.
 double part_on(const inverse::Footprint& print);
 
-/// The beam in the object's own coordinates, as lines: from the front through the facet to the last receiver, and the
-/// box of cells that it reaches on each.
+/// The beam in the object's coordinates: a line from the front to the last receiver, and its box of cells on each.
 std::vector<std::vector<preset::Vec3>> lines_of(const FacetBeam& beam, const inverse::Layout& layout);
 
-/// A frame about the beam on a receiver's picture of so many cells, which lies from corner to corner; large enough to
-/// be found.
+/// A frame about the beam on a receiver's picture of so many cells, from corner to corner; large enough to be found.
 void draw_beam_frame(const inverse::Footprint& print, const glm::ivec2& cells, const ImVec2& low, const ImVec2& high);
-/// The cells about the beam, large, from corner to corner: how bright the picture is there, and the parts of the beam
-/// over it.
+/// The cells about the beam, large, from corner to corner: how bright the picture is, and over it the beam's parts.
 void draw_beam_cells(const inverse::Footprint& print, const job::Picture& picture, const ImVec2& low,
                      const ImVec2& high);
 
