@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Snell's and Fresnel's laws in kernels/tracing/fresnel.h against optics/fresnel.h in double precision, and nested
-// media (kernels/tracing/media.h).
+// kernels/tracing/fresnel.h against optics/fresnel.h in double precision, and nested media (kernels/tracing/media.h).
 #include "check/check.h"
 #include "check/device_arrays.h"
 #include "optics/fresnel.h"
@@ -17,9 +16,8 @@ namespace {
 
 using std::numbers::pi;
 
-// The specification lets a division be off by 2.5 units in the last place and a square root by 3. So sin_t = n_i / n_t
-// sin_i may be off by about 6 of 2^-24, or 4e-7, and its square and 1 - sin_t^2 by twice that. Tolerances below are
-// about twice what follows.
+// A division may be off by 2.5 units in the last place and a square root by 3. So sin_t = n_i / n_t sin_i may be off by
+// 6 of 2^-24, or 4e-7, and 1 - sin_t^2 by twice that. Tolerances below are about twice what follows.
 constexpr float indices[] = {1, 1.0001f, 1.33f, 1.5f, 1.9f, 2.42f, 4};
 
 std::vector<float4> through(const compute::Context& context, const char* kernel, const std::vector<float4>& in,
@@ -91,8 +89,7 @@ Result refraction(const compute::Context& context, std::uint64_t) {
                             in.size()));
 }
 
-/// Neighbouring floats as cosines about the critical angle. The figure is how far from it the kernel decides otherwise
-/// than sin_t > 1.
+/// Neighbouring floats as cosines. The figure is how far from the critical angle the kernel decides otherwise.
 Result critical_angle(const compute::Context& context, std::uint64_t) {
   std::vector<float4> in;
   for (const float n : {1.1f, 1.33f, 1.5f, 2.42f, 4.0f}) {
@@ -112,8 +109,7 @@ Result critical_angle(const compute::Context& context, std::uint64_t) {
                             in.size()));
 }
 
-/// At tan(theta) = n, light polarised in the plane of incidence is not reflected; of the other, ((n^2 - 1) / (n^2 +
-/// 1))^2 is.
+/// At tan(theta) = n, p-polarised light is not reflected; of the other, ((n^2 - 1) / (n^2 + 1))^2 is.
 Result brewster(const compute::Context& context, std::uint64_t) {
   std::vector<float4> in;
   for (int k = 1; k <= 300; ++k)
@@ -130,8 +126,7 @@ Result brewster(const compute::Context& context, std::uint64_t) {
                   in.size()));
 }
 
-/// The object whose medium counts, by the rule in words: among those entered and not left, the one of highest priority;
-/// among equals, the last.
+/// The object whose medium counts: of those entered and not left, that of highest priority; of equals, the last.
 int medium(const std::vector<int>& entered, const std::vector<shared::DeviceObject>& objects) {
   int best = -1;
   for (const int object : entered)

@@ -50,16 +50,14 @@ struct PictureEdit {
 };
 
 struct Engine {
-  /// The settings' name is the word in a preset's "engine" and the folder in kernels/ with the engine's own kernels.
-  /// Files that their description names (preset::Text::file) are read: a run is bound to their contents
-  /// (run/content.h).
+  /// The settings' name is the word in a preset's "engine" and the folder in kernels/ with the engine's own kernels. A
+  /// run is bound to the contents of files that they name (preset::Text::file).
   const preset::SettingsType& (*settings)();
 
   /// The version of the jobs' saved state. Change it with the format: only a state of this version is loaded.
   std::uint32_t state_version;
 
-  /// What runs, what is left out and why. The engine may add intermediate results for its job. Throws bad_input for a
-  /// preset that it cannot render.
+  /// What runs, what is left out and why. It may hold results for the job. Throws bad_input for what it cannot render.
   std::unique_ptr<plan::Plan> (*plan)(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
 
   /// The job on a device. plan: what `plan` gave for the same preset and scene. The scene and tree need not outlive the
@@ -93,14 +91,12 @@ struct Engine {
 /// Every engine: one line each in app/engines.cpp. A default-constructed preset has the first one.
 const std::vector<const Engine*>& engines();
 
-/// All checks: first those of what engines share, then each engine's own. They take under 30 s together on two
-/// processor cores.
+/// All checks: those of what engines share, then each engine's own. They take under 30 s on two cores.
 const std::vector<check::Check>& checks();
 
 const Engine& engine_of(const preset::Preset& preset);
 
-/// Throws bad_input at FILE#/engine if the preset is of another engine. lacks: what that other engine cannot do, "casts
-/// no pictures".
+/// Throws bad_input at FILE#/engine if the preset is of another engine. lacks: what that one does, "casts no pictures".
 void require_engine(const preset::Preset& preset, const Engine& engine, std::string_view lacks);
 
 /// The camera of a preset's picture in the window.
@@ -109,8 +105,7 @@ preset::Camera camera_of(const preset::Preset& preset);
 /// The word in a preset's "engine".
 std::string_view name_of(const Engine& engine);
 
-/// Whether a job of `before` can adopt `now`; their engines may differ. A white that is yet to be fitted needs a new
-/// run.
+/// Whether a job of `before` can adopt `now`; engines may differ. A white yet to be fitted needs a new run.
 bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
 } // namespace nephroid::engine

@@ -130,8 +130,7 @@ public:
     render_seconds_ = render_seconds;
   }
 
-  /// While the object is baked, the change waits until it is rendered. After a change that failed there is no renderer
-  /// to go on with.
+  /// While the object is baked, the change waits. After a change that failed there is no renderer to go on with.
   bool adopt(const preset::Preset& preset) override {
     if (!view_ || ((baking_.is_complete() || refines()) && !renderer()) || !engine::adoptable(preset_, preset))
       return false;

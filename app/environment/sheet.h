@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The baked spheres in a snapshot: pictures of their E r^2 in latitude and longitude, as environments are
-// (scene/environment.h).
+// The baked spheres in a snapshot: their E r^2 in latitude and longitude, as in scene/environment.h.
 #pragma once
 #include "environment/bake/baker.h"
 #include "job/job.h"

@@ -60,8 +60,7 @@ struct Curve {
   std::vector<std::vector<double>> rows; ///< a value a column
 };
 
-/// A file that an engine adds to a run's folder: a mesh, a list. It is made while it is written, since a mesh's file
-/// can be as large as the memory.
+/// A file that an engine adds to a run's folder. It is made while it is written, for it can be as large as the memory.
 struct ExtraFile {
   std::string name;
   std::function<void(ByteSink&)> write; ///< the same bytes whenever it is called; holds what it needs
@@ -107,19 +106,16 @@ public:
   virtual std::shared_ptr<const History> history() const { return nullptr; }
   /// Writes everything needed to go on later with the same bits. Opaque; of the engine's state_version.
   virtual void save(ByteSink& to) = 0;
-  /// Reads what save() wrote of the same preset, to its end (run/checkpoint.cpp sees to both). Throws bad_input where
-  /// that is cut.
+  /// Reads what save() wrote of the same preset, to its end. Throws bad_input where that is cut.
   virtual void load(ByteSource& from) = 0;
   /// Takes on another preset without starting again, and keeps what was computed so far. True only where the engine can
   /// do so (engine::adoptable): a relighting run can where only the light differs. Throws bad_input at
-  /// FILE#/scene/lights/... for a spectrum that cannot be used. Where it returns false or throws bad_input, nothing has
-  /// changed. After any other exception the next adopt() comes before any step() or snapshot(); where the job cannot go
-  /// on from there, it returns false.
+  /// FILE#/scene/lights/... for a spectrum that cannot be used. Then, and where it returns false, nothing has changed.
+  /// After any other exception the next adopt() comes before any advance() or snapshot().
   virtual bool adopt(const preset::Preset&) { return false; }
 };
 
-/// What some jobs can tell besides their picture. It is made when somebody asks (Worker::watch_spectrum): what it is
-/// made of stays on the device.
+/// What some jobs can tell besides their picture, when somebody asks (Worker::watch_spectrum).
 struct PixelSpectrum {
   struct Layer {
     std::string name;             ///< as in the picture
@@ -136,8 +132,7 @@ struct PixelSpectrum {
 class SpectrumSource {
 public:
   virtual ~SpectrumSource() = default;
-  /// As the picture of a snapshot at the same time. On the job's thread. Null outside of the picture, and where it
-  /// never has one.
+  /// As the picture of a snapshot at the same time, on the job's thread. Null where there never is one.
   virtual std::shared_ptr<const PixelSpectrum> spectrum(const std::array<int, 2>& pixel) = 0;
 };
 

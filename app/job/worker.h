@@ -52,8 +52,7 @@ public:
   /// take more than a fifth of the time, they are made less often. In a job's first second they come sooner after each
   /// other, and may take a third of the time.
   void set_snapshot_interval(std::chrono::milliseconds interval);
-  /// Follows all jobs to come, which are then told that they have ended also where nobody will look at them again. It
-  /// outlives the worker.
+  /// Follows all jobs to come, to their ends, also where nobody will look at them again. It outlives the worker.
   void set_observer(Observer* observer);
   /// Blocks until the job is finished, cancelled or failed; for tests.
   void wait();

@@ -41,12 +41,10 @@ using OpenRanks = Ranks* (*)();
 /// and this build has no MPI or the module cannot be loaded.
 std::shared_ptr<Ranks> open_ranks();
 
-/// Returns where no rank has an error, and throws what this one has. Where others have one, waits for the end that they
-/// bring.
+/// Throws this rank's error. Where others have one, waits for the end that they bring.
 void require_all(Ranks& ranks, const std::optional<Error>& error);
 
-/// Throws bad_input on each rank whose `mine` is not that of rank 0. what: "version", for the message. No rank goes on
-/// where one has.
+/// Throws bad_input on each rank whose `mine` is not that of rank 0; then no rank goes on. what: "version".
 void require_same(Ranks& ranks, const std::string& what, const std::string& mine);
 
 } // namespace nephroid::mpi

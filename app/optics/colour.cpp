@@ -65,8 +65,7 @@ Spectrum curved(const Spectrum& straight) {
   Spectrum one{};
   one.fill(1);
   const Colour mu = cross(to_xyz(one), to_xyz(straight));
-  // D^T w = c: w[i] - 2 w[i - 1] + w[i - 2] = c[i]. The last two of these equations hold because c is orthogonal to
-  // straight lines.
+  // D^T w = c: w[i] - 2 w[i - 1] + w[i - 2] = c[i]. The last two hold because c is orthogonal to straight lines.
   std::array<double, count - 2> w{};
   for (std::size_t i = 0; i < w.size(); ++i) {
     const double c = mu[0] * eye.x[i] + mu[1] * eye.y[i] + mu[2] * eye.z[i];

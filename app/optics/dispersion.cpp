@@ -29,8 +29,7 @@ Error refusal(const DispersionCurve& curve, const char* quantity, double nm, dou
                    "outside \"hold\" or \"extrapolate\" goes beyond it");
 }
 
-/// A formula that gives no n at a wavelength: past its range it may be held instead, inside it its coefficients are
-/// wrong.
+/// A formula gives no n at a wavelength: past its range it may be held, inside it its coefficients are wrong.
 Error no_index(const DispersionCurve& curve, double nm, Extrapolation outside) {
   const double low = curve.n->low_nm, high = curve.n->high_nm;
   const std::string what = fmt::format("the formula of {} gives no number at {} nm", curve.name, nm);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dispersion: index of refraction n and extinction coefficient k as functions of wavelength, from formulas, tables,
-// control points and any refractiveindex.info file. Not here: what to do with them (clusters are in spectral/).
+// control points and any refractiveindex.info file.
 #pragma once
 #include "optics/wavelength.h"
 
@@ -23,8 +23,7 @@ struct IndexSample {
   bool extrapolated = false; ///< nm lies outside the data's own range (beyond a relative tolerance of 1e-6 at its ends)
 };
 
-/// n(lambda) or k(lambda) on its own range. The value function is defined everywhere a formula is; a table holds its
-/// ends.
+/// n(lambda) or k(lambda) on its own range. Its value is defined wherever a formula is; a table holds its ends.
 struct Curve {
   std::function<double(double nm)> value;
   double low_nm = 0, high_nm = 0;
@@ -73,8 +72,7 @@ inline constexpr int formula_count = 9;
 int most_coefficients(int formula);
 
 /// n by formula 1..9 at a wavelength in micrometres. Coefficients that are not there count as 0, and a term whose
-/// factor is 0 is left out before its denominator is looked at. NaN or infinite where the formula has no value (n^2 <
-/// 0, a pole).
+/// factor is 0 is left out before its denominator is looked at. Not finite where n^2 < 0 and at a pole.
 double index_by_formula(int formula, std::span<const double> coefficients, double um);
 
 } // namespace nephroid::optics

@@ -74,8 +74,7 @@ Spectrum blackbody(double temperature_k) {
   if (!std::isfinite(temperature_k) || !(temperature_k > 0))
     throw bad_input({}, fmt::format("a black body of {} K", temperature_k), "expected a temperature above 0 K");
   // Planck: lambda^-5 / (exp(c2 / (lambda T)) - 1), with c2 = h c / k_B (SI 2019, exact figures). Divided by its value
-  // at the red end, exponents stay small: a body of 1 K has e^-18000 of its red light in the blue, which is 0 here, and
-  // no 0 / 0.
+  // at the red end, exponents stay small: a body of 1 K has no blue light, and not 0 / 0 of it.
   constexpr double c2_nm_k = 1.438776877503933e7;
   const double reference = c2_nm_k / (last_nm * temperature_k);
   Spectrum spectrum{};

@@ -7,8 +7,7 @@
 
 namespace nephroid::photons {
 
-/// A picture of width x height pixels in square blocks of edge x edge pixels; those at its right and lower border may
-/// be cut.
+/// A picture of width x height pixels in blocks of edge x edge; those at its right and lower border may be cut.
 struct Blocks {
   int width, height, edge;
   int across() const { return (width + edge - 1) / edge; }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Develops the stages' films into the picture: each layer, smoothed, and their sum. While a layer has little light, its
-// preview stands in for it.
+// Develops the stages' films into smoothed layers and their sum. While a layer has little light, its preview stands in.
 #pragma once
 #include "photons/block_smoothing.h"
 #include "photons/passes.h"

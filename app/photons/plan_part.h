@@ -60,8 +60,7 @@ inline PlanPart part_of(plan::Pass pass, std::vector<plan::PlannedBuffer> buffer
 struct RunPart {
   /// Plans the part. It runs if its first pass does; without passes it does not run.
   PlanPart (*plan)(const PlanInput& input);
-  /// Makes the stage of a part that runs; null for other parts. world outlives the stage. Throws as job::Job's making
-  /// does.
+  /// Makes the stage of a part that runs; null for other parts. world outlives the stage. Throws as make_job does.
   std::unique_ptr<Stage> (*make)(DeviceWorld& world, const scene::Scene& scene, const Settings& settings) = nullptr;
   const char* layer = ""; ///< the picture's layer that the stage adds to
 };

@@ -62,8 +62,7 @@ const Reach& within_reach() {
   return sorted;
 }
 
-/// Calls work(i, j) for each pair of pixels side by side or one above the other, and `diagonal` for those that touch at
-/// a corner.
+/// Calls work(i, j) for each pair of pixels that touch at a side, and with `diagonal` also at a corner.
 template <class Work>
 void for_neighbours(int width, int height, bool diagonal, const Work& work) {
   const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
@@ -104,8 +103,7 @@ std::vector<bool> are_near_pulled(const std::vector<PixelSurfaces>& pixels, int 
 ///   M = sum of (r + q)(r - q)    is that of the squares of the bias, give or take the root of S = sum of ((r + q)(r -
 ///   q))^2, and g^2 = M / (sum of r^2) / (1 + S / M^2)    the share of r^2 that it is, as far as it stands out,
 ///
-/// and g r a draw of the bias: r is the bias and the noise that was taken away, and the latter is no error of what is
-/// spread.
+/// and g r a draw of the bias: r is the bias and the noise that was taken away, which is no error of what is spread.
 void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
               std::vector<float>& draw_spread, int width, int height) {
   // r^2 + factor q^2, summed over R, G and B.
@@ -189,8 +187,7 @@ struct SpreadDomain {
   }
 };
 
-/// Where a pixel's light goes: evenly, weighted by how each pixel is favoured. The outermost ring gets less, so that
-/// kernels change without a jump.
+/// Where a pixel's light goes, by how each pixel is favoured. The outermost ring gets less: no kernel jumps.
 struct Kernel {
   std::uint32_t inside = 0,
                 end = 0;  ///< numbers of the pixels before the outermost ring, and with it
@@ -241,8 +238,7 @@ std::vector<Kernel> find_kernels(const SpreadDomain& at, std::span<const double>
   return kernels;
 }
 
-/// Calls give(i, j, part) with the part of its light that each pixel i which is `needed(i)` gives to j. Runs on every
-/// core, each with its own j.
+/// Calls give(i, j, part) with the part of its light that each `needed(i)` gives to j, on every core with its own j.
 template <class Needed, class Give>
 void give_parts(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> favour,
                 const Needed& needed, const Give& give) {

@@ -56,8 +56,7 @@ public:
   }
   /// The number of passes that it takes part in; it stops once it has enough samples.
   virtual std::int64_t passes() const { return preset::max_passes; }
-  /// Does one slice of about 30 ms of a pass that it takes part in. True when its part of that pass is complete; the
-  /// next call is in the next pass.
+  /// Does one slice of about 30 ms of a pass that it takes part in. True when its part of that pass is complete.
   virtual bool advance(std::int64_t pass) = 0;
   /// Does one slice of its part of a preview (DeviceWorld::preview), before the first pass. True when that is complete.
   virtual bool advance_preview() { return true; }

@@ -53,8 +53,7 @@ struct Plan {
 };
 
 /// {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{},
-/// "inputs":[{"file","content"}]}, plus "notes"; "field" and "run_value" only where a field decides. Over several
-/// lines, as plan.json has it.
+/// "inputs":[{"file","content"}]}, plus "notes"; "field" and "run_value" only where a field decides.
 std::string to_json(const Plan& plan);
 /// The inputs in a plan.json; none if it is damaged.
 std::vector<Input> inputs_of(const std::string& plan_json);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine 1, spectral caustics: photons of each wavelength cluster are splatted where the camera sees a diffuse receiver
-// (thesis chapter 4).
+// Engine 1, spectral caustics: photons of wavelength clusters, splatted on diffuse receivers (thesis chapter 4).
 #pragma once
 #include "engine/engine.h"
 #include "photons/job.h"

@@ -18,8 +18,7 @@ inline constexpr double film_limit = 0x1p42;
 struct Film {
   std::vector<std::int64_t> sums; ///< [half][pixel of the picture][3]: XYZ radiance in quanta, added up over samples
   double quanta_per_unit = 1;     ///< quanta of what becomes 1 in the picture
-  /// How many samples, batches or passes of photons the sums of a pixel hold, in each half. A film without halves has
-  /// all of them in one image.
+  /// How many samples, batches or passes the sums of a pixel hold, in each half. Without halves all are in one image.
   std::function<std::array<double, 2>(std::size_t pixel)> samples;
 };
 

@@ -37,9 +37,8 @@ std::vector<float> exact_cdf(const std::vector<double>& weights);
 /// exact_cdf with a 0 in front: one number more than there are weights.
 std::vector<float> exact_cdf_from_zero(const std::vector<double>& weights);
 
-/// The worth of light, by which paths are divided among lights, clusters or wavelengths before anything is measured.
-/// seen: what the eye makes of it, (X + Y + Z) / 3. power: a twentieth of it counts too, so that light which the eye
-/// hardly sees has some paths.
+/// The worth of light, by which paths are divided before anything is measured. seen: what the eye makes of it, (X + Y +
+/// Z) / 3. power: a twentieth of it counts too, so that light which the eye hardly sees has paths.
 constexpr double worth(double seen, double power) { return seen + 0.05 * power; }
 
 } // namespace nephroid::tracing

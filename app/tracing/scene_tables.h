@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene as kernels read it (kernels/tracing/world.h): plain tables on the host. They are made once a job, and
-// tested without a device.
+// The scene as kernels read it (kernels/tracing/world.h): plain tables on the host, made once a job.
 #pragma once
 #include "preset/preset.h"
 #include "scene/scene.h"

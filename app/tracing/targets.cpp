@@ -46,9 +46,8 @@ std::pair<Piece, Piece> halves(const scene::Mesh& mesh, Triangles triangles) {
 }
 
 /// Spheres about slices of an ellipsoid across its longest half axis a; the longer it is for its thickness, the more
-/// slices. With x in lengths of a, a slice from x to x + w lies within w a / 2 of its middle along the axis. It lies
-/// within sqrt(1 - x'^2) times the next longest half axis off the axis, where x' is the slice's least distance from the
-/// centre.
+/// slices. With x in lengths of a, a slice from x to x + w lies within w a / 2 of its middle along the axis, and off it
+/// within sqrt(1 - x'^2) times the next longest half axis, x' its least distance from the centre.
 std::vector<scene::Sphere> slices(const scene::Ellipsoid& ellipsoid) {
   std::array<glm::dvec3, 3> axes{ellipsoid.half_axes[0], ellipsoid.half_axes[1], ellipsoid.half_axes[2]};
   std::ranges::sort(axes, [](const glm::dvec3& a, const glm::dvec3& b) { return glm::length(a) > glm::length(b); });
@@ -190,8 +189,7 @@ std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene) {
     *widest = std::move(first);
     pieces.push_back(std::move(second));
     const double shadow = mean_shadow(spheres_of(pieces));
-    // One more sphere costs every photon a little, so it must make the shadow smaller by more than the estimate's
-    // error.
+    // One more sphere costs a little, so it must gain more than the estimate's error.
     if (shadow < 0.97 * best_shadow) {
       best = spheres_of(pieces);
       best_shadow = shadow;

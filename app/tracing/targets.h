@@ -22,8 +22,7 @@ scene::Sphere everything(const scene::Scene& scene);
 /// or behind an area light. True in doubt.
 bool reaches(const scene::Light& light, const scene::Sphere& sphere);
 
-/// The power in W that the light sends towards the targets. Where targets overlap it counts twice, which is good enough
-/// for the allocation.
+/// The power in W that the light sends towards the targets. It counts twice where targets overlap.
 double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit);
 
 /// The area of the shadow that the spheres cast together: the mean over directions, in square units, to about 2 %.

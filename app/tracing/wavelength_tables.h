@@ -42,8 +42,7 @@ WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::ve
 /// Where all glass that disperses follows one curve, s is its index of refraction n. A path's place is a much
 /// straighter function of n than of the wavelength, and wavelengths that share an n share a place, however far apart
 /// they are, so a cluster of an anomalous curve is stretched as a whole. Where there are several curves, s is the
-/// wavelength in nm, and clusters are split into runs of neighbours. none: no glass bends two wavelengths differently,
-/// so there is nothing to stretch.
+/// wavelength in nm, and clusters are split into runs of neighbours. none: no glass disperses.
 enum class StretchParameter { none, index, wavelength };
 
 StretchParameter stretch_parameter(const scene::Scene& scene);
@@ -58,8 +57,7 @@ struct StretchTables {
 
 /// For clusters of WavelengthTables; lit: which wavelengths stay in them. Light between two wavelengths is interpolated
 /// linearly: each of the 401 has a tent of +-1 nm, whose arms end at the neighbours. Beyond 380 and 780 nm the curve
-/// goes on straight. An arm across a jump of the curve (more than 8 times the steps on both sides) has length 0,
-/// because nothing lies between.
+/// goes on straight. An arm across a jump of the curve (8 times the steps on both sides) has length 0.
 StretchTables make_stretch_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters,
                                   const std::vector<bool>& lit);
 

@@ -14,8 +14,7 @@ typedef struct {
   uint cell;     // cell of the histogram
 } Guided;
 
-// Draws one of `count` bins, which it returns, and a place in it: *number in [0, 1) becomes another such number. cdf:
-// exact_cdf of the bins.
+// Returns one of `count` bins, and in *number, in [0, 1), a place in it. cdf: exact_cdf of the bins.
 static inline int draw_bin(__global const float* cdf, int count, float* number, float* density) {
   const int bin = choose(cdf, count, *number);
   const float before = chance_before(cdf, bin), chance = cdf[bin] - before;

@@ -7,8 +7,7 @@
 #include "kernels/photons/splat.h"
 
 // A photon in any direction that the light shines in. everything: one target, about the scene and the lights. An area
-// light sends the same power along every cosine-distributed direction; emit() has uniform directions, which would be
-// noisier.
+// light's directions are cosine-distributed, each of the same power; emit() has uniform ones, which are noisier.
 static inline Emission emit_everywhere(DeviceLight light, __global const DeviceTarget* everything,
                                        const DeviceScene* scene, float4 random, float2 place) {
   if (is_light(&light, LIGHT_AREA)) {
@@ -93,8 +92,7 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
   }
 }
 
-// Follows the photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. emitters: one for each
-// light that has photons.
+// Follows `count` photons offset, offset + stride, ... of a pass. emitters: one for each light that has photons.
 __kernel void
 indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything, __global const DeviceEmitter* emitters,
          int emitter_count,

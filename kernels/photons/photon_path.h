@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A photon's way from a light through glass and mirrors to its end: its emitter, its random numbers at the start, what
-// it meets.
+// A photon's way from a light to its end: its emitter, its random numbers at the start, what it meets.
 #ifndef NEPHROID_PHOTON_PATH_H
 #define NEPHROID_PHOTON_PATH_H
 

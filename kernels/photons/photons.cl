@@ -51,9 +51,8 @@ static inline bool store_photon(__global StoredPhoton* slot, const Surface* surf
   return fits;
 }
 
-// Follows the photons offset, offset + stride, offset + 2 stride, ... (count of them) of the batch with the number
-// `iteration`. map_pass is the pass of the maps, which has one batch or several. energy counts what photons carry,
-// whatever a smooth receiver's shading normals make of it.
+// Follows `count` photons offset, offset + stride, ... of the batch `iteration`. map_pass is the pass of the maps.
+// energy counts what photons carry, whatever a smooth receiver's shading normals make of it.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
                       volatile __global long* moments,                              // with NEPHROID_MOMENTS: [emitter]

@@ -11,8 +11,7 @@
 #define NEPHROID_OCCLUSION 1
 #endif
 
-// The place of `position` in the picture, in pixels from the top left corner. *depth is along the view, positive before
-// the camera.
+// The place of `position` in pixels from the top left corner. *depth is along the view, positive before the camera.
 static inline float2 place_on_film(const DeviceCamera* camera, float3 position, float* depth) {
   const float3 to_camera = camera->position.xyz - position;
   const float z = -dot(to_camera, camera->forward.xyz);

@@ -86,8 +86,7 @@ static inline bool stretch_end(const World* world, const DeviceCamera* camera, c
                         &triangle);
 }
 
-// Tries to stretch a photon from `low` to `high`, its own s being 0. False where that leaves the receiver or goes too
-// far to be predicted.
+// Tries to stretch a photon from `low` to `high`, its own s being 0. False: that leaves the receiver or goes too far.
 static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
                                 float low, float high, Stretch* stretch) {
   if (!(fabs(high - low) * length(path->differential.direction) <= STRETCH_WIDEST)) return false;
@@ -104,8 +103,7 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
 
 // Decides how a deposited photon is splatted: as a streak of its cluster; if that is impossible, with jitter, as a
 // streak of its own wavelength; else as a point. The first choice depends on where the whole cluster's light goes and
-// not on the photon's wavelength. So it is the same for all wavelengths, and no light is counted twice or lost where a
-// streak would leave the receiver.
+// not on the photon's wavelength, so no light is counted twice or lost where a streak would leave the receiver.
 static inline Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
                                  const Band* band) {
 #if NEPHROID_DIFFERENTIALS
@@ -128,8 +126,7 @@ static inline float place_in_tent(const World* world, int wavelength, float u, f
   return place.x - origin + (t < 0.0f ? -t * (place.y - place.x) : t * (place.z - place.x));
 }
 
-// Picks a wavelength of the photon's cluster by u in [0, 1), as choose_band does, and a place in its tent. *x becomes
-// its s less the photon's.
+// Picks a wavelength of the cluster by u as choose_band does, and a place in its tent. *x: its s less the photon's.
 static inline Band stretched_band(const World* world, int light, const Band* photon, float u, float* x) {
   const int cluster = made_late(photon->cluster), first = world->tables.cluster_first[cluster],
             count = world->tables.cluster_first[cluster + 1] - first;

@@ -18,11 +18,9 @@ static inline float3 texel_at(const Background* b, int row, int column) {
   return vload3((size_t)row * (size_t)b->size.width + (size_t)column, b->texels);
 }
 
-// Linear sRGB in a direction, bilinear between the middles of texels. Columns go on around; the first and the last row
-// are repeated beyond the picture.
+// Linear sRGB in a direction, bilinear between texels. Columns go on around; the first and the last row are repeated.
 static inline float3 background_rgb(const Background* b, float3 direction) {
-  // The azimuth goes from the middle of the picture, -z, to its right, +x. A map that is turned to the left about +y is
-  // looked up farther to the right.
+  // The azimuth goes from the picture's middle, -z, to its right, +x. A map turned to the left is read to the right.
   const float azimuth = atan2(direction.x, -direction.z) / (2.0f * PI_F) + 0.5f + b->size.turns;
   const float zenith = atan2(sqrt(direction.x * direction.x + direction.z * direction.z), direction.y) / PI_F;
   const float x = (azimuth - floor(azimuth)) * (float)b->size.width - 0.5f;

@@ -15,8 +15,7 @@ static inline float3 primary_direction(const DeviceCamera* camera, int column, i
 }
 
 // A number in [0, 1) for path `path` of `paths` in a frame: steps of the golden ratio, so that a pixel's numbers spread
-// evenly. Even and odd frames have starts and counts of their own, so that they are independent, as the film's two
-// halves must be.
+// evenly. Even and odd frames have starts and counts of their own, as the film's independent halves must.
 static inline float golden_place(uint2 seed, uint frame, uint path, uint paths, uint pixel, uint stream) {
   const uint half_of_frames = frame & 1u, step = (frame >> 1) * paths + path;
   const uint start = philox4x32((uint4)(pixel, half_of_frames, 0u, stream), seed).x;

@@ -84,8 +84,7 @@ static inline void differential_to_surface(Differential* d, float3 direction, fl
 #endif
 }
 
-// Carries them across a bend at that surface. direction: before the bend. n_i, n_t and their n': before and after an
-// interface, equal at a mirror.
+// Carries them across a bend at that surface. direction: before it. n_i, n_t and their n': equal at a mirror.
 static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint primitive,
                                              const Surface* surface, float3 direction, const Bend* bend, float n_i,
                                              float n_t, float d_n_i, float d_n_t) {

@@ -22,8 +22,7 @@ static inline void make_frame(float3 n, float3* x, float3* y) {
   *y = (float3)(b, sign + n.y * n.y * a, -n.y);
 }
 
-// A direction about the unit vector n with the density cos(theta) / pi: uniform on the disc below the half sphere
-// (Malley).
+// A direction about the unit vector n with the density cos(theta) / pi: uniform on the disc below (Malley).
 static inline float3 cosine_direction(float3 n, float u, float v) {
   float3 x, y;
   make_frame(n, &x, &y);
@@ -64,9 +63,8 @@ static inline bool meets_sphere(float4 sphere, float3 from, const Emission* phot
   return along + photon->behind > 0.0f && dot(aside, aside) <= radius2;
 }
 
-// Points a photon from `from` at the target at `centre`. A direction is rounded by 2^-24, which at a far and small
-// target is a visible part of its size. There the photon begins in the plane through the target's centre and reaches
-// back to the light.
+// Points a photon from `from` at the target at `centre`. A direction is rounded by 2^-24, which a far and small target
+// shows. There the photon begins in the plane through its centre and reaches back to the light.
 static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 random, Emission* photon) {
   const float3 way = centre - from;
   const float distance2 = dot(way, way); // 0 in the middle of a target, where any axis will do
@@ -124,8 +122,7 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
   return emission;
 }
 
-// Radiance is power / (area pi); the place is uniform on the area, so a photon carries power cos(theta) / pi per
-// steradian.
+// Radiance is power / (area pi), and the place uniform, so a photon carries power cos(theta) / pi per steradian.
 static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random,
                                       float2 place) {
   Emission emission;
@@ -167,8 +164,7 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
   return emission;
 }
 
-// targets: the whole table, in which a light has its own list. light: the environment as source_of (world.h) turns it
-// into a light for one photon.
+// targets: the whole table. light: the environment as source_of (world.h) turns it into a light for one photon.
 static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
                             float4 random, float2 place) {
   targets += light->first_target;

@@ -7,8 +7,7 @@
 
 #define PI_F 3.14159265358979f
 
-// Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing, and with one type
-// there is no test at all.
+// Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing.
 #ifndef NEPHROID_LIGHT_TYPES
 #define NEPHROID_LIGHT_TYPES 31
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Low-discrepancy numbers: a Sobol sequence of four dimensions, scrambled as Owen (1995) has it by hashing (Burley
-// 2020, "Practical hash-based Owen scrambling"). Each number on its own is uniform in [0, 1); sequences with different
-// keys are independent.
+// 2020, "Practical hash-based Owen scrambling"). Sequences with different keys are independent.
 #ifndef NEPHROID_LOW_DISCREPANCY_H
 #define NEPHROID_LOW_DISCREPANCY_H
 
@@ -12,8 +11,8 @@
 #endif
 
 // Direction numbers of the dimensions 2, 3 and 4 for each bit of the index (Joe and Kuo 2008, new-joe-kuo-6: primitive
-// polynomials x + 1, x^2 + x + 1, x^3 + x + 1 with initial numbers 1; 1, 3; 1, 3, 1). Dimension 1 is the index with its
-// bits in reverse.
+// polynomials x + 1, x^2 + x + 1, x^3 + x + 1 with initial numbers 1; 1, 3; 1, 3, 1). Dimension 1 is the reversed
+// index.
 __constant uint3 sobol_directions[32] = {
     (uint3)(0x80000000u, 0x80000000u, 0x80000000u), (uint3)(0xc0000000u, 0xc0000000u, 0xc0000000u),
     (uint3)(0xa0000000u, 0x60000000u, 0x20000000u), (uint3)(0xf0000000u, 0x90000000u, 0x50000000u),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counter-based random numbers: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
-// A number is a function of (seed, stream, iteration, index, dimension) alone, so results do not depend on threads,
-// devices or resuming.
+// A number is a function of (seed, stream, iteration, index, dimension) alone, not of threads, devices or resuming.
 #ifndef NEPHROID_RANDOM_H
 #define NEPHROID_RANDOM_H
 
@@ -45,8 +44,7 @@ static inline float4 random4(uint2 seed, uint iteration, uint index, uint block,
   return convert_float4(bits >> 8) * 0x1p-24f;
 }
 
-// Chooses one of several things by a random number u in [0, 1): the first with cdf > u. cdf: [count], the last 1
-// (app/tracing/scales.h).
+// Chooses by u in [0, 1) the first of several things with cdf > u. cdf: [count], the last 1 (app/tracing/scales.h).
 static inline int choose(__global const float* cdf, int count, float u) {
   int low = 0, high = count - 1;
   while (low < high) {

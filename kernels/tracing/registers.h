@@ -3,8 +3,7 @@
 #ifndef NEPHROID_REGISTERS_H
 #define NEPHROID_REGISTERS_H
 
-// For a large function that takes a World. Without inlining it would need the World in memory, which kernels have as
-// arguments.
+// For a large function that takes a World, which it would need in memory without inlining.
 #define IN_PLACE static inline __attribute__((always_inline))
 
 // ROLLED: a loop that is not unrolled.

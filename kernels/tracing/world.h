@@ -107,8 +107,7 @@ static inline void bend_differential(const World* world, Path* path, uint triang
 #endif
 }
 
-// Continues the path at a mirror or dielectric. choice: uniform in [0, 1). *n_ratio: n before over n after. False where
-// the path is inside too many media.
+// Continues the path at a mirror or dielectric. choice: uniform in [0, 1). *n_ratio, false: as in cross_interface.
 static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface,
                              const DeviceMaterial* material, const Band* band, float choice, float* n_ratio) {
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
@@ -133,8 +132,7 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   return true;
 }
 
-// A light for one photon or shadow ray. The environment becomes, in *light, directional light from one place, drawn by
-// `place`, two numbers in [0, 1).
+// A light for one photon. The environment becomes, in *light, directional light from one place, drawn by `place`.
 static inline Source source_of(const World* world, int index, float2 place, DeviceLight* light) {
   Source source = {index, (float3)(1.0f)};
   if (is_light(light, LIGHT_ENVIRONMENT)) {

@@ -14,8 +14,7 @@
 namespace nephroid::environment {
 namespace {
 
-/// The quanta of a photon with an equal share of all power. Rounding takes far less, and 2^30 photons of 2^6 times as
-/// much fit.
+/// The quanta of a photon with an equal share of all power: 2^30 photons of 2^6 times as much fit.
 constexpr double quanta_of_photon = 0x1p24;
 
 } // namespace

@@ -53,8 +53,7 @@ public:
   /// task outlives it. wanted: how many directions will be baked. Throws failed where the device has not enough memory.
   Baker(const BakeTask& task, const mpi::RankContext& context, std::size_t wanted = ~std::size_t{0});
 
-  /// Sends some photons of the direction in hand; each rank has a direction of its own. The last photons add the
-  /// direction to the bake.
+  /// Sends some photons of the direction in hand, one for each rank. The last ones add it to the bake.
   void advance();
   bool finished() const { return bake_.baked.size() == task_.directions.size(); }
   /// The part of the direction in hand that is done, 0..1.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A baked object under lights, on a device: the E r^2 of all lights together at points around it
-// (kernels/environment/cast.cl).
+// A baked object under lights, on a device: E r^2 of all lights at points around it (kernels/environment/cast.cl).
 #pragma once
 #include "compute/compute.h"
 #include "environment/bake/bake.h"
@@ -49,8 +48,7 @@ public:
   /// The time that all calls of set_lights and cast have taken.
   double seconds() const { return seconds_; }
 
-  /// Adds up the light in the air of all sets into one set of spheres (Algorithm 3.5), whose maps have side x side
-  /// texels.
+  /// Adds up the light in the air of all sets into one set of spheres (Algorithm 3.5) with maps of side x side texels.
   void compile_air(int side);
 
   /// What compile_air() made, for kernels that look it up (compiled_air in kernels/environment/spheres.h).

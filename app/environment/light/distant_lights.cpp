@@ -84,8 +84,7 @@ std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count) 
   return near;
 }
 
-// Where the vectors are nearly opposite, the real part of glm's quaternion is rounded off. Its length is wrong there,
-// but its axis is right.
+// For nearly opposite vectors the real part of glm's quaternion is rounded off: its length is wrong, its axis right.
 glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to) {
   return glm::mat3_cast(glm::normalize(glm::rotation(from, to)));
 }

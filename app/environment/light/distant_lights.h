@@ -22,8 +22,7 @@ struct DistantLight {
 /// The lights of the environment in the scene, in the same order.
 std::vector<DistantLight> environment_lights(const std::vector<VisibleLight>& lights, double rotate_deg);
 
-/// The scene's directional lights. Throws bad_input at FILE#/scene/lights/INDEX for a light of another type: it has no
-/// one direction.
+/// The scene's directional lights. Throws bad_input at FILE#/scene/lights/INDEX for a light of another type.
 std::vector<DistantLight> lamps(const scene::Scene& scene);
 
 /// The part of each light that Visibility sees from points of the object. surroundings, from: as in Visibility.
@@ -50,8 +49,7 @@ std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count);
 /// The shortest turn from one unit vector to another; opposite ones take half a turn about some axis across them.
 glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to);
 
-/// The sets of all lights; black lights have none. rotation: from the bake's coordinates to the scene's. count: the
-/// number of baked directions.
+/// The sets of all lights that are not black. rotation: from the bake's coordinates to the scene's.
 std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count);
 
 } // namespace nephroid::environment

@@ -18,8 +18,7 @@ inline constexpr int face_count = 6;
 inline constexpr std::array<const char*, face_count> face_names{"+x", "-x", "+y", "-y", "+z", "-z"};
 
 /// A point of the cube of half side 1: s to the right and t downwards in its face, -1..1 each. Faces lie as in cube
-/// maps of OpenGL: s and t of +x are -z and -y, of -x +z and -y, of +y +x and +z, of -y +x and -z, of +z +x and -y, of
-/// -z -x and -y.
+/// maps of OpenGL (position() says how).
 struct CubePoint {
   int face = 0;
   double s = 0, t = 0;
@@ -82,8 +81,7 @@ CubeMap make_cube_map(const scene::Environment& map);
 /// Y of linear sRGB (IEC 61966-2-1).
 inline double luminance(const glm::dvec3& rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
 
-/// The scene's direction for a direction in the cube. The scene has the map turned about +y, counterclockwise as seen
-/// from above.
+/// The scene's direction for one in the cube: the map is turned about +y, counterclockwise as seen from above.
 glm::dvec3 turned(const glm::dvec3& direction, double rotate_deg);
 
 } // namespace nephroid::environment

@@ -84,8 +84,7 @@ private:
 
   Region region_of(const Piece& piece) const {
     const Rect& r = piece.rect;
-    // Moments along s, t and outwards are a scaled point of the face. A black piece has none, so it gets the middle of
-    // its rectangle.
+    // Moments along s, t and outwards are a scaled point of the face. A black piece gets the middle of its rectangle.
     const glm::dvec3 m = piece.moments.m1;
     const CubePoint centre = m.z > 0 ? CubePoint{piece.face, m.x / m.z, m.y / m.z}
                                      : CubePoint{piece.face, (border(r.x0, cube_.size) + border(r.x1, cube_.size)) / 2,

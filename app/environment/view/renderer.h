@@ -36,8 +36,7 @@ public:
   /// Begins anew with the caustics of the task's caster, which outlive the renderer. Before this call there are none.
   void set_caustics(Caustics& caustics);
 
-  /// Builds the tree again where objects have moved since it was built. This pays for many passes, not for a coarse
-  /// picture.
+  /// Builds the tree again where objects have moved: it pays for many passes, not for a coarse picture.
   void renew_tree();
   /// One slice of about 30 ms of the pass in hand.
   void advance();
@@ -49,8 +48,7 @@ public:
     std::vector<float> rgb;
     std::vector<float> draw; ///< a draw of its error, as job::Picture::error_draw; empty before two passes
   };
-  /// Places in layers(). smooth: the layer direct without noise, with the shadows of the segmentation's lights. volume:
-  /// only in a medium.
+  /// Places in layers(). smooth: direct without noise, with the shadows of a few lights. volume: only in a medium.
   enum : std::size_t { background, direct, caustic, smooth, volume };
   std::vector<Layer> layers() const;
 

@@ -48,14 +48,12 @@ double arc_integral(double ratio, double end) {
   return sum * end;
 }
 
-// Theta by the thesis' bicubic patches (4.5)-(4.14). The surface d theta2 / d lambda over wavelength and angle of
-// incidence is cut into patches of 1 nm by 1 degree, each a bicubic polynomial. A wavelength's Theta is the volume
-// below its 89 patches.
+// Theta by the thesis' bicubic patches (4.5)-(4.14). d theta2 / d lambda over wavelength and angle of incidence is cut
+// into bicubic patches of 1 nm by 1 degree. A wavelength's Theta is the volume below its 89.
 constexpr int angle_count = last_angle_deg + 1; ///< 0..89 degrees
 
 /// Appendix A.2: a = M^-1 Psi. Columns: psi at the corners (0,0), (1,0), (0,1), (1,1) of (wavelength, angle), then
-/// psi_lambda, psi_theta and psi_lambda_theta at the same corners. Rows: a_00, a_10, a_20, a_30, a_01, ... a_33 of
-/// (4.8).
+/// psi_lambda, psi_theta, psi_lambda_theta there. Rows: a_00, a_10, a_20, a_30, a_01, ... a_33 of (4.8).
 constexpr std::array<std::array<int, 16>, 16> m_inverse{{
     {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
     {0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
@@ -75,8 +73,7 @@ constexpr std::array<std::array<int, 16>, 16> m_inverse{{
     {4, -4, -4, 4, 2, 2, -2, -2, 2, -2, 2, -2, 1, 1, 1, 1},
 }};
 
-/// The volume below a patch is a^T b = (M^-T b)^T Psi with b_ij = 1 / ((i + 1)(j + 1)) (4.12, 4.13): each corner value
-/// has one weight.
+/// The volume below a patch is a^T b = (M^-T b)^T Psi with b_ij = 1 / ((i + 1)(j + 1)) (4.12, 4.13).
 constexpr std::array<double, 16> volume_weights() {
   std::array<double, 16> weights{};
   for (std::size_t row = 0; row < 16; ++row) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the work of a pass is allocated to lights and clusters (Settings::effort). No OpenCL here.
+// How the work of a pass is allocated to lights and clusters (Settings::effort).
 #pragma once
 #include "photons/settings.h"
 #include "plan/plan.h"
@@ -27,8 +27,7 @@ struct ClusterShares {
 ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
                                   const std::vector<double>& watts, const tracing::WavelengthTables& tables);
 
-/// The plan's pass "importance": how photons are allocated to clusters, and how much of equal work is left. importance
-/// is ClusterShares::importance.
+/// The plan's pass "importance": how photons are allocated, and how much of equal work is left.
 plan::Pass effort_pass(const Settings& settings, const std::vector<double>& importance);
 
 } // namespace nephroid::photons

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons of a batch are allocated to emitters, pairs of a light and a wavelength cluster, and leave lights in
-// directions where they matter. In this file "pass" means one batch; a pass of the run has several
-// (RunTables::batches). No OpenCL here.
+// directions where they matter. Here "pass" means one batch (RunTables::batches).
 #pragma once
 #include "kernels/tracing/shared_types.h"
 #include "tracing/state.h"
@@ -28,8 +27,7 @@ std::vector<shared::DeviceEmitter> make_emitters(const std::vector<PhotonSource>
 /// weight of 0 none. The result sums to max(photons, number of positive weights).
 std::vector<unsigned> allocate_photons(const std::vector<double>& weights, unsigned photons);
 
-/// Fills DeviceEmitter::first_photon and the two fields of the light from the emitters' photon_count. Emitters of a
-/// light follow each other.
+/// Fills DeviceEmitter::first_photon and the two fields of the light from photon_count.
 void number_photons(std::vector<shared::DeviceEmitter>& emitters);
 
 /// The photons of all emitters together, once they are numbered.
@@ -78,7 +76,7 @@ private:
 
 /// Where a light's photons matter: a histogram over the numbers that give their directions (kernels/photons/guide.h),
 /// learned from what earlier photons added to the picture. A cell's chance of a photon is proportional to the root of
-/// the mean square of what its photons add; that makes the sum of all cells' variances smallest. No OpenCL here.
+/// the mean square of what its photons add; that makes the sum of all cells' variances smallest.
 class EmissionGuide {
 public:
   static constexpr std::size_t cells = std::size_t{GUIDE_BINS_X} * GUIDE_BINS_Y * GUIDE_BINS_Z;
@@ -91,8 +89,7 @@ public:
   /// The table [light][GUIDE_FLOATS]; kernels/photons/guide.h describes it.
   const std::vector<float>& table() const { return table_; }
   /// moments[light][GUIDE_CELLS] is the sum over `passes` passes of the squares of what each photon added to the
-  /// picture, in any unit. photons[light] is the number of photons in each of those passes. Every cell keeps a chance,
-  /// however dark it was.
+  /// picture, in any unit. photons[light] is their number in each of those passes. Every cell keeps a chance.
   void learn(std::span<const std::int64_t> moments, std::span<const double> photons, double passes);
 
   void state(tracing::State& state);

@@ -36,8 +36,7 @@ std::array<glm::dvec3, 9> viewpoints(const scene::Scene& scene, const scene::Obj
 constexpr int rays_per_scene = 9 * 2048, least_rays_per_point = 16;
 
 /// ghat: how often rays from the nine points of every caustic object hit each material, [material]. Every object counts
-/// alike, large or small. Rays pass what refracts, as light does. Where mirrors throw the caustics, rays pass these as
-/// well: their own points lie inside.
+/// alike. Rays pass what refracts, as light does, and mirrors that throw the caustics: their own points lie inside.
 std::vector<double> seen_materials(const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<int>& throwers) {
   std::vector<bool> passed(scene.objects.size());
   for (std::size_t i = 0; i < passed.size(); ++i)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths from the eye in slices of pixels: kernels/photons/view.cl finds where they end, and the caller gathers photons
-// there.
+// Paths from the eye in slices of pixels: photons/view.cl finds where they end, and the caller gathers photons there.
 #pragma once
 #include "kernels/photons/photon_map_types.h"
 #include "photons/tables/device_world.h"

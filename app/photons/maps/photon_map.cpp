@@ -20,8 +20,7 @@ constexpr unsigned scan_blocks = 256;
 /// There is at least one bucket a photon, so that few cells share one.
 std::uint32_t bucket_mask(std::uint32_t slots) { return std::bit_ceil(std::max(slots, 1024u)) - 1; }
 
-/// Kernels read eight photons at a time, up to seven of them beyond the last, and eight are written there that match no
-/// search.
+/// Kernels read eight photons at a time, up to seven beyond the last, where eight stand that match no search.
 std::uint32_t stride(std::uint32_t slots) { return (slots + 15) / 8 * 8; }
 
 /// The fraction of the pixels that show glass or a mirror first, estimated from some four thousand of them.
@@ -147,8 +146,7 @@ std::string map_radius_note(const Settings& settings, const scene::Scene& scene)
 }
 
 double map_radius_factor(std::int64_t pass, double alpha) {
-  // The product of (k + alpha) / (k + 1) over k = 1 .. pass is Gamma(pass + 1 + alpha) / Gamma(1 + alpha) / Gamma(pass
-  // + 2).
+  // The product of (k + alpha) / (k + 1) over k = 1 .. p is Gamma(p + 1 + alpha) / Gamma(1 + alpha) / Gamma(p + 2).
   const auto p = static_cast<double>(pass);
   return std::exp(0.5 * (std::lgamma(p + 1 + alpha) - std::lgamma(1 + alpha) - std::lgamma(p + 2)));
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stochastic progressive photon mapping (Hachisuka and Jensen 2009) as the thesis uses it (4.1): each cluster has a run
-// of its own, with its own statistics for every pixel. The runs take turns: a cluster of importance u has ceil(u p)
-// iterations after p passes. With effort `random` (thesis figure 1.5) each pass draws one cluster, and all share one
-// run, in which it stands for all.
+// and statistics of its own. The runs take turns: one of importance u has ceil(u p) iterations after p passes. With
+// effort `random` (thesis figure 1.5) each pass draws one cluster, which stands for all in one run.
 #include "optics/colour.h"
 #include "photons/effort/emitters.h"
 #include "photons/effort/importance.h"

@@ -49,9 +49,8 @@ LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, Emp
 /// The largest LayerCells::count() for so many cells.
 std::size_t padded_cells(std::size_t cells, int reflector_count);
 
-/// The most cells of a camera's films, known before the survey. Unbent: one a pixel and a quarter more for edges. Bent
-/// (seen through glass and mirrors): two for each pixel that may see `spheres`, which enclose all glass and mirrors.
-/// Both have some thousand more.
+/// The most cells of a camera's films, known before the survey. Unbent: one a pixel, and more for edges. Bent (seen
+/// through glass and mirrors): two for each pixel that may see `spheres`, which enclose these, and some more.
 std::size_t unbent_cells(const shared::DeviceCamera& camera);
 std::size_t bent_cells(const shared::DeviceCamera& camera, std::span<const scene::Sphere> spheres);
 
@@ -109,8 +108,7 @@ private:
 using HalfCounts = std::array<double, 2>;
 
 /// Weights for weigh(). The first picture is the mean over both halves of `colours` [layer][reflector] times the film's
-/// sums, the second the draw of its error (job::Picture::error_draw). counts is [layer]; a layer whose count is 0 is
-/// left out.
+/// sums, the second the draw of its error (job::Picture::error_draw). counts: [layer]; those of 0 are left out.
 LayerFilmWeights mean_and_draw(std::span<const std::array<double, 3>> colours, std::span<const HalfCounts> counts,
                                int reflectors, std::size_t halves, double quanta_per_unit);
 
@@ -133,8 +131,7 @@ const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene);
 /// Changes the light. The energy counters begin anew, but for refused contributions.
 void change_light(Relighting& relighting, DeviceWorld& world, LayerLight light);
 
-/// Adds a film of so many cells to the plan: its sums under their name, its cells and the weighed pictures under
-/// theirs.
+/// Adds a film of so many cells to the plan: its sums under their name, and its cells and weighed pictures.
 void plan_layer_film(const char* name, std::size_t layers, std::size_t cells, const PlanInput& input, PlanPart& part);
 
 } // namespace nephroid::photons

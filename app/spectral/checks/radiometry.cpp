@@ -56,8 +56,7 @@ PixelTruth pixel_truth(const preset::Light& light, int resolution, int row, int 
   return truth;
 }
 
-/// The distance of a layer from the truth in sigma: that of the sum over all pixels, and that of each pixel by itself
-/// as chi-square.
+/// The distance of a layer from the truth in sigma: of the sum over all pixels, and of each by itself as chi-square.
 struct Distance {
   double sum_error = 0, pixel_error = 0, ratio = 1;
   double worst() const { return std::abs(sum_error) > std::abs(pixel_error) ? sum_error : pixel_error; }
@@ -71,8 +70,7 @@ Distance distance(const job::Snapshot& snapshot, const char* name, const preset:
   for (int row = 0; row < size; ++row)
     for (int column = 0; column < size; ++column) {
       const PixelTruth truth = pixel_truth(p.scene.lights[0], size, row, column);
-      // A white surface under E has the radiance E / pi. Single precision and the grid of places add 3e-5 to each
-      // pixel.
+      // White under E has the radiance E / pi. Single precision and the grid of places add 3e-5 to each pixel.
       const double e = luminance(layer(snapshot, name), size, row, column) / y_of_light * pi, v = variance(truth);
       sum += e;
       truth_sum += truth.irradiance;
@@ -153,8 +151,7 @@ Result sky_through_nothing(const compute::Context& context, std::uint64_t seed) 
                             hidden, 1 + sums[1] * 3 / static_cast<double>(direct.size())));
 }
 
-/// A pencil meets a mirror that is not grey, then a screen: of every wavelength its reflectance is left, without
-/// chance.
+/// A pencil meets a mirror that is not grey, then a screen: each wavelength's reflectance is left, without chance.
 Result coloured_mirror(const compute::Context& context, std::uint64_t seed) {
   preset::Preset p = empty_preset(16);
   p.seed = seed;

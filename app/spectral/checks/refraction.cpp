@@ -27,8 +27,7 @@ double z_of_transmitted(const compute::Context& context, preset::Preset p, doubl
   return (e.deposited_w / e.emitted_w - truth) / std::sqrt(truth * (1 - truth) / photons);
 }
 
-/// A pencil of 0.01 degrees crosses a plate of 40 m x 1 mm x 40 m. It starts 0.1 m before, so that it is narrow at
-/// grazing angles, too.
+/// A pencil of 0.01 degrees from 0.1 m before crosses a plate of 40 m x 1 mm x 40 m: narrow at grazing angles, too.
 Result plate(const compute::Context& context, std::uint64_t seed) {
   constexpr double n = 1.5;
   double worst = 0;
@@ -82,8 +81,7 @@ struct Screen {
   }
   double column(double x) const { return (x - x_first) / (x_last - x_first) * columns; }
 
-  /// The column of the light's centre within 6 columns of the brightest: light reflected inside the glass lands
-  /// elsewhere.
+  /// The light's centre within 6 columns of the brightest: light reflected inside the glass lands elsewhere.
   double landing(const job::Layer& picture) const {
     double flux[columns] = {};
     for (int row = 0; row < rows; ++row)
@@ -98,8 +96,7 @@ struct Screen {
   }
 };
 
-/// Allows half a pixel: a pencil of 0.005 degrees is some pixels wide, and the centre of its thousands of photons is
-/// known better than that.
+/// Allows half a pixel: a pencil is some pixels wide, and the centre of its photons is known better than that.
 Result off_by(double worst_pixels, std::string detail) {
   return judged(worst_pixels, 0.5, "pixels", std::move(detail));
 }

@@ -78,8 +78,7 @@ Result whole_spectrum(const compute::Context& context, std::uint64_t) {
           t.clusters.size()));
 }
 
-/// Terms are positive, so a sum is as exact as its terms: an exponent e, here up to 18, is off by a few e 2^-24, and so
-/// is exp(-e).
+/// Terms are positive, so a sum is as exact as they: exp(-e), with e up to 18 here, is off by a few e 2^-24.
 Result beer_lambert(const compute::Context& context, std::uint64_t) {
   const tracing::WavelengthTables t = tables();
   std::vector<float> coefficient;
@@ -153,8 +152,7 @@ std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, co
   return photons;
 }
 
-/// The distance of the mean of `values` from the truth in standard errors, to which single precision adds 2e-6 of the
-/// truth.
+/// The mean's distance from the truth in standard errors, to which single precision adds 2e-6 of the truth.
 template <class Value>
 double z_of(const std::vector<Photon>& photons, const Value& value, double truth) {
   double sum = 0, squares = 0;
@@ -209,8 +207,7 @@ Result spot(const compute::Context& context, std::uint64_t seed) {
   wide.power_w = narrow.power_w = 7;
   wide.half_angle_deg = 60;
   narrow.half_angle_deg = 5;
-  // The wide cone holds the first two spheres and its edge crosses the third. The narrow one lies inside the first
-  // sphere and is sent as it is.
+  // The wide cone holds two spheres and its edge crosses the third. The narrow one lies inside the first sphere.
   const std::vector<float4> spheres{three_spheres[0], three_spheres[1], {-std::sqrt(3.0f), 0, 1, 0.5f}};
   const double cone = 2 * pi * (1 - std::cos(pi / 3)), apart = shared_steradians(pi / 3, std::asin(0.25), pi / 3);
   const double z =
