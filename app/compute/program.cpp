@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds programs. The compiler gets one text with every include in its place, so that no file is needed at run time
-// and messages still name the file and line that a person edits.
+// Builds programs. The compiler gets one text with each included file once, in its place, whose lines still have their
+// numbers.
 #include "base/files.h"
 #include "compute/embedded.h"
 #include "compute/state.h"

@@ -82,7 +82,6 @@ static inline Carried carried_by(__global const float4* light_rgb, const Band* b
 }
 
 // Sends photons first .. first + count - 1 of a direction, whose number keys its random numbers. scale: quanta a watt.
-// energy: sums of power, without colour.
 __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const float4* light_rgb,
                    __global const float* radii, volatile __global long* film,
                    volatile __global long* energy, // [OUTCOME_COUNT]

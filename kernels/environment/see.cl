@@ -12,8 +12,7 @@ static inline DeviceEnd nowhere(void) {
   return end;
 }
 
-// Traces a path to its end. first: its next hit, where known. weight: linear sRGB. likelier: the path takes the
-// likelier of reflection and refraction.
+// Traces a path to its end. first: its next hit, where known. weight: linear sRGB. likelier: as in trace_to_diffuse.
 static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, bool known, const Band* band,
                                float3 weight, uint2 seed, uint sample, uint pixel, bool likelier) {
   DeviceEnd end = nowhere();

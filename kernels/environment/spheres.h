@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Looks up caustic spheres: E r^2 in a direction and at a distance from the object's middle, interpolated between
 // spheres and texels. Beyond the largest sphere E r^2 stays: light thins out by the inverse square.
-#ifndef NEPHROID_SPHERES_H
-#define NEPHROID_SPHERES_H
-
 #include "kernels/environment/render_types.h"
 #include "kernels/environment/sphere_map.h"
 
@@ -200,5 +197,3 @@ static inline AirLight compiled_air(__global const float* air, const DeviceSpher
   }
   return sum;
 }
-
-#endif

@@ -3,9 +3,6 @@
 // (emission.h: target and place in it) are drawn from a histogram over [0, 1)^3 instead of evenly. A photon counts for
 // less as it comes more often (importance sampling in the space of random numbers, as in Lepage 1978, "A new algorithm
 // for adaptive multidimensional integration"). app/photons/effort/emitters.h says how the histogram is learned.
-#ifndef NEPHROID_GUIDE_H
-#define NEPHROID_GUIDE_H
-
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/shared_types.h"
 
@@ -24,8 +21,7 @@ static inline int draw_bin(__global const float* cdf, int count, float* number, 
   return bin;
 }
 
-// numbers: xyz of a photon's emission. guide: the light's GUIDE_FLOATS: cdfs of the first number, of the second given
-// the first, of the third given both.
+// numbers: xyz of a photon's emission. guide: the light's cdfs of the first number, of the second, of the third.
 static inline Guided guide_numbers(__global const float* guide, float4* numbers) {
   Guided guided = {1.0f, 0u};
   float3 moved = numbers->xyz;
@@ -44,5 +40,3 @@ static inline Guided guide_numbers(__global const float* guide, float4* numbers)
   guided.cell = (uint)(j * GUIDE_BINS_Z + k);
   return guided;
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "indirect": light that met a diffuse surface before the last one. Photons of one wavelength each leave the
 // lights everywhere, are bent by glass and mirrors and scattered by diffuse surfaces. From the second diffuse surface
-// on, each adds to the pixel that sees it. Only absorption changes a photon's power: Fresnel's reflectance and that of
-// a diffuse surface decide by chance.
+// on, each adds to the pixel that sees it. Only absorption changes its power: reflectances decide by chance.
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
 

@@ -9,9 +9,6 @@
 // its end. Photons with the same key from elsewhere are too far away.
 //
 // Powers are whole quanta, so a sum does not depend on a bucket's order, which atomic operations decide.
-#ifndef NEPHROID_PHOTON_MAP_H
-#define NEPHROID_PHOTON_MAP_H
-
 #include "kernels/photons/photon_map_types.h"
 
 // A search may span this many rows each way, so its radius may be up to 3 cells.
@@ -148,5 +145,3 @@ static inline Gathered gather_photons(const PhotonMap* map, float3 position, flo
   settle(&g);
   return g.sum;
 }
-
-#endif

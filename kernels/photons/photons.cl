@@ -31,8 +31,7 @@ static inline long squared(float3 xyz, float scale) {
 }
 
 // Stores a photon on a diffuse surface in its slot of a photon map. band: pass_band.h. xyz: reflected power. scale:
-// quanta per unit of power. dither: uniform in [0, 1), so that rounding is right in the mean. Where a photon carries
-// too much, it returns false and leaves the slot empty.
+// quanta per unit of power. dither: uniform in [0, 1). False where a photon carries too much; then the slot is empty.
 static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band,
                                 int object_count, float3 xyz, float scale, float dither) {
   const float3 quanta = xyz * scale;

@@ -5,8 +5,7 @@
 #include "kernels/photons/splat.h"
 
 // Follows `count` photons offset, offset + stride, ... of a pass. All lamps have 1 W or 1 W m^-2. An emitter's `share`
-// is its cluster's present power in the unit of energy_scale, for the energy counters. Every photon counts alike: an
-// emitter's number of them may change with the light.
+// is its cluster's present power in the unit of energy_scale, for the energy counters. Every photon counts alike.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       LAYER_FILM_ARGUMENTS(film), __global const float* mean_reflectance, // [cluster][reflector]
                       volatile __global long* energy,                                     // [OUTCOME_COUNT]

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds a photon on a diffuse surface to the pixel that sees it. Unbiased: no map, no radius.
-#ifndef NEPHROID_SPLAT_H
-#define NEPHROID_SPLAT_H
-
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/world.h"
 
@@ -68,5 +65,3 @@ static inline Splat splat_at(const World* world, const DeviceCamera* camera, con
 #endif
   return splat;
 }
-
-#endif

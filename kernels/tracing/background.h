@@ -2,9 +2,6 @@
 // The environment as a latitude-longitude picture at infinity: its colour in a direction, and that colour's XYZ at one
 // wavelength. The picture has colours, but glass bends and absorbs wavelengths. So a colour stands for a spectrum, the
 // sum of the fixed spectra of the three sRGB primaries (app/optics/colour.h).
-#ifndef NEPHROID_BACKGROUND_H
-#define NEPHROID_BACKGROUND_H
-
 #include "kernels/tracing/light.h"
 #include "kernels/tracing/shared_types.h"
 
@@ -41,5 +38,3 @@ static inline float3 background_xyz(const Background* b, float3 rgb, int wavelen
   __global const float4* primary = b->primary_xyz + 3 * wavelength;
   return rgb.x * primary[0].xyz + rgb.y * primary[1].xyz + rgb.z * primary[2].xyz;
 }
-
-#endif

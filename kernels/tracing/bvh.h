@@ -16,9 +16,6 @@
 // between two triangles that share an edge (Woop, Benthin and Wald 2013, "Watertight ray/triangle intersection"). Boxes
 // are grown by more than every rounding error of the tests, so the tree loses no primitive. Among hits at the same
 // distance the lowest primitive id wins, so the answer depends on the mesh and the ray alone.
-#ifndef NEPHROID_BVH_H
-#define NEPHROID_BVH_H
-
 // Entries of the traversal stack: at least Bvh::stack of the tree.
 #ifndef NEPHROID_BVH_STACK
 #define NEPHROID_BVH_STACK 96
@@ -212,6 +209,25 @@ static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r,
   *unit = fma((float3)(s), e, l);
   return (!leaves || middle > 0.0f) && *t > t_min && *t <= t_max;
 }
+
+// Replaces `hit` by a nearer hit of `count` ellipsoids in blocks, if there is one.
+static inline void bvh_ellipsoids(global const float* blocks, int count, const BvhRay* ray, float t_min, uint skip,
+                                  Hit* hit) {
+  for (int i = 0; i < count; ++i) {
+    global const float* ellipsoid = blocks + 40 * (size_t)(i / 3) + 13 * (i % 3);
+    const uint id = ((global const uint*)ellipsoid)[12];
+    if (id == NEPHROID_NO_PRIMITIVE) break;
+    float t;
+    float3 unit;
+    if (!bvh_ellipsoid(ellipsoid, ray, t_min, hit->t, id == skip, &t, &unit)) continue;
+    if (t == hit->t && id >= hit->primitive) continue;
+    hit->t = t;
+    hit->u = unit.x;
+    hit->v = unit.y;
+    hit->w = unit.z;
+    hit->primitive = id;
+  }
+}
 #endif
 
 #if NEPHROID_BVH_SCALAR
@@ -288,20 +304,7 @@ static inline Hit bvh_closest(global const float* nodes, global const float* blo
         } while (mask);
       }
 #if NEPHROID_ELLIPSOIDS
-      for (int i = 0; i < 3 * (~at >> 2 & 3); ++i) {
-        global const float* ellipsoid = blocks + 40 * (size_t)(first + count + i / 3) + 13 * (i % 3);
-        const uint id = ((global const uint*)ellipsoid)[12];
-        if (id == NEPHROID_NO_PRIMITIVE) break;
-        float t;
-        float3 unit;
-        if (!bvh_ellipsoid(ellipsoid, &ray, t_min, hit.t, id == skip, &t, &unit)) continue;
-        if (t == hit.t && id >= hit.primitive) continue;
-        hit.t = t;
-        hit.u = unit.x;
-        hit.v = unit.y;
-        hit.w = unit.z;
-        hit.primitive = id;
-      }
+      bvh_ellipsoids(blocks + 40 * (size_t)(first + count), 3 * (~at >> 2 & 3), &ray, t_min, skip, &hit);
 #endif
     }
 #if BVH_LEAF_ONLY
@@ -403,5 +406,3 @@ static inline bool any_hit(global const float* nodes, global const float* blocks
     to = t_max;
   }
 }
-
-#endif

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where paths from the eye begin: their direction, and the wavelength cluster of one that meets glass.
-#ifndef NEPHROID_CAMERA_H
-#define NEPHROID_CAMERA_H
-
 #include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/random.h"
 
@@ -27,5 +24,3 @@ static inline int choose_cluster(__global const float* cdf, int count, uint2 see
                                  uint pixel, uint stream) {
   return choose(cdf + 1, count, golden_place(seed, frame, path, paths, pixel, stream));
 }
-
-#endif

@@ -7,9 +7,6 @@
 // and n' = dn/ds of every material is given. Where s is the wavelength in nm, a path moves by P' a nanometre; where s
 // is the index n itself, by P' a unit of n. Emission does not depend on the wavelength, so every path starts with P' =
 // 0 and D' = 0. The surfaces that a path meets, and whether they reflect it, are held fixed.
-#ifndef NEPHROID_DIFFERENTIAL_H
-#define NEPHROID_DIFFERENTIAL_H
-
 #include "kernels/tracing/surface.h"
 
 // 0: splats are points, and all of this compiles to nothing.
@@ -101,5 +98,3 @@ static inline void differential_through_bend(Differential* d, const Geometry* ge
                                    : reflected_differential(direction, d->direction, bend->normal, d_normal);
 #endif
 }
-
-#endif

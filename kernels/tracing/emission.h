@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons sent towards the caustic objects only. Every object has a bounding sphere, a target; a photon picks a target
 // in proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly
-// inside it. Where targets overlap, `count` of them could have made the same photon, so its density is count / (sum of
-// all): no light is counted twice and none is left out.
-#ifndef NEPHROID_EMISSION_H
-#define NEPHROID_EMISSION_H
-
+// inside it. Where `count` targets overlap, each could have made a photon: its density is count / (sum of all).
 #include "kernels/tracing/light.h"
 
 typedef struct {
@@ -105,8 +101,7 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
     float towards_targets = 0.0f;
     for (int i = 0; i < target_count; ++i)
       towards_targets += 2.0f * PI_F * one_minus_cos_of(targets[i].centre_radius, light->position.xyz);
-    if (light->solid_angle <=
-        towards_targets) { // the spot's own cone is the tighter one: every photon carries the same
+    if (light->solid_angle <= towards_targets) { // the spot's cone is the tighter one: every photon carries the same
       float below;
       float3 aside;
       emission.direction = sample_cone(light->direction.xyz, light->one_minus_cos, random.y, random.z, &below, &aside);
@@ -173,5 +168,3 @@ static inline Emission emit(const DeviceLight* light, __global const DeviceTarge
   if (is_light(light, LIGHT_AREA)) return emit_from_area(light, targets, random, place);
   return emit_from_point(light, targets, random);
 }
-
-#endif

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A path from the eye through glass and mirrors to the first diffuse surface, and each lamp's unbent light there.
-#ifndef NEPHROID_EYE_PATH_H
-#define NEPHROID_EYE_PATH_H
-
 #include "kernels/tracing/emission.h"
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/world.h"
 
-// A path through glass follows one cluster and one branch of each reflection, so it is noisy: a pixel that sees glass
-// or a mirror takes this many paths a sample.
+// A path through glass is noisy: a pixel that sees glass or a mirror takes this many paths a sample.
 #define PATHS_THROUGH_GLASS 4u
 
 // The irradiance in W m^-2 that a light's whole spectrum gives a surface point, without shadows, and the way to the
@@ -144,5 +140,3 @@ IN_PLACE float reach_diffuse(const World* world, Path* path, Hit* hit, const Ban
       trace_to_diffuse(world, path, hit, true, band, seed, sample, paths, pixel, stream, false, surface);
   return hit->primitive == NEPHROID_NO_PRIMITIVE ? 0.0f : radiance_scale;
 }
-
-#endif

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film: 64-bit fixed point, so that a sum has the same bits in any order and on every device.
-#ifndef NEPHROID_FILM_H
-#define NEPHROID_FILM_H
-
-// A film has one image or, for an estimate of its error, two independent halves: [half][pixel][3]. Iterations, which
-// are passes or batches of splatted photons, take turns.
+// A film has one image or, for an estimate of its error, two independent halves: [half][pixel][3].
 #ifndef NEPHROID_FILM_HALVES
 #define NEPHROID_FILM_HALVES 2
 #endif
@@ -37,8 +33,7 @@ static inline volatile __global long* film_of_iteration(volatile __global long* 
 }
 
 // Adds xyz * scale to a pixel. dither: uniform in [0, 1). With it a contribution of q quanta, however small, adds q in
-// the mean, where rounding to the nearest would lose all below a half. Returns false, and adds nothing, for a
-// contribution that is not finite or above `limit` quanta.
+// the mean, where rounding to the nearest would lose small ones. False: not finite, or above `limit`.
 static inline bool film_add_dithered(volatile __global long* film, int pixel, float3 xyz, float scale, float limit,
                                      float dither) {
   const float3 quanta = xyz * scale;
@@ -50,5 +45,3 @@ static inline bool film_add_dithered(volatile __global long* film, int pixel, fl
   add_exactly(sum + 2, convert_long_rte(quanta.z + shift));
   return true;
 }
-
-#endif

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Snell's law and Fresnel's equations for unpolarised light (Born and Wolf, Principles of Optics, 1.5).
-#ifndef NEPHROID_FRESNEL_H
-#define NEPHROID_FRESNEL_H
-
 // cos of the refraction angle from sin(theta_t) = eta sin(theta_i), eta = n_i / n_t; negative: total internal
 // reflection. 1 - eta^2 (1 - cos_i^2) is a product of sums, which keeps its sign at the critical angle.
 static inline float refracted_cosine(float cos_i, float eta) {
@@ -28,5 +25,3 @@ static inline float3 reflect_about(float3 direction, float3 normal, float cos_i)
 static inline float3 refract_through(float3 direction, float3 normal, float cos_i, float cos_t, float eta) {
   return normalize(eta * direction + (eta * cos_i - cos_t) * normal);
 }
-
-#endif

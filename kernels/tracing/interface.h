@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A path at a dielectric's surface: which media meet there, and whether it is reflected or goes through.
-#ifndef NEPHROID_INTERFACE_H
-#define NEPHROID_INTERFACE_H
-
 #include "kernels/tracing/media.h"
 #include "kernels/tracing/surface.h"
 
@@ -50,5 +47,3 @@ static inline bool cross_interface(Media* media, const Surface* surface, __globa
   }
   return true;
 }
-
-#endif

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Properties of a light that both emission and direct light need.
-#ifndef NEPHROID_LIGHT_H
-#define NEPHROID_LIGHT_H
-
 #include "kernels/tracing/shared_types.h"
 
 #define PI_F 3.14159265358979f
@@ -37,5 +34,3 @@ static inline bool has_places(const DeviceLight* light) {
 static inline float3 area_point(const DeviceLight* light, float2 place) {
   return light->position.xyz + (place.x - 0.5f) * light->edge_u.xyz + (place.y - 0.5f) * light->edge_v.xyz;
 }
-
-#endif

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counter-based random numbers: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
 // A number is a function of (seed, stream, iteration, index, dimension) alone, not of threads, devices or resuming.
-#ifndef NEPHROID_RANDOM_H
-#define NEPHROID_RANDOM_H
-
 #include "kernels/tracing/registers.h"
 
 // Streams separate numbers for different purposes with the same (iteration, index, dimension). No two kernels of a run
@@ -59,5 +56,3 @@ static inline int choose(__global const float* cdf, int count, float u) {
 
 // The chance of all before the chosen one. Its own is cdf[chosen] less that.
 static inline float chance_before(__global const float* cdf, int chosen) { return chosen > 0 ? cdf[chosen - 1] : 0.0f; }
-
-#endif

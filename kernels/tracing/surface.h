@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a hit of the tree to a point on a surface: exact position, geometric and shading normal, object.
-#ifndef NEPHROID_SURFACE_H
-#define NEPHROID_SURFACE_H
-
 #include "kernels/tracing/bvh.h"
 #include "kernels/tracing/fresnel.h"
 #include "kernels/tracing/scene_table_types.h"
@@ -123,8 +120,7 @@ static inline float3 start_on_side(const Surface* surface, float side) {
   return surface->position + side * surface->offset * surface->geometric;
 }
 
-// The limit of shading_ratio. Without it single photons near grazing would be bright specks. The light that is cut off
-// is less than what arrives within 3.6 degrees of a facet.
+// The limit of shading_ratio, without which photons near grazing, within 3.6 degrees, would be bright specks.
 #define SHADING_RATIO_LIMIT 16.0f
 
 // The factor that makes a photon's flux on a triangle the irradiance about the shading normal, by which direct.cl
@@ -172,5 +168,3 @@ static inline Bend bend_at_surface(float3 direction, const Surface* surface, flo
   if (bend.transmitted ? leaves >= 0.0f : leaves <= 0.0f) bend = bend_at(direction, geometric, n_i, n_t, choice);
   return bend;
 }
-
-#endif

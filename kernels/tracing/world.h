@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // All of the scene that a path meets, in one struct, and how a path goes through it.
-#ifndef NEPHROID_WORLD_H
-#define NEPHROID_WORLD_H
-
 #include "kernels/tracing/attenuation.h"
 #include "kernels/tracing/band.h"
 #include "kernels/tracing/differential.h"
@@ -176,8 +173,7 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
       .reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->scene.reflector_count + reflector];
 }
 
-// The light that a path in a band still carries after its losses, for a light of power 1. w: the power. xyz: what a
-// reflector sends back of it (-1: a white one).
+// What a path carries of a light of power 1 after its losses. w: the power. xyz: as a reflector (-1: white) sends it.
 IN_PLACE float4 carried_light(const World* world, const Losses* losses, Source source, const Band* band, int reflector)
 {
   if (is_of_environment(world, source.light))
@@ -205,5 +201,3 @@ static inline float band_share(const World* world, Source source, const Band* ba
            source.rgb.z * row_share(world, source.light + 2, band);
   return NEPHROID_JITTER && band->wavelength >= 0 ? row_share(world, source.light, band) : cluster_share;
 }
-
-#endif
