@@ -47,10 +47,8 @@ Result reflectance(const compute::Context& context, std::uint64_t) {
     const double cos_i = in[i].x, n_i = in[i].y, n_t = in[i].z;
     const auto cos_t = optics::refracted_cosine(cos_i, n_i, n_t);
     if (!cos_t || *cos_t < 0.01) continue;
-    const double condition = (n_i / n_t + n_t / n_i) / *cos_t,
-                 error = std::abs(out[i].y - optics::fresnel_reflectance(cos_i, n_i, n_t));
-    worst = std::isfinite(error) ? std::max(worst, error / condition) : error;
-    if (!std::isfinite(worst)) break;
+    const double condition = (n_i / n_t + n_t / n_i) / *cos_t;
+    worst = worse(worst, std::abs(out[i].y - optics::fresnel_reflectance(cos_i, n_i, n_t)) / condition);
   }
   return judged(worst, 4e-6, "",
                 fmt::format("Fresnel's R at {} interfaces, n from 1 to 4, 0 to 89.9999 degrees, over its condition, "
@@ -71,16 +69,14 @@ Result refraction(const compute::Context& context, std::uint64_t) {
       }
   const std::vector<float4> out = through(context, "directions", in, 2);
   double worst = 0;
-  const auto compare = [&worst](double error) {
-    worst = std::abs(error) <= worst ? worst : std::abs(error);
-  }; // keeps NaN
+  const auto compare = [&worst](double error) { worst = worse(worst, std::abs(error)); };
   for (std::size_t i = 0; i < in.size(); ++i) {
     const float4 &d = in[i], &r = out[2 * i], &t = out[2 * i + 1];
     compare(double(r.x) - d.x), compare(double(r.y) - d.y), compare(double(r.z) + d.z);
     if (t.w < 0) continue;
     // The longer of the two tangential parts is at most 1, so this is an absolute error of a unit vector.
-    compare((double(t.x) - double(d.w) * d.x) / std::max(1.0f, d.w)),
-        compare((double(t.y) - double(d.w) * d.y) / std::max(1.0f, d.w));
+    compare((double(t.x) - double(d.w) * d.x) / std::max(1.0f, d.w));
+    compare((double(t.y) - double(d.w) * d.y) / std::max(1.0f, d.w));
     compare(double(t.x) * t.x + double(t.y) * t.y + double(t.z) * t.z - 1);
     if (t.z > 0) worst = 2;
   }
@@ -117,8 +113,8 @@ Result brewster(const compute::Context& context, std::uint64_t) {
   const std::vector<float4> out = through(context, "interfaces", in, 1);
   double worst = 0;
   for (std::size_t i = 0; i < in.size(); ++i) {
-    const double n2 = double(in[i].z) * in[i].z, s = (n2 - 1) / (n2 + 1), error = std::abs(out[i].y - s * s / 2);
-    worst = error <= worst ? worst : error;
+    const double n2 = double(in[i].z) * in[i].z, s = (n2 - 1) / (n2 + 1);
+    worst = worse(worst, std::abs(out[i].y - s * s / 2));
   }
   return judged(
       worst, 2e-6, "",

@@ -69,8 +69,7 @@ struct BufferState;
 /// One device with its context and one in-order queue. Copies share it. Use it from one thread at a time.
 class Context {
 public:
-  /// Throws Error(no_device) if no device exists or matches the selector, with a line for each likely cause (no OpenCL
-  /// platform, no HOME and an unwritable kernel cache).
+  /// Throws Error(no_device) with likely causes if no device exists, or with those there are if none matches.
   static Context open(const DeviceOptions& options = {});
   const DeviceInfo& device() const;
   /// Whether a program was built since set_warm(). The first run of its kernels compiles them.
@@ -95,8 +94,7 @@ public:
 };
 
 /// count items of T on the device. An empty buffer has a few bytes, so that it can be a kernel's argument. Throws
-/// failed naming the buffer, its bytes and the device's memory if that is not enough. Many devices allocate at first
-/// use: then writing, filling or Kernel::run throws.
+/// failed if the memory is not enough; on many devices only the first use does.
 template <class T>
 class Buffer : public RawBuffer {
   static_assert(std::is_trivially_copyable_v<T>);

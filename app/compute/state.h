@@ -67,8 +67,7 @@ struct BufferState {
 /// "CL_OUT_OF_RESOURCES" for -5; the number if it has no name.
 std::string error_name(cl_int code);
 
-/// Error(failed) at `where` for a call that failed. It names the call, the code, and a full or unwritable kernel cache,
-/// which PoCL reports as an unrelated code without a reason.
+/// Error(failed) at `where` for a call that failed. It names an unusable kernel cache, which PoCL does not.
 Error call_failed(const cl::Error& error, const Place& where);
 
 /// The error of a call over buffers. If memory ran out, it names the largest of them and what to do.

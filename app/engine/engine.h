@@ -39,8 +39,7 @@ struct Introduction {
   ShippedExample example = {};
   NewScene new_scene = {};
   ResultView result = {};
-  std::array<unsigned char, 3> badge{80, 80,
-                                     80}; ///< sRGB behind the engine's name in lists; dark enough for white letters
+  std::array<unsigned char, 3> badge{80, 80, 80}; ///< sRGB behind the engine's name in lists, for white letters
 };
 
 /// How a preset took a file.
@@ -66,7 +65,6 @@ struct Engine {
                                    const plan::Plan& plan, const mpi::RankContext& context);
 
   /// The settings of a reference of `preset` with `passes` passes: the recipe's own, else the preset's, made exact.
-  /// They leave no bias but what the recipe asks for.
   preset::Settings (*reference)(const preset::Preset& preset, int passes);
 
   /// The engine's closed forms through its real kernels, for `nephroid check`.
@@ -81,8 +79,7 @@ struct Engine {
   /// The camera of the window's picture, which may be another one if the preset gives none. Null: the preset's.
   preset::Camera (*camera)(const preset::Preset& preset) = nullptr;
 
-  /// Puts an existing picture file, dropped on the window, into the preset. Throws bad_input if that has no place for
-  /// it. Null: the engine's presets take no picture.
+  /// Puts a picture file, dropped on the window, into the preset. Throws bad_input if it has no place. Null: none.
   PictureEdit (*take_picture)(preset::Preset& preset, const std::filesystem::path& file) = nullptr;
 
   Introduction introduction = {};

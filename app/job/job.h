@@ -20,8 +20,7 @@ struct Picture {
   std::vector<float> rgb; ///< the sum of the layers
   std::vector<Layer> layers;
   /// An independent draw of the picture's own error, laid out like rgb. It is the difference of two independent halves
-  /// of a and b samples, times sqrt(a b) / (a + b). Its expectation is 0, its covariance that of rgb. Empty where no
-  /// halves are kept, or where one of them has no sample yet.
+  /// of a and b samples, times sqrt(a b) / (a + b). Its covariance is that of rgb. Empty where a half has no sample.
   std::vector<float> error_draw;
 };
 
@@ -36,14 +35,14 @@ struct Progress {
   std::int64_t step = 0;   ///< steps completed; the one in hand is in `fraction` and `work` only
   std::int64_t steps = -1; ///< in all; -1: it stops by time
   std::uint64_t work = 0;  ///< done so far: photons sent, facets tried, ...
-  double work_seconds = 0; ///< of advancing, without start-up and snapshots
+  double work_seconds = 0; ///< spent on advancing, without start-up and snapshots
   bool whole = true;       ///< false: parts of the picture are black since nothing was computed for them yet
   Units units = {};
 };
 
 /// A further picture beside the one that is shown and measured.
 struct NamedPicture {
-  std::string name; ///< of its files: "receiver_1"
+  std::string name; ///< its files': "receiver_1"
   std::shared_ptr<const Picture> picture;
 };
 
@@ -69,9 +68,8 @@ struct ExtraFile {
 struct Snapshot {
   std::shared_ptr<const Picture> picture; ///< the one that the window shows first and that is measured
   std::shared_ptr<const Picture> in_view; ///< what the window shows alone, in the place of `picture`; null: that itself
-  std::string caption; ///< a sentence on what it shows, where that is not what the preset asks for; else empty
-  bool stands_in =
-      false; ///< true: the picture shows the work before the first one of what was asked for, and is no result
+  std::string caption;    ///< a sentence on what it shows, where that is not what the preset asks for; else empty
+  bool stands_in = false; ///< the picture comes before the first one of what was asked for: no result
   std::vector<NamedPicture> pictures; ///< the others
   Progress progress;
   std::vector<Scalar> scalars;
@@ -79,7 +77,7 @@ struct Snapshot {
   std::vector<ExtraFile> files;
   std::vector<std::string> warnings;                  ///< what makes the picture doubtful, a sentence each
   std::vector<std::pair<std::string, double>> phases; ///< seconds a phase, e.g. {"photons", 3.2}
-  std::shared_ptr<const History> history;             ///< of its error so far; null where nothing is measured
+  std::shared_ptr<const History> history;             ///< its error's so far; null where nothing is measured
   std::uint64_t adoption = 0; ///< the newest Worker::adopt() that it knows of; the worker's to set
 };
 
@@ -97,8 +95,7 @@ public:
   virtual void advance() = 0;
   virtual bool finished() const = 0;
   virtual Progress progress() const = 0;
-  /// Reads the device's state and makes a picture of it. Takes a few milliseconds; with smoothing a tenth of a second
-  /// or more where the picture is large.
+  /// Reads the device's state and makes a picture of it. Takes milliseconds; a tenth of a second with smoothing.
   virtual Snapshot snapshot() = 0;
   /// Whether its pictures come with a draw of their error (Picture::error_draw).
   virtual bool estimates_error() const { return true; }

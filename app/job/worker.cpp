@@ -157,8 +157,7 @@ struct Worker::Impl {
 
   enum class Move { step, adopt, tell, stop };
 
-  /// What an unfinished job does next. Waits while paused and, after an adoption, a moment for the next: while somebody
-  /// drags a spectrum every step would only delay the picture.
+  /// What an unfinished job does next. Waits while paused, and a moment after an adoption: a step would delay the next.
   Move next_move(std::uint64_t generation, std::optional<Clock::time_point> adopted_at) {
     std::unique_lock lock(mutex);
     const auto commanded = [&] { return must_stop(generation) || adoption || watch_changed; };

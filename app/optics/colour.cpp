@@ -44,13 +44,8 @@ double lab_root(double t) {
 
 ColourMatching read_cie_1931() {
   const Table table = read_table("cie-1931-2deg-1nm");
-  ColourMatching result{};
-  Spectrum* const functions[] = {&result.x, &result.y, &result.z};
-  for (std::size_t f = 0; f < 3; ++f) {
-    const LinearTable curve(table.rows(f));
-    for (int i = 0; i < wavelength_count; ++i) (*functions[f])[static_cast<std::size_t>(i)] = curve(wavelength_nm(i));
-  }
-  return result;
+  const auto function = [&](std::size_t column) { return spectrum_of(LinearTable(table.rows(column))); };
+  return {function(0), function(1), function(2)};
 }
 
 Colour cross(const Colour& a, const Colour& b) {

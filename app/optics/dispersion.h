@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dispersion: index of refraction n and extinction coefficient k as functions of wavelength, from formulas, tables,
-// control points and any refractiveindex.info file.
+// Dispersion: n and k as functions of wavelength, from formulas, tables and control points.
 #pragma once
 #include "optics/wavelength.h"
 
@@ -27,9 +26,8 @@ struct IndexSample {
 struct Curve {
   std::function<double(double nm)> value;
   double low_nm = 0, high_nm = 0;
-  bool formula = false; ///< may be extrapolated
-  std::optional<std::array<double, 2>>
-      gap_nm{}; ///< a table's widest hole within 380..780 nm: outside the data, and bridged by a line
+  bool formula = false;                          ///< may be extrapolated
+  std::optional<std::array<double, 2>> gap_nm{}; ///< a table's hole within 380..780 nm, bridged by a line
 };
 
 struct DispersionCurve {
@@ -43,8 +41,7 @@ struct DispersionCurve {
   IndexSample sample(double nm, Extrapolation outside = Extrapolation::automatic) const;
 };
 
-/// n on the 401 wavelengths. Throws bad_input naming the curve and the first wavelength where n is missing, not finite
-/// or <= 0, and, with Extrapolation::refuse, for a gap.
+/// n on the 401 wavelengths. Throws bad_input where n is missing, not finite or <= 0, and, refusing, for a gap.
 Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside);
 /// k on the 401 wavelengths (0 where the data has none or a negative value; ends held unless refused).
 Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside);
@@ -54,8 +51,7 @@ std::string outside_note(const DispersionCurve& curve, Extrapolation outside);
 
 /// The same n > 0 at every wavelength.
 DispersionCurve constant_index(double n);
-/// n^2 = 1 + sum b l^2 / (l^2 - c); l in micrometres, c in square micrometres. low/high: the range the fit is good for.
-/// Throws bad_input where b and c differ in length or are empty.
+/// n^2 = 1 + sum b l^2 / (l^2 - c); l in micrometres, c in square micrometres. low/high: the fit's range.
 DispersionCurve sellmeier(std::span<const double> b, std::span<const double> c_um2, double low_nm = 380,
                           double high_nm = 780);
 /// n = c0 + c1 / l^2 + c2 / l^4 + ...; l in micrometres. At least one coefficient.

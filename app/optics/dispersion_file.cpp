@@ -8,7 +8,6 @@
 #include "base/files.h"
 #include "base/nearest.h"
 #include "base/numbers.h"
-#include "optics/dispersion.h"
 #include "optics/tables.h"
 
 #include <fmt/format.h>

@@ -4,7 +4,6 @@
 #include "photons/coarse.h"
 #include "photons/smoothing.h"
 
-#include <span>
 #include <vector>
 
 namespace nephroid::photons {

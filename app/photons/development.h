@@ -3,7 +3,6 @@
 #pragma once
 #include "photons/block_smoothing.h"
 #include "photons/passes.h"
-#include "photons/preview.h"
 
 #include <optional>
 #include <span>
@@ -14,8 +13,7 @@ namespace nephroid::photons {
 
 class Development {
 public:
-  /// smoothing is for caustics; smooths_paths says whether it also smooths the lights that paths from the eye see.
-  /// World, passes and preview outlive this object.
+  /// smoothing is for caustics, with smooths_paths also for what paths from the eye see. The references outlive this.
   Development(const DeviceWorld& world, const Passes& passes, const Preview& preview,
               std::optional<BlockSmoothing> smoothing, bool smooths_paths)
       : world_(world), passes_(passes), preview_(preview), smoothing_(std::move(smoothing)),
@@ -50,7 +48,7 @@ private:
   LayerEstimate caustics();
   template <class Work>
   void timed(const Work& work) {
-    smoothing_seconds_ += seconds_of(work);
+    smoothing_seconds_ += tracing::seconds_of(work);
   }
 
   const DeviceWorld& world_;

@@ -6,7 +6,6 @@
 #include "photons/development.h"
 #include "photons/passes.h"
 #include "photons/pixel_surfaces.h"
-#include "photons/preview.h"
 #include "photons/relight/layer_film.h"
 
 #include <fmt/format.h>

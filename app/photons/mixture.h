@@ -24,7 +24,6 @@ struct Estimate {
 };
 
 /// A lower bound for light where errors are divided by light: a hundredth of the mean of all pixels that are not black.
-/// So the result does not depend on exposure. light is [pixel].
 double least_light(std::span<const double> light);
 
 /// Mixes the picture b in rgb, with a draw of its noise in error_draw (job::Picture::error_draw), with the estimate;

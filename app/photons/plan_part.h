@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of a run of engine 1: stages, and decisions that several stages share. Each plans for itself, beside its
-// work; make_plan (plan.h) puts the parts together.
+// The parts of a run: stages, and decisions that stages share. Each plans for itself; make_plan puts them together.
 #pragma once
 #include "photons/settings.h"
 #include "photons/tables/run_tables.h"

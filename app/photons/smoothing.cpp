@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <functional>
@@ -24,12 +23,10 @@ namespace {
 constexpr int reach = 6, noise_radius = 7;
 constexpr std::size_t block_rows = 64, block_pixels = 1 << 12;
 
-/// Two pixels are on one nearly flat part where their normals are within about 25 degrees of each other, and the way
-/// between them is within about 30 degrees of the surface.
+/// Two pixels are on one nearly flat part where their normals are within 25 degrees, and their way 30 of the surface.
 constexpr float least_cosine = 0.9f, most_rise = 0.5f;
 
-/// Glass or a mirror is curved where neighbours show places more than most_pull times farther apart than a flat one
-/// would. This holds for pixels up to pull_reach around.
+/// Glass or a mirror is curved about pixels where neighbours show places most_pull times as far apart as a flat one.
 constexpr float most_pull = 2;
 constexpr int pull_reach = 2;
 
@@ -100,8 +97,9 @@ std::vector<bool> are_near_pulled(const std::vector<PixelSurfaces>& pixels, int 
 /// what it has of the draw, r + q and r - q are what it has changed of two halves with noise of their own, so that
 /// around a pixel
 ///
-///   M = sum of (r + q)(r - q)    is that of the squares of the bias, give or take the root of S = sum of ((r + q)(r -
-///   q))^2, and g^2 = M / (sum of r^2) / (1 + S / M^2)    the share of r^2 that it is, as far as it stands out,
+///   M = sum of (r + q)(r - q)                    is that of the squares of the bias, give or take
+///   S^(1/2), S = sum of ((r + q)(r - q))^2,      and
+///   g^2 = M / (sum of r^2) / (1 + S / M^2)       the share of r^2 that it is, as far as it stands out,
 ///
 /// and g r a draw of the bias: r is the bias and the noise that was taken away, which is no error of what is spread.
 void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
@@ -410,8 +408,7 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
       draw_spread.resize(error_draw.size());
       std::ranges::transform(spread_by(of_a, a), spread_by(of_b, b), draw_spread.begin(),
                              [](float of_one, float of_other) { return (of_one - of_other) / 2; });
-      // The correction of the estimate's bias. It is spread far, by kernels that hardly follow the noise, so its draw
-      // is what they make of the picture's draw.
+      // The correction of the estimate's bias is spread far, so its draw is what these kernels make of the picture's.
       for (double& portion : wanted) portion *= noise * noise / (known.noise * known.noise);
       std::vector<float> evened = rgb, evened_draw = error_draw;
       std::ranges::transform(rgb, known.rgb, evened.begin(), std::minus());

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace nephroid::plan {
@@ -15,8 +14,7 @@ struct Pass {
   bool runs = true;
   std::string reason;     ///< a sentence a person can read
   std::string field = {}; ///< JSON pointer of the preset's boolean that decides; empty where none does
-  bool run_value =
-      false; ///< what that boolean must be for the pass to run; a pass that is needed may run whatever it is
+  bool run_value = false; ///< what it must be for the pass to run; a pass that is needed runs whatever it is
 };
 
 struct PlannedBuffer {

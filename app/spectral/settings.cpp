@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "photons/describe_settings.h"
 #include "preset/settings_type.h"
-#include "spectral/settings.h"
 
 #include <fmt/format.h>
 

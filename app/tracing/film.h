@@ -26,8 +26,7 @@ struct Film {
 job::Layer& layer_of(job::Picture& picture, const std::string& name);
 
 /// Adds the mean of the samples, 0 where there is none, to layer_of(picture, name). Where the film has two halves a and
-/// b, also adds (a - b) sqrt(n_a n_b) / (n_a + n_b) to Picture::error_draw. Where a pixel lacks one of the halves, the
-/// draw is cleared; a draw that is clear stays so.
+/// b, also adds (a - b) sqrt(n_a n_b) / (n_a + n_b) to Picture::error_draw. It is cleared where a pixel lacks a half.
 void add_layer(const std::string& name, const Film& film, job::Picture& picture);
 
 /// How many passes or batches each half of a film has after `passes` complete ones and `part` of the next.

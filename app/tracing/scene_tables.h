@@ -48,8 +48,7 @@ struct SceneTables {
   StretchTables stretch;                 ///< for the clusters of `wavelengths`
   std::vector<double> towards_targets_w; ///< [light]: power that it sends towards its targets, all wavelengths
   double light_towards_targets_w = 0;    ///< the sum over all lights
-  double power_unit =
-      1; ///< the unit of DeviceLight::radiometric in W or W m^-2, so that every power fits single precision
+  double power_unit = 1; ///< the unit of DeviceLight::radiometric in W or W m^-2: every power fits single precision
 };
 
 inline shared::float4 to_float4(const glm::dvec3& v, double w = 0) {
@@ -78,8 +77,7 @@ std::uint64_t mesh_bytes(const scene::Scene& scene);
 /// Where texels are looked up, for the light and for the background.
 shared::DeviceBackground picture_size(const scene::Environment& environment);
 
-/// environment: not black. A texel of less than 2^-24 of its row is drawn more often than its flux asks for. Its
-/// photons then carry less, so that nothing is too bright.
+/// environment: not black. A texel of less than 2^-24 of its row is drawn more often, and its photons carry less.
 SkyTables make_sky_tables(const scene::Environment& environment);
 
 } // namespace nephroid::tracing

@@ -11,6 +11,14 @@
 
 namespace nephroid::tracing {
 
+/// The seconds that work() takes.
+template <class Work>
+double seconds_of(const Work& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 /// How much work fits into a slice, learned from the slices before.
 class SliceSize {
 public:
@@ -21,11 +29,7 @@ public:
   /// first slice of a kernel also compiles it, and the rows of a picture differ.
   template <class Work>
   void timed(double amount, const Work& work) {
-    using Clock = std::chrono::steady_clock;
-    const auto begin = Clock::now();
-    work();
-    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    amount_ = std::clamp(amount * slice_seconds / std::max(seconds, 1e-6), 0.25 * amount_, 2 * amount_);
+    amount_ = std::clamp(amount * slice_seconds / std::max(seconds_of(work), 1e-6), 0.25 * amount_, 2 * amount_);
   }
 
 private:

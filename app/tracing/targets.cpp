@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/targets.h"
 
-#include "scene/bvh.h"
 #include "scene/ray.h"
 #include "tracing/scales.h"
 
@@ -92,8 +91,7 @@ scene::Sphere everything(const scene::Scene& scene) {
       for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)})
         points.push_back(light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v));
   const auto [low, high] = box_about(points);
-  // The sphere is larger than it needs to be, so that rounding leaves no light on its surface or outside. It is not a
-  // point where there is only one point.
+  // The sphere is larger than it needs to be, so that no light is on its surface, and never a point.
   return {0.5f * (low + high), std::max(0.51f * glm::length(high - low), 1e-3f)};
 }
 
@@ -129,8 +127,7 @@ double towards_targets_w(const scene::Light& light, const std::vector<scene::Sph
   return light.power_w * std::min(1.0, steradians / (4 * pi));
 }
 
-// Each sphere's shadow is a disc. Points spread evenly over it (Vogel's sunflower) count by 1 / (number of discs over
-// the point), so the union is measured once.
+// Each sphere's shadow is a disc. Points spread over it (Vogel's sunflower) count by 1 / (discs over the point).
 double mean_shadow(const std::vector<scene::Sphere>& spheres) {
   constexpr int directions = 32, points = 64;
   constexpr double pi = std::numbers::pi, golden_angle = pi * 0.7639320225002103; // pi (3 - sqrt 5)

@@ -19,19 +19,16 @@ struct WavelengthTables {
   COLOUR_TABLES(TABLE_VECTOR)
   bool clusters_spread = false;           ///< whether n differs inside any cluster
   std::vector<std::vector<double>> share; ///< [light][cluster]: part of the light's power
-  std::vector<std::vector<double>>
-      seen; ///< [light][cluster]: what the eye makes of that share, (X + Y + Z) / 3: see worth() in scales.h
+  std::vector<std::vector<double>> seen;  ///< [light][cluster]: what the eye makes of that: worth() in scales.h
   int attenuator_count = 0, reflector_count = 0;
 };
 
-/// [401]: the coefficient a by which exp(-a s) of a wavelength's light is left. In glass that absorbs (Beer and
-/// Lambert) a = 4 pi k / lambda in 1/m, and s is in metres. On a mirror a = -ln(reflectance), and s is the number of
-/// reflections. Empty for a material without losses.
+/// [401]: the coefficient a by which exp(-a s) of a wavelength's light is left. In glass (Beer and Lambert) a = 4 pi k
+/// / lambda in 1/m, and s is in metres; on a mirror a = -ln(reflectance), and s counts reflections.
 std::vector<double> loss_coefficients(const scene::Material& material);
 
 /// Fills every table, and materials[i].type, reflector and attenuator. Only materials that an object uses get rows.
-/// lights: the scene's, with the environment last. lit: which wavelengths stay in the clusters. A cluster's index of
-/// refraction is the mean over all wavelengths that it had.
+/// lights: the environment is last. lit: which wavelengths stay in the clusters, whose n is the mean over all.
 WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::vector<const scene::Light*>& lights,
                                         const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
                                         std::vector<shared::DeviceMaterial>& materials);

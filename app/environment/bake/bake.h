@@ -26,9 +26,8 @@ struct SphereMap {
   int side = 1; ///< texels across and down
 
   std::size_t texels() const { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
-  double solid_angle() const {
-    return 4 * std::numbers::pi / static_cast<double>(texels());
-  } ///< one texel's, in steradians
+  /// One texel's, in steradians.
+  double solid_angle() const { return 4 * std::numbers::pi / static_cast<double>(texels()); }
   /// The number of the texel in a direction, row after row. direction: any length but 0.
   std::size_t texel(const glm::dvec3& direction) const;
   /// The unit direction of a texel's middle.
@@ -42,8 +41,7 @@ struct SphereMap {
   std::vector<std::size_t> texels_of_stored() const;
 };
 
-/// The upper 16 bits of the nearest float, which maps hold. Its nine bits are more than the photons' noise leaves
-/// certain, and every device reads them fast.
+/// The upper 16 bits of the nearest float, which maps hold. The photons' noise leaves less than their nine bits.
 std::uint16_t upper_half(double value);
 
 /// The numbers of directions that light may be baked from. These are points of a cube's surface, towards its middle

@@ -7,7 +7,6 @@
 #include "kernels/environment/render_types.h"
 #include "tracing/slices.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,15 +18,9 @@ struct CastTexels {
   std::uint32_t first, count;
   const compute::Buffer<float>* distances;        ///< [texel of the cube]
   const compute::Buffer<shared::float4>* normals; ///< [texel of the cube], unit, on the object's side
-  const compute::Buffer<float>*
-      caustics; ///< [texel of the cube][3], written: E r^2, linear sRGB, W/m^2 of Y times squared units
-  int size;     ///< texels along an edge of the cube's faces
-
-  /// The arguments for a kernel that lights them.
-  std::vector<compute::Argument> arguments() const {
-    return {{"list", *list},           {"first", first},      {"count", count},       {"size", size},
-            {"distances", *distances}, {"normals", *normals}, {"caustics", *caustics}};
-  }
+  const compute::Buffer<float>* caustics; ///< [texel of the cube][3], written: E r^2, linear sRGB, W/m^2 of Y times
+                                          ///< squared units
+  int size;                               ///< texels along an edge of the cube's faces
 };
 
 class Caustics {
@@ -62,8 +55,8 @@ public:
   int side() const { return spheres_.side; } ///< the side of the bake's maps
 
 private:
-  template <class Work>
-  void timed(const Work& work);
+  /// The arguments for a kernel that looks up the spheres of all sets.
+  std::vector<compute::Argument> arguments() const;
 
   compute::Context context_;
   int directions_; ///< how many the bake has

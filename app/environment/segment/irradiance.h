@@ -21,8 +21,7 @@ double irradiance_error(const std::vector<glm::dvec3>& truth, const Segmentation
 /// 1, x, y, z, xx, yy, zz, xy, yz, zx; linear sRGB, W/m^2 of Y.
 using IrradiancePolynomial = std::array<glm::dvec3, 10>;
 
-/// Sums over all light of a map as in its file: flux, flux times the direction it comes from, and flux times the
-/// products of that direction's components.
+/// Sums over all light of a map: flux, flux times its direction, and times the products of that direction's components.
 struct IrradianceMoments {
   glm::dvec3 flux{0};
   std::array<glm::dvec3, 3> first{};                                             ///< by channel

@@ -134,8 +134,7 @@ double cost_of(const Moments& before, const Moments& after, SegmentMethod method
   return method == SegmentMethod::thesis ? std::abs(before.m0 - after.m0) : before.variance() + after.variance();
 }
 
-/// lines: the sums of rows or of columns. Both sides of a cut are sums of lines, because a difference of larger sums
-/// would be mere rounding where there is hardly any light.
+/// lines: the sums of rows or of columns. Both sides are sums of lines: a difference may be mere rounding.
 Candidate best_between(const std::vector<Moments>& lines, SegmentMethod method) {
   const std::size_t count = lines.size();
   if (count < 2) return {};

@@ -8,7 +8,6 @@
 #include "environment/settings.h"
 #include "preset/preset.h"
 #include "scene/bvh.h"
-#include "scene/move.h"
 #include "scene/scene.h"
 #include "tracing/scene_tables.h"
 
@@ -64,7 +63,8 @@ bool is_cut_evenly(const preset::Preset& preset, const CubeMap& cube);
 std::optional<MovedObjects> move_objects(const RenderTask& loaded, const preset::Preset& before,
                                          const preset::Preset& shown, const preset::Preset& now, const Caster& caster);
 
-/// Cuts the cube into lights by the preset's settings.
+SegmentSettings segment_settings(const preset::Preset& preset);
+/// Cuts the cube into lights by segment_settings(preset).
 Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube);
 
 } // namespace nephroid::environment

@@ -3,10 +3,8 @@
 
 #include "base/parallel.h"
 #include "environment/colours.h"
-#include "scene/move.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 

@@ -9,13 +9,11 @@
 #include "environment/view/render_task.h"
 #include "job/job.h"
 #include "mpi/rank_context.h"
-#include "scene/move.h"
 #include "tracing/slices.h"
 #include "tracing/state.h"
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 

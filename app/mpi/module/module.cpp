@@ -28,9 +28,8 @@ using Clock = std::chrono::steady_clock;
 
 struct Rank {
   char host[MPI_MAX_PROCESSOR_NAME] = {};
-  std::size_t boot =
-      0; ///< of its machine's kernel: two machines' names may be alike, and containers of one have several
-  ino_t processes = 0; ///< the name space of its process' number: containers have their own
+  std::size_t boot = 0; ///< its machine's kernel's: machines' names may be alike, and containers of one have several
+  ino_t processes = 0;  ///< the name space of its process' number: containers have their own
   pid_t process = 0;
 };
 

@@ -247,8 +247,8 @@ std::vector<double> theta_exact(std::span<const double> n) {
 // The corner derivatives are finite differences of psi on the grid, as the thesis takes them (appendix A.1, last
 // paragraph), so that a staircase gives a large figure and not an infinite one. They approximate, with s = sin theta1,
 // c = cos theta1,
-//   psi_theta        = -c n n' / (n^2 - s^2)^(3/2) (A.2) psi_lambda_theta = -c (n^3 n'' - s^2 n n'' - s^2 n'^2 - 2 n^2
-//   n'^2) / (n^2 - s^2)^(5/2)                        (A.3)
+//   psi_theta        = -c n n' / (n^2 - s^2)^(3/2)                                                   (A.2)
+//   psi_lambda_theta = -c (n^3 n'' - s^2 n n'' - s^2 n'^2 - 2 n^2 n'^2) / (n^2 - s^2)^(5/2)          (A.3)
 // (A.3) has lost its operators in print. It follows from (A.2): d/d lambda of n n' (n^2 - s^2)^(-3/2) is
 // ((n n'' + n'^2) (n^2 - s^2) - 3 n^2 n'^2) (n^2 - s^2)^(-5/2).
 std::vector<double> theta_patches(std::span<const double> n) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wavelength clusters: which of the 401 wavelengths may share one path through one glass (thesis 4.1.1).
 #pragma once
+#include "optics/wavelength.h"
 #include "photons/settings.h"
-#include "scene/scene.h"
 
 #include <span>
 #include <vector>
@@ -32,8 +32,7 @@ struct Clustering {
 /// that angle. threshold_deg is alpha, in (0, 90); n is finite and > 0. Throws bad_input otherwise.
 Clustering cluster_wavelengths(const optics::Spectrum& n, double threshold_deg, ClusterMethod method);
 
-/// The coarsest partition that is finer than each of the given ones, as groups of wavelength indices, ordered by the
-/// smallest. An empty input gives one group of all.
+/// The coarsest partition that is finer than each of the given ones, as indices, ordered by each group's smallest.
 std::vector<std::vector<int>> common_refinement(std::span<const Clustering> clusterings);
 
 /// Theta is the change of the refraction angle from one wavelength to the next, integrated over the angle of incidence

@@ -23,12 +23,8 @@ std::vector<double> blurred(std::span<const double> values) {
     std::vector<double> to(from.size());
     for (std::size_t i = 0; i < from.size(); ++i) {
       const std::size_t bin = i / stride % bins, first = i - bin * stride;
-      const std::size_t below = bin > 0 ? bin - 1
-                                : wraps ? bins - 1
-                                        : bin,
-                        above = bin + 1 < bins ? bin + 1
-                                : wraps        ? 0
-                                               : bin;
+      const std::size_t below = wraps ? (bin + bins - 1) % bins : std::max<std::size_t>(bin, 1) - 1,
+                        above = wraps ? (bin + 1) % bins : std::min(bin + 1, bins - 1);
       to[i] = 0.25 * from[first + below * stride] + 0.5 * from[i] + 0.25 * from[first + above * stride];
     }
     return to;

@@ -50,9 +50,8 @@ public:
   /// Whether photons are allocated anew before this pass: before passes 2, 4, 8, 16, ...
   bool is_due(std::int64_t pass) const;
   /// moments[emitter] is the sum, since first_iteration(), of the squares of what each photon added to the picture, in
-  /// any unit. They are taken for the variance, which is right where a pixel gets few photons a pass. halves is the
-  /// number of the film's halves, each with its own low-discrepancy sequence. A tenth of the photons keeps its first
-  /// allocation, and every emitter keeps at least one.
+  /// any unit. They are taken for the variance, as is right for few photons a pixel and pass. halves: of the film, each
+  /// with its own low-discrepancy sequence. A tenth of the photons keeps its first allocation.
   void reallocate(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves);
   /// Restores the first allocation from this pass on.
   void restore_initial(std::int64_t pass, unsigned halves);
@@ -64,10 +63,9 @@ public:
 
 private:
   std::vector<shared::DeviceEmitter> emitters_;
-  std::vector<unsigned> initial_counts_; ///< [emitter] photons of a pass at the start
-  std::vector<double> initial_shares_;   ///< [emitter] share of the photons at the start
-  std::vector<double> squares_,
-      photons_; ///< [emitter] sum over allocations of n^2 moments and of n passes: their ratio estimates V_e
+  std::vector<unsigned> initial_counts_;  ///< [emitter] photons of a pass at the start
+  std::vector<double> initial_shares_;    ///< [emitter] share of the photons at the start
+  std::vector<double> squares_, photons_; ///< [emitter] sums of n^2 moments and of n passes: the ratio estimates V_e
   double first_variance_ = 0, last_variance_ = 0; ///< variances of a pass, in the unit of `moments`; 0: not known yet
   std::int64_t first_iteration_ = 0;
 
@@ -80,8 +78,7 @@ private:
 class EmissionGuide {
 public:
   static constexpr std::size_t cells = std::size_t{GUIDE_BINS_X} * GUIDE_BINS_Y * GUIDE_BINS_Z;
-  static constexpr std::size_t floats =
-      GUIDE_BINS_X + std::size_t{GUIDE_BINS_X} * GUIDE_BINS_Y + cells; ///< floats of a light in table()
+  static constexpr std::size_t floats = GUIDE_FLOATS; ///< floats of a light in table()
 
   /// All cells of all lights have the same chance at first. lights is the number of lights.
   explicit EmissionGuide(std::size_t lights);
@@ -95,9 +92,8 @@ public:
   void state(tracing::State& state);
 
 private:
-  std::vector<double> chance_; ///< [light][cell]: a photon's chance of a cell; sums to 1 for each light
-  std::vector<double> squares_,
-      samples_; ///< [light][cell]: their ratio estimates the mean square of an even photon, times the volume
+  std::vector<double> chance_;            ///< [light][cell]: a photon's chance of a cell; sums to 1 for each light
+  std::vector<double> squares_, samples_; ///< [light][cell]: the ratio estimates an even photon's mean square
   std::vector<float> table_;
 };
 

@@ -14,9 +14,8 @@ namespace nephroid::photons {
 
 /// A material that the caustic objects see around them.
 struct Surrounding {
-  int material = 0; ///< index into Scene::materials
-  double share =
-      0; ///< ghat_i: fraction of the rays that hit anything which hit it; all sum to 1; without geometry 1 each
+  int material = 0;     ///< index into Scene::materials
+  double share = 0;     ///< ghat_i: its part of the rays that hit anything; without geometry 1 each
   double lightness = 0; ///< L_i: CIE L*, 0..100, of a surface with its reflectance under the lights
 };
 
@@ -30,10 +29,9 @@ std::vector<int> caustic_objects(const scene::Scene& scene);
 
 /// The geometric part of u: it depends neither on the lights' spectra and powers nor on the colours of materials.
 struct ImportanceGeometry {
-  bool caustics = false;    ///< whether an object throws them
-  std::vector<double> seen; ///< [material]: ghat_i, from rays; empty where the settings ask for none
-  std::vector<double>
-      used; ///< [material]: ghat_i without geometry: 1 where an object has it and it diffuses or mirrors, else 0
+  bool caustics = false;        ///< whether an object throws them
+  std::vector<double> seen;     ///< [material]: ghat_i, from rays; empty where the settings ask for none
+  std::vector<double> used;     ///< [material]: ghat_i without geometry: 1 where a used one diffuses or mirrors, else 0
   std::vector<double> towards;  ///< [light]: part of its W, or W m^-2, that goes towards the caustic objects
   std::vector<double> anywhere; ///< [light]: part of its W, or W m^-2, that goes towards anything
   bool operator==(const ImportanceGeometry&) const = default;

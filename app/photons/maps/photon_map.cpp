@@ -44,6 +44,30 @@ double pixel_width(const scene::Camera& camera, const scene::Sphere& bounds) {
   return 2 * distance * camera.tan_y / camera.height;
 }
 
+/// The plan's warning about a spectral.sppm.radius that loses the caustics, or an empty string. Such a radius is wider
+/// than 32 pixels or than the whole scene, or below 1/16 pixel, where a pass with as many photons as pixels finds one
+/// in some hundred pixels. It also warns of an alpha that shrinks the radius so far at a pixel's first photons.
+std::string map_radius_note(const Settings& settings, const scene::Scene& scene) {
+  const double radius = first_map_radius(settings, scene), alpha = settings.sppm.alpha,
+               shrunk = radius * std::sqrt(alpha);
+  const scene::Sphere bounds = tracing::scene_bounds(scene);
+  const double pixel = pixel_width(scene.camera, bounds), least = pixel / 16;
+  if (settings.estimator == Settings::Estimator::sppm && radius >= least && shrunk < least)
+    return fmt::format("spectral.sppm.alpha: {:.3g} shrinks a radius from {:.3g} to {:.3g} pixels at its first "
+                       "photons, and hardly another one "
+                       "lies so near: caustics grow darker from pass to pass; choose 0.667 or so",
+                       alpha, radius / pixel, shrunk / pixel);
+  if (!settings.sppm.radius) return "";
+  const auto note = [&](const char* consequence) {
+    return fmt::format(
+        "spectral.sppm.radius: {} units are {:.3g} pixels: {}; choose about {:.3g}, two pixels, or leave it out",
+        radius, radius / pixel, consequence, 2 * pixel);
+  };
+  if (radius > 32 * pixel || (radius > bounds.radius && radius > 2 * pixel))
+    return note("caustics are blurred away, and gathering is slow");
+  return radius < least ? note("hardly a photon lies so near, and caustics are black but for rare bright dots") : "";
+}
+
 } // namespace
 
 double photon_scale(std::uint32_t photons, double watts) {
@@ -122,27 +146,6 @@ double first_map_radius(const Settings& settings, const scene::Scene& scene) {
 
 std::string map_radius(const Settings& settings, const scene::Scene& scene) {
   return fmt::format("from {:.3g} units around a visible point", first_map_radius(settings, scene));
-}
-
-std::string map_radius_note(const Settings& settings, const scene::Scene& scene) {
-  const double radius = first_map_radius(settings, scene), alpha = settings.sppm.alpha,
-               shrunk = radius * std::sqrt(alpha);
-  const scene::Sphere bounds = tracing::scene_bounds(scene);
-  const double pixel = pixel_width(scene.camera, bounds), least = pixel / 16;
-  if (settings.estimator == Settings::Estimator::sppm && radius >= least && shrunk < least)
-    return fmt::format("spectral.sppm.alpha: {:.3g} shrinks a radius from {:.3g} to {:.3g} pixels at its first "
-                       "photons, and hardly another one "
-                       "lies so near: caustics grow darker from pass to pass; choose 0.667 or so",
-                       alpha, radius / pixel, shrunk / pixel);
-  if (!settings.sppm.radius) return "";
-  const auto note = [&](const char* consequence) {
-    return fmt::format(
-        "spectral.sppm.radius: {} units are {:.3g} pixels: {}; choose about {:.3g}, two pixels, or leave it out",
-        radius, radius / pixel, consequence, 2 * pixel);
-  };
-  if (radius > 32 * pixel || (radius > bounds.radius && radius > 2 * pixel))
-    return note("caustics are blurred away, and gathering is slow");
-  return radius < least ? note("hardly a photon lies so near, and caustics are black but for rare bright dots") : "";
 }
 
 double map_radius_factor(std::int64_t pass, double alpha) {

@@ -58,11 +58,6 @@ double first_map_radius(const Settings& settings, const scene::Scene& scene);
 /// The first radius as the plan states it.
 std::string map_radius(const Settings& settings, const scene::Scene& scene);
 
-/// The plan's warning about a spectral.sppm.radius that loses the caustics, or an empty string. Such a radius is wider
-/// than 32 pixels or than the whole scene, or below 1/16 pixel, where a pass with as many photons as pixels finds one
-/// in some hundred pixels. It also warns of an alpha that shrinks the radius so far at a pixel's first photons.
-std::string map_radius_note(const Settings& settings, const scene::Scene& scene);
-
 /// The factor of the first radius in pass p (from 0): r_(p+1)^2 = r_p^2 (p + alpha) / (p + 1), counted from 1 (Knaus
 /// and Zwicker 2011, "Progressive photon mapping: a probabilistic approach", (15)). Squares of radii then fall as
 /// p^(alpha - 1). The bias is proportional to them; the variance of the mean of all passes falls as p^-alpha.

@@ -163,9 +163,7 @@ private:
   };
 
   int cluster_count() const { return world_.tables.scene.cluster_count; }
-  std::uint32_t pixel_count() const {
-    return static_cast<std::uint32_t>(world_.tables.camera.width * world_.tables.camera.height);
-  }
+  std::uint32_t pixel_count() const { return world_.pixels.count; }
   Partition own_pixels() const { return {world_.context.communicator(), pixel_count()}; }
   ClusterRun& run_of(int cluster) { return runs_[random_ ? 0 : static_cast<std::size_t>(cluster)]; }
 

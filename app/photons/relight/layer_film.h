@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A film of layers (kernels/photons/layers.h): its cells, on the host, its sums, on the device, and the pictures
-// weighed from them. A cell is a pixel with one reflector that it sees. Also what the stages of a run that keeps layers
-// share: the present light, and the films' cells (thesis 6.2.2).
+// weighed from them. A cell is a pixel with one reflector that it sees. Also what stages share (thesis 6.2.2).
 #pragma once
 #include "compute/compute.h"
 #include "kernels/photons/layer_types.h"
@@ -26,9 +25,7 @@ struct LayerCells {
   std::vector<int> first;               ///< [pixel + 1]: index into `cells`
   std::vector<shared::LayerCell> cells; ///< for each pixel, beginning with the reflector that it sees most
   std::vector<int> reflector_of_block;  ///< cells of one reflector fill whole blocks of LAYER_BLOCK
-  std::size_t count() const {
-    return LAYER_BLOCK * reflector_of_block.size();
-  } ///< the number of cell numbers, unused ones included
+  std::size_t count() const { return LAYER_BLOCK * reflector_of_block.size(); } ///< cell numbers, unused ones included
 };
 
 /// The result of a survey.
@@ -41,8 +38,7 @@ struct ReflectorSurvey {
 
 /// Makes a cell for each pixel and reflector that the pixel or one of its eight neighbours sees: what is at an edge may
 /// be in the pixel beside. There are at most `most` cells; if there would be more, what pixels see least is left out
-/// first. With EmptyPixel::a_cell a pixel that sees nothing has one, too, if there are reflectors at all (`most` is
-/// then at least the number of pixels).
+/// first. With EmptyPixel::a_cell a pixel that sees nothing has one, too, if there are reflectors.
 enum class EmptyPixel { no_cell, a_cell };
 LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, EmptyPixel unseen);
 
@@ -124,8 +120,7 @@ struct Relighting {
   compute::Buffer<float> mean_reflectance, luminance_share; ///< FlatLight
 };
 
-/// Returns DeviceWorld::relighting. The first call surveys on the device what the camera sees. world has the tables
-/// that make_run_tables made for the scene.
+/// Returns DeviceWorld::relighting. The first call surveys on the device what the camera sees.
 const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene);
 
 /// Changes the light. The energy counters begin anew, but for refused contributions.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small pictures by the real engine against closed forms of irradiance and power. Noise is judged in standard
 // deviations that follow from the number of photons or samples, so that no seed makes a check fail by chance.
-#include "check/device_arrays.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "spectral/checks/render.h"
@@ -59,7 +58,7 @@ PixelTruth pixel_truth(const preset::Light& light, int resolution, int row, int 
 /// The distance of a layer from the truth in sigma: of the sum over all pixels, and of each by itself as chi-square.
 struct Distance {
   double sum_error = 0, pixel_error = 0, ratio = 1;
-  double worst() const { return std::abs(sum_error) > std::abs(pixel_error) ? sum_error : pixel_error; }
+  double worst() const { return worse(pixel_error, sum_error); }
 };
 /// variance(truth) is that of a pixel's measured irradiance.
 template <class Variance>
@@ -143,8 +142,7 @@ Result sky_through_nothing(const compute::Context& context, std::uint64_t seed) 
     squares[i % 3] += off * off;
     hidden += double(caustic[i]) / p.scene.environment->colour[i % 3] / static_cast<double>(direct.size());
   }
-  for (int c = 0; c < 3; ++c)
-    if (const double z = sums[c] / std::sqrt(squares[c]); std::abs(z) > std::abs(worst)) worst = z;
+  for (int c = 0; c < 3; ++c) worst = worse(worst, sums[c] / std::sqrt(squares[c]));
   return judged(worst, 6, "sigma",
                 fmt::format("a floor under half a sky of one colour, {:.3f} of its light through a ball of n = 1, "
                             "against the sky's colour: ratio {:.4f}",

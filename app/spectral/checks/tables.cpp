@@ -102,7 +102,7 @@ Result beer_lambert(const compute::Context& context, std::uint64_t) {
       }
       const float4& s = got[item++];
       for (const double error : {relative(s.x, truth[0]), relative(s.y, truth[1]), relative(s.w, truth[3])})
-        worst = error <= worst ? worst : error;
+        worst = worse(worst, error);
       if (truth[2] > 0) worst = std::max(worst, relative(s.z, truth[2])); // the eye's blue ends at 650 nm
     }
   return judged(
@@ -213,7 +213,7 @@ Result spot(const compute::Context& context, std::uint64_t seed) {
   const double z =
       z_of(emit(context, seed, wide, spheres), watts_of, 7 * (2 * pi * one_minus_cos(1 / 3.0) + apart) / cone);
   const double z_narrow = z_of(emit(context, seed, narrow, spheres), watts_of, 7);
-  return judged_in_sigma(std::abs(z) > std::abs(z_narrow) ? z : z_narrow,
+  return judged_in_sigma(worse(z_narrow, z),
                          "a cone of 60 degrees about three spheres, one across its edge, and one of 5 degrees inside a "
                          "sphere, against power "
                          "times the part of the cone");
@@ -243,7 +243,7 @@ Result area(const compute::Context& context, std::uint64_t seed) {
   const double z = z_of(photons, watts_of, 7);
   const double z_cosine = z_of(
       photons, [](const Photon& p) { return -p.watts * p.direction[1]; }, 7 * 2.0 / 3);
-  return judged_in_sigma(std::abs(z) > std::abs(z_cosine) ? z : z_cosine,
+  return judged_in_sigma(worse(z_cosine, z),
                          "photons in all directions, against the whole power and a mean cosine of 2/3");
 }
 
