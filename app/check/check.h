@@ -23,7 +23,6 @@ struct Result {
   bool passed() const { return figure <= tolerance && figure >= -tolerance; } // NaN fails
 };
 
-/// A result without the check's name.
 inline Result judged(double figure, double tolerance, std::string unit, std::string detail) {
   return {{}, figure, tolerance, std::move(unit), std::move(detail)};
 }

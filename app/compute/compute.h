@@ -129,7 +129,6 @@ private:
 template <class T>
 Buffer(const Context&, const char*, const std::vector<T>&) -> Buffer<T>;
 
-/// A buffer of zeros.
 template <class T>
 Buffer<T> zeroed(const Context& context, std::string name, std::size_t count) {
   Buffer<T> buffer(context, std::move(name), count);

@@ -9,7 +9,6 @@
 
 namespace nephroid::environment {
 
-/// Which directions and spheres are shown.
 struct Shown {
   std::vector<std::size_t> directions, spheres;
 };

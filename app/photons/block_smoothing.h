@@ -22,7 +22,6 @@ public:
   /// first_preview_edge: of the first preview's blocks; 1: there is none, and light goes from pixel to pixel.
   BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread, int first_preview_edge);
 
-  /// The smoothing from pixel to pixel.
   Smoothing& pixels() { return levels_.back().smoothing; }
   /// Returns a preview's layer, smoothed, by pixel. blocks are the preview's; `layer` has a value for each.
   LayerEstimate pixels_of(const Blocks& blocks, LayerEstimate layer);

@@ -42,9 +42,7 @@ private:
   job::Picture black() const { return black({world_.tables.camera.width, world_.tables.camera.height, 1}); }
   /// The preview of a stage's layer, smoothed, [pixel][3].
   LayerEstimate preview_of(Stage& stage);
-  /// The layer of a stage that has no caustics.
   LayerEstimate layer_of(std::size_t stage);
-  /// The layer of all stages that have caustics.
   LayerEstimate caustics();
   template <class Work>
   void timed(const Work& work) {

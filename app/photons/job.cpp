@@ -172,7 +172,6 @@ public:
   }
 
 private:
-  /// Does what is due between two passes.
   void begin_pass() {
     const std::int64_t passes = passes_.complete();
     if (passes == 1) development_.prepare();

@@ -47,7 +47,6 @@ public:
   std::int64_t most() const;
   /// Complete passes and the fraction of the current one, in which every stage counts alike.
   double with_fraction() const;
-  /// The photons sent so far.
   std::uint64_t photons() const;
   /// The batches of the photons that DeviceWorld::energy counts, with the fraction of the current pass.
   double photon_batches() const;
@@ -91,7 +90,6 @@ public:
   }
 
 private:
-  /// Sets DeviceWorld::preview.
   void begin_picture();
 
   DeviceWorld& world_;

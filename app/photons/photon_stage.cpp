@@ -108,7 +108,6 @@ public:
   }
 
 private:
-  /// The number of complete batches.
   std::int64_t batches(std::int64_t passes, bool done) const {
     return passes * world_.tables.batches + (done ? world_.tables.batches : batch_);
   }

@@ -52,7 +52,6 @@ public:
   Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread);
   void find_surfaces();
 
-  /// The most bytes that this takes.
   static std::uint64_t bytes(const scene::Scene& scene, const scene::Bvh& bvh);
 
   /// rgb has the caustics alone, [pixel][3] of the camera's size. error_draw is a draw of their error

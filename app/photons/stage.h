@@ -79,7 +79,6 @@ public:
   virtual std::uint64_t photons_per_pass() const { return 0; }
   /// Whether DeviceWorld::energy holds the power of its photons.
   virtual bool counts_energy() const { return false; }
-  /// Everything that it needs to continue with the same bits.
   virtual void state(tracing::State& state) = 0;
 };
 

@@ -14,7 +14,6 @@ bool has_power(const scene::Light& light);
 /// [401]: whether any light with power has the wavelength; true for all where no light has power.
 std::vector<bool> lit_wavelengths(const scene::Scene& scene);
 
-/// How many objects there are of each kind.
 struct ObjectCounts {
   int dielectrics = 0, mirrors = 0, diffuse = 0, smooth = 0;
 };
@@ -31,7 +30,6 @@ plan::Pass not_needed(const std::string& name, bool leave_out, std::string reaso
 std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene,
                                        const std::vector<scene::Sphere>& targets);
 
-/// What kernels are compiled without.
 struct CodeOmissions {
   std::vector<plan::Pass> passes;
   std::map<std::string, std::string> defines; ///< -D flags

@@ -71,7 +71,6 @@ std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene
 
 std::uint64_t bytes_of(const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); }
 
-/// Bytes of a scene's surfaces on the host.
 std::uint64_t mesh_bytes(const scene::Scene& scene);
 
 /// Where texels are looked up, for the light and for the background.

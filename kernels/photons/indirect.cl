@@ -25,7 +25,6 @@ typedef struct {
   DeviceCamera camera;
 } Receiver;
 
-// A photon on its way.
 typedef struct {
   Path path;
   SET_ASIDE float shading;  // product of shading_ratio over the diffuse surfaces behind it

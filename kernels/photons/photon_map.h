@@ -45,7 +45,6 @@ typedef struct {
   PhotonGrid grid;
 } PhotonMap;
 
-// The buffers of a PhotonMap, as kernel arguments.
 #define PHOTON_MAP_ARGUMENTS                                                                                           \
   __global const uint *starts, __global const float *sorted_positions, __global const int *sorted_values,              \
       PhotonGrid grid

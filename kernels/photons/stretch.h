@@ -133,7 +133,6 @@ static inline Band stretched_band(const World* world, int light, const Band* pho
   return band;
 }
 
-// One of a photon's splats.
 typedef struct {
   Surface surface;
   uint triangle;

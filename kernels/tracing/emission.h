@@ -50,7 +50,6 @@ static inline float one_minus_cos_of(float4 sphere, float3 from) {
   return sine2 / (1.0f + sqrt(1.0f - sine2));
 }
 
-// Whether a photon from `from` meets a sphere.
 static inline bool meets_sphere(float4 sphere, float3 from, const Emission* photon) {
   const float3 start = sphere.xyz - from, way = sphere.xyz - photon->origin;
   const float along = dot(way, photon->direction), radius2 = sphere.w * sphere.w;

@@ -30,7 +30,6 @@ static inline bool has_places(const DeviceLight* light) {
   return is_light(light, LIGHT_AREA) || is_light(light, LIGHT_ENVIRONMENT);
 }
 
-// A point of an area light's rectangle.
 static inline float3 area_point(const DeviceLight* light, float2 place) {
   return light->position.xyz + (place.x - 0.5f) * light->edge_u.xyz + (place.y - 0.5f) * light->edge_v.xyz;
 }

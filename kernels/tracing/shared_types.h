@@ -141,7 +141,6 @@ typedef struct {
   float4 normal; // flat triangle: unit, outwards, w: how far a new ray starts from it; ellipsoid: third row
 } DevicePrimitive;
 
-// The scene as a whole, for every kernel.
 typedef struct {
   int root; // the tree's root: bvh.h
   int material_count;

@@ -8,7 +8,6 @@
 #define NEPHROID_SMOOTH 1
 #endif
 
-// The scene's triangles and ellipsoids as kernels see them.
 typedef struct {
   GEOMETRY_TABLES(TABLE_MEMBER)
   int root;

@@ -20,7 +20,6 @@ typedef struct {
   DeviceScene scene;
 } World;
 
-// A World's parts as kernel arguments.
 #define WORLD_ARGUMENTS WORLD_TABLES(TABLE_ARGUMENT) DeviceScene scene
 #define WORLD \
   {{GEOMETRY_TABLES(TABLE_VALUE) scene.root}, OBJECT_TABLES(TABLE_VALUE) {WAVELENGTH_TABLES(TABLE_VALUE)}, \

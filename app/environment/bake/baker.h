@@ -117,7 +117,6 @@ public:
 
   std::int64_t directions() const { return static_cast<std::int64_t>(bake().baked.size()); } ///< complete ones
   double fraction_done() const;                                                              ///< 0..1
-  /// The photons that this run has sent.
   std::uint64_t photons() const { return bake_ ? photons_ : baker_->photons(); }
   /// The time until the bake is complete; nothing where that is not known.
   std::optional<double> seconds_left() const { return baker_->seconds_left(); }

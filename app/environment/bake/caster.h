@@ -29,7 +29,6 @@ struct Caster {
   Extent extent;
 };
 
-/// Whether an object is glass or a mirror.
 bool casts(const preset::Preset& preset, const preset::Object& object);
 
 /// The indices into preset.scene.objects, ascending. Throws bad_input at FILE#/environment/objects for a name that is

@@ -28,7 +28,6 @@ public:
   /// bake outlives it. Throws failed where the device has not enough memory.
   Caustics(const Bake& bake, const compute::Context& context);
 
-  /// Memory on the device.
   static std::uint64_t bytes(const Bake& bake);
   /// Memory of what compile_air() makes.
   static std::uint64_t air_bytes(const Bake& bake, int side);

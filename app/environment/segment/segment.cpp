@@ -123,7 +123,6 @@ private:
 /// The relative rounding of sums of positive numbers.
 constexpr double rounding = 1e-12;
 
-/// The best cut in one direction.
 struct Candidate {
   int at = 0; ///< lines before the cut; 0: there is none
   double cost = 0;

@@ -24,7 +24,6 @@ public:
   /// size: texels along an edge of a face.
   Receivers(const mpi::RankContext& context, int size);
 
-  /// Memory on the device.
   static std::uint64_t bytes(int size);
 
   int size() const { return size_; }

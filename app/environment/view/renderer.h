@@ -36,7 +36,6 @@ public:
 
   /// Builds the tree again where objects have moved: it pays for many passes, not for a coarse picture.
   void renew_tree();
-  /// One slice of about 30 ms of the pass in hand.
   void advance();
   std::int64_t passes() const { return pass_; } ///< complete passes
   double fraction_done() const;                 ///< the part of the pass in hand, 0..1

@@ -53,7 +53,6 @@ std::vector<double> by_power(const std::vector<double>& watts, const tracing::Wa
   return weights;
 }
 
-/// The watts of each cluster.
 std::vector<double> watts_in_clusters(const std::vector<double>& watts, const tracing::WavelengthTables& tables) {
   std::vector<double> sums(tables.clusters.size(), 0);
   for (std::size_t l = 0; l < watts.size(); ++l)

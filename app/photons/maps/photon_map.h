@@ -20,7 +20,6 @@ class PhotonMap {
 public:
   /// Has room for `slots` photons, 1 <= slots < 2^30. Throws failed where the device has not enough memory.
   PhotonMap(const mpi::RankContext& context, std::uint32_t slots, const compute::Defines& defines = {});
-  /// The bytes that a map takes on the device.
   static std::uint64_t bytes(std::uint32_t slots);
 
   /// Where kernels write photons before build(). Every slot has to be written, if only with NO_PHOTON.

@@ -156,7 +156,6 @@ public:
   }
 
 private:
-  /// The position in the current pass.
   struct Position {
     int cluster = 0;   ///< cluster whose turn it is, or the next that may have one
     bool sent = false; ///< whether its photons are all sent

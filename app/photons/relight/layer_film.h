@@ -28,7 +28,6 @@ struct LayerCells {
   std::size_t count() const { return LAYER_BLOCK * reflector_of_block.size(); } ///< cell numbers, unused ones included
 };
 
-/// The result of a survey.
 struct ReflectorSurvey {
   std::span<const int> seen; ///< [pixel][sample]: a reflector; -1: none
   int width = 0, height = 0;
@@ -85,7 +84,6 @@ public:
   /// Returns two pictures, each [pixel][3]: sums over halves, layers and the pixel's cells, times the weights.
   std::array<std::vector<float>, 2> weigh(const LayerFilmWeights& by);
 
-  /// The contents of a pixel's cells.
   std::vector<LayerSums> pixel(std::size_t index) const;
 
   void state(tracing::State& state) { state.buffer(sums_); }

@@ -13,7 +13,6 @@
 
 namespace nephroid::photons {
 
-/// What may change in a run that keeps layers.
 struct LayerLight {
   std::vector<optics::Spectrum> spectra; ///< spectrum of each light of the preset, sums to 1
   std::vector<double> power;             ///< W, or W m^-2 for a directional light
