@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment/bake/baker.h"
 
+#include "base/error.h"
 #include "base/hashed_bytes.h"
 #include "base/parallel.h"
 #include "environment/colours.h"

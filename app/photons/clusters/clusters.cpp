@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photons/clusters/clusters.h"
 
+#include "base/error.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -26,7 +26,6 @@ public:
   compute::Buffer<shared::StoredPhoton>& stored() { return stored_; }
   /// Queues the sorting of the first `slots` stored photons into cells. The radius of a search may be up to 3 cells.
   void build(double cell_edge, std::uint32_t slots);
-  std::uint32_t slots() const { return static_cast<std::uint32_t>(stored_.size()); }
 
   /// The kernel arguments PHOTON_MAP_ARGUMENTS, from which kernels make a PhotonMap. They refer to this map.
   std::array<compute::Argument, 4> arguments() const {
