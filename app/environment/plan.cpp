@@ -3,6 +3,7 @@
 
 #include "environment/bake/bake.h"
 #include "environment/describe_settings.h"
+#include "environment/photons.h"
 #include "environment/sheet.h"
 #include "environment/view/renderer.h"
 #include "tracing/omissions.h"
