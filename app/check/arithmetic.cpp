@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device's own functions against double precision. Tolerances are the full profile's of the OpenCL 1.2
-// specification, section 7.4, table "ULP values for single precision built-in math functions": a compiler's fast
-// mathematics shows here first.
+// The device's own functions against double precision. Tolerances: OpenCL 1.2, 7.4, table "ULP values for single
+// precision built-in math functions", full profile. A compiler's fast mathematics shows here first.
 #include "check/check.h"
 #include "check/device_arrays.h"
 
@@ -97,8 +96,7 @@ Check built_in_check(const BuiltIn& b) {
           }};
 }
 
-/// The signs of a ray's edge functions are exact only where no compiler fuses one of two products
-/// (kernels/tracing/bvh.h).
+/// The signs of a ray's edge functions are exact only where no compiler fuses a product (kernels/tracing/bvh.h).
 Result products_round_apart(const compute::Context& context, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<float4> in(sample_count);

@@ -4,6 +4,7 @@
 #pragma once
 #include "compute/compute.h"
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -22,9 +23,13 @@ struct Result {
   bool passed() const { return figure <= tolerance && figure >= -tolerance; } // NaN fails
 };
 
-/// A result without the check's name.
 inline Result judged(double figure, double tolerance, std::string unit, std::string detail) {
   return {{}, figure, tolerance, std::move(unit), std::move(detail)};
+}
+
+/// The error of larger size; NaN where either is.
+inline double worse(double worst, double error) {
+  return std::isnan(worst) || std::abs(error) <= std::abs(worst) ? worst : error;
 }
 
 /// One check by name; run() takes a second or two at most and throws where the device fails.

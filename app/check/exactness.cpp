@@ -17,8 +17,7 @@ namespace {
 using Block = std::array<std::uint32_t, 4>;
 using Key = std::array<std::uint32_t, 2>;
 
-/// Philox4x32-10 from its paper (Salmon et al. 2011): ten rounds of two 32 x 32 bit products, the key stepped by the
-/// golden ratio and by sqrt(3) - 1.
+/// Philox4x32-10 (Salmon et al. 2011): ten rounds of two products; the key steps by the golden ratio and sqrt(3) - 1.
 Block philox(Block counter, Key key) {
   for (int round = 0; round < 10; ++round) {
     const std::uint64_t first = std::uint64_t{0xD2511F53} * counter[0], second = std::uint64_t{0xCD9E8D57} * counter[2];
@@ -73,8 +72,7 @@ Result uniforms(const compute::Context& context, std::uint64_t seed) {
                 fmt::format("of {} uniforms, those outside [0, 1) or other than the host's", 4 * count));
 }
 
-/// Films are sums of integers, so every order of adding gives the same. `halves` adds with two 32-bit atomics and a
-/// carry.
+/// Sums of integers are the same in any order. `halves` adds with two 32-bit atomics and a carry.
 Result sums(const compute::Context& context, std::uint64_t seed, bool halves) {
   constexpr std::size_t count = 1 << 17, places = 7;
   std::mt19937_64 random(seed);

@@ -90,8 +90,7 @@ Result closest_hits(const compute::Context& context, std::uint64_t seed) {
 }
 
 /// Compares t and the point (1 - u - v) a + u b + v c with where the ray's line meets the triangle's plane. In a thin
-/// triangle, barycentrics have the error of the coordinates over its height, so the place is off by that times the
-/// longest edge.
+/// triangle, barycentrics are off by the coordinates' error over its height, the place by that times the longest edge.
 Result hit_places(const compute::Context& context, std::uint64_t seed) {
   const Rays traced(context, seed);
   const Judge judge(traced.mesh, 8 * rounding);
@@ -145,8 +144,7 @@ Result no_leaks(const compute::Context& context, std::uint64_t seed) {
       fmt::format("of {} rays from inside at vertices and edges of a closed mesh, those that got out", rays.size()));
 }
 
-/// Spheres and ellipsoids, hit from outside and inside. The truth is the plain quadratic in double; distances are along
-/// the normal.
+/// Ellipsoids hit from outside and inside. The truth is the plain quadratic in double; distances are along the normal.
 Result ellipsoid_hits(const compute::Context& context, std::uint64_t seed) {
   scene::Mesh mesh;
   mesh.ellipsoids = {{{0, 0, 0}, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, false},

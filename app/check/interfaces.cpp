@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Snell's and Fresnel's laws in kernels/tracing/fresnel.h against optics/fresnel.h in double precision, and nested
-// media (kernels/tracing/media.h).
+// kernels/tracing/fresnel.h against optics/fresnel.h in double precision, and nested media (kernels/tracing/media.h).
 #include "check/check.h"
 #include "check/device_arrays.h"
 #include "optics/fresnel.h"
@@ -17,9 +16,8 @@ namespace {
 
 using std::numbers::pi;
 
-// The specification lets a division be off by 2.5 units in the last place and a square root by 3. So sin_t = n_i / n_t
-// sin_i may be off by about 6 of 2^-24, or 4e-7, and its square and 1 - sin_t^2 by twice that. Tolerances below are
-// about twice what follows.
+// A division may be off by 2.5 units in the last place and a square root by 3. So sin_t = n_i / n_t sin_i may be off by
+// 6 of 2^-24, or 4e-7, and 1 - sin_t^2 by twice that. Tolerances below are about twice what follows.
 constexpr float indices[] = {1, 1.0001f, 1.33f, 1.5f, 1.9f, 2.42f, 4};
 
 std::vector<float4> through(const compute::Context& context, const char* kernel, const std::vector<float4>& in,
@@ -49,10 +47,8 @@ Result reflectance(const compute::Context& context, std::uint64_t) {
     const double cos_i = in[i].x, n_i = in[i].y, n_t = in[i].z;
     const auto cos_t = optics::refracted_cosine(cos_i, n_i, n_t);
     if (!cos_t || *cos_t < 0.01) continue;
-    const double condition = (n_i / n_t + n_t / n_i) / *cos_t,
-                 error = std::abs(out[i].y - optics::fresnel_reflectance(cos_i, n_i, n_t));
-    worst = std::isfinite(error) ? std::max(worst, error / condition) : error;
-    if (!std::isfinite(worst)) break;
+    const double condition = (n_i / n_t + n_t / n_i) / *cos_t;
+    worst = worse(worst, std::abs(out[i].y - optics::fresnel_reflectance(cos_i, n_i, n_t)) / condition);
   }
   return judged(worst, 4e-6, "",
                 fmt::format("Fresnel's R at {} interfaces, n from 1 to 4, 0 to 89.9999 degrees, over its condition, "
@@ -73,16 +69,14 @@ Result refraction(const compute::Context& context, std::uint64_t) {
       }
   const std::vector<float4> out = through(context, "directions", in, 2);
   double worst = 0;
-  const auto compare = [&worst](double error) {
-    worst = std::abs(error) <= worst ? worst : std::abs(error);
-  }; // keeps NaN
+  const auto compare = [&worst](double error) { worst = worse(worst, std::abs(error)); };
   for (std::size_t i = 0; i < in.size(); ++i) {
     const float4 &d = in[i], &r = out[2 * i], &t = out[2 * i + 1];
     compare(double(r.x) - d.x), compare(double(r.y) - d.y), compare(double(r.z) + d.z);
     if (t.w < 0) continue;
     // The longer of the two tangential parts is at most 1, so this is an absolute error of a unit vector.
-    compare((double(t.x) - double(d.w) * d.x) / std::max(1.0f, d.w)),
-        compare((double(t.y) - double(d.w) * d.y) / std::max(1.0f, d.w));
+    compare((double(t.x) - double(d.w) * d.x) / std::max(1.0f, d.w));
+    compare((double(t.y) - double(d.w) * d.y) / std::max(1.0f, d.w));
     compare(double(t.x) * t.x + double(t.y) * t.y + double(t.z) * t.z - 1);
     if (t.z > 0) worst = 2;
   }
@@ -91,8 +85,7 @@ Result refraction(const compute::Context& context, std::uint64_t) {
                             in.size()));
 }
 
-/// Neighbouring floats as cosines about the critical angle. The figure is how far from it the kernel decides otherwise
-/// than sin_t > 1.
+/// Neighbouring floats as cosines. The figure is how far from the critical angle the kernel decides otherwise.
 Result critical_angle(const compute::Context& context, std::uint64_t) {
   std::vector<float4> in;
   for (const float n : {1.1f, 1.33f, 1.5f, 2.42f, 4.0f}) {
@@ -112,8 +105,7 @@ Result critical_angle(const compute::Context& context, std::uint64_t) {
                             in.size()));
 }
 
-/// At tan(theta) = n, light polarised in the plane of incidence is not reflected; of the other, ((n^2 - 1) / (n^2 +
-/// 1))^2 is.
+/// At tan(theta) = n, p-polarised light is not reflected; of the other, ((n^2 - 1) / (n^2 + 1))^2 is.
 Result brewster(const compute::Context& context, std::uint64_t) {
   std::vector<float4> in;
   for (int k = 1; k <= 300; ++k)
@@ -121,8 +113,8 @@ Result brewster(const compute::Context& context, std::uint64_t) {
   const std::vector<float4> out = through(context, "interfaces", in, 1);
   double worst = 0;
   for (std::size_t i = 0; i < in.size(); ++i) {
-    const double n2 = double(in[i].z) * in[i].z, s = (n2 - 1) / (n2 + 1), error = std::abs(out[i].y - s * s / 2);
-    worst = error <= worst ? worst : error;
+    const double n2 = double(in[i].z) * in[i].z, s = (n2 - 1) / (n2 + 1);
+    worst = worse(worst, std::abs(out[i].y - s * s / 2));
   }
   return judged(
       worst, 2e-6, "",
@@ -130,8 +122,7 @@ Result brewster(const compute::Context& context, std::uint64_t) {
                   in.size()));
 }
 
-/// The object whose medium counts, by the rule in words: among those entered and not left, the one of highest priority;
-/// among equals, the last.
+/// The object whose medium counts: of those entered and not left, that of highest priority; of equals, the last.
 int medium(const std::vector<int>& entered, const std::vector<shared::DeviceObject>& objects) {
   int best = -1;
   for (const int object : entered)

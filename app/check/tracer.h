@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/trace.cl, the traversal of kernels/tracing/bvh.h, over a list of rays, for checks, tests and
-// benchmarks; and ray against triangle in double precision, over every triangle of a mesh: who is right where two
-// tracers differ.
+// Runs kernels/tracing/bvh.h over a list of rays (trace.cl), for checks, tests and benchmarks; and a ray against every
+// triangle in double precision, which judges where two tracers differ.
 #pragma once
 #include "compute/compute.h"
 #include "scene/bvh.h"
@@ -83,13 +82,11 @@ public:
 
   Exact exact(const Ray& ray, std::uint32_t primitive) const;
 
-  /// The closest hit, found by testing every triangle; u and v stay 0. Among hits at one distance, the lowest triangle
-  /// counts.
+  /// The closest hit, by testing every triangle; u and v stay 0. Of hits at one distance the lowest triangle counts.
   Hit closest(const Ray& ray) const;
 
-  /// Whether `ours` is a right answer. Same: it equals `theirs`. Tie: both are at one distance. Edge: the ray passes an
-  /// edge so closely that rounding decides the side. Start: they differ in a triangle that the ray starts on. A ray's
-  /// `skip` and `t_max` count.
+  /// Whether `ours` is a right answer. Same: it equals `theirs`. Tie: both are at one distance. Edge: rounding decides
+  /// on which side of an edge the ray passes. Start: they differ in a triangle that the ray starts on.
   Verdict judge(const Ray& ray, const Hit& ours, const Hit& theirs) const;
 
 private:

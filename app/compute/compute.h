@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenCL as the engines use it: a device, typed buffers, programs from kernels/, kernels that are called like
-// functions. The only folder that includes an OpenCL header. Every failure is an Error naming the call, the kernel and
-// the build log.
+// OpenCL as the engines use it: a device, typed buffers, programs from kernels/, kernels called like functions. Every
+// failure is an Error with the call, the kernel and the build log.
 #pragma once
 #include "base/error.h"
 
@@ -32,9 +31,8 @@ struct DeviceInfo {
 };
 
 /// PoCL compiles into a cache folder and shows no device without one. If that folder is missing, unwritable or full,
-/// this sets POCL_CACHE_DIR to a private temporary folder and returns a line to show, else an empty one. It may change
-/// the environment, so call it before any thread starts. list_devices and Context::open also call it, and drop the
-/// line.
+/// this sets POCL_CACHE_DIR to a private temporary folder and returns a line to show, else an empty one. Call it before
+/// any thread starts. list_devices and Context::open also call it, and drop the line.
 std::string prepare_kernel_cache();
 
 /// Every device of every platform, in a stable order. An empty list is no error.
@@ -71,8 +69,7 @@ struct BufferState;
 /// One device with its context and one in-order queue. Copies share it. Use it from one thread at a time.
 class Context {
 public:
-  /// Throws Error(no_device) if no device exists or matches the selector, with a line for each likely cause (no OpenCL
-  /// platform, no HOME and an unwritable kernel cache).
+  /// Throws Error(no_device) with likely causes if no device exists, or with those there are if none matches.
   static Context open(const DeviceOptions& options = {});
   const DeviceInfo& device() const;
   /// Whether a program was built since set_warm(). The first run of its kernels compiles them.
@@ -88,8 +85,7 @@ class RawBuffer {
 public:
   RawBuffer() = default;
   RawBuffer(const Context& context, std::string name, std::size_t bytes, const void* initial);
-  /// A read-only buffer. A device that shares the host's memory reads `items` in place, so they must not change while
-  /// the buffer lives.
+  /// A read-only buffer. A device may read `items` in place, so they must not change while the buffer lives.
   static RawBuffer wrapping_host_memory(const Context& context, std::string name, std::size_t bytes, const void* items);
   void write(const void* from, std::size_t bytes, std::size_t offset_bytes);
   void read(void* to, std::size_t bytes, std::size_t offset_bytes) const; ///< waits
@@ -98,8 +94,7 @@ public:
 };
 
 /// count items of T on the device. An empty buffer has a few bytes, so that it can be a kernel's argument. Throws
-/// failed naming the buffer, its bytes and the device's memory if that is not enough. Many devices allocate at first
-/// use: then writing, filling or Kernel::run throws.
+/// failed if the memory is not enough; on many devices only the first use does.
 template <class T>
 class Buffer : public RawBuffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -134,7 +129,6 @@ private:
 template <class T>
 Buffer(const Context&, const char*, const std::vector<T>&) -> Buffer<T>;
 
-/// A buffer of zeros.
 template <class T>
 Buffer<T> zeroed(const Context& context, std::string name, std::size_t count) {
   Buffer<T> buffer(context, std::move(name), count);
@@ -142,8 +136,7 @@ Buffer<T> zeroed(const Context& context, std::string name, std::size_t count) {
   return buffer;
 }
 
-/// The name in OpenCL C of a host type: "uint", "float4" for std::array<float, 4>, "DeviceLight" for a struct, which
-/// has the same name on both sides.
+/// The name in OpenCL C of a host type: "uint", "float4" for std::array<float, 4>, a struct's own name.
 std::string device_type_name(const std::type_info& type);
 
 /// A kernel's argument, by its name in the kernel. It refers to the value, which must live until the kernel is queued.
@@ -188,14 +181,12 @@ private:
   void set(const Argument& argument, std::vector<bool>& given);
 };
 
-/// One .cl file built for the context's device. The compiler's -D come from `defines` and from the device's properties
-/// (all in compute/program.cpp): NEPHROID_CPU or NEPHROID_GPU, and NEPHROID_FP64 and NEPHROID_INT64_ATOMICS if the
-/// device has them. The context keeps built programs while their sources stay the same; so does the OpenCL
-/// implementation's own cache.
+/// One .cl file built for the context's device. The compiler's -D are `defines`, NEPHROID_CPU or NEPHROID_GPU, and
+/// NEPHROID_FP64 and NEPHROID_INT64_ATOMICS if the device has them. The context keeps built programs while their
+/// sources stay the same.
 class Program {
 public:
-  /// file: its path in kernels/, e.g. "tracing/trace.cl". Throws BuildError, or Error(failed) if a source or include is
-  /// missing.
+  /// file: its path in kernels/, e.g. "tracing/trace.cl". Throws BuildError; failed if a source is missing.
   Program(const Context& context, const std::string& file, const Defines& defines = {});
   /// Throws failed for an unknown name and lists the kernels.
   Kernel kernel(const std::string& name) const;

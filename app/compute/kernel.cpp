@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Device memory; running kernels in it. Arguments are checked here, because PoCL checks few of them and crashes on the
-// rest.
+// Device memory, and kernels run in it. Arguments are checked here: PoCL checks few of them and crashes on the rest.
 #include "compute/state.h"
 
 #include <cxxabi.h>

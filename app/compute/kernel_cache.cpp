@@ -30,8 +30,7 @@ fs::path cache_folder() {
   return {};
 }
 
-/// Room for a run's kernels and the compiler's other files. LLVM ends the whole process if the disk fills up, so there
-/// must be enough from the start.
+/// Room for a run's kernels and the compiler's files. LLVM ends the whole process if the disk fills up.
 constexpr std::uintmax_t needed_bytes = 64'000'000;
 
 /// Makes the folder and a file in it. Returns why PoCL could not work there; empty if it can.

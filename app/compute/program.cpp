@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Building programs: the one place that composes compiler options and reads the compiler's log. The compiler gets one
-// text with every include in its place, so that no file is needed at run time and messages still name the file and line
-// that a person edits.
+// Builds programs. The compiler gets one text with each included file once, in its place, whose lines still have their
+// numbers.
 #include "base/files.h"
 #include "compute/embedded.h"
 #include "compute/state.h"
@@ -69,7 +68,7 @@ struct Joiner {
   }
 };
 
-/// Options are one string, which every vendor splits at white space in its own way, so a definition must hold none.
+/// Vendors split options at white space in their own ways, so a definition must hold none.
 void check_define(const std::string& name, const std::string& value) {
   const auto in_name = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
   const bool identifier =
@@ -105,8 +104,7 @@ std::optional<std::pair<Place, std::string>> located(std::string line) {
   return std::pair{Place(file.data(), number), line.substr(static_cast<std::size_t>(end))};
 }
 
-/// Makes an error from the log's first one. Compilers write "trace.cl:12:5: error: ...", PoCL 3 "error: trace.cl:12:5:
-/// ...".
+/// The log's first error. Compilers write "trace.cl:12:5: error: ...", PoCL 3 "error: trace.cl:12:5: ...".
 BuildError build_error(const std::string& file, const std::string& device, const std::string& log) {
   std::istringstream lines(log);
   std::string first;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What compute.h hides: the OpenCL objects behind its handles and how a failed call becomes an Error. Private to this
-// folder.
+// What compute.h hides: OpenCL's objects, and how a failed call becomes an Error. Private to this folder.
 #pragma once
 #include "base/place.h"
 #include "compute/compute.h"
@@ -35,8 +34,7 @@ struct ContextState {
   cl::Context context;
   cl::CommandQueue queue;
   std::filesystem::path kernels; ///< empty: the embedded sources
-  /// Built programs by file and compiler options. A newer text replaces an older one, so that hours of editing kernels
-  /// do not fill the memory.
+  /// Built programs by file and compiler options. A newer text replaces an older one.
   std::map<std::pair<std::string, std::string>, BuiltProgram> programs;
   std::function<void()> tell_of_compiling = [] {};
   bool cold = false; ///< Context::is_cold
@@ -69,12 +67,10 @@ struct BufferState {
 /// "CL_OUT_OF_RESOURCES" for -5; the number if it has no name.
 std::string error_name(cl_int code);
 
-/// Error(failed) at `where` for a call that failed. It names the call, the code, and a full or unwritable kernel cache,
-/// which PoCL reports as an unrelated code without a reason.
+/// Error(failed) at `where` for a call that failed. It names an unusable kernel cache, which PoCL does not.
 Error call_failed(const cl::Error& error, const Place& where);
 
-/// The error of a call over buffers. If memory ran out, it names the largest of them, their bytes, the device's memory
-/// and what to do.
+/// The error of a call over buffers. If memory ran out, it names the largest of them and what to do.
 Error buffers_failed(const cl::Error& error, const Place& where, const DeviceInfo& device,
                      std::vector<const BufferState*> buffers);
 

@@ -39,8 +39,7 @@ struct Introduction {
   ShippedExample example = {};
   NewScene new_scene = {};
   ResultView result = {};
-  std::array<unsigned char, 3> badge{80, 80,
-                                     80}; ///< sRGB behind the engine's name in lists; dark enough for white letters
+  std::array<unsigned char, 3> badge{80, 80, 80}; ///< sRGB behind the engine's name in lists, for white letters
 };
 
 /// How a preset took a file.
@@ -50,16 +49,14 @@ struct PictureEdit {
 };
 
 struct Engine {
-  /// The settings' name is the word in a preset's "engine" and the folder in kernels/ with the engine's own kernels.
-  /// Files that their description names (preset::Text::file) are read: a run is bound to their contents
-  /// (run/content.h).
+  /// The settings' name is the word in a preset's "engine" and the folder in kernels/ with the engine's own kernels. A
+  /// run is bound to the contents of files that they name (preset::Text::file).
   const preset::SettingsType& (*settings)();
 
   /// The version of the jobs' saved state. Change it with the format: only a state of this version is loaded.
   std::uint32_t state_version;
 
-  /// What runs, what is left out and why. The engine may add intermediate results for its job. Throws bad_input for a
-  /// preset that it cannot render.
+  /// What runs, what is left out and why. It may hold results for the job. Throws bad_input for what it cannot render.
   std::unique_ptr<plan::Plan> (*plan)(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
 
   /// The job on a device. plan: what `plan` gave for the same preset and scene. The scene and tree need not outlive the
@@ -68,7 +65,6 @@ struct Engine {
                                    const plan::Plan& plan, const mpi::RankContext& context);
 
   /// The settings of a reference of `preset` with `passes` passes: the recipe's own, else the preset's, made exact.
-  /// They leave no bias but what the recipe asks for.
   preset::Settings (*reference)(const preset::Preset& preset, int passes);
 
   /// The engine's closed forms through its real kernels, for `nephroid check`.
@@ -83,8 +79,7 @@ struct Engine {
   /// The camera of the window's picture, which may be another one if the preset gives none. Null: the preset's.
   preset::Camera (*camera)(const preset::Preset& preset) = nullptr;
 
-  /// Puts an existing picture file, dropped on the window, into the preset. Throws bad_input if that has no place for
-  /// it. Null: the engine's presets take no picture.
+  /// Puts a picture file, dropped on the window, into the preset. Throws bad_input if it has no place. Null: none.
   PictureEdit (*take_picture)(preset::Preset& preset, const std::filesystem::path& file) = nullptr;
 
   Introduction introduction = {};
@@ -93,14 +88,12 @@ struct Engine {
 /// Every engine: one line each in app/engines.cpp. A default-constructed preset has the first one.
 const std::vector<const Engine*>& engines();
 
-/// All checks: first those of what engines share, then each engine's own. They take under 30 s together on two
-/// processor cores.
+/// All checks: those of what engines share, then each engine's own. They take under 30 s on two cores.
 const std::vector<check::Check>& checks();
 
 const Engine& engine_of(const preset::Preset& preset);
 
-/// Throws bad_input at FILE#/engine if the preset is of another engine. lacks: what that other engine cannot do, "casts
-/// no pictures".
+/// Throws bad_input at FILE#/engine if the preset is of another engine. lacks: what that one does, "casts no pictures".
 void require_engine(const preset::Preset& preset, const Engine& engine, std::string_view lacks);
 
 /// The camera of a preset's picture in the window.
@@ -109,8 +102,7 @@ preset::Camera camera_of(const preset::Preset& preset);
 /// The word in a preset's "engine".
 std::string_view name_of(const Engine& engine);
 
-/// Whether a job of `before` can adopt `now`; their engines may differ. A white that is yet to be fitted needs a new
-/// run.
+/// Whether a job of `before` can adopt `now`; engines may differ. A white yet to be fitted needs a new run.
 bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
 } // namespace nephroid::engine

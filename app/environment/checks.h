@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closed forms of engine 2, for `nephroid check`. They and tests hold baked spheres against what a sphere about a ball
-// should get, by rays in double precision.
+// Closed forms of engine 2, for `nephroid check` and tests: what spheres about a ball get, by rays in double precision.
 #pragma once
 #include "check/check.h"
 #include "environment/bake/bake.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine 2, caustics under environment light (thesis chapter 3). What glass and mirrors do to light is baked once, from
-// a few directions.
+// Engine 2, caustics under environment light (thesis chapter 3): what glass does to light is baked.
 #pragma once
 #include "engine/engine.h"
 

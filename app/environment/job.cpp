@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment/job.h"
 
-#include "base/error.h"
 #include "base/hashed_bytes.h"
-#include "environment/bake/baking.h"
+#include "environment/bake/baker.h"
 #include "environment/engine.h"
 #include "environment/photons.h"
 #include "environment/segment/cube.h"
@@ -13,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -23,8 +21,6 @@
 
 namespace nephroid::environment {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 class EnvironmentJob final : public job::Job {
 public:
@@ -51,11 +47,11 @@ public:
                rests = !renderer() || (!photons_next && renderer()->passes() >= most_passes());
     bakes_next_ = !baking_.is_complete() && (rests || !bakes_next_); // else they take turns
     if (bakes_next_)
-      timed(bake_seconds_, [&] { bake(); });
+      bake_seconds_ += tracing::seconds_of([&] { bake(); });
     else if (photons_next)
-      timed(photon_seconds_, [&] { photons_.advance(*view_); });
+      photon_seconds_ += tracing::seconds_of([&] { photons_.advance(*view_); });
     else
-      timed(render_seconds_, [&] { renderer()->advance(); });
+      render_seconds_ += tracing::seconds_of([&] { renderer()->advance(); });
   }
 
   bool finished() const override {
@@ -130,8 +126,7 @@ public:
     render_seconds_ = render_seconds;
   }
 
-  /// While the object is baked, the change waits until it is rendered. After a change that failed there is no renderer
-  /// to go on with.
+  /// While the object is baked, the change waits. After a change that failed there is no renderer to go on with.
   bool adopt(const preset::Preset& preset) override {
     if (!view_ || ((baking_.is_complete() || refines()) && !renderer()) || !engine::adoptable(preset_, preset))
       return false;
@@ -152,12 +147,6 @@ private:
   Renderer* renderer() { return view_ ? view_->renderer() : nullptr; }
   const Renderer* renderer() const { return view_ ? view_->renderer() : nullptr; }
 
-  template <class Work>
-  static void timed(double& seconds, const Work& work) {
-    const auto begin = Clock::now();
-    work();
-    seconds += std::chrono::duration<double>(Clock::now() - begin).count();
-  }
   double work_seconds() const { return bake_seconds_ + render_seconds_ + photon_seconds_; }
 
   /// Whether photons join the spheres.

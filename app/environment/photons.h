@@ -34,8 +34,7 @@ public:
   bool has_begun() const { return run_ != nullptr; }
 
   /// Whether the next turn is the photons'. A quarter of a pass of photons comes before each of the first two passes of
-  /// paths from the eye, so that a first picture of both, with both halves, comes soon. A whole pass of photons follows
-  /// each later one. most: the most passes of either.
+  /// paths from the eye, so that both halves of both come soon; a whole pass follows each later one. most: of either.
   bool wants_turn(std::int64_t eye_passes, std::int64_t most) const;
   /// Does one slice of about 30 ms. The first slice starts the photons for what `view` shows.
   void advance(const SceneView& view);

@@ -3,6 +3,7 @@
 
 #include "environment/bake/bake.h"
 #include "environment/describe_settings.h"
+#include "environment/photons.h"
 #include "environment/sheet.h"
 #include "environment/view/renderer.h"
 #include "tracing/omissions.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace nephroid::environment {
 namespace {
@@ -132,14 +134,12 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   const std::optional<std::string> fault = bake_file_fault(plan.bake_file, {plan.key, 0});
   plan.bakes = fault.has_value();
   plan.passes = {bake_pass(plan, s, fault), colours_pass(task)};
-  for (plan::Pass& pass : view_passes(preset, plan.render.get())) plan.passes.push_back(std::move(pass));
-  if (plan.render)
-    for (plan::Pass& pass : photon_passes(s, plan.photons ? &*plan.photons : nullptr))
-      plan.passes.push_back(std::move(pass));
-  for (plan::Pass& pass : code_passes(preset, task)) plan.passes.push_back(std::move(pass));
+  const auto append = [](auto more, auto& list) { std::ranges::move(more, std::back_inserter(list)); };
+  append(view_passes(preset, plan.render.get()), plan.passes);
+  if (plan.render) append(photon_passes(s, plan.photons ? &*plan.photons : nullptr), plan.passes);
+  append(code_passes(preset, task), plan.passes);
   plan.buffers = buffers_of(task, scene, plan.bakes);
-  if (plan.render)
-    for (plan::PlannedBuffer& buffer : view_buffers(*plan.render, task)) plan.buffers.push_back(std::move(buffer));
+  if (plan.render) append(view_buffers(*plan.render, task), plan.buffers);
   if (plan.photons && plan.photons->layers > 0)
     for (const bool on_host : {false, true}) {
       plan::PlannedBuffer all{on_host ? "photons (host)" : "photons", 0, on_host};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of engine 2 as a section of the preset, and the checks that involve several fields. The plan makes those
-// that need the scene (bake/caster.cpp).
+// Checks that involve several fields of the preset. The plan makes those that need the scene (bake/caster.cpp).
 #include "environment/settings.h"
 
 #include "environment/bake/bake.h"

@@ -31,10 +31,8 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
-/// The settings of this engine, as a preset knows them.
 const preset::SettingsType& settings_type();
 
-/// The settings in a preset of this engine.
 inline Settings& settings(preset::Preset& preset) { return preset.settings.as<Settings>(); }
 inline const Settings& settings(const preset::Preset& preset) { return preset.settings.as<Settings>(); }
 

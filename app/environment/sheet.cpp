@@ -26,6 +26,14 @@ std::vector<std::size_t> spread(std::size_t count, int fit) {
   return chosen;
 }
 
+std::shared_ptr<job::Picture> picture_of(int width, int height, float value) {
+  auto picture = std::make_shared<job::Picture>();
+  picture->width = width;
+  picture->height = height;
+  picture->rgb.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), value);
+  return picture;
+}
+
 /// Takes the mean of a few places in each pixel, because a pixel covers several texels.
 std::vector<float> latitude_longitude(const Bake& bake, std::size_t direction, std::size_t sphere, int width,
                                       int height, double white) {
@@ -65,10 +73,7 @@ Shown choose_shown(const Bake& bake, int width, int height) {
 }
 
 std::shared_ptr<const job::Picture> sheet(const Bake& bake, const Shown& shown, int width, int height, double white) {
-  auto picture = std::make_shared<job::Picture>();
-  picture->width = width;
-  picture->height = height;
-  picture->rgb.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), grey);
+  const std::shared_ptr<job::Picture> picture = picture_of(width, height, grey);
   const int across = static_cast<int>(shown.spheres.size()), down = static_cast<int>(shown.directions.size());
   const int w = std::max(1, std::min(width / across, 2 * (height / down)) - gap), h = std::max(1, w / 2);
   for (int row = 0; row < down; ++row)
@@ -88,10 +93,7 @@ std::shared_ptr<const job::Picture> sheet(const Bake& bake, const Shown& shown, 
 
 std::shared_ptr<const job::Picture> spheres_picture(const Bake& bake, std::size_t direction,
                                                     const std::vector<std::size_t>& spheres, double white) {
-  auto picture = std::make_shared<job::Picture>();
-  picture->width = picture_width;
-  picture->height = picture_height;
-  picture->rgb.assign(std::size_t{3} * picture_width * picture_height, 0.0f);
+  const std::shared_ptr<job::Picture> picture = picture_of(picture_width, picture_height, 0);
   for (const std::size_t sphere : spheres) {
     picture->layers.push_back({fmt::format("sphere_{:02}", sphere + 1),
                                latitude_longitude(bake, direction, sphere, picture_width, picture_height, white)});

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The baked spheres in a snapshot: pictures of their E r^2 in latitude and longitude, as environments are
-// (scene/environment.h).
+// The baked spheres in a snapshot: their E r^2 in latitude and longitude, as in scene/environment.h.
 #pragma once
 #include "environment/bake/baker.h"
 #include "job/job.h"
@@ -10,7 +9,6 @@
 
 namespace nephroid::environment {
 
-/// Which directions and spheres are shown.
 struct Shown {
   std::vector<std::size_t> directions, spheres;
 };

@@ -11,8 +11,7 @@ namespace nephroid::job {
 /// The root's job: passes every call on to the other ranks, until it is destroyed. It adopts no other preset.
 std::unique_ptr<Job> distributed(std::unique_ptr<Job> job, const Communicator& communicator);
 
-/// Makes the calls on another rank's job that the root makes on its own, until the root's is destroyed. What this job's
-/// pictures show does not matter.
+/// Makes the calls on another rank's job that the root makes on its own, until the root's is destroyed.
 void follow_root(Job& job, const Communicator& communicator);
 
 } // namespace nephroid::job

@@ -13,7 +13,7 @@
 namespace nephroid::job {
 
 struct HistoryRow {
-  double seconds = 0;         ///< of work, without start-up and without measuring
+  double seconds = 0;         ///< the work's, without start-up and measuring
   double wall_seconds = 0;    ///< since the run began, everything included, also before it was resumed
   std::int64_t step = 0;      ///< steps of job::Progress completed: passes
   std::uint64_t work = 0;     ///< done, in the engine's unit: photons sent
@@ -21,18 +21,15 @@ struct HistoryRow {
   bool operator==(const HistoryRow&) const = default;
 };
 
-/// Columns are metrics, named as in measure/metrics.h: against the reference ("lab_mean"), the same of the mask's
-/// pixels alone
+/// Columns are metrics of measure/metrics.h: against the reference ("lab_mean"), the same in the mask
 /// ("masked_lab_mean"), and the run's own estimate, which needs no reference ("estimated_lab_mean").
 struct History {
   std::vector<std::string> columns;
-  std::vector<HistoryRow> rows; ///< seconds never fall
-  std::vector<double>
-      noise_floor; ///< of each column: what the reference itself is off by; NaN: not known. Empty: known of none
-  std::string
-      error_column; ///< the one that a run can stop at and that panels show first; empty where nothing is measured
-  std::optional<double> target; ///< of error_column: stop.error
-  double measuring_seconds = 0; ///< spent on measuring so far, which `seconds` does not contain
+  std::vector<HistoryRow> rows;    ///< seconds never fall
+  std::vector<double> noise_floor; ///< [column]: what the reference is off by; NaN: not known. Empty: none is
+  std::string error_column;        ///< where a run can stop, first in panels; empty where nothing is measured
+  std::optional<double> target;    ///< stop.error, for error_column
+  double measuring_seconds = 0;    ///< spent on measuring so far, which `seconds` does not contain
 };
 
 /// A row's error in a column by its name; NaN where the history has no such column.

@@ -20,8 +20,7 @@ struct Picture {
   std::vector<float> rgb; ///< the sum of the layers
   std::vector<Layer> layers;
   /// An independent draw of the picture's own error, laid out like rgb. It is the difference of two independent halves
-  /// of a and b samples, times sqrt(a b) / (a + b). Its expectation is 0, its covariance that of rgb. Empty where no
-  /// halves are kept, or where one of them has no sample yet.
+  /// of a and b samples, times sqrt(a b) / (a + b). Its covariance is that of rgb. Empty where a half has no sample.
   std::vector<float> error_draw;
 };
 
@@ -36,14 +35,14 @@ struct Progress {
   std::int64_t step = 0;   ///< steps completed; the one in hand is in `fraction` and `work` only
   std::int64_t steps = -1; ///< in all; -1: it stops by time
   std::uint64_t work = 0;  ///< done so far: photons sent, facets tried, ...
-  double work_seconds = 0; ///< of advancing, without start-up and snapshots
+  double work_seconds = 0; ///< spent on advancing, without start-up and snapshots
   bool whole = true;       ///< false: parts of the picture are black since nothing was computed for them yet
   Units units = {};
 };
 
 /// A further picture beside the one that is shown and measured.
 struct NamedPicture {
-  std::string name; ///< of its files: "receiver_1"
+  std::string name; ///< its files': "receiver_1"
   std::shared_ptr<const Picture> picture;
 };
 
@@ -60,8 +59,7 @@ struct Curve {
   std::vector<std::vector<double>> rows; ///< a value a column
 };
 
-/// A file that an engine adds to a run's folder: a mesh, a list. It is made while it is written, since a mesh's file
-/// can be as large as the memory.
+/// A file that an engine adds to a run's folder. It is made while it is written, for it can be as large as the memory.
 struct ExtraFile {
   std::string name;
   std::function<void(ByteSink&)> write; ///< the same bytes whenever it is called; holds what it needs
@@ -70,9 +68,8 @@ struct ExtraFile {
 struct Snapshot {
   std::shared_ptr<const Picture> picture; ///< the one that the window shows first and that is measured
   std::shared_ptr<const Picture> in_view; ///< what the window shows alone, in the place of `picture`; null: that itself
-  std::string caption; ///< a sentence on what it shows, where that is not what the preset asks for; else empty
-  bool stands_in =
-      false; ///< true: the picture shows the work before the first one of what was asked for, and is no result
+  std::string caption;    ///< a sentence on what it shows, where that is not what the preset asks for; else empty
+  bool stands_in = false; ///< the picture comes before the first one of what was asked for: no result
   std::vector<NamedPicture> pictures; ///< the others
   Progress progress;
   std::vector<Scalar> scalars;
@@ -80,7 +77,7 @@ struct Snapshot {
   std::vector<ExtraFile> files;
   std::vector<std::string> warnings;                  ///< what makes the picture doubtful, a sentence each
   std::vector<std::pair<std::string, double>> phases; ///< seconds a phase, e.g. {"photons", 3.2}
-  std::shared_ptr<const History> history;             ///< of its error so far; null where nothing is measured
+  std::shared_ptr<const History> history;             ///< its error's so far; null where nothing is measured
   std::uint64_t adoption = 0; ///< the newest Worker::adopt() that it knows of; the worker's to set
 };
 
@@ -98,8 +95,7 @@ public:
   virtual void advance() = 0;
   virtual bool finished() const = 0;
   virtual Progress progress() const = 0;
-  /// Reads the device's state and makes a picture of it. Takes a few milliseconds; with smoothing a tenth of a second
-  /// or more where the picture is large.
+  /// Reads the device's state and makes a picture of it. Takes milliseconds; a tenth of a second with smoothing.
   virtual Snapshot snapshot() = 0;
   /// Whether its pictures come with a draw of their error (Picture::error_draw).
   virtual bool estimates_error() const { return true; }
@@ -107,19 +103,16 @@ public:
   virtual std::shared_ptr<const History> history() const { return nullptr; }
   /// Writes everything needed to go on later with the same bits. Opaque; of the engine's state_version.
   virtual void save(ByteSink& to) = 0;
-  /// Reads what save() wrote of the same preset, to its end (run/checkpoint.cpp sees to both). Throws bad_input where
-  /// that is cut.
+  /// Reads what save() wrote of the same preset, to its end. Throws bad_input where that is cut.
   virtual void load(ByteSource& from) = 0;
   /// Takes on another preset without starting again, and keeps what was computed so far. True only where the engine can
   /// do so (engine::adoptable): a relighting run can where only the light differs. Throws bad_input at
-  /// FILE#/scene/lights/... for a spectrum that cannot be used. Where it returns false or throws bad_input, nothing has
-  /// changed. After any other exception the next adopt() comes before any step() or snapshot(); where the job cannot go
-  /// on from there, it returns false.
+  /// FILE#/scene/lights/... for a spectrum that cannot be used. Then, and where it returns false, nothing has changed.
+  /// After any other exception the next adopt() comes before any advance() or snapshot().
   virtual bool adopt(const preset::Preset&) { return false; }
 };
 
-/// What some jobs can tell besides their picture. It is made when somebody asks (Worker::watch_spectrum): what it is
-/// made of stays on the device.
+/// What some jobs can tell besides their picture, when somebody asks (Worker::watch_spectrum).
 struct PixelSpectrum {
   struct Layer {
     std::string name;             ///< as in the picture
@@ -136,8 +129,7 @@ struct PixelSpectrum {
 class SpectrumSource {
 public:
   virtual ~SpectrumSource() = default;
-  /// As the picture of a snapshot at the same time. On the job's thread. Null outside of the picture, and where it
-  /// never has one.
+  /// As the picture of a snapshot at the same time, on the job's thread. Null where there never is one.
   virtual std::shared_ptr<const PixelSpectrum> spectrum(const std::array<int, 2>& pixel) = 0;
 };
 

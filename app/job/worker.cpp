@@ -157,8 +157,7 @@ struct Worker::Impl {
 
   enum class Move { step, adopt, tell, stop };
 
-  /// What an unfinished job does next. Waits while paused and, after an adoption, a moment for the next: while somebody
-  /// drags a spectrum every step would only delay the picture.
+  /// What an unfinished job does next. Waits while paused, and a moment after an adoption: a step would delay the next.
   Move next_move(std::uint64_t generation, std::optional<Clock::time_point> adopted_at) {
     std::unique_lock lock(mutex);
     const auto commanded = [&] { return must_stop(generation) || adoption || watch_changed; };
@@ -209,8 +208,7 @@ struct Worker::Impl {
     return std::max<Clock::duration>(interval, work_a_snapshot * snapshot_took);
   }
 
-  /// Steps the job until it is finished, has to stop or could not adopt; its last state is shown either way. Returns
-  /// the state then.
+  /// Steps the job until it is finished, has to stop or could not adopt, and shows its last state, which it returns.
   State advance(std::uint64_t generation, Job& job) {
     const Clock::time_point began = Clock::now();
     std::optional<Clock::time_point> shown, adopted_at;
@@ -249,8 +247,7 @@ struct Worker::Impl {
     return !ending && status.generation == generation;
   }
 
-  /// A job that is finished, or could not adopt, waits for the next adoption, and tells spectra. False where it has to
-  /// go.
+  /// A finished job, or one that could not adopt, waits for the next adoption, and tells spectra. False: it has to go.
   bool wait_for_adoption(std::uint64_t generation, Job& job) {
     while (true) {
       std::unique_lock lock(mutex);

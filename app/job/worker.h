@@ -36,24 +36,20 @@ public:
   /// several wait, only the newest is taken on, and one that a newer one overtakes while the job works at it starts and
   /// fails nothing. A cancel() or pause() that follows holds, whatever becomes of it.
   std::uint64_t adopt(std::shared_ptr<const preset::Preset> preset, std::function<std::unique_ptr<Job>()> otherwise);
-  void cancel(); ///< after the slice in hand; or after make() where that still runs, which may end early by throwing
-                 ///< interrupted
+  void cancel(); ///< after the slice in hand, or after make(), which may end early by throwing interrupted
   void pause(bool paused);
   Status status() const;
-  /// The newest snapshot, null before the first ever: after start() the old job's stays until the new one's first, so
-  /// that a view does not flicker. Never waits for the device.
+  /// The newest snapshot, null before the first ever: after start() the old job's stays until the new one's first.
   std::shared_ptr<const Snapshot> snapshot() const;
   /// From now on every snapshot comes with the spectrum of this pixel, where the job is a SpectrumSource; nothing: with
   /// none. A paused or finished job tells it too, as in adopt(). Stays for jobs to come. Returns at once.
   void watch_spectrum(std::optional<std::array<int, 2>> pixel);
   /// The newest one of the pixel that is watched; null where there is none.
   std::shared_ptr<const PixelSpectrum> spectrum() const;
-  /// How often snapshots are made while running (default 100 ms; the first after the first step). Where snapshots would
-  /// take more than a fifth of the time, they are made less often. In a job's first second they come sooner after each
-  /// other, and may take a third of the time.
+  /// How often snapshots are made while running (default 100 ms; the first after the first step). They take at most a
+  /// fifth of the time; in a job's first second, when they come sooner, a third.
   void set_snapshot_interval(std::chrono::milliseconds interval);
-  /// Follows all jobs to come, which are then told that they have ended also where nobody will look at them again. It
-  /// outlives the worker.
+  /// Follows all jobs to come, to their ends, also where nobody will look at them again. It outlives the worker.
   void set_observer(Observer* observer);
   /// Blocks until the job is finished, cancelled or failed; for tests.
   void wait();

@@ -11,8 +11,7 @@
 
 namespace nephroid::mpi {
 
-/// A rank's own device, and the ranks that share the work of jobs that are made with it. A context alone is a rank
-/// alone.
+/// A rank's own device, and the ranks that share the work of its jobs. A context alone is a rank alone.
 class RankContext : public compute::Context {
 public:
   RankContext() = default;

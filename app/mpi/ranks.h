@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ranks of an MPI job as a communicator. MPI itself is in a module of its own (module/module.cpp), which is loaded
-// where mpirun or srun has started this process, and only there.
+// The ranks of an MPI job as a communicator. MPI itself is in a module (module/module.cpp), loaded under mpirun.
 #pragma once
 #include "base/communicator.h"
 #include "base/error.h"
@@ -24,8 +23,7 @@ public:
     broadcast({&nothing, 1});
   }
   /// Calls work(0), ..., work(count - 1), each on one rank: whoever is free takes the next. Returns on rank 0 once all
-  /// ranks are done, on another one once there is nothing to begin. Where work is interrupted, this throws some seconds
-  /// later, for the others have to save theirs.
+  /// are done, on others once there is nothing to begin. Interrupted, it throws seconds later.
   virtual void distribute(std::int64_t count, const std::function<void(std::int64_t)>& work) = 0;
   /// Ends all ranks at once, with this exit code.
   [[noreturn]] virtual void abort(int exit_code) = 0;
@@ -37,16 +35,13 @@ inline constexpr const char* open_symbol = "nephroid_open_ranks";
 /// Joins the other ranks. Throws failed where MPI does not let threads take turns.
 using OpenRanks = Ranks* (*)();
 
-/// The ranks that mpirun or srun has started this process with; null where it is alone. Throws failed where it is not,
-/// and this build has no MPI or the module cannot be loaded.
+/// The ranks that this process was started with; null where it is alone. Throws failed where MPI cannot be loaded.
 std::shared_ptr<Ranks> open_ranks();
 
-/// Returns where no rank has an error, and throws what this one has. Where others have one, waits for the end that they
-/// bring.
+/// Throws this rank's error. Where others have one, waits for the end that they bring.
 void require_all(Ranks& ranks, const std::optional<Error>& error);
 
-/// Throws bad_input on each rank whose `mine` is not that of rank 0. what: "version", for the message. No rank goes on
-/// where one has.
+/// Throws bad_input on each rank whose `mine` is not that of rank 0; then no rank goes on. what: "version".
 void require_same(Ranks& ranks, const std::string& what, const std::string& mine);
 
 } // namespace nephroid::mpi

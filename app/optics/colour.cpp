@@ -44,13 +44,8 @@ double lab_root(double t) {
 
 ColourMatching read_cie_1931() {
   const Table table = read_table("cie-1931-2deg-1nm");
-  ColourMatching result{};
-  Spectrum* const functions[] = {&result.x, &result.y, &result.z};
-  for (std::size_t f = 0; f < 3; ++f) {
-    const LinearTable curve(table.rows(f));
-    for (int i = 0; i < wavelength_count; ++i) (*functions[f])[static_cast<std::size_t>(i)] = curve(wavelength_nm(i));
-  }
-  return result;
+  const auto function = [&](std::size_t column) { return spectrum_of(LinearTable(table.rows(column))); };
+  return {function(0), function(1), function(2)};
 }
 
 Colour cross(const Colour& a, const Colour& b) {
@@ -65,8 +60,7 @@ Spectrum curved(const Spectrum& straight) {
   Spectrum one{};
   one.fill(1);
   const Colour mu = cross(to_xyz(one), to_xyz(straight));
-  // D^T w = c: w[i] - 2 w[i - 1] + w[i - 2] = c[i]. The last two of these equations hold because c is orthogonal to
-  // straight lines.
+  // D^T w = c: w[i] - 2 w[i - 1] + w[i - 2] = c[i]. The last two hold because c is orthogonal to straight lines.
   std::array<double, count - 2> w{};
   for (std::size_t i = 0; i < w.size(); ++i) {
     const double c = mu[0] * eye.x[i] + mu[1] * eye.y[i] + mu[2] * eye.z[i];

@@ -24,11 +24,9 @@ double srgb_encode(double linear);
 /// CIE lightness L* (0..100) of a relative luminance Y / Yn.
 double lightness(double relative_luminance);
 
-/// From a colour to a spectrum that has it, for light that is known by its colour alone and meets glass, which bends
-/// and absorbs each wavelength its own way: the smoothest spectra of the three linear sRGB primaries: of all that
-/// to_xyz() takes to the primary's XYZ, those with the smallest sum of squared second differences. Smoothness is
-/// linear, so r, g, b times these is the smoothest spectrum of the colour (r, g, b). They are negative here and there,
-/// as every spectrum of a primary would be that is as smooth.
+/// Spectra for light that is known by its colour alone and meets glass: the smoothest ones of the three linear sRGB
+/// primaries, of all with their XYZ those with the smallest sum of squared second differences. Smoothness is linear, so
+/// r, g, b times these is the smoothest spectrum of the colour (r, g, b). They are negative here and there.
 const std::array<Spectrum, 3>& primary_spectra();
 
 } // namespace nephroid::optics

@@ -29,8 +29,7 @@ Error refusal(const DispersionCurve& curve, const char* quantity, double nm, dou
                    "outside \"hold\" or \"extrapolate\" goes beyond it");
 }
 
-/// A formula that gives no n at a wavelength: past its range it may be held instead, inside it its coefficients are
-/// wrong.
+/// A formula gives no n at a wavelength: past its range it may be held, inside it its coefficients are wrong.
 Error no_index(const DispersionCurve& curve, double nm, Extrapolation outside) {
   const double low = curve.n->low_nm, high = curve.n->high_nm;
   const std::string what = fmt::format("the formula of {} gives no number at {} nm", curve.name, nm);
@@ -159,29 +158,22 @@ Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside) {
     throw bad_input(
         curve.source, fmt::format("{} has no n between {:.6g} and {:.6g} nm", curve.name, gap->front(), gap->back()),
         "expected a table without gaps from 380 to 780 nm", "outside \"hold\" draws a straight line across");
-  Spectrum result{};
-  for (int i = 0; i < wavelength_count; ++i) {
-    const double nm = wavelength_nm(i);
+  return spectrum_of([&](double nm) {
     const std::optional<double> n = curve.sample(nm, outside).n;
     if (!n) throw no_index(curve, nm, outside);
     if (!(*n > 0))
       throw bad_input(curve.source, fmt::format("{} has n = {} at {} nm", curve.name, *n, nm), "expected n above 0");
-    result[static_cast<std::size_t>(i)] = *n;
-  }
-  return result;
+    return *n;
+  });
 }
 
 Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside) {
-  Spectrum result{};
-  if (!curve.k) return result;
-  for (int i = 0; i < wavelength_count; ++i) {
-    const double nm = wavelength_nm(i);
-    if (outside == Extrapolation::refuse && is_outside(nm, curve.k->low_nm, curve.k->high_nm))
-      throw refusal(curve, "k", nm, curve.k->low_nm, curve.k->high_nm);
-    const double k = curve.k->value(std::clamp(nm, curve.k->low_nm, curve.k->high_nm));
-    result[static_cast<std::size_t>(i)] = std::max(0.0, k);
-  }
-  return result;
+  if (!curve.k) return {};
+  const double low = curve.k->low_nm, high = curve.k->high_nm;
+  return spectrum_of([&](double nm) {
+    if (outside == Extrapolation::refuse && is_outside(nm, low, high)) throw refusal(curve, "k", nm, low, high);
+    return std::max(0.0, curve.k->value(std::clamp(nm, low, high)));
+  });
 }
 
 Curve curve_of(LinearTable table) {

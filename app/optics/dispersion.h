@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dispersion: index of refraction n and extinction coefficient k as functions of wavelength, from formulas, tables,
-// control points and any refractiveindex.info file. Not here: what to do with them (clusters are in spectral/).
+// Dispersion: n and k as functions of wavelength, from formulas, tables and control points.
 #pragma once
 #include "optics/wavelength.h"
 
@@ -23,14 +22,12 @@ struct IndexSample {
   bool extrapolated = false; ///< nm lies outside the data's own range (beyond a relative tolerance of 1e-6 at its ends)
 };
 
-/// n(lambda) or k(lambda) on its own range. The value function is defined everywhere a formula is; a table holds its
-/// ends.
+/// n(lambda) or k(lambda) on its own range. Its value is defined wherever a formula is; a table holds its ends.
 struct Curve {
   std::function<double(double nm)> value;
   double low_nm = 0, high_nm = 0;
-  bool formula = false; ///< may be extrapolated
-  std::optional<std::array<double, 2>>
-      gap_nm{}; ///< a table's widest hole within 380..780 nm: outside the data, and bridged by a line
+  bool formula = false;                          ///< may be extrapolated
+  std::optional<std::array<double, 2>> gap_nm{}; ///< a table's hole within 380..780 nm, bridged by a line
 };
 
 struct DispersionCurve {
@@ -44,8 +41,7 @@ struct DispersionCurve {
   IndexSample sample(double nm, Extrapolation outside = Extrapolation::automatic) const;
 };
 
-/// n on the 401 wavelengths. Throws bad_input naming the curve and the first wavelength where n is missing, not finite
-/// or <= 0, and, with Extrapolation::refuse, for a gap.
+/// n on the 401 wavelengths. Throws bad_input where n is missing, not finite or <= 0, and, refusing, for a gap.
 Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside);
 /// k on the 401 wavelengths (0 where the data has none or a negative value; ends held unless refused).
 Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside);
@@ -55,8 +51,7 @@ std::string outside_note(const DispersionCurve& curve, Extrapolation outside);
 
 /// The same n > 0 at every wavelength.
 DispersionCurve constant_index(double n);
-/// n^2 = 1 + sum b l^2 / (l^2 - c); l in micrometres, c in square micrometres. low/high: the range the fit is good for.
-/// Throws bad_input where b and c differ in length or are empty.
+/// n^2 = 1 + sum b l^2 / (l^2 - c); l in micrometres, c in square micrometres. low/high: the fit's range.
 DispersionCurve sellmeier(std::span<const double> b, std::span<const double> c_um2, double low_nm = 380,
                           double high_nm = 780);
 /// n = c0 + c1 / l^2 + c2 / l^4 + ...; l in micrometres. At least one coefficient.
@@ -73,8 +68,7 @@ inline constexpr int formula_count = 9;
 int most_coefficients(int formula);
 
 /// n by formula 1..9 at a wavelength in micrometres. Coefficients that are not there count as 0, and a term whose
-/// factor is 0 is left out before its denominator is looked at. NaN or infinite where the formula has no value (n^2 <
-/// 0, a pole).
+/// factor is 0 is left out before its denominator is looked at. Not finite where n^2 < 0 and at a pole.
 double index_by_formula(int formula, std::span<const double> coefficients, double um);
 
 } // namespace nephroid::optics

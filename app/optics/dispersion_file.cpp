@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the YAML files of the refractiveindex.info database as they are: one of formulas 1-9, or tables of n, k or
-// both, or a constant, and any of these for n beside a table for k. Oddities that the database really holds are read,
-// not refused: rows out of order, wavelengths given twice (their mean counts), one row, blank rows, negative n or k,
-// few coefficients.
+// both, or a constant, and any of these for n beside a table for k. Oddities of the database are read: rows out of
+// order, wavelengths given twice (their mean counts), one row, blank rows, negative n or k, few coefficients.
 #include "optics/dispersion_file.h"
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/nearest.h"
 #include "base/numbers.h"
-#include "optics/dispersion.h"
 #include "optics/tables.h"
 
 #include <fmt/format.h>
@@ -117,8 +115,7 @@ Curve table_curve(const std::vector<std::vector<double>>& rows, std::size_t colu
   return curve_of(LinearTable(sorted_rows(pairs, Duplicates::mean, where)));
 }
 
-/// The first entry that gives n and the first that gives k count (one file has n by a formula and again in a table with
-/// k).
+/// The first entry that gives n and the first that gives k count: one file has n by a formula and in a table.
 void keep_first(std::optional<Curve>& kept, Curve curve) {
   if (!kept) kept = std::move(curve);
 }

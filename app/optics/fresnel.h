@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Snell's law and Fresnel's equations at a smooth interface, and a glass ball by them, in double precision: the truth
-// that the kernels are tested against.
+// Snell's law, Fresnel's equations and a glass ball by them, in double precision: the truth for the kernels.
 #pragma once
 #include <optional>
 
@@ -19,8 +18,8 @@ double fresnel_reflectance(double cos_i, double n_i, double n_t);
 /// reflections the ray has been turned by 2 (i - t) + inner (pi - 2 t), and has (1 - F)^2 F^inner of its power.
 struct BallRay {
   double x = 0, y = 0; ///< where it leaves the ball
-  double angle = 0;    ///< of its direction, counter-clockwise from +x
-  double share = 0;    ///< of the power that met the ball at this height
+  double angle = 0;    ///< its direction's, counter-clockwise from +x
+  double share = 0;    ///< its part of the power that met the ball at this height
   double chord = 0;    ///< length of one way through the ball
 };
 /// inner: reflections inside before it leaves; -1: reflected outside at once.

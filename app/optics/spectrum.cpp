@@ -27,12 +27,7 @@ Spectrum normalised(Spectrum spectrum, const std::string& what) {
 
 /// Linear between the rows; outside them the end values are held, or 0.
 Spectrum sampled(const LinearTable& table, bool hold) {
-  Spectrum spectrum{};
-  for (int i = 0; i < wavelength_count; ++i) {
-    const double nm = wavelength_nm(i);
-    if (hold || (nm >= table.low() && nm <= table.high())) spectrum[static_cast<std::size_t>(i)] = table(nm);
-  }
-  return spectrum;
+  return spectrum_of([&](double nm) { return hold || (nm >= table.low() && nm <= table.high()) ? table(nm) : 0; });
 }
 
 void require_no_negative_power(std::span<const Row> rows) {
@@ -74,16 +69,13 @@ Spectrum blackbody(double temperature_k) {
   if (!std::isfinite(temperature_k) || !(temperature_k > 0))
     throw bad_input({}, fmt::format("a black body of {} K", temperature_k), "expected a temperature above 0 K");
   // Planck: lambda^-5 / (exp(c2 / (lambda T)) - 1), with c2 = h c / k_B (SI 2019, exact figures). Divided by its value
-  // at the red end, exponents stay small: a body of 1 K has e^-18000 of its red light in the blue, which is 0 here, and
-  // no 0 / 0.
+  // at the red end, exponents stay small: a body of 1 K has no blue light, and not 0 / 0 of it.
   constexpr double c2_nm_k = 1.438776877503933e7;
   const double reference = c2_nm_k / (last_nm * temperature_k);
-  Spectrum spectrum{};
-  for (int i = 0; i < wavelength_count; ++i) {
-    const double nm = wavelength_nm(i), exponent = c2_nm_k / (nm * temperature_k);
-    spectrum[static_cast<std::size_t>(i)] =
-        std::pow(last_nm / nm, 5) * std::exp(reference - exponent) * std::expm1(-reference) / std::expm1(-exponent);
-  }
+  const Spectrum spectrum = spectrum_of([&](double nm) {
+    const double exponent = c2_nm_k / (nm * temperature_k);
+    return std::pow(last_nm / nm, 5) * std::exp(reference - exponent) * std::expm1(-reference) / std::expm1(-exponent);
+  });
   return normalised(spectrum, fmt::format("a black body of {} K", temperature_k));
 }
 

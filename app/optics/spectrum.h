@@ -18,8 +18,7 @@ Spectrum blackbody(double temperature_k);
 /// Rows (nm, relative power >= 0) in any order, interpolated linearly to 1 nm, 0 outside the table. Throws bad_input
 /// where nothing is left in 380..780 nm, for a negative power, and for a wavelength given twice with different powers.
 Spectrum light_table(std::span<const std::array<double, 2>> nm_power);
-/// Single lines: the power of each goes to the two nearest wavelengths, linearly; lines outside 380..780 nm give
-/// nothing.
+/// The power of each line goes to the two nearest wavelengths, linearly; lines outside 380..780 nm give nothing.
 Spectrum light_lines(std::span<const std::array<double, 2>> nm_power);
 const std::vector<std::string>& illuminant_names();
 

@@ -30,8 +30,7 @@ double number(std::string_view text, std::string_view table) {
   return *value;
 }
 
-/// Index i of the interval rows[i]..rows[i + 1] that holds nm; rows has at least two entries and nm lies between the
-/// ends.
+/// Index i of the interval rows[i]..rows[i + 1], of one or more, that holds nm.
 std::size_t interval(const std::vector<Row>& rows, double nm) {
   const auto above =
       std::upper_bound(rows.begin(), rows.end(), nm, [](double x, const Row& row) { return x < row[0]; });

@@ -24,8 +24,7 @@ enum class Duplicates { refuse, mean };
 std::vector<Row> sorted_rows(std::span<const Row> rows, Duplicates repeats, const Place& where);
 
 /// The widest step between neighbouring rows that reaches into low..high, where it is a hole in the data and not their
-/// usual step: at least 20 nm of it lie there, and it is five times the median of the steps there, which are four or
-/// more. rows: sorted.
+/// usual step: 20 nm of it lie there, and it is five times the median of four or more steps there. rows: sorted.
 std::optional<std::array<double, 2>> gap_between(std::span<const Row> rows, double low_nm, double high_nm);
 
 /// Straight lines between sorted rows; the end values are held outside.

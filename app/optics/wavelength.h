@@ -16,6 +16,14 @@ using Spectrum = std::array<double, wavelength_count>;
 
 inline constexpr int wavelength_nm(int index) { return first_nm + index; }
 
+/// The spectrum of value(nm).
+template <class Value>
+Spectrum spectrum_of(const Value& value) {
+  Spectrum spectrum{};
+  for (int i = 0; i < wavelength_count; ++i) spectrum[static_cast<std::size_t>(i)] = value(wavelength_nm(i));
+  return spectrum;
+}
+
 /// Fraunhofer's lines, at which indices of refraction are given; the Abbe number is (n_d - 1) / (n_F - n_C).
 inline constexpr double line_f_nm = 486.1327, line_e_nm = 546.0740, line_d_nm = 587.5618, line_c_nm = 656.2725;
 

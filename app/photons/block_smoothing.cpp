@@ -12,8 +12,7 @@
 namespace nephroid::photons {
 namespace {
 
-/// The pixels that a kernel of Smoothing may need, as the mean over all light: with more, caustics are smoothed in
-/// larger blocks.
+/// The most pixels of a kernel, as the mean over all light: with more, caustics are smoothed in larger blocks.
 constexpr double most_needed = 24;
 
 /// The pixels that a kernel of single pixels would need, as the mean over all light. layer: [block].
@@ -25,8 +24,7 @@ double pixels_needed(const Blocks& blocks, const LayerEstimate& layer) {
   return light_sum > 0 ? needed / light_sum * blocks.edge * blocks.edge : 1;
 }
 
-/// Adds to a layer's draw what its blocks hide of the picture: about as much as blocks twice as large hide of this
-/// layer, and no more than there is.
+/// Adds to a layer's draw what its blocks hide: as much as blocks twice as large do, and no more than there is.
 void add_hidden(const Blocks& blocks, LayerEstimate& layer) {
   const Blocks pairs{blocks.across(), blocks.down(), 2};
   const std::vector<float> larger = between_blocks(pairs, mean_of_blocks(pairs, layer.rgb));

@@ -4,7 +4,6 @@
 #include "photons/coarse.h"
 #include "photons/smoothing.h"
 
-#include <span>
 #include <vector>
 
 namespace nephroid::photons {
@@ -20,11 +19,9 @@ LayerEstimate between(const Blocks& blocks, const LayerEstimate& layer);
 
 class BlockSmoothing {
 public:
-  /// first_preview_edge is the edge of the blocks of a run's first preview. It is 1 where there is none: then light is
-  /// spread only from pixel to pixel.
+  /// first_preview_edge: of the first preview's blocks; 1: there is none, and light goes from pixel to pixel.
   BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread, int first_preview_edge);
 
-  /// The smoothing from pixel to pixel.
   Smoothing& pixels() { return levels_.back().smoothing; }
   /// Returns a preview's layer, smoothed, by pixel. blocks are the preview's; `layer` has a value for each.
   LayerEstimate pixels_of(const Blocks& blocks, LayerEstimate layer);

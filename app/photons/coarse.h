@@ -7,12 +7,12 @@
 
 namespace nephroid::photons {
 
-/// A picture of width x height pixels in square blocks of edge x edge pixels; those at its right and lower border may
-/// be cut.
+/// A picture of width x height pixels in blocks of edge x edge; those at its right and lower border may be cut.
 struct Blocks {
   int width, height, edge;
   int across() const { return (width + edge - 1) / edge; }
   int down() const { return (height + edge - 1) / edge; }
+  std::size_t count() const { return static_cast<std::size_t>(across()) * static_cast<std::size_t>(down()); }
   std::size_t block_of(std::size_t pixel) const {
     const auto columns = static_cast<std::size_t>(width), side = static_cast<std::size_t>(edge);
     return pixel / columns / side * static_cast<std::size_t>(across()) + pixel % columns / side;

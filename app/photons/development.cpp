@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <utility>
 
 namespace nephroid::photons {
 namespace {
@@ -13,11 +12,15 @@ namespace {
 /// Values for Smoothing::BiasedEstimate::noise. Shadows in direct light are broader than the fine lines of a caustic.
 constexpr double caustic_noise = 0.05, direct_noise = 0.01;
 
+/// Adds as many values as both have; a sum that is empty stays so.
+void add(const std::vector<float>& more, std::vector<float>& sum) {
+  std::ranges::transform(sum, more, sum.begin(), std::plus());
+}
+
 void add(const char* name, LayerEstimate layer, job::Picture& picture) {
-  std::ranges::transform(picture.rgb, layer.rgb, picture.rgb.begin(), std::plus());
+  add(layer.rgb, picture.rgb);
   if (layer.draw.empty()) picture.error_draw.clear();
-  if (!picture.error_draw.empty())
-    std::ranges::transform(picture.error_draw, layer.draw, picture.error_draw.begin(), std::plus());
+  add(layer.draw, picture.error_draw);
   picture.layers.push_back({name, std::move(layer.rgb)});
 }
 
@@ -40,7 +43,7 @@ job::Picture Development::black(const Blocks& blocks) const {
   job::Picture picture;
   picture.width = blocks.across();
   picture.height = blocks.down();
-  picture.rgb.assign(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 0.0f);
+  picture.rgb.assign(3 * blocks.count(), 0.0f);
   if (!passes_.stages().empty() && world_.halves == 2) picture.error_draw = picture.rgb;
   return picture;
 }
@@ -70,11 +73,10 @@ void Development::share_work() {
   LayerEstimate splatted{std::move(tracing::layer_of(caustics, "caustic").rgb), std::move(caustics.error_draw)};
   if (smoothing_) smoothing_->spread(splatted, {});
   tracing::layer_of(picture, "caustic").rgb = std::move(splatted.rgb);
-  for (const job::Layer& layer : picture.layers)
-    std::transform(layer.rgb.begin(), layer.rgb.end(), picture.rgb.begin(), picture.rgb.begin(), std::plus());
+  for (const job::Layer& layer : picture.layers) add(layer.rgb, picture.rgb);
 
   Noise caustic_noise_now{splatted.draw, picture.rgb, passes_.complete()};
-  double noise = 0; // of photons: what glass shows are also paths
+  double noise = 0; // photons' alone: what glass shows are also paths
   for (std::size_t i = 0; i < picture.rgb.size(); ++i)
     if (!world_.pixels.may_show_glass[i / 3]) noise += caustic_noise_now.of(i);
   if (noise == 0) return;
@@ -138,9 +140,8 @@ LayerEstimate Development::caustics() {
   for (std::size_t i = 0; lacks_maps && i < estimate_.size(); ++i)
     if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = estimate_[i], layer.draw[i] = 0;
   if (smoothing_ && !layer.draw.empty()) timed([&] { smoothing_->spread(layer, {estimate_, caustic_noise}); });
-  if (!preview.rgb.empty()) std::ranges::transform(layer.rgb, preview.rgb, layer.rgb.begin(), std::plus());
-  if (!preview.draw.empty() && !layer.draw.empty())
-    std::ranges::transform(layer.draw, preview.draw, layer.draw.begin(), std::plus());
+  add(preview.rgb, layer.rgb);
+  add(preview.draw, layer.draw);
   return layer;
 }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Develops the stages' films into the picture: each layer, smoothed, and their sum. While a layer has little light, its
-// preview stands in for it.
+// Develops the stages' films into smoothed layers and their sum. While a layer has little light, its preview stands in.
 #pragma once
 #include "photons/block_smoothing.h"
 #include "photons/passes.h"
-#include "photons/preview.h"
 
 #include <optional>
 #include <span>
@@ -15,8 +13,7 @@ namespace nephroid::photons {
 
 class Development {
 public:
-  /// smoothing is for caustics; smooths_paths says whether it also smooths the lights that paths from the eye see.
-  /// World, passes and preview outlive this object.
+  /// smoothing is for caustics, with smooths_paths also for what paths from the eye see. The references outlive this.
   Development(const DeviceWorld& world, const Passes& passes, const Preview& preview,
               std::optional<BlockSmoothing> smoothing, bool smooths_paths)
       : world_(world), passes_(passes), preview_(preview), smoothing_(std::move(smoothing)),
@@ -45,13 +42,11 @@ private:
   job::Picture black() const { return black({world_.tables.camera.width, world_.tables.camera.height, 1}); }
   /// The preview of a stage's layer, smoothed, [pixel][3].
   LayerEstimate preview_of(Stage& stage);
-  /// The layer of a stage that has no caustics.
   LayerEstimate layer_of(std::size_t stage);
-  /// The layer of all stages that have caustics.
   LayerEstimate caustics();
   template <class Work>
   void timed(const Work& work) {
-    smoothing_seconds_ += seconds_of(work);
+    smoothing_seconds_ += tracing::seconds_of(work);
   }
 
   const DeviceWorld& world_;

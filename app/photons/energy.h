@@ -11,8 +11,7 @@
 
 namespace nephroid::photons {
 
-/// emitted = deposited + missed + absorbed + escaped + lost but for rounding. kernels/tracing/shared_types.h explains
-/// each (OUTCOME_*).
+/// emitted = deposited + missed + absorbed + escaped + lost but for rounding; OUTCOME_* explain each.
 struct EnergyBalance {
   double emitted_w = 0, deposited_w = 0, missed_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
   std::uint64_t refused_contributions = 0; ///< film contributions too large for its fixed point: 0 in a sound run

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stage whose samples from the eye, as many as each pixel needs, go into a film of its own: the layers "direct" and
-// "background".
+// A stage of samples from the eye, as many as each pixel needs: the layers "direct" and "background".
 #pragma once
 #include "photons/sampled_pixels.h"
 #include "photons/stage.h"
@@ -70,8 +69,7 @@ public:
 protected:
   /// Runs the kernel with the stage's own arguments and `more`.
   virtual void run(std::uint32_t count, std::initializer_list<compute::Argument> more) = 0;
-  /// The most quanta of each of the first pixel_samples contributions to a pixel. All later ones together cannot
-  /// overflow the film.
+  /// The most quanta of each of a pixel's first pixel_samples contributions. All later ones cannot overflow the film.
   virtual double limit() const = 0;
   /// The film's quanta for a value of 1 in the picture.
   virtual double quanta_per_unit() const = 0;

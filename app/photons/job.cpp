@@ -6,7 +6,6 @@
 #include "photons/development.h"
 #include "photons/passes.h"
 #include "photons/pixel_surfaces.h"
-#include "photons/preview.h"
 #include "photons/relight/layer_film.h"
 
 #include <fmt/format.h>
@@ -173,7 +172,6 @@ public:
   }
 
 private:
-  /// Does what is due between two passes.
   void begin_pass() {
     const std::int64_t passes = passes_.complete();
     if (passes == 1) development_.prepare();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mixes a picture with an estimate of it so that each place has the smallest error, as far as two halves of a noisy,
-// unbiased picture can tell.
+// Mixes a picture with an estimate so that each place has the smallest error, as two halves of a noisy picture tell it.
 //
 // The unbiased picture is p = truth + e, the picture to be improved b = truth + f, and the estimate b + r. The square
 // of the error of the mixture b + w r is
@@ -10,9 +9,8 @@
 // E[r f] can be had without the truth (Stein 1981, "Estimation of the mean of a multivariate normal distribution"; for
 // an estimate whose noise is independent the best weight is that of James and Stein). f = (b - p) + e. The halves are p
 // + d and p - d, and r has a draw q of its noise. The noise of one half is not in the other, so E[r e] = E[q d]. Sums
-// are taken around each pixel. Where few photons fell the sums are noisy themselves, so the estimate counts only for
-// its gain beyond one standard deviation of them. That too is estimated from the halves: r has the draw q, b - p the
-// difference of its own.
+// are taken around each pixel. They are noisy where few photons fell, so the estimate counts only for its gain beyond
+// one standard deviation of them, which the halves tell too: r has the draw q, b - p the difference of its own.
 #pragma once
 #include <span>
 #include <vector>
@@ -26,7 +24,6 @@ struct Estimate {
 };
 
 /// A lower bound for light where errors are divided by light: a hundredth of the mean of all pixels that are not black.
-/// So the result does not depend on exposure. light is [pixel].
 double least_light(std::span<const double> light);
 
 /// Mixes the picture b in rgb, with a draw of its noise in error_draw (job::Picture::error_draw), with the estimate;

@@ -53,4 +53,26 @@ void Passes::state_of_stages(tracing::State& state) {
   }
 }
 
+void Preview::next(Passes& passes) {
+  ++pictures_;
+  begin_picture();
+  for (std::size_t s = 0; s < passes.stages().size(); ++s)
+    passes.work(s, [&] {
+      while (!passes.stages()[s].stage->advance_preview()) {
+      }
+    });
+}
+
+void Preview::begin_picture() {
+  constexpr unsigned batches_a_picture = 2;
+  const Blocks blocks{world_.tables.camera.width, world_.tables.camera.height, edges_[pictures_ - 1]};
+  std::vector<bool> may_show_glass(blocks.count());
+  for (const std::uint32_t pixel : world_.pixels.glass) may_show_glass[blocks.block_of(pixel)] = true;
+  std::vector<std::uint32_t> glass;
+  for (std::size_t block = 0; block < may_show_glass.size(); ++block)
+    if (may_show_glass[block]) glass.push_back(static_cast<std::uint32_t>(block));
+  world_.preview = {blocks, std::min(batches_a_picture * static_cast<unsigned>(pictures_), world_.tables.batches - 1),
+                    compute::Buffer(world_.context, "blocks of glass", glass)};
+}
+
 } // namespace nephroid::photons

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passes, in each of which every stage has its turn, slice by slice, and their progress.
+// Passes, in each of which every stage has its turn, slice by slice, and their progress. Before the first come
+// previews: coarse pictures, in blocks of pixels, each finer than the one before (coarse.h).
 #pragma once
 #include "photons/stage.h"
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string_view>
@@ -20,13 +20,6 @@ struct TimedStage {
   bool caustics() const { return std::string_view(layer) == "caustic"; }
 };
 
-template <class Work>
-double seconds_of(const Work& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 class Passes {
 public:
   /// batches is the number of batches of photons in a pass.
@@ -39,7 +32,7 @@ public:
   /// Does other work of the run and counts it for a stage.
   template <class Work>
   void work(std::size_t stage, const Work& work) {
-    const double seconds = seconds_of(work);
+    const double seconds = tracing::seconds_of(work);
     stages_[stage].seconds += seconds;
     at_.work_seconds += seconds;
   }
@@ -54,7 +47,6 @@ public:
   std::int64_t most() const;
   /// Complete passes and the fraction of the current one, in which every stage counts alike.
   double with_fraction() const;
-  /// The photons sent so far.
   std::uint64_t photons() const;
   /// The batches of the photons that DeviceWorld::energy counts, with the fraction of the current pass.
   double photon_batches() const;
@@ -80,6 +72,29 @@ private:
   unsigned batches_;
   std::vector<TimedStage> stages_;
   Position at_;
+};
+
+class Preview {
+public:
+  /// edges are those of each picture's blocks (preview_edges). Without edges there is no preview.
+  Preview(DeviceWorld& world, std::vector<int> edges) : world_(world), edges_(std::move(edges)) {}
+
+  bool has_more() const { return pictures_ < edges_.size(); }
+  bool has_picture() const { return pictures_ > 0; }
+  /// Renders the whole next picture at once: a part of it would be of no use.
+  void next(Passes& passes);
+
+  void state(tracing::State& state) {
+    state.value(pictures_);
+    if (state.is_read() && has_picture()) begin_picture();
+  }
+
+private:
+  void begin_picture();
+
+  DeviceWorld& world_;
+  std::vector<int> edges_;
+  std::size_t pictures_ = 0; ///< number of pictures that have begun
 };
 
 } // namespace nephroid::photons

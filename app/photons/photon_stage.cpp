@@ -15,8 +15,7 @@
 namespace nephroid::photons {
 namespace {
 
-/// The factor by which allocation by variance has to lower the variance: such photons take that much longer, for they
-/// meet more glass and are measured.
+/// How much allocation by variance has to lower the variance: its photons take that much longer.
 constexpr double least_gain = 1.5;
 
 /// The first batch whose photons are allocated by measurements: after half a pass, as fewer photons show too little.
@@ -109,7 +108,6 @@ public:
   }
 
 private:
-  /// The number of complete batches.
   std::int64_t batches(std::int64_t passes, bool done) const {
     return passes * world_.tables.batches + (done ? world_.tables.batches : batch_);
   }

@@ -17,7 +17,6 @@ constexpr std::size_t middle = optics::wavelength_count / 2;
 
 using Type = scene::Material::Type;
 
-/// A place on a surface.
 struct Place {
   int object;
   glm::dvec3 position, geometric, shading; ///< outward unit normals; alike unless the object is smooth
@@ -38,7 +37,6 @@ public:
     return place_on(hit->primitive);
   }
 
-  /// Reflects the ray at a mirror.
   void reflect(const Place& place) { bend(place, std::nullopt); }
 
   /// Passes the surface of glass, or is totally reflected there (cross_interface in kernels/tracing/interface.h). False

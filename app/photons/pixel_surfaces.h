@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface in the middle of a pixel: the diffuse one where a ray from the camera ends, through glass and by way of
-// mirrors. It is for work on pictures on the host. The picture itself comes from kernels/tracing/eye_path.h, which
-// follows the same rules at every wavelength and with both branches of each reflection. Also finds the pixels that may
-// show glass or a mirror.
+// For work on pictures on the host: the surface in the middle of a pixel, where a ray from the camera ends, through
+// glass and by way of mirrors (kernels/tracing/eye_path.h does so for pictures); and the pixels that may show glass or
+// a mirror.
 #pragma once
 #include "scene/bvh.h"
 #include "scene/scene.h"
@@ -31,8 +30,7 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
                                 int column, int row, int most_surfaces = 32);
 
 /// The pixels, row after row, whose square the outline of a triangle or ellipsoid of glass or of a mirror may touch,
-/// whatever stands before it. For a camera inside glass, all pixels. Every path that meets glass or a mirror first
-/// belongs to one of them.
+/// whatever stands before it. For a camera inside glass, all pixels.
 std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene);
 
 } // namespace nephroid::photons

@@ -116,8 +116,7 @@ plan::Pass differentials_pass(const PlanInput& input) {
           "/spectral/differentials", true};
 }
 
-/// Whether a run has caustics, and how their photons are sent: photon_stage.cpp splats them, map_stage.cpp and
-/// sppm_stage.cpp gather them.
+/// How the photons of caustics are sent, whichever stage splats or gathers them.
 PlanPart plan_caustics(const PlanInput& input) {
   const plan::Pass jitter = jitter_pass(input), low_discrepancy = low_discrepancy_pass(input.settings),
                    differentials = differentials_pass(input);
@@ -163,8 +162,7 @@ void add(PlanPart part, plan::Plan& plan) {
   std::ranges::move(part.notes, std::back_inserter(plan.notes));
 }
 
-/// The default of Settings::pixel_samples. Where light comes from one point of each lamp, only edges within pixels need
-/// samples.
+/// The default of Settings::pixel_samples. Where all lamps are points, only edges within pixels need samples.
 int enough_samples(const scene::Scene& scene) {
   const bool all_points = std::ranges::all_of(scene.lights, [](const scene::Light& light) {
     return !scene::is_environment(light) && light.type != preset::Light::Type::area;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of a run of engine 1: stages, and decisions that several stages share. Each plans for itself, beside its
-// work; make_plan (plan.h) puts the parts together.
+// The parts of a run: stages, and decisions that stages share. Each plans for itself; make_plan puts them together.
 #pragma once
 #include "photons/settings.h"
 #include "photons/tables/run_tables.h"
@@ -60,8 +59,7 @@ inline PlanPart part_of(plan::Pass pass, std::vector<plan::PlannedBuffer> buffer
 struct RunPart {
   /// Plans the part. It runs if its first pass does; without passes it does not run.
   PlanPart (*plan)(const PlanInput& input);
-  /// Makes the stage of a part that runs; null for other parts. world outlives the stage. Throws as job::Job's making
-  /// does.
+  /// Makes the stage of a part that runs; null for other parts. world outlives the stage. Throws as make_job does.
   std::unique_ptr<Stage> (*make)(DeviceWorld& world, const scene::Scene& scene, const Settings& settings) = nullptr;
   const char* layer = ""; ///< the picture's layer that the stage adds to
 };

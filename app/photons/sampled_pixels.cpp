@@ -34,8 +34,7 @@ struct SampleMoments {
   double variance = 0, light_squared = 0; ///< sums of R, G and B
 };
 
-/// Sums over the pixels around one, without itself. Only pixels that show glass, or none, as it does take part: the
-/// others have paths of another kind.
+/// Sums over the pixels around one, without itself, that show glass, or none, as it does: others have other paths.
 class Neighbourhood {
 public:
   Neighbourhood(const DeviceWorld& world, std::span<const SampleMoments> pixels)
@@ -103,8 +102,7 @@ void SampledPixels::share_work(const Noise& noise) {
   const Neighbourhood around(world_, pixels);
   for_ranges(pixels.size(), 1 << 12, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      // Through glass few of many samples bring most of the light, so it takes many pixels to know the variance.
-      // Elsewhere edges are narrow.
+      // Through glass few samples bring most of the light, so the variance takes many pixels; elsewhere few.
       const bool glass = world_.pixels.may_show_glass[i];
       SampleMoments sampled = around.mean(i, 3);
       if (!glass) {

@@ -24,7 +24,6 @@ public:
 
   /// The number of passes that may have samples.
   std::int64_t passes() const { return passes_; }
-  /// The fraction of the current pass.
   double fraction_done() const { return static_cast<double>(done_) / static_cast<double>(counts_.size()); }
 
   /// Calls work(samples, count) for the next samples of the pass, on the device. x is the pixel, y the sample's number
@@ -43,7 +42,6 @@ public:
     return {double(counts_[pixel][0]), double(counts_[pixel][1])};
   }
 
-  /// Does Stage::share_work.
   void share_work(const Noise& noise);
 
   void state(tracing::State& state);

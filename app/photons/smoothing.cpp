@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <functional>
@@ -24,12 +23,10 @@ namespace {
 constexpr int reach = 6, noise_radius = 7;
 constexpr std::size_t block_rows = 64, block_pixels = 1 << 12;
 
-/// Two pixels are on one nearly flat part where their normals are within about 25 degrees of each other, and the way
-/// between them is within about 30 degrees of the surface.
+/// Two pixels are on one nearly flat part where their normals are within 25 degrees, and their way 30 of the surface.
 constexpr float least_cosine = 0.9f, most_rise = 0.5f;
 
-/// Glass or a mirror is curved where neighbours show places more than most_pull times farther apart than a flat one
-/// would. This holds for pixels up to pull_reach around.
+/// Glass or a mirror is curved about pixels where neighbours show places most_pull times as far apart as a flat one.
 constexpr float most_pull = 2;
 constexpr int pull_reach = 2;
 
@@ -62,8 +59,7 @@ const Reach& within_reach() {
   return sorted;
 }
 
-/// Calls work(i, j) for each pair of pixels side by side or one above the other, and `diagonal` for those that touch at
-/// a corner.
+/// Calls work(i, j) for each pair of pixels that touch at a side, and with `diagonal` also at a corner.
 template <class Work>
 void for_neighbours(int width, int height, bool diagonal, const Work& work) {
   const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
@@ -101,11 +97,11 @@ std::vector<bool> are_near_pulled(const std::vector<PixelSurfaces>& pixels, int 
 /// what it has of the draw, r + q and r - q are what it has changed of two halves with noise of their own, so that
 /// around a pixel
 ///
-///   M = sum of (r + q)(r - q)    is that of the squares of the bias, give or take the root of S = sum of ((r + q)(r -
-///   q))^2, and g^2 = M / (sum of r^2) / (1 + S / M^2)    the share of r^2 that it is, as far as it stands out,
+///   M = sum of (r + q)(r - q)                    is that of the squares of the bias, give or take
+///   S^(1/2), S = sum of ((r + q)(r - q))^2,      and
+///   g^2 = M / (sum of r^2) / (1 + S / M^2)       the share of r^2 that it is, as far as it stands out,
 ///
-/// and g r a draw of the bias: r is the bias and the noise that was taken away, and the latter is no error of what is
-/// spread.
+/// and g r a draw of the bias: r is the bias and the noise that was taken away, which is no error of what is spread.
 void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
               std::vector<float>& draw_spread, int width, int height) {
   // r^2 + factor q^2, summed over R, G and B.
@@ -189,8 +185,7 @@ struct SpreadDomain {
   }
 };
 
-/// Where a pixel's light goes: evenly, weighted by how each pixel is favoured. The outermost ring gets less, so that
-/// kernels change without a jump.
+/// Where a pixel's light goes, by how each pixel is favoured. The outermost ring gets less: no kernel jumps.
 struct Kernel {
   std::uint32_t inside = 0,
                 end = 0;  ///< numbers of the pixels before the outermost ring, and with it
@@ -241,8 +236,7 @@ std::vector<Kernel> find_kernels(const SpreadDomain& at, std::span<const double>
   return kernels;
 }
 
-/// Calls give(i, j, part) with the part of its light that each pixel i which is `needed(i)` gives to j. Runs on every
-/// core, each with its own j.
+/// Calls give(i, j, part) with the part of its light that each `needed(i)` gives to j, on every core with its own j.
 template <class Needed, class Give>
 void give_parts(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> favour,
                 const Needed& needed, const Give& give) {
@@ -414,8 +408,7 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
       draw_spread.resize(error_draw.size());
       std::ranges::transform(spread_by(of_a, a), spread_by(of_b, b), draw_spread.begin(),
                              [](float of_one, float of_other) { return (of_one - of_other) / 2; });
-      // The correction of the estimate's bias. It is spread far, by kernels that hardly follow the noise, so its draw
-      // is what they make of the picture's draw.
+      // The correction of the estimate's bias is spread far, so its draw is what these kernels make of the picture's.
       for (double& portion : wanted) portion *= noise * noise / (known.noise * known.noise);
       std::vector<float> evened = rgb, evened_draw = error_draw;
       std::ranges::transform(rgb, known.rgb, evened.begin(), std::minus());

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Smooths caustics of few photons: spreads each pixel's light over as many pixels around it as make its noise small
-// enough.
+// Smooths caustics of few photons: spreads each pixel's light over as many pixels around it as its noise asks for.
 //
 // Photons on a surface are a sample of a density, and a histogram over pixels is the noisiest estimate of it. This is
 // the sample-point estimate with adaptive kernels (Abramson 1982, "On bandwidth variation in kernel estimates"): they
 // are narrow where photons are dense, so that bright lines stay sharp, and wide where photons are few. A pixel that is
-// not noisy is left alone. In the end none is noisy, so the limit is that of the plain film. Power is neither lost nor
-// made.
+// not noisy is left alone; in the end none is, so the limit is that of the plain film. Power stays.
 #pragma once
 #include "scene/bvh.h"
 #include "scene/scene.h"
@@ -22,14 +20,12 @@ namespace nephroid::photons {
 /// The mean of R, G and B of each pixel, at least 0 each. rgb is [pixel][3].
 std::vector<double> light_of(std::span<const float> rgb);
 
-/// Variance over light around each pixel, means of R, G and B. For light that comes in equal portions this is one
-/// portion. It is 0 in the dark.
+/// Variance over light around each pixel, means of R, G and B: for light in equal portions, one portion; 0 in the dark.
 std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw, int width, int height);
 
 class Smoothing {
 public:
-  /// everywhere spreads light as far as its noise asks for; where_it_helps spreads only that part of it for which the
-  /// halves show a gain.
+  /// everywhere: as far as the noise asks for. where_it_helps: only the part for which the halves show a gain.
   enum class Spread { where_it_helps, everywhere };
   /// The noise that may remain: the root of the mean variance of R, G and B over the mean of R, G and B. A kernel then
   /// holds 1 / noise^2 = 16 grey photons. A smaller value blurs more than it needs to.
@@ -50,26 +46,22 @@ public:
 
   /// Sends one ray through the middle of every pixel of a picture of width x height, on every core. Light is spread
   /// within one nearly flat part of the diffuse object that the pixel shows, be it directly, in a mirror or through
-  /// glass. Along the object's outline it stays on the outline. Where glass or a mirror shows none, or is curved so
-  /// that neighbours show places far apart, light is spread within one nearly flat part of the glass or mirror. The
-  /// rays would hold up a run's preview, so they wait until the first call of find_surfaces() or spread(); until then
-  /// it keeps the view.
+  /// glass. Along the object's outline it stays there. Where glass or a mirror shows none, or pulls neighbours far
+  /// apart, light is spread within one nearly flat part of it. The rays would hold up a preview, so they wait until the
+  /// first call of find_surfaces() or spread().
   Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread);
   void find_surfaces();
 
-  /// The most bytes that this takes.
   static std::uint64_t bytes(const scene::Scene& scene, const scene::Bvh& bvh);
 
   /// rgb has the caustics alone, [pixel][3] of the camera's size. error_draw is a draw of their error
-  /// (Picture::error_draw), from which the noise of a pixel is known. It becomes a draw of the error of the result, the
-  /// bias included. Values below 0, of colours outside of sRGB, count as no light when kernels are chosen. Nothing
-  /// changes where the draw is empty. With `known`, each place gets the mixture that the halves show to be best
-  /// (mixture.h): of the spread light, of the estimate, and of the estimate plus the difference to the picture, spread
-  /// until its noise is known.noise.
+  /// (Picture::error_draw), from which the noise of a pixel is known. It becomes that of the result, the bias included.
+  /// Values below 0 count as no light when kernels are chosen. Nothing changes where the draw is empty. With `known`,
+  /// each place gets the mixture that the halves show to be best (mixture.h): of the spread light, of the estimate, and
+  /// of the estimate plus the difference to the picture, spread until its noise is known.noise.
   void spread(std::vector<float>& rgb, std::vector<float>& error_draw, const BiasedEstimate& known = {});
 
-  /// The pixels that a pixel's light may be spread over: a bit for each pixel within reach, nearest first, from the
-  /// lowest bit of the first number.
+  /// Where a pixel's light may go: a bit for each pixel within reach, nearest first, lowest bit first.
   using Level = std::array<std::uint64_t, 2>;
 
 private:

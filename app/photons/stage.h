@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stage is one kind of work that every pass of engine 1 has: the direct layer, photons that are splatted, photon
-// maps, ... It owns its kernels and films; the job gives each its turn. Sums are exact, so how a stage cuts its pass
-// into slices changes no bit. Each file NAME_stage.cpp has one.
+// maps, ... It owns its kernels and films; the job gives each its turn. Sums are exact, so slices change no bit.
 #pragma once
 #include "job/job.h"
 #include "photons/energy.h"
@@ -56,8 +55,7 @@ public:
   }
   /// The number of passes that it takes part in; it stops once it has enough samples.
   virtual std::int64_t passes() const { return preset::max_passes; }
-  /// Does one slice of about 30 ms of a pass that it takes part in. True when its part of that pass is complete; the
-  /// next call is in the next pass.
+  /// Does one slice of about 30 ms of a pass that it takes part in. True when its part of that pass is complete.
   virtual bool advance(std::int64_t pass) = 0;
   /// Does one slice of its part of a preview (DeviceWorld::preview), before the first pass. True when that is complete.
   virtual bool advance_preview() { return true; }
@@ -75,14 +73,12 @@ public:
   virtual bool add_spectrum(std::int64_t /*passes*/, bool /*done*/, job::PixelSpectrum& /*to*/) { return false; }
   /// Adds where the power of its photons went in the same passes, if it has counters of its own.
   virtual void report(std::int64_t /*passes*/, bool /*done*/, Energy& /*energy*/) {}
-  /// Decides the work of the next passes, as many as there were: its paths from the eye are to lower the noise by as
-  /// much as photons that take as much work.
+  /// Decides the work of as many passes as there were: its paths are to gain as much as photons for their work.
   virtual void share_work(const Noise& /*noise*/) {}
   /// Photons sent in one pass; 0 where it sends none.
   virtual std::uint64_t photons_per_pass() const { return 0; }
   /// Whether DeviceWorld::energy holds the power of its photons.
   virtual bool counts_energy() const { return false; }
-  /// Everything that it needs to continue with the same bits.
   virtual void state(tracing::State& state) = 0;
 };
 

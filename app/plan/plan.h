@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace nephroid::plan {
@@ -15,8 +14,7 @@ struct Pass {
   bool runs = true;
   std::string reason;     ///< a sentence a person can read
   std::string field = {}; ///< JSON pointer of the preset's boolean that decides; empty where none does
-  bool run_value =
-      false; ///< what that boolean must be for the pass to run; a pass that is needed may run whatever it is
+  bool run_value = false; ///< what it must be for the pass to run; a pass that is needed runs whatever it is
 };
 
 struct PlannedBuffer {
@@ -53,8 +51,7 @@ struct Plan {
 };
 
 /// {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{},
-/// "inputs":[{"file","content"}]}, plus "notes"; "field" and "run_value" only where a field decides. Over several
-/// lines, as plan.json has it.
+/// "inputs":[{"file","content"}]}, plus "notes"; "field" and "run_value" only where a field decides.
 std::string to_json(const Plan& plan);
 /// The inputs in a plan.json; none if it is damaged.
 std::vector<Input> inputs_of(const std::string& plan_json);

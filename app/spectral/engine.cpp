@@ -8,9 +8,8 @@
 namespace nephroid::spectral {
 namespace {
 
-/// Settings of a reference: each wavelength alone, in steps of 1 nm whatever the run's, paths at least the default's.
-/// What changes no expected value (the threshold, photons a pass, what is left out) has its default, so that runs that
-/// differ only in it share a reference.
+/// Settings of a reference: each wavelength alone, paths at least the default's. What changes no expected value (the
+/// threshold, photons a pass) has its default, so that runs that differ only in it share a reference.
 photons::Settings brute_force(const photons::Settings& settings) {
   photons::Settings exact;
   exact.method = photons::Settings::Method::brute_force;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine 1, spectral caustics: photons of each wavelength cluster are splatted where the camera sees a diffuse receiver
-// (thesis chapter 4).
+// Engine 1, spectral caustics: photons of wavelength clusters, splatted on diffuse receivers (thesis chapter 4).
 #pragma once
 #include "engine/engine.h"
 #include "photons/job.h"
@@ -10,14 +9,12 @@ namespace nephroid::spectral {
 
 extern const engine::Engine engine;
 
-/// Plans a run. What the scene does not need is left out where the preset says so, or as given, for tests of one
-/// omission. Throws bad_input as photons::make_plan.
+/// Plans a run. leave_out: for tests; by default what the preset says. Throws bad_input as photons::make_plan.
 photons::RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
 photons::RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
                            const tracing::LeaveOut& leave_out);
 
-/// Whether `now` differs from `before`, which keeps layers, in nothing but the spectra and powers of its lights, its
-/// white, its name and its description.
+/// Whether `now` differs from `before`, which keeps layers, in its lights' spectra and powers, white and texts alone.
 bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
 } // namespace nephroid::spectral

@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "photons/describe_settings.h"
 #include "preset/settings_type.h"
-#include "spectral/settings.h"
 
 #include <fmt/format.h>
 
@@ -14,8 +13,7 @@ namespace {
 
 using preset::Where;
 
-/// A cluster drawn at random needs a pass of its own, which only sppm gives it. A variance is measured only where all
-/// clusters share a film.
+/// A cluster drawn at random needs sppm's pass of its own; a variance is measured where all share a film.
 void check_effort(const photons::Settings& s, const std::string& pointer, const Where& where) {
   const bool sppm = s.estimator == photons::Settings::Estimator::sppm;
   if (s.effort == photons::Settings::Effort::random && !sppm)

@@ -6,10 +6,8 @@
 
 namespace nephroid::spectral {
 
-/// The type of this engine's settings in a preset.
 const preset::SettingsType& settings_type();
 
-/// The settings in a preset of this engine.
 inline photons::Settings& settings(preset::Preset& preset) { return preset.settings.as<photons::Settings>(); }
 inline const photons::Settings& settings(const preset::Preset& preset) {
   return preset.settings.as<photons::Settings>();

@@ -18,8 +18,7 @@ inline constexpr double film_limit = 0x1p42;
 struct Film {
   std::vector<std::int64_t> sums; ///< [half][pixel of the picture][3]: XYZ radiance in quanta, added up over samples
   double quanta_per_unit = 1;     ///< quanta of what becomes 1 in the picture
-  /// How many samples, batches or passes of photons the sums of a pixel hold, in each half. A film without halves has
-  /// all of them in one image.
+  /// How many samples, batches or passes the sums of a pixel hold, in each half. Without halves all are in one image.
   std::function<std::array<double, 2>(std::size_t pixel)> samples;
 };
 
@@ -27,8 +26,7 @@ struct Film {
 job::Layer& layer_of(job::Picture& picture, const std::string& name);
 
 /// Adds the mean of the samples, 0 where there is none, to layer_of(picture, name). Where the film has two halves a and
-/// b, also adds (a - b) sqrt(n_a n_b) / (n_a + n_b) to Picture::error_draw. Where a pixel lacks one of the halves, the
-/// draw is cleared; a draw that is clear stays so.
+/// b, also adds (a - b) sqrt(n_a n_b) / (n_a + n_b) to Picture::error_draw. It is cleared where a pixel lacks a half.
 void add_layer(const std::string& name, const Film& film, job::Picture& picture);
 
 /// How many passes or batches each half of a film has after `passes` complete ones and `part` of the next.

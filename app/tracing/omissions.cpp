@@ -51,8 +51,7 @@ bool may_be_in_view(const scene::Scene& scene, const scene::Object& object) {
   return std::ranges::none_of(beyond, [](bool b) { return b; });
 }
 
-/// Whether the camera sees all that is in its view: all objects are flat, with the camera and the other objects on one
-/// side of each.
+/// Whether the camera sees all in its view: objects are flat, with the camera and the others on one side of each.
 bool nothing_blocks_the_view(const scene::Scene& scene) {
   const glm::dvec3 eye = scene.camera.position;
   std::vector<std::size_t> seen;

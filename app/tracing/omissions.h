@@ -14,7 +14,6 @@ bool has_power(const scene::Light& light);
 /// [401]: whether any light with power has the wavelength; true for all where no light has power.
 std::vector<bool> lit_wavelengths(const scene::Scene& scene);
 
-/// How many objects there are of each kind.
 struct ObjectCounts {
   int dielectrics = 0, mirrors = 0, diffuse = 0, smooth = 0;
 };
@@ -23,17 +22,14 @@ ObjectCounts count_objects(const scene::Scene& scene);
 /// False only where no glass object or mirror is in the camera's view or encloses the camera.
 bool may_see_glass_or_mirror(const scene::Scene& scene);
 
-/// Rows of the plan for what may be left out. What the scene needs runs; what it does not need runs where nothing is
-/// left out.
+/// Rows of the plan for what may be left out. What the scene does not need runs where nothing is left out.
 plan::Pass needed(const std::string& name, std::string reason);
 plan::Pass not_needed(const std::string& name, bool leave_out, std::string reason);
 
-/// What the tables of a scene leave out: rows only for what the scene has and does not need. targets:
-/// SceneTables::spheres.
+/// What the tables leave out: rows for what the scene has and does not need. targets: SceneTables::spheres.
 std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene,
                                        const std::vector<scene::Sphere>& targets);
 
-/// What kernels are compiled without.
 struct CodeOmissions {
   std::vector<plan::Pass> passes;
   std::map<std::string, std::string> defines; ///< -D flags

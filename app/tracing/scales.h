@@ -20,8 +20,7 @@ scene::Sphere scene_bounds(const scene::Scene& scene);
 std::array<glm::vec3, 2> box_about(const std::vector<glm::vec3>& points);
 
 /// The quanta per unit of XYZ radiance in a film of splats. A photon with a mean share of `watts` has 2^16 on a surface
-/// as far away as the scene's middle. It reaches the limit of one photon, 2^42 (kernels/tracing/film.h), 8000 times
-/// nearer. photons: those of one pass.
+/// as far away as the scene's middle. It reaches the limit, 2^42, 8000 times nearer. photons: those of one pass.
 double splat_scale(const scene::Scene& scene, unsigned photons, double watts);
 
 /// The quanta per watt in energy counters. The power of one pass has 2^40, so 2^20 passes fit into 63 bits.
@@ -30,16 +29,14 @@ double energy_scale(double watts);
 double mean_watts(std::int64_t quanta, double quanta_per_watt, double passes);
 
 /// Running sums of weights in whole multiples of 2^-24, from the first weight to 1. A random number of the device is
-/// such a multiple too, so the difference of two sums is exactly the chance. Every positive weight has a chance. Where
-/// all weights are 0, all chances are equal.
+/// such a multiple too, so the difference of two sums is exactly the chance. Every positive weight has a chance.
 std::vector<float> exact_cdf(const std::vector<double>& weights);
 
 /// exact_cdf with a 0 in front: one number more than there are weights.
 std::vector<float> exact_cdf_from_zero(const std::vector<double>& weights);
 
-/// The worth of light, by which paths are divided among lights, clusters or wavelengths before anything is measured.
-/// seen: what the eye makes of it, (X + Y + Z) / 3. power: a twentieth of it counts too, so that light which the eye
-/// hardly sees has some paths.
+/// The worth of light, by which paths are divided before anything is measured. seen: what the eye makes of it, (X + Y +
+/// Z) / 3. power: a twentieth of it counts too, so that light which the eye hardly sees has paths.
 constexpr double worth(double seen, double power) { return seen + 0.05 * power; }
 
 } // namespace nephroid::tracing

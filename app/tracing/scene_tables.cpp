@@ -65,7 +65,6 @@ void set_targets(shared::DeviceLight& light, const std::vector<scene::Sphere>& s
   light.target_count = static_cast<int>(list.size());
 }
 
-/// All targets of the scene, for any light.
 std::vector<scene::Sphere> scene_targets(const LeaveOut& leave_out, const scene::Scene& scene) {
   std::vector<scene::Sphere> targets;
   if (leave_out.stray_photons) targets = caustic_targets(scene);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene as kernels read it (kernels/tracing/world.h): plain tables on the host. They are made once a job, and
-// tested without a device.
+// The scene as kernels read it (kernels/tracing/world.h): plain tables on the host, made once a job.
 #pragma once
 #include "preset/preset.h"
 #include "scene/scene.h"
@@ -49,8 +48,7 @@ struct SceneTables {
   StretchTables stretch;                 ///< for the clusters of `wavelengths`
   std::vector<double> towards_targets_w; ///< [light]: power that it sends towards its targets, all wavelengths
   double light_towards_targets_w = 0;    ///< the sum over all lights
-  double power_unit =
-      1; ///< the unit of DeviceLight::radiometric in W or W m^-2, so that every power fits single precision
+  double power_unit = 1; ///< the unit of DeviceLight::radiometric in W or W m^-2: every power fits single precision
 };
 
 inline shared::float4 to_float4(const glm::dvec3& v, double w = 0) {
@@ -73,14 +71,12 @@ std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene
 
 std::uint64_t bytes_of(const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); }
 
-/// Bytes of a scene's surfaces on the host.
 std::uint64_t mesh_bytes(const scene::Scene& scene);
 
 /// Where texels are looked up, for the light and for the background.
 shared::DeviceBackground picture_size(const scene::Environment& environment);
 
-/// environment: not black. A texel of less than 2^-24 of its row is drawn more often than its flux asks for. Its
-/// photons then carry less, so that nothing is too bright.
+/// environment: not black. A texel of less than 2^-24 of its row is drawn more often, and its photons carry less.
 SkyTables make_sky_tables(const scene::Environment& environment);
 
 } // namespace nephroid::tracing

@@ -8,8 +8,16 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace nephroid::tracing {
+
+template <class Work>
+double seconds_of(const Work& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
 
 /// How much work fits into a slice, learned from the slices before.
 class SliceSize {
@@ -21,11 +29,7 @@ public:
   /// first slice of a kernel also compiles it, and the rows of a picture differ.
   template <class Work>
   void timed(double amount, const Work& work) {
-    using Clock = std::chrono::steady_clock;
-    const auto begin = Clock::now();
-    work();
-    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    amount_ = std::clamp(amount * slice_seconds / std::max(seconds, 1e-6), 0.25 * amount_, 2 * amount_);
+    amount_ = std::clamp(amount * slice_seconds / std::max(seconds_of(work), 1e-6), 0.25 * amount_, 2 * amount_);
   }
 
 private:
@@ -36,27 +40,27 @@ private:
 /// The pixels of a pass, or its rows.
 class PixelSlices {
 public:
-  /// size: how many the first pass has. first_slice: how many the first slice has.
-  PixelSlices(std::int64_t size, std::int64_t first_slice) : size_(size), amount_(static_cast<double>(first_slice)) {}
+  /// size: how many a pass has. first_slice: how many the first slice has. most: how many a slice has at most.
+  PixelSlices(std::int64_t size, std::int64_t first_slice, std::int64_t most = std::numeric_limits<std::int64_t>::max())
+      : size_(size), most_(most), amount_(static_cast<double>(first_slice)) {}
 
   double fraction_done() const { return size_ > 0 ? static_cast<double>(done_) / static_cast<double>(size_) : 0; }
   /// How many of the pass in hand are done.
   std::int64_t done() const { return done_; }
 
-  /// Calls work(first, count) for this rank's part (Partition) of the next slice of the pass in hand. The pass has
-  /// `size` pixels (or rows), a slice at most `most`. True when the pass is complete.
+  /// Calls work(first, count) for this rank's part (Partition) of the next slice of the pass in hand. True when the
+  /// pass is complete.
   template <class Work>
-  bool advance(const Communicator& communicator, std::int64_t size, std::int64_t most, const Work& work) {
-    size_ = size;
+  bool advance(const Communicator& communicator, const Work& work) {
     const auto count =
-        std::clamp<std::int64_t>(std::llround(amount_.amount(communicator)), 1, std::min(most, size - done_));
+        std::clamp<std::int64_t>(std::llround(amount_.amount(communicator)), 1, std::min(most_, size_ - done_));
     amount_.timed(static_cast<double>(count), [&] {
-      Partition(communicator, size).for_own(done_, count, [&](std::int64_t first, std::int64_t own) {
+      Partition(communicator, size_).for_own(done_, count, [&](std::int64_t first, std::int64_t own) {
         work(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(own));
       });
     });
     done_ += count;
-    if (done_ < size) return false;
+    if (done_ < size_) return false;
     done_ = 0;
     return true;
   }
@@ -67,7 +71,7 @@ public:
   }
 
 private:
-  std::int64_t size_, done_ = 0;
+  std::int64_t size_, most_, done_ = 0;
   SliceSize amount_;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device's buffers in a checkpoint, piece by piece, without the pieces that are all 0. So the host holds no second
-// film, and an empty film takes no room.
+// A device's buffers in a checkpoint, in pieces, without those that are all 0, so an empty film takes no room.
 #pragma once
 #include "base/bytes.h"
 #include "base/communicator.h"

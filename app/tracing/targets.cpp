@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/targets.h"
 
-#include "scene/bvh.h"
 #include "scene/ray.h"
 #include "tracing/scales.h"
 
@@ -46,9 +45,8 @@ std::pair<Piece, Piece> halves(const scene::Mesh& mesh, Triangles triangles) {
 }
 
 /// Spheres about slices of an ellipsoid across its longest half axis a; the longer it is for its thickness, the more
-/// slices. With x in lengths of a, a slice from x to x + w lies within w a / 2 of its middle along the axis. It lies
-/// within sqrt(1 - x'^2) times the next longest half axis off the axis, where x' is the slice's least distance from the
-/// centre.
+/// slices. With x in lengths of a, a slice from x to x + w lies within w a / 2 of its middle along the axis, and off it
+/// within sqrt(1 - x'^2) times the next longest half axis, x' its least distance from the centre.
 std::vector<scene::Sphere> slices(const scene::Ellipsoid& ellipsoid) {
   std::array<glm::dvec3, 3> axes{ellipsoid.half_axes[0], ellipsoid.half_axes[1], ellipsoid.half_axes[2]};
   std::ranges::sort(axes, [](const glm::dvec3& a, const glm::dvec3& b) { return glm::length(a) > glm::length(b); });
@@ -93,8 +91,7 @@ scene::Sphere everything(const scene::Scene& scene) {
       for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)})
         points.push_back(light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v));
   const auto [low, high] = box_about(points);
-  // The sphere is larger than it needs to be, so that rounding leaves no light on its surface or outside. It is not a
-  // point where there is only one point.
+  // The sphere is larger than it needs to be, so that no light is on its surface, and never a point.
   return {0.5f * (low + high), std::max(0.51f * glm::length(high - low), 1e-3f)};
 }
 
@@ -130,8 +127,7 @@ double towards_targets_w(const scene::Light& light, const std::vector<scene::Sph
   return light.power_w * std::min(1.0, steradians / (4 * pi));
 }
 
-// Each sphere's shadow is a disc. Points spread evenly over it (Vogel's sunflower) count by 1 / (number of discs over
-// the point), so the union is measured once.
+// Each sphere's shadow is a disc. Points spread over it (Vogel's sunflower) count by 1 / (discs over the point).
 double mean_shadow(const std::vector<scene::Sphere>& spheres) {
   constexpr int directions = 32, points = 64;
   constexpr double pi = std::numbers::pi, golden_angle = pi * 0.7639320225002103; // pi (3 - sqrt 5)
@@ -190,8 +186,7 @@ std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene) {
     *widest = std::move(first);
     pieces.push_back(std::move(second));
     const double shadow = mean_shadow(spheres_of(pieces));
-    // One more sphere costs every photon a little, so it must make the shadow smaller by more than the estimate's
-    // error.
+    // One more sphere costs a little, so it must gain more than the estimate's error.
     if (shadow < 0.97 * best_shadow) {
       best = spheres_of(pieces);
       best_shadow = shadow;

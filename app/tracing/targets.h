@@ -10,20 +10,17 @@ namespace nephroid::tracing {
 
 inline constexpr std::size_t max_targets = MAX_TARGETS;
 
-/// At most max_targets spheres that hold all dielectric and mirror objects. With one sphere about a bunny, two of three
-/// photons miss the bunny. So an object is cut into pieces, each with its own sphere, as long as that makes the
-/// spheres' shadow smaller. Empty without such objects.
+/// At most max_targets spheres that hold all dielectric and mirror objects. An object is cut into pieces as long as
+/// that makes the spheres' shadow smaller: with one sphere, two of three photons miss a bunny.
 std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene);
 
 /// One sphere about the whole scene and every light, so that a light sends its photons wherever it shines.
 scene::Sphere everything(const scene::Scene& scene);
 
-/// Whether the light can send anything towards a point of the sphere. False where the sphere is outside a spot's cone
-/// or behind an area light. True in doubt.
+/// False where the sphere is outside a spot's cone or behind an area light. True in doubt.
 bool reaches(const scene::Light& light, const scene::Sphere& sphere);
 
-/// The power in W that the light sends towards the targets. Where targets overlap it counts twice, which is good enough
-/// for the allocation.
+/// The power in W that the light sends towards the targets. It counts twice where targets overlap.
 double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit);
 
 /// The area of the shadow that the spheres cast together: the mean over directions, in square units, to about 2 %.

@@ -102,7 +102,6 @@ glm::dvec4 reflected(const Spectrum& light, const float* reflectance, const std:
   return sum;
 }
 
-/// One row of WavelengthTables::reflectance.
 const float* reflectance_row(const WavelengthTables& tables, int reflector) {
   return tables.reflectance.data() + static_cast<std::size_t>(reflector) * wavelength_count;
 }

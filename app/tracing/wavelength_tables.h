@@ -19,19 +19,16 @@ struct WavelengthTables {
   COLOUR_TABLES(TABLE_VECTOR)
   bool clusters_spread = false;           ///< whether n differs inside any cluster
   std::vector<std::vector<double>> share; ///< [light][cluster]: part of the light's power
-  std::vector<std::vector<double>>
-      seen; ///< [light][cluster]: what the eye makes of that share, (X + Y + Z) / 3: see worth() in scales.h
+  std::vector<std::vector<double>> seen;  ///< [light][cluster]: what the eye makes of that: worth() in scales.h
   int attenuator_count = 0, reflector_count = 0;
 };
 
-/// [401]: the coefficient a by which exp(-a s) of a wavelength's light is left. In glass that absorbs (Beer and
-/// Lambert) a = 4 pi k / lambda in 1/m, and s is in metres. On a mirror a = -ln(reflectance), and s is the number of
-/// reflections. Empty for a material without losses.
+/// [401]: the coefficient a by which exp(-a s) of a wavelength's light is left. In glass (Beer and Lambert) a = 4 pi k
+/// / lambda in 1/m, and s is in metres; on a mirror a = -ln(reflectance), and s counts reflections.
 std::vector<double> loss_coefficients(const scene::Material& material);
 
 /// Fills every table, and materials[i].type, reflector and attenuator. Only materials that an object uses get rows.
-/// lights: the scene's, with the environment last. lit: which wavelengths stay in the clusters. A cluster's index of
-/// refraction is the mean over all wavelengths that it had.
+/// lights: the environment is last. lit: which wavelengths stay in the clusters, whose n is the mean over all.
 WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::vector<const scene::Light*>& lights,
                                         const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
                                         std::vector<shared::DeviceMaterial>& materials);
@@ -42,8 +39,7 @@ WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::ve
 /// Where all glass that disperses follows one curve, s is its index of refraction n. A path's place is a much
 /// straighter function of n than of the wavelength, and wavelengths that share an n share a place, however far apart
 /// they are, so a cluster of an anomalous curve is stretched as a whole. Where there are several curves, s is the
-/// wavelength in nm, and clusters are split into runs of neighbours. none: no glass bends two wavelengths differently,
-/// so there is nothing to stretch.
+/// wavelength in nm, and clusters are split into runs of neighbours. none: no glass disperses.
 enum class StretchParameter { none, index, wavelength };
 
 StretchParameter stretch_parameter(const scene::Scene& scene);
@@ -58,8 +54,7 @@ struct StretchTables {
 
 /// For clusters of WavelengthTables; lit: which wavelengths stay in them. Light between two wavelengths is interpolated
 /// linearly: each of the 401 has a tent of +-1 nm, whose arms end at the neighbours. Beyond 380 and 780 nm the curve
-/// goes on straight. An arm across a jump of the curve (more than 8 times the steps on both sides) has length 0,
-/// because nothing lies between.
+/// goes on straight. An arm across a jump of the curve (8 times the steps on both sides) has length 0.
 StretchTables make_stretch_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters,
                                   const std::vector<bool>& lit);
 

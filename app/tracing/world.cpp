@@ -7,19 +7,6 @@ namespace {
 #define ADD_BYTES(type, name, words) bytes += bytes_of(from.name);
 #define UPLOAD(type, name, words) buffers.name = compute::Buffer(context, words, from.name);
 
-std::uint64_t wavelength_bytes(const WavelengthTables& from) {
-  std::uint64_t bytes = 0;
-  WAVELENGTH_TABLES(ADD_BYTES)
-  COLOUR_TABLES(ADD_BYTES)
-  return bytes;
-}
-
-std::uint64_t stretch_bytes(const StretchTables& from) {
-  std::uint64_t bytes = 0;
-  STRETCH_TABLES(ADD_BYTES)
-  return bytes;
-}
-
 std::uint64_t object_bytes(const SceneTables& from) {
   std::uint64_t bytes = 0;
   OBJECT_TABLES(ADD_BYTES)
@@ -27,21 +14,14 @@ std::uint64_t object_bytes(const SceneTables& from) {
   return bytes;
 }
 
-void upload_objects(const compute::Context& context, const SceneTables& from, SceneBuffers& buffers) {
-  OBJECT_TABLES(UPLOAD)
-  TARGET_TABLES(UPLOAD)
+std::uint64_t wavelength_bytes(const SceneTables& tables) {
+  std::uint64_t bytes = 0;
+  const auto add = [&](const WavelengthTables& from) { WAVELENGTH_TABLES(ADD_BYTES) COLOUR_TABLES(ADD_BYTES) };
+  const auto add_stretch = [&](const StretchTables& from) { STRETCH_TABLES(ADD_BYTES) };
+  add(tables.wavelengths);
+  add_stretch(tables.stretch);
+  return bytes;
 }
-
-void upload_wavelengths(const compute::Context& context, const WavelengthTables& from, SceneBuffers& buffers) {
-  WAVELENGTH_TABLES(UPLOAD)
-  COLOUR_TABLES(UPLOAD)
-}
-
-void upload_stretch(const compute::Context& context, const StretchTables& from, SceneBuffers& buffers) {
-  STRETCH_TABLES(UPLOAD)
-}
-
-void upload_sky(const compute::Context& context, const SkyTables& from, SceneBuffers& buffers) { SKY_TABLES(UPLOAD) }
 
 } // namespace
 
@@ -57,11 +37,10 @@ std::uint64_t tree_bytes(const scene::Bvh& bvh) { return bytes_of(bvh.nodes) + b
 
 std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh,
                                                  const SceneTables& tables) {
-  std::vector<plan::PlannedBuffer> rows{
-      {"tree", tree_bytes(bvh)},
-      {"triangles", scene.object_of_primitive.size() * sizeof(DevicePrimitive)},
-      {"objects and lights", object_bytes(tables)},
-      {"wavelength tables", wavelength_bytes(tables.wavelengths) + stretch_bytes(tables.stretch)}};
+  std::vector<plan::PlannedBuffer> rows{{"tree", tree_bytes(bvh)},
+                                        {"triangles", scene.object_of_primitive.size() * sizeof(DevicePrimitive)},
+                                        {"objects and lights", object_bytes(tables)},
+                                        {"wavelength tables", wavelength_bytes(tables)}};
   if (tables.sky) rows.push_back({"environment as a light", sky_bytes(tables)});
   return rows;
 }
@@ -79,11 +58,15 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
                     const SceneTables& tables) {
   SceneBuffers buffers;
   upload_surfaces(context, scene, bvh, buffers);
-  upload_objects(context, tables, buffers);
-  upload_wavelengths(context, tables.wavelengths, buffers);
-  upload_stretch(context, tables.stretch, buffers);
   static const SkyTables no_sky;
-  upload_sky(context, tables.sky ? *tables.sky : no_sky, buffers);
+  const auto upload_objects = [&](const SceneTables& from) { OBJECT_TABLES(UPLOAD) TARGET_TABLES(UPLOAD) };
+  const auto upload_wavelengths = [&](const WavelengthTables& from) { WAVELENGTH_TABLES(UPLOAD) COLOUR_TABLES(UPLOAD) };
+  const auto upload_stretch = [&](const StretchTables& from) { STRETCH_TABLES(UPLOAD) };
+  const auto upload_sky = [&](const SkyTables& from) { SKY_TABLES(UPLOAD) };
+  upload_objects(tables);
+  upload_wavelengths(tables.wavelengths);
+  upload_stretch(tables.stretch);
+  upload_sky(tables.sky ? *tables.sky : no_sky);
   return buffers;
 }
 

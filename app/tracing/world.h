@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -31,8 +30,7 @@ std::uint64_t sky_bytes(const SceneTables& tables);
 std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh,
                                                  const SceneTables& tables);
 
-/// Uploads the tables that say where surfaces are, and leaves the others. Throws failed where the device has not enough
-/// memory.
+/// Uploads the tables that say where surfaces are. Throws failed where the device has not enough memory.
 void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh,
                      SceneBuffers& buffers);
 
@@ -61,16 +59,14 @@ struct World {
     kernel.run(global, local, arguments, own);
   }
 
-  /// Queues a kernel and waits for it, so that a slice's time is that of its work (slices.h). Slices of several
-  /// launches queue() and wait once.
+  /// Queues a kernel and waits for it, so that a slice's time is that of its work (slices.h).
   void run(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own,
            std::initializer_list<compute::Argument> more = {}) {
     queue(kernel, global, local, own, more);
     context.finish();
   }
 
-  /// How many photons one work item follows, one after the other. A CPU has several, because it pays there that an item
-  /// adds up its own sums first.
+  /// How many photons one work item follows: on a CPU several, because an item adds up its own sums first.
   unsigned photons_per_item() const { return context.device().type == "cpu" ? 16 : 1; }
   /// The defines of a kernel that run_photons runs.
   compute::Defines photon_defines() const {

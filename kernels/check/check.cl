@@ -64,8 +64,7 @@ kernel void interfaces(global const float4* in, global float4* out, uint count) 
   out[i] = (float4)(cos_t, r, 0.0f, 0.0f);
 }
 
-// in: a direction that falls on the plane z = 0, and n_i / n_t. out: the reflected one; the refracted one and its
-// cosine.
+// in: a direction that meets the plane z = 0, and n_i / n_t. out: the reflected one; the refracted one, its cosine.
 kernel void directions(global const float4* in, global float4* out, uint count) {
   const uint i = get_global_id(0);
   if (i >= count) return;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exact sums of film.h over arrays, for app/check and tests. NEPHROID_CHECK_HALVES builds them as for a device
-// without 64-bit atomics.
+// The exact sums of film.h over arrays. NEPHROID_CHECK_HALVES: as for a device without 64-bit atomics.
 #ifdef NEPHROID_CHECK_HALVES
 #undef NEPHROID_INT64_ATOMICS
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Algorithm 3.1 of the thesis: photons of parallel light from one direction meet an object of glass or a mirror, and
-// mark each sphere about its middle that they cross afterwards, outside of it. Light that never met the object marks
-// nothing: it is no caustic.
+// mark each sphere about its middle that they cross afterwards, outside of it.
 #include "kernels/environment/sphere_map.h"
 #include "kernels/tracing/emission.h"
 #include "kernels/tracing/low_discrepancy.h"
@@ -17,8 +16,7 @@
 #endif
 
 typedef struct {
-  // [sphere][texel]: the texel's channels, then power times the way it goes, over STEEPEST. A photon's sums lie
-  // together.
+  // [sphere][texel]: the texel's channels, then power times the way it goes, over STEEPEST.
   volatile __global long* film;
   __global const float* radii; // ascending
   int count, side;              // how many spheres; texels across a map
@@ -84,7 +82,6 @@ static inline Carried carried_by(__global const float4* light_rgb, const Band* b
 }
 
 // Sends photons first .. first + count - 1 of a direction, whose number keys its random numbers. scale: quanta a watt.
-// energy: sums of power, without colour.
 __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const float4* light_rgb,
                    __global const float* radii, volatile __global long* film,
                    volatile __global long* energy, // [OUTCOME_COUNT]
@@ -112,8 +109,7 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
     for (int surface_number = 0; surface_number <= scene.max_surfaces; ++surface_number) {
       const Hit hit = next_hit(&world, &path);
       const bool leaves = hit.primitive == NEPHROID_NO_PRIMITIVE;
-      // A photon that meets nothing more is outside, even of an open mesh that it entered by the surface and left by
-      // the hole.
+      // A photon that meets nothing more is outside, even of an open mesh that it left by the hole.
       if (met && (leaves || is_in_air(&path.media))) {
         const Carried carried = carried_by(light_rgb, &band, power * left_of(&world, &path, &band));
         mark_spheres(&spheres, path.origin, path.direction, leaves ? INFINITY : hit.t, &carried);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics on what stands around the object (thesis 3.2): E r^2 of all lights in texels of the cube of receivers, by
-// looking up the spheres of every light there. And light in the air, by adding all those up into one set of spheres
-// first (Algorithm 3.5).
+// Caustics on what stands around the object (thesis 3.2): E r^2 of all lights in texels of the cube of receivers, from
+// the spheres of every light. And light in the air, by one set of spheres that adds them up (Algorithm 3.5).
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cube of receivers: six square faces seen from the middle of the caustic object. Faces, s and t are those of
 // app/environment/segment/cube.h; a texel's number counts face after face and row after row.
-#ifndef NEPHROID_CUBE_H
-#define NEPHROID_CUBE_H
-
 typedef struct {
   int face;
   float s, t; // -1..1
@@ -74,5 +71,3 @@ static inline CubeTexels cube_texels(float3 direction, int size) {
                            {(1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v}};
   return four;
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stands around the caustic object: the distance from the object's middle to the first surface, in texels of a
-// cube that some path from the eye needs, and that surface's unit normal on the middle's side. The tree is that of the
-// scene without the object.
+// cube that some path needs, and its unit normal on the middle's side. The tree is without the object.
 #include "kernels/environment/cube.h"
 #include "kernels/tracing/world.h"
 

@@ -12,8 +12,7 @@ static inline DeviceEnd nowhere(void) {
   return end;
 }
 
-// Traces a path to its end. first: its next hit, where known. weight: linear sRGB. likelier: the path takes the
-// likelier of reflection and refraction.
+// Traces a path to its end. first: its next hit, where known. weight: linear sRGB. likelier: as in trace_to_diffuse.
 static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, bool known, const Band* band,
                                float3 weight, uint2 seed, uint sample, uint pixel, bool likelier) {
   DeviceEnd end = nowhere();
@@ -45,16 +44,14 @@ static inline void want(const DeviceEnd* end, float4 middle, int size, __global 
       states[four.texels[i]] = RECEIVER_WANTED; // other items may write the same
 }
 
-// The part of light that glass reflects, from a path's directions before and after. n_ratio: index of refraction, near
-// over far.
+// The part of light that glass reflects, from a path's directions before and after. n_ratio: n, near over far.
 static inline float reflected_share(float3 direction, float3 reflected, float n_ratio) {
   const float3 normal = normalize(reflected - direction);
   const float cos_i = -dot(direction, normal), cos_t = refracted_cosine(cos_i, n_ratio);
   return cos_t < 0.0f ? 1.0f : fresnel_reflectance(cos_i, cos_t, n_ratio, 1.0f);
 }
 
-// The band of a path for one channel of the picture: a wavelength drawn by its share of white light in that channel.
-// channel_cdf: [channel][401].
+// The band of a path for one channel: a wavelength drawn by its share of that. channel_cdf: [channel][401].
 static inline Band band_of_channel(__global const float* channel_cdf, int channel, float u) {
 #if NEPHROID_JITTER
   const Band band = {0, choose(channel_cdf + channel * WAVELENGTH_COUNT, WAVELENGTH_COUNT, u), 1.0f};

@@ -29,9 +29,8 @@ typedef struct {
   __global const float* parts_seen; // parts of the environment's light: [texel][3]
 } Receivers;
 
-// The caustics' irradiance on a surface in linear sRGB, and in *seen the part of the environment's light that it gets.
-// They are 0 and 1 where something hides it from the object. Of the four texels about it, those that see the same
-// surface count.
+// The caustics' irradiance on a surface in linear sRGB, and in *seen the part of the environment's light that it gets;
+// 0 and 1 where something hides it. Of the four texels about it, those that see the same surface count.
 static inline float3 caustic_irradiance(const Receivers* receivers, const DeviceEnd* end, float3* seen) {
   *seen = (float3)(1.0f);
   const float3 way = end->place.xyz - receivers->middle.xyz;

@@ -8,8 +8,7 @@
 // The offset of shadow rays from a receiver, as a part of its distance: beyond the rounding of both.
 #define OFF_RECEIVER 1e-4f
 
-// list: texels. facing: from receivers.cl. sky_lights: for each light the unit direction to it, then its flux in linear
-// sRGB. parts_seen: [texel][3].
+// facing: from receivers.cl. sky_lights: each light's unit direction, then its flux. parts_seen: [texel][3].
 __kernel void shadows(WORLD_ARGUMENTS, __global const uint* list, uint first, uint count, int size, float4 middle,
                       __global const float* distances, __global const float4* facing, __global const float4* sky_lights,
                       int light_count, __global float* parts_seen) {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map of a caustic sphere: a square whose texels all have the same solid angle, by the octahedral map of Clarberg
 // (2008, "Fast equal-area mapping of the (hemi)sphere using SIMD"). app/environment/bake/bake.h has the same in double.
-#ifndef NEPHROID_SPHERE_MAP_H
-#define NEPHROID_SPHERE_MAP_H
-
 #include "kernels/tracing/light.h"
 
 // The texel of a direction, row after row, in a map of side x side texels. direction: any length but 0.
@@ -27,5 +24,3 @@ static inline float3 sphere_direction(int texel, int side) {
   const float sine = r * sqrt(2.0f - r * r);
   return (float3)(copysign((float2)(cos(azimuth) * sine, sin(azimuth) * sine), place), copysign(1.0f - r * r, height));
 }
-
-#endif

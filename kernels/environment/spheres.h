@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Looks up caustic spheres: E r^2 in a direction and at a distance from the object's middle, interpolated between
-// spheres and between texels. Beyond the largest sphere E r^2 stays, because light that has left the object thins out
-// by the inverse square.
-#ifndef NEPHROID_SPHERES_H
-#define NEPHROID_SPHERES_H
-
+// spheres and texels. Beyond the largest sphere E r^2 stays: light thins out by the inverse square.
 #include "kernels/environment/render_types.h"
 #include "kernels/environment/sphere_map.h"
 
@@ -27,8 +23,7 @@ static inline Shell shell_at(__global const float* radii, int count, float dista
   return shell;
 }
 
-// The factor of E r^2 within the smallest sphere. E stays that of the sphere, because light inside is not known, and
-// r^2 goes to 0.
+// The factor of E r^2 within the smallest sphere: E stays, because light inside is not known, and r^2 goes to 0.
 static inline float held(__global const float* radii, float distance) {
   const float part = fmin(distance / radii[0], 1.0f);
   return part * part;
@@ -202,5 +197,3 @@ static inline AirLight compiled_air(__global const float* air, const DeviceSpher
   }
   return sum;
 }
-
-#endif

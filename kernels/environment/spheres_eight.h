@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // caustic_of_sets of spheres.h for a CPU: eight sets side by side, in its vectors.
-#ifndef NEPHROID_SPHERES_EIGHT_H
-#define NEPHROID_SPHERES_EIGHT_H
-
 DEFINE_STORED_PLACE(eight_stored_places, float8)
 
 // Reads two consecutive stored numbers at once, the first into the lower half.
@@ -74,8 +71,7 @@ static inline float8 eight_factors(const Maps* maps, __global const DeviceEightS
   return along + beyond * (radial - along);
 }
 
-// E r^2 of all sets, linear sRGB, on a surface that lies in a unit direction from the middle and has a unit normal on
-// the object's side. beyond: as in eight_factors.
+// E r^2 of all sets, linear sRGB, on a surface in a unit direction from the middle. beyond: as in eight_factors.
 static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* spheres,
                                      __global const DeviceEightSets* sets, int eights, float3 direction, Shell shell,
                                      float beyond, float3 normal) {
@@ -117,5 +113,3 @@ static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* sphe
   }
   return spheres->scale * (float3)(sum_of_eight(red), sum_of_eight(green), sum_of_eight(blue));
 }
-
-#endif

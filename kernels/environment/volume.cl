@@ -18,8 +18,7 @@ static inline float phase_function(float cosine, float together, int rayleigh, f
   return (1.0f - mean * mean) / (4.0f * PI_F * base * sqrt(base));
 }
 
-// Adds the light of each block of block x block pixels. distances: the whole cube of receivers'. extinction: 1 / unit.
-// sums: [pixel][3].
+// Adds the light of each block of pixels. distances: the whole cube. extinction: 1 / unit. sums: [pixel][3].
 __kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const float* radii, DeviceSpheres spheres,
                      float4 object_x, float4 object_y, float4 object_z, __global const float* distances, int size,
                      float4 middle, DeviceCamera camera, float extinction, float albedo, int rayleigh, float anisotropy,

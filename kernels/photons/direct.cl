@@ -29,8 +29,7 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
   return xyz;
 }
 
-// Follows a path that has hit `first` on through glass and mirrors in one band. Returns the XYZ radiance of that band's
-// light alone.
+// Follows a path that has hit `first` on through glass and mirrors. Returns the XYZ radiance of its band alone.
 IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band,
                        __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel) {
   Surface surface;
@@ -62,8 +61,7 @@ __kernel void direct(WORLD_ARGUMENTS,
   const Hit hit = next_hit(&world, &path);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
-  // One call of follow() for both cases: half the code, and Intel's vectoriser gets two of them wrong
-  // (docs/checking.md).
+  // One call of follow() for both cases: Intel's vectoriser gets two of them wrong (docs/checking.md).
   const bool unbent = is_unbent(&world, &camera, &hit);
   const uint paths = unbent ? 1u : PATHS_THROUGH_GLASS;
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = path.direction;

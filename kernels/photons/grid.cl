@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts photons into the buckets of photon_map.h by counting: count_photons, sum_blocks, scan_blocks, scatter_photons,
-// in this order.
+// Sorts photons into the buckets of photon_map.h: count_photons, sum_blocks, scan_blocks, then scatter_photons.
 #include "kernels/photons/photon_map.h"
 
 // The number of blocks in which the buckets are added up, one a work item.

@@ -3,9 +3,6 @@
 // (emission.h: target and place in it) are drawn from a histogram over [0, 1)^3 instead of evenly. A photon counts for
 // less as it comes more often (importance sampling in the space of random numbers, as in Lepage 1978, "A new algorithm
 // for adaptive multidimensional integration"). app/photons/effort/emitters.h says how the histogram is learned.
-#ifndef NEPHROID_GUIDE_H
-#define NEPHROID_GUIDE_H
-
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/shared_types.h"
 
@@ -14,8 +11,7 @@ typedef struct {
   uint cell;     // cell of the histogram
 } Guided;
 
-// Draws one of `count` bins, which it returns, and a place in it: *number in [0, 1) becomes another such number. cdf:
-// exact_cdf of the bins.
+// Returns one of `count` bins, and in *number, in [0, 1), a place in it. cdf: exact_cdf of the bins.
 static inline int draw_bin(__global const float* cdf, int count, float* number, float* density) {
   const int bin = choose(cdf, count, *number);
   const float before = chance_before(cdf, bin), chance = cdf[bin] - before;
@@ -25,8 +21,7 @@ static inline int draw_bin(__global const float* cdf, int count, float* number, 
   return bin;
 }
 
-// numbers: xyz of a photon's emission. guide: the light's GUIDE_FLOATS: cdfs of the first number, of the second given
-// the first, of the third given both.
+// numbers: xyz of a photon's emission. guide: the light's cdfs of the first number, of the second, of the third.
 static inline Guided guide_numbers(__global const float* guide, float4* numbers) {
   Guided guided = {1.0f, 0u};
   float3 moved = numbers->xyz;
@@ -45,5 +40,3 @@ static inline Guided guide_numbers(__global const float* guide, float4* numbers)
   guided.cell = (uint)(j * GUIDE_BINS_Z + k);
   return guided;
 }
-
-#endif

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "indirect": light that met a diffuse surface before the last one. Photons of one wavelength each leave the
 // lights everywhere, are bent by glass and mirrors and scattered by diffuse surfaces. From the second diffuse surface
-// on, each adds to the pixel that sees it. Only absorption changes a photon's power: Fresnel's reflectance and that of
-// a diffuse surface decide by chance.
+// on, each adds to the pixel that sees it. Only absorption changes its power: reflectances decide by chance.
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
 
 // A photon in any direction that the light shines in. everything: one target, about the scene and the lights. An area
-// light sends the same power along every cosine-distributed direction; emit() has uniform directions, which would be
-// noisier.
+// light's directions are cosine-distributed, each of the same power; emit() has uniform ones, which are noisier.
 static inline Emission emit_everywhere(DeviceLight light, __global const DeviceTarget* everything,
                                        const DeviceScene* scene, float4 random, float2 place) {
   if (is_light(&light, LIGHT_AREA)) {
@@ -27,7 +25,6 @@ typedef struct {
   DeviceCamera camera;
 } Receiver;
 
-// A photon on its way.
 typedef struct {
   Path path;
   SET_ASIDE float shading;  // product of shading_ratio over the diffuse surfaces behind it
@@ -93,8 +90,7 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
   }
 }
 
-// Follows the photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. emitters: one for each
-// light that has photons.
+// Follows `count` photons offset, offset + stride, ... of a pass. emitters: one for each light that has photons.
 __kernel void
 indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything, __global const DeviceEmitter* emitters,
          int emitter_count,

@@ -10,8 +10,7 @@ namespace nephroid::shared {
 // The number of cells in a block; all belong to one reflector.
 #define LAYER_BLOCK 64
 
-// The fixed places that the survey in kernels/photons/relight_direct.cl samples in each pixel before the first pass,
-// and the paths of each through glass.
+// The places that the survey (relight_direct.cl) samples in each pixel, and the paths of each through glass.
 #define SURVEY_PLACES 4
 #define SURVEY_PATHS 2
 

@@ -4,9 +4,6 @@
 // m^-2) and every surface were white. So that a surface's reflectance can be multiplied later, a pixel has a cell for
 // each reflector that it sees: most have one, those at an edge two. Sums are 64-bit fixed point: [block of LAYER_BLOCK
 // cells][half][layer][cell of the block], so that weighing reads one stretch of memory.
-#ifndef NEPHROID_LAYERS_H
-#define NEPHROID_LAYERS_H
-
 #include "kernels/photons/layer_types.h"
 #include "kernels/tracing/attenuation.h"
 #include "kernels/tracing/film.h"
@@ -60,5 +57,3 @@ static inline float cluster_left(const SpectralTables* tables, const Losses* los
   for (int i = first; i < end; ++i) sum += wavelength_left(tables, losses, tables->cluster_wavelengths[i]);
   return sum / (float)(end - first);
 }
-
-#endif

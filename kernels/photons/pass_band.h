@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bands of a pass's paths in a cluster. Photons and paths from the eye that meet on a surface must share one
-// wavelength. Where they jitter, a cluster has NEPHROID_PASS_BANDS wavelengths a pass, one from each part of it, and
-// paths that meet belong to one part.
-#ifndef NEPHROID_PASS_BAND_H
-#define NEPHROID_PASS_BAND_H
-
+// wavelength. Where they jitter, a cluster has NEPHROID_PASS_BANDS wavelengths a pass, one from each part of it.
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/world.h"
 
@@ -27,5 +23,3 @@ static inline Band band_of_pass(const World* world, int cluster, int part, uint2
   const float u = ((float)part + within) / (float)NEPHROID_PASS_BANDS;
   return choose_band(world, world->scene.light_count, cluster, u < 0x1.fffffep-1f ? u : 0x1.fffffep-1f);
 }
-
-#endif

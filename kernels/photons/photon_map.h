@@ -8,19 +8,14 @@
 // than those bits count, no two of its runs look for the same key, so no photon counts twice, and a run may read beyond
 // its end. Photons with the same key from elsewhere are too far away.
 //
-// Powers are whole numbers of quanta, so a sum does not depend on the order of a bucket's photons, which atomic
-// operations decide.
-#ifndef NEPHROID_PHOTON_MAP_H
-#define NEPHROID_PHOTON_MAP_H
-
+// Powers are whole quanta, so a sum does not depend on a bucket's order, which atomic operations decide.
 #include "kernels/photons/photon_map_types.h"
 
 // A search may span this many rows each way, so its radius may be up to 3 cells.
 #define GRID_ROWS 8
 #define GRID_KEY_BITS 7 // one for the block, three for each coordinate of the row
 
-// The group of light in `cluster` on one side of an object's surface: light leaks neither to other objects nor through
-// a sheet.
+// The group of light on one side of an object's surface: light leaks neither to other objects nor through a sheet.
 static inline int photon_group(int object, bool front, int cluster, int object_count) {
   return (cluster * object_count + object) * 2 + (front ? 1 : 0);
 }
@@ -29,8 +24,7 @@ static inline int3 grid_cell(float3 position, float inverse_cell) {
   return convert_int3_sat_rtn(position * inverse_cell);
 }
 
-// The first bucket of a block of cells, ix from a multiple of GRID_BLOCK on. The finalizer of MurmurHash3 (Appleby
-// 2011) mixes odd multiples.
+// The first bucket of a block of cells. The finalizer of MurmurHash3 (Appleby 2011) mixes odd multiples.
 static inline uint grid_block_bucket(int group, int block, int iy, int iz, uint mask) {
   uint h = (uint)group * 0x9E3779B1u ^ (uint)block * 0x27D4EB2Fu ^ (uint)iy * 0x85EBCA77u ^ (uint)iz * 0xC2B2AE3Du;
   h = (h ^ h >> 16) * 0x85EBCA6Bu;
@@ -51,7 +45,6 @@ typedef struct {
   PhotonGrid grid;
 } PhotonMap;
 
-// The buffers of a PhotonMap, as kernel arguments.
 #define PHOTON_MAP_ARGUMENTS                                                                                           \
   __global const uint *starts, __global const float *sorted_positions, __global const int *sorted_values,              \
       PhotonGrid grid
@@ -151,5 +144,3 @@ static inline Gathered gather_photons(const PhotonMap* map, float3 position, flo
   settle(&g);
   return g.sum;
 }
-
-#endif

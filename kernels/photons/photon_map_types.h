@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structs of photon maps that the host and kernels share, with their sizes checked on the host. Lengths are in scene
-// units.
+// Structs of photon maps that the host and kernels share. Lengths are in scene units.
 #ifndef NEPHROID_PHOTON_MAP_TYPES_H
 #define NEPHROID_PHOTON_MAP_TYPES_H
 

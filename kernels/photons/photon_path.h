@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A photon's way from a light through glass and mirrors to its end: its emitter, its random numbers at the start, what
-// it meets.
-#ifndef NEPHROID_PHOTON_PATH_H
-#define NEPHROID_PHOTON_PATH_H
-
+// A photon's way from a light to its end: its emitter, its random numbers at the start, what it meets.
 #include "kernels/tracing/emission.h"
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/outcomes.h"
@@ -141,8 +137,7 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
   return end;
 }
 
-// Like trace_way for a photon of a light, but also works out what is left of it and its colour. share: the fraction of
-// the light's power that the photon's band began with.
+// Like trace_way, but also works out what is left and its colour. share: of the light's power in the photon's band.
 static inline PhotonEnd trace_photon(const World* world, Source source, const Band* band, float share, Path* path,
                                      uint2 seed, uint iteration, uint photon) {
   PhotonEnd end = trace_way(world, band, path, seed, iteration, photon);
@@ -152,9 +147,7 @@ static inline PhotonEnd trace_photon(const World* world, Source source, const Ba
     const float4 carried = carried_light(world, &path->losses, source, band, reflector);
     end.xyz = carried.xyz;
     if (path->losses.any)
-      end.left = share != 0.0f ? carried.w / share : 1.0f; // of the environment it may be 0 where colours cancel
+      end.left = share != 0.0f ? carried.w / share : 1.0f; // an environment's may be 0 where colours cancel
   }
   return end;
 }
-
-#endif

@@ -31,8 +31,7 @@ static inline long squared(float3 xyz, float scale) {
 }
 
 // Stores a photon on a diffuse surface in its slot of a photon map. band: pass_band.h. xyz: reflected power. scale:
-// quanta per unit of power. dither: uniform in [0, 1), so that rounding is right in the mean. Where a photon carries
-// too much, it returns false and leaves the slot empty.
+// quanta per unit of power. dither: uniform in [0, 1). False where a photon carries too much; then the slot is empty.
 static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band,
                                 int object_count, float3 xyz, float scale, float dither) {
   const float3 quanta = xyz * scale;
@@ -51,9 +50,8 @@ static inline bool store_photon(__global StoredPhoton* slot, const Surface* surf
   return fits;
 }
 
-// Follows the photons offset, offset + stride, offset + 2 stride, ... (count of them) of the batch with the number
-// `iteration`. map_pass is the pass of the maps, which has one batch or several. energy counts what photons carry,
-// whatever a smooth receiver's shading normals make of it.
+// Follows `count` photons offset, offset + stride, ... of the batch `iteration`. map_pass is the pass of the maps.
+// energy counts what photons carry, whatever a smooth receiver's shading normals make of it.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
                       volatile __global long* moments,                              // with NEPHROID_MOMENTS: [emitter]

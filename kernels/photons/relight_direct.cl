@@ -37,8 +37,7 @@ __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global 
   }
 }
 
-// Takes one sample of every pixel of rows first_row .. first_row + row_count - 1. mean_reflectance: [cluster, then all
-// of them][reflector].
+// Takes one sample of every pixel of some rows. mean_reflectance: [cluster, then all clusters][reflector].
 __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global const float* mean_reflectance,
                      __global const float* luminance_share, // [cluster]: for a flat spectrum
                      LAYER_FILM_ARGUMENTS(unbent), LAYER_FILM_ARGUMENTS(bent), volatile __global long* energy,

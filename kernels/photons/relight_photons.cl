@@ -4,10 +4,8 @@
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
 
-// Follows the photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. All lamps have 1 W or
-// 1 W m^-2. An emitter's `share` is its cluster's present power in the unit of energy_scale; only the energy counters
-// need it. Every photon counts alike, however many its emitter has in a pass: that number may change when the light
-// does.
+// Follows `count` photons offset, offset + stride, ... of a pass. All lamps have 1 W or 1 W m^-2. An emitter's `share`
+// is its cluster's present power in the unit of energy_scale, for the energy counters. Every photon counts alike.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       LAYER_FILM_ARGUMENTS(film), __global const float* mean_reflectance, // [cluster][reflector]
                       volatile __global long* energy,                                     // [OUTCOME_COUNT]

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds a photon on a diffuse surface to the pixel that sees it. Unbiased: no map, no radius.
-#ifndef NEPHROID_SPLAT_H
-#define NEPHROID_SPLAT_H
-
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/world.h"
 
@@ -11,8 +8,7 @@
 #define NEPHROID_OCCLUSION 1
 #endif
 
-// The place of `position` in the picture, in pixels from the top left corner. *depth is along the view, positive before
-// the camera.
+// The place of `position` in pixels from the top left corner. *depth is along the view, positive before the camera.
 static inline float2 place_on_film(const DeviceCamera* camera, float3 position, float* depth) {
   const float3 to_camera = camera->position.xyz - position;
   const float z = -dot(to_camera, camera->forward.xyz);
@@ -69,5 +65,3 @@ static inline Splat splat_at(const World* world, const DeviceCamera* camera, con
 #endif
   return splat;
 }
-
-#endif

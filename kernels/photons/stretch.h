@@ -7,9 +7,6 @@
 // along D + x D', where x is its s less the photon's (differential.h). It is cut with the tangent plane of the receiver
 // exactly: a place on a grazing receiver is anything but linear in x. A wavelength's light lies as a tent over +-1 nm:
 // so it is interpolated linearly between the 401 wavelengths, and their sum stays the same.
-#ifndef NEPHROID_STRETCH_H
-#define NEPHROID_STRETCH_H
-
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
 
@@ -17,12 +14,10 @@
 #define STRETCH_SPLATS 16
 #define STRETCH_SHORTEST 0.1f
 // The largest angle, in radians, between the last directions of a streak for which D' predicts them. A rainbow of
-// streaks some three times as wide is off by 3 % (docs/notebook/differentials.md). Nor is a photon stretched where D'
-// is infinite, at the critical angle.
+// streaks some three times as wide is off by 3 % (docs/notebook/differentials.md). It excludes the critical angle, too.
 #define STRETCH_WIDEST 0.01f
 
-// How a photon is splatted: `count` splats, of the light of its whole cluster or of its band alone. With more than one
-// splat, each goes where its own wavelength does.
+// How a photon is splatted: `count` splats, of its whole cluster's light or its band's, each at its wavelength's place.
 typedef struct {
   int count;
   bool whole;
@@ -70,8 +65,7 @@ static inline bool surface_beside(const World* world, const PhotonEnd* end, floa
   return surface->object == end->surface.object && dot(surface->geometric, end->surface.geometric) > 0.7f;
 }
 
-// Whether light whose s is larger by x reaches the receiver. *film_place becomes its place in the picture, in pixels.
-// *beside is set where it is in another triangle.
+// Whether light whose s is larger by x reaches the receiver. *film_place: in pixels. *beside: in another triangle.
 static inline bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
                                float x, float2* film_place, bool* beside) {
   float3 place;
@@ -86,8 +80,7 @@ static inline bool stretch_end(const World* world, const DeviceCamera* camera, c
                         &triangle);
 }
 
-// Tries to stretch a photon from `low` to `high`, its own s being 0. False where that leaves the receiver or goes too
-// far to be predicted.
+// Tries to stretch a photon from `low` to `high`, its own s being 0. False: that leaves the receiver or goes too far.
 static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
                                 float low, float high, Stretch* stretch) {
   if (!(fabs(high - low) * length(path->differential.direction) <= STRETCH_WIDEST)) return false;
@@ -104,8 +97,7 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
 
 // Decides how a deposited photon is splatted: as a streak of its cluster; if that is impossible, with jitter, as a
 // streak of its own wavelength; else as a point. The first choice depends on where the whole cluster's light goes and
-// not on the photon's wavelength. So it is the same for all wavelengths, and no light is counted twice or lost where a
-// streak would leave the receiver.
+// not on the photon's wavelength, so no light is counted twice or lost where a streak would leave the receiver.
 static inline Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
                                  const Band* band) {
 #if NEPHROID_DIFFERENTIALS
@@ -120,16 +112,14 @@ static inline Stretch stretch_of(const World* world, const DeviceCamera* camera,
   return point;
 }
 
-// The place of a wavelength's light in its tent, as s less `origin`. u in [0, 1) inverts the tent's distribution, whose
-// lower half is (1 + t)^2 / 2, t in -1..0.
+// The place of a wavelength's light in its tent, as s less `origin`; u inverts (1 + t)^2 / 2 for t in -1..0.
 static inline float place_in_tent(const World* world, int wavelength, float u, float origin) {
   const float t = u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u);
   const float4 place = world->stretch_place[wavelength];
   return place.x - origin + (t < 0.0f ? -t * (place.y - place.x) : t * (place.z - place.x));
 }
 
-// Picks a wavelength of the photon's cluster by u in [0, 1), as choose_band does, and a place in its tent. *x becomes
-// its s less the photon's.
+// Picks a wavelength of the cluster by u as choose_band does, and a place in its tent. *x: its s less the photon's.
 static inline Band stretched_band(const World* world, int light, const Band* photon, float u, float* x) {
   const int cluster = made_late(photon->cluster), first = world->tables.cluster_first[cluster],
             count = world->tables.cluster_first[cluster + 1] - first;
@@ -143,7 +133,6 @@ static inline Band stretched_band(const World* world, int light, const Band* pho
   return band;
 }
 
-// One of a photon's splats.
 typedef struct {
   Surface surface;
   uint triangle;
@@ -184,5 +173,3 @@ static inline bool strand_of(const World* world, const PhotonEnd* end, const Pat
   return true;
 #endif
 }
-
-#endif

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The losses of a path, wavelength by wavelength: Beer-Lambert absorption exp(-a s) in glass, with a = 4 pi k / lambda
 // in 1/m and s in metres, and a mirror's reflectance as exp(-a s) with a = -ln(reflectance) and s the number of
-// reflections. A path carries the s of each. Where no material of the scene has losses, NEPHROID_ATTENUATORS is 0 and
-// all of this compiles to nothing.
-#ifndef NEPHROID_ATTENUATION_H
-#define NEPHROID_ATTENUATION_H
-
+// reflections. A path carries the s of each. Without losses NEPHROID_ATTENUATORS is 0 and this compiles to nothing.
 #include "kernels/tracing/registers.h"
 #include "kernels/tracing/scene_table_types.h"
 
@@ -73,5 +69,3 @@ static inline float4 attenuated_sum(const SpectralTables* tables, const Losses* 
   }
   return sum;
 }
-
-#endif

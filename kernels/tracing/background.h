@@ -2,9 +2,6 @@
 // The environment as a latitude-longitude picture at infinity: its colour in a direction, and that colour's XYZ at one
 // wavelength. The picture has colours, but glass bends and absorbs wavelengths. So a colour stands for a spectrum, the
 // sum of the fixed spectra of the three sRGB primaries (app/optics/colour.h).
-#ifndef NEPHROID_BACKGROUND_H
-#define NEPHROID_BACKGROUND_H
-
 #include "kernels/tracing/light.h"
 #include "kernels/tracing/shared_types.h"
 
@@ -18,11 +15,9 @@ static inline float3 texel_at(const Background* b, int row, int column) {
   return vload3((size_t)row * (size_t)b->size.width + (size_t)column, b->texels);
 }
 
-// Linear sRGB in a direction, bilinear between the middles of texels. Columns go on around; the first and the last row
-// are repeated beyond the picture.
+// Linear sRGB in a direction, bilinear between texels. Columns go on around; the first and the last row are repeated.
 static inline float3 background_rgb(const Background* b, float3 direction) {
-  // The azimuth goes from the middle of the picture, -z, to its right, +x. A map that is turned to the left about +y is
-  // looked up farther to the right.
+  // The azimuth goes from the picture's middle, -z, to its right, +x. A map turned to the left is read to the right.
   const float azimuth = atan2(direction.x, -direction.z) / (2.0f * PI_F) + 0.5f + b->size.turns;
   const float zenith = atan2(sqrt(direction.x * direction.x + direction.z * direction.z), direction.y) / PI_F;
   const float x = (azimuth - floor(azimuth)) * (float)b->size.width - 0.5f;
@@ -43,5 +38,3 @@ static inline float3 background_xyz(const Background* b, float3 rgb, int wavelen
   __global const float4* primary = b->primary_xyz + 3 * wavelength;
   return rgb.x * primary[0].xyz + rgb.y * primary[1].xyz + rgb.z * primary[2].xyz;
 }
-
-#endif

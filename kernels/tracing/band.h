@@ -2,9 +2,6 @@
 // The wavelengths of a path: a whole cluster, at the cluster's mean index of refraction (thesis 4.1), which is biased.
 // Or with NEPHROID_JITTER one wavelength that stands for its cluster, which is not. It is drawn for each path; with
 // photon maps a few are drawn for a pass (pass_band.h).
-#ifndef NEPHROID_BAND_H
-#define NEPHROID_BAND_H
-
 #include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/random.h"
 
@@ -31,5 +28,3 @@ static inline Band wavelength_of_cluster(int cluster, __global const int* wavele
   const Band band = {cluster, wavelengths[member], 1.0f / (cdf[member] - before)};
   return band;
 }
-
-#endif

@@ -15,11 +15,7 @@
 // The sign of an edge function is never wrong, only sometimes zero, and zero counts as inside. So a ray cannot pass
 // between two triangles that share an edge (Woop, Benthin and Wald 2013, "Watertight ray/triangle intersection"). Boxes
 // are grown by more than every rounding error of the tests, so the tree loses no primitive. Among hits at the same
-// distance the lowest primitive id wins, so the answer depends on the mesh and the ray alone, not on how the tree was
-// built.
-#ifndef NEPHROID_BVH_H
-#define NEPHROID_BVH_H
-
+// distance the lowest primitive id wins, so the answer depends on the mesh and the ray alone.
 // Entries of the traversal stack: at least Bvh::stack of the tree.
 #ifndef NEPHROID_BVH_STACK
 #define NEPHROID_BVH_STACK 96
@@ -79,9 +75,8 @@ static inline int bvh_mask4(int4 m) {
 #endif
 static inline int bvh_lowest_bit(int mask) { return 31 - clz(mask & -mask); }
 
-// The minimum and maximum of numbers or vectors that may be infinite, as an empty box and the t_max of an endless ray
-// are. min and max are undefined there (OpenCL 1.2, 6.12.4). fmin and fmax also handle NaN, which costs 20 to 40 %
-// here.
+// The minimum and maximum of numbers that may be infinite, as an empty box and an endless ray's t_max are. min and max
+// are undefined there (OpenCL 1.2, 6.12.4), and fmin and fmax handle NaN, which costs 20 to 40 % here.
 #define BVH_MIN(a, b) ((a) < (b) ? (a) : (b))
 #define BVH_MAX(a, b) ((a) > (b) ? (a) : (b))
 
@@ -98,8 +93,7 @@ typedef struct {
 #endif
 } BvhRay;
 
-// The components of a along the consecutive axes kx, ky, kz. They are not read by index, because a GPU would put the
-// vector into memory for that.
+// The components of a along kx, ky, kz, not read by index: a GPU would put the vector into memory for that.
 static inline float3 bvh_axes(float3 a, int kz) { return kz == 0 ? a.yzx : kz == 1 ? a.zxy : a; }
 
 // Finds where a ray from afar passes the scene's middle, where small objects are. Writes its point nearest to the
@@ -165,8 +159,7 @@ static inline int bvh_boxes(global const float* node, const BvhRay* r, float t_m
 // Tests a block of 4 triangles. Returns the mask of those hit within (t_min, t_max], with distance and barycentrics.
 static inline int bvh_triangles(global const float* block, const BvhRay* r, float t_min, float t_max, float4* t,
                                 float4* u, float4* v) {
-// A fused multiply-add would round one of the two products of an edge function and not the other, and its sign could be
-// wrong.
+// A fused multiply-add would round one of an edge function's two products alone, and its sign could be wrong.
 #pragma OPENCL FP_CONTRACT OFF
   global const float* x = block + 4 * r->kx;
   global const float* y = block + 4 * r->ky;
@@ -197,8 +190,7 @@ static inline float3 bvh_to_unit_sphere(global const float* ellipsoid, float3 wa
 // is cut at its point nearest to the centre first, so that neither the origin's distance nor a small half chord costs
 // precision (Haines, Günther and Akenine-Möller 2019, "Precision improvements for ray/sphere intersection"): with l the
 // nearest point of the line to the unit sphere's centre and e the direction there, |l + s e| = 1 at s = +-sqrt((1 -
-// l^2) / e^2). leaves: the ray starts on the ellipsoid, so one of its two hits is the start. The other lies ahead where
-// the middle between them does.
+// l^2) / e^2). leaves: the ray starts on the ellipsoid; its other hit lies ahead where the middle does.
 static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r, float t_min, float t_max, bool leaves,
                                  float* t, float3* unit) {
   const float3 from_centre = r->origin - vload3(0, ellipsoid);
@@ -217,13 +209,31 @@ static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r,
   *unit = fma((float3)(s), e, l);
   return (!leaves || middle > 0.0f) && *t > t_min && *t <= t_max;
 }
+
+// Replaces `hit` by a nearer hit of `count` ellipsoids in blocks, if there is one.
+static inline void bvh_ellipsoids(global const float* blocks, int count, const BvhRay* ray, float t_min, uint skip,
+                                  Hit* hit) {
+  for (int i = 0; i < count; ++i) {
+    global const float* ellipsoid = blocks + 40 * (size_t)(i / 3) + 13 * (i % 3);
+    const uint id = ((global const uint*)ellipsoid)[12];
+    if (id == NEPHROID_NO_PRIMITIVE) break;
+    float t;
+    float3 unit;
+    if (!bvh_ellipsoid(ellipsoid, ray, t_min, hit->t, id == skip, &t, &unit)) continue;
+    if (t == hit->t && id >= hit->primitive) continue;
+    hit->t = t;
+    hit->u = unit.x;
+    hit->v = unit.y;
+    hit->w = unit.z;
+    hit->primitive = id;
+  }
+}
 #endif
 
 #if NEPHROID_BVH_SCALAR
 #include "kernels/tracing/bvh_scalar.h"
 #else
-// The closest hit with t_min < t <= t_max, without triangle `skip` and the place where the ray leaves ellipsoid `skip`.
-// No hit: t is t_max.
+// The closest hit with t_min < t <= t_max, without triangle `skip` and where the ray leaves ellipsoid `skip`.
 static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min,
                               float t_max, uint skip) {
   Hit hit = {t_max, 0.0f, 0.0f, NEPHROID_NO_PRIMITIVE};
@@ -294,20 +304,7 @@ static inline Hit bvh_closest(global const float* nodes, global const float* blo
         } while (mask);
       }
 #if NEPHROID_ELLIPSOIDS
-      for (int i = 0; i < 3 * (~at >> 2 & 3); ++i) {
-        global const float* ellipsoid = blocks + 40 * (size_t)(first + count + i / 3) + 13 * (i % 3);
-        const uint id = ((global const uint*)ellipsoid)[12];
-        if (id == NEPHROID_NO_PRIMITIVE) break;
-        float t;
-        float3 unit;
-        if (!bvh_ellipsoid(ellipsoid, &ray, t_min, hit.t, id == skip, &t, &unit)) continue;
-        if (t == hit.t && id >= hit.primitive) continue;
-        hit.t = t;
-        hit.u = unit.x;
-        hit.v = unit.y;
-        hit.w = unit.z;
-        hit.primitive = id;
-      }
+      bvh_ellipsoids(blocks + 40 * (size_t)(first + count), 3 * (~at >> 2 & 3), &ray, t_min, skip, &hit);
 #endif
     }
 #if BVH_LEAF_ONLY
@@ -409,5 +406,3 @@ static inline bool any_hit(global const float* nodes, global const float* blocks
     to = t_max;
   }
 }
-
-#endif

@@ -2,9 +2,6 @@
 // The traversal of bvh.h for devices whose work items have no vectors: one box and one triangle at a time, with few
 // registers. A level of the tree that waits is a node and the mask of its children still to be visited, 5 bytes. The
 // nearest is found anew each time, within the closest hit so far. Hits are the same bit for bit.
-#ifndef NEPHROID_BVH_SCALAR_H
-#define NEPHROID_BVH_SCALAR_H
-
 // The levels of the tree that may wait: at least Bvh::depth.
 #ifndef NEPHROID_BVH_DEPTH
 #define NEPHROID_BVH_DEPTH 96
@@ -70,20 +67,7 @@ static inline void bvh_leaf(global const float* blocks, int leaf, const BvhRay* 
     hit->primitive = id;
   }
 #if NEPHROID_ELLIPSOIDS
-  for (int i = 0; i < 3 * (~leaf >> 2 & 3); ++i) {
-    global const float* ellipsoid = blocks + 40 * (size_t)(first + triangles / 4 + i / 3) + 13 * (i % 3);
-    const uint id = ((global const uint*)ellipsoid)[12];
-    if (id == NEPHROID_NO_PRIMITIVE) break;
-    float t;
-    float3 unit;
-    if (!bvh_ellipsoid(ellipsoid, ray, t_min, hit->t, id == skip, &t, &unit)) continue;
-    if (t == hit->t && id >= hit->primitive) continue;
-    hit->t = t;
-    hit->u = unit.x;
-    hit->v = unit.y;
-    hit->w = unit.z;
-    hit->primitive = id;
-  }
+  bvh_ellipsoids(blocks + 40 * (size_t)(first + triangles / 4), 3 * (~leaf >> 2 & 3), ray, t_min, skip, hit);
 #endif
 }
 
@@ -127,5 +111,3 @@ static inline bool bvh_any(global const float* nodes, global const float* blocks
                            float t_max, uint skip) {
   return bvh_hit(nodes, blocks, root, &ray, t_min, t_max, skip, true).primitive != NEPHROID_NO_PRIMITIVE;
 }
-
-#endif

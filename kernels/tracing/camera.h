@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where paths from the eye begin: their direction, and the wavelength cluster of one that meets glass.
-#ifndef NEPHROID_CAMERA_H
-#define NEPHROID_CAMERA_H
-
 #include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/random.h"
 
@@ -15,8 +12,7 @@ static inline float3 primary_direction(const DeviceCamera* camera, int column, i
 }
 
 // A number in [0, 1) for path `path` of `paths` in a frame: steps of the golden ratio, so that a pixel's numbers spread
-// evenly. Even and odd frames have starts and counts of their own, so that they are independent, as the film's two
-// halves must be.
+// evenly. Even and odd frames have starts and counts of their own, as the film's independent halves must.
 static inline float golden_place(uint2 seed, uint frame, uint path, uint paths, uint pixel, uint stream) {
   const uint half_of_frames = frame & 1u, step = (frame >> 1) * paths + path;
   const uint start = philox4x32((uint4)(pixel, half_of_frames, 0u, stream), seed).x;
@@ -28,5 +24,3 @@ static inline int choose_cluster(__global const float* cdf, int count, uint2 see
                                  uint pixel, uint stream) {
   return choose(cdf + 1, count, golden_place(seed, frame, path, paths, pixel, stream));
 }
-
-#endif

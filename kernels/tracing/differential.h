@@ -7,9 +7,6 @@
 // and n' = dn/ds of every material is given. Where s is the wavelength in nm, a path moves by P' a nanometre; where s
 // is the index n itself, by P' a unit of n. Emission does not depend on the wavelength, so every path starts with P' =
 // 0 and D' = 0. The surfaces that a path meets, and whether they reflect it, are held fixed.
-#ifndef NEPHROID_DIFFERENTIAL_H
-#define NEPHROID_DIFFERENTIAL_H
-
 #include "kernels/tracing/surface.h"
 
 // 0: splats are points, and all of this compiles to nothing.
@@ -84,8 +81,7 @@ static inline void differential_to_surface(Differential* d, float3 direction, fl
 #endif
 }
 
-// Carries them across a bend at that surface. direction: before the bend. n_i, n_t and their n': before and after an
-// interface, equal at a mirror.
+// Carries them across a bend at that surface. direction: before it. n_i, n_t and their n': equal at a mirror.
 static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint primitive,
                                              const Surface* surface, float3 direction, const Bend* bend, float n_i,
                                              float n_t, float d_n_i, float d_n_t) {
@@ -102,5 +98,3 @@ static inline void differential_through_bend(Differential* d, const Geometry* ge
                                    : reflected_differential(direction, d->direction, bend->normal, d_normal);
 #endif
 }
-
-#endif

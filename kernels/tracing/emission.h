@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons sent towards the caustic objects only. Every object has a bounding sphere, a target; a photon picks a target
 // in proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly
-// inside it. Where targets overlap, `count` of them could have made the same photon, so its density is count / (sum of
-// all): no light is counted twice and none is left out.
-#ifndef NEPHROID_EMISSION_H
-#define NEPHROID_EMISSION_H
-
+// inside it. Where `count` targets overlap, each could have made a photon: its density is count / (sum of all).
 #include "kernels/tracing/light.h"
 
 typedef struct {
@@ -22,8 +18,7 @@ static inline void make_frame(float3 n, float3* x, float3* y) {
   *y = (float3)(b, sign + n.y * n.y * a, -n.y);
 }
 
-// A direction about the unit vector n with the density cos(theta) / pi: uniform on the disc below the half sphere
-// (Malley).
+// A direction about the unit vector n with the density cos(theta) / pi: uniform on the disc below (Malley).
 static inline float3 cosine_direction(float3 n, float u, float v) {
   float3 x, y;
   make_frame(n, &x, &y);
@@ -55,7 +50,6 @@ static inline float one_minus_cos_of(float4 sphere, float3 from) {
   return sine2 / (1.0f + sqrt(1.0f - sine2));
 }
 
-// Whether a photon from `from` meets a sphere.
 static inline bool meets_sphere(float4 sphere, float3 from, const Emission* photon) {
   const float3 start = sphere.xyz - from, way = sphere.xyz - photon->origin;
   const float along = dot(way, photon->direction), radius2 = sphere.w * sphere.w;
@@ -64,9 +58,8 @@ static inline bool meets_sphere(float4 sphere, float3 from, const Emission* phot
   return along + photon->behind > 0.0f && dot(aside, aside) <= radius2;
 }
 
-// Points a photon from `from` at the target at `centre`. A direction is rounded by 2^-24, which at a far and small
-// target is a visible part of its size. There the photon begins in the plane through the target's centre and reaches
-// back to the light.
+// Points a photon from `from` at the target at `centre`. A direction is rounded by 2^-24, which a far and small target
+// shows. There the photon begins in the plane through its centre and reaches back to the light.
 static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 random, Emission* photon) {
   const float3 way = centre - from;
   const float distance2 = dot(way, way); // 0 in the middle of a target, where any axis will do
@@ -107,8 +100,7 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
     float towards_targets = 0.0f;
     for (int i = 0; i < target_count; ++i)
       towards_targets += 2.0f * PI_F * one_minus_cos_of(targets[i].centre_radius, light->position.xyz);
-    if (light->solid_angle <=
-        towards_targets) { // the spot's own cone is the tighter one: every photon carries the same
+    if (light->solid_angle <= towards_targets) { // the spot's cone is the tighter one: every photon carries the same
       float below;
       float3 aside;
       emission.direction = sample_cone(light->direction.xyz, light->one_minus_cos, random.y, random.z, &below, &aside);
@@ -124,8 +116,7 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
   return emission;
 }
 
-// Radiance is power / (area pi); the place is uniform on the area, so a photon carries power cos(theta) / pi per
-// steradian.
+// Radiance is power / (area pi), and the place uniform, so a photon carries power cos(theta) / pi per steradian.
 static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random,
                                       float2 place) {
   Emission emission;
@@ -167,8 +158,7 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
   return emission;
 }
 
-// targets: the whole table, in which a light has its own list. light: the environment as source_of (world.h) turns it
-// into a light for one photon.
+// targets: the whole table. light: the environment as source_of (world.h) turns it into a light for one photon.
 static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
                             float4 random, float2 place) {
   targets += light->first_target;
@@ -177,5 +167,3 @@ static inline Emission emit(const DeviceLight* light, __global const DeviceTarge
   if (is_light(light, LIGHT_AREA)) return emit_from_area(light, targets, random, place);
   return emit_from_point(light, targets, random);
 }
-
-#endif

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path from the eye through glass and mirrors to the first diffuse surface, and the unbent light that each lamp sends
-// there.
-#ifndef NEPHROID_EYE_PATH_H
-#define NEPHROID_EYE_PATH_H
-
+// A path from the eye through glass and mirrors to the first diffuse surface, and each lamp's unbent light there.
 #include "kernels/tracing/emission.h"
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/world.h"
 
-// A path through glass follows one cluster and one branch of each reflection, so it is noisy: a pixel that sees glass
-// or a mirror takes this many paths a sample.
+// A path through glass is noisy: a pixel that sees glass or a mirror takes this many paths a sample.
 #define PATHS_THROUGH_GLASS 4u
 
 // The irradiance in W m^-2 that a light's whole spectrum gives a surface point, without shadows, and the way to the
 // light. It is I cos(theta) / d^2, with the intensity I = P / (4 pi) of a point, P / (its cone's solid angle) of a
-// spot, and P cos(theta') / pi of an area light, where one place stands for all. It is E cos(theta) for directional
-// light.
+// spot, P cos(theta') / pi of a place of an area light; E cos(theta) for directional light.
 typedef struct {
   float irradiance;
   float3 direction;
@@ -46,8 +40,7 @@ static inline Arrival arrive_from(const DeviceLight* light, float3 position, flo
 }
 
 // The four numbers of sample `sample` of an area light or the environment at a pixel. A pass takes `paths` samples. The
-// samples of one half of the film follow a sequence; the halves are independent. Sets 0 and 1 of a sequence belong to
-// photons.
+// samples of each half of the film follow a sequence, whose sets 0 and 1 belong to photons.
 static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sample, uint paths, uint pixel) {
 #if NEPHROID_LOW_DISCREPANCY
   const uint frame = sample / paths, index = frame / NEPHROID_FILM_HALVES * paths + sample % paths;
@@ -116,8 +109,7 @@ static inline bool is_unbent(const World* world, const DeviceCamera* camera, con
 // Continues a path through glass and mirrors in one band to a diffuse surface or out of the scene. known: `hit` is its
 // next hit. `hit` and, at a diffuse surface, `surface` become those of its end. Returns the factor of the radiance
 // there, 0 where the path is lost: a path keeps radiance over n^2 (Nicodemus 1963, "Radiance"). stream: for the numbers
-// that choose between reflection and refraction. likelier: the path takes the likelier of the two everywhere, for a
-// preview without noise.
+// that choose between reflection and refraction. likelier: takes the likelier of both, for a preview.
 IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool known, const Band* band, uint2 seed,
                          uint sample, uint paths, uint pixel, uint stream, bool likelier, Surface* surface) {
   float radiance_scale = 1.0f;
@@ -148,5 +140,3 @@ IN_PLACE float reach_diffuse(const World* world, Path* path, Hit* hit, const Ban
       trace_to_diffuse(world, path, hit, true, band, seed, sample, paths, pixel, stream, false, surface);
   return hit->primitive == NEPHROID_NO_PRIMITIVE ? 0.0f : radiance_scale;
 }
-
-#endif

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The film: 64-bit fixed point, so that a sum does not depend on the order of its terms and is the same bits on every
-// device.
-#ifndef NEPHROID_FILM_H
-#define NEPHROID_FILM_H
-
-// A film has one image or, for an estimate of its error, two independent halves: [half][pixel][3]. Iterations, which
-// are passes or batches of splatted photons, take turns.
+// The film: 64-bit fixed point, so that a sum has the same bits in any order and on every device.
+// A film has one image or, for an estimate of its error, two independent halves: [half][pixel][3].
 #ifndef NEPHROID_FILM_HALVES
 #define NEPHROID_FILM_HALVES 2
 #endif
@@ -13,8 +8,7 @@
 // One contribution may be at most 2^42 quanta: 2^20 of the largest still fit below 2^63.
 #define FILM_LIMIT 0x1p42f
 
-// The limit of a contribution by the sample of that number. A pixel's first `enough` samples have `limit`; any further
-// ones have FILM_LIMIT too.
+// The limit of a sample's contribution: `limit` for a pixel's first `enough` samples, then FILM_LIMIT too.
 static inline float limit_of_sample(uint number, uint enough, float limit) {
   return number < enough ? limit : fmin(limit, FILM_LIMIT);
 }
@@ -23,8 +17,7 @@ static inline float limit_of_sample(uint number, uint enough, float limit) {
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
 static inline void add_exactly(volatile __global long* sum, long value) { atom_add(sum, value); }
 #else
-// Adds two 32-bit halves with carry. Adding modulo 2^64 is associative, so once all have added, the bits are those of
-// the sum.
+// Adds two 32-bit halves with carry: adding modulo 2^64 is associative, so in the end the bits are the sum's.
 static inline void add_exactly(volatile __global long* sum, long value) {
   volatile __global uint* half_sum = (volatile __global uint*)sum;
   const uint low = (uint)value, before = atomic_add(half_sum, low);
@@ -40,8 +33,7 @@ static inline volatile __global long* film_of_iteration(volatile __global long* 
 }
 
 // Adds xyz * scale to a pixel. dither: uniform in [0, 1). With it a contribution of q quanta, however small, adds q in
-// the mean, where rounding to the nearest would lose all below a half. Returns false, and adds nothing, for a
-// contribution that is not finite or above `limit` quanta.
+// the mean, where rounding to the nearest would lose small ones. False: not finite, or above `limit`.
 static inline bool film_add_dithered(volatile __global long* film, int pixel, float3 xyz, float scale, float limit,
                                      float dither) {
   const float3 quanta = xyz * scale;
@@ -53,5 +45,3 @@ static inline bool film_add_dithered(volatile __global long* film, int pixel, fl
   add_exactly(sum + 2, convert_long_rte(quanta.z + shift));
   return true;
 }
-
-#endif

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Snell's law and Fresnel's equations at a smooth interface, for unpolarised light (Born and Wolf, Principles of
-// Optics, 1.5).
-#ifndef NEPHROID_FRESNEL_H
-#define NEPHROID_FRESNEL_H
-
+// Snell's law and Fresnel's equations for unpolarised light (Born and Wolf, Principles of Optics, 1.5).
 // cos of the refraction angle from sin(theta_t) = eta sin(theta_i), eta = n_i / n_t; negative: total internal
-// reflection. 1 - eta^2 (1 - cos_i^2) is written as a product of sums, which keeps its sign to within float spacing at
-// the critical angle.
+// reflection. 1 - eta^2 (1 - cos_i^2) is a product of sums, which keeps its sign at the critical angle.
 static inline float refracted_cosine(float cos_i, float eta) {
   const float sin_i = sqrt((1.0f - cos_i) * (1.0f + cos_i));
   const float sin_t = eta * sin_i;
@@ -30,5 +25,3 @@ static inline float3 reflect_about(float3 direction, float3 normal, float cos_i)
 static inline float3 refract_through(float3 direction, float3 normal, float cos_i, float cos_t, float eta) {
   return normalize(eta * direction + (eta * cos_i - cos_t) * normal);
 }
-
-#endif

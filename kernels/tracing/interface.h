@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path at the surface of a dielectric object: which media meet there, and whether the path is reflected or goes
-// through.
-#ifndef NEPHROID_INTERFACE_H
-#define NEPHROID_INTERFACE_H
-
+// A path at a dielectric's surface: which media meet there, and whether it is reflected or goes through.
 #include "kernels/tracing/media.h"
 #include "kernels/tracing/surface.h"
 
@@ -14,8 +10,7 @@
 
 // media: those that enclose the path; updated where it goes through. n_of: index of refraction by material, for the
 // path's cluster. choice: uniform in [0, 1), picks reflection with Fresnel's probability. *n_ratio: n on the near side
-// over n on the far side, 1 for a reflected path. Returns false where more than MEDIA_DEPTH media would enclose the
-// path.
+// over n on the far side, 1 for a reflected path. False: more than MEDIA_DEPTH media.
 static inline bool cross_interface(Media* media, const Surface* surface, __global const DeviceObject* objects,
                                    __global const float* n_of, float3 direction, float choice, Bend* bend,
                                    float* n_ratio) {
@@ -52,5 +47,3 @@ static inline bool cross_interface(Media* media, const Surface* surface, __globa
   }
   return true;
 }
-
-#endif

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Properties of a light that both emission and direct light need.
-#ifndef NEPHROID_LIGHT_H
-#define NEPHROID_LIGHT_H
-
 #include "kernels/tracing/shared_types.h"
 
 #define PI_F 3.14159265358979f
 
-// Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing, and with one type
-// there is no test at all.
+// Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing.
 #ifndef NEPHROID_LIGHT_TYPES
 #define NEPHROID_LIGHT_TYPES 31
 #endif
@@ -34,9 +30,6 @@ static inline bool has_places(const DeviceLight* light) {
   return is_light(light, LIGHT_AREA) || is_light(light, LIGHT_ENVIRONMENT);
 }
 
-// A point of an area light's rectangle.
 static inline float3 area_point(const DeviceLight* light, float2 place) {
   return light->position.xyz + (place.x - 0.5f) * light->edge_u.xyz + (place.y - 0.5f) * light->edge_v.xyz;
 }
-
-#endif

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Low-discrepancy numbers: a Sobol sequence of four dimensions, scrambled as Owen (1995) has it by hashing (Burley
-// 2020, "Practical hash-based Owen scrambling"). Each number on its own is uniform in [0, 1); sequences with different
-// keys are independent.
-#ifndef NEPHROID_LOW_DISCREPANCY_H
-#define NEPHROID_LOW_DISCREPANCY_H
-
+// 2020, "Practical hash-based Owen scrambling"). Sequences with different keys are independent.
 #include "kernels/tracing/random.h"
 
 #ifndef NEPHROID_LOW_DISCREPANCY
 #define NEPHROID_LOW_DISCREPANCY 1
 #endif
 
-// Direction numbers of the dimensions 2, 3 and 4 for each bit of the index (Joe and Kuo 2008, new-joe-kuo-6: primitive
-// polynomials x + 1, x^2 + x + 1, x^3 + x + 1 with initial numbers 1; 1, 3; 1, 3, 1). Dimension 1 is the index with its
-// bits in reverse.
+// Direction numbers of the dimensions 2, 3 and 4 for each bit of the index (Joe and Kuo 2008, new-joe-kuo-6:
+// polynomials x + 1, x^2 + x + 1, x^3 + x + 1, initial numbers 1; 1, 3; 1, 3, 1). Dimension 1 is the reversed index.
 __constant uint3 sobol_directions[32] = {
     (uint3)(0x80000000u, 0x80000000u, 0x80000000u), (uint3)(0xc0000000u, 0xc0000000u, 0xc0000000u),
     (uint3)(0xa0000000u, 0x60000000u, 0x20000000u), (uint3)(0xf0000000u, 0x90000000u, 0x50000000u),
@@ -56,8 +51,7 @@ static inline uint4 reverse_bits4(uint4 x) {
   return (uint4)(reverse_bits(x.x), reverse_bits(x.y), reverse_bits(x.z), reverse_bits(x.w));
 }
 
-// Point `index` of four dimensions, in units of 2^-32. sequence: its purpose, part of the key. set: sets of one
-// sequence are independent of each other.
+// Point `index` of four dimensions, in units of 2^-32. sequence: its purpose. Sets of one sequence are independent.
 static inline uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index) {
   const uint4 key = philox4x32((uint4)(sequence, set << 16 | STREAM_SOBOL), seed);
   // Every set but the first shuffles the order of its points by a key of its own, so that sets are not paired alike.
@@ -76,5 +70,3 @@ static inline uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index
 static inline float4 sobol4(uint2 seed, uint3 sequence, uint set, uint index) {
   return convert_float4(sobol4_bits(seed, sequence, set, index) >> 8) * 0x1p-24f;
 }
-
-#endif

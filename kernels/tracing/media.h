@@ -2,16 +2,11 @@
 // Nested dielectrics (Schmidt and Budge 2002): the objects that enclose a path, and the one of them that is the medium
 // there. An object counts once for each of its surfaces that was entered and not left, so overlapping shells of one
 // mesh act as their union. The list is 128 bits, not an array, so that a GPU keeps it in registers.
-#ifndef NEPHROID_MEDIA_H
-#define NEPHROID_MEDIA_H
-
 #include "kernels/tracing/shared_types.h"
 
 #define MEDIUM_MASK ((1ul << MEDIUM_BITS) - 1ul)
 
-static inline bool is_in_air(const Media* media) {
-  return media->latest == 0ul;
-} // the earlier ones come after four others
+static inline bool is_in_air(const Media* media) { return media->latest == 0ul; } // earlier ones come after four others
 
 // The object that was entered last; the list must not be empty.
 static inline int latest_medium(const Media* media) { return (int)(media->latest & MEDIUM_MASK) - 1; }
@@ -63,5 +58,3 @@ static inline void leave_medium(Media* media, int object) {
   } else
     media->earlier = (media->earlier & after) | (moved.earlier & ~after);
 }
-
-#endif

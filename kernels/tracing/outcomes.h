@@ -6,9 +6,6 @@
 //   OUTCOMES(outcomes);            at the top of a kernel that every item of a group leaves by its end
 //   add_outcome(outcomes, OUTCOME_LOST, quanta);
 //   add_outcomes(energy, outcomes);
-#ifndef NEPHROID_OUTCOMES_H
-#define NEPHROID_OUTCOMES_H
-
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/shared_types.h"
 
@@ -46,6 +43,4 @@ static inline void add_outcomes(volatile __global long* energy, Outcomes outcome
   for (int i = 0; i < OUTCOME_COUNT; ++i)
     if (outcomes[i] != 0) add_exactly(energy + i, outcomes[i]);
 }
-#endif
-
 #endif

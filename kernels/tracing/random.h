@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counter-based random numbers: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
-// A number is a function of (seed, stream, iteration, index, dimension) alone, so results do not depend on threads,
-// devices or resuming.
-#ifndef NEPHROID_RANDOM_H
-#define NEPHROID_RANDOM_H
-
+// A number is a function of (seed, stream, iteration, index, dimension) alone, not of threads, devices or resuming.
 #include "kernels/tracing/registers.h"
 
 // Streams separate numbers for different purposes with the same (iteration, index, dimension). No two kernels of a run
@@ -45,8 +41,7 @@ static inline float4 random4(uint2 seed, uint iteration, uint index, uint block,
   return convert_float4(bits >> 8) * 0x1p-24f;
 }
 
-// Chooses one of several things by a random number u in [0, 1): the first with cdf > u. cdf: [count], the last 1
-// (app/tracing/scales.h).
+// Chooses by u in [0, 1) the first of several things with cdf > u. cdf: [count], the last 1 (app/tracing/scales.h).
 static inline int choose(__global const float* cdf, int count, float u) {
   int low = 0, high = count - 1;
   while (low < high) {
@@ -61,5 +56,3 @@ static inline int choose(__global const float* cdf, int count, float u) {
 
 // The chance of all before the chosen one. Its own is cdf[chosen] less that.
 static inline float chance_before(__global const float* cdf, int chosen) { return chosen > 0 ? cdf[chosen - 1] : 0.0f; }
-
-#endif

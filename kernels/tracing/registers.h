@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Means to save registers, which are few on a GPU. They do nothing elsewhere.
-#ifndef NEPHROID_REGISTERS_H
-#define NEPHROID_REGISTERS_H
-
-// For a large function that takes a World. Without inlining it would need the World in memory, which kernels have as
-// arguments.
+// For a large function that takes a World, which it would need in memory without inlining.
 #define IN_PLACE static inline __attribute__((always_inline))
 
 // ROLLED: a loop that is not unrolled.
@@ -22,6 +18,4 @@ static inline int made_late(int number) {
 #define ROLLED
 #define SET_ASIDE
 static inline int made_late(int number) { return number; }
-#endif
-
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structs that the host writes and kernels read: one definition for both, with the sizes checked on the host.
+// Structs that the host writes and kernels read, with the sizes checked on the host.
 // Lengths are in scene units unless a name says metres.
 #ifndef NEPHROID_SHARED_TYPES_H
 #define NEPHROID_SHARED_TYPES_H
@@ -88,8 +88,7 @@ typedef struct {
   int padding;
 } DeviceLight;
 
-// A bounding sphere of a caustic object; photons are sent towards these only. The table has a list for each set of
-// spheres that some light reaches, one after the other.
+// A bounding sphere of a caustic object; photons are sent towards these only. The table has lists of them.
 typedef struct {
   float4 centre_radius; // w: radius
 } DeviceTarget;
@@ -142,7 +141,6 @@ typedef struct {
   float4 normal; // flat triangle: unit, outwards, w: how far a new ray starts from it; ellipsoid: third row
 } DevicePrimitive;
 
-// The scene as a whole, for every kernel.
 typedef struct {
   int root; // the tree's root: bvh.h
   int material_count;

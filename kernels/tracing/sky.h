@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The environment as a light: parallel light from every texel of a latitude-longitude picture (background.h says where
 // a texel is seen). A row is drawn by its flux, radiance times solid angle, then a texel of the row, then a place in
-// the texel by solid angle. So every photon carries nearly the same power, and a sun of a few texels gets its share of
-// photons.
+// the texel by solid angle. So every photon carries nearly the same power.
 //
 // A texel has one colour, which stands for r, g and b times the fixed spectra of the three sRGB primaries, as in
 // background.h. These are three rows of the tables of lights, from the environment's own on. A photon carries their
@@ -10,9 +9,6 @@
 //
 // Surfaces draw by the peaks alone, the light above the mean over all directions. Their second draw, by the cosine,
 // finds the rest (Karlik et al. 2019, "MIS compensation").
-#ifndef NEPHROID_SKY_H
-#define NEPHROID_SKY_H
-
 #include "kernels/tracing/light.h"
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/scene_table_types.h"
@@ -53,8 +49,7 @@ static inline SkyPlace sky_texel(const Sky* sky, float3 direction, int row, int 
   return place;
 }
 
-// The place in its bin of a number that has drawn the bin. It is the middle of the number's 2^-24, so that bins of a
-// few such numbers have no preferred side.
+// The place in its bin of a number that has drawn the bin. It is the middle of the number's 2^-24.
 static inline float place_in_bin(__global const float* cdf, int bin, float number) {
   const float before = chance_before(cdf, bin);
   return (number + 0x1p-25f - before) / (cdf[bin] - before);
@@ -90,5 +85,3 @@ static inline SkyPlace sky_in(const Sky* sky, float3 direction) {
   const int row = min((int)(zenith * (float)sky->size.height), sky->size.height - 1);
   return sky_texel(sky, direction, row, column);
 }
-
-#endif

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a hit of the tree to a point on a surface: exact position, geometric and shading normal, object.
-#ifndef NEPHROID_SURFACE_H
-#define NEPHROID_SURFACE_H
-
 #include "kernels/tracing/bvh.h"
 #include "kernels/tracing/fresnel.h"
 #include "kernels/tracing/scene_table_types.h"
@@ -11,7 +8,6 @@
 #define NEPHROID_SMOOTH 1
 #endif
 
-// The scene's triangles and ellipsoids as kernels see them.
 typedef struct {
   GEOMETRY_TABLES(TABLE_MEMBER)
   int root;
@@ -35,8 +31,7 @@ static inline int object_of_primitive(const Geometry* geometry, uint primitive) 
   return as_int(geometry->primitives[primitive].corner.w) >> 2;
 }
 
-// Unpacks a vertex normal of 21 bits a coordinate, in units of 2^-20, each moved to the top of a word. Its error is
-// below that in a mesh's file.
+// Unpacks a vertex normal of 21 bits a coordinate, in units of 2^-20, each moved to the top of a word.
 static inline float3 unpacked_normal(float low, float high) {
   const uint x = as_uint(low), y = as_uint(high);
   return (float3)((float)(int)(x << 11), (float)(int)(x >> 21 << 11 | y << 22), (float)(int)(y >> 10 << 11)) * 0x1p-31f;
@@ -89,16 +84,14 @@ static inline Surface ellipsoid_at(const DevicePrimitive* ellipsoid, float3 unit
 }
 #endif
 
-// How far a new ray starts from a triangle, so that it does not meet the surface that it leaves. Both the interpolated
-// point and the distance at which a ray meets a neighbour in the same plane are off by a few 2^-24 of the triangle's
-// largest coordinate.
+// How far a new ray starts from a triangle. The interpolated point and the distance at which a ray meets a neighbour in
+// the same plane are off by a few 2^-24 of the triangle's largest coordinate.
 static inline float triangle_offset(float3 corner, float3 edge_u, float3 edge_v) {
   const float3 size = max(fabs(corner), max(fabs(edge_u), fabs(edge_v)));
   return 0x1p-21f * max(max(size.x, size.y), size.z);
 }
 
-// Barycentric interpolation rounds relative to the triangle's size; origin + t * direction would round relative to the
-// distance.
+// Barycentric interpolation rounds relative to the triangle's size, origin + t * direction to the distance.
 static inline Surface surface_at(const Geometry* geometry, Hit hit) {
   const DevicePrimitive triangle = geometry->primitives[hit.primitive];
 #if NEPHROID_ELLIPSOIDS
@@ -126,9 +119,7 @@ static inline float3 start_on_side(const Surface* surface, float side) {
   return surface->position + side * surface->offset * surface->geometric;
 }
 
-// The limit of shading_ratio. Without it single photons near grazing would be bright specks where a facet gets next to
-// no light but its shading normal says otherwise. The light that is cut off is less than what arrives within 3.6
-// degrees of a facet.
+// The limit of shading_ratio, without which photons near grazing, within 3.6 degrees, would be bright specks.
 #define SHADING_RATIO_LIMIT 16.0f
 
 // The factor that makes a photon's flux on a triangle the irradiance about the shading normal, by which direct.cl
@@ -152,8 +143,7 @@ typedef struct {
   bool straight; // nothing bent it: the normal is not set
 } Bend;
 
-// normal: unit, on the side that the ray comes from. choice: uniform in [0, 1); the ray is reflected if it is below the
-// reflectance.
+// normal: unit, on the ray's side. choice: uniform in [0, 1); the ray is reflected if it is below the reflectance.
 static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t, float choice) {
   Bend bend;
   bend.normal = normal;
@@ -168,8 +158,7 @@ static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t
   return bend;
 }
 
-// Bends about the shading normal, unless that sends the ray to the wrong side of the triangle: then about the
-// triangle's own normal.
+// Bends about the shading normal, or where that sends the ray to the wrong side, about the triangle's own.
 static inline Bend bend_at_surface(float3 direction, const Surface* surface, float n_i, float n_t, float choice) {
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   const float3 geometric = side * surface->geometric, shading = side * surface->shading;
@@ -178,5 +167,3 @@ static inline Bend bend_at_surface(float3 direction, const Surface* surface, flo
   if (bend.transmitted ? leaves >= 0.0f : leaves <= 0.0f) bend = bend_at(direction, geometric, n_i, n_t, choice);
   return bend;
 }
-
-#endif

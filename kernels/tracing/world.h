@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // All of the scene that a path meets, in one struct, and how a path goes through it.
-#ifndef NEPHROID_WORLD_H
-#define NEPHROID_WORLD_H
-
 #include "kernels/tracing/attenuation.h"
 #include "kernels/tracing/band.h"
 #include "kernels/tracing/differential.h"
@@ -23,7 +20,6 @@ typedef struct {
   DeviceScene scene;
 } World;
 
-// A World's parts as kernel arguments.
 #define WORLD_ARGUMENTS WORLD_TABLES(TABLE_ARGUMENT) DeviceScene scene
 #define WORLD \
   {{GEOMETRY_TABLES(TABLE_VALUE) scene.root}, OBJECT_TABLES(TABLE_VALUE) {WAVELENGTH_TABLES(TABLE_VALUE)}, \
@@ -107,8 +103,7 @@ static inline void bend_differential(const World* world, Path* path, uint triang
 #endif
 }
 
-// Continues the path at a mirror or dielectric. choice: uniform in [0, 1). *n_ratio: n before over n after. False where
-// the path is inside too many media.
+// Continues the path at a mirror or dielectric. choice: uniform in [0, 1). *n_ratio, false: as in cross_interface.
 static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface,
                              const DeviceMaterial* material, const Band* band, float choice, float* n_ratio) {
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
@@ -133,8 +128,7 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   return true;
 }
 
-// A light for one photon or shadow ray. The environment becomes, in *light, directional light from one place, drawn by
-// `place`, two numbers in [0, 1).
+// A light for one photon. The environment becomes, in *light, directional light from one place, drawn by `place`.
 static inline Source source_of(const World* world, int index, float2 place, DeviceLight* light) {
   Source source = {index, (float3)(1.0f)};
   if (is_light(light, LIGHT_ENVIRONMENT)) {
@@ -178,8 +172,7 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
       .reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->scene.reflector_count + reflector];
 }
 
-// The light that a path in a band still carries after its losses, for a light of power 1. w: the power. xyz: what a
-// reflector sends back of it (-1: a white one).
+// What a path carries of a light of power 1 after its losses. w: the power. xyz: as a reflector (-1: white) sends it.
 IN_PLACE float4 carried_light(const World* world, const Losses* losses, Source source, const Band* band, int reflector)
 {
   if (is_of_environment(world, source.light))
@@ -207,5 +200,3 @@ static inline float band_share(const World* world, Source source, const Band* ba
            source.rgb.z * row_share(world, source.light + 2, band);
   return NEPHROID_JITTER && band->wavelength >= 0 ? row_share(world, source.light, band) : cluster_share;
 }
-
-#endif

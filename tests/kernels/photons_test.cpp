@@ -276,7 +276,7 @@ protected:
     static const test::TestKernels kernels(source);
     photons::PhotonMap map(kernels.context(), static_cast<std::uint32_t>(photons.size()));
     map.stored().write(photons);
-    map.build(cell, map.slots());
+    map.build(cell, static_cast<std::uint32_t>(photons.size()));
     const compute::Buffer<VisiblePoint> at(kernels.context(), "points", std::span<const VisiblePoint>(points));
     compute::Buffer<Sum> sums(kernels.context(), "sums", points.size());
     kernels.kernel("gather_all")

@@ -17,9 +17,8 @@ namespace nephroid::environment {
 namespace fs = std::filesystem;
 namespace {
 
-// z > 0 is the diamond |u| + |v| < 1 of the square from -1 to 1; z < 0 is folded out into its corners. In a quadrant
-// |u| + |v| = r, where r^2 = 1 - |z| is the share of the half sphere that is nearer to the pole, and |v| / r is the
-// azimuth in quarter turns.
+// z > 0 is the diamond |u| + |v| < 1 of the square from -1 to 1; z < 0 is folded out into its corners. |u| + |v| = r,
+// with r^2 = 1 - |z| the share of the half sphere nearer to the pole, and |v| / r is the azimuth in quarter turns.
 glm::dvec2 with_signs(const glm::dvec2& size, const glm::dvec2& signs) {
   return {std::copysign(size.x, signs.x), std::copysign(size.y, signs.y)};
 }

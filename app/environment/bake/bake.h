@@ -20,16 +20,14 @@
 
 namespace nephroid::environment {
 
-/// The map of a caustic sphere: a square whose texels all have the same solid angle, by the octahedral map of Clarberg
-/// (2008, "Fast equal-area mapping of the (hemi)sphere using SIMD"). kernels/environment/sphere_map.h has the same in
-/// single precision.
+/// The map of a caustic sphere: a square whose texels have the same solid angle, the octahedral map of Clarberg (2008,
+/// "Fast equal-area mapping of the (hemi)sphere using SIMD"). kernels/environment/sphere_map.h has it too.
 struct SphereMap {
   int side = 1; ///< texels across and down
 
   std::size_t texels() const { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
-  double solid_angle() const {
-    return 4 * std::numbers::pi / static_cast<double>(texels());
-  } ///< one texel's, in steradians
+  /// One texel's, in steradians.
+  double solid_angle() const { return 4 * std::numbers::pi / static_cast<double>(texels()); }
   /// The number of the texel in a direction, row after row. direction: any length but 0.
   std::size_t texel(const glm::dvec3& direction) const;
   /// The unit direction of a texel's middle.
@@ -43,8 +41,7 @@ struct SphereMap {
   std::vector<std::size_t> texels_of_stored() const;
 };
 
-/// The upper 16 bits of the nearest float, which maps hold. Its nine bits are more than the photons' noise leaves
-/// certain, and every device reads them fast.
+/// The upper 16 bits of the nearest float, which maps hold. The photons' noise leaves less than their nine bits.
 std::uint16_t upper_half(double value);
 
 /// The numbers of directions that light may be baked from. These are points of a cube's surface, towards its middle
@@ -52,8 +49,7 @@ std::uint16_t upper_half(double value);
 /// points a face are 26 in all (8 corners, 12 middles of edges, 6 of faces), 5 x 5 are 98, 9 x 9 are 386.
 std::span<const int> direction_counts();
 
-/// The surface points with whole coordinates of a cube from -m to m, m = 1, 2 or 4. z changes fastest, then y. count:
-/// one of direction_counts().
+/// The surface points with whole coordinates of a cube from -m to m, m = 1, 2 or 4. z changes fastest, then y.
 std::vector<glm::ivec3> cube_points(int count);
 
 /// The way the light goes from each of cube_points(count), a unit vector.
@@ -86,9 +82,8 @@ struct Bake {
   glm::dvec3 at(std::size_t direction, std::size_t sphere, std::size_t texel) const;
 };
 
-/// A bake kept on disk, so that a second start costs a read. The file has the name of its key in the folder of caches.
-/// It is written whole, and used only where it was made by this version of the program and its kernels for exactly this
-/// key, and is as long as it was.
+/// A bake kept in the folder of caches under the name of its key. It is written whole, and used only where this version
+/// of the program and its kernels made it for exactly this key, and it is as long as it was.
 struct BakeIdentity {
   std::uint64_t key = 0;     ///< bake_key
   std::uint64_t kernels = 0; ///< hash of the kernels' sources; 0 where they are not known yet
@@ -97,8 +92,7 @@ struct BakeIdentity {
 /// The bake's file; empty where the user has no folder of caches.
 std::filesystem::path bake_path(std::uint64_t key);
 
-/// Why the file cannot be used, judged by its first bytes and its length. "" where there is no file, nothing where it
-/// can be used.
+/// Why the file cannot be used, by its first bytes and its length. "": there is no file; nothing: it can be used.
 std::optional<std::string> bake_file_fault(const std::filesystem::path& file, const BakeIdentity& identity);
 
 /// Throws bad_input, saying why, where the file cannot be used.

@@ -122,7 +122,6 @@ glm::dvec3 nearest_point(const glm::dvec3& a, const glm::dvec3& b, const glm::dv
   return nearer(nearer(nearest_on_edge(a, b), nearest_on_edge(b, c)), nearest_on_edge(c, a));
 }
 
-/// A triangle or an ellipsoid.
 struct Piece {
   double nearest = 0; ///< no point of it is nearer to the middle
   std::uint32_t object = 0, primitive = 0;

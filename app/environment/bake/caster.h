@@ -29,37 +29,31 @@ struct Caster {
   Extent extent;
 };
 
-/// Whether an object is glass or a mirror.
 bool casts(const preset::Preset& preset, const preset::Object& object);
 
-/// The indices into preset.scene.objects, ascending. Throws bad_input at FILE#/environment/objects, with the
-/// candidates, where a name there belongs to no glass object or mirror, where a name comes twice, and where there is
-/// nothing to bake.
+/// The indices into preset.scene.objects, ascending. Throws bad_input at FILE#/environment/objects for a name that is
+/// no glass object or mirror or comes twice, and where there is nothing to bake.
 std::vector<std::size_t> caster_objects(const preset::Preset& preset);
 
-/// Reads the objects again. Throws bad_input as caster_objects and scene::load_scene do, and for an object without a
-/// surface.
+/// Throws bad_input as caster_objects and scene::load_scene do, and for an object without a surface.
 Caster make_caster(const preset::Preset& preset);
 
 /// The spheres' radii, ascending: by (3.1) of the thesis, or evenly spaced. The smallest is just beyond the nearest
-/// point of the surface, so that spheres reach what stands beneath an object or in its hole, and may cut the object. It
-/// is at least a twentieth of Caster::size. Throws bad_input at FILE#/environment/reach where the largest does not
-/// enclose the objects.
+/// point of the surface, at least a twentieth of Caster::size: spheres reach what stands beneath an object or in its
+/// hole, and may cut it. Throws bad_input at FILE#/environment/reach where the largest does not enclose the objects.
 std::vector<double> sphere_radii(const Settings& settings, const Caster& caster, const std::string& source);
 
 /// A hash of what a bake's photons depend on, the program apart: geometry, material, settings, seed.
 std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster);
 
-/// Where the baked spheres stand in the scene. It takes the bake's coordinates (Caster::scene and Bake, with (0, 0, 0)
-/// in the middle of the spheres) to the scene's (scene::Scene::origin). Both are in units of the preset. Directions are
-/// only turned.
+/// Where the baked spheres stand in the scene: from the bake's coordinates (Caster::scene and Bake, with (0, 0, 0) in
+/// the middle of the spheres) to the scene's (scene::Scene::origin), both in units of the preset.
 struct Placement {
   glm::dmat3 turn{1};   ///< a rotation; its transpose leads back
   glm::dvec3 middle{0}; ///< the spheres' middle in the scene's coordinates
 };
 
-/// scene: the preset's. caster: the preset's, or that of another preset in which only objects, lights and cameras are
-/// turned and moved.
+/// scene: the preset's. caster: of a preset that differs at most in where objects, lights and cameras are.
 Placement placement(const preset::Preset& preset, const Caster& caster, const scene::Scene& scene);
 
 /// What lies inside another glass object, like liquid in its glass, is not part of the surface. Where a triangle or an

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment/light/caustics.h"
 
-#include <algorithm>
-#include <chrono>
 #include <string>
 
 namespace nephroid::environment {
@@ -62,15 +60,13 @@ std::uint64_t Caustics::air_bytes(const Bake& bake, int side) {
   return 6 * sizeof(float) * SphereMap{side}.stored_texels() * bake.radii.size();
 }
 
-template <class Work>
-void Caustics::timed(const Work& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+std::vector<compute::Argument> Caustics::arguments() const {
+  return {{"stored", stored_}, {"ways", ways_},          {"way_of", way_of_},  {"radii", radii_},
+          {"sets", sets_},     {"eights", used_eights_}, {"spheres", spheres_}};
 }
 
 void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation) {
-  timed([&] {
+  seconds_ += tracing::seconds_of([&] {
     const std::vector<TurnedSet> sets = turned_sets(lights, rotation, directions_);
     const std::vector<shared::DeviceEightSets> eights =
         eights_of(sets, SphereMap{spheres_.side}.stored_texels() * static_cast<std::size_t>(spheres_.count));
@@ -89,15 +85,8 @@ void Caustics::compile_air(int side) {
   const std::size_t items = SphereMap{side}.stored_texels() * static_cast<std::size_t>(spheres_.count);
   if (air_.light.size() < 6 * items) air_.light = compute::Buffer<float>(context_, "light in the air", 6 * items);
   const auto count = static_cast<std::uint32_t>(items);
-  compile_air_.run(count, group,
-                   {{"stored", stored_},
-                    {"ways", ways_},
-                    {"way_of", way_of_},
-                    {"radii", radii_},
-                    {"sets", sets_},
-                    {"eights", used_eights_},
-                    {"spheres", spheres_},
-                    {"object_x", air_.object_x},
+  compile_air_.run(count, group, arguments(),
+                   {{"object_x", air_.object_x},
                     {"object_y", air_.object_y},
                     {"object_z", air_.object_z},
                     {"side", side},
@@ -107,15 +96,15 @@ void Caustics::compile_air(int side) {
 }
 
 void Caustics::cast(const CastTexels& texels) {
-  timed([&] {
-    cast_.run(texels.count, group, texels.arguments(),
-              {{"stored", stored_},
-               {"ways", ways_},
-               {"way_of", way_of_},
-               {"radii", radii_},
-               {"sets", sets_},
-               {"eights", used_eights_},
-               {"spheres", spheres_}});
+  seconds_ += tracing::seconds_of([&] {
+    cast_.run(texels.count, group, arguments(),
+              {{"list", *texels.list},
+               {"first", texels.first},
+               {"count", texels.count},
+               {"size", texels.size},
+               {"distances", *texels.distances},
+               {"normals", *texels.normals},
+               {"caustics", *texels.caustics}});
     context_.finish();
   });
 }

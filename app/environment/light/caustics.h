@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A baked object under lights, on a device: the E r^2 of all lights together at points around it
-// (kernels/environment/cast.cl).
+// A baked object under lights, on a device: E r^2 of all lights at points around it (kernels/environment/cast.cl).
 #pragma once
 #include "compute/compute.h"
 #include "environment/bake/bake.h"
@@ -8,7 +7,6 @@
 #include "kernels/environment/render_types.h"
 #include "tracing/slices.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,15 +18,9 @@ struct CastTexels {
   std::uint32_t first, count;
   const compute::Buffer<float>* distances;        ///< [texel of the cube]
   const compute::Buffer<shared::float4>* normals; ///< [texel of the cube], unit, on the object's side
-  const compute::Buffer<float>*
-      caustics; ///< [texel of the cube][3], written: E r^2, linear sRGB, W/m^2 of Y times squared units
-  int size;     ///< texels along an edge of the cube's faces
-
-  /// The arguments for a kernel that lights them.
-  std::vector<compute::Argument> arguments() const {
-    return {{"list", *list},           {"first", first},      {"count", count},       {"size", size},
-            {"distances", *distances}, {"normals", *normals}, {"caustics", *caustics}};
-  }
+  const compute::Buffer<float>* caustics; ///< [texel of the cube][3], written: E r^2, linear sRGB, W/m^2 of Y times
+                                          ///< squared units
+  int size;                               ///< texels along an edge of the cube's faces
 };
 
 class Caustics {
@@ -36,7 +28,6 @@ public:
   /// bake outlives it. Throws failed where the device has not enough memory.
   Caustics(const Bake& bake, const compute::Context& context);
 
-  /// Memory on the device.
   static std::uint64_t bytes(const Bake& bake);
   /// Memory of what compile_air() makes.
   static std::uint64_t air_bytes(const Bake& bake, int side);
@@ -49,8 +40,7 @@ public:
   /// The time that all calls of set_lights and cast have taken.
   double seconds() const { return seconds_; }
 
-  /// Adds up the light in the air of all sets into one set of spheres (Algorithm 3.5), whose maps have side x side
-  /// texels.
+  /// Adds up the light in the air of all sets into one set of spheres (Algorithm 3.5) with maps of side x side texels.
   void compile_air(int side);
 
   /// What compile_air() made, for kernels that look it up (compiled_air in kernels/environment/spheres.h).
@@ -64,8 +54,8 @@ public:
   int side() const { return spheres_.side; } ///< the side of the bake's maps
 
 private:
-  template <class Work>
-  void timed(const Work& work);
+  /// The arguments for a kernel that looks up the spheres of all sets.
+  std::vector<compute::Argument> arguments() const;
 
   compute::Context context_;
   int directions_; ///< how many the bake has

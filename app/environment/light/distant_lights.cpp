@@ -11,15 +11,6 @@
 #include <glm/gtx/quaternion.hpp>
 
 namespace nephroid::environment {
-namespace {
-
-/// The number of cells along an edge of the cube.
-int cells_of(int count) {
-  const std::vector<glm::ivec3> points = cube_points(count);
-  return 2 * points.back().x;
-}
-
-} // namespace
 
 std::vector<DistantLight> environment_lights(const std::vector<VisibleLight>& lights, double rotate_deg) {
   std::vector<DistantLight> distant;
@@ -59,7 +50,8 @@ std::vector<DistantLight> seen_lights(std::vector<DistantLight> lights, tracing:
 }
 
 std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count) {
-  const int cells = cells_of(count), half = cells / 2;
+  const std::vector<glm::ivec3> points = cube_points(count);
+  const int half = points.back().x; // half the cube's edge, in cells
   const glm::dvec3 from = -travel, size = glm::abs(from);
   const int axis = size.x >= size.y && size.x >= size.z ? 0
                    : size.y >= size.z                   ? 1
@@ -69,7 +61,6 @@ std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count) 
   const auto cell_of = [&](double at) { return std::clamp(static_cast<int>(std::floor(at)), -half, half - 1); };
   const int first_u = cell_of(place[u]), first_v = cell_of(place[v]);
   const double part_u = place[u] - first_u, part_v = place[v] - first_v;
-  const std::vector<glm::ivec3> points = cube_points(count);
   std::vector<NearDirection> near;
   for (const int right : {0, 1})
     for (const int up : {0, 1}) {
@@ -84,8 +75,7 @@ std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count) 
   return near;
 }
 
-// Where the vectors are nearly opposite, the real part of glm's quaternion is rounded off. Its length is wrong there,
-// but its axis is right.
+// For nearly opposite vectors the real part of glm's quaternion is rounded off: its length is wrong, its axis right.
 glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to) {
   return glm::mat3_cast(glm::normalize(glm::rotation(from, to)));
 }

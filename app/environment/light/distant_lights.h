@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parallel light from far away, the only kind of light in engine 2: the lights that an environment is cut into
-// (segment/) and the directional lights of a scene. And which baked directions stand for a light, and how their caustic
-// spheres are turned to fit it (thesis 3.2.1).
+// (segment/) and the directional lights of a scene. And the baked directions that stand for a light (thesis 3.2.1).
 #pragma once
 #include "environment/occlusion/occlusion.h"
 #include "scene/scene.h"
 
 #include <glm/glm.hpp>
 
-#include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace nephroid::environment {
@@ -22,8 +19,7 @@ struct DistantLight {
 /// The lights of the environment in the scene, in the same order.
 std::vector<DistantLight> environment_lights(const std::vector<VisibleLight>& lights, double rotate_deg);
 
-/// The scene's directional lights. Throws bad_input at FILE#/scene/lights/INDEX for a light of another type: it has no
-/// one direction.
+/// The scene's directional lights. Throws bad_input at FILE#/scene/lights/INDEX for a light of another type.
 std::vector<DistantLight> lamps(const scene::Scene& scene);
 
 /// The part of each light that Visibility sees from points of the object. surroundings, from: as in Visibility.
@@ -43,15 +39,13 @@ struct NearDirection {
 };
 
 /// The baked directions around one that light goes in. The light comes from a point of a face of the cube
-/// (bake/bake.h); they are the corners of its cell in the face's grid, with bilinear weights. There are 1 to 4; a baked
-/// direction has itself alone. travel: any length but 0.
+/// (bake/bake.h); they are the corners of its cell in the face's grid, with bilinear weights.
 std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count);
 
 /// The shortest turn from one unit vector to another; opposite ones take half a turn about some axis across them.
 glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to);
 
-/// The sets of all lights; black lights have none. rotation: from the bake's coordinates to the scene's. count: the
-/// number of baked directions.
+/// The sets of all lights that are not black. rotation: from the bake's coordinates to the scene's.
 std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count);
 
 } // namespace nephroid::environment

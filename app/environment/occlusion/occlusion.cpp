@@ -94,8 +94,7 @@ std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings
     if (hidden == glm::dvec3(0)) continue;
     VisibleLight& left = visible[light];
     left.flux = glm::min(flux, left.flux);
-    // The samples' mean direction is only nearly the region's. So the difference that hiding makes is added to the
-    // region's own direction.
+    // The samples' mean direction is only nearly the region's, so that is moved by what hiding changes.
     const glm::dvec3 shift = all - hidden != glm::dvec3(0) && flux != glm::dvec3(0)
                                  ? glm::normalize(all - hidden) - glm::normalize(all)
                                  : glm::dvec3(0);

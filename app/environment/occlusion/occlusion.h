@@ -37,18 +37,15 @@ private:
   compute::Kernel kernel_;
 };
 
-/// What is seen of the segmentation's lights. The regions stay whatever hides them. Flux and direction change little by
-/// little with what is hidden, so no caustic jumps. (The thesis keeps directions. A light that the horizon halves then
-/// shines from too low.)
+/// What is seen of the segmentation's lights. Flux and direction change little by little with what is hidden, so no
+/// caustic jumps. (The thesis keeps directions; a light that the horizon halves then shines from too low.)
 class Occlusion {
 public:
-  /// cube: the one that the segmentation was made from. Neither need outlive the call. Throws failed where the device
-  /// has not enough memory.
+  /// cube: the segmentation's. Neither need outlive the call. Throws failed where the device has not enough memory.
   Occlusion(const compute::Context& context, const Segmentation& segmentation, const CubeMap& cube);
 
   /// What Visibility sees of each light from the points `from`, each of which tests other cells of the light. They are
-  /// best surface_points of the object: from its middle alone, an edge before the sun would hide all of it at once.
-  /// rotate_deg: the turn of the map.
+  /// best surface_points: from the middle alone, an edge before the sun would hide all of it at once.
   std::vector<VisibleLight> visible_lights(tracing::World& surroundings, double rotate_deg,
                                            const std::vector<glm::dvec3>& from);
 
@@ -60,9 +57,8 @@ private:
 };
 
 /// The scene without the caster, in the same coordinates: what hides the environment from it, and what its caustics
-/// fall on. It has the other objects with their geometry, in the same order, the materials and the camera. It has no
-/// lights, environment and warnings, which may be large and are not needed. caster: indices into scene.objects, as
-/// Caster::objects.
+/// fall on. It has the other objects with their geometry, in the same order, the materials and the camera, but no
+/// lights, environment and warnings. caster: Caster::objects.
 scene::Scene without_caster(const scene::Scene& scene, const std::vector<std::size_t>& caster);
 
 /// The surroundings on a device, with their tree. Throws failed where the device has not enough memory.

@@ -21,8 +21,7 @@ struct Cell {
   double length(int axis) const { return high[axis] - low[axis]; }
 };
 
-/// Identifies a cell: how often it was cut across and down, and its number from the left and from the top among cells
-/// cut alike.
+/// How often a cell was cut across and down, and its number from the left and the top among cells cut alike.
 struct CellPlace {
   unsigned number[2] = {0, 0};
   int cuts[2] = {0, 0};

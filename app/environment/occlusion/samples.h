@@ -26,8 +26,7 @@ struct LightSample {
 std::vector<LightSample> sample_lights(const Segmentation& segmentation, const CubeMap& cube);
 
 /// Points of the surface of some objects of a scene, in its coordinates. They are spread evenly by area, nearly so on
-/// ellipsoids other than spheres. Neighbours in the list are near each other. objects: indices into scene.objects, at
-/// least one of which has a surface. count: at least 1.
+/// ellipsoids other than spheres. Neighbours in the list are near each other. objects: indices; one has a surface.
 std::vector<glm::dvec3> surface_points(const scene::Scene& scene, const std::vector<std::size_t>& objects,
                                        std::size_t count);
 

@@ -11,8 +11,7 @@
 namespace nephroid::environment {
 namespace {
 
-/// The solid angle of the rectangle from the middle of a face to (s, t), with the sign of s t: the integral of (1 + s^2
-/// + t^2)^(-3/2).
+/// The solid angle from the middle of a face to (s, t), with the sign of s t: the integral of (1 + s^2 + t^2)^(-3/2).
 double solid_angle_to(double s, double t) { return std::atan(s * t / std::sqrt(1 + s * s + t * t)); }
 
 constexpr double pi = std::numbers::pi;
@@ -42,8 +41,7 @@ public:
     }
   }
 
-  /// quarter: of the map's width, 0..3. half: of its height. As faces have an even size, no two octants add to the same
-  /// texel.
+  /// quarter: of the map's width, 0..3. half: of its height. Faces have an even size, so octants share no texel.
   void octant(int quarter, int half) const {
     const int columns = across_ * map_.width / 4, rows = down_ * map_.height / 2;
     for (int row = half * rows; row < (half + 1) * rows; ++row)
@@ -54,8 +52,7 @@ private:
   void scatter_row(int row, int first, int last) const {
     const int rows = down_ * map_.height;
     const double zenith = pi * (row + 0.5) / rows;
-    // cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2): the difference of two cosines would lose digits at the
-    // poles.
+    // cos a - cos b as a product, which loses no digits at the poles.
     const double part_sr = 2 * std::sin(zenith) * std::sin(pi / rows / 2) * 2 * pi / (across_ * map_.width);
     const double up = std::cos(zenith), level = std::sin(zenith), scale = part_sr * map_.radiance;
     const float* const texels =

@@ -17,9 +17,7 @@ inline constexpr int face_count = 6;
 /// A face is named by the axis through its middle. The numbers of faces are places in this list.
 inline constexpr std::array<const char*, face_count> face_names{"+x", "-x", "+y", "-y", "+z", "-z"};
 
-/// A point of the cube of half side 1: s to the right and t downwards in its face, -1..1 each. Faces lie as in cube
-/// maps of OpenGL: s and t of +x are -z and -y, of -x +z and -y, of +y +x and +z, of -y +x and -z, of +z +x and -y, of
-/// -z -x and -y.
+/// A point of the cube of half side 1: s to the right and t downwards in its face, which lies as in OpenGL's maps.
 struct CubePoint {
   int face = 0;
   double s = 0, t = 0;
@@ -58,10 +56,9 @@ inline int texel_of(double s, int size) {
 double solid_angle(const Rect& rect, int size);
 
 struct CubeMap {
-  int size = 0; ///< texels along a side of a face
-  std::vector<double>
-      flux; ///< 3 a texel, face after face and row after row: radiance times solid angle, linear sRGB, W/m^2 of Y
-  bool even = false; ///< whether the map has one colour all around
+  int size = 0;             ///< texels along a side of a face
+  std::vector<double> flux; ///< [face][row][column][3]: radiance times solid angle, linear sRGB, W/m^2 of Y
+  bool even = false;        ///< whether the map has one colour all around
 
   std::size_t texel(int face, int x, int y) const {
     return (static_cast<std::size_t>(face) * static_cast<std::size_t>(size) + static_cast<std::size_t>(y)) *
@@ -71,19 +68,16 @@ struct CubeMap {
   glm::dvec3 flux_of(std::size_t texel) const { return {flux[3 * texel], flux[3 * texel + 1], flux[3 * texel + 2]}; }
 };
 
-/// The size at which a texel in the middle of a face is about as wide as the map's at its equator: a quarter of the
-/// map's width, made even and held to 128 to 512.
+/// The size at which a face's middle texel is as wide as the map's at its equator; even, from 128 to 512.
 int cube_size(const scene::Environment& map);
 
-/// The cube has all light of the map, times its `radiance`. It is not turned by rotate_deg, so what is made from it
-/// stays the same while the map turns.
+/// The cube has all light of the map, times its `radiance`. It is not turned by rotate_deg.
 CubeMap make_cube_map(const scene::Environment& map);
 
 /// Y of linear sRGB (IEC 61966-2-1).
 inline double luminance(const glm::dvec3& rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
 
-/// The scene's direction for a direction in the cube. The scene has the map turned about +y, counterclockwise as seen
-/// from above.
+/// The scene's direction for one in the cube: the map is turned about +y, counterclockwise as seen from above.
 glm::dvec3 turned(const glm::dvec3& direction, double rotate_deg);
 
 } // namespace nephroid::environment

@@ -2,7 +2,6 @@
 #include "environment/segment/irradiance.h"
 
 #include "base/parallel.h"
-#include "scene/bvh.h"
 #include "scene/ray.h"
 
 #include <algorithm>

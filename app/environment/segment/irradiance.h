@@ -10,8 +10,7 @@
 
 namespace nephroid::environment {
 
-/// The irradiance of all texels of the cube on planes whose normals lie evenly on the sphere, linear sRGB, W/m^2 of Y.
-/// normals: 1 or more.
+/// The irradiance of all texels on planes whose normals lie evenly on the sphere, linear sRGB, W/m^2 of Y.
 std::vector<glm::dvec3> irradiances(const CubeMap& cube, int normals = 256);
 
 /// The error of the lights' irradiance against the truth, which irradiances() gave: the norm of the difference over all
@@ -22,8 +21,7 @@ double irradiance_error(const std::vector<glm::dvec3>& truth, const Segmentation
 /// 1, x, y, z, xx, yy, zz, xy, yz, zx; linear sRGB, W/m^2 of Y.
 using IrradiancePolynomial = std::array<glm::dvec3, 10>;
 
-/// Sums over all light of a map as in its file: flux, flux times the direction it comes from, and flux times the
-/// products of that direction's components.
+/// Sums over all light of a map: flux, flux times its direction, and times the products of that direction's components.
 struct IrradianceMoments {
   glm::dvec3 flux{0};
   std::array<glm::dvec3, 3> first{};                                             ///< by channel
@@ -34,7 +32,6 @@ IrradianceMoments irradiance_moments(const CubeMap& cube);
 /// The spherical harmonics of the irradiance up to the second degree, which leave out 1 % of it overall (Ramamoorthi
 /// and Hanrahan 2001, "An efficient representation for irradiance environment maps"). max(t, 0) up to that degree is
 /// 3/32 + t/2 + 15/32 t^2, so the irradiance is the sum of that over all light, with t its direction times the normal.
-/// rotate_deg: the turn of the map.
 IrradiancePolynomial irradiance_polynomial(const IrradianceMoments& moments, double rotate_deg);
 
 } // namespace nephroid::environment

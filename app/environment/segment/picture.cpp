@@ -43,8 +43,7 @@ std::vector<glm::dvec3> scaled_map(const scene::Environment& map) {
   return pixels;
 }
 
-/// Reinhard et al. 2002, "Photographic tone reproduction", (1) to (3): the geometric mean becomes .18, and the
-/// brightest stays below 1.
+/// Reinhard et al. 2002, "Photographic tone reproduction", (1) to (3): the geometric mean becomes .18.
 void make_small_range(std::vector<glm::dvec3>& pixels) {
   double logarithms = 0, lit = 0;
   for (const glm::dvec3& rgb : pixels) {

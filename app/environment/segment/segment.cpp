@@ -84,8 +84,7 @@ private:
 
   Region region_of(const Piece& piece) const {
     const Rect& r = piece.rect;
-    // Moments along s, t and outwards are a scaled point of the face. A black piece has none, so it gets the middle of
-    // its rectangle.
+    // Moments along s, t and outwards are a scaled point of the face. A black piece gets the middle of its rectangle.
     const glm::dvec3 m = piece.moments.m1;
     const CubePoint centre = m.z > 0 ? CubePoint{piece.face, m.x / m.z, m.y / m.z}
                                      : CubePoint{piece.face, (border(r.x0, cube_.size) + border(r.x1, cube_.size)) / 2,
@@ -124,7 +123,6 @@ private:
 /// The relative rounding of sums of positive numbers.
 constexpr double rounding = 1e-12;
 
-/// The best cut in one direction.
 struct Candidate {
   int at = 0; ///< lines before the cut; 0: there is none
   double cost = 0;
@@ -135,8 +133,7 @@ double cost_of(const Moments& before, const Moments& after, SegmentMethod method
   return method == SegmentMethod::thesis ? std::abs(before.m0 - after.m0) : before.variance() + after.variance();
 }
 
-/// lines: the sums of rows or of columns. Both sides of a cut are sums of lines, because a difference of larger sums
-/// would be mere rounding where there is hardly any light.
+/// lines: the sums of rows or of columns. Both sides are sums of lines: a difference may be mere rounding.
 Candidate best_between(const std::vector<Moments>& lines, SegmentMethod method) {
   const std::size_t count = lines.size();
   if (count < 2) return {};

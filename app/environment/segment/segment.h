@@ -47,8 +47,7 @@ struct Segmentation {
 Segmentation segment(const CubeMap& cube, const SegmentSettings& settings);
 
 /// The lights of a map of one colour all around, without a search for cuts: each face has as many parts across as down,
-/// at equal angles. There are as few lights as possible, but at least `lights`. For 6 and 24 they are those of
-/// segment().
+/// at equal angles, as few as make `lights`. For 6 and 24 they are those of segment().
 Segmentation even_segments(const CubeMap& cube, int lights);
 
 /// Sums of weights and of weights times unit direction, in the face's own axes s, t and outwards.
@@ -91,8 +90,7 @@ struct Cut {
 };
 
 /// thesis: of the most equal halves across and along, those with the smaller Dev (3.2) are taken. variance: the two
-/// parts have the least variance together. Among equally good cuts, the one nearest to the middle of the longer side is
-/// taken. Nothing for one texel.
+/// parts have the least variance together. Equally good cuts: the one nearest to the middle. Nothing for one texel.
 std::optional<Cut> best_cut(const WeighedCube& cube, int face, const Rect& rect, SegmentMethod method);
 
 } // namespace nephroid::environment

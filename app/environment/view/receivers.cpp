@@ -38,8 +38,7 @@ void Receivers::forget() {
 
 void Receivers::find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle) {
   states_read_ = context_.all_reduced_or(states_);
-  // Texels go square after square, because neighbouring texels look up neighbouring places of spheres. This is a sixth
-  // faster than row after row.
+  // Square after square: neighbouring texels look up neighbouring places. It is a sixth faster than row after row.
   const std::size_t size = static_cast<std::size_t>(size_);
   for (std::size_t top = 0; top < 6 * size; top += square)
     for (std::size_t left = 0; left < size; left += square)

@@ -24,7 +24,6 @@ public:
   /// size: texels along an edge of a face.
   Receivers(const mpi::RankContext& context, int size);
 
-  /// Memory on the device.
   static std::uint64_t bytes(int size);
 
   int size() const { return size_; }
@@ -35,8 +34,7 @@ public:
   /// [texel][3]: the part of the environment's light that reaches it past all objects.
   const compute::Buffer<float>& parts_seen() const { return parts_seen_; }
 
-  /// Lists the texels that paths have asked for since the last call, and works out their distances. surroundings: empty
-  /// where there is nothing.
+  /// Lists the texels that paths have asked for since the last call, and finds their distances in the surroundings.
   void find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle);
   /// Works out the distances of all texels.
   void find_all(std::optional<Surroundings>& surroundings, const glm::dvec3& middle);

@@ -44,10 +44,14 @@ bool is_cut_evenly(const preset::Preset& preset, const CubeMap& cube) {
   return preset.leave_out && cube.even && 2 * s.lights * s.threshold < 1; // otherwise regions would be dropped
 }
 
-Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube) {
+SegmentSettings segment_settings(const preset::Preset& preset) {
   const Settings& s = settings(preset);
-  if (is_cut_evenly(preset, cube)) return even_segments(cube, s.lights);
-  return segment(cube, {.lights = s.lights, .method = s.segmentation, .threshold = s.threshold});
+  return {.lights = s.lights, .method = s.segmentation, .threshold = s.threshold};
+}
+
+Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube) {
+  const SegmentSettings by = segment_settings(preset);
+  return is_cut_evenly(preset, cube) ? even_segments(cube, by.lights) : segment(cube, by);
 }
 
 RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,

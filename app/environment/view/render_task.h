@@ -8,7 +8,6 @@
 #include "environment/settings.h"
 #include "preset/preset.h"
 #include "scene/bvh.h"
-#include "scene/move.h"
 #include "scene/scene.h"
 #include "tracing/scene_tables.h"
 
@@ -50,8 +49,7 @@ struct MovedObjects {
 /// Whether the scene has light. Without light only the bake is shown.
 bool has_light(const scene::Scene& scene);
 
-/// caster: the preset's. bvh: the scene's. before: a task whose environment is kept where it is the same. Throws
-/// bad_input as `lamps` does.
+/// caster: the preset's. before: a task whose cube is kept where it is the same. Throws bad_input as `lamps` does.
 RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
                             const Caster& caster, const RenderTask* before = nullptr);
 
@@ -61,12 +59,12 @@ const scene::Environment& backdrop(const scene::Scene& scene);
 /// Whether the map has one colour all around, so that no cuts need be searched.
 bool is_cut_evenly(const preset::Preset& preset, const CubeMap& cube);
 
-/// As scene::move_objects. loaded: the task of `before`. shown: the preset that the surroundings were last made for.
-/// caster: the presets'.
+/// As scene::move_objects. loaded: the task of `before`. shown: the preset that the surroundings were made for.
 std::optional<MovedObjects> move_objects(const RenderTask& loaded, const preset::Preset& before,
                                          const preset::Preset& shown, const preset::Preset& now, const Caster& caster);
 
-/// Cuts the cube into lights by the preset's settings.
+SegmentSettings segment_settings(const preset::Preset& preset);
+/// Cuts the cube into lights by segment_settings(preset).
 Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube);
 
 } // namespace nephroid::environment

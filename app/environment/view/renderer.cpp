@@ -3,10 +3,8 @@
 
 #include "base/parallel.h"
 #include "environment/colours.h"
-#include "scene/move.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
@@ -163,7 +161,7 @@ bool Renderer::cast(Receivers& receivers) {
 void Renderer::advance() {
   switch (stage_) {
   case Stage::see:
-    if (!see_slices_.advance(context_.communicator(), pixels(), pixels(),
+    if (!see_slices_.advance(context_.communicator(),
                              [&](std::uint32_t first, std::uint32_t count) { see(fine_, 1, first, count); }))
       return;
     fine_.find_wanted(surroundings_, task_.placement.middle);
@@ -173,7 +171,7 @@ void Renderer::advance() {
     if (cast(fine_)) stage_ = Stage::shade;
     return;
   case Stage::shade:
-    if (!shade_slices_.advance(context_.communicator(), pixels(), pixels(),
+    if (!shade_slices_.advance(context_.communicator(),
                                [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); }))
       return;
     shaded_ = true;
@@ -187,7 +185,7 @@ void Renderer::advance() {
     stage_ = Stage::volume;
     return;
   case Stage::volume:
-    if (volume_slices_.advance(context_.communicator(), pixels(), pixels(),
+    if (volume_slices_.advance(context_.communicator(),
                                [&](std::uint32_t first, std::uint32_t count) { scatter(1, first, count); }))
       end_pass();
   }

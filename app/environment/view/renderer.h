@@ -9,13 +9,11 @@
 #include "environment/view/render_task.h"
 #include "job/job.h"
 #include "mpi/rank_context.h"
-#include "scene/move.h"
 #include "tracing/slices.h"
 #include "tracing/state.h"
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -36,10 +34,8 @@ public:
   /// Begins anew with the caustics of the task's caster, which outlive the renderer. Before this call there are none.
   void set_caustics(Caustics& caustics);
 
-  /// Builds the tree again where objects have moved since it was built. This pays for many passes, not for a coarse
-  /// picture.
+  /// Builds the tree again where objects have moved: it pays for many passes, not for a coarse picture.
   void renew_tree();
-  /// One slice of about 30 ms of the pass in hand.
   void advance();
   std::int64_t passes() const { return pass_; } ///< complete passes
   double fraction_done() const;                 ///< the part of the pass in hand, 0..1
@@ -49,8 +45,7 @@ public:
     std::vector<float> rgb;
     std::vector<float> draw; ///< a draw of its error, as job::Picture::error_draw; empty before two passes
   };
-  /// Places in layers(). smooth: the layer direct without noise, with the shadows of the segmentation's lights. volume:
-  /// only in a medium.
+  /// Places in layers(). smooth: direct without noise, with the shadows of a few lights. volume: only in a medium.
   enum : std::size_t { background, direct, caustic, smooth, volume };
   std::vector<Layer> layers() const;
 

@@ -4,8 +4,6 @@
 #include "base/error.h"
 #include "scene/scene.h"
 
-#include <utility>
-
 namespace nephroid::environment {
 
 preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other) {
@@ -99,10 +97,7 @@ bool SceneView::go_on_with(const preset::Preset& preset) {
                           Place(preset.source) / "scene" / "camera");
     begins = true;
   }
-  const auto same_segmentation = [](const Settings& a, const Settings& b) {
-    return a.lights == b.lights && a.segmentation == b.segmentation && a.threshold == b.threshold;
-  };
-  if (task_->cube.size > 0 && !same_segmentation(settings(preset), settings(shown_))) {
+  if (task_->cube.size > 0 && segment_settings(preset) != segment_settings(shown_)) {
     renderer_->set_segmentation(segment_by(preset, task_->cube));
     begins = true;
   }

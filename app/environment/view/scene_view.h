@@ -33,8 +33,7 @@ public:
   /// Drops the renderer and the caustics until begin().
   void end();
 
-  /// Goes on with a preset that is adoptable. True where another picture begins. If it throws bad_input, all stays as
-  /// it was; after any other exception there is no renderer.
+  /// Goes on with an adoptable preset. True: another picture begins. After anything but bad_input there is no renderer.
   bool show(const preset::Preset& preset);
   const preset::Preset& shown() const { return shown_; }
   double backdrop_rotate_deg() const { return shown_.scene.environment ? shown_.scene.environment->rotate_deg : 0; }

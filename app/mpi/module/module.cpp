@@ -2,8 +2,7 @@
 // The only file that knows MPI: a module that ranks.cpp loads.
 //
 // Nobody waits for others' work inside of MPI: its waits spin on a core, which a rank beside it could use, and never
-// end where a rank has died. So such a call is begun, asked after at times, and in between it is seen whether the
-// others are still there.
+// end where a rank has died. So a call is begun and asked after at times, and the others are looked after.
 #include "base/error.h"
 #include "base/files.h"
 #include "mpi/ranks.h"
@@ -29,9 +28,8 @@ using Clock = std::chrono::steady_clock;
 
 struct Rank {
   char host[MPI_MAX_PROCESSOR_NAME] = {};
-  std::size_t boot =
-      0; ///< of its machine's kernel: two machines' names may be alike, and containers of one have several
-  ino_t processes = 0; ///< the name space of its process' number: containers have their own
+  std::size_t boot = 0; ///< its machine's kernel's: machines' names may be alike, and containers of one have several
+  ino_t processes = 0;  ///< the name space of its process' number: containers have their own
   pid_t process = 0;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photons/clusters/clusters.h"
 
+#include "base/error.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,14 +50,12 @@ double arc_integral(double ratio, double end) {
   return sum * end;
 }
 
-// Theta by the thesis' bicubic patches (4.5)-(4.14). The surface d theta2 / d lambda over wavelength and angle of
-// incidence is cut into patches of 1 nm by 1 degree, each a bicubic polynomial. A wavelength's Theta is the volume
-// below its 89 patches.
+// Theta by the thesis' bicubic patches (4.5)-(4.14). d theta2 / d lambda over wavelength and angle of incidence is cut
+// into bicubic patches of 1 nm by 1 degree. A wavelength's Theta is the volume below its 89.
 constexpr int angle_count = last_angle_deg + 1; ///< 0..89 degrees
 
 /// Appendix A.2: a = M^-1 Psi. Columns: psi at the corners (0,0), (1,0), (0,1), (1,1) of (wavelength, angle), then
-/// psi_lambda, psi_theta and psi_lambda_theta at the same corners. Rows: a_00, a_10, a_20, a_30, a_01, ... a_33 of
-/// (4.8).
+/// psi_lambda, psi_theta, psi_lambda_theta there. Rows: a_00, a_10, a_20, a_30, a_01, ... a_33 of (4.8).
 constexpr std::array<std::array<int, 16>, 16> m_inverse{{
     {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
     {0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
@@ -75,8 +75,7 @@ constexpr std::array<std::array<int, 16>, 16> m_inverse{{
     {4, -4, -4, 4, 2, 2, -2, -2, 2, -2, 2, -2, 1, 1, 1, 1},
 }};
 
-/// The volume below a patch is a^T b = (M^-T b)^T Psi with b_ij = 1 / ((i + 1)(j + 1)) (4.12, 4.13): each corner value
-/// has one weight.
+/// The volume below a patch is a^T b = (M^-T b)^T Psi with b_ij = 1 / ((i + 1)(j + 1)) (4.12, 4.13).
 constexpr std::array<double, 16> volume_weights() {
   std::array<double, 16> weights{};
   for (std::size_t row = 0; row < 16; ++row) {
@@ -250,8 +249,8 @@ std::vector<double> theta_exact(std::span<const double> n) {
 // The corner derivatives are finite differences of psi on the grid, as the thesis takes them (appendix A.1, last
 // paragraph), so that a staircase gives a large figure and not an infinite one. They approximate, with s = sin theta1,
 // c = cos theta1,
-//   psi_theta        = -c n n' / (n^2 - s^2)^(3/2) (A.2) psi_lambda_theta = -c (n^3 n'' - s^2 n n'' - s^2 n'^2 - 2 n^2
-//   n'^2) / (n^2 - s^2)^(5/2)                        (A.3)
+//   psi_theta        = -c n n' / (n^2 - s^2)^(3/2)                                                   (A.2)
+//   psi_lambda_theta = -c (n^3 n'' - s^2 n n'' - s^2 n'^2 - 2 n^2 n'^2) / (n^2 - s^2)^(5/2)          (A.3)
 // (A.3) has lost its operators in print. It follows from (A.2): d/d lambda of n n' (n^2 - s^2)^(-3/2) is
 // ((n n'' + n'^2) (n^2 - s^2) - 3 n^2 n'^2) (n^2 - s^2)^(-5/2).
 std::vector<double> theta_patches(std::span<const double> n) {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavelength clusters: which of the 401 wavelengths may share one path through one glass (thesis 4.1.1). No OpenCL
-// here.
+// Wavelength clusters: which of the 401 wavelengths may share one path through one glass (thesis 4.1.1).
 #pragma once
+#include "optics/wavelength.h"
 #include "photons/settings.h"
-#include "scene/scene.h"
 
 #include <span>
 #include <vector>
@@ -26,18 +25,14 @@ struct Clustering {
   std::vector<Cluster> clusters; ///< by falling n
 };
 
-/// Sorts the wavelengths by falling n (equal n: by wavelength). Each has Theta, the change of angle to the next one; so
-/// 401 wavelengths have 400 changes, and the last has none. To decide what may be merged, the last one gets the change
-/// of the one before it (a one-sided difference, as everywhere at the ends); the reported sums count the 400. A cluster
-/// of several wavelengths has at most threshold_deg * 89 square degrees. Below n = 1 there is no refracted ray beyond
-/// the critical angle: theta2 counts as 90 degrees there, and Theta is the exact one with every method, for the
-/// patches' derivative is infinite at that angle. threshold_deg is alpha, in (0, 90). n covers the 401 wavelengths,
-/// finite and > 0. Throws bad_input otherwise.
+/// Sorts the wavelengths by falling n (equal n: by wavelength). Each has Theta, the change of angle to the next one. To
+/// decide what may be merged, the last one gets the change of the one before it; the reported sums count the 400. A
+/// cluster with several wavelengths has at most threshold_deg * 89 square degrees. Below n = 1, theta2 counts as 90
+/// degrees beyond the critical angle, and Theta is exact with every method, for the patches' derivative is infinite at
+/// that angle. threshold_deg is alpha, in (0, 90); n is finite and > 0. Throws bad_input otherwise.
 Clustering cluster_wavelengths(const optics::Spectrum& n, double threshold_deg, ClusterMethod method);
 
-/// The coarsest partition that is finer than each of the given ones: wavelengths stay together where all of them keep
-/// them together. Returns one group of wavelength indices a cluster, ordered by its smallest wavelength. An empty input
-/// gives one group of all.
+/// The coarsest partition that is finer than each of the given ones, as indices, ordered by each group's smallest.
 std::vector<std::vector<int>> common_refinement(std::span<const Clustering> clusterings);
 
 /// Theta is the change of the refraction angle from one wavelength to the next, integrated over the angle of incidence

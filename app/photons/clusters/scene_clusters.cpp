@@ -46,8 +46,7 @@ double diagonal_m(const scene::Scene& scene, std::size_t material) {
 }
 
 /// Splits a cluster by rising coefficient: a new part begins where the difference to the first of the part gets too
-/// large. That difference rises with the coefficient, so a part cannot reach farther, and no split has fewer parts
-/// (packed_from_the_left in clusters.cpp says why).
+/// large. No split has fewer parts (packed_from_the_left in clusters.cpp says why).
 void split(std::vector<int> cluster, const std::vector<double>& coefficients, double longest, double most,
            std::vector<std::vector<int>>& parts) {
   const auto a = [&](int w) { return coefficients[static_cast<std::size_t>(w)]; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wavelength clusters of a scene, for all its glass together. No OpenCL here.
+// The wavelength clusters of a scene, for all its glass together.
 #pragma once
 #include "photons/settings.h"
 #include "scene/scene.h"
@@ -9,8 +9,7 @@
 namespace nephroid::photons {
 
 /// Layers keep one number for the light that losses leave of a whole cluster (kernels/photons/layers.h). This is its
-/// largest error for a light with a single wavelength of the cluster. For light that changes little inside a cluster
-/// the error is far smaller.
+/// largest error for a light with a single wavelength of the cluster; for smooth light it is far smaller.
 constexpr double largest_loss_difference = 0.1;
 
 /// The clusters (indices of wavelengths) for all dielectrics that an object uses. One curve has its own clusters,

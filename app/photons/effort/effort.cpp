@@ -53,7 +53,6 @@ std::vector<double> by_power(const std::vector<double>& watts, const tracing::Wa
   return weights;
 }
 
-/// The watts of each cluster.
 std::vector<double> watts_in_clusters(const std::vector<double>& watts, const tracing::WavelengthTables& tables) {
   std::vector<double> sums(tables.clusters.size(), 0);
   for (std::size_t l = 0; l < watts.size(); ++l)
@@ -109,8 +108,7 @@ ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& 
   if (strategy.by == Strategy::By::wavelength && caustics_are_possible(scene, watts)) {
     const optics::Spectrum u = wavelength_importance(settings, scene, bvh).u;
     importance = cluster_importance(u, tables.clusters, settings.importance.cluster);
-    // Caustics may fall on more than the nine points see. So that the picture is right on average, a cluster with light
-    // has at least one photon a pass, or one iteration of all.
+    // Caustics may fall on more than the nine points see, so a cluster with light has a photon a pass, or an iteration.
     constexpr double least = 1e-9;
     const std::vector<double> lit = watts_in_clusters(watts, tables);
     for (std::size_t c = 0; c < clusters; ++c)

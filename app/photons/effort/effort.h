@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the work of a pass is allocated to lights and clusters (Settings::effort). No OpenCL here.
+// How the work of a pass is allocated to lights and clusters (Settings::effort).
 #pragma once
 #include "photons/settings.h"
 #include "plan/plan.h"
@@ -13,8 +13,7 @@ namespace nephroid::photons {
 
 /// How photons are allocated to clusters, and which share of the iterations each cluster has.
 struct ClusterShares {
-  std::vector<double>
-      photons; ///< [light][cluster] flat: weights of the allocation of a pass's photons; 0 only where there is no light
+  std::vector<double> photons;    ///< [light][cluster] flat: weights of a pass's photons; 0 only where it is dark
   std::vector<double> importance; ///< [cluster]: 0..1, the largest 1: share of iterations; above 0 where lit
 };
 
@@ -22,13 +21,11 @@ struct ClusterShares {
 /// `variance` and `automatic`, go by what the eye makes of the watts: (X + Y + Z) / 3 of the cluster's share, plus a
 /// twentieth of the share. `equal` and `random` treat every cluster that has light alike. `importance` and
 /// `radziszewski` go by cluster_importance. Within a cluster the lights' parts are in proportion to their watts in it.
-/// Where no caustic can be (no light, nothing that throws or receives one) every cluster has 1, whatever its
-/// importance. Throws bad_input as wavelength_importance does.
+/// Where no caustic can be, every cluster has 1. Throws bad_input as wavelength_importance does.
 ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
                                   const std::vector<double>& watts, const tracing::WavelengthTables& tables);
 
-/// The plan's pass "importance": how photons are allocated to clusters, and how much of equal work is left. importance
-/// is ClusterShares::importance.
+/// The plan's pass "importance": how photons are allocated, and how much of equal work is left.
 plan::Pass effort_pass(const Settings& settings, const std::vector<double>& importance);
 
 } // namespace nephroid::photons

@@ -17,19 +17,14 @@ constexpr std::size_t bins_x = GUIDE_BINS_X, bins_y = GUIDE_BINS_Y, bins_z = GUI
 /// The fraction of the photons that is spread evenly whatever was learned: a cell that looked dark may not be.
 constexpr double even_part = 0.15;
 
-/// Means with the neighbours, weights 1 2 1, over the second and the third number. The third is an angle, so it wraps
-/// around.
+/// Means with the neighbours, weights 1 2 1, over the second and the third number, an angle, which wraps around.
 std::vector<double> blurred(std::span<const double> values) {
   const auto pass = [](std::span<const double> from, std::size_t bins, std::size_t stride, bool wraps) {
     std::vector<double> to(from.size());
     for (std::size_t i = 0; i < from.size(); ++i) {
       const std::size_t bin = i / stride % bins, first = i - bin * stride;
-      const std::size_t below = bin > 0 ? bin - 1
-                                : wraps ? bins - 1
-                                        : bin,
-                        above = bin + 1 < bins ? bin + 1
-                                : wraps        ? 0
-                                               : bin;
+      const std::size_t below = wraps ? (bin + bins - 1) % bins : std::max<std::size_t>(bin, 1) - 1,
+                        above = wraps ? (bin + 1) % bins : std::min(bin + 1, bins - 1);
       to[i] = 0.25 * from[first + below * stride] + 0.5 * from[i] + 0.25 * from[first + above * stride];
     }
     return to;
@@ -190,8 +185,7 @@ EmissionGuide::EmissionGuide(std::size_t lights) : squares_(lights * cells, 0), 
 
 // A photon of a cell that comes `density` times as often as evenly counts 1 / density; with n photons of the light it
 // adds v = f / (n density). The cell gets n density / GUIDE_CELLS photons, so a pass' sum of v^2 there is E[f^2] / (n
-// density GUIDE_CELLS), and n density times that estimates E[f^2] / GUIDE_CELLS. Allocations are weighted by the cell's
-// number of photons.
+// density GUIDE_CELLS), and n density times that estimates E[f^2] / GUIDE_CELLS. Allocations count by photons.
 void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const double> photons, double passes) {
   table_.clear();
   for (std::size_t l = 0; l < photons.size(); ++l) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons of a batch are allocated to emitters, pairs of a light and a wavelength cluster, and leave lights in
-// directions where they matter. In this file "pass" means one batch; a pass of the run has several
-// (RunTables::batches). No OpenCL here.
+// directions where they matter. Here "pass" means one batch (RunTables::batches).
 #pragma once
 #include "kernels/tracing/shared_types.h"
 #include "tracing/state.h"
@@ -28,8 +27,7 @@ std::vector<shared::DeviceEmitter> make_emitters(const std::vector<PhotonSource>
 /// weight of 0 none. The result sums to max(photons, number of positive weights).
 std::vector<unsigned> allocate_photons(const std::vector<double>& weights, unsigned photons);
 
-/// Fills DeviceEmitter::first_photon and the two fields of the light from the emitters' photon_count. Emitters of a
-/// light follow each other.
+/// Fills DeviceEmitter::first_photon and the two fields of the light from photon_count.
 void number_photons(std::vector<shared::DeviceEmitter>& emitters);
 
 /// The photons of all emitters together, once they are numbered.
@@ -52,9 +50,8 @@ public:
   /// Whether photons are allocated anew before this pass: before passes 2, 4, 8, 16, ...
   bool is_due(std::int64_t pass) const;
   /// moments[emitter] is the sum, since first_iteration(), of the squares of what each photon added to the picture, in
-  /// any unit. They are taken for the variance, which is right where a pixel gets few photons a pass. halves is the
-  /// number of the film's halves, each with its own low-discrepancy sequence. A tenth of the photons keeps its first
-  /// allocation, and every emitter keeps at least one.
+  /// any unit. They are taken for the variance, as is right for few photons a pixel and pass. halves: of the film, each
+  /// with its own low-discrepancy sequence. A tenth of the photons keeps its first allocation.
   void reallocate(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves);
   /// Restores the first allocation from this pass on.
   void restore_initial(std::int64_t pass, unsigned halves);
@@ -66,10 +63,9 @@ public:
 
 private:
   std::vector<shared::DeviceEmitter> emitters_;
-  std::vector<unsigned> initial_counts_; ///< [emitter] photons of a pass at the start
-  std::vector<double> initial_shares_;   ///< [emitter] share of the photons at the start
-  std::vector<double> squares_,
-      photons_; ///< [emitter] sum over allocations of n^2 moments and of n passes: their ratio estimates V_e
+  std::vector<unsigned> initial_counts_;  ///< [emitter] photons of a pass at the start
+  std::vector<double> initial_shares_;    ///< [emitter] share of the photons at the start
+  std::vector<double> squares_, photons_; ///< [emitter] sums of n^2 moments and of n passes: the ratio estimates V_e
   double first_variance_ = 0, last_variance_ = 0; ///< variances of a pass, in the unit of `moments`; 0: not known yet
   std::int64_t first_iteration_ = 0;
 
@@ -78,12 +74,11 @@ private:
 
 /// Where a light's photons matter: a histogram over the numbers that give their directions (kernels/photons/guide.h),
 /// learned from what earlier photons added to the picture. A cell's chance of a photon is proportional to the root of
-/// the mean square of what its photons add; that makes the sum of all cells' variances smallest. No OpenCL here.
+/// the mean square of what its photons add; that makes the sum of all cells' variances smallest.
 class EmissionGuide {
 public:
   static constexpr std::size_t cells = std::size_t{GUIDE_BINS_X} * GUIDE_BINS_Y * GUIDE_BINS_Z;
-  static constexpr std::size_t floats =
-      GUIDE_BINS_X + std::size_t{GUIDE_BINS_X} * GUIDE_BINS_Y + cells; ///< floats of a light in table()
+  static constexpr std::size_t floats = GUIDE_FLOATS; ///< floats of a light in table()
 
   /// All cells of all lights have the same chance at first. lights is the number of lights.
   explicit EmissionGuide(std::size_t lights);
@@ -91,16 +86,14 @@ public:
   /// The table [light][GUIDE_FLOATS]; kernels/photons/guide.h describes it.
   const std::vector<float>& table() const { return table_; }
   /// moments[light][GUIDE_CELLS] is the sum over `passes` passes of the squares of what each photon added to the
-  /// picture, in any unit. photons[light] is the number of photons in each of those passes. Every cell keeps a chance,
-  /// however dark it was.
+  /// picture, in any unit. photons[light] is their number in each of those passes. Every cell keeps a chance.
   void learn(std::span<const std::int64_t> moments, std::span<const double> photons, double passes);
 
   void state(tracing::State& state);
 
 private:
-  std::vector<double> chance_; ///< [light][cell]: a photon's chance of a cell; sums to 1 for each light
-  std::vector<double> squares_,
-      samples_; ///< [light][cell]: their ratio estimates the mean square of an even photon, times the volume
+  std::vector<double> chance_;            ///< [light][cell]: a photon's chance of a cell; sums to 1 for each light
+  std::vector<double> squares_, samples_; ///< [light][cell]: the ratio estimates an even photon's mean square
   std::vector<float> table_;
 };
 

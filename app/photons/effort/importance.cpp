@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // u(lambda) = l(lambda) ybar(lambda) sum_i m_i(lambda) L_i ghat_i, (4.15), divided by its largest value. i runs over
-// the materials that diffuse or mirror light. m_i(lambda) is the largest reflectance over all directions (4.1.2); here
-// a mirror has the same reflectance in each direction.
+// the materials that diffuse or mirror light. m_i(lambda) is the largest reflectance over all directions (4.1.2).
 #include "photons/effort/importance.h"
 
 #include "scene/ray.h"
@@ -17,7 +16,6 @@ namespace nephroid::photons {
 namespace {
 
 using optics::Spectrum;
-using optics::wavelength_count;
 using Type = scene::Material::Type;
 
 /// The corners of the box about an object, and its centre. The corners are drawn in by a thousandth: an object that
@@ -36,8 +34,7 @@ std::array<glm::dvec3, 9> viewpoints(const scene::Scene& scene, const scene::Obj
 constexpr int rays_per_scene = 9 * 2048, least_rays_per_point = 16;
 
 /// ghat: how often rays from the nine points of every caustic object hit each material, [material]. Every object counts
-/// alike, large or small. Rays pass what refracts, as light does. Where mirrors throw the caustics, rays pass these as
-/// well: their own points lie inside.
+/// alike. Rays pass what refracts, as light does, and mirrors that throw the caustics: their own points lie inside.
 std::vector<double> seen_materials(const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<int>& throwers) {
   std::vector<bool> passed(scene.objects.size());
   for (std::size_t i = 0; i < passed.size(); ++i)
@@ -149,10 +146,7 @@ WavelengthImportance importance_of_surroundings(bool geometry, const ImportanceG
 
 /// The fit of Radziszewski, Boryczko and Alda 2009 to the wavelengths' contributions to luminance; it is 1 at 538 nm.
 Spectrum importance_of_radziszewski() {
-  Spectrum u;
-  for (int w = 0; w < wavelength_count; ++w)
-    u[static_cast<std::size_t>(w)] = std::pow(std::cosh(0.0072 * (optics::wavelength_nm(w) - 538)), -2);
-  return u;
+  return optics::spectrum_of([](double nm) { return std::pow(std::cosh(0.0072 * (nm - 538)), -2); });
 }
 
 /// What the eye makes of the light alone, wherever it goes.
@@ -235,8 +229,7 @@ std::vector<double> cluster_importance(const Spectrum& u, std::span<const std::v
   return result;
 }
 
-// The iterations grow by at most 1 although u passes is rounded: u (p + 1) <= u p + 1, and rounding to double keeps the
-// order of numbers and leaves integers as they are.
+// They grow by at most 1 although u p is rounded: u (p + 1) <= u p + 1, and rounding keeps order and integers.
 std::int64_t iterations(double importance, std::int64_t passes) {
   return static_cast<std::int64_t>(std::ceil(importance * static_cast<double>(passes)));
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths from the eye in slices of pixels: kernels/photons/view.cl finds where they end, and the caller gathers photons
-// there.
+// Paths from the eye in slices of pixels: photons/view.cl finds where they end, and the caller gathers photons there.
 #pragma once
 #include "kernels/photons/photon_map_types.h"
 #include "photons/tables/device_world.h"
@@ -19,8 +18,8 @@ public:
       : world_(world), begin_(pixels == Pixels::all ? 0 : world.pixels.count),
         size_(pixels == Pixels::all ? world.pixels.count : static_cast<std::uint32_t>(world.pixels.glass.size())),
         points_(world.context, "visible points", point_count(world.tables.camera)),
-        view_(compute::Program(world.context, "photons/view.cl", world.defines).kernel("view")), slices_(size_, 1024) {}
-  /// The bytes that this takes on the device.
+        view_(compute::Program(world.context, "photons/view.cl", world.defines).kernel("view")),
+        slices_(size_, 1024, static_cast<std::int64_t>(points_.size())) {}
   static std::uint64_t bytes(const shared::DeviceCamera& camera) {
     return point_count(camera) * sizeof(shared::VisiblePoint);
   }
@@ -34,20 +33,17 @@ public:
   template <class Gather>
   bool advance(shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster, const Gather& gather) {
     if (size_ == 0) return true;
-    return slices_.advance(world_.context.communicator(), size_, static_cast<std::int64_t>(points_.size()),
-                           [&](std::uint32_t done, std::uint32_t count) {
-                             const std::uint32_t first = begin_ + done;
-                             for (std::uint32_t path = 0; path < paths.count; ++path) {
-                               trace(world_.tables.camera, seed, pass,
-                                     {paths.count, paths.before + path, paths.before_in_half + path}, cluster,
-                                     world_.pixels.on_device, first, count);
-                               gather(first, count);
-                             }
-                             world_.context.finish();
-                           });
+    return slices_.advance(world_.context.communicator(), [&](std::uint32_t done, std::uint32_t count) {
+      const std::uint32_t first = begin_ + done;
+      for (std::uint32_t path = 0; path < paths.count; ++path) {
+        trace(world_.tables.camera, seed, pass, {paths.count, paths.before + path, paths.before_in_half + path},
+              cluster, world_.pixels.on_device, first, count);
+        gather(first, count);
+      }
+      world_.context.finish();
+    });
   }
 
-  /// Does Stage::warm_up for its kernel.
   void warm_up() { trace(world_.tables.camera, world_.seed, 0, {}, 0, world_.pixels.on_device, 0, 0); }
   const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
 

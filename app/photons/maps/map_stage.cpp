@@ -167,8 +167,7 @@ PlanPart plan_maps(const PlanInput& input) {
   PlanPart part = plan_gathering(input, map_pass(input), input.tables.photons_per_pass());
   const bool runs = part.passes[0].runs;
   if (runs) part.buffers.push_back({"film photon maps", input.film_bytes()});
-  // The wavelengths of a cluster in one pass: photons and eye paths must share one. A pass has 32 in all, for a picture
-  // of fewer wavelengths has a colour cast.
+  // Photons and eye paths must share a wavelength. A pass has 32 in all: a picture of fewer has a colour cast.
   const int clusters = std::max(static_cast<int>(input.tables.wavelengths.clusters.size()), 1);
   part.defines = {
       {"NEPHROID_PASS_BANDS", std::to_string(runs && jitter_pass(input).runs ? std::max(1, 32 / clusters) : 1)}};

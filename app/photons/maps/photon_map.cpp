@@ -20,8 +20,7 @@ constexpr unsigned scan_blocks = 256;
 /// There is at least one bucket a photon, so that few cells share one.
 std::uint32_t bucket_mask(std::uint32_t slots) { return std::bit_ceil(std::max(slots, 1024u)) - 1; }
 
-/// Kernels read eight photons at a time, up to seven of them beyond the last, and eight are written there that match no
-/// search.
+/// Kernels read eight photons at a time, up to seven beyond the last, where eight stand that match no search.
 std::uint32_t stride(std::uint32_t slots) { return (slots + 15) / 8 * 8; }
 
 /// The fraction of the pixels that show glass or a mirror first, estimated from some four thousand of them.
@@ -43,6 +42,30 @@ double bent_share(const scene::Scene& scene, const scene::Bvh& bvh) {
 double pixel_width(const scene::Camera& camera, const scene::Sphere& bounds) {
   const double distance = std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius);
   return 2 * distance * camera.tan_y / camera.height;
+}
+
+/// The plan's warning about a spectral.sppm.radius that loses the caustics, or an empty string. Such a radius is wider
+/// than 32 pixels or than the whole scene, or below 1/16 pixel, where a pass with as many photons as pixels finds one
+/// in some hundred pixels. It also warns of an alpha that shrinks the radius so far at a pixel's first photons.
+std::string map_radius_note(const Settings& settings, const scene::Scene& scene) {
+  const double radius = first_map_radius(settings, scene), alpha = settings.sppm.alpha,
+               shrunk = radius * std::sqrt(alpha);
+  const scene::Sphere bounds = tracing::scene_bounds(scene);
+  const double pixel = pixel_width(scene.camera, bounds), least = pixel / 16;
+  if (settings.estimator == Settings::Estimator::sppm && radius >= least && shrunk < least)
+    return fmt::format("spectral.sppm.alpha: {:.3g} shrinks a radius from {:.3g} to {:.3g} pixels at its first "
+                       "photons, and hardly another one "
+                       "lies so near: caustics grow darker from pass to pass; choose 0.667 or so",
+                       alpha, radius / pixel, shrunk / pixel);
+  if (!settings.sppm.radius) return "";
+  const auto note = [&](const char* consequence) {
+    return fmt::format(
+        "spectral.sppm.radius: {} units are {:.3g} pixels: {}; choose about {:.3g}, two pixels, or leave it out",
+        radius, radius / pixel, consequence, 2 * pixel);
+  };
+  if (radius > 32 * pixel || (radius > bounds.radius && radius > 2 * pixel))
+    return note("caustics are blurred away, and gathering is slow");
+  return radius < least ? note("hardly a photon lies so near, and caustics are black but for rare bright dots") : "";
 }
 
 } // namespace
@@ -125,30 +148,8 @@ std::string map_radius(const Settings& settings, const scene::Scene& scene) {
   return fmt::format("from {:.3g} units around a visible point", first_map_radius(settings, scene));
 }
 
-std::string map_radius_note(const Settings& settings, const scene::Scene& scene) {
-  const double radius = first_map_radius(settings, scene), alpha = settings.sppm.alpha,
-               shrunk = radius * std::sqrt(alpha);
-  const scene::Sphere bounds = tracing::scene_bounds(scene);
-  const double pixel = pixel_width(scene.camera, bounds), least = pixel / 16;
-  if (settings.estimator == Settings::Estimator::sppm && radius >= least && shrunk < least)
-    return fmt::format("spectral.sppm.alpha: {:.3g} shrinks a radius from {:.3g} to {:.3g} pixels at its first "
-                       "photons, and hardly another one "
-                       "lies so near: caustics grow darker from pass to pass; choose 0.667 or so",
-                       alpha, radius / pixel, shrunk / pixel);
-  if (!settings.sppm.radius) return "";
-  const auto note = [&](const char* consequence) {
-    return fmt::format(
-        "spectral.sppm.radius: {} units are {:.3g} pixels: {}; choose about {:.3g}, two pixels, or leave it out",
-        radius, radius / pixel, consequence, 2 * pixel);
-  };
-  if (radius > 32 * pixel || (radius > bounds.radius && radius > 2 * pixel))
-    return note("caustics are blurred away, and gathering is slow");
-  return radius < least ? note("hardly a photon lies so near, and caustics are black but for rare bright dots") : "";
-}
-
 double map_radius_factor(std::int64_t pass, double alpha) {
-  // The product of (k + alpha) / (k + 1) over k = 1 .. pass is Gamma(pass + 1 + alpha) / Gamma(1 + alpha) / Gamma(pass
-  // + 2).
+  // The product of (k + alpha) / (k + 1) over k = 1 .. p is Gamma(p + 1 + alpha) / Gamma(1 + alpha) / Gamma(p + 2).
   const auto p = static_cast<double>(pass);
   return std::exp(0.5 * (std::lgamma(p + 1 + alpha) - std::lgamma(1 + alpha) - std::lgamma(p + 2)));
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons on surfaces and the grid that finds those near a point (kernels/photons/photon_map.h, grid.cl). Also the code
-// that MapStage and SppmStage share: the memory of photon maps, and the radius around a visible point in which photons
-// are gathered.
+// Photons on surfaces and the grid that finds those near a point (kernels/photons/photon_map.h, grid.cl). Also what
+// MapStage and SppmStage share: the memory, and the radius in which photons are gathered.
 #pragma once
 #include "compute/compute.h"
 #include "kernels/photons/photon_map_types.h"
@@ -14,25 +13,19 @@
 
 namespace nephroid::photons {
 
-/// Quanta per W of a stored photon: 2^12 for one of `photons` that share `watts`. A photon may carry 4096 times as
-/// much.
+/// Quanta per W of a stored photon: 2^12 for one of `photons` that share `watts`. It may carry 4096 times as much.
 double photon_scale(std::uint32_t photons, double watts);
 
 class PhotonMap {
 public:
-  /// Has room for `slots` photons, 1 <= slots < 2^30. defines apply to every kernel. Throws failed where the device has
-  /// not enough memory.
+  /// Has room for `slots` photons, 1 <= slots < 2^30. Throws failed where the device has not enough memory.
   PhotonMap(const mpi::RankContext& context, std::uint32_t slots, const compute::Defines& defines = {});
-  /// The bytes that a map takes on the device.
   static std::uint64_t bytes(std::uint32_t slots);
 
-  /// Where kernels write photons before build(), each to the slot of its number. Every slot has to be written, if only
-  /// with NO_PHOTON.
+  /// Where kernels write photons before build(). Every slot has to be written, if only with NO_PHOTON.
   compute::Buffer<shared::StoredPhoton>& stored() { return stored_; }
-  /// Queues the sorting of the first `slots` stored photons into cells of that edge, in scene units. The radius of a
-  /// search may be up to 3 cells.
+  /// Queues the sorting of the first `slots` stored photons into cells. The radius of a search may be up to 3 cells.
   void build(double cell_edge, std::uint32_t slots);
-  std::uint32_t slots() const { return static_cast<std::uint32_t>(stored_.size()); }
 
   /// The kernel arguments PHOTON_MAP_ARGUMENTS, from which kernels make a PhotonMap. They refer to this map.
   std::array<compute::Argument, 4> arguments() const {
@@ -49,9 +42,8 @@ private:
   shared::PhotonGrid grid_{};
 };
 
-/// Paths from the eye of a pixel in a pass of MapStage, 1..64. Those that meet glass or a mirror first go on; in the
-/// whole picture they are a third as many as photons. So neither kind takes most of the time or causes most of the
-/// noise.
+/// Paths from the eye of a pixel in a pass of MapStage, 1..64. Those that meet glass or a mirror first are a third as
+/// many as photons. So neither kind takes most of the time or causes most of the noise.
 unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsigned photons_per_pass);
 
 /// The plan of a stage that gathers `photons` photons at a time, where `pass` runs. Throws bad_input at
@@ -64,16 +56,9 @@ double first_map_radius(const Settings& settings, const scene::Scene& scene);
 /// The first radius as the plan states it.
 std::string map_radius(const Settings& settings, const scene::Scene& scene);
 
-/// The plan's warning about a spectral.sppm.radius that loses the caustics, or an empty string. Such a radius is wider
-/// than 32 pixels or than the whole scene, or below 1/16 pixel, where a pass with as many photons as pixels finds one
-/// in some hundred pixels. It also warns of an alpha that shrinks the radius so far when a pixel of the estimator sppm
-/// finds its first photons.
-std::string map_radius_note(const Settings& settings, const scene::Scene& scene);
-
 /// The factor of the first radius in pass p (from 0): r_(p+1)^2 = r_p^2 (p + alpha) / (p + 1), counted from 1 (Knaus
 /// and Zwicker 2011, "Progressive photon mapping: a probabilistic approach", (15)). Squares of radii then fall as
-/// p^(alpha - 1). The bias is proportional to them and vanishes; so does the variance of the mean of all passes, as
-/// p^-alpha. alpha is in (0, 1).
+/// p^(alpha - 1). The bias is proportional to them; the variance of the mean of all passes falls as p^-alpha.
 double map_radius_factor(std::int64_t pass, double alpha);
 
 } // namespace nephroid::photons

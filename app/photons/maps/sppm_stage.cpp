@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stochastic progressive photon mapping (Hachisuka and Jensen 2009) as the thesis uses it (4.1): each cluster has a run
-// of its own, with its own statistics for every pixel. The runs take turns: a cluster of importance u has ceil(u p)
-// iterations after p passes. With effort `random` (thesis figure 1.5) each pass draws one cluster, and all share one
-// run, in which it stands for all.
+// and statistics of its own. The runs take turns: one of importance u has ceil(u p) iterations after p passes. With
+// effort `random` (thesis figure 1.5) each pass draws one cluster, which stands for all in one run.
 #include "optics/colour.h"
 #include "photons/effort/emitters.h"
 #include "photons/effort/importance.h"
@@ -157,16 +156,13 @@ public:
   }
 
 private:
-  /// The position in the current pass.
   struct Position {
     int cluster = 0;   ///< cluster whose turn it is, or the next that may have one
     bool sent = false; ///< whether its photons are all sent
   };
 
   int cluster_count() const { return world_.tables.scene.cluster_count; }
-  std::uint32_t pixel_count() const {
-    return static_cast<std::uint32_t>(world_.tables.camera.width * world_.tables.camera.height);
-  }
+  std::uint32_t pixel_count() const { return world_.pixels.count; }
   Partition own_pixels() const { return {world_.context.communicator(), pixel_count()}; }
   ClusterRun& run_of(int cluster) { return runs_[random_ ? 0 : static_cast<std::size_t>(cluster)]; }
 

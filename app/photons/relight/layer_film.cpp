@@ -123,8 +123,7 @@ LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, Emp
     longest = std::max(longest, list.size());
     seen[i] = std::move(list);
   }
-  // Every pixel gets its first reflector before any gets its second, and its own reflectors before those of its
-  // neighbours.
+  // Every pixel gets its first reflector before any gets its second, and its own before those of its neighbours.
   std::vector<std::size_t> kept(pixels, 0);
   std::size_t left = most;
   for (const int fewest : {own_weight(survey), 0})

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A film of layers (kernels/photons/layers.h): its cells, on the host, its sums, on the device, and the pictures
-// weighed from them. A cell is a pixel with one reflector that it sees. Also what the stages of a run that keeps layers
-// share: the present light, and the films' cells (thesis 6.2.2).
+// weighed from them. A cell is a pixel with one reflector that it sees. Also what stages share (thesis 6.2.2).
 #pragma once
 #include "compute/compute.h"
 #include "kernels/photons/layer_types.h"
@@ -26,12 +25,9 @@ struct LayerCells {
   std::vector<int> first;               ///< [pixel + 1]: index into `cells`
   std::vector<shared::LayerCell> cells; ///< for each pixel, beginning with the reflector that it sees most
   std::vector<int> reflector_of_block;  ///< cells of one reflector fill whole blocks of LAYER_BLOCK
-  std::size_t count() const {
-    return LAYER_BLOCK * reflector_of_block.size();
-  } ///< the number of cell numbers, unused ones included
+  std::size_t count() const { return LAYER_BLOCK * reflector_of_block.size(); } ///< cell numbers, unused ones included
 };
 
-/// The result of a survey.
 struct ReflectorSurvey {
   std::span<const int> seen; ///< [pixel][sample]: a reflector; -1: none
   int width = 0, height = 0;
@@ -41,17 +37,15 @@ struct ReflectorSurvey {
 
 /// Makes a cell for each pixel and reflector that the pixel or one of its eight neighbours sees: what is at an edge may
 /// be in the pixel beside. There are at most `most` cells; if there would be more, what pixels see least is left out
-/// first. With EmptyPixel::a_cell a pixel that sees nothing has one, too, if there are reflectors at all (`most` is
-/// then at least the number of pixels).
+/// first. With EmptyPixel::a_cell a pixel that sees nothing has one, too, if there are reflectors.
 enum class EmptyPixel { no_cell, a_cell };
 LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, EmptyPixel unseen);
 
 /// The largest LayerCells::count() for so many cells.
 std::size_t padded_cells(std::size_t cells, int reflector_count);
 
-/// The most cells of a camera's films, known before the survey. Unbent: one a pixel and a quarter more for edges. Bent
-/// (seen through glass and mirrors): two for each pixel that may see `spheres`, which enclose all glass and mirrors.
-/// Both have some thousand more.
+/// The most cells of a camera's films, known before the survey. Unbent: one a pixel, and more for edges. Bent (seen
+/// through glass and mirrors): two for each pixel that may see `spheres`, which enclose these, and some more.
 std::size_t unbent_cells(const shared::DeviceCamera& camera);
 std::size_t bent_cells(const shared::DeviceCamera& camera, std::span<const scene::Sphere> spheres);
 
@@ -90,7 +84,6 @@ public:
   /// Returns two pictures, each [pixel][3]: sums over halves, layers and the pixel's cells, times the weights.
   std::array<std::vector<float>, 2> weigh(const LayerFilmWeights& by);
 
-  /// The contents of a pixel's cells.
   std::vector<LayerSums> pixel(std::size_t index) const;
 
   void state(tracing::State& state) { state.buffer(sums_); }
@@ -109,8 +102,7 @@ private:
 using HalfCounts = std::array<double, 2>;
 
 /// Weights for weigh(). The first picture is the mean over both halves of `colours` [layer][reflector] times the film's
-/// sums, the second the draw of its error (job::Picture::error_draw). counts is [layer]; a layer whose count is 0 is
-/// left out.
+/// sums, the second the draw of its error (job::Picture::error_draw). counts: [layer]; those of 0 are left out.
 LayerFilmWeights mean_and_draw(std::span<const std::array<double, 3>> colours, std::span<const HalfCounts> counts,
                                int reflectors, std::size_t halves, double quanta_per_unit);
 
@@ -126,15 +118,13 @@ struct Relighting {
   compute::Buffer<float> mean_reflectance, luminance_share; ///< FlatLight
 };
 
-/// Returns DeviceWorld::relighting. The first call surveys on the device what the camera sees. world has the tables
-/// that make_run_tables made for the scene.
+/// Returns DeviceWorld::relighting. The first call surveys on the device what the camera sees.
 const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene);
 
 /// Changes the light. The energy counters begin anew, but for refused contributions.
 void change_light(Relighting& relighting, DeviceWorld& world, LayerLight light);
 
-/// Adds a film of so many cells to the plan: its sums under their name, its cells and the weighed pictures under
-/// theirs.
+/// Adds a film of so many cells to the plan: its sums under their name, and its cells and weighed pictures.
 void plan_layer_film(const char* name, std::size_t layers, std::size_t cells, const PlanInput& input, PlanPart& part);
 
 } // namespace nephroid::photons

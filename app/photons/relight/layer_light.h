@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The light that layers are weighed by (kernels/photons/layers.h), which may change while a run goes on, and the
-// weights. Also what a run that keeps layers does differently: its lights have unit power, and its work serves lights
-// to come, too. On the host, without OpenCL.
+// weights. Also what such a run does differently: its lights have unit power, and its work serves lights to come.
 #pragma once
 #include "optics/colour.h"
 #include "photons/settings.h"
@@ -14,7 +13,6 @@
 
 namespace nephroid::photons {
 
-/// What may change in a run that keeps layers.
 struct LayerLight {
   std::vector<optics::Spectrum> spectra; ///< spectrum of each light of the preset, sums to 1
   std::vector<double> power;             ///< W, or W m^-2 for a directional light
@@ -47,8 +45,7 @@ struct FlatLight {
 FlatLight flat_light(const tracing::WavelengthTables& tables);
 
 /// The tables of make_lit_tables for a run. Where it keeps layers, every light has 1 W (W m^-2), no light and no
-/// wavelength is left out for being dark, and photons and paths through glass are allocated by layer_emitters and
-/// layer_cluster_cdf. Throws as make_lit_tables does.
+/// wavelength is left out for being dark, and work is allocated by layer_emitters and layer_cluster_cdf.
 RunTables make_run_tables(const preset::Preset& preset, const Settings& settings, const scene::Scene& scene,
                           const scene::Bvh& bvh, tracing::LeaveOut leave_out);
 

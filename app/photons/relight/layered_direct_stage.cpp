@@ -30,32 +30,30 @@ public:
   bool advance(std::int64_t pass) override {
     if (std::exchange(chosen_for_, relighting_.changes) != relighting_.changes)
       cluster_cdf_.write(layer_cluster_cdf(relighting_.light, world_.tables.wavelengths));
-    return rows_.advance(
-        world_.context.communicator(), world_.tables.camera.height, world_.tables.camera.height,
-        [&](std::uint32_t first_row, std::uint32_t rows) {
-          const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
-          world_.run(kernel_, pixels, 64,
-                     {{"cluster_cdf", cluster_cdf_},
-                      {"mean_reflectance", relighting_.mean_reflectance},
-                      {"luminance_share", relighting_.luminance_share},
-                      {"unbent_first", unbent_.first()},
-                      {"unbent_cells", unbent_.cells()},
-                      {"unbent_sums", unbent_.sums()},
-                      {"unbent_layer_count", unbent_.layer_count()},
-                      {"bent_first", bent_.first()},
-                      {"bent_cells", bent_.cells()},
-                      {"bent_sums", bent_.sums()},
-                      {"bent_layer_count", bent_.layer_count()},
-                      {"energy", world_.energy},
-                      {"camera", world_.tables.camera},
-                      {"seed", world_.seed},
-                      {"frame", static_cast<std::uint32_t>(pass)},
-                      {"first_row", static_cast<int>(first_row)},
-                      {"row_count", static_cast<int>(rows)},
-                      {"film_scale", world_.on_device(world_.tables.direct_scale)},
-                      // A sample through glass adds to one cell as often as it has paths.
-                      {"film_limit", static_cast<float>(world_.tables.direct_limit / paths_through_glass)}});
-        });
+    return rows_.advance(world_.context.communicator(), [&](std::uint32_t first_row, std::uint32_t rows) {
+      const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
+      world_.run(kernel_, pixels, 64,
+                 {{"cluster_cdf", cluster_cdf_},
+                  {"mean_reflectance", relighting_.mean_reflectance},
+                  {"luminance_share", relighting_.luminance_share},
+                  {"unbent_first", unbent_.first()},
+                  {"unbent_cells", unbent_.cells()},
+                  {"unbent_sums", unbent_.sums()},
+                  {"unbent_layer_count", unbent_.layer_count()},
+                  {"bent_first", bent_.first()},
+                  {"bent_cells", bent_.cells()},
+                  {"bent_sums", bent_.sums()},
+                  {"bent_layer_count", bent_.layer_count()},
+                  {"energy", world_.energy},
+                  {"camera", world_.tables.camera},
+                  {"seed", world_.seed},
+                  {"frame", static_cast<std::uint32_t>(pass)},
+                  {"first_row", static_cast<int>(first_row)},
+                  {"row_count", static_cast<int>(rows)},
+                  {"film_scale", world_.on_device(world_.tables.direct_scale)},
+                  // A sample through glass adds to one cell as often as it has paths.
+                  {"film_limit", static_cast<float>(world_.tables.direct_limit / paths_through_glass)}});
+    });
   }
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override {

@@ -18,8 +18,7 @@ public:
       : world_(world), relighting_(relighting_of(world, scene)), emitters_(world.tables.emitters),
         sent_(emitters_.size()), film_(world.context, "film caustic", relighting_.unbent,
                                        world.tables.lights.size() * cluster_count(), world.halves, world.defines),
-        // A photon with the power of all lights on a surface as far away as the scene's middle has 2^16 quanta, see
-        // set_scales.
+        // A photon with the power of all lights on a surface in the scene's middle has 2^16 quanta.
         scale_(world.tables.caustic_scale / world.tables.photons_per_batch) {
     kernel_ = compute::Program(world.context, "photons/relight_photons.cl", world.photon_defines()).kernel("photons");
   }

@@ -44,10 +44,7 @@ struct DeviceWorld : tracing::World {
   std::shared_ptr<Relighting> relighting{}; ///< set where layers are kept for another light
 
   /// The number of 64-bit sums of a film of XYZ.
-  std::size_t film_size() const {
-    return std::size_t{3} * halves * static_cast<std::size_t>(tables.camera.width) *
-           static_cast<std::size_t>(tables.camera.height);
-  }
+  std::size_t film_size() const { return std::size_t{3} * halves * pixels.count; }
   /// The run's camera with a pixel for each block of the preview.
   shared::DeviceCamera preview_camera() const {
     shared::DeviceCamera camera = tables.camera;
@@ -57,10 +54,7 @@ struct DeviceWorld : tracing::World {
   }
   /// The film of the preview, empty where there is none.
   compute::Buffer<std::int64_t> preview_film() const {
-    const auto blocks = preview.blocks.edge > 0 ? static_cast<std::size_t>(preview.blocks.across()) *
-                                                      static_cast<std::size_t>(preview.blocks.down())
-                                                : 0;
-    return zeroed("preview", std::size_t{3} * halves * blocks);
+    return zeroed("preview", std::size_t{3} * halves * (preview.blocks.edge > 0 ? preview.blocks.count() : 0));
   }
   /// Runs a kernel that sends a slice of the photons of a pass.
   void send(compute::Kernel& kernel, const tracing::PhotonSlice& slice, std::int64_t iteration,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of a run of engine 1, still on the host: the scene's tables and the allocation of photons. They are made
-// once for each job and tested without a device.
+// The tables of a run, still on the host: the scene's tables and the allocation of photons.
 #pragma once
 #include "photons/settings.h"
 #include "scene/bvh.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small pictures by the real engine against closed forms of irradiance and power. Noise is judged in standard
 // deviations that follow from the number of photons or samples, so that no seed makes a check fail by chance.
-#include "check/device_arrays.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "spectral/checks/render.h"
@@ -56,11 +55,10 @@ PixelTruth pixel_truth(const preset::Light& light, int resolution, int row, int 
   return truth;
 }
 
-/// The distance of a layer from the truth in sigma: that of the sum over all pixels, and that of each pixel by itself
-/// as chi-square.
+/// The distance of a layer from the truth in sigma: of the sum over all pixels, and of each by itself as chi-square.
 struct Distance {
   double sum_error = 0, pixel_error = 0, ratio = 1;
-  double worst() const { return std::abs(sum_error) > std::abs(pixel_error) ? sum_error : pixel_error; }
+  double worst() const { return worse(pixel_error, sum_error); }
 };
 /// variance(truth) is that of a pixel's measured irradiance.
 template <class Variance>
@@ -71,8 +69,7 @@ Distance distance(const job::Snapshot& snapshot, const char* name, const preset:
   for (int row = 0; row < size; ++row)
     for (int column = 0; column < size; ++column) {
       const PixelTruth truth = pixel_truth(p.scene.lights[0], size, row, column);
-      // A white surface under E has the radiance E / pi. Single precision and the grid of places add 3e-5 to each
-      // pixel.
+      // White under E has the radiance E / pi. Single precision and the grid of places add 3e-5 to each pixel.
       const double e = luminance(layer(snapshot, name), size, row, column) / y_of_light * pi, v = variance(truth);
       sum += e;
       truth_sum += truth.irradiance;
@@ -145,16 +142,14 @@ Result sky_through_nothing(const compute::Context& context, std::uint64_t seed) 
     squares[i % 3] += off * off;
     hidden += double(caustic[i]) / p.scene.environment->colour[i % 3] / static_cast<double>(direct.size());
   }
-  for (int c = 0; c < 3; ++c)
-    if (const double z = sums[c] / std::sqrt(squares[c]); std::abs(z) > std::abs(worst)) worst = z;
+  for (int c = 0; c < 3; ++c) worst = worse(worst, sums[c] / std::sqrt(squares[c]));
   return judged(worst, 6, "sigma",
                 fmt::format("a floor under half a sky of one colour, {:.3f} of its light through a ball of n = 1, "
                             "against the sky's colour: ratio {:.4f}",
                             hidden, 1 + sums[1] * 3 / static_cast<double>(direct.size())));
 }
 
-/// A pencil meets a mirror that is not grey, then a screen: of every wavelength its reflectance is left, without
-/// chance.
+/// A pencil meets a mirror that is not grey, then a screen: each wavelength's reflectance is left, without chance.
 Result coloured_mirror(const compute::Context& context, std::uint64_t seed) {
   preset::Preset p = empty_preset(16);
   p.seed = seed;

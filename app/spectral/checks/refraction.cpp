@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pencils of light through plates, a prism and a ball lens by the real engine, against Fresnel and Snell.
-#include "check/device_arrays.h"
 #include "spectral/checks/render.h"
 #include "spectral/checks/scene_parts.h"
 
@@ -27,8 +26,7 @@ double z_of_transmitted(const compute::Context& context, preset::Preset p, doubl
   return (e.deposited_w / e.emitted_w - truth) / std::sqrt(truth * (1 - truth) / photons);
 }
 
-/// A pencil of 0.01 degrees crosses a plate of 40 m x 1 mm x 40 m. It starts 0.1 m before, so that it is narrow at
-/// grazing angles, too.
+/// A pencil of 0.01 degrees from 0.1 m before crosses a plate of 40 m x 1 mm x 40 m: narrow at grazing angles, too.
 Result plate(const compute::Context& context, std::uint64_t seed) {
   constexpr double n = 1.5;
   double worst = 0;
@@ -39,8 +37,7 @@ Result plate(const compute::Context& context, std::uint64_t seed) {
     p.scene.objects = {object("plate", box(40, 1e-3, 40), "glass")};
     const double s = std::sin(theta_deg * degree), c = std::cos(theta_deg * degree);
     p.scene.lights = {pencil({-0.1 * s, 0.5e-3 + 0.1 * c, 0}, {s, -c, 0}, 0.01)};
-    const double z = z_of_transmitted(context, std::move(p), plate_transmittance(theta_deg * degree, n));
-    worst = std::abs(z) <= std::abs(worst) ? worst : z;
+    worst = worse(worst, z_of_transmitted(context, std::move(p), plate_transmittance(theta_deg * degree, n)));
   }
   return judged(
       worst, 6, "sigma",
@@ -82,8 +79,7 @@ struct Screen {
   }
   double column(double x) const { return (x - x_first) / (x_last - x_first) * columns; }
 
-  /// The column of the light's centre within 6 columns of the brightest: light reflected inside the glass lands
-  /// elsewhere.
+  /// The light's centre within 6 columns of the brightest: light reflected inside the glass lands elsewhere.
   double landing(const job::Layer& picture) const {
     double flux[columns] = {};
     for (int row = 0; row < rows; ++row)
@@ -98,8 +94,7 @@ struct Screen {
   }
 };
 
-/// Allows half a pixel: a pencil of 0.005 degrees is some pixels wide, and the centre of its thousands of photons is
-/// known better than that.
+/// Allows half a pixel: a pencil is some pixels wide, and the centre of its photons is known better than that.
 Result off_by(double worst_pixels, std::string detail) {
   return judged(worst_pixels, 0.5, "pixels", std::move(detail));
 }
@@ -133,8 +128,7 @@ Result prism(const compute::Context& context, std::uint64_t seed) {
   for (const double nm : {400.0, 450.0, 500.0, 600.0, 700.0}) {
     const PrismPath truth = path(nm);
     p.scene.lights = {pencil({truth.from_x, 0, truth.from_z}, {truth.direction_x, 0, truth.direction_z}, 0.005, nm)};
-    const double off = screen.landing(layer(render(p, context), "caustic")) - screen.column(truth.landing_x);
-    worst = std::abs(off) <= std::abs(worst) ? worst : off;
+    worst = worse(worst, screen.landing(layer(render(p, context), "caustic")) - screen.column(truth.landing_x));
   }
   return off_by(
       worst,
@@ -156,9 +150,8 @@ Result ball_lens(const compute::Context& context, std::uint64_t seed) {
   double worst = 0;
   for (const double height : {0.05, 0.2, 0.4, 0.6, 0.75}) {
     p.scene.lights = {pencil({height * radius, 0, 4 * radius}, {0, 0, -1}, 0.005)};
-    const double off = screen.landing(layer(render(p, context), "caustic")) -
-                       screen.column(ball_lens_landing(radius, height * radius, n, screen_z));
-    worst = std::abs(off) <= std::abs(worst) ? worst : off;
+    worst = worse(worst, screen.landing(layer(render(p, context), "caustic")) -
+                             screen.column(ball_lens_landing(radius, height * radius, n, screen_z)));
   }
   return off_by(worst, "rays at 0.05 to 0.75 radii of a ball of n = 1.5 onto a screen 4 radii behind it, the farthest "
                        "from the ray trace "

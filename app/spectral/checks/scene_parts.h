@@ -72,7 +72,6 @@ inline preset::Shape rod(double radius, int segments) {
 
 inline preset::Shape ball(double radius) { return {.type = preset::Shape::Type::sphere, .radius = radius}; }
 
-/// A spectrum of a single wavelength.
 inline preset::LightSpectrum line(double nm) {
   preset::LightSpectrum s;
   s.type = preset::LightSpectrum::Type::lines;

@@ -78,8 +78,7 @@ Result whole_spectrum(const compute::Context& context, std::uint64_t) {
           t.clusters.size()));
 }
 
-/// Terms are positive, so a sum is as exact as its terms: an exponent e, here up to 18, is off by a few e 2^-24, and so
-/// is exp(-e).
+/// Terms are positive, so a sum is as exact as they: exp(-e), with e up to 18 here, is off by a few e 2^-24.
 Result beer_lambert(const compute::Context& context, std::uint64_t) {
   const tracing::WavelengthTables t = tables();
   std::vector<float> coefficient;
@@ -103,7 +102,7 @@ Result beer_lambert(const compute::Context& context, std::uint64_t) {
       }
       const float4& s = got[item++];
       for (const double error : {relative(s.x, truth[0]), relative(s.y, truth[1]), relative(s.w, truth[3])})
-        worst = error <= worst ? worst : error;
+        worst = worse(worst, error);
       if (truth[2] > 0) worst = std::max(worst, relative(s.z, truth[2])); // the eye's blue ends at 650 nm
     }
   return judged(
@@ -153,8 +152,7 @@ std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, co
   return photons;
 }
 
-/// The distance of the mean of `values` from the truth in standard errors, to which single precision adds 2e-6 of the
-/// truth.
+/// The mean's distance from the truth in standard errors, to which single precision adds 2e-6 of the truth.
 template <class Value>
 double z_of(const std::vector<Photon>& photons, const Value& value, double truth) {
   double sum = 0, squares = 0;
@@ -209,14 +207,13 @@ Result spot(const compute::Context& context, std::uint64_t seed) {
   wide.power_w = narrow.power_w = 7;
   wide.half_angle_deg = 60;
   narrow.half_angle_deg = 5;
-  // The wide cone holds the first two spheres and its edge crosses the third. The narrow one lies inside the first
-  // sphere and is sent as it is.
+  // The wide cone holds two spheres and its edge crosses the third. The narrow one lies inside the first sphere.
   const std::vector<float4> spheres{three_spheres[0], three_spheres[1], {-std::sqrt(3.0f), 0, 1, 0.5f}};
   const double cone = 2 * pi * (1 - std::cos(pi / 3)), apart = shared_steradians(pi / 3, std::asin(0.25), pi / 3);
   const double z =
       z_of(emit(context, seed, wide, spheres), watts_of, 7 * (2 * pi * one_minus_cos(1 / 3.0) + apart) / cone);
   const double z_narrow = z_of(emit(context, seed, narrow, spheres), watts_of, 7);
-  return judged_in_sigma(std::abs(z) > std::abs(z_narrow) ? z : z_narrow,
+  return judged_in_sigma(worse(z_narrow, z),
                          "a cone of 60 degrees about three spheres, one across its edge, and one of 5 degrees inside a "
                          "sphere, against power "
                          "times the part of the cone");
@@ -246,7 +243,7 @@ Result area(const compute::Context& context, std::uint64_t seed) {
   const double z = z_of(photons, watts_of, 7);
   const double z_cosine = z_of(
       photons, [](const Photon& p) { return -p.watts * p.direction[1]; }, 7 * 2.0 / 3);
-  return judged_in_sigma(std::abs(z) > std::abs(z_cosine) ? z : z_cosine,
+  return judged_in_sigma(worse(z_cosine, z),
                          "photons in all directions, against the whole power and a mean cosine of 2/3");
 }
 
