@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/parameters/rows.h"
+// A row a field, with what can be done about it.
+#include "ui/parameters/panel.h"
 
 #include "base/json_output.h"
-#include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <cstdint>
 
 namespace nephroid::ui {
 namespace {
@@ -78,7 +76,7 @@ void FieldRows::draw_field(const Outline& o, const Json& value, const std::strin
   else if (o.kind == Kind::object)
     values_.draw_type(o, value, pointer);
   else
-    items_.draw_add(o, value, pointer);
+    draw_add(o, value, pointer);
   if (changed && !value.is_null()) draw_reset(o, value, pointer);
   draw_problem(pointer, leaf || !open);
   if (leaf || !open) return;
@@ -87,9 +85,9 @@ void FieldRows::draw_field(const Outline& o, const Json& value, const std::strin
   else if (o.kind == Kind::object)
     draw_fields(o.fields(value), value, pointer);
   else if (o.kind == Kind::list || o.kind == Kind::map)
-    items_.draw_items(o, value, pointer);
+    draw_items(o, value, pointer);
   else
-    items_.draw_rows(o, value, pointer);
+    draw_rows(o, value, pointer);
   ImGui::TreePop();
 }
 
