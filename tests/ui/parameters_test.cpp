@@ -325,6 +325,14 @@ TEST_F(ParametersTest, AFileIsChosenFromAList) {
   EXPECT_EQ(at("/measure/mask"), "mask.exr");
 }
 
+TEST_F(ParametersTest, AFileIsChosenWhereThePresetHasNone) {
+  workbench.apply({command::New{test::preset_text}});
+  ASSERT_TRUE(until([&] { return workbench.run().snapshot_is_current(); }));
+  search("measure.mask");
+  click("/measure/mask:given");
+  EXPECT_TRUE(panel().place_of("/measure/mask:files"));
+}
+
 TEST_F(ParametersTest, WhatARunRefusesIsSaidAtItsFieldToo) {
   open();
   runs.refusal = bad_input(Place(workbench.preset()->source, fov), "is not to this run's taste");

@@ -18,7 +18,7 @@ std::string parent_of(const std::string& pointer) {
   return pointer.substr(0, std::min(pointer.rfind('/'), pointer.size()));
 }
 
-/// What a run would refuse of what changed, as far as that is known without it: files that are missing, spectra and
+/// Refuses what a run would refuse of what changed, as far as that is known without it: missing files, spectra and
 /// curves.
 void check_loads(const preset::Preset& before, const preset::Preset& after) {
   const Place where{after.source, std::string()};

@@ -265,7 +265,9 @@ void ValueWidgets::draw_type(const Outline& o, const Json& object, const std::st
 /// A button in the line of what was drawn last, for a list of the files beside the preset.
 void ValueWidgets::draw_file_choice(const std::string& pointer) {
   const std::string popup = "files" + pointer;
-  const fs::path beside = fs::absolute(fs::path(form_.draft.source()).parent_path());
+  std::error_code ignored;
+  const fs::path folder = fs::path(form_.draft.source()).parent_path();
+  const fs::path beside = folder.empty() ? fs::current_path(ignored) : fs::absolute(folder, ignored);
   ImGui::SameLine(0, gap());
   if (ImGui::Button(("...##" + pointer).c_str(), {ImGui::GetFrameHeight(), 0})) {
     files_.begin(beside, {}, *form_.tasks);

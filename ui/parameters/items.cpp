@@ -19,7 +19,7 @@ constexpr std::size_t many_rows = 50; ///< rows out of sight are not drawn where
 
 double clamped(double value, const preset::Bounds& bounds) { return std::clamp(value, bounds.low, bounds.high); }
 
-/// After the last row as far as that is from the one before.
+/// The row that is added: after the last one as far as that is from the one before.
 Json next_row(const Outline& o, const Json& rows) {
   if (o.kind == Kind::texts) return "";
   if (o.kind == Kind::numbers) return clamped(0, o.field.bounds);
@@ -29,7 +29,7 @@ Json next_row(const Outline& o, const Json& rows) {
   return {clamped(at(1) + (rows.size() > 1 ? at(1) - at(2) : 10), first.bounds), rows.back().at(1)};
 }
 
-/// Every material that is called `name` where something is made of it.
+/// Renames the uses of a material in an object and whatever is inside of it.
 void rename_uses(const std::vector<Outline>& fields, Json& object, const std::string& name, const std::string& to) {
   for (const Outline& o : fields) {
     const auto found = object.find(o.field.name);
@@ -83,7 +83,7 @@ void FieldRows::draw_add(const Outline& o, const Json& value, const std::string&
   ImGui::TextDisabled("%s", counted(value.size(), o.kind == Kind::table ? "row" : "item").c_str());
 }
 
-/// Behind what an item of a list or a map has in its row: duplicate, move, remove.
+/// Draws the buttons behind an item of a list or a map: duplicate, move, remove.
 void FieldRows::draw_item_buttons(const Json& items, const std::string& key, const std::string& pointer) {
   const std::string at = child_of(pointer, key);
   const bool is_list = items.is_array();

@@ -14,13 +14,13 @@ namespace {
 using preset::Outline;
 using Kind = Outline::Kind;
 
-/// The others have rows of their own below.
+/// Whether a field has one row; the others have rows of their own below.
 bool is_leaf(const Outline& o) {
   const bool objects = o.kind == Kind::object || o.kind == Kind::list || o.kind == Kind::map;
   return !objects && o.kind != Kind::table && o.kind != Kind::texts && !(o.kind == Kind::numbers && o.size == 0);
 }
 
-/// By default. What has no default, a list and the type of an object stay as they are.
+/// The value by default. What has none, a list and the type of an object stay as they are.
 Json reset(const Outline& o, const Json& value) {
   if (o.optional) return nullptr;
   if (o.kind == Kind::object) {

@@ -45,7 +45,7 @@ void FileList::begin(fs::path folder, std::vector<std::string> endings, TaskQueu
 
 void FileList::go(fs::path folder) {
   std::error_code ignored;
-  folder_ = fs::absolute(folder.empty() ? "." : folder, ignored).lexically_normal();
+  folder_ = fs::absolute(folder.empty() ? fs::current_path(ignored) : folder, ignored).lexically_normal();
   entries_.clear();
   note_ = "Reading the folder";
   tasks_->forget(reading_); // a folder whose disk hangs keeps no other one waiting
