@@ -65,7 +65,8 @@ std::optional<std::size_t> add_row(std::vector<Row>& rows, Row row, const RowRul
   const auto too_near = [&](const Row& a, const Row& b) { return readable_nm(b[0] - a[0]) < rules.least_gap_nm; };
   if (right != rows.begin() && too_near(*std::prev(right), row)) return std::nullopt;
   if (right != rows.end() && too_near(row, *right)) return std::nullopt;
-  return static_cast<std::size_t>(rows.insert(right, row) - rows.begin());
+  const auto added = rows.insert(right, row); // before begin(), which it may move
+  return static_cast<std::size_t>(added - rows.begin());
 }
 
 bool remove_row(std::vector<Row>& rows, std::size_t index, const RowRules& rules) {
