@@ -31,11 +31,11 @@ endif()
 # SYSTEM includes and no nephroid_settings: third-party code is compiled without our warnings.
 add_library(nephroid_imgui STATIC
   ${imgui}/imgui.cpp ${imgui}/imgui_draw.cpp ${imgui}/imgui_stacklayout.cpp ${imgui}/imgui_tables.cpp
-  ${imgui}/imgui_widgets.cpp)
-target_include_directories(nephroid_imgui SYSTEM PUBLIC ${imgui})
+  ${imgui}/imgui_widgets.cpp ${imgui}/misc/cpp/imgui_stdlib.cpp)
+target_include_directories(nephroid_imgui SYSTEM PUBLIC ${imgui} ${imgui}/misc/cpp)
 # The demo is half of the library's build time, and the debug windows need it.
 target_compile_definitions(nephroid_imgui PUBLIC IMGUI_DISABLE_DEMO_WINDOWS IMGUI_DISABLE_DEBUG_TOOLS
-  IMGUI_DISABLE_OBSOLETE_FUNCTIONS)
+  IMGUI_DISABLE_OBSOLETE_FUNCTIONS IMGUI_DEFINE_MATH_OPERATORS)
 
 # Our plots are of doubles; the plotters of nine other number types would be most of the build time.
 set(implot ${imgui_bundle}/external/implot/implot)

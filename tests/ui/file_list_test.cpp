@@ -55,6 +55,7 @@ TEST_F(FileListTest, BeginsInThePresentFolderWhereThePresetHasNone) {
   read();
   EXPECT_THAT(names(), ElementsAre("near.json"));
   EXPECT_TRUE(fs::equivalent(files().folder(), folder.path()));
+  EXPECT_TRUE(files().folder().has_filename()) << "Up goes to its parent at once";
 }
 
 TEST_F(FileListTest, FoldersComeFirstAndOnlyWantedKindsAreThere) {

@@ -320,8 +320,17 @@ TEST_F(ParametersTest, AFileIsChosenFromAList) {
   click("/measure/mask:given");
   EXPECT_NE(problem("/measure/mask"), "");
   click("/measure/mask:files");
-  click("/measure/mask:mask.exr");
+  ASSERT_TRUE(until([&] { return panel().files().place_of("mask.exr").has_value(); }));
+  click_in(panel().files(), "mask.exr");
   EXPECT_EQ(at("/measure/mask"), "mask.exr");
+}
+
+TEST_F(ParametersTest, AFileIsChosenWhereThePresetHasNone) {
+  workbench.apply({command::New{test::preset_text}});
+  ASSERT_TRUE(until([&] { return workbench.run().snapshot_is_current(); }));
+  search("measure.mask");
+  click("/measure/mask:given");
+  EXPECT_TRUE(panel().place_of("/measure/mask:files"));
 }
 
 TEST_F(ParametersTest, WhatARunRefusesIsSaidAtItsFieldToo) {

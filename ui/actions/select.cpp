@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 namespace nephroid::ui {
 namespace {
@@ -19,8 +18,6 @@ constexpr double nudge_gesture_s = 0.6; ///< a longer rest starts a new entry to
 bool has_things(C c) { return c.preset() && has_scene(*c.preset()); }
 bool has_selection(C c) { return c.selection() != Selection{}; }
 std::string nothing_selected(C) { return "nothing is selected"; }
-
-void deselect(C c) { c.push(command::Select{}); }
 
 /// Selects the next of all that can be selected, cyclically.
 template <int step>
@@ -77,7 +74,7 @@ void nudge(C c, Nudge direction) {
   c.push(command::Edit{"nudge " + name_of(*edited, selection), std::move(*edited), newest.gesture, true});
 }
 
-/// A key that was held went up.
+/// Called when a held key is released.
 void end_nudge(C c) {
   if (c.view_state.nudged.gesture != 0) c.push(command::EndGesture{});
 }
@@ -94,7 +91,7 @@ std::vector<Action> select_actions() {
       repeating({"Select the next", ImGuiKey_Period, "The next object or light, or the camera's target", has_things,
                  select_next<1>}),
       repeating({"Select the one before", ImGuiKey_Comma, "The other way round", has_things, select_next<-1>}),
-      {"Deselect", ImGuiKey_Escape, "Select nothing", has_selection, deselect},
+      {"Deselect", ImGuiKey_Escape, "Select nothing", has_selection, push<command::Select>},
       {"Look at the selected", ImGuiKey_A, "It becomes the camera's target", can_look_at, look_at, why_not_look_at},
       tool_action("Move", ImGuiKey_M, "Arrows that move what is selected", Tool::move),
       tool_action("Turn", ImGuiKey_U, "Circles that turn an object or aim a light", Tool::turn),

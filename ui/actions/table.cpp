@@ -8,7 +8,6 @@
 #include "preset/differences.h"
 #include "ui/error/panel.h"
 #include "ui/shell/panels.h"
-#include "ui/state/files.h"
 #include "ui/view/bars.h"
 #include "ui/view/pinhole.h"
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of actions, a file a menu but for the small ones. shell/menus.cpp and the buttons of panels are made of it.
-// A new action is an entry in one of these files.
+// The table of actions, a file a menu but for the small ones: menus, palette and the buttons of panels are made of it.
 #pragma once
 #include "ui/widgets/action.h"
 
 #include <imgui.h>
-
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -31,7 +28,6 @@ inline Action switching(Action action, std::function<bool(C)> is_on) {
   return action;
 }
 
-/// Pushes a command without arguments.
 template <class Pushed>
 void push(C c) {
   c.push(Pushed{});

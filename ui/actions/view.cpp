@@ -4,9 +4,7 @@
 #include "ui/inspector/pixels.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
-#include <optional>
 
 namespace nephroid::ui {
 namespace {
@@ -23,7 +21,6 @@ void expose(C c) {
   change_view(c, [](ViewSettings& l) { l.exposure_stops += half_stops / 2.0; });
 }
 
-/// There is a picture in the View, the run's or another.
 bool is_shown(C c) { return c.comparing.source() != nullptr; }
 
 void actual_size(C c) {
@@ -58,8 +55,7 @@ Action tone_action(const char* name, const char* help, ToneCurve curve) {
 }
 
 void next_tone(C c) {
-  change_view(c,
-              [](ViewSettings& l) { l.tone = static_cast<ToneCurve>((static_cast<int>(l.tone) + 1) % tone_curves); });
+  change_view(c, [](ViewSettings& l) { l.tone = ToneCurve((static_cast<int>(l.tone) + 1) % tone_curves); });
 }
 
 bool has_pixel(C c) { return c.view_state.pixel.has_value(); }
@@ -127,9 +123,7 @@ std::vector<Action> view_actions() {
       {"Statistics of the picture", shift | ImGuiKey_I, "Of all its pixels, or none; Alt and a drag takes a rectangle",
        is_shown, whole_region, nullptr, nullptr, has_region},
       {"Find a preset", ctrl | ImGuiKey_P, "The panel Presets, to type what is looked for", always,
-       [](C c) {
-         c.push(command::ShowPanel{"presets", true});
-       }},
+       [](C c) { c.push(command::ShowPanel{"presets"}); }},
   };
 }
 

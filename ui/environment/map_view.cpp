@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/environment/panel.h"
 
-#include "ui/widgets/theme.h"
-
-#include <imgui.h>
-
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace nephroid::ui {
 namespace {
 
 constexpr double least_radius = 1.5,
-                 radius_of_all = 14; ///< of a disc, in pixels at scale 1; its area grows with the flux
-constexpr double least_circle = 2.5; ///< a smaller disc is a square: of thousands circles would be slow
+                 radius_of_all = 14; ///< a disc's in pixels at scale 1; its area grows with the flux
+constexpr double least_circle = 2.5; ///< a smaller disc is a square: thousands of circles are slow
 constexpr int outline_points = 16;   ///< along a side of a region
 constexpr ImU32 marked_colour = IM_COL32(255, 255, 255, 255);
 
@@ -21,15 +18,13 @@ constexpr ImU32 marked_colour = IM_COL32(255, 255, 255, 255);
 double wrapped(double u) { return u - std::floor(u); }
 
 void draw_disc(ImDrawList& list, const ImVec2& at, double radius, ImU32 fill) {
-  const auto r = static_cast<float>(radius * scale());
-  const float rim = r + std::max(1.0f, scale());
-  if (radius < least_circle) {
-    list.AddRectFilled({at.x - rim, at.y - rim}, {at.x + rim, at.y + rim}, colour::outline);
-    list.AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r}, fill);
-    return;
-  }
-  list.AddCircleFilled(at, rim, colour::outline);
-  list.AddCircleFilled(at, r, fill);
+  const auto inner = static_cast<float>(radius * scale());
+  const float outer = inner + std::max(1.0f, scale());
+  for (const auto& [r, colour] : {std::pair{outer, colour::outline}, std::pair{inner, fill}})
+    if (radius < least_circle)
+      list.AddRectFilled(at - ImVec2(r, r), at + ImVec2(r, r), colour);
+    else
+      list.AddCircleFilled(at, r, colour);
 }
 
 } // namespace
@@ -57,7 +52,7 @@ MapDrag MapView::draw(const MapContents& contents, float most_height) {
   hovered_ = hovered && !active ? region_at(contents, {mouse.x, mouse.y}) : std::nullopt;
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImVec2 end{corner.x + static_cast<float>(width), corner.y + static_cast<float>(height)};
+  const ImVec2 end = corner + vec({width, height});
   list.PushClipRect(corner, end, true);
   list.AddRectFilled(corner, end, colour::surround);
   draw_picture(contents);
@@ -67,7 +62,7 @@ MapDrag MapView::draw(const MapContents& contents, float most_height) {
   if (marked && contents.shown.cut && *marked < contents.figures.size())
     draw_outline(contents, region_of(contents.shown.cut->segmentation, *marked));
   list.PopClipRect();
-  list.AddRect({corner.x - 1, corner.y - 1}, {end.x + 1, end.y + 1}, colour::frame);
+  list.AddRect(corner - ImVec2(1, 1), end + ImVec2(1, 1), colour::frame);
   return drag;
 }
 
@@ -118,7 +113,7 @@ void MapView::draw_lights(const MapContents& contents) const {
   if (contents.figures.size() < lights.size()) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   std::vector<std::size_t> order(lights.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return contents.figures[a].share > contents.figures[b].share; });
   for (const std::size_t i : order) {
@@ -143,7 +138,7 @@ void MapView::draw_front(const MapContents& contents) const {
   const char* const word = "front";
   const ImVec2 extent = ImGui::CalcTextSize(word);
   const ImVec2 text{at.x - extent.x / 2, at.y + arm + 2 * scale()};
-  list.AddText({text.x + scale(), text.y + scale()}, colour::outline, word);
+  list.AddText(text + ImVec2(scale(), scale()), colour::outline, word);
   list.AddText(text, colour::on_dark, word);
 }
 
@@ -161,7 +156,7 @@ void MapView::draw_outline(const MapContents& contents, const environment::Regio
       for (int i = 0; i <= outline_points; ++i) {
         const glm::dvec2 at = glm::mix(corners[side], corners[side + 1], static_cast<double>(i) / outline_points);
         const ImVec2 to = vec(to_screen(contents, environment::position({region.face, at.x, at.y})));
-        const bool over_the_edge = std::abs(to.x - from.x) > 0.5 * area_[2]; // of latitude and longitude
+        const bool over_the_edge = std::abs(to.x - from.x) > 0.5 * area_[2]; // where the map goes on at the other side
         if (i > 0 && !over_the_edge) list.AddLine(from, to, colour, width * scale());
         from = to;
       }

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace nephroid::ui {
 namespace {
@@ -118,8 +117,7 @@ ShownMap EnvironmentModel::take_step(Step step, const WantedMap& wanted, ShownMa
     } else if (step == Step::error) {
       shown.cut_error = error_of(shown.cut->segmentation);
     } else {
-      const std::size_t method =
-          shown.quality[1].size() < shown.quality[0].size() ? 1 : 0; // the one with fewer points so far
+      const std::size_t method = shown.quality[1].size() < shown.quality[0].size() ? 1 : 0; // it has fewer points
       Quality& points = shown.quality.at(method);
       const SegmentSettings settings{.lights = quality_lights.at(points.size()),
                                      .method = static_cast<SegmentMethod>(method)};

@@ -15,7 +15,6 @@ namespace nephroid::ui {
 /// seen from inside; -x, -z, +x, +z from left to right, +y above and -y below -z.
 enum class MapLayout { latitude_longitude, cube };
 
-/// Width over height.
 inline double aspect(MapLayout layout) { return layout == MapLayout::cube ? 4.0 / 3 : 2.0; }
 
 struct MapPictureSize {
@@ -77,7 +76,6 @@ struct CutMap {
   std::vector<int> region_of_texel;
 };
 
-/// What lies under the pixels of a picture of one size.
 struct PixelsOfMap {
   std::vector<Colour> colours;
   std::vector<int> texels;

@@ -5,11 +5,8 @@
 #include "environment/describe_settings.h"
 #include "environment/settings.h"
 #include "measure/run_curves.h"
-#include "ui/widgets/action.h"
-#include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 #include <implot.h>
 
 #include <algorithm>
@@ -36,10 +33,6 @@ void plot_method(const std::string& name, const Quality& errors) {
   spec.MarkerSize = 2 * scale();
   ImPlot::PlotLine(name.c_str(), lights.data(), values.data(), static_cast<int>(lights.size()), spec);
 }
-
-constexpr int fewest_lights = environment::face_count, most_lights = 4096; // as environment/describe_settings.h has it
-
-float em() { return ImGui::GetFontSize(); }
 
 bool is_engine_2(const preset::Preset& preset) { return &preset.settings.type() == &environment::settings_type(); }
 
@@ -139,7 +132,6 @@ void EnvironmentPanel::draw(const Context& context) {
   draw_table();
 }
 
-/// Takes over what the preset says, and what is there of it so far.
 void EnvironmentPanel::follow(const Context& context) {
   const preset::Preset& preset = *context.preset();
   environment_ = *preset.scene.environment;
@@ -191,12 +183,12 @@ void EnvironmentPanel::draw_toolbar(const Context& context) {
   ImGui::EndDisabled();
 }
 
-/// What engine 2 cuts the map into.
 void EnvironmentPanel::draw_segmentation_row(const Context& context) {
   const environment::Settings& settings = environment::settings(*context.preset());
   draw_label("Lights");
   ImGui::SetNextItemWidth(-13 * em());
   int lights = settings.lights;
+  constexpr int fewest_lights = environment::face_count, most_lights = 4096; // as describe_settings.h has it
   const bool changed = ImGui::SliderScalar("##lights", ImGuiDataType_S32, &lights, &fewest_lights, &most_lights, "%d",
                                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   follow_item(context, gestures_, "lights", changed, "number of lights",
@@ -212,7 +204,6 @@ void EnvironmentPanel::draw_segmentation_row(const Context& context) {
                    [&](preset::Preset& p) { environment::settings(p).segmentation = choice.value; });
 }
 
-/// How bright it is, and what is too dark.
 void EnvironmentPanel::draw_radiance_row(const Context& context) {
   draw_label("Radiance");
   ImGui::SetNextItemWidth(cuts_ ? -13 * em() : -1);
@@ -234,7 +225,6 @@ void EnvironmentPanel::draw_radiance_row(const Context& context) {
                  [&](preset::Preset& p) { environment::settings(p).threshold = std::clamp(threshold, 0.0, 1.0); });
 }
 
-/// Where engine 2 shows caustics.
 void EnvironmentPanel::draw_caustics_row(const Context& context) {
   const environment::Settings& settings = environment::settings(*context.preset());
   draw_label("Caustics");
@@ -309,30 +299,25 @@ void EnvironmentPanel::draw_table() {
   for (const char* name : {"Light", "", "Azimuth", "Elevation", "W/m^2", "Share", "Hidden"})
     ImGui::TableSetupColumn(name);
   ImGui::TableHeadersRow();
-  ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(by_flux_.size()));
-  while (clipper.Step())
-    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-      const std::size_t light = by_flux_.at(static_cast<std::size_t>(i));
-      const RegionFigures& f = figures_.at(light);
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      const bool marked = map_.hovered() == light;
-      ImGui::Selectable(fmt::format("{}", light + 1).c_str(), marked, ImGuiSelectableFlags_SpanAllColumns);
-      if (ImGui::IsItemHovered()) row_ = light;
-      places_.note(fmt::format("row {}", light + 1));
-      ImGui::TableNextColumn();
-      const ImVec2 at = ImGui::GetCursorScreenPos();
-      const float side = ImGui::GetTextLineHeight();
-      ImGui::Dummy({side, side});
-      ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side},
-                                                IM_COL32(f.colour[0], f.colour[1], f.colour[2], 255));
-      cell(fmt::format("{:.1f}", f.azimuth_deg));
-      cell(fmt::format("{:.1f}", f.elevation_deg));
-      cell(fmt::format("{:.3g}", f.flux));
-      cell(percent(f.share));
-      cell(f.occluded ? percent(*f.occluded) : std::string("-"));
-    }
+  draw_rows_in_sight(by_flux_.size(), [&](std::size_t i) {
+    const std::size_t light = by_flux_.at(i);
+    const RegionFigures& f = figures_.at(light);
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    const bool marked = map_.hovered() == light;
+    ImGui::Selectable(fmt::format("{}", light + 1).c_str(), marked, ImGuiSelectableFlags_SpanAllColumns);
+    if (ImGui::IsItemHovered()) row_ = light;
+    places_.note(fmt::format("row {}", light + 1));
+    ImGui::TableNextColumn();
+    ImGui::Dummy({ImGui::GetTextLineHeight(), ImGui::GetTextLineHeight()});
+    ImGui::GetWindowDrawList()->AddRectFilled(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
+                                              IM_COL32(f.colour[0], f.colour[1], f.colour[2], 255));
+    cell(fmt::format("{:.1f}", f.azimuth_deg));
+    cell(fmt::format("{:.1f}", f.elevation_deg));
+    cell(fmt::format("{:.3g}", f.flux));
+    cell(percent(f.share));
+    cell(f.occluded ? percent(*f.occluded) : std::string("-"));
+  });
   ImGui::EndTable();
 }
 

@@ -14,7 +14,7 @@ namespace nephroid::ui {
 /// what the mouse does with it.
 struct MapContents {
   const ShownMap& shown;                     ///< whose picture may still be of another layout, which is not drawn
-  const std::vector<RegionFigures>& figures; ///< of shown.cut; empty: no lights
+  const std::vector<RegionFigures>& figures; ///< shown.cut's; empty: no lights
   MapLayout layout = MapLayout::latitude_longitude;
   double rotate_deg = 0;
   std::optional<std::size_t> marked; ///< a region to be outlined
@@ -32,7 +32,6 @@ public:
   MapDrag draw(const MapContents& contents, float most_height);
   /// The region under the mouse, of MapContents::figures.
   const std::optional<std::size_t>& hovered() const { return hovered_; }
-  /// Pixels of the picture as it should be made.
   MapPictureSize wanted_size() const { return wanted_; }
 
   /// For tests: x, y, width and height on the screen as drawn last, and the pixels shown.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/error/lines.h"
 
-#include "measure/run_curves.h"
 #include "ui/widgets/plots.h"
 
 #include <fmt/format.h>

@@ -5,7 +5,6 @@
 #include "measure/run_curves.h"
 
 #include <array>
-#include <span>
 
 namespace nephroid::ui {
 
@@ -37,7 +36,7 @@ struct SpeedUp : measure::EqualError {
 /// none. Estimates are held against estimates, errors against errors.
 std::optional<SpeedUp> speed_up(const RunLines& pinned, const RunLines& run);
 
-/// The point nearest in log time; nothing of an empty curve.
+/// The point nearest in log time; nothing for an empty curve.
 struct CurvePoint {
   double seconds = 0, error = 0;
 };

@@ -2,12 +2,8 @@
 #include "ui/error/panel.h"
 
 #include "measure/run_curves.h"
-#include "ui/widgets/action.h"
-#include "ui/widgets/theme.h"
-#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 
@@ -22,7 +18,7 @@ std::vector<std::string> all_metrics(const Context& context) {
   std::vector<std::string> all;
   const auto add = [&](const job::History& history) {
     for (std::string& metric : measure::metric_names(history))
-      if (std::find(all.begin(), all.end(), metric) == all.end()) all.push_back(std::move(metric));
+      if (std::ranges::count(all, metric) == 0) all.push_back(std::move(metric));
   };
   if (const auto history = context.run.error_history()) add(*history);
   for (const PinnedRun& pin : context.comparing.pinned().runs()) add(*pin.history);
@@ -47,7 +43,7 @@ std::optional<double> target_of(const Context& context, const std::string& metri
 
 std::string shown_metric(const Context& context) {
   const std::vector<std::string> all = all_metrics(context);
-  const auto there = [&](const std::string& metric) { return std::find(all.begin(), all.end(), metric) != all.end(); };
+  const auto there = [&](const std::string& metric) { return std::ranges::count(all, metric) > 0; };
   if (there(context.view_state.error_metric)) return context.view_state.error_metric;
   if (const auto history = context.run.error_history();
       history && there(measure::error_column_of(history->error_column).metric))
@@ -87,10 +83,10 @@ void ErrorPanel::collect(const Context& context) {
 void ErrorPanel::draw(const Context& context) {
   collect(context);
   draw_toolbar(context);
-  const float em = ImGui::GetFontSize(), height = ImGui::GetContentRegionAvail().y;
+  const float height = ImGui::GetContentRegionAvail().y;
   const std::vector<PinnedRun> runs = context.comparing.pinned().runs();
-  const float pins = std::min(0.45f * height, 4.2f * em * static_cast<float>(runs.size()));
-  plot_.draw(contents_, std::max(height - pins - ImGui::GetStyle().ItemSpacing.y, 8 * em));
+  const float pins = std::min(0.45f * height, 4.2f * em() * static_cast<float>(runs.size()));
+  plot_.draw(contents_, std::max(height - pins - ImGui::GetStyle().ItemSpacing.y, 8 * em()));
   if (contents_.runs.empty()) {
     const auto& [x, y, width, plot_height] = plot_.area();
     draw_hint(colour::quiet_on_dark, vec({x, y}), vec({width, plot_height}), empty_hint(context));
@@ -149,15 +145,15 @@ void ErrorPanel::draw_pin(const Context& context, const PinnedRun& pin) {
   ImGui::SameLine();
   const float buttons = ImGui::CalcTextSize("CompareUnpin").x + 4 * ImGui::GetStyle().FramePadding.x +
                         3 * ImGui::GetStyle().ItemSpacing.x + ImGui::GetFrameHeight();
-  ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - buttons, 4 * ImGui::GetFontSize()));
+  ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - buttons, 4 * em()));
   std::string name = pin.name;
-  input_text("##name", "name", name);
+  ImGui::InputTextWithHint("##name", "name", &name);
   if (ImGui::IsItemDeactivatedAfterEdit()) change(name, pin.colour, pin.shown);
   ImGui::SameLine();
   const bool compared = context.comparing.comparison().pin == pin.id;
   if (ImGui::RadioButton("Compare", compared)) context.push(command::CompareWith{compared ? 0 : pin.id});
-  ImGui::SetItemTooltip("%s", pin.picture ? "The View flips to this run's picture and shows the difference from it"
-                                          : "Only a history was read: the View has no picture of this run");
+  tooltip(pin.picture ? "The View flips to this run's picture and shows the difference from it"
+                      : "Only a history was read: the View has no picture of this run");
   ImGui::SameLine();
   if (ImGui::Button("Unpin")) context.push(command::Unpin{pin.id});
   draw_wrapped(colour::quiet_text, findings(context, pin));

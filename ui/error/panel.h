@@ -6,8 +6,6 @@
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
 
-#include <map>
-
 namespace nephroid::ui {
 
 struct PlottedRun {

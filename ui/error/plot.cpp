@@ -2,11 +2,8 @@
 #include "ui/error/panel.h"
 
 #include "measure/run_curves.h"
-#include "ui/widgets/theme.h"
-#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 #include <implot.h>
 
 #include <algorithm>
@@ -40,8 +37,8 @@ void plot_dashed(const char* label, const measure::Curve& curve, ImPlotSpec spec
         const float phase = std::fmod(walked + at, period), left = (phase < on ? on : period) - phase;
         const float next = std::min(length, at + std::max(left, 0.1f));
         if (phase < on) {
-          add({from.x + (to.x - from.x) * at / length, from.y + (to.y - from.y) * at / length});
-          add({from.x + (to.x - from.x) * next / length, from.y + (to.y - from.y) * next / length});
+          add(from + (to - from) * at / length);
+          add(from + (to - from) * next / length);
         }
         at = next;
       }
@@ -128,10 +125,9 @@ void plot_runs(const PlotContents& contents) {
   std::optional<double> noise_floor;
   for (std::size_t i = 0; i < contents.runs.size(); ++i) {
     const PlottedRun& run = contents.runs[i];
-    if (run.lines->noise_floor)
-      noise_floor = run.lines->noise_floor; // of the one in front: another's reference is another
-    const bool both =
-        !run.lines->error.drawn.seconds.empty(); // the legend's swatches are squares: words say which line is dashed
+    if (run.lines->noise_floor) noise_floor = run.lines->noise_floor; // that of the run in front stays
+    // The legend's swatches are squares: words say which line is dashed.
+    const bool both = !run.lines->error.drawn.seconds.empty();
     plot_line(label_of(run.name, run.lines->error, i, "e"), run.lines->error, run, false);
     plot_line(label_of(run.name + (both ? ", estimate (dashed)" : " (estimate, dashed)"), run.lines->estimate, i, "s"),
               run.lines->estimate, run, true);

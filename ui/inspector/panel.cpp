@@ -3,25 +3,18 @@
 
 #include "optics/wavelength.h"
 #include "preset/read.h"
-#include "ui/widgets/action.h"
-#include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
 #include <implot.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace nephroid::ui {
 namespace {
 
 constexpr int reach = 5; ///< neighbours to each side
-
-std::vector<double> wavelengths() {
-  std::vector<double> nm;
-  for (int w = 0; w < optics::wavelength_count; ++w) nm.push_back(optics::wavelength_nm(w));
-  return nm;
-}
 
 /// The picture that the View shows: a difference has no colours of its own to enlarge.
 HeldPicture enlarged(const Context& context) {
@@ -83,7 +76,7 @@ void draw_region_tables(const RegionStatistics& statistics) {
 /// Pixels over their luminance, both logarithmic.
 void draw_histogram(const RegionStatistics& statistics) {
   const Histogram& histogram = statistics.histogram;
-  if (!ImPlot::BeginPlot("##histogram", {-1, 11 * ImGui::GetFontSize()}, ImPlotFlags_NoMouseText)) return;
+  if (!ImPlot::BeginPlot("##histogram", {-1, 11 * em()}, ImPlotFlags_NoMouseText)) return;
   ImPlot::SetupAxes("W/m2/sr", "pixels", ImPlotAxisFlags_AutoFit, ImPlotAxisFlags_AutoFit);
   ImPlot::SetupAxisScale(ImAxis_X1, ImPlotScale_Log10);
   ImPlot::SetupAxisScale(ImAxis_Y1, ImPlotScale_SymLog); // which has 0, and no numbers of its own
@@ -143,7 +136,7 @@ void InspectorPanel::draw_neighbours(const Context& context) {
   const HeldPicture picture = enlarged(context);
   const ViewSettings& view_settings = context.view_state.view_settings;
   const std::array<int, 2> pixel = *context.view_state.pixel;
-  const double white = context.preset() ? context.preset()->white.value_or(1) : 1;
+  const double white = context.white();
   Neighbours& n = neighbours_;
   constexpr int across = 2 * reach + 1;
   if (picture.owner &&
@@ -159,30 +152,30 @@ void InspectorPanel::draw_neighbours(const Context& context) {
                    std::span(n.rgba).subspan(4 * static_cast<std::size_t>(i), 4));
     }
   }
-  const float cell = std::max(std::floor(ImGui::GetFontSize() * 0.7f), 1.0f), size = across * cell;
+  const float cell = std::max(std::floor(0.7f * em()), 1.0f), size = across * cell;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::Dummy({size, size});
   if (!picture.owner) return;
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   for (int i = 0; i < across * across; ++i) {
     const unsigned char* c = &n.rgba[4 * static_cast<std::size_t>(i)];
-    const int column = i % across, row = i / across;
-    const ImVec2 at{corner.x + static_cast<float>(column) * cell, corner.y + static_cast<float>(row) * cell};
-    draw_list->AddRectFilled(at, {at.x + cell, at.y + cell}, IM_COL32(c[0], c[1], c[2], c[3]));
+    const ImVec2 at = corner + ImVec2(static_cast<float>(i % across), static_cast<float>(i / across)) * cell;
+    draw_list->AddRectFilled(at, at + ImVec2(cell, cell), IM_COL32(c[0], c[1], c[2], c[3]));
   }
-  const ImVec2 own{corner.x + reach * cell, corner.y + reach * cell};
-  draw_list->AddRect({own.x - 1, own.y - 1}, {own.x + cell + 1, own.y + cell + 1}, colour::outline);
-  draw_list->AddRect(own, {own.x + cell, own.y + cell}, colour::on_dark);
+  const ImVec2 own = corner + ImVec2(reach, reach) * cell, end = own + ImVec2(cell, cell);
+  draw_list->AddRect(own - ImVec2(1, 1), end + ImVec2(1, 1), colour::outline);
+  draw_list->AddRect(own, end, colour::on_dark);
 }
 
 void InspectorPanel::draw_spectrum(const Context& context) {
   const auto& spectrum = context.run.spectrum();
   if (!spectrum || spectrum->pixel != *context.view_state.pixel) return;
   if (!spectrum->why_not.empty()) return offer_spectra(context, *spectrum);
-  static const std::vector<double> nm = wavelengths();
+  std::array<double, optics::wavelength_count> nm{};
+  std::iota(nm.begin(), nm.end(), optics::first_nm);
   const std::vector<double> total = total_radiance(*spectrum);
   const double most = *std::max_element(total.begin(), total.end());
-  const ImVec2 size{-1, 13 * ImGui::GetFontSize()};
+  const ImVec2 size{-1, 13 * em()};
   if (ImPlot::BeginPlot("##spectrum", size, ImPlotFlags_NoMouseText)) {
     axis_.set_up();
     set_up_fixed_axis(ImAxis_Y1, "W/m2/sr/nm", 0, most > 0 ? 1.1 * most : 1,
@@ -205,7 +198,7 @@ void InspectorPanel::draw_spectrum(const Context& context) {
 /// What the remedy contradicts is said once it is tried.
 void InspectorPanel::offer_spectra(const Context& context, const job::PixelSpectrum& none) {
   draw_wrapped(colour::quiet_text, "No spectrum: " + none.why_not + ".");
-  if (none.remedy.empty() || !context.preset()) return;
+  if (none.remedy.empty()) return;
   if (places_.button("Keep spectra", "keep spectra",
                      "Sets " + none.remedy + ", which starts the run again; one edit to undo"))
     context.push(command::Edit{"keep spectra", preset::with_overrides(*context.preset(), {none.remedy})});
@@ -230,8 +223,7 @@ void InspectorPanel::draw_region(const Context& context) {
   }
   const HeldPicture other = context.comparing.other_picture();
   const std::string other_name = context.comparing.comparison().pin == 0 ? "reference" : other.pixels.name;
-  request_statistics(statistics_, context.tasks,
-                     {picture, other, other_name, *region, context.preset() ? context.preset()->white.value_or(1) : 1});
+  request_statistics(statistics_, context.tasks, {picture, other, other_name, *region, context.white()});
   const auto& statistics = statistics_.newest();
   if (!statistics) return draw_wrapped(colour::quiet_text, "The statistics are being made.");
   if (places_.button("Copy as CSV", "copy region")) ImGui::SetClipboardText(to_csv(*statistics).c_str());

@@ -3,7 +3,6 @@
 // pixels. Which they are the View's mouse says, and actions (commands InspectPixel and SelectRegion).
 #pragma once
 #include "ui/inspector/pixels.h"
-#include "ui/state/tone.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
 
@@ -16,7 +15,7 @@ public:
   explicit InspectorPanel(WavelengthAxis& wavelengths) : axis_(wavelengths) {}
   void draw(const Context& context) override;
 
-  /// The region's statistics; null where there are none yet. For tests.
+  /// For tests: the region's; null where there are none yet.
   const std::shared_ptr<const RegionStatistics>& statistics() const { return statistics_.newest(); }
 
 private:
@@ -26,7 +25,7 @@ private:
   void offer_spectra(const Context& context, const job::PixelSpectrum& none);
   void draw_region(const Context& context);
 
-  /// Of the neighbours that are drawn: kept while nothing changes, since an automatic range takes the whole picture.
+  /// What is drawn stays while nothing changes, since an automatic range takes the whole picture.
   struct Neighbours {
     std::shared_ptr<const void> owner;
     std::array<int, 2> pixel{};

@@ -68,8 +68,8 @@ Histogram histogram(const std::vector<const std::vector<Rgb>*>& pictures, double
   Histogram bars;
   if (low > high) low = 0, high = 1;
   bars.last = std::floor(high * bins_a_decade + 1) / bins_a_decade;
-  bars.first =
-      std::max(std::floor(low * bins_a_decade) / bins_a_decade, bars.last - 12); // twelve decades are enough for an eye
+  // Twelve decades are enough for an eye.
+  bars.first = std::max(std::floor(low * bins_a_decade) / bins_a_decade, bars.last - 12);
   const auto bins = static_cast<std::size_t>(std::lround((bars.last - bars.first) * bins_a_decade));
   for (const auto* pixels : pictures) {
     std::vector<double>& counts = bars.counts.emplace_back(bins, 0.0);
@@ -84,7 +84,7 @@ Histogram histogram(const std::vector<const std::vector<Rgb>*>& pictures, double
 
 std::vector<PixelRow> pixel_rows(const Context& context, const std::array<int, 2>& pixel) {
   const auto source = context.comparing.source();
-  if (!source || !context.preset()) return {};
+  if (!source) return {};
   const job::Picture& picture = *source;
   const auto [x, y] = pixel;
   if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) return {};
@@ -93,7 +93,7 @@ std::vector<PixelRow> pixel_rows(const Context& context, const std::array<int, 2
   const auto value = [&](std::span<const float> rgb) { return std::array{rgb[at], rgb[at + 1], rgb[at + 2]}; };
   std::vector<PixelRow> rows;
   const auto add = [&](std::string name, const std::array<float, 3>& rgb, bool is_colour) {
-    rows.push_back({std::move(name), rgb, context.preset()->white.value_or(1) * measure::luminance(rgb.data()),
+    rows.push_back({std::move(name), rgb, context.white() * measure::luminance(rgb.data()),
                     is_colour ? measure::lab_of(rgb.data()) : std::array<double, 3>{}, is_colour});
   };
   const auto add_error = [&](std::string name, const std::array<float, 3>& draw) {
@@ -198,11 +198,9 @@ void request_statistics(NewestResult<RegionStatistics>& statistics, TaskQueue& t
            of.other.owner == request.other.owner && of.other_name == request.other_name && of.white == request.white;
   };
   const auto& newest = statistics.newest();
-  const Request wanted = !newest || !is_same_but_picture(newest->of)         ? Request::other
-                         : newest->of.picture.owner == request.picture.owner ? Request::same
-                                                                             : Request::other_picture;
   statistics.want(
-      tasks, "statistics of the region", wanted,
+      tasks, "statistics of the region", newest && is_same_but_picture(newest->of),
+      newest && newest->of.picture.owner == request.picture.owner,
       [request] { return std::make_shared<RegionStatistics>(region_statistics(request)); }, TaskQueue::Clock::now());
 }
 

@@ -36,8 +36,7 @@ inline constexpr std::array<const char*, 4> region_quantities{"luminance", "R", 
 
 struct PictureStatistics {
   std::string name;
-  std::array<Moments, 4>
-      of; ///< region_quantities: luminance in W/m^2/sr, channels linear; of the pixels that are finite
+  std::array<Moments, 4> of; ///< region_quantities: luminance in W/m^2/sr, channels linear; over finite pixels
   std::size_t pixels = 0;
   std::size_t nan = 0, infinite = 0; ///< pixels with such a channel; NaN goes first
   std::size_t dark = 0;              ///< pixels whose luminance is negative

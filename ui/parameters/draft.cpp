@@ -8,9 +8,6 @@
 #include "scene/materials.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <utility>
-#include <vector>
 
 namespace nephroid::ui {
 namespace {
@@ -21,7 +18,7 @@ std::string parent_of(const std::string& pointer) {
   return pointer.substr(0, std::min(pointer.rfind('/'), pointer.size()));
 }
 
-/// What a run would refuse of what changed, as far as that is known without it: files that are missing, spectra and
+/// Refuses what a run would refuse of what changed, as far as that is known without it: missing files, spectra and
 /// curves.
 void check_loads(const preset::Preset& before, const preset::Preset& after) {
   const Place where{after.source, std::string()};
@@ -113,7 +110,7 @@ std::optional<preset::Preset> Draft::settle(const std::string& pointer) {
     if (edits.size() == std::exchange(tried, edits.size())) continue; // the same edits
     auto result = read(edits, pointer);
     if (auto* problem = std::get_if<Problem>(&result)) {
-      problems_.insert_or_assign(pointer, std::move(*problem)); // of the most edits together: they say one thing
+      problems_.insert_or_assign(pointer, std::move(*problem)); // that of the most edits together stays
       continue;
     }
     take(std::get<preset::Preset>(std::move(result)));

@@ -7,10 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <variant>
 
 namespace nephroid::ui {
@@ -26,14 +22,12 @@ struct Problem {
 
 class Draft {
 public:
-  /// Once a frame. Edits that wait are put over another preset of the same file; those whose place is gone there are
-  /// dropped.
+  /// Called once a frame. Edits that wait are put over another preset of the same file where their places are there.
   void follow(const preset::Preset& preset);
   /// The preset as JSON, with the edits that wait.
   const Json& value() const { return value_; }
-  /// The file of the preset.
   const std::string& source() const { return preset_.source; }
-  /// By the pointer of their edits.
+  /// Keyed by the pointers of their edits.
   const std::map<std::string, Problem>& problems() const { return problems_; }
 
   /// Puts a value at a JSON pointer of the draft. Returns the preset that the reader made of it: with this edit and
@@ -46,7 +40,7 @@ public:
 
 private:
   using Edits = std::map<std::string, Json>; ///< values by their pointers, none inside of another
-  enum class Reach { alone, siblings, all }; ///< of the edits that wait: which may say one thing together
+  enum class Reach { alone, siblings, all }; ///< which of the edits that wait may say one thing together
   void take(preset::Preset preset);
   Json with(const Edits& edits) const;
   Edits together(const std::string& pointer, Reach reach) const;

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the rows and the widgets of the panel "Parameters" share: the draft that they draw, the edits that they ask for,
-// which fields are looked for, and what a field of the description is to a person.
+// What the rows of the panel "Parameters" are made of: the draft that they draw, the edits that they ask for, which
+// fields are looked for, and the widgets of single values.
 #pragma once
 #include "preset/outline.h"
 #include "ui/parameters/draft.h"
 #include "ui/state/context.h"
-#include "ui/widgets/widgets.h"
-
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
+#include "ui/widgets/file_list.h"
 
 namespace nephroid::ui {
 
 /// The field's value in its object; null where it has none.
 const Json& part(const Json& object, const preset::Outline& field);
-/// Whether it is not as it is by default.
 bool is_changed(const preset::Outline& field, const Json& value);
 
 /// Edits are made once everything is drawn, as what is drawn is the draft.
@@ -25,7 +19,7 @@ public:
   /// places outlives it.
   Form(const char* panel, WidgetPlaces& places) : gestures(panel), places_(places) {}
 
-  /// Asks for a value at a pointer. live: as command::Edit.
+  /// live: as command::Edit.
   void ask(std::string label, const std::string& pointer, Json value, bool live = false) {
     asked_.push_back({std::move(label), pointer, std::move(value), live});
   }
@@ -44,6 +38,7 @@ public:
   bool only_changed = false;
   Draft draft;
   Gestures gestures;
+  TaskQueue* tasks = nullptr;     ///< this frame's
   std::string reveal;             ///< the pointer of a field that is to be brought into sight
   std::optional<Problem> refused; ///< by the run
 
@@ -60,5 +55,47 @@ private:
 
 /// What is wrong elsewhere because of an edit is said where the edit was made.
 const std::string& shown_at(const Problem& problem);
+
+class ValueWidgets {
+public:
+  /// form outlives it.
+  explicit ValueWidgets(Form& form) : form_(form) {}
+
+  /// What a number may be, and how wide its widget is.
+  struct Number {
+    preset::Bounds bounds;
+    bool whole = false;
+    float width = 0;
+  };
+  /// The widget of a leaf, then its unit.
+  void draw_value(const preset::Outline& o, const Json& value, const std::string& pointer);
+  /// Dragged, or typed after a click. What is no number is a text.
+  void draw_number(const Number& number, const Json& value, const std::string& pointer);
+  /// A text that is a field's value.
+  void draw_text(const std::string& pointer, const Json& value, float width, Json (*read)(const std::string&));
+  /// In the row of an object: which type it is, where there are several.
+  void draw_type(const preset::Outline& o, const Json& object, const std::string& pointer);
+  /// While a text is typed `problem` of it is said. What was typed is there at Enter, or where the keyboard goes
+  /// elsewhere.
+  std::optional<std::string> type_text(const std::string& id, const std::string& before, float width,
+                                       const std::function<std::optional<Problem>(const std::string&)>& problem);
+  /// Whose text is being typed, a type_text() id; empty: none. And what is wrong with it.
+  const std::string& typed_at() const { return typed_at_; }
+  const std::optional<Problem>& wrong() const { return wrong_; }
+  const FileList& files() const { return files_; }
+
+private:
+  void draw_choice(const std::string& pointer, const std::string& now, const std::vector<preset::Outline::Word>& words,
+                   const std::function<void(std::string_view)>& choose, float width);
+  void draw_file_choice(const std::string& pointer);
+  std::string unit_of(const preset::Field& field) const;
+
+  Form& form_;
+  FileList files_;
+  std::string number_typed_;    ///< the number that is a text field in place of one to drag,
+  bool number_focused_ = false; ///< and has the keyboard
+  std::string typed_at_, typed_;
+  std::optional<Problem> wrong_;
+};
 
 } // namespace nephroid::ui

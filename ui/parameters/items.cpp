@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What has any number of items: lists and maps of objects, tables, lists of numbers and of texts.
 #include "base/counted.h"
-#include "ui/parameters/rows.h"
+#include "ui/parameters/panel.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ constexpr std::size_t many_rows = 50; ///< rows out of sight are not drawn where
 
 double clamped(double value, const preset::Bounds& bounds) { return std::clamp(value, bounds.low, bounds.high); }
 
-/// After the last row as far as that is from the one before.
+/// The row that is added: after the last one as far as that is from the one before.
 Json next_row(const Outline& o, const Json& rows) {
   if (o.kind == Kind::texts) return "";
   if (o.kind == Kind::numbers) return clamped(0, o.field.bounds);
@@ -29,7 +29,7 @@ Json next_row(const Outline& o, const Json& rows) {
   return {clamped(at(1) + (rows.size() > 1 ? at(1) - at(2) : 10), first.bounds), rows.back().at(1)};
 }
 
-/// Every material that is called `name` where something is made of it.
+/// Renames the uses of a material in an object and whatever is inside of it.
 void rename_uses(const std::vector<Outline>& fields, Json& object, const std::string& name, const std::string& to) {
   for (const Outline& o : fields) {
     const auto found = object.find(o.field.name);
@@ -56,7 +56,7 @@ Json copy_of(const Json& items, Json item) {
 
 } // namespace
 
-void ItemRows::draw_add(const Outline& o, const Json& value, const std::string& pointer) {
+void FieldRows::draw_add(const Outline& o, const Json& value, const std::string& pointer) {
   ImGui::BeginDisabled(value.size() >= o.field.count.high);
   if (ImGui::Button(("Add##" + pointer).c_str())) {
     Json more = value;
@@ -83,8 +83,8 @@ void ItemRows::draw_add(const Outline& o, const Json& value, const std::string& 
   ImGui::TextDisabled("%s", counted(value.size(), o.kind == Kind::table ? "row" : "item").c_str());
 }
 
-/// Behind what an item of a list or a map has in its row: duplicate, move, remove.
-void ItemRows::draw_item_buttons(const Json& items, const std::string& key, const std::string& pointer) {
+/// Draws the buttons behind an item of a list or a map: duplicate, move, remove.
+void FieldRows::draw_item_buttons(const Json& items, const std::string& key, const std::string& pointer) {
   const std::string at = child_of(pointer, key);
   const bool is_list = items.is_array();
   const std::size_t index = is_list ? std::stoul(key) : 0;
@@ -117,27 +117,27 @@ void ItemRows::draw_item_buttons(const Json& items, const std::string& key, cons
   });
 }
 
-void ItemRows::draw_items(const Outline& o, const Json& value, const std::string& pointer) {
+void FieldRows::draw_items(const Outline& o, const Json& value, const std::string& pointer) {
   for (const auto& entry : value.items()) {
     const Json& item = entry.value();
     const std::string& key = entry.key();
     const std::string at = child_of(pointer, key);
     if (form_.searching() && !form_.wants_any(o, item, at)) continue;
     const std::string name = item.value("name", "");
-    const bool open = rows_.draw_label(name.empty() ? key : fmt::format("{}  {}", key, name), at, false, true);
+    const bool open = draw_label(name.empty() ? key : fmt::format("{}  {}", key, name), at, false, true);
     ImGui::TableNextColumn();
     values_.draw_type(o, item, at);
     draw_item_buttons(value, key, pointer);
     if (o.kind == Kind::map && open) draw_name(value, key, pointer);
-    rows_.draw_problem(at, !open);
+    draw_problem(at, !open);
     if (!open) continue;
-    rows_.draw_fields(o.fields(item), item, at);
+    draw_fields(o.fields(item), item, at);
     ImGui::TreePop();
   }
 }
 
 /// Draws the name of a map's item, to be typed.
-void ItemRows::draw_name(const Json& items, const std::string& name, const std::string& pointer) {
+void FieldRows::draw_name(const Json& items, const std::string& name, const std::string& pointer) {
   const std::string at = child_of(pointer, name), id = at + ":name";
   ImGui::TextDisabled("name");
   ImGui::SameLine();
@@ -150,7 +150,7 @@ void ItemRows::draw_name(const Json& items, const std::string& name, const std::
 }
 
 /// Renames an item of a map, and all uses of the name.
-void ItemRows::rename(const std::string& map, const std::string& name, const std::string& to) {
+void FieldRows::rename(const std::string& map, const std::string& name, const std::string& to) {
   Json whole = form_.draft.value(), renamed = Json::object();
   Json& items = whole[Json::json_pointer(map)];
   if (to.empty() || items.contains(to)) return;
@@ -160,7 +160,7 @@ void ItemRows::rename(const std::string& map, const std::string& name, const std
   form_.ask(fmt::format("rename {} to {}", name, to), "", std::move(whole));
 }
 
-void ItemRows::draw_rows(const Outline& o, const Json& value, const std::string& pointer) {
+void FieldRows::draw_rows(const Outline& o, const Json& value, const std::string& pointer) {
   const bool pairs = o.kind == Kind::table;
   if (pairs) {
     ImGui::TableNextRow();
@@ -173,7 +173,7 @@ void ItemRows::draw_rows(const Outline& o, const Json& value, const std::string&
   const auto draw_row = [&](std::size_t i) {
     const std::string at = child_of(pointer, std::to_string(i));
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-    rows_.draw_label(std::to_string(i), at, true, false);
+    draw_label(std::to_string(i), at, true, false);
     ImGui::TableNextColumn();
     const float width = ImGui::GetContentRegionAvail().x - 3 * ImGui::GetFrameHeight();
     if (pairs)
@@ -187,16 +187,10 @@ void ItemRows::draw_rows(const Outline& o, const Json& value, const std::string&
     else
       values_.draw_number({o.field.bounds, o.whole, width}, value[i], at);
     draw_item_buttons(value, std::to_string(i), pointer);
-    rows_.draw_problem(at, true);
+    draw_problem(at, true);
   };
-  if (value.size() <= many_rows) {
-    for (std::size_t i = 0; i < value.size(); ++i) draw_row(i);
-    return;
-  }
-  ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(value.size()));
-  while (clipper.Step())
-    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw_row(static_cast<std::size_t>(i));
+  if (value.size() > many_rows) return draw_rows_in_sight(value.size(), draw_row);
+  for (std::size_t i = 0; i < value.size(); ++i) draw_row(i);
 }
 
 } // namespace nephroid::ui

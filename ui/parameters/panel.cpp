@@ -2,16 +2,12 @@
 #include "ui/parameters/panel.h"
 
 #include "preset/origins.h"
-#include "ui/widgets/theme.h"
-
-#include <imgui.h>
-
-#include <map>
 
 namespace nephroid::ui {
 
 void ParametersPanel::draw(const Context& context) {
   form_.draft.follow(*context.preset());
+  form_.tasks = &context.tasks;
   places_.clear();
   if (const Selection selection = context.selection(); selection != revealed_) {
     revealed_ = selection;
@@ -21,7 +17,7 @@ void ParametersPanel::draw(const Context& context) {
   follow_run(context);
   draw_top();
   const float room = ImGui::GetContentRegionAvail().y,
-              help = room > 24 * ImGui::GetFontSize() ? 3.5f * ImGui::GetTextLineHeightWithSpacing() : 0;
+              help = room > 24 * em() ? 3.5f * ImGui::GetTextLineHeightWithSpacing() : 0;
   if (ImGui::BeginChild("fields", {0, room - help})) {
     ImGui::PushID(form_.searching() ? "found" : "all"); // what a search opens is closed again after it
     if (ImGui::BeginTable("fields", 2,
@@ -55,7 +51,8 @@ void ParametersPanel::draw_top() {
   const float changed =
       ImGui::CalcTextSize("Changed").x + ImGui::GetFrameHeight() + 3 * ImGui::GetStyle().ItemSpacing.x;
   ImGui::SetNextItemWidth(-changed);
-  input_text("##search", "Search names, units and help", form_.search, ImGuiInputTextFlags_EscapeClearsAll);
+  ImGui::InputTextWithHint("##search", "Search names, units and help", &form_.search,
+                           ImGuiInputTextFlags_EscapeClearsAll);
   places_.note("search");
   ImGui::SameLine();
   places_.checkbox("Changed", &form_.only_changed, "changed", "Only fields that are not as they are by default");

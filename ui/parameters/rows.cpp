@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/parameters/rows.h"
+// A row a field, with what can be done about it.
+#include "ui/parameters/panel.h"
 
 #include "base/json_output.h"
-#include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <cstdint>
 
 namespace nephroid::ui {
 namespace {
@@ -16,13 +14,13 @@ namespace {
 using preset::Outline;
 using Kind = Outline::Kind;
 
-/// The others have rows of their own below.
+/// Whether a field has one row; the others have rows of their own below.
 bool is_leaf(const Outline& o) {
   const bool objects = o.kind == Kind::object || o.kind == Kind::list || o.kind == Kind::map;
   return !objects && o.kind != Kind::table && o.kind != Kind::texts && !(o.kind == Kind::numbers && o.size == 0);
 }
 
-/// By default. What has no default, a list and the type of an object stay as they are.
+/// The value by default. What has none, a list and the type of an object stay as they are.
 Json reset(const Outline& o, const Json& value) {
   if (o.optional) return nullptr;
   if (o.kind == Kind::object) {
@@ -78,7 +76,7 @@ void FieldRows::draw_field(const Outline& o, const Json& value, const std::strin
   else if (o.kind == Kind::object)
     values_.draw_type(o, value, pointer);
   else
-    items_.draw_add(o, value, pointer);
+    draw_add(o, value, pointer);
   if (changed && !value.is_null()) draw_reset(o, value, pointer);
   draw_problem(pointer, leaf || !open);
   if (leaf || !open) return;
@@ -87,9 +85,9 @@ void FieldRows::draw_field(const Outline& o, const Json& value, const std::strin
   else if (o.kind == Kind::object)
     draw_fields(o.fields(value), value, pointer);
   else if (o.kind == Kind::list || o.kind == Kind::map)
-    items_.draw_items(o, value, pointer);
+    draw_items(o, value, pointer);
   else
-    items_.draw_rows(o, value, pointer);
+    draw_rows(o, value, pointer);
   ImGui::TreePop();
 }
 

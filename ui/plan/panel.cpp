@@ -2,12 +2,8 @@
 #include "ui/plan/panel.h"
 
 #include "preset/read.h"
-#include "ui/widgets/action.h"
-#include "ui/widgets/theme.h"
-#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -96,7 +92,7 @@ void PlanPanel::draw(const Context& context) {
       std::count_if(plan->passes.begin(), plan->passes.end(), [](const plan::Pass& pass) { return !pass.runs; });
   ImGui::TextUnformatted(
       fmt::format("Engine {}: {} left out of {}", plan->engine, left_out, plan->passes.size()).c_str());
-  ImGui::SameLine(std::max(ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 8, ImGui::GetFontSize() * 14));
+  ImGui::SameLine(std::max(ImGui::GetContentRegionAvail().x - 8 * em(), 14 * em()));
   action_button("Copy plan as JSON", context);
   if (ImGui::BeginChild("plan")) {
     draw_passes(context);

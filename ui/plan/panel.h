@@ -18,10 +18,9 @@ private:
   void draw_passes(const Context& context);
   void draw_box(const Context& context, const plan::Pass& pass, bool computed);
 
-  std::shared_ptr<const plan::Plan> plan_; ///< what computed_ belongs to,
-  preset::Preset preset_;                  ///< and the preset that it was read from
-  std::vector<std::optional<bool>>
-      computed_; ///< by pass: whether its field says that it is computed; nothing without such a field
+  std::shared_ptr<const plan::Plan> plan_;    ///< what computed_ belongs to,
+  preset::Preset preset_;                     ///< and the preset that it was read from
+  std::vector<std::optional<bool>> computed_; ///< by pass: whether its field says so; nothing without such a field
 };
 
 /// The preset with the boolean at a JSON pointer set. Throws bad_input where there is no such field.

@@ -28,19 +28,16 @@ std::int64_t time_of(const fs::path& file) {
 }
 
 std::vector<RequiredFile> needs_of(const preset::Preset& preset) {
-  std::vector<std::string> names;
-  for (auto& [pointer, name] : preset::file_names(preset))
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
   const FileFinder finder(fs::path(preset.source).parent_path());
   std::vector<RequiredFile> needs;
-  for (std::string& name : names) {
-    bool there = true;
+  for (const auto& [pointer, name] : preset::file_names(preset)) {
+    if (std::ranges::count(needs, name, &RequiredFile::name) > 0) continue;
+    needs.push_back({name});
     try {
       finder.find(name, preset.source);
     } catch (const Error&) {
-      there = false;
+      needs.back().there = false;
     }
-    needs.push_back({std::move(name), there});
   }
   return needs;
 }
@@ -56,9 +53,7 @@ std::string stop_of(const preset::Preset& preset) {
 }
 
 CatalogueEntry entry_of(const fs::path& file, std::string name, bool shipped, const fs::path& thumbnails) {
-  CatalogueEntry entry{
-      file, std::move(name), shipped, time_of(file), thumbnail_of(file, thumbnails), {}, {}, {}, {}, {0, 0}, {}, 1, 1,
-      {}};
+  CatalogueEntry entry{file, std::move(name), shipped, time_of(file), thumbnail_of(file, thumbnails)};
   try {
     const std::vector<preset::Preset> presets = preset::read_presets(file.string());
     const preset::Preset& first = presets.front();
@@ -91,8 +86,8 @@ std::vector<CatalogueEntry> read(const std::vector<RecentFile>& opened, const fs
   }
   for (const RecentFile& file : opened) {
     const std::string shipped = preset::shipped_name(file.file);
-    const auto same = std::find_if(entries.begin(), entries.end(),
-                                   [&](const CatalogueEntry& e) { return e.shipped && e.name == shipped; });
+    const auto same =
+        std::ranges::find_if(entries, [&](const CatalogueEntry& e) { return e.shipped && e.name == shipped; });
     CatalogueEntry& entry =
         !shipped.empty() && same != entries.end()
             ? *same
@@ -102,10 +97,6 @@ std::vector<CatalogueEntry> read(const std::vector<RecentFile>& opened, const fs
   return entries;
 }
 
-std::string text_of(const CatalogueEntry& e) {
-  return fmt::format("{}\n{}\n{}\n{}", e.name, e.title, e.description, e.engine);
-}
-
 constexpr std::size_t most_bytes = 1 << 20; ///< the largest file that is read
 constexpr int most_pixels = 512;            ///< the longest edge
 
@@ -113,9 +104,11 @@ constexpr int most_pixels = 512;            ///< the longest edge
 
 std::vector<std::size_t> matches(const std::vector<CatalogueEntry>& entries, const CatalogueFilter& filter) {
   std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < entries.size(); ++i)
-    if ((filter.engine.empty() || entries[i].engine == filter.engine) && has_words(text_of(entries[i]), filter.words))
-      indices.push_back(i);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const CatalogueEntry& e = entries[i];
+    const std::string text = fmt::format("{}\n{}\n{}\n{}", e.name, e.title, e.description, e.engine);
+    if ((filter.engine.empty() || e.engine == filter.engine) && has_words(text, filter.words)) indices.push_back(i);
+  }
   std::stable_sort(indices.begin(), indices.end(), [&](std::size_t a, std::size_t b) {
     if (filter.newest_first && entries[a].time != entries[b].time) return entries[a].time > entries[b].time;
     return entries[a].name < entries[b].name;

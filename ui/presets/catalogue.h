@@ -6,17 +6,8 @@
 #include "ui/state/tasks.h"
 #include "ui/widgets/picture_texture.h"
 
-#include <array>
-#include <cstdint>
-#include <filesystem>
-#include <map>
-#include <memory>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
-/// A file that a preset names.
 struct RequiredFile {
   std::string name;
   bool there = true;
@@ -28,12 +19,12 @@ struct CatalogueEntry {
   bool shipped = true;
   std::int64_t time = 0;           ///< when it was opened last, else when the file was written; seconds since 1970
   std::filesystem::path thumbnail; ///< need not be there
-  std::string problem;             ///< why it cannot be read; then there is nothing of what follows
-  std::string title, description, engine;
+  std::string problem = {};        ///< why it cannot be read; then there is nothing of what follows
+  std::string title = {}, description = {}, engine = {};
   std::array<int, 2> resolution{0, 0};
-  std::string stop; ///< "64 passes"
+  std::string stop = {}; ///< "64 passes"
   std::size_t runs = 1, frames = 1;
-  std::vector<RequiredFile> needs;
+  std::vector<RequiredFile> needs = {};
 };
 
 struct CatalogueFilter {
@@ -51,14 +42,13 @@ public:
   void follow(const RecentFiles& recent, TaskQueue& tasks);
   /// Reads again with the next follow(): files may have changed.
   void read_again() { stale_ = true; }
-  /// What was read last.
   const std::vector<CatalogueEntry>& entries() const { return entries_; }
   /// Rises with every reading.
   std::size_t readings() const { return readings_; }
 
 private:
   bool stale_ = true;
-  std::vector<RecentFile> recent_; ///< of the reading that is there or on its way
+  std::vector<RecentFile> recent_; ///< when the newest reading began
   std::vector<CatalogueEntry> entries_;
   std::size_t readings_ = 0;
   TaskKey reading_;

@@ -3,10 +3,8 @@
 
 #include "base/counted.h"
 #include "engine/engine.h"
-#include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 
@@ -26,14 +24,13 @@ ImU32 badge_of(std::string_view name) {
 void draw_picture(const PictureTexture* picture, const CatalogueEntry& entry, const ImVec2& corner,
                   const ImVec2& size) {
   ImDrawList* list = ImGui::GetWindowDrawList();
-  const ImVec2 end{corner.x + size.x, corner.y + size.y};
+  const ImVec2 end = corner + size;
   if (picture && !picture->empty()) {
     const ImTextureRef ref = picture->ref();
-    const float wide = static_cast<float>(ref._TexData->Width), high = static_cast<float>(ref._TexData->Height);
-    const float scale = std::min(size.x / wide, size.y / high);
-    const ImVec2 low{corner.x + (size.x - scale * wide) / 2, corner.y + (size.y - scale * high) / 2};
+    const ImVec2 whole(static_cast<float>(ref._TexData->Width), static_cast<float>(ref._TexData->Height));
+    const ImVec2 shown = std::min(size.x / whole.x, size.y / whole.y) * whole, low = corner + (size - shown) / 2;
     list->AddRectFilled(corner, end, colour::surround);
-    list->AddImage(ref, low, {low.x + scale * wide, low.y + scale * high});
+    list->AddImage(ref, low, low + shown);
     return;
   }
   list->AddRectFilled(corner, end, badge_of(entry.engine), 4);
@@ -76,25 +73,25 @@ void PresetsPanel::draw(const Context& context) {
   draw_top();
   matches_ = matches(catalogue_.entries(), filter_);
   follow_keys(context);
-  const float details = std::min(ImGui::GetFontSize() * 12, ImGui::GetContentRegionAvail().y / 2);
+  const float details = std::min(12 * em(), ImGui::GetContentRegionAvail().y / 2);
   draw_list(context, ImGui::GetContentRegionAvail().y - details - ImGui::GetStyle().ItemSpacing.y);
   if (ImGui::BeginChild("details", {0, 0})) draw_details(context);
   ImGui::EndChild();
 }
 
 void PresetsPanel::draw_top() {
-  const float em = ImGui::GetFontSize();
   // Whoever comes here without the mouse begins to type.
   const bool focused = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
   if (focused && !focused_ && !ImGui::IsMouseDown(0)) ImGui::SetKeyboardFocusHere();
   focused_ = focused;
-  ImGui::SetNextItemWidth(-16 * em);
-  if (input_text("##search", "Search names, descriptions, engines", filter_.words, ImGuiInputTextFlags_EscapeClearsAll))
+  ImGui::SetNextItemWidth(-16 * em());
+  if (ImGui::InputTextWithHint("##search", "Search names, descriptions, engines", &filter_.words,
+                               ImGuiInputTextFlags_EscapeClearsAll))
     reveal_ = true;
   typing_ = ImGui::IsItemActive() || ImGui::IsItemDeactivated(); // Enter ends typing, and opens
   places_.note("search");
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(8 * em);
+  ImGui::SetNextItemWidth(8 * em());
   {
     Combo list("##engine", filter_.engine.empty() ? "All engines" : filter_.engine, &places_, "engine");
     if (list.entry("All engines", filter_.engine.empty())) filter_.engine.clear();
@@ -134,8 +131,7 @@ void PresetsPanel::follow_keys(const Context& context) {
 }
 
 void PresetsPanel::draw_list(const Context& context, float height) {
-  if (ImGui::BeginChild("list", {0, std::max(height, ImGui::GetFontSize())}, ImGuiChildFlags_Borders,
-                        ImGuiWindowFlags_NoNav)) {
+  if (ImGui::BeginChild("list", {0, std::max(height, em())}, ImGuiChildFlags_Borders, ImGuiWindowFlags_NoNav)) {
     if (matches_.empty()) ImGui::TextDisabled("%s", catalogue_.readings() == 0 ? "Reading..." : "Nothing is found.");
     for (const std::size_t i : matches_) draw_row(context, catalogue_.entries()[i]);
     reveal_ = false;
@@ -144,7 +140,7 @@ void PresetsPanel::draw_list(const Context& context, float height) {
 }
 
 void PresetsPanel::draw_row(const Context& context, const CatalogueEntry& entry) {
-  const float em = ImGui::GetFontSize(), high = 3.6f * em, wide = high * thumbnail_width / thumbnail_height;
+  const float high = 3.6f * em(), wide = high * thumbnail_width / thumbnail_height;
   page_ = std::max(1, static_cast<int>(ImGui::GetWindowHeight() / (high + ImGui::GetStyle().ItemSpacing.y)));
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -159,12 +155,12 @@ void PresetsPanel::draw_row(const Context& context, const CatalogueEntry& entry)
   places_.note(entry.name);
   draw_picture(thumbnails_.of(entry.thumbnail), entry, corner, {wide, high});
   ImDrawList* list = ImGui::GetWindowDrawList();
-  const float left = corner.x + wide + 0.6f * em;
+  const float left = corner.x + wide + 0.6f * em();
   list->PushClipRect({left, corner.y}, {corner.x + width, corner.y + high}, true);
   list->AddText({left, corner.y}, entry.problem.empty() ? colour::text : colour::error, entry.name.c_str());
   const std::string& below = entry.problem.empty() ? entry.description : entry.problem;
-  list->AddText(nullptr, 0, {left, corner.y + 1.2f * em}, colour::quiet_text, below.c_str(), nullptr,
-                std::max(em, corner.x + width - left));
+  list->AddText(nullptr, 0, {left, corner.y + 1.2f * em()}, colour::quiet_text, below.c_str(), nullptr,
+                std::max(em(), corner.x + width - left));
   list->PopClipRect();
 }
 

@@ -12,8 +12,7 @@ public:
   static constexpr const char* title = "Presets";
   void draw(const Context& context) override;
 
-  /// For tests: what is listed, from the top; the chosen one's file; the middle of a widget on the screen: a row by its
-  /// name, "search", "engine", "engine:spectral", "newest", "open". Nothing where it is not drawn.
+  /// For tests. Widgets have places: a row by its name, "search", "engine", "engine:spectral", "newest", "open".
   const Catalogue& catalogue() const { return catalogue_; }
   std::vector<std::string> listed() const;
   const std::string& chosen() const { return chosen_; }

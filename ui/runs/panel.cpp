@@ -4,20 +4,14 @@
 #include "base/error.h"
 #include "preset/json_text.h"
 #include "ui/state/run_record.h"
-#include "ui/widgets/action.h"
-#include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 
 namespace nephroid::ui {
 namespace {
-
-constexpr std::uint32_t present_colour =
-    0xffe4e4e4; ///< as the line of the run in hand in the panel "Error against time"
 
 RunRow row_of(const PinnedRun& run) {
   RunRow row{.pin = run.id, .name = run.name, .colour = run.colour};
@@ -47,7 +41,6 @@ RunRow row_of(const PinnedRun& run) {
   return row;
 }
 
-/// A value as JSON, for a row.
 std::string short_value(const std::string& text) {
   constexpr std::size_t longest = 24;
   if (text == "null") return "none";
@@ -96,10 +89,9 @@ std::vector<RunRow> run_rows(const Context& context) {
   if (context.run.snapshot()) {
     rows.push_back(row_of(look_at_run(context.run)));
     rows.back().name = "this run";
-  } else if (context.preset()) {
+  } else
     rows.push_back({.name = "this run", .engine = context.engine()});
-  }
-  if (!rows.empty()) rows.back().colour = present_colour;
+  rows.back().colour = colour::on_dark; // as in the panel Error
   for (const PinnedRun& run : context.comparing.pinned().all()) rows.push_back(row_of(run));
   return rows;
 }
@@ -108,12 +100,12 @@ const PresetDifferences::Known& PresetDifferences::of(const RunRow& row, const C
   std::erase_if(known_,
                 [&](const auto& entry) { return entry.first != 0 && !context.comparing.pinned().find(entry.first); });
   Known& known = known_[row.pin];
-  const auto present = context.edits ? context.edits->shared() : nullptr;
+  const auto present = context.edits->shared();
   if (known.of == row.preset && known.present == present && !known.in_short.empty()) return known;
   known = {row.preset, present, {}, {}};
   if (!row.preset && row.pin != 0)
     known.in_short = row.file.empty() ? "its preset is not known" : row.read_as + "; " + row.file;
-  if (!row.preset || !present) return known;
+  if (!row.preset) return known;
   try {
     const std::vector<preset::Difference> differences = preset::differences(*present, *row.preset);
     known.in_short = differences.empty() ? "as the present preset" : line_of(differences.front());
@@ -146,11 +138,6 @@ void RunsPanel::draw(const Context& context) {
   ImGui::SameLine();
   action_button("Open pictures...", context);
   sweep_.draw(context, places_);
-  if (rows_.empty()) {
-    draw_wrapped(colour::quiet_text, "Open a preset: its run is listed here, and each run that is pinned. Or open the "
-                                     "history of an earlier run, or pictures.");
-    return;
-  }
   draw_table(context);
 }
 
@@ -159,35 +146,34 @@ void RunsPanel::draw_table(const Context& context) {
                                     ImGuiTableFlags_Resizable | ImGuiTableFlags_Sortable |
                                     ImGuiTableFlags_SortTristate | ImGuiTableFlags_NoSavedSettings;
   if (!ImGui::BeginTable("runs", 4, flags)) return;
-  const float em = ImGui::GetFontSize();
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("Run", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("Work", ImGuiTableColumnFlags_WidthFixed, 5.5f * em);
-  ImGui::TableSetupColumn("Error", ImGuiTableColumnFlags_WidthFixed, 7.5f * em);
-  ImGui::TableSetupColumn("##buttons", ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_NoSort, 7.5f * em);
+  ImGui::TableSetupColumn("Work", ImGuiTableColumnFlags_WidthFixed, 5.5f * em());
+  ImGui::TableSetupColumn("Error", ImGuiTableColumnFlags_WidthFixed, 7.5f * em());
+  ImGui::TableSetupColumn("##buttons", ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_NoSort, 7.5f * em());
   ImGui::TableHeadersRow();
   if (const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs(); specs && specs->SpecsCount > 0)
     std::stable_sort(rows_.begin(), rows_.end(),
                      [&](const RunRow& a, const RunRow& b) { return is_before(a, b, specs->Specs[0]); });
   const float high = 3 * ImGui::GetTextLineHeightWithSpacing() + 2 * ImGui::GetStyle().CellPadding.y;
-  ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(rows_.size()), high);
-  while (clipper.Step())
-    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-      ImGui::TableNextRow(0, high);
-      ImGui::PushID(static_cast<int>(rows_[static_cast<std::size_t>(i)].pin));
-      draw_row(context, rows_[static_cast<std::size_t>(i)]);
-      ImGui::PopID();
-    }
+  draw_rows_in_sight(
+      rows_.size(),
+      [&](std::size_t i) {
+        ImGui::TableNextRow(0, high);
+        ImGui::PushID(static_cast<int>(rows_[i].pin));
+        draw_row(context, rows_[i]);
+        ImGui::PopID();
+      },
+      high);
   ImGui::EndTable();
 }
 
 void RunsPanel::draw_row(const Context& context, const RunRow& row) {
   ImGui::TableNextColumn();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const float em = ImGui::GetFontSize(), box = 0.7f * em, inset = box + 0.4f * em;
-  ImGui::GetWindowDrawList()->AddRectFilled({corner.x, corner.y + 0.15f * em},
-                                            {corner.x + box, corner.y + 0.15f * em + box}, row.colour);
+  const float box = 0.7f * em(), inset = box + 0.4f * em();
+  ImGui::GetWindowDrawList()->AddRectFilled({corner.x, corner.y + 0.15f * em()},
+                                            {corner.x + box, corner.y + 0.15f * em() + box}, row.colour);
   ImGui::Indent(inset);
   draw_cell(row.name, row.engine);
   ImGui::Unindent(inset);
@@ -233,7 +219,7 @@ void RunsPanel::draw_buttons(const Context& context, const RunRow& row) {
     context.push(command::CompareWith{compared ? 0 : as_other});
   if (row.pin == 0 || !is_run) return;
   ImGui::SameLine();
-  if (button("Take", fmt::format("take {}", row.pin), row.preset && context.preset(),
+  if (button("Take", fmt::format("take {}", row.pin), row.preset != nullptr,
              row.preset ? "Its preset in place of the present one, as an edit that can be undone"
                         : "Its preset is not known"))
     context.push(taken(row, *context.preset()));

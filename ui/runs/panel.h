@@ -5,17 +5,12 @@
 #pragma once
 #include "preset/differences.h"
 #include "ui/runs/sweep_section.h"
-#include "ui/state/context.h"
 #include "ui/widgets/panel.h"
 
 #include <limits>
-#include <map>
-
-struct ImVec2;
 
 namespace nephroid::ui {
 
-/// A row as text.
 struct RunRow {
   std::uint64_t pin = 0; ///< PinnedRun::id; 0: the run in hand
   std::string name = {};
@@ -28,12 +23,12 @@ struct RunRow {
   double seconds_value = std::numeric_limits<double>::quiet_NaN(),
          error_value = std::numeric_limits<double>::quiet_NaN();
   bool has_picture = false;
-  std::string file = {};                             ///< of an opened picture, whose seconds are its size; empty: a run
+  std::string file = {};                             ///< an opened picture's, whose seconds are its size; empty: a run
   std::string read_as = {};                          ///< as PinnedRun::read_as
   std::shared_ptr<const preset::Preset> preset = {}; ///< null where it is not known
 };
 
-/// The run in hand first, also before it has a picture, where a preset is open; then the pinned runs in their order.
+/// The run in hand first, also before it has a picture; then the pinned runs in their order. A preset is open.
 std::vector<RunRow> run_rows(const Context& context);
 
 /// Where presets differ from the present one, kept as long as both stay the same.
@@ -41,9 +36,8 @@ class PresetDifferences {
 public:
   struct Known {
     std::shared_ptr<const preset::Preset> of, present;
-    std::string
-        in_short; ///< for a row: "spectral.threshold_deg: 0.1 -> 0.5, 2 more"; the present one's value comes first
-    std::string in_full; ///< a line a difference
+    std::string in_short; ///< for a row: "spectral.threshold_deg: 0.1 -> 0.5, 2 more", from the present one's value
+    std::string in_full;  ///< a line a difference
   };
   const Known& of(const RunRow& row, const Context& context);
 
@@ -60,9 +54,8 @@ public:
   static constexpr const char* title = "Runs";
   void draw(const Context& context) override;
 
-  /// For tests: what was listed last, from the top; the middle of a widget on the screen: "show 3", "compare 3", "take
-  /// 3", "unpin 3" of a pin by its id, "show 0", "compare 0" and "pin" of the run in hand. Nothing where it is not
-  /// drawn.
+  /// For tests: what was listed last, from the top. Widgets have places: "show 3", "compare 3", "take 3", "unpin 3" of
+  /// a pin by its id, "show 0", "compare 0" and "pin" of the run in hand.
   const std::vector<RunRow>& rows() const { return rows_; }
   std::string difference(const RunRow& row, const Context& context) { return differences_.of(row, context).in_short; }
   const SweepSection& sweep() const { return sweep_; }

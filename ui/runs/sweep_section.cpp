@@ -12,13 +12,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <map>
-#include <set>
 #include <tuple>
 
 namespace nephroid::ui {
@@ -30,7 +26,7 @@ using Kind = Outline::Kind;
 
 constexpr std::size_t most_values = 10000; ///< that a sweep of a preset may have
 
-/// A name that --set takes between two dots.
+/// Whether --set takes the name between two dots.
 bool is_sayable(const std::string& key) {
   return !key.empty() && key.find_first_of(".=[") == std::string::npos &&
          std::ranges::none_of(key, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
@@ -55,8 +51,7 @@ void collect(const std::vector<Outline>& outline, const Json& object, const std:
 }
 
 std::string text_of(const NumberField& field, double value) {
-  return field.whole ? fmt::format("{:.0f}", value)
-                     : Json(std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr)).dump();
+  return field.whole ? fmt::format("{:.0f}", value) : Json(*number_in<double>(fmt::format("{:.12g}", value))).dump();
 }
 
 /// Throws where the field may not have it.
@@ -65,7 +60,6 @@ void check_value(const NumberField& field, double value, const std::string& show
   throw bad_input(field.key, fmt::format("{} is out of its range", shown), "expected " + field.expected);
 }
 
-/// A number as people type it: ".5", "+3", "1e5".
 std::string typed_value(const NumberField& field, const std::string& word) {
   const auto value = typed_number<double>(word);
   if (!value) throw bad_input(field.key, "a value is no number", "expected numbers with commas between");
@@ -76,8 +70,7 @@ std::string typed_value(const NumberField& field, const std::string& word) {
 }
 
 const std::vector<std::string>& all_different(const NumberField& field, const std::vector<std::string>& values) {
-  std::set<std::string> seen;
-  for (const std::string& value : values)
+  for (std::set<std::string> seen; const std::string& value : values)
     if (!seen.insert(value).second)
       throw bad_input(field.key, fmt::format("the value {} is there twice", value), "expected different values");
   return values;
@@ -85,13 +78,8 @@ const std::vector<std::string>& all_different(const NumberField& field, const st
 
 using State = SweepQueue::State;
 
-const preset::Sweep& sweep_of(const Context& context) {
-  static const preset::Sweep none;
-  return context.edits ? context.edits->sweep() : none;
-}
-
 std::string heading(const Context& context) {
-  const preset::Sweep& sweep = sweep_of(context);
+  const preset::Sweep& sweep = context.edits->sweep();
   if (context.sweep.active()) return "Sweep: " + context.sweep.summary();
   if (sweep.empty()) return "Sweep";
   return fmt::format("Sweep: {:.0f} runs of {}", preset::count_runs(sweep), counted(sweep.size(), "field"));
@@ -135,8 +123,7 @@ std::vector<std::string> typed_values(const NumberField& field, const std::strin
   std::vector<std::string> values;
   for (std::size_t at = text.find_first_not_of(between); at != std::string::npos;) {
     const std::size_t end = std::min(text.find_first_of(between, at), text.size());
-    const std::string word = text.substr(at, end - at);
-    values.push_back(typed_value(field, word));
+    values.push_back(typed_value(field, text.substr(at, end - at)));
     if (values.size() > most_values)
       throw bad_input(field.key, "there are too many values", fmt::format("expected at most {}", most_values));
     at = text.find_first_not_of(between, end);
@@ -150,10 +137,6 @@ const NumberField* SweepSection::chosen() const {
   return found == fields_.end() ? nullptr : &*found;
 }
 
-void SweepSection::follow(const Context& context) {
-  if (const auto& now = context.edits->shared(); std::exchange(of_, now) != now) fields_ = number_fields(*now);
-}
-
 void SweepSection::choose(const NumberField& field) {
   key_ = field.key;
   problem_.clear();
@@ -164,13 +147,12 @@ void SweepSection::choose(const NumberField& field) {
 }
 
 void SweepSection::draw(const Context& context, WidgetPlaces& places) {
-  if (!context.edits) return;
-  const bool empty = sweep_of(context).empty() && context.sweep.runs().empty();
+  const bool empty = context.edits->sweep().empty() && context.sweep.runs().empty();
   if (std::exchange(was_empty_, empty) && !empty) ImGui::SetNextItemOpen(true);
   const bool open = ImGui::CollapsingHeader((heading(context) + "###sweep").c_str());
   places.note("sweep");
   if (!open) return;
-  follow(context);
+  if (const auto& now = context.edits->shared(); std::exchange(of_, now) != now) fields_ = number_fields(*now);
   draw_fields(context, places);
   draw_choice(places);
   draw_values(context, places);
@@ -185,9 +167,8 @@ void SweepSection::draw(const Context& context, WidgetPlaces& places) {
   ImGui::Separator();
 }
 
-/// What is swept, a line each.
 void SweepSection::draw_fields(const Context& context, WidgetPlaces& places) {
-  const preset::Sweep& sweep = sweep_of(context);
+  const preset::Sweep& sweep = context.edits->sweep();
   if (sweep.empty())
     draw_wrapped(colour::quiet_text,
                  "A sweep runs the preset with several values of a field, or of several fields with each other.");
@@ -229,7 +210,8 @@ void SweepSection::draw_choice(WidgetPlaces& places) {
     ImGui::SetKeyboardFocusHere();
   }
   ImGui::SetNextItemWidth(-1);
-  const bool entered = input_text("##filter", "letters of its name", filter_, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered =
+      ImGui::InputTextWithHint("##filter", "letters of its name", &filter_, ImGuiInputTextFlags_EnterReturnsTrue);
   bool first = true;
   for (const NumberField& field : fields_) {
     if (lower_case(field.key).find(lower_case(filter_)) == std::string::npos) continue;
@@ -247,7 +229,6 @@ void SweepSection::draw_choice(WidgetPlaces& places) {
 void SweepSection::draw_values(const Context& context, WidgetPlaces& places) {
   const NumberField* field = chosen();
   if (!field) return;
-  const float em = ImGui::GetFontSize();
   if (ImGui::RadioButton("Range", !typed_)) typed_ = false;
   places.note("sweep range");
   ImGui::SameLine();
@@ -258,16 +239,15 @@ void SweepSection::draw_values(const Context& context, WidgetPlaces& places) {
   bool entered = false;
   if (typed_) {
     ImGui::SetNextItemWidth(-1);
-    entered = input_text("##values", "0.5, 0.1, 0.05", text_, ImGuiInputTextFlags_EnterReturnsTrue);
+    entered = ImGui::InputTextWithHint("##values", "0.5, 0.1, 0.05", &text_, ImGuiInputTextFlags_EnterReturnsTrue);
     places.note("sweep values");
   } else {
-    const auto words = [&](const char* text) {
+    const auto words = [](const char* text) {
       ImGui::SameLine();
-      ImGui::TextUnformatted(text);
-      ImGui::SameLine();
+      draw_label(text);
     };
     const auto number = [&](const char* place, double& value) {
-      ImGui::SetNextItemWidth(5 * em);
+      ImGui::SetNextItemWidth(5 * em());
       ImGui::InputDouble(fmt::format("##{}", place).c_str(), &value, 0, 0, "%.6g");
       places.note(place);
     };
@@ -275,7 +255,7 @@ void SweepSection::draw_values(const Context& context, WidgetPlaces& places) {
     words("to");
     number("sweep to", range_.to);
     words("in");
-    ImGui::SetNextItemWidth(3 * em);
+    ImGui::SetNextItemWidth(3 * em());
     ImGui::InputInt("##count", &range_.count, 0);
     places.note("sweep count");
     words("values");
@@ -289,7 +269,7 @@ void SweepSection::set(const Context& context) {
   const NumberField& field = *chosen();
   try {
     preset::SweptField swept{field.key, typed_ ? typed_values(field, text_) : range_values(field, range_)};
-    preset::Sweep sweep = sweep_of(context);
+    preset::Sweep sweep = context.edits->sweep();
     if (const auto there = std::ranges::find(sweep, field.key, &preset::SweptField::key); there != sweep.end())
       *there = std::move(swept);
     else
@@ -304,14 +284,14 @@ void SweepSection::set(const Context& context) {
 /// The runs with their states; the one that begins comes into sight.
 void SweepSection::draw_queue(const Context& context) {
   const std::vector<SweepQueue::QueuedRun>& runs = context.sweep.runs();
-  const float line = ImGui::GetTextLineHeightWithSpacing(), em = ImGui::GetFontSize();
+  const float line = ImGui::GetTextLineHeightWithSpacing();
   constexpr std::size_t most_lines = 6;
   if (ImGui::BeginChild("queue", {0, line * (static_cast<float>(std::min(most_lines, runs.size())) + 0.5f)},
                         ImGuiChildFlags_Borders)) {
     for (const SweepQueue::QueuedRun& run : runs) {
       ImGui::TextUnformatted(state_text(run).c_str());
       if (run.state == State::running && std::exchange(in_sight_, run.name) != run.name) ImGui::SetScrollHereY();
-      ImGui::SameLine(4 * em);
+      ImGui::SameLine(4 * em());
       draw_text(run.state == State::failed ? colour::error : colour::text,
                 run.why.empty() ? run.name : run.name + ": " + run.why);
       if (!run.why.empty()) tooltip(run.why);

@@ -9,7 +9,6 @@
 
 namespace nephroid::ui {
 
-/// A field that holds a number.
 struct NumberField {
   std::string key; ///< as for --set
   bool whole = false;
@@ -44,7 +43,6 @@ public:
   const std::string& problem() const { return problem_; }
 
 private:
-  void follow(const Context& context);
   void draw_fields(const Context& context, WidgetPlaces& places);
   void draw_choice(WidgetPlaces& places);
   void draw_values(const Context& context, WidgetPlaces& places);
@@ -53,7 +51,7 @@ private:
   void set(const Context& context);
   const NumberField* chosen() const;
 
-  std::shared_ptr<const preset::Preset> of_; ///< what fields_ are of
+  std::shared_ptr<const preset::Preset> of_; ///< the preset of fields_
   std::vector<NumberField> fields_;
   std::string filter_, key_; ///< words that filter the fields; the chosen key
   SweepRange range_;

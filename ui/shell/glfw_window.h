@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The display side of the window: GLFW, OpenGL and Dear ImGui's two back ends, from opening to closing. Nothing of the
-// workbench.
+// The display side of the window: GLFW, OpenGL and Dear ImGui's two back ends. Nothing of the workbench.
 #pragma once
 #include "ui/state/commands.h"
-
-#include <array>
-#include <string>
-#include <utility>
-#include <vector>
 
 struct GLFWwindow;
 
@@ -26,9 +20,8 @@ public:
   void set_appearance(Theme theme, double text_size) { wanted_ = {theme, static_cast<float>(text_size)}; }
   /// Takes the events that are there and begins a frame of Dear ImGui.
   void begin_frame();
-  /// Makes what is to be drawn of what Dear ImGui was told.
   void end_frame();
-  /// Draws that into the back buffer; present() shows it.
+  /// Draws into the back buffer; present() shows it.
   void draw_frame();
   void present();
   /// The back buffer after draw_frame(): 4 bytes a pixel, row 0 at the top.
@@ -43,7 +36,6 @@ public:
   std::vector<std::string> take_dropped() { return std::exchange(dropped_, {}); }
   /// True where the mouse or a key was used since the last call.
   bool take_activity() { return std::exchange(activity_, false); }
-  /// The renderer's name, for messages.
   std::string renderer() const;
   /// Lets go of what the back ends hold, textures of panels too; the context stays until the destructor.
   void shut_down_back_ends();

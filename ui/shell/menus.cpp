@@ -1,32 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is made of the table of actions.
 #include "ui/shell/menus.h"
 
 #include "base/error.h"
 #include "base/lower_case.h"
 #include "preset/read.h"
-#include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
-#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
 #include <imcmd_fuzzy_search.h>
-#include <imgui.h>
 #include <imgui_internal.h>
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {
 
-void row(const char* how, const char* what) {
+void row(const char* how, const std::string& what) {
   ImGui::TableNextRow();
+  cell(how);
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(how);
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("%s", what);
+  ImGui::TextDisabled("%s", what.c_str());
 }
 
 constexpr const char* palette_title = "Commands";
@@ -142,7 +136,7 @@ void draw_help(const Context& context) {
   if (ImGui::Begin("Mouse and keys", &open, flags) && ImGui::BeginTable("help", 2, ImGuiTableFlags_RowBg)) {
     for (const MouseHabit& habit : mouse_habits()) row(habit.how, habit.what);
     for (const Action& action : actions())
-      if (action.shortcut) row(keys_of(action), action.help.c_str());
+      if (action.shortcut) row(keys_of(action), action.help);
     ImGui::EndTable();
   }
   ImGui::End();
@@ -187,17 +181,16 @@ void Palette::choose(const Entry& entry, const Context& context) const {
 void Palette::draw(const Context& context, bool shown) {
   if (shown && !std::exchange(shown_, shown)) begin();
   if (!(shown_ = shown)) return;
-  const float em = ImGui::GetFontSize();
   const ImGuiViewport& viewport = *ImGui::GetMainViewport();
-  ImGui::SetNextWindowPos({viewport.GetWorkCenter().x, viewport.WorkPos.y + 2 * em}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::SetNextWindowPos({viewport.GetWorkCenter().x, viewport.WorkPos.y + 2 * em()}, ImGuiCond_Always, {0.5f, 0});
   constexpr ImGuiWindowFlags flags =
       ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings;
   // Not modal: a click beside it closes it.
   if (!ImGui::BeginPopup(palette_title, flags)) return context.push(command::Ask{Question::none});
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(em * 38);
+  ImGui::SetNextItemWidth(em() * 38);
   const std::string before = typed_;
-  const bool entered = input_text("##typed", "what to do", typed_, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputTextWithHint("##typed", "what to do", &typed_, ImGuiInputTextFlags_EnterReturnsTrue);
   if (typed_ != before) search();
   draw_entries(context);
   if (entered && selected_ < matches_.size()) choose(*matches_[selected_], context);
@@ -206,12 +199,11 @@ void Palette::draw(const Context& context, bool shown) {
 }
 
 void Palette::draw_entries(const Context& context) {
-  const float em = ImGui::GetFontSize();
   bool moved = false;
   if (ImGui::IsKeyPressed(ImGuiKey_DownArrow) && selected_ + 1 < matches_.size()) moved = ++selected_ > 0;
   if (ImGui::IsKeyPressed(ImGuiKey_UpArrow) && selected_ > 0) moved = --selected_ + 1 > 0;
   // The arrows move in the list while the text field has the keyboard.
-  if (ImGui::BeginChild("found", {em * 38, em * 20}, ImGuiChildFlags_None, ImGuiWindowFlags_NoNav)) {
+  if (ImGui::BeginChild("found", {em() * 38, em() * 20}, ImGuiChildFlags_None, ImGuiWindowFlags_NoNav)) {
     for (std::size_t i = 0; i < matches_.size(); ++i) {
       const Entry& entry = *matches_[i];
       ImGui::PushID(static_cast<int>(i));
@@ -222,7 +214,7 @@ void Palette::draw_entries(const Context& context) {
       if (i == selected_ && moved) ImGui::SetScrollHereY();
       tooltip(entry.help);
       if (!entry.keys.empty()) {
-        ImGui::SameLine(em * 37 - ImGui::CalcTextSize(entry.keys.c_str()).x);
+        ImGui::SameLine(em() * 37 - ImGui::CalcTextSize(entry.keys.c_str()).x);
         ImGui::TextDisabled("%s", entry.keys.c_str());
       }
       ImGui::PopID();

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is made of the table of actions: menus, toolbar, shortcuts, the overlay that says what the mouse and the keys
-// do, the command palette.
+// What is made of the table of actions: menus, toolbar, shortcuts, the help, the command palette.
 #pragma once
-#include "ui/state/context.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/widgets.h"
 
-#include <span>
-
 namespace nephroid::ui {
 
-/// The menus of the main menu bar, in the table's order. places, for tests: "menu:NAME", and of those that are open
-/// "menu:NAME/ACTION".
+/// Draws the menus in the table's order. places, for tests: "menu:NAME", and of open ones "menu:NAME/ACTION".
 void draw_menus(const Context& context, WidgetPlaces& places);
 /// At the right end of the menu bar: buttons of the actions that are used all day, as far as there is room. places:
 /// "toolbar:ACTION".

@@ -11,7 +11,6 @@
 #include "ui/view/panel.h"
 #include "ui/view/pinhole.h"
 
-#include <imgui.h>
 #include <imgui_internal.h>
 
 #include <algorithm>
@@ -104,8 +103,7 @@ FrontTabs begin_layout(const std::string& name, const preset::Preset& preset, un
   ImGui::DockBuilderRemoveNode(dock_space);
   ImGui::DockBuilderAddNode(dock_space, ImGuiDockNodeFlags_DockSpace);
   ImGui::DockBuilderSetNodeSize(dock_space, {width, height});
-  if (width <
-      40 * ImGui::GetFontSize()) { // too narrow for two docks: all are tabs of one, by default the picture in front
+  if (width < 40 * em()) { // too narrow for two docks: all are tabs of one, by default the picture in front
     for (const PanelEntry& entry : panel_table()) ImGui::DockBuilderDockWindow(entry.title, dock_space);
     ImGui::DockBuilderFinish(dock_space);
     return {tab_id(name.empty() ? panel_table().front().title : front.title)};
@@ -118,15 +116,14 @@ FrontTabs begin_layout(const std::string& name, const preset::Preset& preset, un
   // The tabs are as wide as a plot with its legend needs and, where the window has room for that, as their titles; the
   // picture has the rest. The widest tabs give up the room of their close buttons first.
   const float most = 0.45f * width;
-  float longest = 0, titles = ImGui::GetFontSize();
+  float longest = 0, titles = em();
   std::vector<const char*> beside;
   for (const PanelEntry& tab : tabs())
     if (serves(tab, preset) && !is_below(tab)) beside.push_back(tab.title);
   for (const char* title : beside) longest = std::max(longest, ImGui::TabItemCalcSize(title, false).x);
   for (const char* title : beside)
     titles += std::min(ImGui::TabItemCalcSize(title, true).x, longest) + ImGui::GetStyle().ItemInnerSpacing.x;
-  const float tab_width =
-      std::clamp(std::max(ImGui::GetFontSize() * 28, titles <= most ? titles : 0), 0.3f * width, most);
+  const float tab_width = std::clamp(std::max(28 * em(), titles <= most ? titles : 0), 0.3f * width, most);
   ImGuiID at_right = 0, below = 0;
   ImGuiID picture =
       ImGui::DockBuilderSplitNode(dock_space, ImGuiDir_Left, 1 - tab_width / std::max(width, 1.0f), nullptr, &at_right);

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of panels, a line each; and where they are: as a preset's engine begins with them, and, in Dear ImGui's own
-// words, as a person left them.
+// The table of panels, a line each; and where they are: as a preset's engine begins with them, and as a person left
+// them, in Dear ImGui's format.
 #pragma once
 #include "preset/preset.h"
 #include "run/prepare.h"
 #include "ui/widgets/panel.h"
-
-#include <span>
 
 namespace nephroid::ui {
 
@@ -18,7 +16,6 @@ bool can_close(const PanelEntry& entry);
 bool is_open(const PanelEntry& entry, const Context& context);
 /// Whether it was drawn in the last frame: a tab behind another is open and not seen.
 bool is_seen(const PanelEntry& entry);
-/// Whether the panel is for this preset.
 bool serves(const PanelEntry& entry, const preset::Preset& preset);
 /// What the panels of the preset's engine keep of a scene (TakeFacts of state/device_runs.h).
 SceneFacts take_facts(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded);
@@ -29,7 +26,6 @@ void check_layout(const std::string& name);
 
 /// The tabs that are in front, each as ImGuiWindow::TabId.
 using FrontTabs = std::vector<unsigned>;
-/// The tabs of all panels that are seen now.
 FrontTabs panels_in_sight();
 /// Docks the picture at the left of the dock space of this id (an ImGuiID) and the other panels as tabs at its right.
 /// Inside of a frame, before the panels.

@@ -4,13 +4,8 @@
 #include "base/counted.h"
 #include "base/files.h"
 #include "engine/engine.h"
-#include "ui/state/recent_files.h"
-#include "ui/widgets/action.h"
-#include "ui/widgets/theme.h"
-#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 namespace nephroid::ui {
 namespace {
@@ -31,16 +26,16 @@ std::filesystem::path file_of(const engine::ShippedExample& example) {
 
 void draw_card(const engine::ShippedExample& card, const PictureTexture* picture, float width, const Context& context,
                WidgetPlaces& places) {
-  const float em = ImGui::GetFontSize(), high = 7 * em;
+  const float high = 7 * em();
   ImGui::PushID(card.preset);
   ImGui::PushStyleColor(ImGuiCol_ChildBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   if (ImGui::BeginChild("card", {width, high + 2 * ImGui::GetStyle().WindowPadding.y},
                         ImGuiChildFlags_Borders | ImGuiChildFlags_NavFlattened)) {
     const ImVec2 corner = ImGui::GetCursorScreenPos(), size{high / picture_aspect, high};
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
-    if (picture) list.AddImage(picture->ref(), corner, {corner.x + size.x, corner.y + size.y});
-    ImGui::SetCursorScreenPos({corner.x + size.x + em, corner.y});
+    list.AddRectFilled(corner, corner + size, colour::surround);
+    if (picture) list.AddImage(picture->ref(), corner, corner + size);
+    ImGui::SetCursorScreenPos({corner.x + size.x + em(), corner.y});
     ImGui::BeginGroup();
     ImGui::TextUnformatted(card.title);
     draw_wrapped(colour::quiet_text, card.sentence);
@@ -93,12 +88,12 @@ void StartPage::draw_engines(const Context& context) {
 }
 
 void StartPage::draw_devices(TaskQueue& tasks) {
-  const auto look = [] {
-    Devices devices{compute::list_devices(), {}};
-    if (devices.list.empty()) devices.why_none = compute::no_device_error().line();
-    return devices;
-  };
   if (!devices_) {
+    const auto look = [] {
+      Devices devices{compute::list_devices(), {}};
+      if (devices.list.empty()) devices.why_none = compute::no_device_error().line();
+      return devices;
+    };
     if (!tasks.busy(asking_))
       tasks.start(asking_, {"looking for devices"}, look, [this](Devices devices) { devices_ = std::move(devices); });
     return draw_wrapped(colour::quiet_text, "Looking for devices");

@@ -4,7 +4,6 @@
 #pragma once
 #include "compute/compute.h"
 #include "ui/presets/catalogue.h"
-#include "ui/state/context.h"
 #include "ui/widgets/panel.h"
 
 namespace nephroid::ui {
@@ -25,7 +24,7 @@ private:
   void draw_devices(TaskQueue& tasks);
 
   Thumbnails thumbnails_;
-  std::vector<std::filesystem::path> pictures_; ///< the cards' pictures
+  std::vector<std::filesystem::path> pictures_; ///< one a card
   TaskKey asking_;
   std::optional<Devices> devices_; ///< nothing before drivers have answered, which may take seconds
 };

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace nephroid::ui {
 namespace {
@@ -21,10 +20,10 @@ namespace {
 /// How many there are; the lines themselves in a tooltip.
 void draw_notes(const std::vector<std::string>& notes) {
   if (notes.empty()) return;
-  ImGui::SameLine(0, ImGui::GetFontSize());
+  ImGui::SameLine(0, em());
   draw_text(colour::note, counted(notes.size(), "note"));
   if (!ImGui::BeginItemTooltip()) return;
-  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 40);
+  ImGui::PushTextWrapPos(40 * em());
   for (const std::string& note : notes) ImGui::TextUnformatted(note.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
@@ -39,7 +38,7 @@ void draw_tasks(TaskQueue& tasks) {
     return task.progress < 0 ? task.name : fmt::format("{}: {:.0f} %", task.name, 100 * task.progress);
   };
   if (running.empty() && !ImGui::IsPopupOpen("tasks")) return;
-  ImGui::SameLine(0, ImGui::GetFontSize());
+  ImGui::SameLine(0, em());
   const std::string word = running.size() == 1 ? text_of(running.front()) : counted(running.size(), "task");
   if (ImGui::SmallButton((word + "###tasks").c_str())) ImGui::OpenPopup("tasks");
   if (!ImGui::BeginPopup("tasks")) return;
@@ -61,7 +60,7 @@ constexpr std::size_t most_shown = 4; ///< the newest; the others come up when t
 std::span<const Message> shown(std::span<const Message> all) { return all.last(std::min(all.size(), most_shown)); }
 
 /// Room at the right for the buttons.
-float text_width(float width) { return std::max(width - ImGui::GetFontSize() * 12, ImGui::GetFontSize() * 10); }
+float text_width(float width) { return std::max(width - 12 * em(), 10 * em()); }
 
 float line_height(const Message& message, float width) {
   return std::max(ImGui::CalcTextSize(message.line.c_str(), nullptr, false, text_width(width)).y,
@@ -90,11 +89,10 @@ void draw_status_line(const Context& context, const std::vector<std::string>& no
   const job::Status& status = context.run.status();
   const job::Progress& progress = status.progress;
   const bool paused = status.state == job::State::paused;
-  const float em = ImGui::GetFontSize();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(name_of(status.state));
-  ImGui::SameLine(em * 6);
-  ImGui::ProgressBar(static_cast<float>(progress.fraction), {std::min(em * 14, ImGui::GetWindowWidth() / 5), 0},
+  ImGui::SameLine(em() * 6);
+  ImGui::ProgressBar(static_cast<float>(progress.fraction), {std::min(em() * 14, ImGui::GetWindowWidth() / 5), 0},
                      fmt::format("{:.0f} %", 100 * progress.fraction).c_str());
   ImGui::SameLine();
   if (paused) {
@@ -113,13 +111,13 @@ void draw_status_line(const Context& context, const std::vector<std::string>& no
   const double left = pace.seconds_left;
   if (left > 0 && (status.state == job::State::running || paused)) text += "    " + duration_text(left) + " left";
   if (progress.work_seconds > 0) text += fmt::format("    {} of work", duration_text(progress.work_seconds));
-  ImGui::SameLine(0, em);
+  ImGui::SameLine(0, em());
   ImGui::TextUnformatted(text.c_str());
   draw_tasks(context.tasks);
   draw_notes(notes);
   const char* help = "Mouse and keys: F1";
-  const float right = ImGui::GetWindowWidth() - ImGui::CalcTextSize(help).x - em;
-  if (right < ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + em) return;
+  const float right = ImGui::GetWindowWidth() - ImGui::CalcTextSize(help).x - em();
+  if (right < ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + em()) return;
   ImGui::SameLine(right);
   ImGui::TextDisabled("%s", help);
 }
@@ -132,7 +130,7 @@ float errors_height(std::span<const Message> errors, float width) {
 }
 
 void draw_errors(std::span<const Message> errors, const Context& context) {
-  const float width = ImGui::GetWindowWidth(), em = ImGui::GetFontSize();
+  const float width = ImGui::GetWindowWidth();
   for (const Message& error : shown(errors)) {
     ImGui::PushID(static_cast<int>(error.id));
     const float top = ImGui::GetCursorPosY();
@@ -140,7 +138,7 @@ void draw_errors(std::span<const Message> errors, const Context& context) {
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + text_width(width));
     draw_text(colour::error, error.line);
     ImGui::PopTextWrapPos();
-    ImGui::SetCursorPos({width - em * 10.5f, top});
+    ImGui::SetCursorPos({width - em() * 10.5f, top});
     action_button("Open...", context);
     ImGui::SameLine();
     if (ImGui::Button("Dismiss")) context.push(command::Dismiss{error.id});
@@ -149,8 +147,8 @@ void draw_errors(std::span<const Message> errors, const Context& context) {
     ImGui::PopID();
   }
   if (errors.size() < 2) return;
-  ImGui::SetCursorPosX(width - em * 7);
-  if (ImGui::Button("Dismiss all", {em * 6.5f, 0}))
+  ImGui::SetCursorPosX(width - em() * 7);
+  if (ImGui::Button("Dismiss all", {em() * 6.5f, 0}))
     for (const Message& error : shown(errors)) context.push(command::Dismiss{error.id});
 }
 

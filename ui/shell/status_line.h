@@ -5,8 +5,6 @@
 #include "job/worker.h"
 #include "ui/state/context.h"
 
-#include <span>
-
 namespace nephroid::ui {
 
 /// notes: what is worth knowing and needs no answer.

@@ -16,12 +16,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
-#include <memory>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -52,14 +49,13 @@ void open_first(Workbench& workbench, const Options& options) {
   for (const std::string& file : options.files)
     if (opened || is_history(file))
       workbench.apply({command::PinFile{file}});
-    else if (kind_of(file) == FileKind::scene &&
-             !options.overrides.empty()) // it becomes a preset in the background: they cannot wait
+    else if (kind_of(file) != FileKind::scene)
+      opened = workbench.open(file, options.overrides);
+    else if (options.overrides.empty())
+      workbench.apply({command::Open{file}});
+    else // it becomes a preset in the background: --set cannot wait
       workbench.apply({command::Report{
           bad_input(file, "--set cannot change a scene", "a preset", "import it first: nephroid import").line()}});
-    else if (kind_of(file) == FileKind::scene)
-      workbench.apply({command::Open{file}});
-    else
-      opened = workbench.open(file, options.overrides);
 }
 
 /// An unattended window keeps nothing and begins as a new one.
@@ -178,7 +174,7 @@ private:
   double last_draw_s_ = 0;
   Clock::time_point began_{}, previous_{}, driver_began_{};
   Clock::duration driver_{}, driver_computed_{}, computed_before_{}, driver_computed_before_{}; ///< this frame's
-  std::vector<double> draw_ms_; ///< of each frame, from the first event taken to the end: what the window itself costs
+  std::vector<double> draw_ms_; ///< each frame's, from its first event to its end: what the window itself costs
   std::filesystem::path file_;
   std::ofstream lines_;
 };
@@ -257,12 +253,11 @@ private:
   FrameClock clock_;
   Clock::time_point last_touch_{};
   std::size_t edits_ = 0; ///< so far, undo and redo too
-  int limit_ = 0;         ///< frames to draw before closing, 0: until the person closes it
+  int limit_ = 0;         ///< frames to draw before closing; 0: until a person closes it
   bool done_ = false;
 };
 
-/// What the workbench had to say and, where nobody was there to read it in the window, the exit code of the first
-/// error.
+/// Returns the exit code of the first error, where nobody was there to read it in the window.
 int report_errors(const Workbench& workbench, bool unattended) {
   int exit_code = 0;
   for (const Message& message : workbench.messages()) {

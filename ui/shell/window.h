@@ -10,15 +10,13 @@
 namespace nephroid::ui {
 
 struct Options {
-  std::vector<std::string>
-      files; ///< what to open: presets by path or shipped name; the first that can be opened is shown
+  std::vector<std::string> files;     ///< presets by path or shipped name; the first that can be opened is shown
   std::vector<std::string> overrides; ///< --set a.b.c=v, applied to the presets named by `files`
   std::string device;                 ///< --device, as compute::DeviceOptions::selector takes it
   std::filesystem::path kernels;      ///< --kernels DIR; empty: the embedded ones
   std::filesystem::path screenshot;   ///< --screenshot FILE: write the window's content as PNG, then close
   int frames = 0;                     ///< --frames N: close after N frames; 0: 60 with a screenshot, else never
-  double until =
-      0; ///< --until F: before closing by `frames` also wait for this fraction 0..1 of the run; 1: until it is over
+  double until = 0; ///< --until F: `frames` also wait for this fraction 0..1 of the run; 1: until it is over
   std::filesystem::path frame_times;  ///< --frame-times FILE: CSV of every frame as it is drawn
   std::string layout;                 ///< --layout NAME: the panel whose tab is in front; empty: the engine's
   std::array<int, 2> size{1280, 860}; ///< --size WxH: the window's content, in screen coordinates

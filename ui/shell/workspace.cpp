@@ -2,10 +2,8 @@
 #include "ui/shell/workspace.h"
 
 #include "ui/runs/panel.h"
-#include "ui/shell/menus.h"
 #include "ui/shell/status_line.h"
 
-#include <imgui.h>
 #include <imgui_internal.h>
 
 #include <algorithm>

@@ -9,8 +9,6 @@
 #include "ui/state/workbench.h"
 #include "ui/widgets/plots.h"
 
-#include <typeinfo>
-
 namespace nephroid::ui {
 
 /// Names menus and the toolbar for place_of as menus.h does.
@@ -47,17 +45,15 @@ private:
   void draw_dock_space(Workbench& workbench, const Context& context);
   void draw_panel(const Open& open, const Context& context);
 
-  std::string name_;                         ///< the wanted layout's name; empty: each engine has its own
-  std::optional<std::string> laid_out_for_;  ///< this engine
-  std::array<float, 2> laid_out_size_{0, 0}; ///< in a window of this size,
-  int frames_since_ = 0;                     ///< so many frames ago;
-  int frames_laid_out_ = 0;                  ///< since the layout was applied
-  std::string before_;                       ///< what it was before a person touched it
-  FrontTabs front_tabs_;                     ///< the front tabs of the newest layout
-  /// Of which preset that was, and the panels that a person looked at when an edit of it changed its engine: they stay
-  /// in front.
-  std::shared_ptr<const preset::Preset> laid_out_opened_;
-  FrontTabs kept_in_front_;
+  std::string name_;                                      ///< the wanted layout's name; empty: each engine has its own
+  std::optional<std::string> laid_out_for_;               ///< this engine
+  std::array<float, 2> laid_out_size_{0, 0};              ///< in a window of this size,
+  int frames_since_ = 0;                                  ///< so many frames ago;
+  int frames_laid_out_ = 0;                               ///< since the layout was applied
+  std::string before_;                                    ///< what it was before a person touched it
+  FrontTabs front_tabs_;                                  ///< the front tabs of the newest layout
+  std::shared_ptr<const preset::Preset> laid_out_opened_; ///< the preset of that layout, as it was opened
+  FrontTabs kept_in_front_;    ///< the tabs that a person looked at when an edit changed the engine
   std::string to_front_;       ///< the panel that comes to the front in this frame
   PlotContext plots_;          ///< before the panels, which plot with it
   WavelengthAxis wavelengths_; ///< before the panels that share it

@@ -7,21 +7,13 @@
 #include "preset/read.h"
 #include "ui/state/selection.h"
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <map>
-#include <optional>
 #include <set>
-#include <string>
 #include <variant>
-#include <vector>
 
 namespace nephroid::ui {
 
-/// How linear values become what a display shows. standard: as in image.png. filmic: for a wide range (state/tone.h).
-/// false_colour: the logarithm of the luminance in colours; the exposure plays no part.
+/// standard: as in image.png. filmic: for a wide range (state/tone.h). false_colour: the logarithm of the luminance in
+/// colours; the exposure plays no part.
 enum class ToneCurve { standard, filmic, false_colour };
 inline constexpr int tone_curves = 3;
 
@@ -63,7 +55,7 @@ struct Comparison {
   bool measures() const { return shown != 0 || difference || arrangement != Arrangement::single; }
 };
 
-/// A rectangle of the picture's pixels; the end is not part of it.
+/// The end is not part of it.
 struct PixelRegion {
   std::array<int, 2> from{0, 0}, to{0, 0};
   bool operator==(const PixelRegion&) const = default;
@@ -72,7 +64,6 @@ struct PixelRegion {
 // How a person set up the window. One file keeps it between runs of the program.
 enum class Theme { dark, light };
 
-/// The layout for the presets of one engine.
 struct EngineLayout {
   std::string ini;              ///< where the panels are, in Dear ImGui's format; empty: the engine's initial layout
   std::set<std::string> closed; ///< names of panels (shell/panels.h)
@@ -130,7 +121,7 @@ struct Edit {
   bool live = false;
   bool was_read = false; ///< the reader of presets has accepted it, so nothing is left to refuse
 };
-/// Sets the sweep: which fields take which values. It can be undone; the run goes on, as its preset is the same.
+/// Sets the sweep. It can be undone; the run goes on, as its preset is the same.
 struct SetSweep {
   std::string label;
   preset::Sweep sweep;
@@ -171,24 +162,22 @@ struct ShowDifference {
   measure::DifferenceMetric metric = measure::DifferenceMetric::lab;
   double scale = 0; ///< as Comparison::scale
 };
-/// Chooses the layer to show and compare: a name of job::Picture::layers; empty: all of their light.
+/// Chooses the layer of both pictures: a name of job::Picture::layers; empty: all of the light.
 struct ShowLayer {
   std::string layer;
 };
-/// Chooses the pixel (column, row) that the panel Inspector shows; nothing: none. It may lie outside of the picture,
-/// whose size may change.
+/// Chooses the pixel (column, row) that the panel Inspector shows. It may lie outside of the picture.
 struct InspectPixel {
   std::optional<std::array<int, 2>> pixel;
 };
-/// Chooses the pixels that the panel Inspector has statistics of. Without any, or with an empty region, it has none.
+/// Chooses the pixels that the panel Inspector has statistics of; none, or an empty region: no statistics.
 struct SelectRegion {
   std::optional<PixelRegion> region;
 };
-/// Draws a panel's lines over the View's picture, from point to point, in the preset's coordinates.
+/// Draws lines over the View's picture, from point to point, in the preset's coordinates.
 struct ShowLines {
   std::vector<std::vector<preset::Vec3>> lines;
 };
-/// Keeps the run's history and picture as they are now.
 struct PinRun {};
 struct ChangePin {
   std::uint64_t pin = 0;
@@ -206,7 +195,7 @@ struct PinFile {
 struct Unpin {
   std::uint64_t pin = 0;
 };
-/// Chooses the error that the plot shows over time: a name of measure/metrics.h, with "masked_" for that of the mask.
+/// Chooses the error that the plot shows: a name of measure/metrics.h, with "masked_" for that of the mask.
 struct ChooseMetric {
   std::string metric;
 };
@@ -214,12 +203,10 @@ struct ChooseMetric {
 struct ChooseMaterial {
   std::string material;
 };
-/// Loads a refractiveindex.info file (a path, or the name of a shipped material) into the shown dielectric, in one
-/// edit.
+/// Loads a refractiveindex.info file (a path, or the name of a shipped material) into the shown dielectric.
 struct LoadDispersion {
   std::string file;
 };
-/// Chooses what is selected; SetHandles says how it is moved.
 struct Select {
   Selection selection;
 };
@@ -259,8 +246,7 @@ struct WriteReport {
 struct Dismiss {
   std::uint64_t message = 0;
 };
-/// Restores the session of the window that was closed or killed last. Asks first where there are unsaved changes,
-/// unless sure.
+/// Restores the session of the window that was closed or killed last. Asks first as Open does.
 struct ReopenSession {
   bool sure = false;
 };
@@ -269,7 +255,6 @@ struct ReloadPreset {};
 struct ToggleHelp {};
 /// Opens all panels of the engine in hand, in their initial places.
 struct ResetLayout {};
-/// Keeps the layout that a person made for the presets of an engine.
 struct KeepLayout {
   std::string engine;
   std::string ini; ///< EngineLayout::ini
@@ -288,7 +273,7 @@ struct Report {
   std::string line;
   bool error = true;
 };
-/// Ends the program. Asks first where there are unsaved changes, unless sure.
+/// Ends the program. Asks first as Open does.
 struct Quit {
   bool sure = false;
 };

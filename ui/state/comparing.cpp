@@ -6,11 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <exception>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -108,11 +104,15 @@ void Comparing::carry_out(const command::CompareWith& c) {
   comparison_.pin = c.pin == Comparison::run_in_hand || pinned_.find(c.pin) ? c.pin : 0;
 }
 
-Comparing::Side Comparing::side_of(const PinnedRun& pin) const {
+template <class Picture>
+Comparing::Side Comparing::side_of(const Picture& picture, const std::string& name, const std::string& subject) {
+  return {picture, picture->width, picture->height, &picture->rgb, &picture->layers, name, subject};
+}
+
+Comparing::Side Comparing::pinned_side(const PinnedRun& pin) {
   const std::string quoted = '"' + pin.name + '"';
   if (!pin.picture) return {.why_not = quoted + " has no picture: only its history was read"};
-  return {pin.picture, pin.picture->width, pin.picture->height, &pin.picture->rgb, &pin.picture->layers, pin.name,
-          quoted};
+  return side_of(pin.picture, pin.name, quoted);
 }
 
 /// The picture of the snapshot, which must exist. Designs are compared by the light that they cast.
@@ -123,35 +123,34 @@ std::shared_ptr<const job::Picture> Comparing::run_picture() const {
 
 Comparing::Side Comparing::run_side() const {
   if (!run_.snapshot()) return {.why_not = "there is no picture yet"};
-  const auto picture = run_picture();
-  return {picture, picture->width, picture->height, &picture->rgb, &picture->layers, "the run", "the run's picture"};
+  return side_of(run_picture(), "the run", "the run's picture");
 }
 
 Comparing::Side Comparing::side() const {
   const PinnedRun* pin = pinned_.find(comparison_.shown);
-  return pin ? side_of(*pin) : run_side();
+  return pin ? pinned_side(*pin) : run_side();
 }
 
 Comparing::Side Comparing::other_side() const {
   if (comparison_.pin == Comparison::run_in_hand) return run_side();
-  if (const PinnedRun* pin = pinned_.find(comparison_.pin)) return side_of(*pin);
-  if (const auto& reference = run_.reference())
-    return {reference,          reference->width,  reference->height, &reference->rgb,
-            &reference->layers, reference->origin, "the reference"};
+  if (const PinnedRun* pin = pinned_.find(comparison_.pin)) return pinned_side(*pin);
+  if (const auto& reference = run_.reference()) return side_of(reference, reference->origin, "the reference");
   if (run_.plan() || !run_.has_reference())
     return {.why_not = "the preset has no reference and no picture is chosen to compare with"};
   return {.why_not = "the reference is not there yet"};
 }
 
-/// A picture, which must exist, or one of its layers. Other pixels have another owner.
-HeldPicture Comparing::held(const Side& side, const std::string& layer) {
-  const job::Layer* found = layer.empty() ? nullptr : find_layer(*side.layers, layer);
+/// The picture or the chosen layer of it, where there is one. Other pixels have another owner.
+HeldPicture Comparing::held(const Side& side) const {
+  if (!why_no_layer(side).empty()) return {};
+  const job::Layer* found = find_layer(*side.layers, comparison_.layer);
   const std::vector<float>& rgb = found ? found->rgb : *side.rgb;
   return {std::shared_ptr<const void>(side.owner, &rgb), {side.width, side.height, rgb, side.name}};
 }
 
-/// Why the picture has no such layer; empty where it has it, or where none is asked for.
-std::string Comparing::why_no_layer(const Side& side, const std::string& layer) {
+/// Why there is no picture, or not the chosen layer of it; empty where there is.
+std::string Comparing::why_no_layer(const Side& side) const {
+  const std::string& layer = comparison_.layer;
   if (!side.why_not.empty() || layer.empty() || find_layer(*side.layers, layer)) return side.why_not;
   if (side.layers->empty()) return fmt::format("{} has no layers, and \"{}\" is chosen", side.subject, layer);
   std::vector<std::string> names;
@@ -175,15 +174,11 @@ std::string Comparing::other_name() const {
   return pin ? '"' + pin->name + '"' : "Reference";
 }
 
-std::string Comparing::why_no_picture() const { return why_no_layer(side(), comparison_.layer); }
-std::string Comparing::why_none_beside() const { return why_no_layer(other_side(), comparison_.layer); }
+std::string Comparing::why_no_picture() const { return why_no_layer(side()); }
+std::string Comparing::why_none_beside() const { return why_no_layer(other_side()); }
 
-HeldPicture Comparing::picture() const {
-  return why_no_picture().empty() ? held(side(), comparison_.layer) : HeldPicture{};
-}
-HeldPicture Comparing::picture_beside() const {
-  return why_none_beside().empty() ? held(other_side(), comparison_.layer) : HeldPicture{};
-}
+HeldPicture Comparing::picture() const { return held(side()); }
+HeldPicture Comparing::picture_beside() const { return held(other_side()); }
 HeldPicture Comparing::other_picture() const { return why_not().empty() ? picture_beside() : HeldPicture{}; }
 
 std::string Comparing::why_not() const {
@@ -231,10 +226,7 @@ void Comparing::update_metrics(TaskQueue::Clock::time_point now) {
     const bool same_other = newest && newest->other.owner == other.owner,
                same_picture = newest && newest->picture.owner == picture.owner;
     metrics.want(
-        tasks_, "metrics of pictures",
-        same_other && same_picture ? Request::same
-        : same_other               ? Request::other_picture
-                                   : Request::other,
+        tasks_, "metrics of pictures", same_other, same_picture,
         [picture, other, which] { return measured(picture, other, which); }, now);
   };
   want(metrics_, measure::MetricSet::quick);
@@ -249,15 +241,10 @@ void Comparing::update_map(TaskQueue::Clock::time_point now) {
       newest && newest->of.other.owner == request.other.owner && newest->of.metric == request.metric;
   const bool same_picture = newest && newest->of.picture.owner == request.picture.owner;
   const bool same_form = same_other && newest->of.scale == request.scale;
+  const auto known = same_other && same_picture ? newest->values : nullptr;
   difference_.want(
-      tasks_, "difference of pictures",
-      !same_form     ? Request::other
-      : same_picture ? Request::same
-                     : Request::other_picture,
-      [request, values = same_other && same_picture ? newest->values : nullptr] {
-        return coloured_map(request, values);
-      },
-      now);
+      tasks_, "difference of pictures", same_form, same_picture,
+      [request, known] { return coloured_map(request, known); }, now);
 }
 
 } // namespace nephroid::ui

@@ -4,17 +4,11 @@
 // background: FLIP of a large picture takes seconds, a frame 16 ms.
 #pragma once
 #include "measure/difference.h"
-#include "ui/state/commands.h"
 #include "ui/state/pinned_runs.h"
 #include "ui/state/run_in_hand.h"
-#include "ui/state/services.h"
+#include "ui/state/tasks.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -38,7 +32,6 @@ struct ShownDifference {
   std::string error;                                ///< why there is no map
 };
 
-/// The distances between the two pictures.
 struct ShownMetrics {
   HeldPicture picture, other;
   measure::Metrics metrics;
@@ -52,7 +45,6 @@ public:
 
   const PinnedRuns& pinned() const { return pinned_; }
   const Comparison& comparison() const { return comparison_; }
-  /// Whether the View shows the run's picture alone.
   bool shows_run_alone() const {
     const Comparison& c = comparison_;
     return c.shown == 0 && c.arrangement == Arrangement::single && !c.flip && !c.difference;
@@ -94,9 +86,8 @@ public:
   void carry_out(const command::PinFile& c);
   void carry_out(const command::ChangePin& c) { pinned_.change(c.pin, c.name, c.colour, c.shown); }
   void carry_out(const command::Unpin& c);
-  /// Pins a run and returns its id.
+  /// Returns the pin's id.
   std::uint64_t pin(PinnedRun run) { return pinned_.add(std::move(run)).id; }
-  /// Whether files to pin are being read.
   bool reads_pins() const { return tasks_.busy(pins_); }
   /// Drops the map of another preset, whose run is shown.
   void forget() {
@@ -108,7 +99,6 @@ public:
   void update(TaskQueue::Clock::time_point now);
 
 private:
-  /// One of the two pictures: its pixels, its layers and its names in messages.
   struct Side {
     std::shared_ptr<const void> owner = {};
     int width = 0, height = 0;
@@ -118,13 +108,15 @@ private:
     std::string subject = {}; ///< the subject of a sentence: "the run's picture"
     std::string why_not = {}; ///< why there is no picture
   };
-  Side side_of(const PinnedRun& pin) const;
+  template <class Picture>
+  static Side side_of(const Picture& picture, const std::string& name, const std::string& subject);
+  static Side pinned_side(const PinnedRun& pin);
   std::shared_ptr<const job::Picture> run_picture() const;
   Side run_side() const;
   Side side() const;
   Side other_side() const;
-  static HeldPicture held(const Side& side, const std::string& layer);
-  static std::string why_no_layer(const Side& side, const std::string& layer);
+  HeldPicture held(const Side& side) const;
+  std::string why_no_layer(const Side& side) const;
   std::shared_ptr<const ShownMetrics> fitting(const NewestResult<ShownMetrics>& metrics) const;
   void update_map(TaskQueue::Clock::time_point now);
   void update_metrics(TaskQueue::Clock::time_point now);

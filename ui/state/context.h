@@ -1,21 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a panel reads, and where its commands go. A new one is made for every frame.
 #pragma once
-#include "ui/state/commands.h"
-#include "ui/state/comparing.h"
 #include "ui/state/recent_files.h"
-#include "ui/state/run_in_hand.h"
-#include "ui/state/selection.h"
 #include "ui/state/sweep_queue.h"
-#include "ui/state/tasks.h"
-#include "ui/state/undo.h"
-#include "ui/state/view_state.h"
-
-#include <array>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -33,9 +20,11 @@ struct Context {
 
   /// The preset in hand; null before one is opened.
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }
+  /// The radiance of luminance 1 (preset::Preset::white); 1 while it is unknown.
+  double white() const { return edits ? edits->current().white.value_or(1) : 1; }
   /// The selection, as far as the preset has it.
   Selection selection() const { return in_preset(view_state.selection, preset()); }
-  /// The preset's engine. A preset must be open.
+  /// A preset must be open, as for edit().
   std::string engine() const { return std::string(edits->current().settings.engine()); }
   void push(Command command) const { commands.push_back(std::move(command)); }
   /// The view settings after the commands of this frame: two keys in one frame must not undo each other.
@@ -45,8 +34,7 @@ struct Context {
     return view_state.view_settings;
   }
   void note(std::string line) const { push(command::Report{std::move(line), false}); }
-  /// Pushes an edit to the preset that change(preset) makes; gesture and live as in command::Edit. A preset must be
-  /// open.
+  /// Pushes an edit to what change(preset) makes; gesture and live as in command::Edit.
   template <class Change>
   void edit(std::string label, Change change, std::uint64_t gesture = 0, bool live = false) const {
     preset::Preset edited = edits->current();

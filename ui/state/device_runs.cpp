@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/device_runs.h"
 
-#include "compute/compute.h"
 #include "preset/origins.h"
 #include "run/reference.h"
 

@@ -9,9 +9,6 @@
 
 #include <atomic>
 #include <condition_variable>
-#include <memory>
-#include <mutex>
-#include <optional>
 #include <thread>
 
 namespace nephroid::ui {
@@ -34,16 +31,14 @@ public:
 private:
   void watch(const std::stop_token& stop);
 
-  std::filesystem::path kernels_; ///< the kernels folder; empty: none
+  std::filesystem::path kernels_; ///< empty: none
   TakeFacts take_facts_;
   run::ReadyRun run_; ///< the newest one, without its job; the worker's thread only
   std::atomic<bool> changed_{false}, reread_{false}, reopen_{false};
-  std::mutex watching_; ///< held while the folder is read
-  std::optional<compute::KernelTimes>
-      seen_; ///< by the newest run or the newest check, whichever is later; nothing before the first run
+  std::mutex watching_;                      ///< held while the folder is read
+  std::optional<compute::KernelTimes> seen_; ///< by the newest run or check; nothing before the first run
   std::condition_variable_any stopping_;
-  std::jthread watcher_; ///< has its own thread, so that no frame or run waits for the folder's disk. Last: it uses the
-                         ///< other members.
+  std::jthread watcher_; ///< so that no frame or run waits for the disk. Last: it uses the other members.
 };
 
 } // namespace nephroid::ui

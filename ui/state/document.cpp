@@ -5,13 +5,9 @@
 #include "base/files.h"
 #include "engine/engine.h"
 #include "preset/change_engine.h"
-#include "ui/state/selection.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <exception>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {

@@ -3,15 +3,7 @@
 #pragma once
 #include "preset/read.h"
 #include "ui/state/files.h"
-#include "ui/state/run_in_hand.h"
-#include "ui/state/services.h"
-#include "ui/state/undo.h"
 #include "ui/state/view_state.h"
-
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <string>
 
 namespace nephroid::ui {
 
@@ -25,7 +17,6 @@ public:
   const UndoStack* edits() const { return edits_ ? &*edits_ : nullptr; }
   const preset::Preset* preset() const { return edits_ ? &edits_->current() : nullptr; }
   bool modified() const { return edits_ && edits_->modified(); }
-  /// Whether a mesh that will become an object is being read.
   bool reads_mesh() const { return services_.tasks.busy(meshes_); }
 
   /// Takes the preset and starts its run; the one before must be closed.
@@ -37,7 +28,6 @@ public:
   bool take_over(preset::WithSweep read);
   /// Gives a picture's file to the preset's engine. Throws bad_input where the engine has no use for it.
   void take_picture(const std::string& file);
-  /// Reads the mesh and makes it an object.
   void read_mesh(const std::filesystem::path& file);
   /// Called once a frame, after RunInHand::update: the fitted white replaces "auto".
   void update();

@@ -3,10 +3,6 @@
 
 #include "preset/read.h"
 
-#include <chrono>
-#include <map>
-#include <stop_token>
-
 namespace nephroid::ui {
 
 FileWatch::FileWatch() : thread_([this](const std::stop_token& stop) { poll(stop); }) {}
@@ -84,10 +80,8 @@ void DocumentFiles::follow_own_file() {
       if (document_.take_over(std::move(read)))
         messages_.note(file.filename().string() + " was changed on disk and is taken over");
     } else if (read.preset != *document_.preset() || read.sweep != document_.edits()->sweep())
-      messages_.error(
-          file.string() +
-          ": another program changed this file, and the preset has edits that are not saved; save them under "
-          "another name, or take the preset from its file (File)");
+      messages_.error(file.string() + ": another program changed this file, and the preset has edits that are not "
+                                      "saved; save them under another name, or take the preset from its file (File)");
   } catch (const std::exception& error) {
     messages_.error(error);
   }
@@ -98,7 +92,7 @@ void DocumentFiles::update() {
   if (const auto& now = edits ? edits->shared() : nullptr; now != watched_) {
     watched_ = now;
     const auto opened = edits ? edits->state().opened : nullptr;
-    watch_.watch(now, std::exchange(watched_from_, opened) != opened);
+    watch_.watch(now, std::exchange(opened_, opened) != opened);
   }
   const std::vector<std::filesystem::path> changed = watch_.take_changed();
   if (changed.empty() || !edits) return;

@@ -3,22 +3,13 @@
 // separate thread looks for changes, so no frame waits for a disk.
 #pragma once
 #include "preset/preset.h"
-#include "ui/state/document.h"
 #include "ui/state/sweep_queue.h"
 
 #include <condition_variable>
-#include <filesystem>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <stop_token>
 #include <thread>
-#include <utility>
-#include <vector>
 
 namespace nephroid::ui {
 
-/// Says which files of a preset have changed.
 class FileWatch {
 public:
   FileWatch();
@@ -48,10 +39,9 @@ private:
   std::jthread thread_; ///< last: it uses the other members
 };
 
-/// Follows the changed files.
 class DocumentFiles {
 public:
-  /// The four parts outlive the object.
+  /// All outlive the object.
   DocumentFiles(Document& document, RunInHand& run, const SweepQueue& sweep, Messages& messages)
       : document_(document), run_(run), sweep_(sweep), messages_(messages) {}
   /// Called once a frame. Waits for the disk only to read a preset that has changed.
@@ -66,8 +56,7 @@ private:
   const SweepQueue& sweep_;
   Messages& messages_;
   FileWatch watch_;
-  std::shared_ptr<const preset::Preset> watched_, watched_from_; ///< the preset whose files are watched, and as it was
-                                                                 ///< opened
+  std::shared_ptr<const preset::Preset> watched_, opened_; ///< whose files are watched; the same as it was opened
 };
 
 } // namespace nephroid::ui

@@ -81,7 +81,6 @@ void FileWriter::carry_out(const command::SavePicture& c) {
   save(c.file, [file = c.file, picture, shown = shown_picture()] { return save_picture(file, *picture, shown); });
 }
 
-/// The picture or map that the View shows now.
 PictureToSave FileWriter::shown_picture() const {
   const Comparison& comparison = comparing_.comparison();
   const double white = document_.preset() ? document_.preset()->white.value_or(1) : 1;

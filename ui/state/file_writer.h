@@ -2,14 +2,8 @@
 // Writes the window's files, mostly in the background: presets, pictures, reports, results of runs, imported scenes,
 // the list of recent files.
 #pragma once
-#include "ui/state/comparing.h"
-#include "ui/state/questions.h"
 #include "ui/state/recent_files.h"
-
-#include <filesystem>
-#include <functional>
-#include <string>
-#include <utility>
+#include "ui/state/window_state.h"
 
 namespace nephroid::ui {
 
@@ -27,7 +21,6 @@ public:
   /// Imports another program's scene: makes a preset in a new folder beside it and opens that.
   void import_scene(const std::filesystem::path& file);
   bool busy() const { return services_.tasks.busy(writes_); }
-  /// Called once a frame.
   void update();
 
   void carry_out(const command::SavePreset& c);

@@ -4,17 +4,11 @@
 #include "job/job.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
-#include "ui/state/commands.h"
 #include "ui/state/comparing.h"
-#include "ui/state/tasks.h"
-
-#include <filesystem>
-#include <memory>
-#include <string>
 
 namespace nephroid::ui {
 
-/// What kind a file is, by its extension.
+/// A file's kind, by its extension.
 enum class FileKind {
   other,      ///< perhaps a preset
   dispersion, ///< YAML of refractiveindex.info
@@ -35,16 +29,14 @@ std::filesystem::path save_target(const preset::Preset* preset);
 /// The parent that a saved preset is written against, as preset::file_text takes it: the one that its file names, or
 /// the shipped preset that it is. Empty: none.
 std::string parent_to_keep(const preset::Preset& preset);
-/// Proposes a file name in the current folder: the preset's own, with another ending.
+/// A file name in the current folder: the preset's own, with another ending.
 std::string proposed_name(const preset::Preset* preset, const std::string& ending);
 
-/// The path where it is free; else the first free one of PATH-2, PATH-3, ... What is there already may have been
-/// edited.
+/// The path where it is free; else the first free one of PATH-2, PATH-3, ...
 std::filesystem::path free_name(const std::filesystem::path& path);
 /// Makes a new folder, the free_name() of this path, and returns it. Throws failed where it cannot be made.
 std::filesystem::path make_new_folder(const std::filesystem::path& path);
 
-/// The View's picture, to be saved.
 struct PictureToSave {
   HeldPicture picture;
   std::shared_ptr<const ShownDifference> map; ///< shown in place of the picture; null: none

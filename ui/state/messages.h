@@ -6,11 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
 #include <exception>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace nephroid::ui {
 

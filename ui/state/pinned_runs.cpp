@@ -11,20 +11,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {
 
-/// The colours of Okabe and Ito (2008), without black, as IM_COL32. People with any colour vision can tell them apart.
+/// The colours of Okabe and Ito (2008), without black, as IM_COL32. People with any colour vision tell them apart.
 constexpr std::array<std::uint32_t, 7> colours{0xff009fe6, 0xffe9b456, 0xff739e00, 0xff42e4f0,
                                                0xffa779cc, 0xff005ed5, 0xffb27200};
 
 constexpr const char* history_name = "history.csv";
 
-/// The history file for a path to a table or a folder.
 std::filesystem::path history_file(const std::filesystem::path& path) {
   constexpr const char* expected = "expected the folder of a run, its history.csv, or a picture";
   constexpr const char* remedy = "give the folder of `nephroid run PRESET -o FOLDER`";
@@ -123,8 +120,7 @@ PinnedRun read_pin(const std::filesystem::path& path) {
   const std::filesystem::path file = history_file(path);
   const std::filesystem::path folder = std::filesystem::absolute(file).lexically_normal().parent_path();
   PinnedRun run;
-  const bool is_of_folder =
-      file.filename() == history_name; // the files beside it belong to the same run; a table alone has no noise floor
+  const bool is_of_folder = file.filename() == history_name; // the files beside it belong to the same run
   run.history =
       std::make_shared<job::History>(is_of_folder ? measure::read_run_history(folder) : measure::read_history(file));
   run.name = is_of_folder ? folder.filename().string() : file.stem().string();

@@ -4,12 +4,6 @@
 #pragma once
 #include "job/job.h"
 
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 struct RunRecord;
@@ -31,7 +25,7 @@ struct PinnedRun {
 class PinnedRuns {
 public:
   const std::vector<PinnedRun>& all() const { return runs_; }
-  /// All pins except the opened pictures.
+  /// The pins without the opened pictures.
   std::vector<PinnedRun> runs() const;
   /// The pin with this id; null where there is none.
   const PinnedRun* find(std::uint64_t id) const;
@@ -43,7 +37,6 @@ public:
   void remove(std::uint64_t id);
 
 private:
-  /// The wanted name, with a number where another run has it.
   std::string own_name(const std::string& wanted, std::uint64_t id) const;
   std::uint32_t free_colour() const;
 

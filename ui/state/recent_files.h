@@ -4,13 +4,6 @@
 #pragma once
 #include "job/job.h"
 
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace nephroid::ui {
 
 struct RecentFile {
@@ -33,7 +26,6 @@ public:
   const std::vector<RecentFile>& all() const { return files_; }
   /// Returns once why the list is empty; empty where nothing went wrong.
   std::string take_note() { return std::exchange(note_, {}); }
-  /// Puts a file at the front.
   void add(const std::filesystem::path& file, std::int64_t now);
   /// Returns a function that writes the list as it is now. It throws failed.
   std::function<void()> writer() const;

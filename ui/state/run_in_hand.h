@@ -11,14 +11,7 @@
 #include "ui/state/messages.h"
 #include "ui/state/undo.h"
 
-#include <array>
-#include <chrono>
-#include <functional>
-#include <memory>
 #include <mutex>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -54,7 +47,6 @@ public:
   virtual bool take_changed() = 0;
 };
 
-/// The inputs of a run and its device.
 struct RunOrigin {
   std::shared_ptr<const preset::Preset> preset;
   std::shared_ptr<const plan::Plan> plan;
@@ -104,7 +96,6 @@ public:
   /// The newest picture, which is an earlier run's until the present one has shown its first; null before the first of
   /// all.
   const std::shared_ptr<const job::Snapshot>& snapshot() const { return snapshot_; }
-  /// Whether snapshot() is of the present preset.
   bool snapshot_is_current() const { return snapshot_is_current_; }
   /// Whether snapshot() is older than the run in hand, which has shown nothing yet.
   bool snapshot_is_previous() const { return snapshot_ && (lent_ ? !shown_since_start_ : !snapshot_is_current_); }
@@ -150,13 +141,12 @@ private:
   bool gesture_lasts_ = false;     ///< the gesture of the newest edit still lasts
   bool shown_since_start_ = false; ///< a snapshot of the run in hand has come
   bool snapshot_is_current_ = false;
-  std::optional<std::chrono::steady_clock::time_point>
-      parts_since_;                              ///< when the run in hand first had a picture, though not a whole one
+  /// When the run in hand first had a picture, though not a whole one.
+  std::optional<std::chrono::steady_clock::time_point> parts_since_;
   std::uint64_t reported_failure_ = 0;           ///< Status::failures when the newest failure became a message
   std::uint64_t failure_message_ = 0;            ///< its message's id
   std::shared_ptr<const preset::Preset> preset_; ///< the run in hand's
-  std::uint64_t adoption_ = 0; ///< preset_'s number in the run in hand: pictures of it have at least this
-                               ///< Snapshot::adoption
+  std::uint64_t adoption_ = 0;                   ///< pictures of preset_ have at least this Snapshot::adoption
   mutable std::mutex preparation_mutex_;
   std::string preparation_;    ///< as the worker's thread reports it
   std::stop_source preparing_; ///< ends the preparation of the run in hand

@@ -20,7 +20,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <set>
 #include <system_error>
 
 namespace nephroid::ui {
@@ -35,8 +34,8 @@ constexpr std::array text_files{"run.json", "plan.json", "preset.json"};
 void read_figures(const std::string& text, RunRecord& record) {
   const Json run = Json::parse(text, nullptr, false);
   if (!run.is_object()) return;
-  const auto member = [&](const Json& of, const std::string& key) {
-    return of.is_object() && of.contains(key) ? of[key] : Json();
+  const auto member = [](const Json& of, const std::string& key) {
+    return of.is_object() ? of.value(key, Json()) : Json();
   };
   if (const Json engine = member(run, "engine"); engine.is_string()) record.engine = engine;
   if (const Json finished = member(run, "finished"); finished.is_boolean()) record.finished = finished;
@@ -63,7 +62,6 @@ std::string folder_name(std::size_t number, const std::string& name) {
   return fmt::format("{:02}-{}", number, plain);
 }
 
-/// Whether the folder still holds the run that was read from it.
 bool is_still_there(const RunRecord& record) {
   if (record.folder.empty()) return false;
   try {

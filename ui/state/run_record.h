@@ -5,17 +5,6 @@
 #pragma once
 #include "job/job.h"
 #include "ui/state/comparing.h"
-#include "ui/state/pinned_runs.h"
-#include "ui/state/run_in_hand.h"
-
-#include <cstdint>
-#include <filesystem>
-#include <map>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -45,7 +34,6 @@ std::vector<PinnedRun> runs_of_table(const Comparing& comparing, const RunInHand
 /// Reads a run's folder: whatever run.json and preset.json give. Null where there is no run.json.
 std::shared_ptr<const RunRecord> read_record(const std::filesystem::path& folder);
 
-/// A run's error, where it is known.
 struct KnownError {
   double value = 0;
   std::string metric; ///< "lab_mean"

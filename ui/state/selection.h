@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 
 #include <cstddef>
-#include <string>
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -19,7 +17,6 @@ struct Selection {
   bool operator==(const Selection&) const = default;
 };
 
-/// How the selected thing is moved.
 struct Handles {
   enum class Tool { move, turn, scale };
   Tool tool = Tool::move;
@@ -43,26 +40,22 @@ std::string unit_word(const preset::Preset& preset);
 /// Where the fields of the selection are: "/scene/objects/0". Empty for nothing.
 std::string pointer_of(const Selection& selection);
 
-/// The wanted name, or the first of "NAME 2", "NAME 3", ... that is not taken(). pattern: for the numbered names, as
-/// fmt has it.
-template <class PictureEdit>
-std::string untaken_name(const std::string& wanted, PictureEdit taken, const char* pattern = "{} {}") {
+/// The wanted name, or the first of "NAME 2", "NAME 3", ... that is not taken(). pattern: of the numbered names.
+template <class Taken>
+std::string untaken_name(const std::string& wanted, Taken taken, const char* pattern = "{} {}") {
   std::string name = wanted;
   for (int number = 2; taken(name); ++number) name = fmt::format(fmt::runtime(pattern), wanted, number);
   return name;
 }
-/// Rounds to so many decimals; negative: to whole tens, hundreds. Returns the double nearest to that decimal number, so
-/// that a file shows no more digits.
+/// Rounds to so many decimals; negative: to whole tens, hundreds. Gives the double nearest to that decimal number.
 double rounded(double value, int decimals);
-/// Rounds to so many significant digits.
 double with_digits(double value, int digits);
-/// A camera position to return to.
+
 struct Bookmark {
   std::string name;
   preset::Camera camera;
   bool operator==(const Bookmark&) const = default;
 };
-
 /// "Prism 2": the preset's name and the first number that no bookmark has with it.
 std::string new_bookmark_name(const preset::Preset& preset, const std::vector<Bookmark>& bookmarks);
 

@@ -5,14 +5,11 @@
 #include "base/hashed_bytes.h"
 #include "base/json_output.h"
 #include "preset/read.h"
-#include "ui/state/tone.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <deque>
-#include <stdexcept>
 
 namespace nephroid::ui {
 namespace {

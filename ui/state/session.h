@@ -2,7 +2,6 @@
 // The state of the window as a file: the preset with its undo, how it is viewed, the pinned runs. A killed window is
 // reopened with it. The settings are another file. ui/state/session_keeper.h writes and finds the files.
 #pragma once
-#include "ui/state/commands.h"
 #include "ui/state/undo.h"
 #include "ui/state/view_state.h"
 
@@ -11,14 +10,13 @@ namespace nephroid::ui {
 struct Session {
   /// A pinned run, whose history and picture are separate files; or an opened picture, which stays where it is.
   struct Pin {
-    std::string folder; ///< a run's folder in the session's folder, which measure can read; or an opened picture's
-                        ///< absolute path
+    std::string folder; ///< a run's, in the session's folder; or an opened picture's absolute path
     std::string name;
     std::uint32_t colour = 0; ///< IM_COL32
     bool shown = true;
     bool operator==(const Pin&) const = default;
   };
-  static constexpr std::size_t most_entries = 100; ///< the most entries of undo; those around the current one are kept
+  static constexpr std::size_t most_entries = 100; ///< of undo; those around the current one are kept
 
   bool closed = false; ///< a person closed the window; else it ended in some other way
   std::optional<UndoStack::State> edits;

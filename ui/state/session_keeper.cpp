@@ -22,8 +22,7 @@ using namespace std::chrono_literals;
 constexpr auto period = 1s;         ///< between two writes
 constexpr auto after_failure = 10s; ///< a full disk is not tried every second
 constexpr std::size_t most_earlier = 10;
-constexpr std::uintmax_t most_bytes = 64u << 20; ///< the largest session that is read: a person may have put another
-                                                 ///< file there
+constexpr std::uintmax_t most_bytes = 64u << 20; ///< of a session: a person may have put another file there
 constexpr const char *session_name = "session.json", *settings_name = "settings.json", *lock_name = "lock";
 
 /// Locks the file; null where it is locked, or cannot be made.
@@ -115,7 +114,7 @@ void SessionKeeper::find_earlier() {
   // The newest of the closed windows' sessions is enough.
   std::size_t closed = 0;
   std::erase_if(earlier_, [&](const Earlier& one) {
-    const bool old = (one.closed && closed++ > 0);
+    const bool old = one.closed && closed++ > 0;
     if (old) fs::remove_all(one.folder, error);
     return old;
   });

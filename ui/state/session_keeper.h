@@ -4,7 +4,6 @@
 // may be open.
 #pragma once
 #include "base/files.h"
-#include "ui/state/session.h"
 #include "ui/state/workbench.h"
 
 namespace nephroid::ui {
@@ -41,7 +40,6 @@ private:
     std::filesystem::file_time_type kept;
     FileLock lock = {}; ///< held while the sessions are looked for
   };
-  /// What is to be written.
   struct Work {
     Session session;
     std::vector<PinnedRun> pins; ///< session.pins, in their order
@@ -61,10 +59,10 @@ private:
   std::shared_ptr<Writer> writer_;   ///< shared with the writing task
   std::vector<Earlier> earlier_;     ///< the one to reopen first comes first
   std::filesystem::path taken_over_; ///< an earlier session, not needed once this one is kept
-  FileLock taken_over_lock_;         ///< taken_over_'s lock
-  std::optional<Work> newest_;       ///< what was written last, or is being written
+  FileLock taken_over_lock_;
+  std::optional<Work> newest_; ///< what was written last, or is being written
   TaskKey writes_;
-  std::string last_error_; ///< the error of the last message
+  std::string last_error_; ///< that a message said last
   Clock::time_point next_{};
 };
 

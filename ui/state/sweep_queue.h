@@ -3,12 +3,7 @@
 // other. Each is pinned when it is done.
 #pragma once
 #include "preset/read.h"
-#include "ui/state/comparing.h"
 #include "ui/state/document.h"
-
-#include <memory>
-#include <string>
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -41,7 +36,6 @@ public:
   /// Called once a frame, after RunInHand::update.
   void update();
 
-  /// Whether a run is running or to come.
   bool active() const { return active_; }
   /// The runs of the newest sweep, in their order.
   const std::vector<QueuedRun>& runs() const { return runs_; }
@@ -55,7 +49,7 @@ private:
   RunInHand& run_;
   Comparing& comparing_;
   std::vector<QueuedRun> runs_;
-  std::size_t at_ = 0; ///< the index of the running one
+  std::size_t at_ = 0; ///< the running one
   bool active_ = false, lent_ = false;
 };
 

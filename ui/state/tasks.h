@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Work that takes longer than a frame, on background threads. The queue lists what runs, cancels it, delivers results
-// on the window's thread, and makes messages of errors.
+// on the window's thread, and makes messages of errors. Services has it beside what else every part uses.
 #pragma once
 #include "ui/state/messages.h"
 
 #include <atomic>
-#include <chrono>
-#include <cstdint>
-#include <functional>
 #include <future>
-#include <memory>
-#include <string>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -42,12 +35,11 @@ struct TaskAbout {
   bool replaces = false; ///< drops the tasks of its key that have not begun
 };
 
-/// The task as its work sees it.
 class TaskControl {
 public:
   /// True: the result is not needed any more.
   bool cancelled() const { return cancelled_; }
-  /// Sets the finished part, 0..1.
+  /// Says which part is finished, 0..1.
   void progress(double part) { progress_ = part; }
 
 private:
@@ -95,7 +87,6 @@ public:
           }
         });
   }
-  /// Whether a task of this key runs or waits.
   bool busy(const TaskKey& key) const;
   /// Drops the tasks of this key except writes; newer ones need not wait for them.
   void forget(const TaskKey& key);
@@ -136,8 +127,12 @@ private:
   bool finishing_ = false;
 };
 
-/// How what is asked for compares with the newest result.
-enum class Request { same, other_picture, other };
+/// What every part of the workbench uses.
+struct Services {
+  Messages messages;
+  TaskQueue tasks;
+  Commands follow_ups; ///< commands that a command or a finished task leads to; carried out next
+};
 
 /// Something that a panel shows and that is made again and again: a difference of pictures, statistics of a region. A
 /// run's pictures may come faster than it is made, so it is not made for each.
@@ -147,12 +142,11 @@ public:
   using Clock = TaskQueue::Clock;
   using Make = std::function<std::shared_ptr<const Result>()>;
 
-  /// Called once a frame, returns at once: starts make() where the request has changed and nothing is being made. Where
-  /// only the run's picture has changed it waits first, for twice the time of the last result, because the device may
-  /// be the same processor.
-  void want(TaskQueue& tasks, std::string name, Request request, Make make, Clock::time_point now) {
-    if (request == Request::same || tasks.busy(key_) || (request == Request::other_picture && now < rest_until_))
-      return;
+  /// Called once a frame, returns at once: starts make() where the request differs from the newest result's and nothing
+  /// is being made. Where only the picture differs (fits, and not same_picture) it waits first, for twice the time of
+  /// the last result, because the device may be the same processor.
+  void want(TaskQueue& tasks, std::string name, bool fits, bool same_picture, Make make, Clock::time_point now) {
+    if ((fits && (same_picture || now < rest_until_)) || tasks.busy(key_)) return;
     const auto timed = [make = std::move(make)] {
       const Clock::time_point begin = Clock::now();
       auto result = make();

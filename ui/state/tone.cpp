@@ -6,7 +6,6 @@
 #include "measure/lab.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -35,13 +34,12 @@ public:
   unsigned char operator()(float value) const {
     value = std::min(std::max(0.0f, value), end_); // NaN becomes 0
     const unsigned char byte = bytes_[bits(value) >> left_out_bits];
-    return static_cast<unsigned char>(byte +
-                                      (value >= least_[byte + 1u])); // no branch: neighbours in a noisy picture differ
+    // No branch: neighbours in a noisy picture differ.
+    return static_cast<unsigned char>(byte + (value >= least_[byte + 1u]));
   }
 
 private:
-  /// Finds by bisection the first float of 0..end whose byte is this one or a greater one; the end, where there is
-  /// none.
+  /// The first float of 0..end whose byte is this one or a greater one; the end, where there is none.
   float least_shown_as(std::uint32_t byte) const {
     std::uint32_t low = 0, high = bits(end_);
     while (low < high) {

@@ -4,10 +4,6 @@
 #pragma once
 #include "ui/state/commands.h"
 
-#include <array>
-#include <optional>
-#include <span>
-
 namespace nephroid::ui {
 
 /// The filmic curve of J. Hable, "Uncharted 2: HDR Lighting" (GDC 2010), f(2 x) / f(11.2) with f(x) = (x (A x + C B) +
@@ -15,12 +11,11 @@ namespace nephroid::ui {
 /// above. It applies to each channel, before the sRGB encoding.
 double filmic(double linear);
 
-/// View settings, resolved for one picture.
 struct Tone {
   ToneCurve curve = ToneCurve::standard;
   double exposure_stops = 0; ///< 0 in false colour
-  LuminanceRange range;      ///< the range of false colour
-  double white = 1;          ///< preset::Preset::white: W/m^2/sr of luminance 1; 1 but in false colour
+  LuminanceRange range;
+  double white = 1; ///< preset::Preset::white: W/m^2/sr of luminance 1; 1 but in false colour
   bool operator==(const Tone&) const = default;
 };
 /// rgb: the picture, which gives the automatic range.

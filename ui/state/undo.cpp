@@ -3,8 +3,6 @@
 
 #include "preset/differences.h"
 
-#include <utility>
-
 namespace nephroid::ui {
 
 UndoStack::UndoStack(preset::Preset opened, preset::Sweep sweep) {

@@ -4,11 +4,7 @@
 #include "preset/preset.h"
 #include "preset/read.h"
 
-#include <cstdint>
 #include <deque>
-#include <memory>
-#include <optional>
-#include <string>
 
 namespace nephroid::ui {
 
@@ -25,7 +21,7 @@ public:
   struct State {
     std::shared_ptr<const preset::Preset> opened;
     std::deque<Entry> entries; ///< at least one
-    std::size_t index = 0;     ///< the current entry's index
+    std::size_t index = 0;     ///< the current entry's
     std::optional<std::size_t> saved;
     bool operator==(const State&) const = default;
   };
@@ -43,7 +39,7 @@ public:
   bool undo() { return step(-1); }
   bool redo() { return step(1); }
   const preset::Preset& current() const { return *shared(); }
-  /// The current preset, shared: another preset is another object.
+  /// Another preset is another object.
   const std::shared_ptr<const preset::Preset>& shared() const { return state_.entries[state_.index].preset; }
   const preset::Sweep& sweep() const { return state_.entries[state_.index].sweep; }
   /// The preset as it was read.

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person chose to see. Nothing here needs a new run.
 #pragma once
-#include "ui/state/commands.h"
-#include "ui/state/selection.h"
 #include "ui/state/tone.h"
 
 #include <algorithm>
-#include <array>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace nephroid::ui {
 

@@ -2,12 +2,6 @@
 #include "ui/state/workbench.h"
 
 #include "engine/engine.h"
-#include "ui/state/files.h"
-#include "ui/state/selection.h"
-
-#include <exception>
-#include <optional>
-#include <variant>
 
 #include <algorithm>
 
@@ -19,7 +13,6 @@ concept Takes = requires(Part& part, const C& c) {
   part.carry_out(c);
 };
 
-/// Gives a command to its part.
 template <class C, class... Parts>
 void hand_over(const C& c, Parts&... parts) {
   static_assert((int{Takes<Parts, C>} + ...) == 1, "a command is for exactly one part");
@@ -76,7 +69,6 @@ void Workbench::begin(preset::WithSweep preset) {
   document_.open(UndoStack(std::move(preset.preset), std::move(preset.sweep)));
 }
 
-/// Drops everything of the preset in hand.
 void Workbench::let_go() {
   document_.close();
   sweep_.stop();

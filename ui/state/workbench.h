@@ -3,20 +3,10 @@
 // nothing of Dear ImGui. Panels read a Context of it; commands change it. update() runs once a frame and never waits
 // for a device; the only file that it reads is the preset, when that has changed.
 #pragma once
-#include "ui/state/comparing.h"
 #include "ui/state/context.h"
 #include "ui/state/file_watch.h"
 #include "ui/state/file_writer.h"
-#include "ui/state/questions.h"
 #include "ui/state/session.h"
-#include "ui/state/window_setup.h"
-
-#include <chrono>
-#include <cstdint>
-#include <filesystem>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -36,7 +26,7 @@ public:
   /// Called once a frame: takes the newest snapshot, starts the run that edits ask for, collects finished tasks.
   void update(Clock::time_point now = Clock::now());
 
-  /// The context of one frame; panels' commands go to `commands`.
+  /// What panels read in one frame; their commands go to `commands`.
   Context context(Commands& commands) {
     return {edits(),         run_,   comparing_, view_state_, setup_.settings(), has_earlier_session_, commands,
             files_.recent(), sweep_, tasks()};
@@ -56,15 +46,12 @@ public:
   const WindowSetup& setup() const { return setup_; }
   /// Sets where presets that are opened or saved are remembered.
   void remember(RecentFiles recent) { files_.remember(std::move(recent)); }
-  /// Says whether there is an earlier session to reopen.
   void offer_earlier(bool there_is) { has_earlier_session_ = there_is; }
-  /// Waits until the tasks of this key are done and delivered.
   void finish(const TaskKey& key) { services_.tasks.wait(key, services_.messages); }
   /// Whether a file is being read or written in the background, so that a pin or a message is to come.
   bool works_on_files() const { return files_.busy() || comparing_.reads_pins() || document_.reads_mesh(); }
   /// Called before the end: waits for files that are being written, and makes messages of those that fail.
   void finish_files() { services_.tasks.finish(services_.messages); }
-  /// Adds a line of the program itself to notes().
   void add_note(std::string line) { program_notes_.push_back(std::move(line)); }
   /// Notes that need no answer: the program's, then those of the newest plan.
   std::vector<std::string> notes() const;

@@ -4,16 +4,9 @@
 #include "ui/widgets/action.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace nephroid::ui {
 namespace {
@@ -32,7 +25,7 @@ constexpr std::array tones{
 
 void draw_layer_choice(const Context& context, WidgetPlaces& places) {
   const std::string& chosen = context.comparing.comparison().layer;
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
+  ImGui::SetNextItemWidth(8 * em());
   Combo list("##layer", chosen.empty() ? "all" : chosen, &places, "layer");
   if (list.entry("all", chosen.empty())) context.push(command::ShowLayer{});
   if (const auto source = context.comparing.source())
@@ -43,7 +36,7 @@ void draw_layer_choice(const Context& context, WidgetPlaces& places) {
 void draw_tone_choice(const Context& context, WidgetPlaces& places) {
   ViewSettings view_settings = context.view_settings();
   const ToneCurve now = view_settings.tone;
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
+  ImGui::SetNextItemWidth(8 * em());
   Combo list("##tone", std::ranges::find(tones, now, &NamedTone::curve)->name, &places, "tone");
   for (const NamedTone& tone : tones)
     if (list.entry(tone.name, tone.curve == now, tone.help)) {
@@ -55,7 +48,7 @@ void draw_tone_choice(const Context& context, WidgetPlaces& places) {
 /// Draws a number field in the line of the last item. True where a person typed a value.
 bool draw_number(const char* label, double& value) {
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 5);
+  ImGui::SetNextItemWidth(5 * em());
   ImGui::InputDouble(label, &value, 0, 0, "%.3g");
   return ImGui::IsItemDeactivatedAfterEdit();
 }
@@ -92,29 +85,20 @@ constexpr std::array<std::pair<Metric, const char*>, 6> metric_names{{{Metric::l
                                                                       {Metric::luminance, "luminance a - b"},
                                                                       {Metric::flip, "FLIP"}}};
 
-void draw_shown_choice(const Context& context, WidgetPlaces& places) {
-  const std::uint64_t now = context.comparing.comparison().shown;
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
-  Combo list("##shown", context.comparing.name(), &places, "shown");
-  if (list.entry("this run", now == 0)) context.push(command::ShowPicture{});
-  for (const PinnedRun& run : context.comparing.pinned().all())
-    if (list.entry(run.name, now == run.id)) context.push(command::ShowPicture{run.id});
-}
-
-void draw_other_choice(const Context& context, WidgetPlaces& places) {
-  const std::uint64_t now = context.comparing.comparison().pin;
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
-  Combo list("##other", context.comparing.other_name(), &places, "other");
-  if (list.entry("Reference", now == 0)) context.push(command::CompareWith{0});
-  if (list.entry("this run", now == Comparison::run_in_hand))
-    context.push(command::CompareWith{Comparison::run_in_hand});
-  for (const PinnedRun& run : context.comparing.pinned().all())
-    if (list.entry(run.name, now == run.id)) context.push(command::CompareWith{run.id});
+/// Draws a list of these choices, names and ids, and of all pins.
+template <class Chosen>
+void draw_picture_choice(const Context& context, WidgetPlaces& places, const char* place, const std::string& name,
+                         std::uint64_t now, std::vector<std::pair<std::string, std::uint64_t>> choices) {
+  for (const PinnedRun& run : context.comparing.pinned().all()) choices.emplace_back(run.name, run.id);
+  ImGui::SetNextItemWidth(8 * em());
+  Combo list(fmt::format("##{}", place).c_str(), name, &places, place);
+  for (const auto& [choice, id] : choices)
+    if (list.entry(choice, now == id)) context.push(Chosen{id});
 }
 
 void draw_metric_choice(const Context& context) {
   const Comparison& comparison = context.comparing.comparison();
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 10);
+  ImGui::SetNextItemWidth(10 * em());
   Combo list("##difference metric", metric_name(comparison.metric));
   for (const auto& [metric, name] : metric_names)
     if (list.entry(name, metric == comparison.metric))
@@ -137,9 +121,8 @@ void draw_range_of_difference(const Context& context) {
 void draw_selected_choice(const Context& context, WidgetPlaces& places) {
   const preset::Preset& preset = *context.preset();
   const Selection now = context.selection();
-  const float em = ImGui::GetFontSize();
   ImGui::SetNextItemWidth(
-      std::clamp(ImGui::GetContentRegionAvail().x - 26 * em, 5 * em, 12 * em)); // leaves the rest to the buttons
+      std::clamp(ImGui::GetContentRegionAvail().x - 26 * em(), 5 * em(), 12 * em())); // leaves the rest to the buttons
   Combo list("##selected", now == Selection{} ? "nothing" : name_of(preset, now), &places, "selected");
   if (list.entry("nothing", now == Selection{})) context.push(command::Select{});
   for (const Selection& selection : selectable(preset))
@@ -147,7 +130,8 @@ void draw_selected_choice(const Context& context, WidgetPlaces& places) {
 }
 
 /// A button that stays down while its action is on.
-void draw_toggle(const char* name, bool on, const Context& context) {
+void draw_toggle(const char* name, const Context& context) {
+  const bool on = action(name).checked(context);
   ImGui::SameLine();
   if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
   action_button(name, context);
@@ -166,8 +150,8 @@ void draw_bookmarks(const Context& context, WidgetPlaces& places) {
     }
     ImGui::SameLine();
     std::string name = bookmarks[i].name;
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 14);
-    if (input_text("##name", "", name) && !name.empty()) {
+    ImGui::SetNextItemWidth(14 * em());
+    if (ImGui::InputTextWithHint("##name", "", &name) && !name.empty()) {
       bookmarks[i].name = std::move(name);
       changed = true;
     }
@@ -183,11 +167,9 @@ void draw_bookmarks(const Context& context, WidgetPlaces& places) {
   places.note("bookmark");
 }
 
-/// Maps a position, 0 (the foot) .. 1, to sRGB-encoded bytes.
+/// position: from 0 (the foot) to 1. The colour is sRGB-encoded.
 using ScaleColour = std::function<std::array<unsigned char, 3>(float position)>;
-/// A position and the text at its left.
 using ScaleMark = std::pair<double, std::string>;
-/// A colour below the scale, and its meaning.
 using ScaleKey = std::pair<std::array<unsigned char, 3>, std::string>;
 
 ImU32 opaque(const std::array<unsigned char, 3>& colour) { return IM_COL32(colour[0], colour[1], colour[2], 255); }
@@ -206,17 +188,17 @@ void draw_bar(const ImVec2& corner, float width, float height, const ScaleColour
 /// Draws a colour scale with its numbers along the right edge of the picture. title: above it; may be empty.
 void draw_scale(const Canvas& canvas, const std::string& title, std::span<const ScaleMark> marks,
                 const ScaleColour& colour_at, std::span<const ScaleKey> keys = {}) {
-  const float em = ImGui::GetFontSize(), width = em, line = 1.2f * em;
+  const float width = em(), line = 1.2f * em();
   const float head = title.empty() ? 0 : line, foot = line * static_cast<float>(keys.size());
-  const float height = std::max(std::min(16 * em, 0.7f * static_cast<float>(canvas.size[1]) - head - foot), 2 * em);
+  const float height = std::max(std::min(16 * em(), 0.7f * static_cast<float>(canvas.size[1]) - head - foot), 2 * em());
   const ImVec2 corner{static_cast<float>(canvas.corner[0] + canvas.size[0]) - 2 * width,
-                      static_cast<float>(canvas.corner[1]) + 1.5f * em + head};
+                      static_cast<float>(canvas.corner[1]) + 1.5f * em() + head};
   float text_width = ImGui::CalcTextSize(title.c_str()).x - 2 * width;
   for (const auto& [position, text] : marks) text_width = std::max(text_width, ImGui::CalcTextSize(text.c_str()).x);
   for (const auto& [colour, text] : keys) text_width = std::max(text_width, ImGui::CalcTextSize(text.c_str()).x);
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
-  draw_list->AddRectFilled({corner.x - text_width - em, corner.y - em - head},
-                           {corner.x + 1.5f * width, corner.y + height + em + foot}, colour::overlay, 0.4f * em);
+  draw_list->AddRectFilled({corner.x - text_width - em(), corner.y - em() - head},
+                           {corner.x + 1.5f * width, corner.y + height + em() + foot}, colour::overlay, 0.4f * em());
   const auto draw_text = [&](const std::string& text, float right, float middle) {
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
     draw_list->AddText({right - extent.x, middle - extent.y / 2}, colour::on_dark, text.c_str());
@@ -224,11 +206,11 @@ void draw_scale(const Canvas& canvas, const std::string& title, std::span<const 
   draw_bar(corner, width, height, colour_at);
   if (!title.empty()) draw_text(title, corner.x + width, corner.y - head);
   for (const auto& [position, text] : marks)
-    draw_text(text, corner.x - 0.4f * em, corner.y + height * static_cast<float>(1 - position));
-  float y = corner.y + height + em;
+    draw_text(text, corner.x - 0.4f * em(), corner.y + height * static_cast<float>(1 - position));
+  float y = corner.y + height + em();
   for (const auto& [colour, text] : keys) {
-    draw_list->AddRectFilled({corner.x, y - 0.4f * em}, {corner.x + width, y + 0.4f * em}, opaque(colour));
-    draw_text(text, corner.x - 0.4f * em, y);
+    draw_list->AddRectFilled({corner.x, y - 0.4f * em()}, {corner.x + width, y + 0.4f * em()}, opaque(colour));
+    draw_text(text, corner.x - 0.4f * em(), y);
     y += line;
   }
 }
@@ -246,13 +228,11 @@ void go_to_bookmark(const Context& context, std::size_t index) {
 void draw_view_bar(const Context& context, const Tone& tone, WidgetPlaces& places) {
   draw_label("Layer");
   draw_layer_choice(context, places);
-  ImGui::SameLine(0, ImGui::GetFontSize());
+  ImGui::SameLine(0, em());
   draw_label("Tone");
   draw_tone_choice(context, places);
   if (tone.curve != ToneCurve::false_colour) return;
-  const float width = ImGui::CalcTextSize("Auto range").x + 14 * ImGui::GetFontSize();
-  ImGui::SameLine();
-  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+  same_line_if_room(ImGui::CalcTextSize("Auto range").x + 14 * em());
   draw_range_choice(context, tone.range, places);
 }
 
@@ -286,15 +266,16 @@ void draw_comparison_bar(const Context& context, WidgetPlaces& places) {
   const Comparison& comparison = context.comparing.comparison();
   draw_label("Compare");
   if (!context.comparing.pinned().all().empty()) {
-    draw_shown_choice(context, places);
+    draw_picture_choice<command::ShowPicture>(context, places, "shown", context.comparing.name(), comparison.shown,
+                                              {{"this run", 0}});
     ImGui::SameLine();
     draw_label("with");
   }
-  draw_other_choice(context, places);
+  draw_picture_choice<command::CompareWith>(context, places, "other", context.comparing.other_name(), comparison.pin,
+                                            {{"Reference", 0}, {"this run", Comparison::run_in_hand}});
   ImGui::SameLine();
   action_button("Flip", context);
-  for (const char* name : {"Difference", "Split", "Side by side"})
-    draw_toggle(name, action(name).checked(context), context);
+  for (const char* name : {"Difference", "Split", "Side by side"}) draw_toggle(name, context);
   if (!comparison.difference) return;
   ImGui::SameLine();
   draw_metric_choice(context);
@@ -324,11 +305,11 @@ void draw_metrics(const Context& context, WidgetPlaces& places) {
 }
 
 void draw_selection_bar(const Context& context, WidgetPlaces& places) {
-  if (!context.preset() || !has_scene(*context.preset())) return;
+  if (!has_scene(*context.preset())) return;
   draw_label("Selected");
   draw_selected_choice(context, places);
   for (const char* tool : {"Move", "Turn", "Scale", "Own axes", "Snap"}) {
-    draw_toggle(tool, action(tool).checked(context), context);
+    draw_toggle(tool, context);
     places.note(tool);
   }
   ImGui::SameLine();
@@ -339,18 +320,17 @@ void draw_selection_bar(const Context& context, WidgetPlaces& places) {
 }
 
 void draw_overlay(const ImVec2& at, const std::string& text) {
-  const float pad = ImGui::GetFontSize() * 0.4f;
+  const float pad = 0.4f * em();
   const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
-  draw_list->AddRectFilled(at, {at.x + extent.x + 2 * pad, at.y + extent.y + 2 * pad}, colour::overlay, pad);
-  draw_list->AddText({at.x + pad, at.y + pad}, colour::on_dark, text.c_str());
+  draw_list->AddRectFilled(at, at + extent + ImVec2(2 * pad, 2 * pad), colour::overlay, pad);
+  draw_list->AddText(at + ImVec2(pad, pad), colour::on_dark, text.c_str());
 }
 
 void draw_luminance_scale(const LuminanceRange& range, const Canvas& canvas) {
   const double low = std::log10(range.low), high = std::log10(range.high);
   std::vector<ScaleMark> marks{{0, fmt::format("{:.3g}", range.low)}, {1, fmt::format("{:.3g}", range.high)}};
-  for (int decade = static_cast<int>(std::ceil(low)); decade <= high;
-       ++decade) // without numbers that would touch the ends
+  for (double decade = std::ceil(low); decade <= high; ++decade) // without numbers that would touch the ends
     if (const double position = (decade - low) / (high - low); position > 0.06 && position < 0.94)
       marks.emplace_back(position, fmt::format("{:.3g}", std::pow(10.0, decade)));
   if (marks.size() > 12) marks.resize(2);

@@ -3,16 +3,14 @@
 // colour scales with numbers along its right edge.
 #pragma once
 #include "measure/difference.h"
-#include "ui/state/comparing.h"
 #include "ui/state/context.h"
-#include "ui/state/tone.h"
 #include "ui/view/placement.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
 
 namespace nephroid::ui {
 
-/// The metric's name, "CIELAB distance".
+/// The metric's name: "CIELAB distance".
 const char* metric_name(measure::DifferenceMetric metric);
 
 /// Which pictures are compared, how they were read, and a line per metric with its meaning, separated by tabs; "-"
@@ -21,15 +19,13 @@ std::string metrics_as_text(const Context& context);
 
 /// Draws the choice of layer, tone curve and range of false colour. tone: the shown picture's.
 void draw_view_bar(const Context& context, const Tone& tone, WidgetPlaces& places);
-/// Draws what is shown, what it is compared with, and how: flip, split, side by side, difference and its metric.
-/// places: "shown" and "other".
+/// Draws what is shown, what it is compared with, and how. places: "shown" and "other".
 void draw_comparison_bar(const Context& context, WidgetPlaces& places);
-/// Draws the distances between the two pictures in a line, where they are wanted; all metrics are under the mouse.
-/// places: "metrics".
+/// Draws the distances between the two in a line, where they are wanted; all metrics are under the mouse. places:
+/// "metrics".
 void draw_metrics(const Context& context, WidgetPlaces& places);
-/// Draws the selection's name with a list to choose from, the tools that move it, and the list of camera bookmarks.
-/// Draws nothing where the preset has no scene. places: "selected", "cameras" and, in the list of bookmarks, "go 0",
-/// "name 0", "delete 0" and so on.
+/// Draws what is selected, the tools that move it, and bookmarks of cameras, where the preset has a scene. places:
+/// "selected", "cameras" and, in the list of bookmarks, "go 0", "name 0", "delete 0" and so on.
 void draw_selection_bar(const Context& context, WidgetPlaces& places);
 /// Edits the preset in hand, where its camera differs from the bookmark. index: into ViewState::bookmarks.
 void go_to_bookmark(const Context& context, std::size_t index);
@@ -38,7 +34,6 @@ void go_to_bookmark(const Context& context, std::size_t index);
 void draw_overlay(const ImVec2& at, const std::string& text);
 /// Draws the scale of luminance in W/m^2/sr, and the colours of values that are no luminance.
 void draw_luminance_scale(const LuminanceRange& range, const Canvas& canvas);
-/// Draws the scale of a map of differences.
 void draw_difference_scale(const ShownDifference& map, const Canvas& canvas);
 
 } // namespace nephroid::ui

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/view/gizmo.h"
 
-#include "scene/scene.h"
 #include "ui/view/bars.h"
 
-#include <imgui.h>
 #include <imgui_internal.h>
 
 #include <ImGuizmo.h> // needs imgui.h before it
@@ -73,12 +71,7 @@ ImGuizmo::OPERATION operation(Tool tool, const GizmoTarget& grip) {
   return static_cast<ImGuizmo::OPERATION>(all);
 }
 
-glm::vec3 snap_steps(Tool tool, double unit) {
-  const double step = tool == Tool::move ? snap_step(unit) / unit : tool == Tool::turn ? snap_deg : snap_factor;
-  return glm::vec3(step);
-}
-
-/// Prepares a frame. Numbers are drawn here, because ImGuizmo's would be in the frame's units.
+/// Numbers are drawn here, because ImGuizmo's would be in the frame's units.
 void prepare(const Canvas& canvas) {
   ImGuizmo::BeginFrame();
   ImGuizmo::SetDrawlist();
@@ -88,7 +81,7 @@ void prepare(const Canvas& canvas) {
   const auto [width, height] = canvas.size;
   ImGuizmo::SetRect(static_cast<float>(x), static_cast<float>(y), static_cast<float>(width),
                     static_cast<float>(height));
-  ImGuizmo::SetGizmoSizeClipSpace(2 * handle_em * ImGui::GetFontSize() / static_cast<float>(std::max(width, height)));
+  ImGuizmo::SetGizmoSizeClipSpace(2 * handle_em * em() / static_cast<float>(std::max(width, height)));
   // The mouse may leave the View's window while it drags.
   ImGuizmo::SetAlternativeWindow(ImGuizmo::IsUsingAny() ? ImGui::GetCurrentContext()->HoveredWindow : nullptr);
   ImGuizmo::Style& style = ImGuizmo::GetStyle();
@@ -124,7 +117,7 @@ void draw_line(const Pinhole& pinhole, glm::dvec3 a, glm::dvec3 b, ImU32 colour)
   draw_list->AddLine(vec(*start), vec(*end), colour, 1.4f * scale());
 }
 
-/// Draws the edges of a parallelepiped, given by its middle and three half edges.
+/// Draws a parallelepiped, given by its middle and three half edges.
 void draw_box(const Pinhole& pinhole, const glm::dvec3& middle, const glm::dmat3& half, ImU32 colour) {
   const auto corner = [&](unsigned bits) {
     glm::dvec3 p = middle;
@@ -139,11 +132,9 @@ void draw_box(const Pinhole& pinhole, const glm::dvec3& middle, const glm::dmat3
 void draw_object_box(const Context& context, const Pinhole& pinhole, std::size_t index) {
   const auto box = local_box(context.run.scene_facts().view.get(), *context.preset(), index);
   if (!box) return;
-  const preset::Transform& transform = context.preset()->scene.objects[index].transform;
-  const glm::dmat3 turn = scene::rotation(transform.rotate_deg);
-  const glm::dvec3 factors = to_vector(transform.scale), half = 0.5 * (box->high - box->low) * factors;
-  const glm::dvec3 middle = turn * (0.5 * (box->high + box->low) * factors) + to_vector(transform.translate);
-  draw_box(pinhole, middle, {half.x * turn[0], half.y * turn[1], half.z * turn[2]}, marked);
+  const Affine placed(context.preset()->scene.objects[index].transform);
+  const glm::dvec3 half = 0.5 * (box->high - box->low), middle = placed.linear * (box->low + half) + placed.offset;
+  draw_box(pinhole, middle, {half.x * placed.linear[0], half.y * placed.linear[1], half.z * placed.linear[2]}, marked);
 }
 
 /// Draws an area light's rectangle, other lights' direction, and a disc at the light's place.
@@ -154,11 +145,11 @@ void draw_light(const Context& context, const Pinhole& pinhole, std::size_t inde
   const auto at = pinhole.to_screen(grip.at);
   if (!at) return;
   const ImU32 colour = selected ? marked : lamp;
-  const double em = 2 * pinhole.depth(grip.at) * pinhole.tan_x / pinhole.size[0] * ImGui::GetFontSize();
+  const double scene_em = 2 * pinhole.depth(grip.at) * pinhole.tan_x / pinhole.size[0] * em();
   if (light.type == LightType::area)
     draw_box(pinhole, grip.at, {0.5 * light.size[0] * grip.axes[0], 0.5 * light.size[1] * grip.axes[1], glm::dvec3(0)},
              colour);
-  if (light.type != LightType::point) draw_line(pinhole, grip.at, grip.at + 2.5 * em * grip.axes[2], colour);
+  if (light.type != LightType::point) draw_line(pinhole, grip.at, grip.at + 2.5 * scene_em * grip.axes[2], colour);
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   const float radius = icon_radius * scale();
   draw_list->AddCircleFilled(vec(*at), radius + 2 * scale(), colour::outline);
@@ -190,8 +181,7 @@ void Gizmo::draw(const Context& context, const Pinhole& pinhole, const Canvas& c
   places_.reset();
   const Selection selection = context.selection();
   if (drag_ && (drag_->selection != selection || !context.view_state.handles.shown)) end_drag(context);
-  const auto grip =
-      context.preset() ? grip_of(*context.preset(), selection, context.run.scene_facts().view.get()) : std::nullopt;
+  const auto grip = grip_of(*context.preset(), selection, context.run.scene_facts().view.get());
   if (!grip || !context.view_state.handles.shown) return;
   const Handles& handles = context.view_state.handles;
   const GizmoFrame frame = drag_ ? drag_->frame : GizmoFrame{pinhole, grip->at, pinhole.depth(grip->at)};
@@ -201,7 +191,9 @@ void Gizmo::draw(const Context& context, const Pinhole& pinhole, const Canvas& c
   glm::mat4 matrix = drag_ ? drag_->matrix : glm::mat4(glm::mat3(grip->axes));
   const glm::mat4 view = view_matrix(frame), projection = projection_matrix(frame.pinhole, canvas);
   const bool snaps = handles.snap != ImGui::GetIO().KeyCtrl;
-  const glm::vec3 steps = snap_steps(tool, frame.unit);
+  const glm::vec3 steps(tool == Tool::move   ? snap_step(frame.unit) / frame.unit
+                        : tool == Tool::turn ? snap_deg
+                                             : snap_factor);
   // ImGuizmo ignores the mouse over an item of Dear ImGui, and the picture is one.
   ImGuiContext& imgui = *ImGui::GetCurrentContext();
   const std::array items{imgui.HoveredId, imgui.HoveredIdPreviousFrame, imgui.ActiveId};
@@ -222,7 +214,7 @@ void Gizmo::draw(const Context& context, const Pinhole& pinhole, const Canvas& c
   if (!drag_) return;
   drag_->snaps = snaps;
   follow(context, matrix);
-  const double beside = 0.6 * ImGui::GetFontSize();
+  const double beside = 0.6 * em();
   if (!drag_->text.empty()) draw_overlay(vec({(*places_)[0][0] + beside, (*places_)[0][1] + beside}), drag_->text);
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) end_drag(context);
 }
@@ -286,7 +278,7 @@ std::string Gizmo::edit(preset::Preset& edited, const glm::mat4& matrix) const {
 void Gizmo::note_places(const GizmoFrame& frame, const glm::dmat3& axes) {
   const glm::dvec3 middle = drag_ ? frame.base + frame.unit * glm::dvec3(drag_->matrix[3]) : frame.base;
   const double pixel = 2 * frame.unit * frame.pinhole.tan_x / frame.pinhole.size[0];
-  const double length = handle_em * ImGui::GetFontSize() * pixel;
+  const double length = handle_em * em() * pixel;
   std::array<Point, 4> places{};
   for (int i = 0; i < 4; ++i)
     places[static_cast<std::size_t>(i)] =
@@ -300,17 +292,16 @@ std::optional<Point> SceneOverlay::icon(const Context& context, std::size_t ligh
 }
 
 void SceneOverlay::draw(const Context& context, const Canvas& canvas, const std::array<int, 2>& picture, bool hovered) {
-  const preset::Preset* preset = context.preset();
+  const preset::Scene& scene = context.preset()->scene;
   pinhole_.reset();
-  if (preset && has_scene(*preset))
-    pinhole_ = make_pinhole(preset->scene.camera, place(context.view_state.view_settings, canvas, picture), picture);
+  if (has_scene(*context.preset()))
+    pinhole_ = make_pinhole(scene.camera, place(context.view_state.view_settings, canvas, picture), picture);
   const Selection selection = context.selection();
   const Comparison& comparison = context.comparing.comparison();
-  const bool other_picture = comparison.flip || comparison.shown != 0; // nothing covers a picture that is looked at to
-                                                                       // compare
+  const bool other_picture = comparison.flip || comparison.shown != 0; // nothing covers what is compared
   if (pinhole_ && context.view_state.handles.shown && !other_picture) {
     if (selection.kind == Selection::Kind::object) draw_object_box(context, *pinhole_, selection.index);
-    for (std::size_t i = 0; i < preset->scene.lights.size(); ++i)
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
       draw_light(context, *pinhole_, i, selection == Selection{Selection::Kind::light, i});
   }
   if (pinhole_ && !other_picture)

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The handles on the selection. ImGuizmo draws them over the picture with the camera's own projection, and a drag of
-// one edits the preset. The edit is computed in double precision from the start of the drag; ImGuizmo only says how far
-// the drag went. This file also has everything else that the View draws of the scene over its picture, and what a click
-// there selects.
+// What the View draws of the scene over its picture, and what a click there selects. A drag of a handle edits the
+// preset. The edit is computed in double precision from the start of the drag; ImGuizmo, which draws the handles, only
+// says how far the drag went.
 #pragma once
 #include "ui/state/context.h"
 #include "ui/view/gizmo_edits.h"
-#include "ui/view/pinhole.h"
-#include "ui/view/placement.h"
 #include "ui/widgets/widgets.h"
 
 namespace nephroid::ui {
@@ -65,7 +62,6 @@ class SceneOverlay {
 public:
   /// Called in the View's window, after the picture, of this size in pixels. hovered: as for Gizmo::draw.
   void draw(const Context& context, const Canvas& canvas, const std::array<int, 2>& picture, bool hovered);
-  /// Whether a handle is being dragged.
   bool has_mouse() const { return gizmo_.has_mouse(); }
   /// Selects the light whose icon is there, else the object that the camera sees there; else clears the selection.
   void click(const Context& context, const Point& at) const;

@@ -54,10 +54,6 @@ GizmoTarget light_grip(const preset::Preset& preset, const preset::Light& light)
   return grip;
 }
 
-glm::dvec3 scaled(const preset::Transform& transform, const glm::dvec3& p) {
-  return scene::rotation(transform.rotate_deg) * (to_vector(transform.scale) * p);
-}
-
 glm::dmat3 about(const glm::dvec3& axis, double degrees) {
   return glm::dmat3(glm::rotate(glm::dmat4(1), degrees * std::numbers::pi / 180, axis));
 }
@@ -65,7 +61,7 @@ glm::dmat3 about(const glm::dvec3& axis, double degrees) {
 /// Moves a changed object back so that its pivot is at `place`.
 void keep_pivot(preset::Transform& transform, const glm::dvec3& pivot, const glm::dvec3& place) {
   if (pivot == glm::dvec3(0)) return;
-  transform.translate = to_stored(place - scaled(transform, pivot));
+  transform.translate = to_stored(place - Affine(transform).linear * pivot);
 }
 
 /// The angle nearest to `near` among those that differ from `degrees` by multiples of 360.
@@ -98,18 +94,14 @@ std::optional<GizmoTarget> grip_of(const preset::Preset& preset, const Selection
     const preset::Transform& transform = preset.scene.objects[selection.index].transform;
     GizmoTarget grip;
     grip.pivot = pivot_of(seen, preset, selection.index);
-    grip.at = to_vector(transform.translate) + scaled(transform, grip.pivot);
+    grip.at = to_vector(transform.translate) + Affine(transform).linear * grip.pivot;
     grip.axes = scene::rotation(transform.rotate_deg);
     grip.turns = true;
     grip.scales = {true, true, true};
     return grip;
   }
   case Kind::light: return light_grip(preset, preset.scene.lights[selection.index]);
-  case Kind::camera: {
-    GizmoTarget grip;
-    grip.at = to_vector(preset.scene.camera.target);
-    return grip;
-  }
+  case Kind::camera: return GizmoTarget{.at = to_vector(preset.scene.camera.target)};
   case Kind::nothing: break;
   }
   return std::nullopt;

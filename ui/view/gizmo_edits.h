@@ -2,7 +2,6 @@
 // How moving, turning and scaling the selection change a preset. Pure functions: no mouse, no Dear ImGui.
 #pragma once
 #include "preset/preset.h"
-#include "ui/state/selection.h"
 #include "ui/view/pinhole.h"
 
 #include <glm/glm.hpp>
@@ -17,7 +16,7 @@ struct GizmoTarget {
   std::array<bool, 3> scales{}; ///< whether it can be scaled along each of its own axes
   glm::dvec3 pivot{0};          ///< an object's pivot_of
 };
-/// The selection's grip; nothing where nothing is selected. seen: may be null.
+/// Nothing where nothing is selected. seen: may be null.
 std::optional<GizmoTarget> grip_of(const preset::Preset& preset, const Selection& selection, const ViewedScene* seen);
 /// The wanted tool where the grip allows it, else the first that it allows. A point light can only be moved.
 Handles::Tool usable_tool(const GizmoTarget& grip, Handles::Tool wanted);
@@ -26,10 +25,9 @@ Handles::Tool usable_tool(const GizmoTarget& grip, Handles::Tool wanted);
 /// gives the rotation again.
 preset::Vec3 angles_of(const glm::dmat3& rotation, const preset::Vec3& near);
 
-/// Each function changes the selection in the preset; `grip` is the selection's. by: the new place has so many decimals
-/// along every axis that it moved along; negative: whole tens, hundreds.
+/// The new place has so many decimals along every axis that it moved along; negative: whole tens, hundreds.
 void move(preset::Preset& preset, const Selection& selection, const glm::dvec3& by, int decimals);
-/// Turns counter-clockwise about a unit axis through the grip.
+/// Turns counter-clockwise about a unit axis through the grip, which is the selection's.
 void turn(preset::Preset& preset, const Selection& selection, const GizmoTarget& grip, const glm::dvec3& axis,
           double degrees);
 /// Scales along the selection's own axes.

@@ -3,11 +3,7 @@
 
 #include "engine/engine.h"
 #include "ui/view/bars.h"
-#include "ui/widgets/action.h"
-#include "ui/widgets/theme.h"
-#include "ui/widgets/widgets.h"
 
-#include <imgui.h>
 #include <imgui_internal.h>
 
 #include <algorithm>
@@ -32,12 +28,10 @@ void draw_frame(const Placement& placement, const std::array<int, 2>& from, cons
   for (std::size_t i = 0; i < 2; ++i)
     if (const double missing = least - (high[i] - low[i]); missing > 0) low[i] -= missing / 2, high[i] += missing / 2;
   for (const auto& [margin, line] :
-       {std::pair{2, colour::outline}, std::pair{1, colour}, std::pair{0, colour::outline}})
-    ImGui::GetWindowDrawList()->AddRect(vec({low[0] - margin, low[1] - margin}),
-                                        vec({high[0] + margin, high[1] + margin}), line);
+       {std::pair{2.0f, colour::outline}, std::pair{1.0f, colour}, std::pair{0.0f, colour::outline}})
+    ImGui::GetWindowDrawList()->AddRect(vec(low) - ImVec2(margin, margin), vec(high) + ImVec2(margin, margin), line);
 }
 
-/// Draws the pixel and the rectangle of the panel Inspector.
 void draw_marks(const ViewState& view_state, const Placement& placement, const std::array<int, 2>& picture) {
   if (const auto& region = view_state.region) {
     const std::array to{std::min(region->to[0], picture[0]), std::min(region->to[1], picture[1])};
@@ -49,7 +43,7 @@ void draw_marks(const ViewState& view_state, const Placement& placement, const s
 
 /// Draws a panel's lines in the picture (command::ShowLines), with a dark rim.
 void draw_lines(const Context& context, const Placement& placement, const std::array<int, 2>& picture) {
-  if (context.view_state.lines.empty() || !context.preset() || !context.comparing.shows_run_alone()) return;
+  if (context.view_state.lines.empty() || !context.comparing.shows_run_alone()) return;
   const auto pinhole = make_pinhole(engine::camera_of(*context.preset()), placement, picture);
   if (!pinhole) return;
   for (const auto& [colour, width] : {std::pair{colour::outline, 3.0f}, std::pair{colour::accent, 1.5f}})
@@ -60,14 +54,78 @@ void draw_lines(const Context& context, const Placement& placement, const std::a
       }
 }
 
+/// Draws a picture's label and the marks of the panel Inspector.
+void draw_marked(const Context& context, const ShownPicture& shown, const Canvas& seen, const Placement& placement) {
+  if (!shown.hint.empty()) draw_hint(colour::quiet_on_dark, vec(seen.corner), vec(seen.size), shown.hint);
+  draw_marks(context.view_state, placement, shown.size);
+  const float pad = 0.4f * em();
+  if (!shown.label.empty()) draw_overlay(vec(seen.corner) + ImVec2(pad, pad), shown.label);
+}
+
+PictureAreas areas_of(const Comparison& comparison, const Canvas& area) {
+  if (comparison.arrangement == Arrangement::single) return {area, area, {}};
+  const bool split = comparison.arrangement == Arrangement::split;
+  const double line = std::round(area.size[0] * (split ? comparison.split : 0.5));
+  PictureAreas areas{area, area, {{area.corner[0] + line, area.corner[1]}, {area.size[0] - line, area.size[1]}}};
+  areas.first.size[0] = line;
+  if (split) return areas;
+  areas.canvas.size[0] = std::max(line, 1.0);
+  areas.shift = line;
+  return areas;
+}
+
+/// Alt with the mouse on the picture opens no menu. While a pixel is inspected or something is selected, the arrow keys
+/// move that and not the keyboard's cursor. Otherwise they go from picture to picture, unless a person goes from widget
+/// to widget by the keyboard.
+void own_keys(const Context& context) {
+  ImGui::SetItemKeyOwner(ImGuiMod_Alt);
+  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
+  if (!context.view_state.pixel && context.selection() == Selection{}) {
+    if (context.comparing.pinned().all().empty() || ImGui::GetIO().NavVisible) return;
+    for (const ImGuiKey key : {ImGuiKey_UpArrow, ImGuiKey_DownArrow}) ImGui::SetKeyOwner(key, ImGui::GetItemID());
+    return;
+  }
+  for (const ImGuiKey key : {ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow})
+    ImGui::SetKeyOwner(key, ImGui::GetItemID());
+  if (context.selection() == Selection{}) return;
+  for (const ImGuiKey key : {ImGuiKey_PageUp, ImGuiKey_PageDown}) ImGui::SetKeyOwner(key, ImGui::GetItemID());
+}
+
 } // namespace
+
+void PictureOnScreen::refresh(const Context& context, const ShownPicture& shown, const Tone* like) {
+  if (!shown.owner) return;
+  const ViewSettings& now = context.view_state.view_settings;
+  const bool is_linear = !shown.rgb.empty();
+  const bool same_settings = now.exposure_stops == view_settings.exposure_stops && now.tone == view_settings.tone &&
+                             now.false_colour == view_settings.false_colour && context.white() == white &&
+                             (!like || *like == tone);
+  if (shown.owner == owner && (!is_linear || same_settings)) return;
+  const std::span<unsigned char> bytes = texture.edit(shown.size[0], shown.size[1]);
+  if (is_linear) {
+    tone = like ? *like : tone_of(now, context.white(), shown.rgb);
+    toned_pixels(shown.rgb, tone, bytes);
+  } else
+    std::copy(shown.rgba.begin(), shown.rgba.end(), bytes.begin());
+  owner = shown.owner;
+  view_settings = now;
+  white = context.white();
+}
+
+void PictureOnScreen::draw(const ShownPicture& shown, const Placement& placement) const {
+  if (!shown.owner) return;
+  const ImVec2 from = vec(placement.to_screen({0, 0}));
+  const ImVec2 to = vec(placement.to_screen({static_cast<double>(shown.size[0]), static_cast<double>(shown.size[1])}));
+  texture.draw(from, to, placement.scale >= pixel_squares_from);
+  ImGui::GetWindowDrawList()->AddRect(from - ImVec2(1, 1), to + ImVec2(1, 1), colour::frame);
+}
 
 void ViewPanel::draw(const Context& context) {
   shown_ = shown_picture(context);
   beside_ = picture_beside(context);
   places_.clear();
   // A small panel shows the picture alone: the menus have all of the bars' actions.
-  if (ImGui::GetContentRegionAvail().y > 16 * ImGui::GetFontSize()) {
+  if (ImGui::GetContentRegionAvail().y > 16 * em()) {
     bars_.begin();
     bars_.bar([&] { draw_toolbar(context); });
     bars_.bar([&] { draw_view_bar(context, first_.tone, places_); });
@@ -77,7 +135,7 @@ void ViewPanel::draw(const Context& context) {
   }
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   const Canvas area{{corner.x, corner.y}, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}};
-  lay_out(context, area);
+  areas_ = areas_of(context.comparing.comparison(), area);
   ImGui::SetNextItemAllowOverlap();
   ImGui::InvisibleButton("picture", vec(area.size),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
@@ -86,14 +144,13 @@ void ViewPanel::draw(const Context& context) {
   own_keys(context);
   pressed_ = ImGui::IsItemActivated();
   held_ = ImGui::IsItemActive();
-  if (!held_ || pressed_) on_second_ = seen_second_.size[0] > 0 && mouse()[0] >= seen_second_.corner[0];
+  if (!held_ || pressed_) on_second_ = areas_.second.size[0] > 0 && mouse()[0] >= areas_.second.corner[0];
   take_line(context, area);
-  const double white = context.preset() ? context.preset()->white.value_or(1) : 1;
-  refresh(first_, shown_, context.view_state.view_settings, white);
-  refresh(second_, beside_, context.view_state.view_settings, white, shown_.rgb.empty() ? nullptr : &first_.tone);
+  first_.refresh(context, shown_);
+  second_.refresh(context, beside_, shown_.rgb.empty() ? nullptr : &first_.tone);
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
-  draw_list->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
-  draw_list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
+  draw_list->PushClipRect(corner, corner + size, true);
+  draw_list->AddRectFilled(corner, corner + size, colour::surround);
   draw_pictures(context);
   if (const auto& map = context.comparing.difference(); map && map == shown_.owner) draw_difference_scale(*map, area);
   if (!shown_.rgb.empty() && first_.tone.curve == ToneCurve::false_colour)
@@ -102,26 +159,10 @@ void ViewPanel::draw(const Context& context) {
   draw_list->PopClipRect();
 }
 
-/// Places two pictures: in one place, each on its side of the line, or each in a half of the area.
-void ViewPanel::lay_out(const Context& context, const Canvas& area) {
-  const Comparison& comparison = context.comparing.comparison();
-  canvas_ = seen_first_ = area;
-  seen_second_ = {};
-  shift_ = 0;
-  if (comparison.arrangement == Arrangement::single) return;
-  const bool split = comparison.arrangement == Arrangement::split;
-  const double line = std::round(area.size[0] * (split ? comparison.split : 0.5));
-  seen_first_.size[0] = line;
-  seen_second_ = {{area.corner[0] + line, area.corner[1]}, {area.size[0] - line, area.size[1]}};
-  if (split) return;
-  canvas_.size[0] = std::max(line, 1.0);
-  shift_ = line;
-}
-
 /// Draws the line between two pictures, and lets the mouse move it.
 void ViewPanel::take_line(const Context& context, const Canvas& area) {
   if (context.comparing.comparison().arrangement != Arrangement::split) return;
-  const float reach = 0.4f * ImGui::GetFontSize(), x = static_cast<float>(seen_second_.corner[0]);
+  const float reach = 0.4f * em(), x = static_cast<float>(areas_.second.corner[0]);
   const ImVec2 after = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos({x - reach, static_cast<float>(area.corner[1])});
   ImGui::InvisibleButton("line", {2 * reach, static_cast<float>(area.size[1])});
@@ -140,95 +181,54 @@ void ViewPanel::draw_toolbar(const Context& context) {
   ViewSettings view_settings = context.view_settings();
   float stops = static_cast<float>(view_settings.exposure_stops);
   draw_label("Exposure");
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 12);
+  ImGui::SetNextItemWidth(12 * em());
   if (ImGui::SliderFloat("##exposure", &stops, -10, 10, "%+.2f stops", ImGuiSliderFlags_NoRoundToFormat)) {
     view_settings.exposure_stops = stops;
     context.push(command::SetViewSettings{view_settings});
   }
   tooltip("Brighter E, darker Shift+E, as it is 0. Ctrl+click to type. The run goes on.");
-  if (!context.preset()) return;
   const auto& size = shown_.size;
-  ImGui::SameLine(0, ImGui::GetFontSize());
+  ImGui::SameLine(0, em());
   action_button("Fit", context);
   ImGui::SameLine();
-  ImGui::TextDisabled("%.0f %%   %d x %d", 100 * place(view_settings, canvas_, size).scale, size[0], size[1]);
-}
-
-/// like: the tone of the picture that it is compared with; null: its own.
-void ViewPanel::refresh(ToneMappedPicture& tone_mapped, const ShownPicture& shown, const ViewSettings& view_settings,
-                        double white, const Tone* like) {
-  if (!shown.owner) return;
-  const bool is_linear = !shown.rgb.empty();
-  const bool same_settings = view_settings.exposure_stops == tone_mapped.view_settings.exposure_stops &&
-                             view_settings.tone == tone_mapped.view_settings.tone &&
-                             view_settings.false_colour == tone_mapped.view_settings.false_colour &&
-                             white == tone_mapped.white && (!like || *like == tone_mapped.tone);
-  if (shown.owner == tone_mapped.owner && (!is_linear || same_settings)) return;
-  const std::span<unsigned char> bytes = tone_mapped.texture.edit(shown.size[0], shown.size[1]);
-  if (is_linear) {
-    tone_mapped.tone = like ? *like : tone_of(view_settings, white, shown.rgb);
-    toned_pixels(shown.rgb, tone_mapped.tone, bytes);
-  } else
-    std::copy(shown.rgba.begin(), shown.rgba.end(), bytes.begin());
-  tone_mapped.owner = shown.owner;
-  tone_mapped.view_settings = view_settings;
-  tone_mapped.white = white;
+  ImGui::TextDisabled("%.0f %%   %d x %d", 100 * place(view_settings, areas_.canvas, size).scale, size[0], size[1]);
 }
 
 void ViewPanel::draw_pictures(const Context& context) {
   const Placement first = placed(context);
   Placement second = first;
-  second.origin[0] += shift_;
+  second.origin[0] += areas_.shift;
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   const auto within = [&](const Canvas& seen, auto draw) {
-    draw_list->PushClipRect(vec(seen.corner), vec({seen.corner[0] + seen.size[0], seen.corner[1] + seen.size[1]}),
-                            true);
+    draw_list->PushClipRect(vec(seen.corner), vec(seen.corner) + vec(seen.size), true);
     draw();
     draw_list->PopClipRect();
   };
-  within(seen_first_, [&] {
-    draw_picture(shown_, first_, first);
+  within(areas_.first, [&] {
+    first_.draw(shown_, first);
     draw_lines(context, first, shown_.size);
-    overlay_.draw(context, canvas_, shown_.size, hovered_ && !on_second_);
+    overlay_.draw(context, areas_.canvas, shown_.size, hovered_ && !on_second_);
   });
   use_mouse(context); // after the handles, which come first
-  within(seen_first_, [&] { draw_marked(context, shown_, seen_first_, first); });
+  within(areas_.first, [&] { draw_marked(context, shown_, areas_.first, first); });
   if (context.comparing.comparison().arrangement == Arrangement::single) return;
-  within(seen_second_, [&] {
-    draw_picture(beside_, second_, second);
-    draw_marked(context, beside_, seen_second_, second);
+  within(areas_.second, [&] {
+    second_.draw(beside_, second);
+    draw_marked(context, beside_, areas_.second, second);
   });
-  const float line = static_cast<float>(seen_second_.corner[0]), top = static_cast<float>(seen_second_.corner[1]);
-  const float foot = top + static_cast<float>(seen_second_.size[1]);
+  const float line = static_cast<float>(areas_.second.corner[0]), top = static_cast<float>(areas_.second.corner[1]);
+  const float foot = top + static_cast<float>(areas_.second.size[1]);
   draw_list->AddLine({line, top}, {line, foot}, colour::outline, 3);
   draw_list->AddLine({line, top}, {line, foot}, colour::on_dark, 1);
   const auto pixel = hovered_ ? pointed_pixel(context) : std::nullopt; // also while the mouse is in the other picture
-  if (!pixel || shift_ == 0) return;
-  within(on_second_ ? seen_first_ : seen_second_, [&] {
+  if (!pixel || areas_.shift == 0) return;
+  within(on_second_ ? areas_.first : areas_.second, [&] {
     draw_frame(on_second_ ? first : second, *pixel, {(*pixel)[0] + 1, (*pixel)[1] + 1}, colour::on_dark, 5);
   });
 }
 
-void ViewPanel::draw_picture(const ShownPicture& shown, const ToneMappedPicture& tone_mapped,
-                             const Placement& placement) const {
-  if (!shown.owner) return;
-  const ImVec2 from = vec(placement.to_screen({0, 0}));
-  const ImVec2 to = vec(placement.to_screen({static_cast<double>(shown.size[0]), static_cast<double>(shown.size[1])}));
-  tone_mapped.texture.draw(from, to, placement.scale >= pixel_squares_from);
-  ImGui::GetWindowDrawList()->AddRect({from.x - 1, from.y - 1}, {to.x + 1, to.y + 1}, colour::frame);
-}
-
-/// Draws a picture's label and the marks of the panel Inspector.
-void ViewPanel::draw_marked(const Context& context, const ShownPicture& shown, const Canvas& seen,
-                            const Placement& placement) const {
-  if (!shown.hint.empty()) draw_hint(colour::quiet_on_dark, vec(seen.corner), vec(seen.size), shown.hint);
-  draw_marks(context.view_state, placement, shown.size);
-  const double pad = 0.4 * static_cast<double>(ImGui::GetFontSize());
-  if (!shown.label.empty()) draw_overlay(vec({seen.corner[0] + pad, seen.corner[1] + pad}), shown.label);
-}
-
 /// The mouse's position relative to the first picture.
-Point ViewPanel::pointer() const { return {mouse()[0] - (on_second_ ? shift_ : 0), mouse()[1]}; }
+Point ViewPanel::pointer() const { return {mouse()[0] - (on_second_ ? areas_.shift : 0), mouse()[1]}; }
 
 /// The pixel under the mouse, in the first picture or in the one beside it, which may be larger.
 std::optional<std::array<int, 2>> ViewPanel::pointed_pixel(const Context& context) const {
@@ -236,36 +236,17 @@ std::optional<std::array<int, 2>> ViewPanel::pointed_pixel(const Context& contex
   return pixel_at(placed(context), size, pointer());
 }
 
-/// Draws the values of the pixel under the cursor in the picture's lower left corner.
 void ViewPanel::draw_pixel_value(const Context& context, const Canvas& area) {
   const auto pixel = hovered_ ? pointed_pixel(context) : std::nullopt;
   pixel_value_ = pixel ? pixel_text(context, *pixel) : std::string();
   if (pixel_value_.empty()) return;
-  const float pad = ImGui::GetFontSize() * 0.4f;
+  const float pad = 0.4f * em();
   draw_overlay(vec({area.corner[0] + pad,
                     area.corner[1] + area.size[1] - ImGui::CalcTextSize(pixel_value_.c_str()).y - 3 * pad}),
                pixel_value_);
 }
 
-/// Alt with the mouse on the picture opens no menu. While a pixel is inspected or something is selected, the arrow keys
-/// move that and not the keyboard's cursor. Otherwise they go from picture to picture, unless a person goes from widget
-/// to widget by the keyboard.
-void ViewPanel::own_keys(const Context& context) {
-  ImGui::SetItemKeyOwner(ImGuiMod_Alt);
-  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
-  if (!context.view_state.pixel && context.selection() == Selection{}) {
-    if (context.comparing.pinned().all().empty() || ImGui::GetIO().NavVisible) return;
-    for (const ImGuiKey key : {ImGuiKey_UpArrow, ImGuiKey_DownArrow}) ImGui::SetKeyOwner(key, ImGui::GetItemID());
-    return;
-  }
-  for (const ImGuiKey key : {ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow})
-    ImGui::SetKeyOwner(key, ImGui::GetItemID());
-  if (context.selection() == Selection{}) return;
-  for (const ImGuiKey key : {ImGuiKey_PageUp, ImGuiKey_PageDown}) ImGui::SetKeyOwner(key, ImGui::GetItemID());
-}
-
 void ViewPanel::use_mouse(const Context& context) {
-  if (!context.preset()) return;
   if (pressed_ && !overlay_.has_mouse()) start_drag(context);
   if (drag_ != Drag::none) continue_drag(context);
   if (hovered_ && ImGui::GetIO().MouseWheel != 0) use_wheel(context);
@@ -299,7 +280,7 @@ void ViewPanel::continue_drag(const Context& context) {
   moved_ = moved_ || std::hypot(delta[0], delta[1]) > click_trembles * scale();
   if (moved_ && (step.x != 0 || step.y != 0)) {
     if (drag_ == Drag::move_picture) {
-      const ViewSettings moved = dragged(settings_at_start_, canvas_, shown_.size, delta);
+      const ViewSettings moved = dragged(settings_at_start_, areas_.canvas, shown_.size, delta);
       ViewSettings view_settings = context.view_settings();
       view_settings.fit = moved.fit;
       view_settings.zoom = moved.zoom;
@@ -345,7 +326,7 @@ void ViewPanel::use_wheel(const Context& context) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.KeyCtrl || context.comparing.comparison().shown != 0) {
     context.push(command::SetViewSettings{
-        zoomed(context.view_settings(), canvas_, shown_.size, pointer(), std::pow(notch, io.MouseWheel))});
+        zoomed(context.view_settings(), areas_.canvas, shown_.size, pointer(), std::pow(notch, io.MouseWheel))});
     return;
   }
   const double now = ImGui::GetTime();

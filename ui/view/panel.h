@@ -3,7 +3,6 @@
 // at a line. The mouse moves the camera (edits of the preset) or the pictures in the panel (view settings);
 // docs/keys.md says which does what.
 #pragma once
-#include "ui/state/tone.h"
 #include "ui/view/gizmo.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/picture_texture.h"
@@ -12,14 +11,12 @@ namespace nephroid::ui {
 
 /// What the View shows now: a picture of the run or an opened one, or the map of its difference to another.
 struct ShownPicture {
-  std::shared_ptr<const void> owner;   ///< owner of the pixels below; null: there is nothing to show. Other pixels have
-                                       ///< another owner.
+  std::shared_ptr<const void> owner;   ///< of the pixels below, other ones have another; null: nothing is shown
   std::span<const float> rgb;          ///< linear, shown with the settings' exposure; or
   std::span<const unsigned char> rgba; ///< shown unchanged, 4 bytes per pixel
-  std::array<int, 2> size{1, 1}; ///< the chosen picture's size, even while the other one is shown; the preset's before
-                                 ///< the first picture
-  std::string label;             ///< given where it is not the run's picture
-  std::string hint;              ///< shown in the middle of the panel where there is no picture
+  std::array<int, 2> size{1, 1};       ///< the chosen picture's, even while the other one is shown; first the preset's
+  std::string label;                   ///< given where it is not the run's picture
+  std::string hint;                    ///< shown in the middle of the panel where there is no picture
 };
 
 ShownPicture shown_picture(const Context& context);
@@ -29,68 +26,65 @@ ShownPicture picture_beside(const Context& context);
 /// other picture's values and a third the difference. Empty where there is no picture.
 std::string pixel_text(const Context& context, const std::array<int, 2>& pixel);
 
+/// A shown picture as a texture.
+struct PictureOnScreen {
+  PictureTexture texture;
+  std::shared_ptr<const void> owner; ///< the picture's owner
+  Tone tone;                         ///< its tone
+  ViewSettings view_settings;        ///< the settings that gave the tone
+  double white = 1;                  ///< the white that gave the tone
+
+  /// like: the tone of the picture that it is compared with; null: its own.
+  void refresh(const Context& context, const ShownPicture& shown, const Tone* like = nullptr);
+  void draw(const ShownPicture& shown, const Placement& placement) const;
+};
+
+/// Where two pictures are shown: in one place, each on its side of the line, or each in a half of the panel.
+struct PictureAreas {
+  Canvas canvas;        ///< the place of the first picture
+  Canvas first, second; ///< the parts of the panel that show the two pictures; empty where there is no second one
+  double shift = 0;     ///< on the screen from a pixel of the first picture to the same one of the second
+};
+
 class ViewPanel : public Panel {
 public:
   static constexpr const char* title = "View";
   void draw(const Context& context) override;
 
-  /// For tests, widgets of its bars and "line", which cuts two pictures, have places. Also for tests: where the
-  /// picture's part of the panel, and the picture in it, were drawn last.
-  const Canvas& canvas() const { return canvas_; }
+  /// For tests: what was shown last, and where. Widgets of the bars and "line", which cuts two pictures, have places.
+  const Canvas& canvas() const { return areas_.canvas; }
   const PictureTexture& texture() const { return first_.texture; }
   const Tone& tone() const { return first_.tone; }
-  /// For tests: what was shown last.
   const ShownPicture& shown() const { return shown_; }
   const ShownPicture& beside() const { return beside_; }
   const PictureTexture& texture_beside() const { return second_.texture; }
-  /// The distance on the screen from a pixel of the first picture to the same one of the second; 0 unless they stand
-  /// side by side.
-  double shift() const { return shift_; }
+  double shift() const { return areas_.shift; }
   std::string pixel_value() const { return pixel_value_; }
-  /// For tests: what is drawn over the picture.
   const SceneOverlay& overlay() const { return overlay_; }
 
 private:
   enum class Drag { none, orbit, pan, dolly, move_picture, mark };
 
-  /// A picture as a texture.
-  struct ToneMappedPicture {
-    PictureTexture texture;
-    std::shared_ptr<const void> owner; ///< the picture's owner
-    Tone tone;                         ///< its tone
-    ViewSettings view_settings;        ///< the settings that gave the tone
-    double white = 1;                  ///< the white that gave the tone
-  };
-
   void draw_toolbar(const Context& context);
-  void lay_out(const Context& context, const Canvas& area);
   void take_line(const Context& context, const Canvas& area);
   void draw_pictures(const Context& context);
-  void draw_picture(const ShownPicture& shown, const ToneMappedPicture& tone_mapped, const Placement& placement) const;
-  void draw_marked(const Context& context, const ShownPicture& shown, const Canvas& seen,
-                   const Placement& placement) const;
   void draw_pixel_value(const Context& context, const Canvas& area);
   Placement placed(const Context& context) const {
-    return place(context.view_state.view_settings, canvas_, shown_.size);
+    return place(context.view_state.view_settings, areas_.canvas, shown_.size);
   }
   Point pointer() const;
   std::optional<std::array<int, 2>> pointed_pixel(const Context& context) const;
-  void own_keys(const Context& context);
   void use_mouse(const Context& context);
   void start_drag(const Context& context);
   void continue_drag(const Context& context);
   void move_camera(const Context& context, const Point& delta) const;
   void mark(const Context& context);
   void use_wheel(const Context& context);
-  static void refresh(ToneMappedPicture& tone_mapped, const ShownPicture& shown, const ViewSettings& view_settings,
-                      double white, const Tone* like = nullptr);
 
-  Canvas canvas_;                   ///< the place of the first picture
-  Canvas seen_first_, seen_second_; ///< the parts of the panel that show the two pictures
-  double shift_ = 0;                ///< the value of shift()
-  ShownPicture shown_, beside_;     ///< what the current frame shows
-  ToneMappedPicture first_, second_;
-  std::string pixel_value_; ///< the text drawn last
+  PictureAreas areas_;
+  ShownPicture shown_, beside_; ///< what the current frame shows
+  PictureOnScreen first_, second_;
+  std::string pixel_value_;
 
   SceneOverlay overlay_;
   BarRows bars_;

@@ -4,7 +4,6 @@
 #include "preset/read.h"
 #include "scene/bvh.h"
 #include "scene/ray.h"
-#include "scene/scene.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -17,32 +16,17 @@
 namespace nephroid::ui {
 namespace {
 
-/// The map p -> linear p + offset, from an object's own coordinates to the preset's.
-struct Affine {
-  glm::dmat3 linear{1};
-  glm::dvec3 offset{0};
-};
-
-Affine affine(const preset::Transform& transform) {
-  glm::dmat3 scale(1);
-  for (int i = 0; i < 3; ++i) scale[i][i] = transform.scale[static_cast<std::size_t>(i)];
-  return {scene::rotation(transform.rotate_deg) * scale, to_vector(transform.translate)};
-}
-
 bool is_same_surface(const preset::Object& a, const preset::Object& b) {
   return a.mesh == b.mesh && a.shape == b.shape;
 }
 
 /// The box about all vertices, in the object's own coordinates.
 scene::Bounds box_of(const scene::Scene& scene, const scene::Object& object, const preset::Transform& transform) {
-  const Affine placed = affine(transform);
+  const Affine placed(transform);
   const glm::dmat3 back = glm::inverse(placed.linear);
   const glm::dvec3 shift = scene.origin - placed.offset;
-  glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
-  const auto add = [&](const glm::dvec3& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  };
+  scene::Bounds box;
+  const auto add = [&](const glm::dvec3& p) { box = scene::enclosing(box, {p, p}); };
   scene::for_each_corner_index(
       scene, object, [&](std::uint32_t vertex) { add(back * (glm::dvec3(scene.geometry.positions[vertex]) + shift)); });
   for (const scene::Ellipsoid& ellipsoid : scene::ellipsoids_of(scene, object)) {
@@ -55,7 +39,7 @@ scene::Bounds box_of(const scene::Scene& scene, const scene::Object& object, con
     add(centre - glm::sqrt(squares));
     add(centre + glm::sqrt(squares));
   }
-  return {low, high};
+  return box;
 }
 
 /// Moves the ray to the place that an object had when the scene was loaded, in the scene's coordinates. A hit is
@@ -63,7 +47,7 @@ scene::Bounds box_of(const scene::Scene& scene, const scene::Object& object, con
 Ray moved_back(const Ray& ray, const preset::Transform& now, const preset::Transform& loaded,
                const glm::dvec3& origin) {
   if (now == loaded) return {ray.origin - origin, ray.direction};
-  const Affine from = affine(now), to = affine(loaded);
+  const Affine from(now), to(loaded);
   const glm::dmat3 linear = to.linear * glm::inverse(from.linear);
   return {linear * (ray.origin - from.offset) + to.offset - origin, linear * ray.direction};
 }
@@ -88,11 +72,14 @@ Axes axes(const preset::Camera& camera) {
   return a;
 }
 
-nlohmann::ordered_json camera_fields(const preset::Preset& preset) {
-  return preset::as_json(preset).at("scene").at("camera");
-}
+preset::Json camera_fields(const preset::Preset& preset) { return preset::as_json(preset).at("scene").at("camera"); }
 
 } // namespace
+
+Affine::Affine(const preset::Transform& transform)
+    : linear(scene::rotation(transform.rotate_deg)), offset(to_vector(transform.translate)) {
+  for (int i = 0; i < 3; ++i) linear[i] *= transform.scale[static_cast<std::size_t>(i)];
+}
 
 std::optional<Point> Pinhole::to_screen(const glm::dvec3& p) const {
   const glm::dvec3 arm = p - position;
@@ -210,13 +197,12 @@ preset::Camera pan(const preset::Camera& camera, double right, double down) {
 }
 
 std::string camera_json(const preset::Preset& preset) {
-  return nlohmann::ordered_json{{"camera", camera_fields(preset)}}.dump(2) + "\n";
+  return preset::Json{{"camera", camera_fields(preset)}}.dump(2) + "\n";
 }
 
 std::string camera_settings(const preset::Preset& preset) {
-  const nlohmann::ordered_json fields = camera_fields(preset);
   std::string text;
-  for (const auto& [name, value] : fields.items())
+  for (const preset::Json fields = camera_fields(preset); const auto& [name, value] : fields.items())
     text += fmt::format("{}--set 'scene.camera.{}={}'", text.empty() ? "" : " ", name, value.dump());
   return text;
 }

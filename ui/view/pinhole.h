@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The preset's camera on the screen, in the preset's coordinates and double precision, without Dear ImGui. It maps
-// points of the scene to the screen and back to rays, however the picture is placed in its panel. It finds the object
-// under a point, by a ray through the loaded scene, with objects where the preset has them now. And it moves the camera
-// by the mouse.
+// points to the screen and back to rays, finds the object under a point, and is moved by the mouse.
 #pragma once
 #include "preset/preset.h"
 #include "run/prepare.h"
@@ -18,7 +16,14 @@ inline glm::dvec3 to_vector(const preset::Vec3& v) { return {v[0], v[1], v[2]}; 
 inline preset::Vec3 to_stored(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 struct Ray {
-  glm::dvec3 origin{0}, direction{0, 0, -1}; ///< of any length except 0
+  glm::dvec3 origin{0}, direction{0, 0, -1}; ///< the direction has any length except 0
+};
+
+/// The map p -> linear p + offset, from an object's own coordinates to the preset's.
+struct Affine {
+  explicit Affine(const preset::Transform& transform);
+  glm::dmat3 linear;
+  glm::dvec3 offset;
 };
 
 /// A pinhole camera, as scene::make_camera has it, and the place of its picture.
@@ -39,7 +44,6 @@ struct Pinhole {
 std::optional<Pinhole> make_pinhole(const preset::Camera& camera, const Placement& placement,
                                     const std::array<int, 2>& shown);
 
-/// The View's facts of a loaded scene.
 struct ViewedScene {
   std::shared_ptr<const run::LoadedScene> loaded;
   std::vector<preset::Object> objects; ///< as in the preset when it was loaded
@@ -57,8 +61,8 @@ std::optional<std::size_t> object_at(const ViewedScene& seen, const preset::Pres
 /// The box about an object before its transform; nothing where the loaded scene has another object there.
 std::optional<scene::Bounds> local_box(const ViewedScene* seen, const preset::Preset& preset, std::size_t object);
 
-/// The point that an object turns about and is scaled from, before its transform: a shape's own middle, or the middle
-/// of a mesh's box, because a mesh's origin may lie anywhere.
+/// What an object turns about and is scaled from, before its transform: a shape's own middle, or the middle of a mesh's
+/// box, because a mesh's origin may lie anywhere.
 glm::dvec3 pivot_of(const ViewedScene* seen, const preset::Preset& preset, std::size_t object);
 
 /// Moves the camera round its target: right_deg about the camera's up (positive: the camera goes to its right), then

@@ -20,16 +20,16 @@ struct Placement {
   }
 };
 
+/// A part of a panel on the screen.
 struct Canvas {
-  Point corner{0, 0}, size{0, 0}; ///< the panel's free part on the screen
+  Point corner{0, 0}, size{0, 0};
 };
 
 /// Sizes are in pixels, at least 1.
 Placement place(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture);
-/// The settings after zooming by factor; the picture's point under `screen` stays there. The scale stays in 1/64..256.
+/// The picture's point under `screen` stays there. The scale stays in 1/64..256.
 ViewSettings zoomed(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture,
                     const Point& screen, double factor);
-/// The settings after dragging the picture by `screen_delta`.
 ViewSettings dragged(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture,
                      const Point& screen_delta);
 /// The pixel under a point of the screen; nothing outside of the picture.

@@ -5,9 +5,6 @@
 #include "ui/view/bars.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
-
-#include <optional>
 
 namespace nephroid::ui {
 namespace {
@@ -72,7 +69,9 @@ std::optional<Rgb> value_at(const measure::Pixels& picture, const std::array<int
   return Rgb{picture.rgb[3 * *index], picture.rgb[3 * *index + 1], picture.rgb[3 * *index + 2]};
 }
 
-std::string text_of(const Rgb& value, double white, const char* format) {
+/// sign: "+" where plus signs are written, too.
+std::string text_of(const Rgb& value, double white, const char* sign = "") {
+  const std::string format = fmt::format("R {{:{0}.4g}}   G {{:{0}.4g}}   B {{:{0}.4g}}   Y {{:{0}.4g}} W/m2/sr", sign);
   return fmt::format(fmt::runtime(format), value[0], value[1], value[2], white * measure::luminance(value.data()));
 }
 
@@ -80,7 +79,7 @@ std::string text_of(const Rgb& value, double white, const char* format) {
 
 ShownPicture shown_picture(const Context& context) {
   ShownPicture shown;
-  if (const preset::Preset* preset = context.preset()) shown.size = preset->scene.camera.resolution;
+  shown.size = context.preset()->scene.camera.resolution;
   const Comparing& comparing = context.comparing;
   const Comparison& comparison = comparing.comparison();
   const auto source = comparing.source();
@@ -136,11 +135,9 @@ ShownPicture picture_beside(const Context& context) {
 
 std::string pixel_text(const Context& context, const std::array<int, 2>& pixel) {
   const auto source = context.comparing.source();
-  if (!source || !context.preset()) return {};
-  const double white = context.preset()->white.value_or(1);
-  constexpr const char* format = "R {:.4g}   G {:.4g}   B {:.4g}   Y {:.4g} W/m2/sr";
-  const auto text_in = [&](const std::optional<Rgb>& value) {
-    return value ? text_of(*value, white, format) : "outside of it";
+  if (!source) return {};
+  const auto text_in = [&](const std::optional<Rgb>& rgb) {
+    return rgb ? text_of(*rgb, context.white()) : "outside of it";
   };
   const HeldPicture held = context.comparing.picture();
   const auto value =
@@ -157,7 +154,7 @@ std::string pixel_text(const Context& context, const std::array<int, 2>& pixel) 
   if (!value || !other_value) return text;
   const Rgb difference{(*value)[0] - (*other_value)[0], (*value)[1] - (*other_value)[1],
                        (*value)[2] - (*other_value)[2]};
-  text += "\ndifference   " + text_of(difference, white, "R {:+.4g}   G {:+.4g}   B {:+.4g}   Y {:+.4g} W/m2/sr");
+  text += "\ndifference   " + text_of(difference, context.white(), "+");
   if (const auto map = fitting_map(context); comparison.difference && map && map->values)
     text += fmt::format("   {} {:.4g}", metric_name(map->of.metric),
                         (*map->values)[*index_in({other.pixels.width, other.pixels.height}, pixel)]);

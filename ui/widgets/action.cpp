@@ -13,7 +13,6 @@
 namespace nephroid::ui {
 namespace {
 
-/// Tooltip of an action: its help or, where it is disabled, the reason.
 void tooltip_of(const Action& action, bool enabled, const Context& context, bool with_keys) {
   std::string text = action.help;
   if (with_keys && action.shortcut) text += fmt::format(": {}", keys_of(action));

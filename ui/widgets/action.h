@@ -3,8 +3,6 @@
 #pragma once
 #include "ui/state/context.h"
 
-#include <span>
-
 namespace nephroid::ui {
 
 struct Action {
@@ -20,15 +18,14 @@ struct Action {
   std::string menu = {};                                        ///< the menu that lists it
 };
 
-/// The table of all actions: actions/table.cpp.
+/// All actions: actions/table.cpp.
 std::span<const Action> actions();
-/// Finds an action by its name; throws failed where there is none.
+/// Throws failed where there is no action of this name.
 const Action& action(const char* name);
 /// The action's keys as text; empty where it has none.
 const char* keys_of(const Action& action);
-/// A button that runs an action; grey where it is disabled, with help and shortcut as a tooltip.
+/// A button that runs an action; its tooltip has help, keys and, where it is disabled, the reason.
 void action_button(const char* name, const Context& context);
-/// The same as an entry of a menu.
 void action_item(const Action& action, const Context& context);
 
 } // namespace nephroid::ui

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A panel of the window reads its context, draws with Dear ImGui and pushes commands. Drawing needs no back end. A new
-// panel is a folder with its class, and a line in the table of panels.
+// A panel of the window reads its context, draws with Dear ImGui and pushes commands. Drawing needs no back end.
 #pragma once
-#include "ui/state/context.h"
+#include "ui/widgets/action.h"
+#include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
-
-#include <imgui.h>
-
-#include <string_view>
 
 namespace nephroid::run {
 struct LoadedScene;
@@ -20,21 +16,20 @@ class WavelengthAxis;
 class Panel : public Placed {
 public:
   virtual ~Panel() = default;
-  /// Draws inside of the panel's window. An exception becomes a message.
+  /// Draws inside of the panel's window. A preset is open, but for the panel Presets. An exception becomes a message.
   virtual void draw(const Context& context) = 0;
 
 protected:
   /// A number of the preset that is dragged, or typed after Ctrl and a click.
   struct Dragged {
-    std::string widget; ///< the name of its place
-    std::string label;  ///< the edit's label
+    std::string widget, label; ///< the name of its place; the edit's label
     double value, low, high;
     double step;        ///< the change per pixel of the mouse
     const char* format; ///< a format of printf
     const char* help;
     ImGuiSliderFlags flags = ImGuiSliderFlags_None; ///< added to AlwaysClamp
   };
-  /// Calls change(preset, value). A drag is one gesture.
+  /// Edits by change(preset, value). A drag is one gesture.
   template <class Change>
   void draw_dragged(const Context& context, Gestures& gestures, const Dragged& d, Change change) {
     double value = d.value;
@@ -70,7 +65,6 @@ struct PanelEntry {
   std::string_view front_for = "";
 };
 
-/// Makes a panel of class P, as an entry's `make`.
 template <class P>
 std::unique_ptr<Panel> make_panel([[maybe_unused]] WavelengthAxis& wavelengths) {
   if constexpr (std::is_constructible_v<P, WavelengthAxis&>)

@@ -12,8 +12,8 @@ namespace {
 void unregister_and_delete(ImTextureData* texture) {
   if (ImGui::GetCurrentContext()) {
     ImGui::UnregisterUserTexture(texture);
-    ImGui::GetPlatformIO().Textures.find_erase(
-        texture); // a back end goes through this list, which is made anew only with every frame
+    // A back end goes through this list, which is made anew only with every frame.
+    ImGui::GetPlatformIO().Textures.find_erase(texture);
   }
   IM_DELETE(texture);
 }
@@ -32,8 +32,7 @@ PictureTexture::~PictureTexture() {
 std::span<unsigned char> PictureTexture::edit(int width, int height) {
   free_retired();
   if (texture_ && (texture_->Width != width || texture_->Height != height)) {
-    texture_->WantDestroyNextFrame =
-        true; // the current frame may still draw with it, so the back end destroys it later
+    texture_->WantDestroyNextFrame = true; // the current frame may still draw with it
     retired_.push_back(std::exchange(texture_, nullptr));
   }
   if (!texture_) {

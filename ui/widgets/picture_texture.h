@@ -21,7 +21,7 @@ public:
   /// The texture's memory, 4 bytes per pixel, to be filled; the next frame uploads it. Sizes are at least 1.
   std::span<unsigned char> edit(int width, int height);
   bool empty() const { return texture_ == nullptr; }
-  /// The texture for ImDrawList::AddImage, after edit().
+  /// Called after edit().
   ImTextureRef ref() const;
   std::span<const unsigned char> pixels() const;
   /// Draws into the window, from corner to corner. `squares`: enlarged pixels appear as squares.

@@ -9,7 +9,6 @@
 #include <implot.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -69,7 +68,6 @@ PlotContext::~PlotContext() { ImPlot::DestroyContext(context_); }
 
 void PlotContext::follow_scale() {
   if (scale() == std::exchange(scale_, scale())) return;
-  const auto scaled = [&](ImVec2& size) { size = {size.x * scale_, size.y * scale_}; };
   ImPlotStyle style;
   style.PlotPadding = {4, 6};
   style.LegendPadding = {8, 8};
@@ -78,7 +76,7 @@ void PlotContext::follow_scale() {
   for (ImVec2* size :
        {&style.PlotPadding, &style.LabelPadding, &style.LegendPadding, &style.LegendInnerPadding, &style.LegendSpacing,
         &style.MajorTickLen, &style.MinorTickLen, &style.MousePosPadding, &style.PlotMinSize})
-    scaled(*size);
+    *size *= scale_;
   style.Colors[ImPlotCol_FrameBg] = {0, 0, 0, 0};
   style.Colors[ImPlotCol_PlotBg] = ImGui::ColorConvertU32ToFloat4(colour::surround);
   style.Colors[ImPlotCol_LegendBg] = ImGui::ColorConvertU32ToFloat4(colour::overlay);

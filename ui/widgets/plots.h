@@ -26,7 +26,7 @@ struct PlotArea {
   std::array<double, 4> screen{}; ///< x, y, width, height
   std::array<double, 2> x{0, 1}, y{0, 1};
 
-  /// The area of the current plot, after SetupFinish.
+  /// The current plot's area; called after SetupFinish.
   static PlotArea in_hand();
   /// The screen position of a point, on linear axes.
   std::array<double, 2> to_screen(const std::array<double, 2>& point) const {
@@ -67,7 +67,6 @@ public:
   void set_up(bool compact = false);
   /// Shows the whole range again, with a margin: the 401 wavelengths, and low_nm to high_nm.
   void show_all(double low_nm = 380, double high_nm = 780);
-  /// The ends of the shown range.
   double low_nm() const { return low_nm_; }
   double high_nm() const { return high_nm_; }
 

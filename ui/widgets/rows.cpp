@@ -2,23 +2,18 @@
 #include "ui/widgets/rows.h"
 
 #include "optics/wavelength.h"
-#include "preset/field.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 #include <implot.h>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {
 
 bool is_finite(const Row& row) { return std::isfinite(row[0]) && std::isfinite(row[1]); }
-
-double inside(double value, const preset::Bounds& bounds) { return std::clamp(value, bounds.low, bounds.high); }
 
 /// Rounds a sum or difference to what a person would write: 500.3 + 0.1 is 500.40000000000003, and 500.4 - 500.3 is
 /// less than 0.1.
@@ -34,9 +29,8 @@ std::string refusal(const std::vector<Row>& rows, const Row& row, const RowRules
   return fmt::format("another is less than {} nm from {:.6g} nm", rules.least_gap_nm, nm);
 }
 
-constexpr float point_radius = 5,
-                grab_radius = 9;              ///< pixels at scale 1, wider than the drawn point
-constexpr std::ptrdiff_t most_in_sight = 400; ///< more points would lie on each other
+constexpr float point_radius = 5, grab_radius = 9; ///< pixels at scale 1
+constexpr std::ptrdiff_t most_in_sight = 400;      ///< more points would lie on each other
 
 void draw_point(const Row& at, float radius, std::uint32_t colour) {
   ImDrawList& list = *ImPlot::GetPlotDrawList();
@@ -56,22 +50,22 @@ std::vector<Row> sorted_rows(std::vector<Row> rows) {
 
 void move_row(std::vector<Row>& rows, std::size_t index, const Row& to, const RowRules& rules) {
   if (index >= rows.size() || !is_finite(to)) return;
-  rows[index][1] = inside(to[1], rules.value);
+  rows[index][1] = std::clamp(to[1], rules.value.low, rules.value.high);
   const double low = index > 0 ? readable_nm(rows[index - 1][0] + rules.least_gap_nm) : preset::wavelength_bounds.low;
   const double high =
       index + 1 < rows.size() ? readable_nm(rows[index + 1][0] - rules.least_gap_nm) : preset::wavelength_bounds.high;
-  if (low <= high)
-    rows[index][0] = std::clamp(to[0], low, high); // neighbours in a file may be nearer than that: then it stays
+  if (low <= high) rows[index][0] = std::clamp(to[0], low, high); // neighbours in a file may be nearer
 }
 
 std::optional<std::size_t> add_row(std::vector<Row>& rows, Row row, const RowRules& rules) {
   if (!is_finite(row) || rows.size() >= preset::max_rows) return std::nullopt;
-  row = {inside(row[0], preset::wavelength_bounds), inside(row[1], rules.value)};
+  row = {std::clamp(row[0], preset::wavelength_bounds.low, preset::wavelength_bounds.high),
+         std::clamp(row[1], rules.value.low, rules.value.high)};
   const auto right = std::upper_bound(rows.begin(), rows.end(), row, before);
   const auto too_near = [&](const Row& a, const Row& b) { return readable_nm(b[0] - a[0]) < rules.least_gap_nm; };
   if (right != rows.begin() && too_near(*std::prev(right), row)) return std::nullopt;
   if (right != rows.end() && too_near(row, *right)) return std::nullopt;
-  const auto added = rows.insert(right, row);
+  const auto added = rows.insert(right, row); // before begin(), which it may move
   return static_cast<std::size_t>(added - rows.begin());
 }
 
@@ -194,9 +188,11 @@ RowGesture draw_row_buttons(const Row& added, const std::optional<std::size_t>& 
     gesture = {RowGesture::Kind::add, 0, added};
   ImGui::SameLine();
   ImGui::BeginDisabled(!marked);
+  const bool delete_pressed = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) &&
+                              !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(ImGuiKey_Delete, false);
   if (places.button("Remove", "remove",
                     "The point that was clicked last; Delete, or a right click on a point, does the same") ||
-      (marked && delete_pressed()))
+      (marked && delete_pressed))
     gesture = {RowGesture::Kind::remove, *marked, {}};
   ImGui::EndDisabled();
   return gesture;

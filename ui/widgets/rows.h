@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows of a wavelength and a value, by rising wavelength, that a person moves, adds and removes: the control points of
-// a dispersion, or the rows of a light's spectrum. This code changes the rows and draws them as points of a plot; a
-// panel puts them into its preset.
+// a dispersion, or the rows of a light's spectrum. This code draws and changes them; a panel puts them into its preset.
 #pragma once
 #include "preset/field.h"
 #include "ui/state/commands.h"
 #include "ui/widgets/widgets.h"
-
-#include <array>
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -27,8 +20,8 @@ struct RowRules {
 };
 
 std::vector<Row> sorted_rows(std::vector<Row> rows);
-/// Moves one row: it stays between its neighbours, and its value within the rules. A target that is not finite changes
-/// nothing; where neighbours leave no room the wavelength stays.
+/// The row stays between its neighbours, and its value within the rules. A target that is not finite changes nothing;
+/// where neighbours leave no room the wavelength stays.
 void move_row(std::vector<Row>& rows, std::size_t index, const Row& to, const RowRules& rules);
 /// Returns the new row's index. Adds nothing where a row is nearer than the least gap, the row is not finite, or there
 /// are as many as a preset may have.
@@ -42,8 +35,8 @@ double middle_of_widest_gap(const std::vector<Row>& rows);
 struct RowGesture {
   enum class Kind { none, take, move, let_go, add, remove };
   Kind kind = Kind::none;
-  std::size_t row = 0; ///< the row's index; unused by add
-  Row to{};            ///< the target of move and add, in the rows' units
+  std::size_t row = 0; ///< unused by add
+  Row to{};            ///< the target of move and add
 };
 
 /// The changed rows, and the label for command::Edit.
@@ -84,7 +77,6 @@ struct RowStyle {
 /// row cannot be clicked; the drag ends where rows are added or removed meanwhile.
 class RowHandles {
 public:
-  /// Draws the visible rows in the current plot.
   RowGesture draw(const std::vector<Row>& rows, const std::optional<std::size_t>& marked, const RowStyle& look);
   /// Called where the plot has no rows to edit.
   void leave() { *this = {}; }

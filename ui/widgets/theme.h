@@ -6,8 +6,6 @@
 
 #include <imgui.h>
 
-#include <array>
-
 namespace nephroid::ui {
 
 namespace colour {
@@ -36,7 +34,6 @@ void set_theme(float scale, Theme theme = Theme::dark);
 /// The scale of set_theme; sizes in pixels are multiplied by it.
 inline float scale() { return ImGui::GetStyle().FontScaleDpi; }
 
-/// A point or an extent in pixels.
 inline ImVec2 vec(const std::array<double, 2>& at) { return {static_cast<float>(at[0]), static_cast<float>(at[1])}; }
 
 } // namespace nephroid::ui

@@ -3,29 +3,11 @@
 
 #include "base/lower_case.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <iterator>
 #include <sstream>
 
 namespace nephroid::ui {
-namespace {
-
-int resize(ImGuiInputTextCallbackData* data) {
-  if (data->EventFlag != ImGuiInputTextFlags_CallbackResize) return 0;
-  auto* text = static_cast<std::string*>(data->UserData);
-  text->resize(static_cast<std::size_t>(data->BufTextLen));
-  data->Buf = text->data();
-  return 0;
-}
-
-} // namespace
-
-bool input_text(const char* label, const char* hint, std::string& text, int flags) {
-  return ImGui::InputTextWithHint(label, hint, text.data(), text.capacity() + 1,
-                                  flags | ImGuiInputTextFlags_CallbackResize, resize, &text);
-}
 
 void draw_text(std::uint32_t colour, const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
@@ -50,8 +32,7 @@ void tooltip(const std::string& text) { ImGui::SetItemTooltip("%s", text.c_str()
 void draw_hint(std::uint32_t colour, const ImVec2& corner, const ImVec2& size, const std::string& hint) {
   const float wrap = 0.9f * size.x;
   const ImVec2 extent = ImGui::CalcTextSize(hint.c_str(), nullptr, false, wrap);
-  const ImVec2 at{corner.x + (size.x - extent.x) / 2, corner.y + (size.y - extent.y) / 2};
-  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, colour, hint.c_str(), nullptr, wrap);
+  ImGui::GetWindowDrawList()->AddText(nullptr, 0, corner + (size - extent) / 2, colour, hint.c_str(), nullptr, wrap);
 }
 
 void cell(const std::string& text) {
@@ -72,17 +53,23 @@ bool has_words(const std::string& text, const std::string& words) {
                      [&](const std::string& word) { return lower_text.find(word) != std::string::npos; });
 }
 
-bool delete_pressed() {
-  return ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) && !ImGui::GetIO().WantTextInput &&
-         ImGui::IsKeyPressed(ImGuiKey_Delete, false);
+void same_line_if_room(float width) {
+  ImGui::SameLine();
+  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+}
+
+void draw_rows_in_sight(std::size_t count, const std::function<void(std::size_t)>& draw_row, float height) {
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(count), height);
+  while (clipper.Step())
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw_row(static_cast<std::size_t>(i));
 }
 
 void BarRows::bar(const std::function<void()>& draw) {
   const std::size_t index = next_++;
   if (index == widths_.size()) widths_.push_back(0);
-  const float gap = 2 * ImGui::GetFontSize();
-  const float end =
-      ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x; // each bar ends with the cursor at the left
+  const float gap = 2 * em();
+  const float end = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x; // the cursor is at the left
   if (index > 0 && widths_[index] > 0 && right_ + gap + widths_[index] <= end) ImGui::SameLine(0, gap);
   ImGui::BeginGroup();
   draw();
@@ -95,24 +82,6 @@ void WidgetPlaces::note(const std::string& widget, const std::string& help) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   places_[widget] = {(low.x + high.x) / 2, (low.y + high.y) / 2};
   if (!help.empty()) tooltip(help);
-}
-
-bool WidgetPlaces::button(const char* label, const std::string& widget, const std::string& help) {
-  const bool pressed = ImGui::Button(label);
-  note(widget, help);
-  return pressed;
-}
-
-bool WidgetPlaces::small_button(const char* label, const std::string& widget, const std::string& help) {
-  const bool pressed = ImGui::SmallButton(label);
-  note(widget, help);
-  return pressed;
-}
-
-bool WidgetPlaces::checkbox(const char* label, bool* on, const std::string& widget, const std::string& help) {
-  const bool changed = ImGui::Checkbox(label, on);
-  note(widget, help);
-  return changed;
 }
 
 Combo::Combo(const char* label, const std::string& shown, WidgetPlaces* places, std::string widget)

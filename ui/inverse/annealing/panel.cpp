@@ -16,8 +16,6 @@
 namespace nephroid::ui {
 namespace {
 
-float em() { return ImGui::GetFontSize(); }
-
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("-"); }
 
 /// Width and height of a picture with a side of `longest` pixels.

@@ -3,12 +3,10 @@
 
 #include "base/files.h"
 #include "optics/dispersion.h"
-#include "photons/clusters/clusters.h"
 #include "photons/clusters/scene_clusters.h"
 #include "scene/materials.h"
 #include "scene/scene.h"
 #include "spectral/settings.h"
-#include "ui/state/selection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,22 +47,10 @@ void make_lines(const optics::DispersionCurve& data, optics::Extrapolation outsi
   }
 }
 
-/// The dielectrics that objects are made of.
-std::vector<std::string> used_dielectrics(const preset::Preset& preset) {
-  std::vector<std::string> used = dielectrics(preset);
-  std::erase_if(used, [&](const std::string& name) {
-    return std::none_of(preset.scene.objects.begin(), preset.scene.objects.end(),
-                        [&](const preset::Object& object) { return object.material == name; });
-  });
-  return used;
-}
-
 /// theta2 = asin(sin theta1 / n) at theta1 = 45 degrees; 90 degrees beyond the critical angle.
 double angle_at_45_deg(double n) {
   return std::asin(std::min(1.0, std::numbers::sqrt2 / 2 / n)) * 180 / std::numbers::pi;
 }
-
-double mean_angle_deg(double n) { return photons::refraction_integral_deg2(n) / photons::last_angle_deg; }
 
 /// angle: of refraction, as a function of n, falling.
 template <class Angle>
@@ -133,7 +119,8 @@ ClusterFigures figures_of(photons::Clustering clustering, const optics::Spectrum
   ClusterFigures figures;
   figures.saving = static_cast<double>(optics::wavelength_count) / static_cast<double>(clustering.clusters.size());
   figures.at_45 = spread_of(clustering, n, angle_at_45_deg);
-  figures.mean_over_angles = spread_of(clustering, n, mean_angle_deg);
+  figures.mean_over_angles =
+      spread_of(clustering, n, [](double m) { return photons::refraction_integral_deg2(m) / photons::last_angle_deg; });
   figures.clustering = std::move(clustering);
   return figures;
 }
@@ -206,7 +193,8 @@ void DispersionModel::combine(const preset::Preset& preset) {
   clusters_of_run_.reset();
   const photons::Settings& settings = spectral::settings(preset);
   scene::Scene outline;
-  for (const std::string& name : used_dielectrics(preset)) {
+  for (const std::string& name : dielectrics(preset)) {
+    if (std::ranges::count(preset.scene.objects, name, &preset::Object::material) == 0) continue;
     update_curve(preset, name);
     const GlassCurve& glass = glasses_.at(name).curve;
     if (!glass.error.empty() || (settings.relight && glass.has_k))

@@ -11,8 +11,6 @@
 #include "preset/preset.h"
 #include "ui/widgets/rows.h"
 
-#include <map>
-
 namespace nephroid::ui {
 
 using ControlPoint = Row; ///< (nm, n)
@@ -26,7 +24,6 @@ inline constexpr RowRules point_rules{"control point", preset::index_bounds, 0.5
 std::vector<ControlPoint> sorted_points(const preset::Dispersion& dispersion);
 /// Control points, nothing else of `before` but its rule for wavelengths outside.
 preset::Dispersion with_points(const preset::Dispersion& before, std::vector<ControlPoint> points);
-/// The nearest place on a grid.
 ControlPoint snapped(ControlPoint point, ControlPoint step);
 
 struct FittedPoints {
@@ -50,8 +47,8 @@ struct GlassCurve {
 /// where: the field's FILE#/json/pointer, for messages. Whatever is wrong becomes the curve's error.
 GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const Place& where);
 
-/// By how much the refraction angle differs inside a cluster: between the rays of its highest and its lowest n, which
-/// all go the way of the mean. A cluster of one wavelength has none.
+/// How much the refraction angle differs inside a cluster: between the rays of its highest and its lowest n, which all
+/// go the way of the mean. A cluster of one wavelength has none.
 struct Spread {
   double mean_deg = 0;     ///< over the 401 wavelengths, each with its cluster's
   double greatest_deg = 0; ///< the largest of all clusters
@@ -104,7 +101,7 @@ private:
   void combine(const preset::Preset& preset);
 
   std::map<std::string, Glass> glasses_; ///< by material
-  preset::Preset preset_;                ///< what all is of,
+  preset::Preset preset_;                ///< what all is made for,
   std::string material_;                 ///< and the one that is shown
   double threshold_deg_ = 0;
   photons::ClusterMethod method_ = photons::ClusterMethod::optimal;

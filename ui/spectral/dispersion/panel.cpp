@@ -5,11 +5,8 @@
 #include "photons/describe_settings.h"
 #include "preset/choices.h"
 #include "spectral/settings.h"
-#include "ui/state/selection.h"
-#include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +76,7 @@ void DispersionPanel::follow(const Context& context) {
 }
 
 void DispersionPanel::draw_toolbar(const Context& context, const std::vector<std::string>& names) {
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
+  ImGui::SetNextItemWidth(9 * em());
   {
     Combo list("##material", shown_);
     for (const std::string& name : names)
@@ -123,11 +120,11 @@ void DispersionPanel::draw_points_row(const Context& context) {
 }
 
 void DispersionPanel::draw_plot(const Context& context) {
-  const float em = ImGui::GetFontSize(), free = ImGui::GetContentRegionAvail().y - ImGui::GetStyle().ItemSpacing.y;
-  const float below = below_plot_ > 0 ? below_plot_ : 11 * em;
+  const float free = ImGui::GetContentRegionAvail().y - ImGui::GetStyle().ItemSpacing.y;
+  const float below = below_plot_ > 0 ? below_plot_ : 11 * em();
   const bool absorbs = context.preset()->scene.materials.at(shown_).absorption;
   RowGesture gesture =
-      plot_.draw({&model_, points_, editor_.marked(), sorted_, absorbs}, axis_, std::max(free - below, 10 * em));
+      plot_.draw({&model_, points_, editor_.marked(), sorted_, absorbs}, axis_, std::max(free - below, 10 * em()));
   if (snap_) gesture.to = snapped(gesture.to, plot_.grid());
   follow_rows(context, gesture);
 }

@@ -5,14 +5,13 @@
 #include "ui/spectral/dispersion/model.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
-#include "ui/widgets/rows.h"
 
 namespace nephroid::ui {
 
 struct DispersionContents {
   const DispersionModel* model = nullptr; ///< outlives the call
   std::vector<ControlPoint> points;       ///< by rising wavelength; empty: nothing to drag
-  std::optional<std::size_t> selected;    ///< one of them
+  std::optional<std::size_t> selected;    ///< one of the points
   bool sorted = false;                    ///< the x axis is the rank by falling n instead of the wavelength
   bool absorbs = true;                    ///< whether k is used
 };
@@ -45,7 +44,6 @@ public:
   explicit DispersionPanel(WavelengthAxis& axis) : axis_(axis) {}
   void draw(const Context& context) override;
 
-  /// For tests: what was drawn last.
   const DispersionModel& model() const { return model_; }
   const DispersionPlot& plot() const { return plot_; }
 
@@ -72,7 +70,7 @@ private:
   bool sorted_ = false, snap_ = false;
   preset::Dispersion fitted_; ///< what "Make editable" made,
   std::string fitted_text_;   ///< and what it said about it
-  float below_plot_ = 0;      ///< height of what was drawn there last
+  float below_plot_ = 0;      ///< the height of what was drawn there last
 };
 
 } // namespace nephroid::ui

@@ -2,11 +2,8 @@
 #include "ui/spectral/dispersion/panel.h"
 
 #include "base/counted.h"
-#include "ui/widgets/theme.h"
-#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 #include <implot.h>
 
 #include <algorithm>
@@ -18,7 +15,7 @@ namespace nephroid::ui {
 namespace {
 
 constexpr ImU32 beyond = IM_COL32(0, 0, 0, 70); ///< over wavelengths that are not rendered
-constexpr double least_span = 1e-4;             ///< of the axis of n
+constexpr double least_span_of_n = 1e-4;
 constexpr double ranks_margin = 6;
 
 /// What is drawn at one place of the x axis: a wavelength where it stands, or in its rank.
@@ -56,7 +53,7 @@ std::array<double, 2> ends_of_n(const DispersionContents& contents, const std::v
   if (!contents.sorted)
     for (const ControlPoint& point : contents.points) take(point[0], point[1]);
   if (!(low <= high)) return {1, 2};
-  const double margin = std::max(0.1 * (high - low), least_span);
+  const double margin = std::max(0.1 * (high - low), least_span_of_n);
   return {low - 1.5 * margin, high + margin}; // more room below, where the bands are
 }
 
@@ -106,7 +103,7 @@ void draw_bands(const DispersionModel& model, const Columns& columns, int under_
   ImPlot::PopPlotClipRect();
 }
 
-/// Where nothing is rendered.
+/// Darkens where nothing is rendered.
 void shade_beyond() {
   const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
   const float left = ImPlot::PlotToPixels(optics::first_nm - 0.5, 0).x,
@@ -151,7 +148,7 @@ void draw_values(const DispersionModel& model, int wavelength) {
   ImGui::EndTooltip();
 }
 
-/// Its index, or -1; also while a button is held, when the person looks at something else.
+/// The wavelength's index; -1 where there is none or a button is held: then the person looks at something else.
 int wavelength_under_mouse(const Columns& columns) {
   const double column = ImPlot::IsPlotHovered() && !ImGui::IsAnyMouseDown()
                             ? std::round(ImPlot::GetPlotMousePos().x) - columns.x.front()
@@ -163,8 +160,8 @@ std::string point_text(const ControlPoint& point) { return fmt::format("{:.6g} n
 
 /// k is not negative; the axis goes on below 0 to keep its line off the bands' strip.
 int write_k(double value, char* text, int size, void*) {
-  return value < 0 ? std::snprintf(text, static_cast<std::size_t>(size), "%s", "")
-                   : std::snprintf(text, static_cast<std::size_t>(size), "%.2g", value);
+  return std::snprintf(text, static_cast<std::size_t>(size), "%s",
+                       value < 0 ? "" : fmt::format("{:.2g}", value).c_str());
 }
 
 /// The axis of k, at the right.

@@ -7,7 +7,6 @@
 #include "optics/spectrum.h"
 #include "photons/clusters/scene_clusters.h"
 #include "photons/effort/effort.h"
-#include "photons/effort/importance.h"
 #include "scene/materials.h"
 #include "spectral/settings.h"
 #include "tracing/omissions.h"
@@ -18,8 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <numeric>
 #include <tuple>
 
 namespace nephroid::ui {
@@ -79,7 +76,7 @@ void read_materials(const preset::Preset& preset, scene::Scene& outline) {
       throw bad_input({}, fmt::format("there is no material '{}'", object.material));
     scene::Object scene_object;
     scene_object.material = static_cast<int>(std::distance(preset.scene.materials.begin(), found));
-    scene_object.triangle_count = 1; // of those that nobody looks at here
+    scene_object.triangle_count = 1; // nobody looks at it here
     outline.objects.push_back(scene_object);
   }
 }
@@ -114,8 +111,9 @@ std::shared_ptr<const SeenByGlass> SeenByGlass::of(const preset::Preset& preset,
 }
 
 std::int64_t Spectra::iterations() const {
-  return std::accumulate(clusters.begin(), clusters.end(), std::int64_t{0},
-                         [](std::int64_t sum, const ClusterWork& cluster) { return sum + cluster.iterations; });
+  std::int64_t sum = 0;
+  for (const ClusterWork& cluster : clusters) sum += cluster.iterations;
+  return sum;
 }
 
 std::int64_t Spectra::brute_force() const { return wavelength_count * passes; }
@@ -186,8 +184,8 @@ void SpectraMaker::make_groups(const preset::Preset& now) {
   groups_.clear();
   groups_error_.clear();
   if (!materials_error_.empty()) return;
-  if (spectral::settings(now)
-          .relight) { // they hang on the lengths of paths in what absorbs, which the outline does not know
+  // With relight they hang on the lengths of paths in what absorbs, which the outline does not know.
+  if (spectral::settings(now).relight) {
     if (seen_ && seen_->materials == spectra_.materials &&
         grouping(seen_->settings) == grouping(spectral::settings(now)))
       groups_ = seen_->clusters;

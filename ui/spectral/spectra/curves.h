@@ -17,7 +17,7 @@ struct SeenByGlass {
   std::vector<std::string> materials;      ///< names of Scene::materials, in whose order the shares are
   std::optional<scene::Light> environment; ///< where it is a light
   photons::ImportanceGeometry importance_geometry;
-  photons::Settings settings;             ///< of the run,
+  photons::Settings settings;             ///< the run's,
   std::vector<std::vector<int>> clusters; ///< and what it is grouped into by them
   bool operator==(const SeenByGlass&) const = default;
 
@@ -38,7 +38,6 @@ struct ReflectanceCurve {
   std::array<double, 3> srgb{}; ///< 0..1, encoded: its colour under D65
 };
 
-/// A cluster and its iterations after all passes of the preset.
 struct ClusterWork {
   std::vector<int> wavelengths; ///< indices, rising
   double importance = 0;        ///< 0..1
@@ -47,15 +46,15 @@ struct ClusterWork {
 
 struct Spectra {
   std::vector<LightCurve> lights;             ///< one a light of the preset
-  std::vector<ReflectanceCurve> reflectances; ///< of the materials that objects use and that have one
-  photons::WavelengthImportance importance;   ///< of the preset's effort; all 0 where why_no_u is not empty
+  std::vector<ReflectanceCurve> reflectances; ///< one a material that objects use and that has one
+  photons::WavelengthImportance importance;   ///< by the preset's effort; all 0 where why_no_u is not empty
   std::string why_no_u;                       ///< why there is none, a sentence for a person
   std::vector<ClusterWork> clusters;          ///< empty where there are none; ordered by their smallest wavelength
   std::array<int, optics::wavelength_count> cluster_of{}; ///< index into clusters; -1: of none
   std::vector<std::string> materials;                     ///< every one: what Surrounding::material points into
 
   std::int64_t passes = 0;           ///< N: of the preset's stop, or preset::default_passes
-  std::int64_t iterations() const;   ///< of all clusters together
+  std::int64_t iterations() const;   ///< the sum over clusters
   std::int64_t brute_force() const;  ///< 401 N
   std::int64_t equal_effort() const; ///< N for each cluster
 };
@@ -67,7 +66,7 @@ public:
   /// one changed.
   const Spectra& update(const preset::Preset& preset, const std::shared_ptr<const SeenByGlass>& seen);
   const Spectra& spectra() const { return spectra_; }
-  /// How often anything was made anew.
+  /// How often anything was made anew, for tests.
   std::uint64_t updates() const { return updates_; }
 
 private:

@@ -2,10 +2,8 @@
 #include "ui/spectral/spectra/curves.h"
 
 #include "base/error.h"
-#include "optics/wavelength.h"
 #include "preset/field.h"
 #include "scene/materials.h"
-#include "ui/state/selection.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,8 @@
 
 #include "base/counted.h"
 #include "preset/choices.h"
-#include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,14 +13,6 @@ namespace nephroid::ui {
 namespace {
 
 constexpr std::size_t most_seen = 6; ///< materials around the glass that the table shows without scrolling
-
-float em() { return ImGui::GetFontSize(); }
-
-/// Goes on in the line where `width` still fits in it.
-void same_line_if_room(float width) {
-  ImGui::SameLine();
-  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
-}
 
 /// A box with a piece of its curve: the switches are the plot's legend. first: it begins a line.
 bool draw_switch(const std::string& name, std::uint32_t colour, bool& on, bool first = false) {
@@ -197,7 +187,7 @@ void SpectraPanel::draw_surroundings() const {
   for (int column = 0; column < 4; ++column) {
     ImGui::TableSetColumnIndex(column);
     ImGui::TableHeader(ImGui::TableGetColumnName(column));
-    ImGui::SetItemTooltip("%s", help[static_cast<std::size_t>(column)]);
+    tooltip(help[static_cast<std::size_t>(column)]);
   }
   for (const photons::Surrounding& seen : s.importance.surroundings) {
     ImGui::TableNextRow();

@@ -6,9 +6,6 @@
 #include "ui/spectral/spectra/curves.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
-#include "ui/widgets/theme.h"
-
-#include <set>
 
 namespace nephroid::ui {
 
@@ -23,10 +20,8 @@ namespace spectra_colour {
 inline constexpr std::uint32_t light = IM_COL32(255, 206, 112, 255), luminosity = IM_COL32(132, 204, 146, 255);
 inline constexpr std::uint32_t u = IM_COL32(206, 158, 255, 255); ///< most walls are white
 inline constexpr std::uint32_t iterations = colour::accent;
-inline constexpr std::uint32_t rim =
-    IM_COL32(132, 132, 132, 255); ///< about what is in a dark colour, so that it is seen on the plot
+inline constexpr std::uint32_t rim = IM_COL32(132, 132, 132, 255); ///< about a dark colour, to be seen on the plot
 bool is_dark(std::uint32_t colour);
-/// As bytes for the display.
 std::uint32_t of(const std::array<double, 3>& srgb);
 } // namespace spectra_colour
 
@@ -68,7 +63,6 @@ public:
   explicit SpectraPanel(WavelengthAxis& axis) : axis_(axis) {}
   void draw(const Context& context) override;
 
-  /// For tests: what was drawn last, and the middle of a widget on the screen; nothing where there is no such widget.
   const SpectraMaker& maker() const { return maker_; }
   const SpectraPlot& plot() const { return plot_; }
 
@@ -90,7 +84,7 @@ private:
   SpectraSwitches switches_;
   Gestures gestures_{title};
   RowEditor editor_{gestures_};
-  std::string source_;             ///< the preset that light_ is of
+  std::string source_;             ///< the preset of light_
   std::size_t light_ = 0;          ///< the one that is edited
   preset::LightSpectrum spectrum_; ///< its spectrum, rows sorted
 };

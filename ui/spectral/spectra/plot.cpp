@@ -2,10 +2,8 @@
 #include "ui/spectral/spectra/panel.h"
 
 #include "optics/colour.h"
-#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 #include <implot.h>
 
 #include <algorithm>
@@ -35,8 +33,8 @@ namespace {
 using optics::wavelength_count;
 using optics::wavelength_nm;
 
-constexpr double top = 1.1;         ///< of the upper axis: room to drag the largest point up
-constexpr float curves_part = 0.6f; ///< of the height, where both plots are shown
+constexpr double top = 1.1;         ///< the upper axis' end: room to drag the largest point up
+constexpr float curves_part = 0.6f; ///< the curves' part of the height where both plots are shown
 constexpr ImPlotFlags plot_flags = ImPlotFlags_NoLegend | ImPlotFlags_NoBoxSelect;
 
 ImPlotSpec filled(ImPlotSpec spec) {
