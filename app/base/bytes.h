@@ -54,7 +54,7 @@ private:
 /// Reads bytes in memory, which outlive it. `where` is what an error calls them.
 class StoredBytes final : public ByteSource {
 public:
-  StoredBytes(std::span<const std::byte> bytes, Place where) : bytes_(bytes), where_(std::move(where)) {}
+  StoredBytes(std::span<const std::byte> bytes, Location where) : bytes_(bytes), where_(std::move(where)) {}
   void read(std::span<std::byte> into) override {
     if (into.size() > bytes_.size()) throw bad_input(where_, "is cut short");
     if (!into.empty()) std::memcpy(into.data(), bytes_.data(), into.size());
@@ -64,7 +64,7 @@ public:
 
 private:
   std::span<const std::byte> bytes_;
-  Place where_;
+  Location where_;
 };
 
 /// Saves or loads a job's state. A class with state writes one function state(State&), which serves both ways.

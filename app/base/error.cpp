@@ -17,15 +17,15 @@ std::string joined(std::string what, const std::string& expected, const std::str
   return on_one_line(what);
 }
 
-std::string line_of(const Place& place, const std::string& text) {
-  const std::string where = place.text();
+std::string line_of(const Location& location, const std::string& text) {
+  const std::string where = location.text();
   return where.empty() ? text : on_one_line(where) + ": " + text;
 }
 
 } // namespace
 
-Error::Error(ErrorKind kind, Place place, std::string what, std::string expected, std::string remedy)
-    : std::runtime_error(line_of(place, joined(what, expected, remedy))), kind_(kind), place_(std::move(place)),
+Error::Error(ErrorKind kind, Location location, std::string what, std::string expected, std::string remedy)
+    : std::runtime_error(line_of(location, joined(what, expected, remedy))), kind_(kind), location_(std::move(location)),
       text_(joined(std::move(what), expected, remedy)) {}
 
 std::string pointer_key(std::string_view key) {
@@ -34,11 +34,11 @@ std::string pointer_key(std::string_view key) {
   return escaped;
 }
 
-Place Place::operator/(std::string_view key) const {
+Location Location::operator/(std::string_view key) const {
   return {name, pointer.value_or("").append("/").append(pointer_key(key))};
 }
 
-std::string Place::text() const {
+std::string Location::text() const {
   std::string text = name;
   if (pointer) text.append("#").append(*pointer);
   for (const std::size_t number : {line, column})

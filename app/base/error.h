@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one kind of error of the whole program: what went wrong, where, and what to do, as one line.
 #pragma once
-#include "base/place.h"
+#include "base/location.h"
 
 #include <stdexcept>
 
@@ -14,32 +14,32 @@ enum class ErrorKind { failed = 1, bad_input = 2, no_device = 3, interrupted = 1
 class Error : public std::runtime_error {
 public:
   /// what: what is wrong. expected, remedy: what is expected and what to do; either may be empty.
-  Error(ErrorKind kind, Place place, std::string what, std::string expected = {}, std::string remedy = {});
+  Error(ErrorKind kind, Location location, std::string what, std::string expected = {}, std::string remedy = {});
 
   ErrorKind kind() const { return kind_; }
   int exit_code() const { return static_cast<int>(kind_); }
-  const Place& place() const { return place_; }
+  const Location& location() const { return location_; }
   /// "PLACE: what is wrong; what is expected; what to do", always one line, without the program's name.
   std::string line() const { return what(); }
   /// The line without "PLACE: ".
   const std::string& text() const { return text_; }
 
-  Error at(Place place) const { return Error(kind_, std::move(place), text_); }
+  Error at(Location location) const { return Error(kind_, std::move(location), text_); }
   /// The same error with a note at the end of its line.
-  Error noting(std::string note) const { return Error(kind_, place_, text_, std::move(note)); }
+  Error noting(std::string note) const { return Error(kind_, location_, text_, std::move(note)); }
 
 private:
   ErrorKind kind_;
-  Place place_;
+  Location location_;
   std::string text_;
 };
 
-inline Error bad_input(Place place, std::string what, std::string expected = {}, std::string remedy = {}) {
-  return Error(ErrorKind::bad_input, std::move(place), std::move(what), std::move(expected), std::move(remedy));
+inline Error bad_input(Location location, std::string what, std::string expected = {}, std::string remedy = {}) {
+  return Error(ErrorKind::bad_input, std::move(location), std::move(what), std::move(expected), std::move(remedy));
 }
 
-inline Error failed(Place place, std::string what, std::string expected = {}, std::string remedy = {}) {
-  return Error(ErrorKind::failed, std::move(place), std::move(what), std::move(expected), std::move(remedy));
+inline Error failed(Location location, std::string what, std::string expected = {}, std::string remedy = {}) {
+  return Error(ErrorKind::failed, std::move(location), std::move(what), std::move(expected), std::move(remedy));
 }
 
 } // namespace nephroid

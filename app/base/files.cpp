@@ -294,7 +294,7 @@ FileLock lock_open_file(int descriptor, bool alone) {
   return nullptr;
 }
 
-FileNotFound::FileNotFound(Place where, const std::string& name, const std::string& looked_in)
+FileNotFound::FileNotFound(Location where, const std::string& name, const std::string& looked_in)
     : Error(ErrorKind::bad_input, std::move(where), fmt::format("'{}' not found", name), "looked in " + looked_in),
       name_(name), looked_in_(looked_in) {}
 
@@ -309,7 +309,7 @@ void FileFinder::add(fs::path folder) {
   if (std::find(folders_.begin(), folders_.end(), folder) == folders_.end()) folders_.push_back(std::move(folder));
 }
 
-fs::path FileFinder::find(const std::string& name, const Place& where) const {
+fs::path FileFinder::find(const std::string& name, const Location& where) const {
   if (name.empty()) throw bad_input(where, "the file name is empty");
   std::string other_kind; // has the name but cannot be read; a file of that name in a later folder still counts
   const auto is_file = [&](const fs::path& path) {

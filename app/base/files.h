@@ -64,7 +64,7 @@ FileLock lock_open_file(int descriptor, bool alone = true);
 class FileNotFound : public Error {
 public:
   /// looked_in: the folders searched, joined by commas.
-  FileNotFound(Place where, const std::string& name, const std::string& looked_in);
+  FileNotFound(Location where, const std::string& name, const std::string& looked_in);
   const std::string& name() const { return name_; }
   const std::string& looked_in() const { return looked_in_; }
 
@@ -78,7 +78,7 @@ public:
   explicit FileFinder(std::filesystem::path beside = {});
   /// The first existing match; an absolute name is its own match. Throws FileNotFound at `where`, or bad_input if the
   /// match is no regular file.
-  std::filesystem::path find(const std::string& name, const Place& where) const;
+  std::filesystem::path find(const std::string& name, const Location& where) const;
   const std::vector<std::filesystem::path>& folders() const { return folders_; }
 
 private:

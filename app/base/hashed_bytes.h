@@ -68,7 +68,7 @@ private:
 class HashedSource final : public ByteSource {
 public:
   /// where: the name in errors. behind: number of bytes at the end of `from` that do not count, such as the hash.
-  HashedSource(ByteSource& from, Place where, std::uint64_t behind = 0)
+  HashedSource(ByteSource& from, Location where, std::uint64_t behind = 0)
       : from_(from), where_(std::move(where)), behind_(behind) {}
   void read(std::span<std::byte> into) override {
     if (into.size() > left()) throw bad_input(where_, "is cut short");
@@ -80,7 +80,7 @@ public:
 
 private:
   ByteSource& from_;
-  Place where_;
+  Location where_;
   std::uint64_t behind_;
   PieceHash hash_;
 };

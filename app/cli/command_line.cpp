@@ -65,7 +65,7 @@ const CLI::App& erring_app(const CLI::App& program) {
 /// CLI11's errors in the program's own form, with the nearest name for an unknown one.
 Error usage_error(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App& app = erring_app(program);
-  const Place where = app.get_parent() ? app.get_name() : "";
+  const Location where = app.get_parent() ? app.get_name() : "";
   const std::string see = "see nephroid " + (app.get_parent() ? app.get_name() + " " : std::string()) + "--help";
   const std::vector<std::string> extras = program.remaining(true);
   for (const std::string& extra : extras) // before missing arguments: a mistyped option often explains those

@@ -44,7 +44,7 @@ Error no_device_error();
 /// A kernel source that does not compile. line() has the first error at FILE:LINE; log() is the compiler's whole log.
 class BuildError : public Error {
 public:
-  BuildError(Place where, std::string what, std::string log);
+  BuildError(Location where, std::string what, std::string log);
   const std::string& log() const { return log_; }
 
 private:

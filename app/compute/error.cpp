@@ -55,7 +55,7 @@ std::string error_name(cl_int code) {
 #undef NEPHROID_NAME
 }
 
-Error call_failed(const cl::Error& error, const Place& where) {
+Error call_failed(const cl::Error& error, const Location& where) {
   const std::string what = fmt::format("{} gave {}", error.what(), error_name(error.err()));
   if (const std::string problem = kernel_cache_problem(); !problem.empty())
     return failed(where, what, problem, "free space there or set POCL_CACHE_DIR to a folder that can be written");
@@ -64,7 +64,7 @@ Error call_failed(const cl::Error& error, const Place& where) {
 
 std::string megabytes(std::uint64_t bytes) { return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6); }
 
-Error buffers_failed(const cl::Error& error, const Place& where, const DeviceInfo& device,
+Error buffers_failed(const cl::Error& error, const Location& where, const DeviceInfo& device,
                      std::vector<const BufferState*> buffers) {
   const cl_int code = error.err();
   if (code != CL_MEM_OBJECT_ALLOCATION_FAILURE && code != CL_OUT_OF_RESOURCES && code != CL_OUT_OF_HOST_MEMORY &&
@@ -84,7 +84,7 @@ Error buffers_failed(const cl::Error& error, const Place& where, const DeviceInf
 
 } // namespace detail
 
-BuildError::BuildError(Place where, std::string what, std::string log)
+BuildError::BuildError(Location where, std::string what, std::string log)
     : Error(ErrorKind::failed, std::move(where), std::move(what)), log_(std::move(log)) {}
 
 } // namespace nephroid::compute

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string source_text(const fs::path& folder, const std::string& file, const Place& where) {
+std::string source_text(const fs::path& folder, const std::string& file, const Location& where) {
   if (!folder.empty()) {
     if (!fs::exists(folder / file))
       throw failed(where, fmt::format("there is no kernel source {}", (folder / file).string()));
@@ -50,7 +50,7 @@ struct Joiner {
   std::set<std::string> included = {};
   std::string text = {};
 
-  void add(const std::string& file, const Place& where) {
+  void add(const std::string& file, const Location& where) {
     if (!included.insert(file).second) return;
     std::istringstream lines(source_text(folder, file, where));
     text += fmt::format("#line 1 \"{}\"\n", file);
@@ -62,7 +62,7 @@ struct Joiner {
         text += line + '\n';
         continue;
       }
-      add(other, Place(file, number));
+      add(other, Location(file, number));
       text += fmt::format("#line {} \"{}\"\n", number + 1, file);
     }
   }
@@ -92,7 +92,7 @@ std::string compiler_options(const DeviceInfo& device, const Defines& defines, c
 }
 
 /// Splits a line of the compiler's log into place and message; nothing if it names no place.
-std::optional<std::pair<Place, std::string>> located(std::string line) {
+std::optional<std::pair<Location, std::string>> located(std::string line) {
   for (const std::string_view word : {"fatal error: ", "error: "})
     if (const std::size_t at = line.find(word); at != std::string::npos) line.erase(at, word.size());
   std::array<char, 256> file{};
@@ -101,7 +101,7 @@ std::optional<std::pair<Place, std::string>> located(std::string line) {
   if (std::sscanf(line.c_str(), " %255[^: \t]:%9u:%u: %n", file.data(), &number, &column, &end) < 3)
     std::sscanf(line.c_str(), " %255[^: \t]:%9u: %n", file.data(), &number, &end);
   if (end == 0) return std::nullopt;
-  return std::pair{Place(file.data(), number), line.substr(static_cast<std::size_t>(end))};
+  return std::pair{Location(file.data(), number), line.substr(static_cast<std::size_t>(end))};
 }
 
 /// The log's first error. Compilers write "trace.cl:12:5: error: ...", PoCL 3 "error: trace.cl:12:5: ...".

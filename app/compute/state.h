@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What compute.h hides: OpenCL's objects, and how a failed call becomes an Error. Private to this folder.
 #pragma once
-#include "base/place.h"
+#include "base/location.h"
 #include "compute/compute.h"
 
 #include <functional>
@@ -68,10 +68,10 @@ struct BufferState {
 std::string error_name(cl_int code);
 
 /// Error(failed) at `where` for a call that failed. It names an unusable kernel cache, which PoCL does not.
-Error call_failed(const cl::Error& error, const Place& where);
+Error call_failed(const cl::Error& error, const Location& where);
 
 /// The error of a call over buffers. If memory ran out, it names the largest of them and what to do.
-Error buffers_failed(const cl::Error& error, const Place& where, const DeviceInfo& device,
+Error buffers_failed(const cl::Error& error, const Location& where, const DeviceInfo& device,
                      std::vector<const BufferState*> buffers);
 
 std::string megabytes(std::uint64_t bytes);

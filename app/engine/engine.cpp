@@ -28,7 +28,7 @@ const Engine& engine_of(const preset::Preset& preset) {
 
 void require_engine(const preset::Preset& preset, const Engine& engine, std::string_view lacks) {
   if (&engine.settings() == &preset.settings.type()) return;
-  throw bad_input(Place(preset.source, "/engine"), fmt::format("is '{}', which {}", preset.settings.engine(), lacks),
+  throw bad_input(Location(preset.source, "/engine"), fmt::format("is '{}', which {}", preset.settings.engine(), lacks),
                   fmt::format("expected '{}'", name_of(engine)), "choose a preset of that engine");
 }
 

@@ -133,7 +133,7 @@ void read_bands(const fs::path& file, const std::function<void(const Band&)>& us
   read_or_refuse(file, [&] { module().read_bands(file, use); });
 }
 
-Image text_picture(const std::string& text, int height, const Place& where) {
+Image text_picture(const std::string& text, int height, const Location& where) {
   constexpr const char *font = "DejaVuSans-Bold", *file = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
   try {
     // OpenImageIO 2.5 finds no name in Debian's folders of fonts.

@@ -41,7 +41,7 @@ void read_bands(const std::filesystem::path& file, const std::function<void(cons
 
 /// The words in a bold font, white on black: one channel, 0..1, cut to the words; height: of a letter, about, in
 /// pixels. Throws bad_input at `where` if the font is missing or there is nothing to draw.
-Image text_picture(const std::string& text, int height, const Place& where);
+Image text_picture(const std::string& text, int height, const Location& where);
 
 struct Rgb {
   std::vector<float> values; ///< 3 a pixel, row 0 at the top, as the file has them

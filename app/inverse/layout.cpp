@@ -65,7 +65,7 @@ std::array<glm::dvec2, 16> farthest_lit(const Layout& layout, const Target& targ
 /// Free heights leave this part of the thickness, and of the way to the nearest receiver.
 constexpr double spared = 0.1;
 
-double band_of(const Settings& s, const Place& own) {
+double band_of(const Settings& s, const Location& own) {
   double band = std::numeric_limits<double>::infinity();
   if (s.heights == Settings::Heights::free)
     band = (1 - spared) * std::min(s.thickness_mm, s.receivers.front().distance_mm);
@@ -81,7 +81,7 @@ double band_of(const Settings& s, const Place& own) {
 }
 
 /// Refuses constraints that keep light within the cell that it would reach straight on.
-void check_constraints(const Layout& l, const Settings& s, const Place& own) {
+void check_constraints(const Layout& l, const Settings& s, const Location& own) {
   const double slope = std::min(l.cell().x, l.cell().y) / l.distances.back();
   if (usable_slope(l) >= slope || usable_slope(l.n) < slope) return;
   const double needed =
@@ -102,7 +102,7 @@ void check_constraints(const Layout& l, const Settings& s, const Place& own) {
       too_shallow ? "choose a deeper relief or more facets" : "choose a larger angle or a receiver further away");
 }
 
-void check_tool(const Layout& l, const Settings& s, const Place& own) {
+void check_tool(const Layout& l, const Settings& s, const Location& own) {
   if (!s.tool_radius_mm) return;
   const double width = 2 * *s.tool_radius_mm;
   if (width > std::min(l.size.x, l.size.y))
@@ -121,7 +121,7 @@ void check_tool(const Layout& l, const Settings& s, const Place& own) {
 }
 
 /// Refuses cells at which the solid, which turns facets a little, cannot aim.
-void check_aim(const Layout& l, const Place& own) {
+void check_aim(const Layout& l, const Location& own) {
   const double cell = std::min(l.cell().x, l.cell().y), turn = std::abs(l.n - 1) * corners_join,
                last = l.distances.back();
   if (last * turn <= cell / 2) return;
@@ -134,9 +134,9 @@ void check_aim(const Layout& l, const Place& own) {
 }
 
 /// Refuses facets that could cut the object in two or reach the nearest receiver.
-void check_room(const Layout& l, const Place& own) {
+void check_room(const Layout& l, const Location& own) {
   const double relief = most_relief(l);
-  const auto refuse = [&](const Place& where, double value, const char* what) {
+  const auto refuse = [&](const Location& where, double value, const char* what) {
     if (value > relief) return;
     throw bad_input(where,
                     fmt::format("is {} mm, and facets of {:.4g} x {:.4g} mm can reach {:.4g} mm from their middle",
@@ -175,7 +175,7 @@ std::optional<std::vector<glm::dvec2>> offsets_of(const Settings& s) {
 
 Layout make_layout(const preset::Preset& preset) {
   const Settings& s = settings(preset);
-  const Place own = Place(preset.source) / "inverse";
+  const Location own = Location(preset.source) / "inverse";
   const glm::dvec2 size(s.size_mm[0], s.size_mm[1]);
   const glm::ivec2 facets(s.facets[0], s.facets[1]);
   const Refraction refraction = make_refraction(preset);
@@ -236,7 +236,7 @@ void check_reach(const Layout& layout, const std::vector<Target>& targets, const
     double far = distance;
     while (far < 1e7 && turn(place, far) > limit) far *= 1.01;
     throw bad_input(
-        Place(preset.source) / "inverse" / "receivers" / j / "distance_mm",
+        Location(preset.source) / "inverse" / "receivers" / j / "distance_mm",
         fmt::format("light must reach ({:.4g}, {:.4g}) mm over {:.4g} mm, a turn by a slope of {:.3g}", place.x,
                     place.y, distance, turn(place, distance)),
         fmt::format("{} {:.3g} at most", limits, limit),

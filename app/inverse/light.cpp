@@ -98,7 +98,7 @@ Layout with_lamp(Layout layout, double distance, const std::array<double, 2>& of
   return layout;
 }
 
-Layout tilted(const Layout& layout, const Light& light, const Place& where) {
+Layout tilted(const Layout& layout, const Light& light, const Location& where) {
   if (light.tilt_deg == 0) return layout; // light straight on casts no shadow, whatever a facet can do with it
   const double most = glm::degrees(std::asin(std::min(1.0, layout.n)));
   if (std::abs(light.tilt_deg) >= most)
@@ -115,7 +115,7 @@ Layout tilted(const Layout& layout, const Light& light, const Place& where) {
   return with_tilt(layout, light.tilt_deg, light.turn_deg);
 }
 
-Layout lit_by_lamp(const Layout& layout, const Light& light, const Place& where) {
+Layout lit_by_lamp(const Layout& layout, const Light& light, const Location& where) {
   if (light.distance_mm <= 0)
     throw bad_input(where, fmt::format("is {} mm, and the light would stand behind the front", light.distance_mm),
                     "expected more than 0 mm");
@@ -150,7 +150,7 @@ Incoming incoming_at(const Layout& layout, const glm::dvec2& middle) {
   return in;
 }
 
-Illumination make_illumination(Layout layout, const Light& light, const Place& where) {
+Illumination make_illumination(Layout layout, const Light& light, const Location& where) {
   layout = light.type == Light::Type::point ? lit_by_lamp(layout, light, where / "distance_mm")
                                             : tilted(layout, light, where / "tilt_deg");
   layout.light.facets = light_on_facets(layout);

@@ -7,7 +7,7 @@ namespace nephroid::inverse {
 
 /// The illumination of a layout whose light is not known yet. Throws bad_input, naming a tilt or distance that works,
 /// for light from behind the front, where facets would stand in each other's light, and where none reaches a facet.
-Illumination make_illumination(Layout layout, const Light& light, const Place& where);
+Illumination make_illumination(Layout layout, const Light& light, const Location& where);
 
 /// Illumination::facets, where sines and lamp are known. No `power` is above 0 where no light reaches any facet.
 std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout);

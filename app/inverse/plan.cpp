@@ -89,7 +89,7 @@ InversePlan make_plan(const preset::Preset& preset) {
   plan.design = std::make_shared<const Design>(preset);
   const Layout& l = plan.design->layout;
   const std::uint64_t triangles = plan.triangles = triangles_of(s, l);
-  if (stl_bytes(triangles) > most_stl_bytes) refuse_mesh(Place(preset.source) / "inverse", s.mesh_error, triangles);
+  if (stl_bytes(triangles) > most_stl_bytes) refuse_mesh(Location(preset.source) / "inverse", s.mesh_error, triangles);
   plan.engine = "inverse";
   plan.layers = 1;
   plan.defines = facet_defines(l);

@@ -17,7 +17,7 @@ std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& 
   const Settings& s = settings(preset);
   if (s.method == Settings::Method::thesis) return std::make_unique<Pipeline>(layout, targets, s.thesis, preset.seed);
   if (s.method == Settings::Method::lens)
-    return std::make_unique<Lens>(layout, targets.front(), s.mesh_error, Place(preset.source) / "inverse");
+    return std::make_unique<Lens>(layout, targets.front(), s.mesh_error, Location(preset.source) / "inverse");
   return std::make_unique<Assignment>(context, layout, targets, preset.seed);
 }
 

@@ -21,7 +21,7 @@ double weight_of(const LightPart& part) { return part.xyz.x + part.xyz.y + part.
 struct Index {
   optics::DispersionCurve curve;
   optics::Extrapolation outside;
-  Place where;
+  Location where;
   const char* remedy;
 
   double at(double nm) const {
@@ -81,7 +81,7 @@ std::vector<LightPart> equal_parts(const std::vector<LightPart>& spectrum, std::
 
 Refraction make_refraction(const preset::Preset& preset) {
   const Settings& s = settings(preset);
-  const Place own = Place(preset.source) / "inverse";
+  const Location own = Location(preset.source) / "inverse";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   const bool is_coloured = s.light.spectrum.has_value();
   const Index index{scene::make_curve(s.index, finder, own / "index"), scene::outside_policy(s.index.outside),

@@ -99,7 +99,7 @@ public:
       if (history_.error_column.empty() && std::count(history_.columns.begin(), history_.columns.end(), column) > 0)
         history_.error_column = column;
     if (history_.target && !history_.error_column.ends_with(metric))
-      throw bad_input(Place(preset.source) / "stop" / "error", "nothing measures the error of this run in " + metric,
+      throw bad_input(Location(preset.source) / "stop" / "error", "nothing measures the error of this run in " + metric,
                       settings_.estimate
                           ? "expected a 'reference', or a 'stop.metric' that can be estimated: " + names_of_estimates()
                           : "expected a 'reference', or 'measure.estimate' true");

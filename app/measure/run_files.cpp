@@ -40,14 +40,14 @@ std::string quoted(std::string_view cell) {
 }
 
 template <class Number>
-Number number(std::string_view cell, std::string_view column, const Place& place) {
+Number number(std::string_view cell, std::string_view column, const Location& place) {
   const auto value = number_in<Number>(cell);
   if (!value) throw bad_input(place, fmt::format("{} {} is no number", column, quoted(cell)));
   return *value;
 }
 
 /// A time in seconds: finite, not negative.
-double seconds(std::string_view cell, std::string_view column, const Place& place) {
+double seconds(std::string_view cell, std::string_view column, const Location& place) {
   const double value = number<double>(cell, column, place);
   if (!std::isfinite(value) || value < 0)
     throw bad_input(place, fmt::format("{} is {}", column, cell), "expected seconds from 0");
@@ -55,7 +55,7 @@ double seconds(std::string_view cell, std::string_view column, const Place& plac
 }
 
 /// psnr_db falls below 0 where a picture is far off, so only NaN is refused: the file has an empty cell for it.
-double error_value(std::string_view cell, std::string_view column, const Place& place) {
+double error_value(std::string_view cell, std::string_view column, const Location& place) {
   if (cell.empty()) return std::nan("");
   const double value = number<double>(cell, column, place);
   if (std::isnan(value))
@@ -68,7 +68,7 @@ bool is_column_name(std::string_view name) {
   return !name.empty() && name.find_first_not_of(letters) == std::string_view::npos;
 }
 
-std::vector<std::string> columns_of(std::string_view line, const Place& place) {
+std::vector<std::string> columns_of(std::string_view line, const Location& place) {
   const std::vector<std::string_view> cells = cells_of(line);
   const std::string expected = fmt::format("expected '{}', then a column a metric", fixed_header);
   if (cells.size() < std::size(fixed_columns) ||
@@ -87,7 +87,7 @@ std::vector<std::string> columns_of(std::string_view line, const Place& place) {
   return columns;
 }
 
-job::HistoryRow row_of(std::string_view line, const std::vector<std::string>& columns, const Place& place) {
+job::HistoryRow row_of(std::string_view line, const std::vector<std::string>& columns, const Location& place) {
   const std::vector<std::string_view> cells = cells_of(line);
   const std::size_t expected = std::size(fixed_columns) + columns.size();
   if (cells.size() != expected)
@@ -166,7 +166,7 @@ job::History read_history(const std::filesystem::path& file) {
   job::History history;
   std::string_view rest = text;
   for (std::size_t line = 1; !rest.empty(); ++line) {
-    const Place place(file.string(), line);
+    const Location place(file.string(), line);
     const std::size_t end = rest.find('\n');
     const std::string_view row = rest.substr(0, end);
     if (line == 1)

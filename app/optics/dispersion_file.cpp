@@ -23,8 +23,8 @@ namespace nephroid::optics {
 namespace {
 
 /// "FILE:LINE" of a place in the text; lines count from 0 in yaml-cpp and from 1 for people.
-Place place(const std::string& file, int line) { return {file, static_cast<std::size_t>(line + 1)}; }
-Place place(const std::string& file, const YAML::Node& node) { return place(file, node.Mark().line); }
+Location place(const std::string& file, int line) { return {file, static_cast<std::size_t>(line + 1)}; }
+Location place(const std::string& file, const YAML::Node& node) { return place(file, node.Mark().line); }
 
 /// The beginning of a text that a file may have of any length.
 std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", text.substr(0, 40)); }
@@ -42,14 +42,14 @@ std::vector<std::string_view> words(std::string_view text) {
   }
 }
 
-double number(std::string_view word, const Place& where) {
+double number(std::string_view word, const Location& where) {
   const auto value = typed_number<double>(word);
   if (!value || !std::isfinite(*value))
     throw bad_input(where, in_quotes(word) + " is no number", "expected a finite number such as 1.5168 or 2.86E-06");
   return *value;
 }
 
-std::vector<double> numbers(std::string_view text, const Place& where) {
+std::vector<double> numbers(std::string_view text, const Location& where) {
   std::vector<double> result;
   for (std::string_view word : words(text)) result.push_back(number(word, where));
   return result;
@@ -93,7 +93,7 @@ std::vector<std::vector<double>> table_rows(const YAML::Node& block, std::size_t
   std::string_view rest = data.Scalar();
   while (!rest.empty()) {
     const std::size_t end = rest.find('\n');
-    const Place where = place(file, line++);
+    const Location where = place(file, line++);
     std::vector<double> row = numbers(rest.substr(0, end), where);
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     if (row.empty()) continue;
@@ -109,7 +109,7 @@ std::vector<std::vector<double>> table_rows(const YAML::Node& block, std::size_t
   return rows;
 }
 
-Curve table_curve(const std::vector<std::vector<double>>& rows, std::size_t column, const Place& where) {
+Curve table_curve(const std::vector<std::vector<double>>& rows, std::size_t column, const Location& where) {
   std::vector<Row> pairs;
   for (const auto& row : rows) pairs.push_back({row[0] * 1000, row[column]});
   return curve_of(LinearTable(sorted_rows(pairs, Duplicates::mean, where)));

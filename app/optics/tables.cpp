@@ -38,7 +38,7 @@ std::size_t interval(const std::vector<Row>& rows, double nm) {
   return std::clamp<std::size_t>(index, 1, rows.size() - 1) - 1;
 }
 
-void check_row(const Row& row, const Place& where) {
+void check_row(const Row& row, const Location& where) {
   if (!std::isfinite(row[0]) || !std::isfinite(row[1]))
     throw bad_input(where, "a row holds a number that is not finite");
   if (!(row[0] > 0))
@@ -47,7 +47,7 @@ void check_row(const Row& row, const Place& where) {
 
 } // namespace
 
-std::vector<Row> sorted_rows(std::span<const Row> rows, Duplicates repeats, const Place& where) {
+std::vector<Row> sorted_rows(std::span<const Row> rows, Duplicates repeats, const Location& where) {
   if (rows.empty())
     throw bad_input(where, "the table is empty", "expected at least one row of (wavelength in nm, value)");
   for (const Row& row : rows) check_row(row, where);

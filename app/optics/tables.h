@@ -2,7 +2,7 @@
 // Rows of (wavelength in nm, value): put in order, and straight lines between them; and the colour tables that are
 // built into the program (app/optics/data, embedded by EmbedFiles.cmake), as columns of numbers.
 #pragma once
-#include "base/place.h"
+#include "base/location.h"
 #include "optics/dispersion.h"
 
 #include <array>
@@ -21,7 +21,7 @@ enum class Duplicates { refuse, mean };
 
 /// The rows by rising wavelength, each wavelength once. Throws bad_input at `where` for no rows, a number that is not
 /// finite, a wavelength that is not positive, or a repeat that is refused.
-std::vector<Row> sorted_rows(std::span<const Row> rows, Duplicates repeats, const Place& where);
+std::vector<Row> sorted_rows(std::span<const Row> rows, Duplicates repeats, const Location& where);
 
 /// The widest step between neighbouring rows that reaches into low..high, where it is a hole in the data and not their
 /// usual step: 20 nm of it lie there, and it is five times the median of four or more steps there. rows: sorted.

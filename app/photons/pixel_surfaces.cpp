@@ -17,7 +17,7 @@ constexpr std::size_t middle = optics::wavelength_count / 2;
 
 using Type = scene::Material::Type;
 
-struct Place {
+struct SurfaceHit {
   int object;
   glm::dvec3 position, geometric, shading; ///< outward unit normals; alike unless the object is smooth
 };
@@ -28,31 +28,31 @@ public:
       : scene_(scene), bvh_(bvh), from_(scene.camera.position), way_(way), inside_(scene.camera.inside) {}
 
   /// Moves on to the next surface; empty where there is none.
-  std::optional<Place> next() {
+  std::optional<SurfaceHit> next() {
     const auto hit = scene::closest_hit(bvh_, from_, way_, {}, std::numeric_limits<double>::infinity(), left_);
     if (!hit) return std::nullopt;
     length_ += hit->t;
     from_ += hit->t * way_;
     left_ = hit->primitive;
-    return place_on(hit->primitive);
+    return hit_on(hit->primitive);
   }
 
-  void reflect(const Place& place) { bend(place, std::nullopt); }
+  void reflect(const SurfaceHit& hit) { bend(hit, std::nullopt); }
 
   /// Passes the surface of glass, or is totally reflected there (cross_interface in kernels/tracing/interface.h). False
   /// where both sides have one index of refraction, so that the surface is invisible.
-  bool cross(const Place& place) {
+  bool cross(const SurfaceHit& hit) {
     std::vector<int> beyond = inside_;
     int near = medium_of(inside_);
-    const auto entry = std::find(beyond.rbegin(), beyond.rend(), place.object);
-    if (glm::dot(way_, place.geometric) < 0)
-      beyond.push_back(place.object);
+    const auto entry = std::find(beyond.rbegin(), beyond.rend(), hit.object);
+    if (glm::dot(way_, hit.geometric) < 0)
+      beyond.push_back(hit.object);
     else if (entry != beyond.rend())
       beyond.erase(std::next(entry).base());
     else
-      near = place.object; // an open mesh: the ray got in without meeting its surface
+      near = hit.object; // an open mesh: the ray got in without meeting its surface
     const double ratio = index_of(near) / index_of(medium_of(beyond));
-    if (ratio == 1 || bend(place, ratio)) inside_ = std::move(beyond);
+    if (ratio == 1 || bend(hit, ratio)) inside_ = std::move(beyond);
     return ratio != 1;
   }
 
@@ -60,7 +60,7 @@ public:
   double length() const { return length_; }
 
 private:
-  Place place_on(std::uint32_t primitive) const {
+  SurfaceHit hit_on(std::uint32_t primitive) const {
     const std::size_t triangles = scene_.geometry.triangles.size();
     const auto object = static_cast<int>(scene_.object_of_primitive[primitive]);
     if (primitive >= triangles) {
@@ -70,15 +70,15 @@ private:
     const glm::uvec3 corner = scene_.geometry.triangles[primitive];
     const std::vector<glm::vec3>&at = scene_.geometry.positions, &normals = scene_.geometry.normals;
     const glm::dvec3 a(at[corner.x]), b(at[corner.y]), c(at[corner.z]), across = glm::cross(b - a, c - a);
-    Place place{object, from_, glm::normalize(across), {}};
-    place.shading = place.geometric;
-    if (!scene_.objects[static_cast<std::size_t>(place.object)].smooth) return place;
+    SurfaceHit hit{object, from_, glm::normalize(across), {}};
+    hit.shading = hit.geometric;
+    if (!scene_.objects[static_cast<std::size_t>(hit.object)].smooth) return hit;
     const double u = glm::dot(glm::cross(a - c, from_ - c), across) / glm::dot(across, across),
                  v = glm::dot(glm::cross(b - a, from_ - a), across) / glm::dot(across, across);
     const glm::dvec3 mixed = (1 - u - v) * glm::dvec3(normals[corner.x]) + u * glm::dvec3(normals[corner.y]) +
                              v * glm::dvec3(normals[corner.z]);
-    if (glm::dot(mixed, place.geometric) > 0) place.shading = glm::normalize(mixed);
-    return place;
+    if (glm::dot(mixed, hit.geometric) > 0) hit.shading = glm::normalize(mixed);
+    return hit;
   }
 
   /// The object whose material fills the place: that of highest priority, of equals the one entered last; -1: air.
@@ -98,14 +98,14 @@ private:
 
   /// Bends the ray about the shading normal, or about the triangle's own where that would send it to the wrong side.
   /// ratio is that of the indices before and beyond glass; empty: a mirror. True where the ray went through.
-  bool bend(const Place& place, std::optional<double> ratio) {
-    const double side = glm::dot(way_, place.geometric) < 0 ? 1 : -1;
-    for (const glm::dvec3& normal : {side * place.shading, side * place.geometric}) {
+  bool bend(const SurfaceHit& hit, std::optional<double> ratio) {
+    const double side = glm::dot(way_, hit.geometric) < 0 ? 1 : -1;
+    for (const glm::dvec3& normal : {side * hit.shading, side * hit.geometric}) {
       if (glm::dot(way_, normal) >= 0) continue;
       const glm::dvec3 refracted = ratio ? glm::refract(way_, normal, *ratio) : glm::dvec3(0); // 0: totally reflected
       const bool through = refracted != glm::dvec3(0);
       const glm::dvec3 bent = through ? refracted : glm::reflect(way_, normal);
-      if ((side * glm::dot(bent, place.geometric) < 0) != through) continue;
+      if ((side * glm::dot(bent, hit.geometric) < 0) != through) continue;
       way_ = glm::normalize(bent);
       return through;
     }
@@ -127,8 +127,8 @@ class Marks {
 public:
   explicit Marks(const scene::Camera& camera) : camera_(camera), marked_(camera.pixels()) {}
 
-  Seen see(const glm::dvec3& place) const {
-    const glm::dvec3 way = place - glm::dvec3(camera_.position);
+  Seen see(const glm::dvec3& hit) const {
+    const glm::dvec3 way = hit - glm::dvec3(camera_.position);
     const double z = glm::dot(way, glm::dvec3(camera_.forward)),
                  x = glm::dot(way, glm::dvec3(camera_.right)) / camera_.tan_x,
                  y = glm::dot(way, glm::dvec3(camera_.up)) / camera_.tan_y;
@@ -160,10 +160,10 @@ public:
     constexpr double angle = 2 * std::numbers::pi / around, scale = 1.01;
     const auto corner = [&](int ring, int i) {
       const double polar = ring * angle, turn = i * angle;
-      glm::dvec3 place = ellipsoid.centre;
-      place += scale * std::cos(polar) * glm::dvec3(ellipsoid.half_axes[1]);
-      place += scale * std::sin(polar) * std::cos(turn) * glm::dvec3(ellipsoid.half_axes[0]);
-      return see(place + scale * std::sin(polar) * std::sin(turn) * glm::dvec3(ellipsoid.half_axes[2]));
+      glm::dvec3 hit = ellipsoid.centre;
+      hit += scale * std::cos(polar) * glm::dvec3(ellipsoid.half_axes[1]);
+      hit += scale * std::sin(polar) * std::cos(turn) * glm::dvec3(ellipsoid.half_axes[0]);
+      return see(hit + scale * std::sin(polar) * std::sin(turn) * glm::dvec3(ellipsoid.half_axes[2]));
     };
     for (int ring = 0; ring < around / 2; ++ring)
       for (int i = 0; i < around; ++i) {
@@ -225,16 +225,16 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
   }
   CameraRay ray(scene, bvh, glm::normalize(way));
   for (int surface = 0; surface < most_surfaces; ++surface) {
-    const std::optional<Place> place = ray.next();
-    if (!place) break;
-    const scene::Object& object = scene.objects[static_cast<std::size_t>(place->object)];
+    const std::optional<SurfaceHit> hit = ray.next();
+    if (!hit) break;
+    const scene::Object& object = scene.objects[static_cast<std::size_t>(hit->object)];
     const Type type = material_of(scene, object).type;
     const glm::dvec3 arrives = ray.way();
-    if (type == Type::mirror) ray.reflect(*place);
-    if (type == Type::dielectric && !ray.cross(*place)) continue;
+    if (type == Type::mirror) ray.reflect(*hit);
+    if (type == Type::dielectric && !ray.cross(*hit)) continue;
     const bool is_first = surfaces.first.object < 0;
     if (is_first || type == Type::diffuse) {
-      surfaces.last = {glm::vec3(place->position), glm::vec3(place->geometric), place->object};
+      surfaces.last = {glm::vec3(hit->position), glm::vec3(hit->geometric), hit->object};
       surfaces.way = glm::vec3(arrives);
       surfaces.spacing = static_cast<float>(spacing * ray.length());
     }

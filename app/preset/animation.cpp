@@ -22,8 +22,8 @@ namespace {
 using Path = std::vector<std::string>;
 
 /// For messages: whoever gave the value at pointer.
-Place where(const Preset& preset, const std::string& pointer) {
-  return preset.provenance.origins ? preset.provenance.origins->where(pointer) : Place(preset.source, pointer);
+Location where(const Preset& preset, const std::string& pointer) {
+  return preset.provenance.origins ? preset.provenance.origins->where(pointer) : Location(preset.source, pointer);
 }
 
 std::string pointer_of(std::size_t track) { return child("/animation/tracks", track); }
@@ -76,7 +76,7 @@ public:
   bool has(const Path& path) const { return find(json_, path) != nullptr; }
 
   /// origin: of the value, for messages.
-  void put(const Path& path, Json value, const Place& origin) {
+  void put(const Path& path, Json value, const Location& origin) {
     document_.set(path, std::move(value), Origin{origin, false, document_.origins().main().folder});
     pointers_.emplace_back(pointer_of(path), origin);
   }
@@ -99,7 +99,7 @@ private:
   const Preset& preset_;
   Json json_;
   Document document_;
-  std::vector<std::pair<std::string, Place>> pointers_;
+  std::vector<std::pair<std::string, Location>> pointers_;
 };
 
 Preset made_at(const Preset& preset, int frame) {
@@ -121,7 +121,7 @@ std::string kind_of(const Json& json) {
 
 Path check_path(const Preset& preset, const Stage& stage, std::size_t index) {
   const Track& track = preset.animation->tracks[index];
-  const Place place = where(preset, child(pointer_of(index), "path"));
+  const Location place = where(preset, child(pointer_of(index), "path"));
   const Path path = split_path(track.path);
   if (path.empty() || track.path.starts_with('/'))
     throw bad_input(place, in_quotes(track.path) + " is no path",

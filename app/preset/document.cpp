@@ -38,7 +38,7 @@ struct Axis {
   Json values;
   std::vector<std::string> labels;
   Origin origin;
-  Place where; ///< for messages
+  Location where; ///< for messages
 };
 
 bool starts_with(const std::vector<std::string>& path, const std::vector<std::string>& start) {
@@ -130,7 +130,7 @@ void append_suffix(std::string& suffix, const Axis& axis, const std::vector<Axis
 }
 
 std::vector<Axis> read_axes(Document& document, const std::vector<std::string>& overrides) {
-  const Place where = document.where("/sweep");
+  const Location where = document.where("/sweep");
   const Json sweep = document.take("sweep");
   if (sweep.is_null()) return {};
   if (!sweep.is_object())
@@ -169,7 +169,7 @@ void Document::change_engine(const Json& engine, const Origin& origin) {
   if (taken.empty()) return;
   const Origins::Shared tracks = origins_.shared_at("/animation/tracks");
   origins_.set_whole("/animation/tracks", tracks); // their numbers may have changed
-  Place place = origin.place;
+  Location place = origin.place;
   if (origin.is_file) place = place / "engine";
   notes_.push_back(place.text() + ": " + left_out_note(engine.get<std::string>(), taken));
 }

@@ -18,7 +18,7 @@ public:
   const Json& value() const { return value_; }
   const Origins& origins() const { return origins_; }
   /// For messages: "FILE#/pointer" or "--set a.b=c".
-  Place where(const std::string& pointer) const { return origins_.where(pointer); }
+  Location where(const std::string& pointer) const { return origins_.where(pointer); }
 
   /// A child's values over this one. Where this and set() change the engine, what the new one does not know goes first
   /// (change_engine.h).
@@ -55,7 +55,7 @@ Document parse_document(const std::string& text, const std::string& source);
 
 /// The file that a person means by name: beside `folder`, then in presets/, each also with ".json" behind it.
 /// Throws bad_input at where.
-std::filesystem::path find_preset(const std::string& name, const std::filesystem::path& folder, const Place& where);
+std::filesystem::path find_preset(const std::string& name, const std::filesystem::path& folder, const Location& where);
 
 inline constexpr std::size_t max_runs = 10000;
 

@@ -55,13 +55,13 @@ Document document_from(const std::string& text, const fs::path& file, std::vecto
   if (!value.is_object()) throw bad_input({name, ""}, "is " + shown(value), "expected a preset: one JSON object");
   if (value.contains("$schema")) { // for editors; says nothing about the run
     if (!value["$schema"].is_string())
-      throw bad_input(Place(name) / "$schema", "is " + shown(value["$schema"]), "expected a string");
+      throw bad_input(Location(name) / "$schema", "is " + shown(value["$schema"]), "expected a string");
     value.erase("$schema");
   }
   const Origin origin{name, true, file.parent_path()};
   if (!value.contains("parent")) return Document(std::move(value), origin);
 
-  const Place where = Place(name) / "parent";
+  const Location where = Location(name) / "parent";
   if (!value["parent"].is_string())
     throw bad_input(where, "is " + shown(value["parent"]), "expected a path or the name of a shipped preset");
   const fs::path parent = find_preset(value["parent"].get<std::string>(), origin.folder, where);
@@ -118,7 +118,7 @@ std::string stem_of(const fs::path& file) {
   return (stem.extension() == ".nephroid" ? stem.stem() : stem).string();
 }
 
-fs::path find_preset(const std::string& name, const fs::path& folder, const Place& where) {
+fs::path find_preset(const std::string& name, const fs::path& folder, const Location& where) {
   if (name.empty() || name.find('\0') != std::string::npos)
     throw bad_input(where, "the name of a preset is empty or holds a NUL");
   std::vector<fs::path> folders{folder};

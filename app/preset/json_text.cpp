@@ -36,7 +36,7 @@ public:
 
   bool key(string_t& name) override {
     Level& level = levels_.back();
-    const Place where(source_, child(level.pointer, name));
+    const Location where(source_, child(level.pointer, name));
     if (!level.keys.insert(name).second)
       throw bad_input(where, fmt::format("key {} is given twice", in_quotes(name)), "expected each key once");
     if (level.keys.size() > max_keys)

@@ -16,9 +16,9 @@ Origins::Shared Origins::shared_at(const std::string& pointer) const {
   }
 }
 
-Place Origins::where(const std::string& pointer) const {
+Location Origins::where(const std::string& pointer) const {
   const Origin& from = at(pointer);
-  Place place = from.place;
+  Location place = from.place;
   if (from.is_file) place.pointer = pointer;
   place.field = pointer;
   return place;
@@ -50,7 +50,7 @@ bool is_as_read(const Preset& preset) {
 }
 
 Error at_origin(const Origins& origins, const std::string& pointer, const Error& error) {
-  const Place where = origins.where(pointer);
+  const Location where = origins.where(pointer);
   const auto* missing = dynamic_cast<const FileNotFound*>(&error);
   if (missing && origins.at(pointer).is_typed)
     return FileNotFound(where, missing->name(), "the current folder, " + missing->looked_in());
@@ -66,12 +66,12 @@ std::string part_of(const Provenance& provenance) {
 
 } // namespace
 
-std::string field_of(const Preset& preset, const Place& place) {
+std::string field_of(const Preset& preset, const Location& place) {
   return place.field.empty() && place.name == preset.source ? place.pointer.value_or("") : place.field;
 }
 
 void rethrow_at_origin(const Preset& preset, const Error& error) {
-  const std::string pointer = is_as_read(preset) ? field_of(preset, error.place()) : std::string(),
+  const std::string pointer = is_as_read(preset) ? field_of(preset, error.location()) : std::string(),
                     part = part_of(preset.provenance);
   if (pointer.empty() && part.empty()) throw;
   const Error error_at_origin = pointer.empty() ? error : at_origin(*preset.provenance.origins, pointer, error);

@@ -10,7 +10,7 @@ namespace nephroid::preset {
 
 /// Who gave a value: a file, or something in it or on the command line that has a name of its own.
 struct Origin {
-  Place place;                  ///< the file, or "--set a.b=c", or FILE#/sweep/seed/0
+  Location place;                  ///< the file, or "--set a.b=c", or FILE#/sweep/seed/0
   bool is_file = true;          ///< then the value is at its own pointer in it
   std::filesystem::path folder; ///< where the file names in the value are looked up first
   bool is_typed = false;        ///< on a command line: file names are looked up in the current folder before that
@@ -26,8 +26,8 @@ public:
   const Origin& main() const { return *main_; }
   /// Who gave the value at pointer.
   const Origin& at(const std::string& pointer) const { return *shared_at(pointer); }
-  /// For messages: FILE#/pointer or "--set a.b=c"; its Place::field is the pointer.
-  Place where(const std::string& pointer) const;
+  /// For messages: FILE#/pointer or "--set a.b=c"; its Location::field is the pointer.
+  Location where(const std::string& pointer) const;
 
   using Shared = std::shared_ptr<const Origin>;
   Shared shared_at(const std::string& pointer) const;
@@ -50,7 +50,7 @@ void set_origin(Preset& preset, const std::string& pointer, const std::string& n
 
 /// JSON pointer of the preset's field that an error at this place is about, whoever gave its value; empty where it is
 /// about none.
-std::string field_of(const Preset& preset, const Place& place);
+std::string field_of(const Preset& preset, const Location& place);
 
 /// Throws the error that is being caught, in a form that a person can use. An error at a value of preset.source names
 /// who gave that value, unless the preset has been saved as another file since it was read. An error about a run of a

@@ -291,7 +291,7 @@ const SweptDocument& only(const std::vector<SweptDocument>& runs) {
 }
 
 Origin origin_of(const std::string& source) {
-  return {Place(source), true, std::filesystem::path(source).parent_path()};
+  return {Location(source), true, std::filesystem::path(source).parent_path()};
 }
 
 Document load(const std::string& name) { return load_document(find_preset(name, {}, "preset")); }
@@ -353,7 +353,7 @@ std::vector<SweptRun> swept_runs(const Preset& preset, const Sweep& sweep) {
   Document document(as_json(preset), origin);
   for (const SweptField& field : sweep)
     if (std::ranges::count(sweep, field.key, &SweptField::key) > 1)
-      throw bad_input(Place(preset.source) / "sweep", in_quotes(field.key) + " is swept twice");
+      throw bad_input(Location(preset.source) / "sweep", in_quotes(field.key) + " is swept twice");
   document.set({"sweep"}, to_json(sweep), origin);
   std::vector<SweptRun> runs;
   for (const SweptDocument& run : expand_sweep(std::move(document), {})) {

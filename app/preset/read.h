@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Presets in and out: strict reading with inheritance, overrides and sweeps; writing.
 #pragma once
-#include "base/place.h"
+#include "base/location.h"
 #include "preset/json_text.h"
 #include "preset/preset.h"
 
@@ -57,7 +57,7 @@ std::vector<ShippedPreset> shipped_presets();
 std::string schema();
 
 /// Throws bad_input at where(pointer) of the first contradiction that no field can say alone.
-void check(const Preset& preset, const std::function<Place(const std::string& pointer)>& where);
+void check(const Preset& preset, const std::function<Location(const std::string& pointer)>& where);
 
 // A preset's sweep as data, for who edits it: which fields take which values. read_presets gives the runs at once.
 

@@ -2,7 +2,7 @@
 // Settings of an engine made from its struct's description: settings_type<S>() is how an engine tells the preset what
 // its section holds.
 #pragma once
-#include "base/place.h"
+#include "base/location.h"
 #include "preset/json_text.h"
 #include "preset/settings.h"
 #include "preset/value.h"
@@ -16,7 +16,7 @@ namespace nephroid::preset {
 struct Preset;
 
 /// Where a JSON pointer's value came from, for messages.
-using Where = std::function<Place(const std::string& pointer)>;
+using Where = std::function<Location(const std::string& pointer)>;
 
 struct SettingsType {
   std::string_view name;     ///< the engine's: the word in "engine" and the key of the section

@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* first_seed = "first_seed"; ///< the further channels' layer
 
-Place place(const Prepared& prepared, const char* field) { return Place(prepared.preset.source) / "reference" / field; }
+Location place(const Prepared& prepared, const char* field) { return Location(prepared.preset.source) / "reference" / field; }
 
 /// The preset of one seed of the recipe.
 preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed) {
@@ -90,7 +90,7 @@ std::shared_ptr<const measure::Reference> read_reference(const fs::path& file, c
   if (const auto& mask = prepared.preset.measure.mask) {
     const FileFinder finder(fs::path(prepared.preset.source).parent_path());
     reference.mask =
-        measure::read_mask(finder.find(*mask, Place(prepared.preset.source) / "measure" / "mask"), width, height);
+        measure::read_mask(finder.find(*mask, Location(prepared.preset.source) / "measure" / "mask"), width, height);
   }
   const auto is_first_seed = [](const job::Layer& layer) { return layer.name == first_seed; };
   if (const auto found = std::ranges::find_if(layers, is_first_seed); found != layers.end()) {
@@ -119,7 +119,7 @@ std::vector<float> rendered_seed(const Prepared& prepared, const compute::Contex
                                  double& seconds, const std::stop_token& stop, const ReferenceProgress& report) {
   const Prepared recipe = prepare(recipe_preset(prepared.preset, seed), &prepared);
   if (const std::string changed = changed_input(prepared.plan->inputs, recipe.plan->inputs); !changed.empty())
-    throw failed(Place(prepared.preset.source) / "reference", "cannot be rendered: " + changed, "", "start again");
+    throw failed(Location(prepared.preset.source) / "reference", "cannot be rendered: " + changed, "", "start again");
   const job::Snapshot last = render_picture(recipe, context, [&](const job::Progress& now) {
     if (stop.stop_requested())
       throw Error(ErrorKind::interrupted, prepared.preset.source,
@@ -155,7 +155,7 @@ void write_reference(const fs::path& file, const Prepared& prepared, const std::
 std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepared, const compute::Context& context) {
   if (!prepared.preset.reference) {
     if (prepared.preset.measure.mask)
-      throw bad_input(Place(prepared.preset.source) / "measure" / "mask",
+      throw bad_input(Location(prepared.preset.source) / "measure" / "mask",
                       "there is no reference to compare the mask's pixels with", "expected a 'reference'");
     return nullptr;
   }

@@ -86,7 +86,7 @@ bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
 void check_triangle(const Mesh& mesh, std::size_t index) {
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t vertex = mesh.triangles[index][i];
-    const Place where = fmt::format("triangle {}", index);
+    const Location where = fmt::format("triangle {}", index);
     if (vertex >= mesh.positions.size())
       throw bad_input(where, fmt::format("has vertex {}, of {}", vertex, mesh.positions.size()));
     const glm::vec3& p = mesh.positions[vertex];

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "scene/materials.h"
-#include "scene/place.h"
+#include "scene/object_mesh.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ namespace nephroid::scene {
 namespace {
 
 /// The unit vector along v. Throws bad_input at where: no length, not finite.
-glm::dvec3 unit_direction(const glm::dvec3& v, const Place& where) {
+glm::dvec3 unit_direction(const glm::dvec3& v, const Location& where) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   const bool finite = std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   if (!finite || largest == 0)
@@ -26,7 +26,7 @@ glm::dvec3 unit_direction(const glm::dvec3& v, const Place& where) {
 
 /// The part of up that is perpendicular to the unit vector forward, made unit. Throws bad_input at where: parallel, no
 /// length.
-glm::dvec3 perpendicular_up(const preset::Vec3& up, const glm::dvec3& forward, const Place& where) {
+glm::dvec3 perpendicular_up(const preset::Vec3& up, const glm::dvec3& forward, const Location& where) {
   const glm::dvec3 unit_up = unit_direction(to_dvec3(up), where);
   const glm::dvec3 rest = unit_up - glm::dot(unit_up, forward) * forward;
   if (!(glm::length(rest) > 1e-6))
@@ -37,7 +37,7 @@ glm::dvec3 perpendicular_up(const preset::Vec3& up, const glm::dvec3& forward, c
 }
 
 /// A preset's position in the scene's coordinates. Throws bad_input at where: not finite, too far from the objects.
-glm::dvec3 local_position(const preset::Vec3& position, const Scene& scene, const Place& where) {
+glm::dvec3 local_position(const preset::Vec3& position, const Scene& scene, const Location& where) {
   const glm::dvec3 local = to_dvec3(position) - scene.origin;
   for (int axis = 0; axis < 3; ++axis)
     if (!(std::abs(local[axis]) <= max_coordinate))
@@ -50,7 +50,7 @@ glm::dvec3 local_position(const preset::Vec3& position, const Scene& scene, cons
 } // namespace
 
 Camera make_camera(const preset::Camera& camera, const Scene& scene) {
-  const Place where = Place(scene.source) / "scene" / "camera";
+  const Location where = Location(scene.source) / "scene" / "camera";
   const auto [width, height] = camera.resolution;
   Camera result;
   const glm::dvec3 position = local_position(camera.position, scene, where / "position");
@@ -69,7 +69,7 @@ Camera make_camera(const preset::Camera& camera, const Scene& scene) {
   return result;
 }
 
-Light make_light(const preset::Light& light, const Scene& scene, const Place& where) {
+Light make_light(const preset::Light& light, const Scene& scene, const Location& where) {
   using Type = preset::Light::Type;
   Light result;
   result.type = light.type;

@@ -20,7 +20,7 @@ namespace {
 /// Textures are held in memory twice while they are read, and once on the device: 2 GiB of floats there.
 constexpr std::size_t most_texels = std::size_t{1} << 27;
 
-void check_texels(const std::vector<float>& rgb, int width, const Place& file) {
+void check_texels(const std::vector<float>& rgb, int width, const Location& file) {
   const auto bad = std::ranges::find_if(rgb, [](float value) { return !(value >= 0 && std::isfinite(value)); });
   if (bad == rgb.end()) return;
   const auto index = static_cast<std::size_t>(bad - rgb.begin()), texel = index / 3;
@@ -111,7 +111,7 @@ bool Environment::is_black() const {
   return !(radiance > 0) || std::ranges::all_of(rgb, [](float value) { return value == 0; });
 }
 
-Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Place& where,
+Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Location& where,
                              std::vector<std::string>& warnings) {
   Environment result;
   if (environment.type == preset::Environment::Type::file) {

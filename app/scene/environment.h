@@ -34,7 +34,7 @@ struct Environment {
 /// negative, and at `where` (FILE#/scene/environment) for a file that is not there. Values below 0 that are at most a
 /// thousandth of all light in sum become 0. Appends to warnings where there are such, and where the picture's shape is
 /// not 2 : 1.
-Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Place& where,
+Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Location& where,
                              std::vector<std::string>& warnings);
 
 /// What photons are drawn by: (r + g + b) / 3 of a texel, before Environment::radiance.

@@ -18,11 +18,11 @@ namespace {
 
 /// What optics throws names a curve or a file; the person needs the preset's field as well.
 template <class Make>
-auto at(const Place& where, const Make& make) {
+auto at(const Location& where, const Make& make) {
   try {
     return make();
   } catch (const Error& error) {
-    if (error.place() == where) throw;
+    if (error.location() == where) throw;
     throw Error(error.kind(), where, error.line());
   }
 }
@@ -49,7 +49,7 @@ std::set<std::string> shipped_materials() {
   return names;
 }
 
-std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Place& where) {
+std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Location& where) {
   try {
     return finder.find(name, where);
   } catch (const Error& error) {
@@ -76,7 +76,7 @@ optics::DispersionCurve load_dispersion(const std::string& name) {
   }
 }
 
-optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Place& where) {
+optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Location& where) {
   using Type = preset::Dispersion::Type;
   return at(where, [&] {
     switch (dispersion.type) {
@@ -91,7 +91,7 @@ optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const F
   });
 }
 
-optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Place& where) {
+optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Location& where) {
   using Type = preset::LightSpectrum::Type;
   return at(where, [&] {
     switch (spectrum.type) {
@@ -104,7 +104,7 @@ optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, cons
   });
 }
 
-optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Place& where) {
+optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Location& where) {
   using Type = preset::Reflectance::Type;
   return at(where, [&] {
     switch (reflectance.type) {
@@ -117,7 +117,7 @@ optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const 
 }
 
 Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder,
-                       const Place& where, std::vector<std::string>& warnings) {
+                       const Location& where, std::vector<std::string>& warnings) {
   Material result;
   result.name = name;
   result.type = material.type;
@@ -125,7 +125,7 @@ Material make_material(const std::string& name, const preset::Material& material
     result.reflectance = make_reflectance(material.reflectance, where / "reflectance");
     return result;
   }
-  const Place field = where / "dispersion";
+  const Location field = where / "dispersion";
   const optics::DispersionCurve curve = make_curve(material.dispersion, finder, field);
   const optics::Extrapolation outside = outside_policy(material.dispersion.outside);
   at(field, [&] {

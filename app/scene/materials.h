@@ -20,7 +20,7 @@ inline optics::Extrapolation outside_policy(preset::Extrapolation outside) {
 
 /// The file of a preset's dispersion data: found as other files are, or a shipped material by its short name
 /// ("N-SF66"), which means the same from every folder.
-std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Place& where);
+std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Location& where);
 
 /// The names of the shipped materials: "N-BK7".
 std::set<std::string> shipped_materials();
@@ -29,13 +29,13 @@ std::set<std::string> shipped_materials();
 optics::DispersionCurve load_dispersion(const std::string& name);
 
 /// where (all four): the field's FILE#/json/pointer. They throw bad_input there with the reason that optics gives.
-optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Place& where);
+optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Location& where);
 /// Sums to 1.
-optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Place& where);
+optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Location& where);
 /// Each value in 0..1.
-optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Place& where);
+optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Location& where);
 /// where: the material's. Adds a warning where n is wanted outside the data's range.
 Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder,
-                       const Place& where, std::vector<std::string>& warnings);
+                       const Location& where, std::vector<std::string>& warnings);
 
 } // namespace nephroid::scene

@@ -41,7 +41,7 @@ std::string_view next_token(std::string_view& text) {
   return token;
 }
 
-std::size_t type_bytes(std::string_view type, const Place& where) {
+std::size_t type_bytes(std::string_view type, const Location& where) {
   constexpr std::pair<std::string_view, std::size_t> types[] = {
       {"char", 1},  {"uchar", 1},   {"int8", 1},   {"uint8", 1},  {"short", 2}, {"ushort", 2},
       {"int16", 2}, {"uint16", 2},  {"int", 4},    {"uint", 4},   {"int32", 4}, {"uint32", 4},
@@ -52,7 +52,7 @@ std::size_t type_bytes(std::string_view type, const Place& where) {
                   "char, short, int, float, double or a kin of these");
 }
 
-void read_property(std::string_view line, Element& element, const Place& where) {
+void read_property(std::string_view line, Element& element, const Location& where) {
   Property property;
   std::string_view type = next_token(line);
   property.list = type == "list";
@@ -64,7 +64,7 @@ void read_property(std::string_view line, Element& element, const Place& where) 
   element.properties.push_back(property);
 }
 
-PlyHeader read_ply_header(std::string_view bytes, const Place& where) {
+PlyHeader read_ply_header(std::string_view bytes, const Location& where) {
   PlyHeader header;
   std::size_t begin = 0;
   while (begin < bytes.size()) {
@@ -137,7 +137,7 @@ bool skip_binary(std::string_view& bytes, const Element& element, bool big_endia
   return true;
 }
 
-void check_ply(std::string_view bytes, const Place& where) {
+void check_ply(std::string_view bytes, const Location& where) {
   const PlyHeader header = read_ply_header(bytes, where);
   std::string_view rest = bytes.substr(header.body);
   for (const Element& element : header.elements) {
@@ -155,7 +155,7 @@ void check_ply(std::string_view bytes, const Place& where) {
   }
 }
 
-void check_glb(std::string_view bytes, const Place& where) {
+void check_glb(std::string_view bytes, const Location& where) {
   const std::uint64_t declared = bytes.size() < 12 ? 12 : read_count(bytes.substr(8), 4, false);
   if (declared > bytes.size())
     throw bad_input(where,
@@ -165,7 +165,7 @@ void check_glb(std::string_view bytes, const Place& where) {
 
 } // namespace
 
-void check_declared_size(std::string_view bytes, const Place& where) {
+void check_declared_size(std::string_view bytes, const Location& where) {
   const bool named_ply =
       bytes.starts_with("ply") && (bytes.size() == 3 || !std::isalnum(static_cast<unsigned char>(bytes[3])));
   if (named_ply) check_ply(bytes, where);

@@ -168,7 +168,7 @@ Mesh mesh_of(MeshAnswer answer) {
 }
 
 Mesh load_mesh(const std::filesystem::path& file, const std::stop_token& stop) {
-  const Place where = file.string();
+  const Location where = file.string();
   std::size_t size = 0;
   {
     const std::string bytes = read_file(file);

@@ -2,7 +2,7 @@
 // What checks of meshes (mesh.cpp), mesh files (mesh_file.cpp) and their reader (reader/main.cpp) share. Private to
 // scene/.
 #pragma once
-#include "base/place.h"
+#include "base/location.h"
 #include "scene/mesh.h"
 
 #include <cstdio>
@@ -26,7 +26,7 @@ std::vector<glm::vec3> mean_normals(const Mesh& mesh, const std::vector<std::uin
 /// Assimp takes what is missing from a PLY file for zeros, and reserves memory for whatever a PLY or GLB header
 /// promises. Throws bad_input at `where` if bytes open like such a file and end before what their header declares, or
 /// if the header makes no sense. Other files pass.
-void check_declared_size(std::string_view bytes, const Place& where);
+void check_declared_size(std::string_view bytes, const Location& where);
 
 /// What the reader's program answers (reader/main.cpp), not yet looked at.
 struct MeshAnswer {

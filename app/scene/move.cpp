@@ -3,7 +3,7 @@
 // them.
 #include "scene/move.h"
 
-#include "scene/place.h"
+#include "scene/object_mesh.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include "scene/materials.h"
 #include "scene/move.h"
-#include "scene/place.h"
+#include "scene/object_mesh.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@
 namespace nephroid::scene {
 namespace {
 
-void check_names(const std::vector<preset::Object>& objects, const Place& where) {
+void check_names(const std::vector<preset::Object>& objects, const Location& where) {
   std::map<std::string, std::size_t> first;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (objects[i].name.empty()) continue;
@@ -33,7 +33,7 @@ struct Pending {
   std::shared_ptr<const Mesh> mesh;
   Placement placement;
   int material = 0;
-  Place where;
+  Location where;
 };
 
 /// The middle of what bends light, or of everything where nothing does.
@@ -60,7 +60,7 @@ void append(Scene& scene, const Mesh& mesh) {
 
 /// damaged: what the preset wants done about it. Throws bad_input at the object where that is `refuse`.
 void tell_damages(Scene& scene, const std::vector<Damage>& damages, preset::Scene::DamagedMeshes damaged,
-                  const std::string& label, const Place& where) {
+                  const std::string& label, const Location& where) {
   for (const Damage& damage : damages) {
     const std::string what = fmt::format("{}: {}", label, damage.what);
     if (damaged == preset::Scene::DamagedMeshes::refuse)
@@ -173,7 +173,7 @@ std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p) {
 
 Scene load_scene(const preset::Preset& preset, const Watch& watch) {
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
-  const Place where = Place(preset.source) / "scene";
+  const Location where = Location(preset.source) / "scene";
   Scene scene;
   scene.source = preset.source;
   scene.metres_per_unit = preset::metres(preset.unit);
@@ -183,7 +183,7 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
   check_names(preset.scene.objects, where / "objects");
   // Each file is read once, however many objects name it and however large it is.
   std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes;
-  const auto mesh_of = [&](const preset::Object& object, const Place& at) {
+  const auto mesh_of = [&](const preset::Object& object, const Location& at) {
     if (object.shape) return std::make_shared<const Mesh>(make_shape(*object.shape));
     const std::filesystem::path file = finder.find(*object.mesh, at / "mesh");
     if (!meshes.contains(file)) meshes[file] = load_mesh_once(file, watch);
@@ -192,7 +192,7 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
   std::vector<Pending> pending;
   for (std::size_t i = 0; i < preset.scene.objects.size(); ++i) {
     const preset::Object& object = preset.scene.objects[i];
-    const Place object_where = where / "objects" / i;
+    const Location object_where = where / "objects" / i;
     const auto material =
         std::ranges::find(scene.materials, object.material, &Material::name) - scene.materials.begin();
     const Placement placement = make_placement(object.transform);

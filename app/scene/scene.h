@@ -3,7 +3,7 @@
 // OpenCL. Positions are in the preset's unit, moved so that the caustic objects are at the origin (see Scene::origin),
 // which keeps single precision good far from the preset's own origin.
 #pragma once
-#include "base/place.h"
+#include "base/location.h"
 #include "optics/wavelength.h"
 #include "preset/preset.h"
 #include "scene/environment.h"
@@ -155,7 +155,7 @@ Camera make_camera(const preset::Camera& camera, const Scene& scene);
 
 /// where: FILE#/scene/lights/INDEX. Throws bad_input there: no direction, power, size or angle out of range, unknown
 /// spectrum.
-Light make_light(const preset::Light& light, const Scene& scene, const Place& where);
+Light make_light(const preset::Light& light, const Scene& scene, const Location& where);
 
 /// The surface of a shape of preset.h, centred by its bounds on the origin, y up, with normals. Flat facets have
 /// vertices of their own, so their normals are exact; curved sides share theirs. quad: open, size x by z in the plane y

@@ -24,7 +24,7 @@ static_assert(int(LightType::point) == LIGHT_POINT && int(LightType::spot) == LI
               int(LightType::directional) == LIGHT_DIRECTIONAL && int(LightType::area) == LIGHT_AREA);
 
 /// where: the camera or light that the dielectrics enclose. Throws bad_input there for more than a path can carry.
-shared::Media to_media(const std::vector<int>& inside, const Place& where) {
+shared::Media to_media(const std::vector<int>& inside, const Location& where) {
   if (inside.size() > MEDIA_DEPTH)
     throw bad_input(where, fmt::format("is inside {} dielectric objects", inside.size()),
                     fmt::format("expected at most {} around one point", MEDIA_DEPTH),
@@ -37,7 +37,7 @@ shared::Media to_media(const std::vector<int>& inside, const Place& where) {
   return media;
 }
 
-shared::DeviceLight device_light(const scene::Light& light, double power_unit, const Place& where) {
+shared::DeviceLight device_light(const scene::Light& light, double power_unit, const Location& where) {
   shared::DeviceLight out{};
   out.position = to_float4(light.position);
   out.direction = to_float4(light.direction);
@@ -77,7 +77,7 @@ std::vector<scene::Sphere> scene_targets(const LeaveOut& leave_out, const scene:
 void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, const scene::Scene& scene,
                const LeaveOut& leave_out, SceneTables& tables) {
   const auto number = static_cast<int>(&light - scene.lights.data());
-  shared::DeviceLight out = device_light(light, tables.power_unit, Place(scene.source) / "scene" / "lights" / number);
+  shared::DeviceLight out = device_light(light, tables.power_unit, Location(scene.source) / "scene" / "lights" / number);
   out.number = number;
   if (leave_out.unreached_targets)
     std::erase_if(targets, [&](const scene::Sphere& target) { return !reaches(light, target); });
@@ -215,7 +215,7 @@ SkyTables make_sky_tables(const scene::Environment& environment) {
   return tables;
 }
 
-shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& where) {
+shared::DeviceCamera device_camera(const scene::Camera& camera, const Location& where) {
   shared::DeviceCamera out{};
   out.position = to_float4(camera.position);
   out.right = to_float4(camera.right);
@@ -259,7 +259,7 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
   }
   tables.light_towards_targets_w =
       std::accumulate(tables.towards_targets_w.begin(), tables.towards_targets_w.end(), 0.0);
-  tables.camera = device_camera(scene.camera, Place(scene.source) / "scene" / "camera");
+  tables.camera = device_camera(scene.camera, Location(scene.source) / "scene" / "camera");
 
   tables.scene.material_count = static_cast<int>(scene.materials.size());
   tables.scene.light_count = static_cast<int>(tables.lights.size());

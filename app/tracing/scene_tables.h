@@ -56,7 +56,7 @@ inline shared::float4 to_float4(const glm::dvec3& v, double w = 0) {
 }
 
 /// where: FILE#/scene/camera. Throws bad_input there for a camera inside more than MEDIA_DEPTH dielectrics.
-shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& where);
+shared::DeviceCamera device_camera(const scene::Camera& camera, const Location& where);
 
 /// LIGHT_* of kernels/tracing/shared_types.h.
 int device_light_type(const scene::Light& light);

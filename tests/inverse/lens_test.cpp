@@ -13,7 +13,7 @@ namespace nephroid::lens_test {
 
 using inverse::Grid;
 
-const Place own = Place("p.json") / "inverse";
+const Location own = Location("p.json") / "inverse";
 
 TEST(Poisson, SolvesForACosine) {
   const int columns = 24, rows = 16;

@@ -335,7 +335,7 @@ TEST_F(ParametersTest, AFileIsChosenWhereThePresetHasNone) {
 
 TEST_F(ParametersTest, WhatARunRefusesIsSaidAtItsFieldToo) {
   open();
-  runs.refusal = bad_input(Place(workbench.preset()->source, fov), "is not to this run's taste");
+  runs.refusal = bad_input(Location(workbench.preset()->source, fov), "is not to this run's taste");
   workbench.apply({command::Restart{}});
   ASSERT_TRUE(until(job::State::failed));
   search("scene.camera.fov_deg");

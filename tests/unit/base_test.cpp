@@ -3,7 +3,7 @@
 // which field an error is about, and the memory that a run is refused for.
 #include "base/counted.h"
 #include "base/numbers.h"
-#include "base/place.h"
+#include "base/location.h"
 #include "cli/verb.h"
 #include "preset/origins.h"
 #include "preset/read.h"
@@ -17,7 +17,7 @@ namespace nephroid::base_test {
 using nephroid::bad_input;
 using nephroid::counted;
 using nephroid::Error;
-using nephroid::Place;
+using nephroid::Location;
 using nephroid::pointer_key;
 using nephroid::typed_number;
 using preset::field_of;
@@ -69,23 +69,23 @@ TEST(JsonPointer, AgreesWithNlohmannJson) {
     EXPECT_EQ(pointer_key(key), (nlohmann::json::json_pointer() / key).to_string().substr(1)); // without its "/"
 }
 
-TEST(Place, ReadsAsItsPartsSay) {
-  EXPECT_EQ(Place().text(), "");
-  EXPECT_EQ(Place("--device 3").text(), "--device 3");
-  EXPECT_EQ(Place("a.yml", 7).text(), "a.yml:7");
-  EXPECT_EQ(Place("a.yml", 0).text(), "a.yml") << "no line is known";
-  EXPECT_EQ(Place("a.json", 7, 2).text(), "a.json:7:2");
-  EXPECT_EQ(Place("a.json", "").text(), "a.json#");
-  EXPECT_EQ((Place("a.json") / "scene" / "lights" / 0 / "a/b").text(), "a.json#/scene/lights/0/a~1b");
+TEST(Location, ReadsAsItsPartsSay) {
+  EXPECT_EQ(Location().text(), "");
+  EXPECT_EQ(Location("--device 3").text(), "--device 3");
+  EXPECT_EQ(Location("a.yml", 7).text(), "a.yml:7");
+  EXPECT_EQ(Location("a.yml", 0).text(), "a.yml") << "no line is known";
+  EXPECT_EQ(Location("a.json", 7, 2).text(), "a.json:7:2");
+  EXPECT_EQ(Location("a.json", "").text(), "a.json#");
+  EXPECT_EQ((Location("a.json") / "scene" / "lights" / 0 / "a/b").text(), "a.json#/scene/lights/0/a~1b");
 }
 
-TEST(Place, OfAnErrorIsDataWhateverItsNameHolds) {
-  const Place place = Place("a#/sweep/b: c") / "seed";
+TEST(Location, OfAnErrorIsDataWhateverItsNameHolds) {
+  const Location place = Location("a#/sweep/b: c") / "seed";
   const Error error = bad_input(place, "is 3", "expected 4");
-  EXPECT_EQ(error.place(), place);
+  EXPECT_EQ(error.location(), place);
   EXPECT_EQ(error.text(), "is 3; expected 4");
   EXPECT_EQ(error.line(), "a#/sweep/b: c#/seed: is 3; expected 4");
-  EXPECT_EQ(error.noting("in run 1").place(), place);
+  EXPECT_EQ(error.noting("in run 1").location(), place);
   EXPECT_EQ(error.at("--set seed=3").line(), "--set seed=3: is 3; expected 4");
 }
 
@@ -94,17 +94,17 @@ preset::Preset parse(const std::string& fields, const preset::Overrides& overrid
 }
 
 TEST(ErrorPlace, OfAValueThatCannotBeRead) {
-  const Place in_file = error_of([] { parse(R"(,"scene":{"camera":{"fov_deg":200}})"); }).place();
+  const Location in_file = error_of([] { parse(R"(,"scene":{"camera":{"fov_deg":200}})"); }).location();
   EXPECT_EQ(in_file.name, "p.json");
   EXPECT_EQ(in_file.pointer, "/scene/camera/fov_deg");
   EXPECT_EQ(in_file.field, "/scene/camera/fov_deg");
 
-  const Place typed = error_of([] { parse("", {"scene.camera.fov_deg=200"}); }).place();
+  const Location typed = error_of([] { parse("", {"scene.camera.fov_deg=200"}); }).location();
   EXPECT_EQ(typed.name, "--set scene.camera.fov_deg=200");
   EXPECT_FALSE(typed.pointer);
   EXPECT_EQ(typed.field, "/scene/camera/fov_deg");
 
-  const Place broken = error_of([] { parse(",\n \"white\": ]"); }).place();
+  const Location broken = error_of([] { parse(",\n \"white\": ]"); }).location();
   EXPECT_EQ(broken.line, 2u);
   EXPECT_EQ(broken.column, 11u);
   EXPECT_EQ(broken.field, "");
@@ -112,22 +112,22 @@ TEST(ErrorPlace, OfAValueThatCannotBeRead) {
 
 TEST(ErrorPlace, OfAValueThatTurnsOutWrongLater) {
   preset::Preset p = parse("", {"white=2"});
-  const auto fail_at = [&](const Place& place) {
+  const auto fail_at = [&](const Location& place) {
     return error_of([&] { preset::at_origins(p, [&] { throw bad_input(place, "is wrong"); }); });
   };
-  const Error typed = fail_at(Place(p.source) / "white");
+  const Error typed = fail_at(Location(p.source) / "white");
   EXPECT_EQ(typed.line(), "--set white=2: is wrong");
   EXPECT_EQ(field_of(p, typed.place()), "/white");
-  const Error in_file = fail_at(Place(p.source) / "scene" / "lights" / 0);
+  const Error in_file = fail_at(Location(p.source) / "scene" / "lights" / 0);
   EXPECT_EQ(in_file.line(), "p.json#/scene/lights/0: is wrong");
   EXPECT_EQ(field_of(p, in_file.place()), "/scene/lights/0");
-  EXPECT_EQ(field_of(p, fail_at(Place("bunny.obj", 3)).place()), "") << "no field of the preset";
-  EXPECT_EQ(field_of(p, fail_at(Place(p.source)).place()), "");
+  EXPECT_EQ(field_of(p, fail_at(Location("bunny.obj", 3)).location()), "") << "no field of the preset";
+  EXPECT_EQ(field_of(p, fail_at(Location(p.source)).location()), "");
 
   p.provenance = {}; // as an edit leaves it
-  EXPECT_EQ(fail_at(Place(p.source) / "white").line(), "p.json#/white: is wrong")
+  EXPECT_EQ(fail_at(Location(p.source) / "white").line(), "p.json#/white: is wrong")
       << "not the override's fault any more";
-  EXPECT_EQ(field_of(p, fail_at(Place(p.source) / "white").place()), "/white");
+  EXPECT_EQ(field_of(p, fail_at(Location(p.source) / "white").location()), "/white");
 }
 
 constexpr std::uint64_t gib = std::uint64_t{1} << 30;

@@ -112,7 +112,7 @@ protected:
   }
   Environment load(const std::string& file) {
     preset::Environment environment{.file = file, .radiance = 3, .rotate_deg = 20};
-    return make_environment(environment, FileFinder(), Place("p.json", "/scene/environment"), warnings);
+    return make_environment(environment, FileFinder(), Location("p.json", "/scene/environment"), warnings);
   }
 };
 
@@ -138,7 +138,7 @@ TEST_F(SceneEnvironment, IntegersAreDecodedAndGreyHasThreeChannels) {
 
 TEST_F(SceneEnvironment, AConstantIsOneTexel) {
   preset::Environment environment{.type = preset::Environment::Type::constant, .colour = {0.25, 0.5, 0}};
-  Environment e = make_environment(environment, FileFinder(), Place("p.json", "/scene/environment"), warnings);
+  Environment e = make_environment(environment, FileFinder(), Location("p.json", "/scene/environment"), warnings);
   EXPECT_EQ(e.width * e.height, 1);
   EXPECT_THAT(e.rgb, ElementsAre(0.25f, 0.5f, 0));
   EXPECT_FALSE(e.is_black());

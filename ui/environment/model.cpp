@@ -19,7 +19,7 @@ using environment::SegmentSettings;
 
 std::shared_ptr<const ReadMap> read(const MapSource& source) {
   auto read_map = std::make_shared<ReadMap>();
-  const Place where = Place(source.preset) / "scene" / "environment";
+  const Location where = Location(source.preset) / "scene" / "environment";
   const FileFinder finder(std::filesystem::path(source.preset).parent_path());
   const scene::Environment map = scene::make_environment(source.environment, finder, where, read_map->warnings);
   read_map->width = map.width;

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/place.h"
+#include "base/location.h"
 #include "preset/read.h"
 #include "scene/materials.h"
 
@@ -21,7 +21,7 @@ std::string parent_of(const std::string& pointer) {
 /// Refuses what a run would refuse of what changed, as far as that is known without it: missing files, spectra and
 /// curves.
 void check_loads(const preset::Preset& before, const preset::Preset& after) {
-  const Place where{after.source, std::string()};
+  const Location where{after.source, std::string()};
   const FileFinder finder(std::filesystem::path(after.source).parent_path());
   std::vector<std::string> warnings;
   for (const auto& [name, material] : after.scene.materials) {
@@ -87,7 +87,7 @@ std::variant<preset::Preset, Problem> Draft::read(const Edits& edits, const std:
     check_loads(preset_, edited);
     return edited;
   } catch (const Error& error) {
-    const Place& place = error.place();
+    const Location& place = error.location();
     const bool known = place.name == preset_.source && place.pointer;
     return Problem{pointer, known ? *place.pointer : pointer, known ? error.text() : error.line()};
   }

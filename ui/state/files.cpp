@@ -224,7 +224,7 @@ WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh) {
                   mesh.file.filename().string(), object.name, object.material, factor, size, unit_word(preset));
   if (dielectric && !mesh.closed) note += "; it is not closed: light that enters may never leave";
   scene.objects.push_back(std::move(object));
-  preset::check(preset, [&](const std::string& pointer) { return Place(mesh.file.string(), pointer); });
+  preset::check(preset, [&](const std::string& pointer) { return Location(mesh.file.string(), pointer); });
   return {std::move(preset), std::move(note)};
 }
 

@@ -130,7 +130,7 @@ EngineLayout read_engine_layout(const Json& value) {
 
 /// Calls read(value) with the text as JSON of this version. Every failure becomes one kind of error.
 template <class Read>
-auto read_kept(const std::string& text, int version, const Place& source, const std::string& what_is_wrong,
+auto read_kept(const std::string& text, int version, const Location& source, const std::string& what_is_wrong,
                const std::string& remedy, Read read) {
   try {
     const Json value = Json::parse(text);

@@ -43,7 +43,7 @@ bool is_preset(const std::string& name) {
 
 scene::Environment preset_environment(const std::string& name, std::vector<std::string>& warnings) {
   const preset::Preset preset = preset::read_preset(name);
-  const Place where = Place(preset.source, "/scene/environment");
+  const Location where = Location(preset.source, "/scene/environment");
   return preset::at_origins(preset, [&] {
     if (!preset.scene.environment)
       throw bad_input(where, "the preset has no environment", "expected a picture or a colour there",

@@ -64,7 +64,7 @@ Task preset_task(const ClusterOptions& options) {
   preset::at_origins(preset, [&] { engine::require_engine(preset, spectral::engine, "clusters no wavelengths"); });
   const std::string name = chosen_material(preset, options.material);
   const preset::Dispersion& dispersion = preset.scene.materials.at(name).dispersion;
-  const Place where = Place(preset.source) / "scene" / "materials" / name / "dispersion";
+  const Location where = Location(preset.source) / "scene" / "materials" / name / "dispersion";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   return {preset::at_origins(preset, [&] { return scene::make_curve(dispersion, finder, where); }),
           scene::outside_policy(dispersion.outside), spectral::settings(preset).threshold_deg,

@@ -23,9 +23,9 @@
 namespace nephroid::environment {
 namespace {
 
-Place objects_place(const std::string& source) { return Place(source) / "environment" / "objects"; }
+Location objects_location(const std::string& source) { return Location(source) / "environment" / "objects"; }
 
-[[noreturn]] void refuse_name(const preset::Preset& preset, const std::string& name, const Place& where) {
+[[noreturn]] void refuse_name(const preset::Preset& preset, const std::string& name, const Location& where) {
   std::vector<std::string> candidates;
   for (const preset::Object& object : preset.scene.objects)
     if (casts(preset, object) && !object.name.empty()) candidates.push_back(object.name);
@@ -39,7 +39,7 @@ Place objects_place(const std::string& source) { return Place(source) / "environ
                   near.empty() ? "" : fmt::format("did you mean '{}'?", near));
 }
 
-std::size_t index_of(const preset::Preset& preset, const std::string& name, const Place& where) {
+std::size_t index_of(const preset::Preset& preset, const std::string& name, const Location& where) {
   const auto& objects = preset.scene.objects;
   const auto found = std::ranges::find_if(
       objects, [&](const preset::Object& o) { return !name.empty() && o.name == name && casts(preset, o); });
@@ -223,7 +223,7 @@ std::vector<std::size_t> caster_objects(const preset::Preset& preset) {
   const std::vector<std::string>& wanted = settings(preset).objects;
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const Place where = objects_place(preset.source) / i;
+    const Location where = objects_location(preset.source) / i;
     const std::size_t index = index_of(preset, wanted[i], where);
     if (std::ranges::count(found, index))
       throw bad_input(where, fmt::format("'{}' is named twice", wanted[i]), "expected each name once");
@@ -233,7 +233,7 @@ std::vector<std::size_t> caster_objects(const preset::Preset& preset) {
     for (std::size_t i = 0; i < preset.scene.objects.size(); ++i)
       if (casts(preset, preset.scene.objects[i])) found.push_back(i);
   if (found.empty())
-    throw bad_input(objects_place(preset.source),
+    throw bad_input(objects_location(preset.source),
                     "no object of the scene is of glass or a mirror, so there are no caustics",
                     "expected such an object", "add one, or give an object another material");
   std::ranges::sort(found);
@@ -249,7 +249,7 @@ Caster make_caster(const preset::Preset& preset) {
   for (std::size_t i = 0; i < caster.objects.size(); ++i) {
     const scene::Object& object = caster.scene.objects[i];
     if (is_empty(object))
-      throw bad_input(Place(preset.source) / "scene" / "objects" / caster.objects[i], "has no surface",
+      throw bad_input(Location(preset.source) / "scene" / "objects" / caster.objects[i], "has no surface",
                       "expected one to bake");
     box = enclosing(box, bounds_of(caster.scene, object));
   }
@@ -264,7 +264,7 @@ std::vector<double> sphere_radii(const Settings& settings, const Caster& caster,
                smallest = std::max(1.001 * caster.extent.nearest, 0.05 * caster.size);
   if (largest < 1.001 * caster.extent.farthest)
     throw bad_input(
-        Place(source) / "environment" / "reach",
+        Location(source) / "environment" / "reach",
         fmt::format("is {}: a sphere of radius {:.4g} does not enclose {}, which reaches {:.4g} from its middle",
                     settings.reach, largest, caster.name, caster.extent.farthest),
         fmt::format("expected at least {:.3g}", std::ceil(1001 * caster.extent.farthest / caster.size) / 1000));

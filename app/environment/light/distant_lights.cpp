@@ -24,7 +24,7 @@ std::vector<DistantLight> lamps(const scene::Scene& scene) {
     const scene::Light& light = scene.lights[i];
     if (scene::is_environment(light)) continue;
     if (light.type != preset::Light::Type::directional)
-      throw bad_input(Place(scene.source) / "scene" / "lights" / i / "type", "is no directional light",
+      throw bad_input(Location(scene.source) / "scene" / "lights" / i / "type", "is no directional light",
                       "expected \"directional\": the engine 'environment' knows light from far away only",
                       fmt::format("give it a direction: --set 'scene.lights.{}={{\"type\": \"directional\", "
                                   "\"direction\": [0, -1, 0]}}'; or "

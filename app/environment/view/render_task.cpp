@@ -88,7 +88,7 @@ std::optional<MovedObjects> move_objects(const RenderTask& loaded, const preset:
   std::optional<scene::Scene> scene = scene::move_objects(*loaded.scene, before, now);
   if (!scene) return {};
   MovedObjects moved;
-  moved.camera = tracing::device_camera(scene->camera, Place(now.source) / "scene" / "camera");
+  moved.camera = tracing::device_camera(scene->camera, Location(now.source) / "scene" / "camera");
   moved.placement = placement(now, caster, *scene);
   moved.surface_points = surface_points(*scene, caster.objects, surface_point_count);
   for (std::size_t i = 0; i < now.scene.objects.size() && !moved.surroundings; ++i)

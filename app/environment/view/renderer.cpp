@@ -311,7 +311,7 @@ std::vector<Renderer::Layer> Renderer::layers() const {
   return result;
 }
 
-void Renderer::set_camera(const scene::Camera& camera, const Place& where) {
+void Renderer::set_camera(const scene::Camera& camera, const Location& where) {
   task_.tables.camera = tracing::device_camera(camera, where);
   begin_anew();
 }

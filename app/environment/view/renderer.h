@@ -50,7 +50,7 @@ public:
   std::vector<Layer> layers() const;
 
   /// As the next three, begins anew with a coarse picture. where: FILE#/scene/camera.
-  void set_camera(const scene::Camera& camera, const Place& where);
+  void set_camera(const scene::Camera& camera, const Location& where);
   void turn_environment(double rotate_deg);
   /// moved: the objects of the task's scene.
   void move_objects(MovedObjects moved);

@@ -94,7 +94,7 @@ bool SceneView::go_on_with(const preset::Preset& preset) {
     begins = true;
   } else if (!(preset.scene.camera == shown_.scene.camera)) {
     renderer_->set_camera(scene::make_camera(preset.scene.camera, renderer_->scene()),
-                          Place(preset.source) / "scene" / "camera");
+                          Location(preset.source) / "scene" / "camera");
     begins = true;
   }
   if (task_->cube.size > 0 && segment_settings(preset) != segment_settings(shown_)) {

@@ -20,7 +20,7 @@ void Description::note(const std::string& text) {
   if (std::ranges::count(notes, text) == 0) notes.push_back(text);
 }
 
-std::string Description::mesh_file(const std::filesystem::path& file, const Place& where) {
+std::string Description::mesh_file(const std::filesystem::path& file, const Location& where) {
   const std::string key = file_name_of(file.lexically_normal().string(), ".ply");
   if (meshes.contains(key)) return key;
   if (!is_there(file)) throw bad_input(where, "the mesh " + file.string() + " is not there", {}, "put it there");
@@ -59,7 +59,7 @@ std::optional<double> scene_number(std::string_view text) {
   return number && std::abs(*number) <= 1e12 ? number : std::nullopt;
 }
 
-preset::Material glass_of(double n, const Place& where) {
+preset::Material glass_of(double n, const Location& where) {
   if (!(n >= 0.01 && n <= 100)) throw bad_input(where, "its index of refraction is out of range");
   preset::Material glass;
   glass.type = preset::Material::Type::dielectric;
@@ -67,14 +67,14 @@ preset::Material glass_of(double n, const Place& where) {
   return glass;
 }
 
-glm::dmat4 look_at(const glm::dvec3& origin, const glm::dvec3& target, const glm::dvec3& up, const Place& where) {
+glm::dmat4 look_at(const glm::dvec3& origin, const glm::dvec3& target, const glm::dvec3& up, const Location& where) {
   const glm::dvec3 way = target - origin, across = glm::cross(up, way);
   if (!(glm::length(across) > 0)) throw bad_input(where, "looks nowhere, or up is the way it looks");
   const glm::dvec3 z = glm::normalize(way), x = glm::normalize(across);
   return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(origin, 1)};
 }
 
-glm::dmat4 rotated(const glm::dmat4& matrix, double degrees, const glm::dvec3& axis, const Place& where) {
+glm::dmat4 rotated(const glm::dmat4& matrix, double degrees, const glm::dvec3& axis, const Location& where) {
   if (!(glm::length(axis) > 0)) throw bad_input(where, "the axis has no direction");
   return glm::rotate(matrix, glm::radians(degrees), axis);
 }

@@ -2,7 +2,7 @@
 // What the readers of glTF, Mitsuba and PBRT files find, in the file's own coordinates and units. import.cpp makes a
 // preset of it. Intensities are colours whose luminance is in the file's unit of power.
 #pragma once
-#include "base/place.h"
+#include "base/location.h"
 #include "preset/preset.h"
 #include "scene/mesh.h"
 
@@ -16,7 +16,7 @@
 namespace nephroid::formats {
 
 struct DescribedShape {
-  Place where;
+  Location where;
   std::string name;
   std::string mesh;               ///< a key of Description::meshes; empty: a sphere about the origin
   double radius = 1;              ///< the sphere's
@@ -26,7 +26,7 @@ struct DescribedShape {
 };
 
 struct DescribedLight {
-  Place where;
+  Location where;
   preset::Light::Type type = preset::Light::Type::point; ///< not area
   glm::dvec3 position{0}, direction{0, 0, 1};
   glm::dvec3 colour{1}; ///< intensity; irradiance of a directional one
@@ -34,14 +34,14 @@ struct DescribedLight {
 };
 
 struct DescribedCamera {
-  Place where;
+  Location where;
   glm::dmat4 to_world{1}; ///< x to the right of the picture, y up, z forward
   double fov_deg = 40;    ///< vertical
   std::array<int, 2> resolution{768, 576};
 };
 
 struct DescribedSurroundings {
-  Place where;
+  Location where;
   std::filesystem::path file; ///< latitude and longitude; empty: one colour
   glm::dvec3 colour{1};
   double scale = 1;
@@ -65,9 +65,9 @@ struct Description {
   /// A sentence on what is left out, and what is done instead; each once.
   void note(const std::string& text);
   /// FILE:LINE: the same.
-  void note(const Place& where, const std::string& text) { note(where.text() + ": " + text); }
+  void note(const Location& where, const std::string& text) { note(where.text() + ": " + text); }
   /// Reads a mesh and returns its key. where: of the shape, for the message where the file cannot be read.
-  std::string mesh_file(const std::filesystem::path& file, const Place& where);
+  std::string mesh_file(const std::filesystem::path& file, const Location& where);
   /// Adds a mesh and returns its key.
   std::string own_mesh(const std::string& name, scene::Mesh mesh);
 };
@@ -82,12 +82,12 @@ std::string unique(const std::string& name, std::set<std::string>& taken);
 /// A number of a file; nothing if the text is none, or one that no scene has.
 std::optional<double> scene_number(std::string_view text);
 /// Throws bad_input at `where` if no glass has this index of refraction.
-preset::Material glass_of(double n, const Place& where);
+preset::Material glass_of(double n, const Location& where);
 
 /// From a viewer's coordinates, x across `up` and the line of sight, z forward. Throws bad_input at `where`.
-glm::dmat4 look_at(const glm::dvec3& origin, const glm::dvec3& target, const glm::dvec3& up, const Place& where);
+glm::dmat4 look_at(const glm::dvec3& origin, const glm::dvec3& target, const glm::dvec3& up, const Location& where);
 /// The matrix, then a turn about the axis. Throws bad_input at `where` if the axis has no direction.
-glm::dmat4 rotated(const glm::dmat4& matrix, double degrees, const glm::dvec3& axis, const Place& where);
+glm::dmat4 rotated(const glm::dmat4& matrix, double degrees, const glm::dvec3& axis, const Location& where);
 /// The vertical field of view of a picture where `degrees` are seen across an extent; both in pixels.
 double vertical_fov_deg(double degrees, double height, double extent);
 

@@ -73,7 +73,7 @@ void split_glb(const std::string& bytes, const std::string& name, std::string& j
 
 const GltfJson empty_object = GltfJson::object();
 
-[[noreturn]] void refuse(const Place& where, const char* wanted) {
+[[noreturn]] void refuse(const Location& where, const char* wanted) {
   throw bad_input(where, "is of a wrong kind", std::string("expected ") + wanted);
 }
 
@@ -96,7 +96,7 @@ GltfFile read_gltf(const std::filesystem::path& file) {
   if (!version.starts_with("2."))
     throw bad_input(gltf.where() / "asset" / "version", "is \"" + version + "\"", expected);
   if (!root.has("extensionsRequired")) return gltf;
-  const Place where = gltf.where() / "extensionsRequired";
+  const Location where = gltf.where() / "extensionsRequired";
   if (!gltf.json["extensionsRequired"].is_array()) throw bad_input(where, "is no list", expected);
   for (const GltfJson& extension : gltf.json["extensionsRequired"]) {
     const std::string wanted = extension.is_string() ? extension.get<std::string>() : extension.dump();
@@ -108,7 +108,7 @@ GltfFile read_gltf(const std::filesystem::path& file) {
 }
 
 GltfValue GltfValue::object(const char* key) const {
-  const Place where = where_ / key;
+  const Location where = where_ / key;
   if (!has(key)) return {empty_object, where};
   const GltfJson& value = (*json_)[key];
   if (!value.is_object()) refuse(where, "an object");
@@ -119,7 +119,7 @@ std::vector<GltfValue> GltfValue::list(const char* key) const {
   std::vector<GltfValue> items;
   if (!has(key)) return items;
   const GltfJson& value = (*json_)[key];
-  const Place where = where_ / key;
+  const Location where = where_ / key;
   if (!value.is_array()) refuse(where, "a list");
   for (std::size_t i = 0; i < value.size(); ++i) {
     if (!value[i].is_object()) refuse(where / i, "an object");
@@ -129,7 +129,7 @@ std::vector<GltfValue> GltfValue::list(const char* key) const {
 }
 
 GltfValue GltfValue::item(const char* key, std::size_t index) const {
-  const Place where = where_ / key;
+  const Location where = where_ / key;
   if (!has(key) || !(*json_)[key].is_array() || index >= (*json_)[key].size())
     throw bad_input(where, fmt::format("has no item {}", index));
   const GltfJson& value = (*json_)[key][index];
@@ -164,7 +164,7 @@ bool GltfValue::truth(const char* key, bool standard) const {
   return (*json_)[key].get<bool>();
 }
 
-std::size_t GltfValue::checked_index(const GltfJson& json, const Place& where, const GltfValue& root,
+std::size_t GltfValue::checked_index(const GltfJson& json, const Location& where, const GltfValue& root,
                                      const char* list) const {
   const std::size_t size = root.has(list) && root.json()[list].is_array() ? root.json()[list].size() : 0;
   if (!json.is_number_integer() || json.get<double>() < 0) refuse(where, "an index");

@@ -2,7 +2,7 @@
 // A glTF 2.0 file as JSON with its binary chunk, and reading that JSON strictly: every wrong type and every index out
 // of range is an error at its place. The mesh reader, a program of its own, reads the buffers.
 #pragma once
-#include "base/place.h"
+#include "base/location.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,7 +18,7 @@ struct GltfFile {
   std::filesystem::path file;
   GltfJson json;   ///< an object
   std::string bin; ///< the binary chunk of a .glb
-  Place where() const { return {file.string(), std::string()}; }
+  Location where() const { return {file.string(), std::string()}; }
 };
 
 /// Throws bad_input where it is no glTF 2.0, is cut, or requires an extension that is not read.
@@ -27,10 +27,10 @@ GltfFile read_gltf(const std::filesystem::path& file);
 /// A value of the file, with its place.
 class GltfValue {
 public:
-  GltfValue(const GltfJson& json, Place where) : json_(&json), where_(std::move(where)) {}
+  GltfValue(const GltfJson& json, Location where) : json_(&json), where_(std::move(where)) {}
 
   const GltfJson& json() const { return *json_; }
-  const Place& where() const { return where_; }
+  const Location& where() const { return where_; }
   bool has(const char* key) const { return json_->contains(key); }
   /// A member of an object, which is an object itself; an empty one if there is none.
   GltfValue object(const char* key) const;
@@ -60,10 +60,10 @@ public:
 
 private:
   void read_numbers(const char* key, double* values, std::size_t count) const;
-  std::size_t checked_index(const GltfJson& json, const Place& where, const GltfValue& root, const char* list) const;
+  std::size_t checked_index(const GltfJson& json, const Location& where, const GltfValue& root, const char* list) const;
 
   const GltfJson* json_;
-  Place where_;
+  Location where_;
 };
 
 } // namespace nephroid::formats

@@ -174,7 +174,7 @@ scene::Mesh GltfMeshes::read(const GltfValue& primitive) const {
   try {
     return scene::load_mesh(part);
   } catch (const Error& error) {
-    if (error.place().name != part.string()) throw;
+    if (error.location().name != part.string()) throw;
     throw error.at(primitive.where());
   }
 }

@@ -199,7 +199,7 @@ private:
 
   preset::Material material_of(xml_node node) {
     const std::string type = mitsuba_name(file_.attribute(node, "type"));
-    const Place where = file_.at(node);
+    const Location where = file_.at(node);
     if (type == "dielectric" || type == "roughdielectric" || type == "thindielectric") {
       if (type != "dielectric") d_.note(where, "a film or roughness is left out: the glass is solid and polished");
       return glass_of(ior(node, "int_ior", "bk7") / ior(node, "ext_ior", "air"), where);

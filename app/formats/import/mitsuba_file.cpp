@@ -42,7 +42,7 @@ xml_node MitsubaFile::load(const std::filesystem::path& file) {
   document.text = read_file(file);
   const auto result = document.xml.load_buffer(document.text.data(), document.text.size());
   if (!result)
-    throw bad_input(Place(file.string(), line_of(document.text, result.offset)),
+    throw bad_input(Location(file.string(), line_of(document.text, result.offset)),
                     std::string("its XML is broken: ") + result.description(), "expected a Mitsuba scene",
                     "check that the file is whole");
   const xml_node scene = document.xml.child("scene");
@@ -55,7 +55,7 @@ const MitsubaFile::Document& MitsubaFile::document_of(xml_node node) const {
   return found == documents_.end() ? documents_.front() : *found;
 }
 
-Place MitsubaFile::at(xml_node node) const {
+Location MitsubaFile::at(xml_node node) const {
   const Document& document = document_of(node);
   return {document.file.string(), line_of(document.text, node.offset_debug())};
 }

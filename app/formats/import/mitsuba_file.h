@@ -2,7 +2,7 @@
 // The XML of a Mitsuba scene and of the files that it includes, and the values in it. Names of version 0.6 are those
 // since version 2: "toWorld" is "to_world". What is no such value is bad_input at FILE:LINE.
 #pragma once
-#include "base/place.h"
+#include "base/location.h"
 
 #include <glm/glm.hpp>
 #include <pugixml.hpp>
@@ -21,7 +21,7 @@ class MitsubaFile {
 public:
   /// The <scene> of one more file.
   xml_node load(const std::filesystem::path& file);
-  Place at(xml_node node) const;
+  Location at(xml_node node) const;
   std::filesystem::path beside(xml_node node, const std::string& file) const {
     return document_of(node).file.parent_path() / file;
   }

@@ -49,7 +49,7 @@ public:
 private:
   // Directives by what they do. Each function returns false for a word that is none of its own.
 
-  bool is_block(const std::string& word, const Place& where) {
+  bool is_block(const std::string& word, const Location& where) {
     if (word == "AttributeBegin" || word == "TransformBegin" || word == "ObjectBegin") {
       stack_.push_back({state_, word});
       if (word != "ObjectBegin") return true;
@@ -70,7 +70,7 @@ private:
     return true;
   }
 
-  bool is_transform(const std::string& word, const Place& where) {
+  bool is_transform(const std::string& word, const Location& where) {
     glm::dmat4& m = state_.to_world;
     if (word == "WorldBegin" || word == "Identity") {
       m = glm::dmat4(1);
@@ -97,7 +97,7 @@ private:
   }
 
   /// What has no type.
-  bool is_mention(const std::string& word, const Place& where) {
+  bool is_mention(const std::string& word, const Location& where) {
     if (word == "WorldEnd") return true;
     if (word == "ReverseOrientation") {
       state_.reversed = !state_.reversed;
@@ -126,7 +126,7 @@ private:
   }
 
   /// A type in quotes and parameters follow.
-  void add_typed(const std::string& word, const Place& where) {
+  void add_typed(const std::string& word, const Location& where) {
     static const std::set<std::string> taken{"Film",        "Camera",          "Material", "MakeNamedMaterial",
                                              "LightSource", "AreaLightSource", "Shape",    "MakeNamedMedium"};
     if (!taken.contains(word) && !about_rendering.contains(word))
@@ -156,7 +156,7 @@ private:
       note_medium(where);
   }
 
-  void note_medium(const Place& where) { d_.note(where, "media are left out: there is clear space in their place"); }
+  void note_medium(const Location& where) { d_.note(where, "media are left out: there is clear space in their place"); }
 
   void add_camera(const std::string& type, const PbrtParameters& p) {
     if (!(std::abs(glm::determinant(state_.to_world)) > 0)) throw bad_input(p.where, "the camera's transform is flat");
@@ -193,7 +193,7 @@ private:
     (object_ ? *object_ : d_.shapes).push_back(std::move(*shape));
   }
 
-  void instance(const std::string& name, const Place& where) {
+  void instance(const std::string& name, const Location& where) {
     const auto found = objects_.find(name);
     if (found == objects_.end()) throw bad_input(where, "there is no object \"" + name + "\" above it");
     if (object_) return d_.note(where, "an instance within an object is left out");

@@ -66,7 +66,7 @@ void PbrtFile::read(const fs::path& file, int depth) {
   std::size_t line = 1;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
-    const Place where(file.string(), line);
+    const Location where(file.string(), line);
     if (c == '\n') ++line;
     if (c == ' ' || c == '\t' || c == '\r' || c == '\n') {
       ++i;
@@ -99,18 +99,18 @@ void PbrtFile::include_if_asked(const fs::path& file, int depth) {
   read(next, depth + 1);
 }
 
-const PbrtToken& PbrtFile::token(const Place& where) {
+const PbrtToken& PbrtFile::token(const Location& where) {
   if (ended()) throw bad_input(where, "the file ends here", "expected more", "check that the file is whole");
   return tokens_[next_++];
 }
 
-std::string PbrtFile::string(const Place& where) {
+std::string PbrtFile::string(const Location& where) {
   const PbrtToken& t = token(where);
   if (!t.quoted) throw bad_input(t.where, "\"" + t.text + "\" is no string", "expected a text in quotes");
   return t.text;
 }
 
-std::vector<double> PbrtFile::numbers(const Place& where, std::size_t count) {
+std::vector<double> PbrtFile::numbers(const Location& where, std::size_t count) {
   PbrtParameter list{{}, "the transform", {}, where};
   const bool bracket = !ended() && tokens_[next_].text == "[";
   if (bracket) ++next_;
@@ -120,7 +120,7 @@ std::vector<double> PbrtFile::numbers(const Place& where, std::size_t count) {
   return list.numbers();
 }
 
-PbrtParameters PbrtFile::parameters(const Place& where) {
+PbrtParameters PbrtFile::parameters(const Location& where) {
   PbrtParameters result{{}, where};
   while (string_follows()) {
     const PbrtToken& declared = tokens_[next_++];

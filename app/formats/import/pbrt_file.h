@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The words of a PBRT file and of those that it includes, with their lines, and the parameters of its directives.
 #pragma once
-#include "base/place.h"
+#include "base/location.h"
 
 #include <glm/glm.hpp>
 
@@ -14,20 +14,20 @@ namespace nephroid::formats {
 struct PbrtToken {
   std::string text;    ///< without the quotes
   bool quoted = false; ///< a string
-  Place where;
+  Location where;
 };
 
 struct PbrtParameter {
   std::string type, name;
   std::vector<std::string> values;
-  Place where;
+  Location where;
   std::vector<double> numbers() const; ///< throws bad_input where one is no number
 };
 
 /// The parameters of a directive.
 struct PbrtParameters {
   std::vector<PbrtParameter> all;
-  Place where; ///< the directive's
+  Location where; ///< the directive's
   const PbrtParameter* find(const std::string& name) const;
   std::string text(const std::string& name, const std::string& standard) const;
   double number(const std::string& name, double standard) const;
@@ -43,11 +43,11 @@ public:
 
   bool ended() const { return next_ == tokens_.size(); }
   bool string_follows() const { return !ended() && tokens_[next_].quoted; }
-  const PbrtToken& token(const Place& where);
-  std::string string(const Place& where);
+  const PbrtToken& token(const Location& where);
+  std::string string(const Location& where);
   /// As many numbers, with or without brackets.
-  std::vector<double> numbers(const Place& where, std::size_t count);
-  PbrtParameters parameters(const Place& where);
+  std::vector<double> numbers(const Location& where, std::size_t count);
+  PbrtParameters parameters(const Location& where);
 
 private:
   void read(const std::filesystem::path& file, int depth);

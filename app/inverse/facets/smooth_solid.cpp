@@ -250,7 +250,7 @@ std::uint64_t count_triangles(const Layout& layout, const std::vector<int>& part
   return SmoothBuilder(layout, Surface(layout.size, Grid::Zero(2, 2)), parts).triangles();
 }
 
-void refuse_mesh(const Place& own, double mesh_error, std::uint64_t triangles) {
+void refuse_mesh(const Location& own, double mesh_error, std::uint64_t triangles) {
   throw bad_input(own / "mesh_error",
                   fmt::format("is {}, for which the lens takes some {} million triangles, an STL of {:.3g} GB",
                               mesh_error, triangles / 1'000'000, static_cast<double>(stl_bytes(triangles)) / 1e9),

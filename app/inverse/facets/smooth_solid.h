@@ -20,7 +20,7 @@ std::uint64_t count_triangles(const Layout& layout, const std::vector<int>& part
 inline std::uint64_t stl_bytes(std::uint64_t triangles) { return 84 + 50 * triangles; }
 inline constexpr std::uint64_t most_stl_bytes = 4'000'000'000;
 /// Throws bad_input for so many triangles. `own` is where the settings stand.
-[[noreturn]] void refuse_mesh(const Place& own, double mesh_error, std::uint64_t triangles);
+[[noreturn]] void refuse_mesh(const Location& own, double mesh_error, std::uint64_t triangles);
 
 /// Each part becomes triangles about its middle, with its neighbours' corners on its sides; all are on the surface.
 Solid make_smooth_solid(const Layout& layout, const Surface& surface, const std::vector<int>& parts);

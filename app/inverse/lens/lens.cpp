@@ -81,7 +81,7 @@ std::vector<double> flat_powers(const Layout& layout) {
 
 } // namespace
 
-Lens::Lens(const Layout& layout, const Target& target, double mesh_error, Place settings)
+Lens::Lens(const Layout& layout, const Target& target, double mesh_error, Location settings)
     : layout_(layout), target_(target), mesh_error_(mesh_error), settings_(std::move(settings)),
       domain_(domain_of(layout)), fine_(layout),
       transport_(on_grid(layout, transport_cells(layout), layout.size, layout.facets, flat_powers(layout)),
@@ -288,7 +288,7 @@ constexpr double most_of_room = 0.9;
 
 Solid Lens::solid() const {
   const double reach = this->reach(); // and as far below z = 0
-  const auto refuse = [&](const Place& where, double value) {
+  const auto refuse = [&](const Location& where, double value) {
     throw bad_input(where, fmt::format("is {} mm, and half of the lens's relief is {:.4g} mm", value, reach),
                     fmt::format("expected at least {:.4g} mm", reach / most_of_room),
                     "choose a larger value or a receiver further away");

@@ -13,7 +13,7 @@ namespace nephroid::inverse {
 class Lens final : public Method {
 public:
   /// The layout and the target outlive it. `settings` is where the settings stand, for what solid() refuses.
-  Lens(const Layout& layout, const Target& target, double mesh_error, Place settings);
+  Lens(const Layout& layout, const Target& target, double mesh_error, Location settings);
 
   void advance() override;
   bool finished() const override { return stale_ >= most_stale; }
@@ -56,7 +56,7 @@ private:
   const Layout& layout_;
   const Target& target_;
   double mesh_error_;
-  Place settings_;
+  Location settings_;
   glm::dvec2 domain_; ///< size of the grid in millimetres, centred as the object and the receiver are
   Layout fine_;       ///< the layout with facets in parts, whose light is that of the surface
   Transport transport_;

@@ -18,7 +18,7 @@ Code encoded(const std::string& text, int version, QRecLevel level) {
   return {QRcode_encodeString(text.c_str(), version, level, QR_MODE_8, 1), QRcode_free};
 }
 
-Code strongest(const std::string& text, const Place& where) {
+Code strongest(const std::string& text, const Location& where) {
   Code code = encoded(text, 0, QR_ECLEVEL_L);
   if (!code)
     throw bad_input(where, fmt::format("has {} bytes, more than any QR code holds", text.size()),
@@ -31,7 +31,7 @@ Code strongest(const std::string& text, const Place& where) {
 
 } // namespace
 
-std::vector<double> qr_cells(const std::string& text, const glm::ivec2& cells, const Place& where) {
+std::vector<double> qr_cells(const std::string& text, const glm::ivec2& cells, const Location& where) {
   const Code code = strongest(text, where);
   const int across = code->width + 2 * quiet, module = std::min(cells.x, cells.y) / across;
   if (module < 1)

@@ -101,7 +101,7 @@ Target draw(const Layout& layout, const F& brightness_at) {
   return target;
 }
 
-Target draw_words(const Picture& picture, const Layout& layout, const Place& where) {
+Target draw_words(const Picture& picture, const Layout& layout, const Location& where) {
   constexpr int height = 256; // finer than any cell, so that the cells' mean is that of the letters
   const image::Image words = image::text_picture(picture.text, height, where / "text");
   const double pixels = words.width / picture.length; // in the receiver's shorter side
@@ -114,7 +114,7 @@ Target draw_words(const Picture& picture, const Layout& layout, const Place& whe
   });
 }
 
-Target brightness_of(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where) {
+Target brightness_of(const Picture& picture, const Layout& layout, const FileFinder& finder, const Location& where) {
   if (picture.type == Picture::Type::text) return draw_words(picture, layout, where);
   if (picture.type == Picture::Type::qr) return qr_cells(picture.text, layout.cells, where / "text");
   if (picture.type != Picture::Type::file)
@@ -125,7 +125,7 @@ Target brightness_of(const Picture& picture, const Layout& layout, const FileFin
 
 } // namespace
 
-Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where) {
+Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Location& where) {
   Target target = brightness_of(picture, layout, finder, where);
   if (std::all_of(target.begin(), target.end(), [](double t) { return t == 0; }))
     throw bad_input(where, "leaves every cell of the receiver dark",
@@ -139,7 +139,7 @@ Target make_target(const Picture& picture, const Layout& layout, const FileFinde
 
 std::vector<Target> make_targets(const preset::Preset& preset, const Layout& layout) {
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
-  const Place where = Place(preset.source) / "inverse" / "receivers";
+  const Location where = Location(preset.source) / "inverse" / "receivers";
   std::vector<Target> targets;
   for (const Receiver& r : settings(preset).receivers)
     targets.push_back(make_target(r.picture, layout, finder, where / targets.size() / "picture"));

@@ -15,11 +15,11 @@ Target photograph(const std::filesystem::path& file, const Picture& picture, con
 /// and the quiet zone of 4 modules around them are lit, what is beside it dark. The code has the lowest version that
 /// holds the text, and the strongest correction that this version has room for; a module has as many cells as fit.
 /// Throws bad_input at `where` for text that no code holds, and for too few cells, saying how many would do.
-std::vector<double> qr_cells(const std::string& text, const glm::ivec2& cells, const Place& where);
+std::vector<double> qr_cells(const std::string& text, const glm::ivec2& cells, const Location& where);
 
 /// In a drawing, each cell has the part of it that is covered; a file keeps its aspect. `where` is the picture's
 /// FILE#/json/pointer. Throws bad_input as the two above, and there for a drawing that leaves every cell dark.
-Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where);
+Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Location& where);
 
 std::vector<Target> make_targets(const preset::Preset& preset, const Layout& layout);
 

@@ -107,7 +107,7 @@ bool normalise(Spectrum& u) {
 }
 
 Error nothing_matters(const std::string& file, const std::string& reason) {
-  return bad_input(Place(file) / "spectral" / "effort", "the importance (4.15) is 0 at every wavelength: " + reason,
+  return bad_input(Location(file) / "spectral" / "effort", "the importance (4.15) is 0 at every wavelength: " + reason,
                    "expected a light on the caustic objects and something around them that reflects it",
                    "change the scene, or choose another effort");
 }

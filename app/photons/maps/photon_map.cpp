@@ -128,7 +128,7 @@ PlanPart plan_gathering(const PlanInput& input, plan::Pass pass, std::uint32_t p
   if (!part.passes[0].runs) return part;
   const std::size_t objects = input.scene.objects.size(), clusters = input.tables.wavelengths.clusters.size();
   if (2 * clusters * objects > MAX_PHOTON_GROUPS)
-    throw bad_input(Place(input.scene.source) / "scene" / "objects",
+    throw bad_input(Location(input.scene.source) / "scene" / "objects",
                     fmt::format("{} objects in {} wavelength clusters", objects, clusters),
                     fmt::format("photon maps tell {} surfaces in clusters apart", int{MAX_PHOTON_GROUPS}),
                     "choose spectral.estimator splat, or a larger threshold_deg");

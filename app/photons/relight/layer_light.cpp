@@ -75,7 +75,7 @@ LayerLight layer_light(const preset::Preset& preset) {
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i) {
     const preset::Light& l = preset.scene.lights[i];
     light.spectra.push_back(
-        scene::make_light_spectrum(l.spectrum, Place(preset.source) / "scene" / "lights" / i / "spectrum"));
+        scene::make_light_spectrum(l.spectrum, Location(preset.source) / "scene" / "lights" / i / "spectrum"));
     light.power.push_back(l.type == preset::Light::Type::directional ? l.irradiance_w_m2 : l.power_w);
   }
   light.white = preset.white.value();

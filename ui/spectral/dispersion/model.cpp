@@ -126,7 +126,7 @@ ClusterFigures figures_of(photons::Clustering clustering, const optics::Spectrum
 }
 
 GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source,
-                            const Place& where) {
+                            const Location& where) {
   GlassCurve glass_curve;
   glass_curve.points = dispersion.type == preset::Dispersion::Type::points;
   try {
@@ -151,7 +151,7 @@ bool DispersionModel::update_curve(const preset::Preset& preset, const std::stri
   const auto found = glasses_.find(material);
   if (found != glasses_.end() && found->second.dispersion == dispersion && found->second.source == preset.source)
     return false;
-  const Place where = Place(preset.source) / "scene" / "materials" / material / "dispersion";
+  const Location where = Location(preset.source) / "scene" / "materials" / material / "dispersion";
   glasses_[material] = {dispersion, preset.source, make_glass_curve(dispersion, preset.source, where)};
   ++curves_made_;
   return true;

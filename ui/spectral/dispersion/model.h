@@ -3,7 +3,7 @@
 // its clusters by every method and what they mean; and what a person does to it: control points are moved, added and
 // removed, a curve becomes control points. No Dear ImGui here.
 #pragma once
-#include "base/place.h"
+#include "base/location.h"
 #include "optics/wavelength.h"
 #include "photons/clusters/clusters.h"
 #include "photons/settings.h"
@@ -45,7 +45,7 @@ struct GlassCurve {
   std::vector<double> line_nm, line_n, line_k;
 };
 /// where: the field's FILE#/json/pointer, for messages. Whatever is wrong becomes the curve's error.
-GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const Place& where);
+GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const Location& where);
 
 /// How much the refraction angle differs inside a cluster: between the rays of its highest and its lowest n, which all
 /// go the way of the mean. A cluster of one wavelength has none.

@@ -69,7 +69,7 @@ void read_materials(const preset::Preset& preset, scene::Scene& outline) {
   std::vector<std::string> warnings; // the run's plan has them
   for (const auto& [name, material] : preset.scene.materials)
     outline.materials.push_back(
-        scene::make_material(name, material, finder, Place("scene/materials/" + name), warnings));
+        scene::make_material(name, material, finder, Location("scene/materials/" + name), warnings));
   for (const preset::Object& object : preset.scene.objects) {
     const auto found = preset.scene.materials.find(object.material);
     if (found == preset.scene.materials.end())

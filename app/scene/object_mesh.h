@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One object's mesh into the scene: transformed in double, rounded once, then checked. Private to scene/.
 #pragma once
-#include "base/place.h"
+#include "base/location.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
 
@@ -32,12 +32,12 @@ struct PlacedMesh {
 
 Placement make_placement(const preset::Transform& transform);
 /// In the preset's coordinates. Throws bad_input at where: they leave single precision.
-Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Place& where);
+Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Location& where);
 
 /// origin: the scene's, in the preset's coordinates. dielectric: closedness and orientation matter then.
 /// Throws bad_input at where: too large, too small or too far away for single precision.
 PlacedMesh place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric,
-                 const Place& where);
+                 const Location& where);
 
 /// The largest distance of a side from a coordinate plane.
 double largest_coordinate(const Bounds& bounds);

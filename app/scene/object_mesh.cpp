@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/place.h"
+#include "scene/object_mesh.h"
 
 #include "base/counted.h"
 #include "base/error.h"
@@ -46,7 +46,7 @@ Mesh transformed(const Mesh& mesh, const Placement& placement, const glm::dvec3&
   return result;
 }
 
-void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, const Place& where,
+void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, const Location& where,
                   PlacedMesh& placed) {
   const Bounds bounds = placed_bounds(mesh, placement, where);
   const glm::dvec3 edges = bounds.high - bounds.low;
@@ -67,7 +67,7 @@ void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3
                     extent, farthest, spacing / 2));
 }
 
-void refuse_thinner(double thickness, double largest, const Place& where) {
+void refuse_thinner(double thickness, double largest, const Location& where) {
   const double thinnest = 0x1p-20 * largest;
   if (thickness < thinnest)
     throw bad_input(where, fmt::format("is {:.3g} units thick, too little for single precision", thickness),
@@ -78,7 +78,7 @@ void refuse_thinner(double thickness, double largest, const Place& where) {
 /// Rays start some 2^-21 of a triangle's coordinates off it (kernels/tracing/surface.h): glass thinner than that would
 /// be stepped over, and light go on inside it for ever. Twice the volume over the area is the thickness of a plate or a
 /// shell.
-void check_thickness(const Mesh& mesh, double volume, const Place& where) {
+void check_thickness(const Mesh& mesh, double volume, const Location& where) {
   double area = 0, largest = 0;
   for (const glm::uvec3& triangle : mesh.triangles) {
     const glm::dvec3 a = mesh.positions[triangle.x], ab = glm::dvec3(mesh.positions[triangle.y]) - a,
@@ -91,7 +91,7 @@ void check_thickness(const Mesh& mesh, double volume, const Place& where) {
 }
 
 /// What is left of a place on an ellipsoid in single precision is the spacing of its coordinates.
-void check_thickness(const Ellipsoid& ellipsoid, const Place& where) {
+void check_thickness(const Ellipsoid& ellipsoid, const Location& where) {
   refuse_thinner(2 * shortest_half_axis(ellipsoid), largest_coordinate(bounds_of(ellipsoid)), where);
 }
 
@@ -164,7 +164,7 @@ Placement make_placement(const preset::Transform& transform) {
   return placement;
 }
 
-Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Place& where) {
+Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Location& where) {
   Bounds bounds;
   const auto add = [&](const glm::dvec3& p) {
     bounds = enclosing(bounds, {p, p});
@@ -183,7 +183,7 @@ Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Place& 
 }
 
 PlacedMesh place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric,
-                 const Place& where) {
+                 const Location& where) {
   PlacedMesh placed;
   check_extent(mesh, placement, origin, where, placed);
   placed.mesh = transformed(mesh, placement, origin);
