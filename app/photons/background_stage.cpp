@@ -68,7 +68,7 @@ bool goes_one_way(const scene::Scene& scene) {
 
 class BackgroundStage final : public EyeStage {
 public:
-  BackgroundStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+  BackgroundStage(StageContext& world, const scene::Scene& scene, const Settings& settings)
       : EyeStage(world, "background", settings), radiance_(scene.environment->radiance),
         tables_(make_background_tables(*scene.environment, *settings.pixel_samples)),
         texels_(compute::Buffer(world.context, "environment", scene.environment->rgb)),

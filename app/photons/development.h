@@ -14,7 +14,7 @@ namespace nephroid::photons {
 class Development {
 public:
   /// smoothing is for caustics, with smooths_paths also for what paths from the eye see. The references outlive this.
-  Development(const DeviceWorld& world, const Passes& passes, const Preview& preview,
+  Development(const StageContext& world, const Passes& passes, const Preview& preview,
               std::optional<BlockSmoothing> smoothing, bool smooths_paths)
       : world_(world), passes_(passes), preview_(preview), smoothing_(std::move(smoothing)),
         smooths_paths_(smooths_paths) {}
@@ -49,7 +49,7 @@ private:
     smoothing_seconds_ += tracing::seconds_of(work);
   }
 
-  const DeviceWorld& world_;
+  const StageContext& world_;
   const Passes& passes_;
   const Preview& preview_;
   std::optional<BlockSmoothing> smoothing_;

@@ -10,7 +10,7 @@ namespace {
 
 class DirectStage final : public EyeStage {
 public:
-  DirectStage(DeviceWorld& world, const scene::Scene&, const Settings& settings)
+  DirectStage(StageContext& world, const scene::Scene&, const Settings& settings)
       : EyeStage(world, "direct", settings),
         kernel_(compute::Program(world.context, "photons/direct.cl", world.defines).kernel("direct")) {}
 

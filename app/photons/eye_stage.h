@@ -20,7 +20,7 @@ inline const char* more_through_glass(const PlanInput& input) {
 
 class EyeStage : public Stage {
 public:
-  EyeStage(DeviceWorld& world, const char* layer, const Settings& settings)
+  EyeStage(StageContext& world, const char* layer, const Settings& settings)
       : world_(world), layer_(layer), enough_(static_cast<std::uint32_t>(*settings.pixel_samples)),
         film_(world.zeroed(std::string("film ") + layer, world.film_size())), preview_film_(world.preview_film()),
         pixels_(world, *settings.pixel_samples) {}
@@ -74,7 +74,7 @@ protected:
   /// The film's quanta for a value of 1 in the picture.
   virtual double quanta_per_unit() const = 0;
 
-  DeviceWorld& world_;
+  StageContext& world_;
 
 private:
   void run(const compute::Buffer<std::int64_t>& film, const shared::DeviceCamera& camera,

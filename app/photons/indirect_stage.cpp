@@ -69,7 +69,7 @@ IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& 
 
 class IndirectStage final : public Stage {
 public:
-  IndirectStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+  IndirectStage(StageContext& world, const scene::Scene& scene, const Settings& settings)
       : world_(world),
         tables_(make_indirect_tables(scene, world.tables, static_cast<unsigned>(settings.indirect_photons_per_pass))),
         everything_(world.context, "target of indirect light",
@@ -132,7 +132,7 @@ public:
   }
 
 private:
-  DeviceWorld& world_;
+  StageContext& world_;
   IndirectTables tables_;
   compute::Buffer<shared::DeviceTarget> everything_;
   compute::Buffer<shared::DeviceEmitter> emitters_;

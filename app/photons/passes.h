@@ -48,7 +48,7 @@ public:
   /// Complete passes and the fraction of the current one, in which every stage counts alike.
   double with_fraction() const;
   std::uint64_t photons() const;
-  /// The batches of the photons that DeviceWorld::energy counts, with the fraction of the current pass.
+  /// The batches of the photons that StageContext::energy counts, with the fraction of the current pass.
   double photon_batches() const;
   /// The batches since begin_energy().
   double energy_batches() const { return photon_batches() - at_.energy_from; }
@@ -77,7 +77,7 @@ private:
 class Preview {
 public:
   /// edges are those of each picture's blocks (preview_edges). Without edges there is no preview.
-  Preview(DeviceWorld& world, std::vector<int> edges) : world_(world), edges_(std::move(edges)) {}
+  Preview(StageContext& world, std::vector<int> edges) : world_(world), edges_(std::move(edges)) {}
 
   bool has_more() const { return pictures_ < edges_.size(); }
   bool has_picture() const { return pictures_ > 0; }
@@ -92,7 +92,7 @@ public:
 private:
   void begin_picture();
 
-  DeviceWorld& world_;
+  StageContext& world_;
   std::vector<int> edges_;
   std::size_t pictures_ = 0; ///< number of pictures that have begun
 };

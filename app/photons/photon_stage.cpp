@@ -23,7 +23,7 @@ std::int64_t first_reallocation(unsigned batches) { return std::max<std::int64_t
 
 class PhotonStage final : public Stage {
 public:
-  PhotonStage(DeviceWorld& world, const scene::Scene&, const Settings& settings)
+  PhotonStage(StageContext& world, const scene::Scene&, const Settings& settings)
       : world_(world), insists_(settings.effort == Settings::Effort::variance),
         by_variance_(insists_ || settings.effort == Settings::Effort::automatic), allocation_(world.tables.emitters),
         guide_(by_variance_ ? world.tables.lights.size() : 0),
@@ -150,7 +150,7 @@ private:
                               (t.caustic_scale * t.light_towards_targets_w));
   }
 
-  DeviceWorld& world_;
+  StageContext& world_;
   bool insists_;     ///< whether the preset asks for allocation by variance
   bool by_variance_; ///< whether photons are measured, and allocated and guided by that
   NeymanAllocation allocation_;

@@ -20,7 +20,7 @@
 namespace nephroid::photons {
 
 class Stage;
-struct DeviceWorld;
+struct StageContext;
 
 /// What the parts of a plan are decided by.
 struct PlanInput {
@@ -60,7 +60,7 @@ struct RunPart {
   /// Plans the part. It runs if its first pass does; without passes it does not run.
   PlanPart (*plan)(const PlanInput& input);
   /// Makes the stage of a part that runs; null for other parts. world outlives the stage. Throws as make_job does.
-  std::unique_ptr<Stage> (*make)(DeviceWorld& world, const scene::Scene& scene, const Settings& settings) = nullptr;
+  std::unique_ptr<Stage> (*make)(StageContext& world, const scene::Scene& scene, const Settings& settings) = nullptr;
   const char* layer = ""; ///< the picture's layer that the stage adds to
 };
 

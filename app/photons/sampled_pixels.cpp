@@ -37,7 +37,7 @@ struct SampleMoments {
 /// Sums over the pixels around one, without itself, that show glass, or none, as it does: others have other paths.
 class Neighbourhood {
 public:
-  Neighbourhood(const DeviceWorld& world, std::span<const SampleMoments> pixels)
+  Neighbourhood(const StageContext& world, std::span<const SampleMoments> pixels)
       : width_(world.tables.camera.width), height_(world.tables.camera.height), glass_(world.pixels.may_show_glass),
         pixels_(pixels) {}
   SampleMoments mean(std::size_t pixel, int reach) const {
@@ -64,7 +64,7 @@ private:
 
 } // namespace
 
-SampledPixels::SampledPixels(const DeviceWorld& world, std::int64_t enough)
+SampledPixels::SampledPixels(const StageContext& world, std::int64_t enough)
     : world_(world), enough_(enough), passes_(world.pixels.glass.empty() ? enough : preset::max_passes),
       counts_(world.pixels.count), rates_(world.pixels.count, 1),
       on_device_(world.context, "samples", most_samples_a_slice) {}

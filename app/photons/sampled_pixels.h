@@ -7,7 +7,7 @@
 #pragma once
 #include "kernels/tracing/shared_types.h"
 #include "photons/stage.h"
-#include "photons/tables/device_world.h"
+#include "photons/stage_context.h"
 #include "tracing/slices.h"
 #include "tracing/state.h"
 
@@ -20,7 +20,7 @@ namespace nephroid::photons {
 class SampledPixels {
 public:
   /// enough is the most samples of a pixel that shows neither glass nor a mirror.
-  SampledPixels(const DeviceWorld& world, std::int64_t enough);
+  SampledPixels(const StageContext& world, std::int64_t enough);
 
   /// The number of passes that may have samples.
   std::int64_t passes() const { return passes_; }
@@ -50,7 +50,7 @@ private:
   std::int64_t samples_in(std::size_t pixel, std::int64_t pass) const;
   void take_next(std::int64_t pass, double amount);
 
-  const DeviceWorld& world_;
+  const StageContext& world_;
   std::int64_t enough_, passes_;
   std::vector<std::array<std::uint32_t, 2>> counts_; ///< [pixel]: samples in even and in odd passes
   std::vector<std::int16_t> rates_; ///< [pixel]: n > 0: n samples a pass; n < 0: one sample in every -n passes

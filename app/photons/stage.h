@@ -5,7 +5,7 @@
 #include "job/job.h"
 #include "photons/energy.h"
 #include "photons/plan_part.h"
-#include "photons/tables/device_world.h"
+#include "photons/stage_context.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
 #include "tracing/state.h"
@@ -57,7 +57,7 @@ public:
   virtual std::int64_t passes() const { return preset::max_passes; }
   /// Does one slice of about 30 ms of a pass that it takes part in. True when its part of that pass is complete.
   virtual bool advance(std::int64_t pass) = 0;
-  /// Does one slice of its part of a preview (DeviceWorld::preview), before the first pass. True when that is complete.
+  /// Does one slice of its part of a preview (StageContext::preview), before the first pass. True when that is complete.
   virtual bool advance_preview() { return true; }
   /// Adds its layers to the preview, as develop() does.
   virtual void develop_preview(job::Picture& /*picture*/) {}
@@ -77,14 +77,14 @@ public:
   virtual void share_work(const Noise& /*noise*/) {}
   /// Photons sent in one pass; 0 where it sends none.
   virtual std::uint64_t photons_per_pass() const { return 0; }
-  /// Whether DeviceWorld::energy holds the power of its photons.
+  /// Whether StageContext::energy holds the power of its photons.
   virtual bool counts_energy() const { return false; }
   virtual void state(tracing::State& state) = 0;
 };
 
 /// The function RunPart::make of a stage.
 template <class Kind>
-std::unique_ptr<Stage> make_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings) {
+std::unique_ptr<Stage> make_stage(StageContext& world, const scene::Scene& scene, const Settings& settings) {
   return std::make_unique<Kind>(world, scene, settings);
 }
 

@@ -2,7 +2,7 @@
 // Paths from the eye in slices of pixels: photons/view.cl finds where they end, and the caller gathers photons there.
 #pragma once
 #include "kernels/photons/photon_map_types.h"
-#include "photons/tables/device_world.h"
+#include "photons/stage_context.h"
 #include "tracing/slices.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ class EyePaths {
 public:
   /// The pixels that have paths: all of them, or those that may show glass or a mirror.
   enum class Pixels { all, glass };
-  EyePaths(DeviceWorld& world, Pixels pixels)
+  EyePaths(StageContext& world, Pixels pixels)
       : world_(world), begin_(pixels == Pixels::all ? 0 : world.pixels.count),
         size_(pixels == Pixels::all ? world.pixels.count : static_cast<std::uint32_t>(world.pixels.glass.size())),
         points_(world.context, "visible points", point_count(world.tables.camera)),
@@ -29,7 +29,7 @@ public:
     std::uint32_t count = 1, before = 0, before_in_half = 0;
   };
   /// Traces the paths of each of the next pixels, one after the other; gather(first, count) queues kernels for each.
-  /// first is an index into DeviceWorld::pixels. view.cl explains cluster. True when all pixels are done.
+  /// first is an index into StageContext::pixels. view.cl explains cluster. True when all pixels are done.
   template <class Gather>
   bool advance(shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster, const Gather& gather) {
     if (size_ == 0) return true;
@@ -80,8 +80,8 @@ private:
                                  static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
   }
 
-  DeviceWorld& world_;
-  std::uint32_t begin_, size_; ///< range of the pixels in DeviceWorld::pixels
+  StageContext& world_;
+  std::uint32_t begin_, size_; ///< range of the pixels in StageContext::pixels
   compute::Buffer<shared::VisiblePoint> points_;
   compute::Kernel view_;
   tracing::PixelSlices slices_;

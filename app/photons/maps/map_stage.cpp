@@ -20,7 +20,7 @@ namespace {
 
 class MapStage final : public Stage {
 public:
-  MapStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+  MapStage(StageContext& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), map_(world.map.value()), first_radius_(first_map_radius(settings, scene)),
         alpha_(settings.sppm.alpha), paths_(world.tables.eye_paths), eye_(world, EyePaths::Pixels::glass),
         film_(world.zeroed("film photon maps", world.film_size())), preview_film_(world.preview_film()),
@@ -131,7 +131,7 @@ private:
                   static_cast<float>(t.caustic_scale / quanta / batches / std::pow(std::numbers::pi * metres, 2))}});
   }
 
-  DeviceWorld& world_;
+  StageContext& world_;
   PhotonMap& map_;
   double first_radius_, alpha_;
   std::uint32_t paths_;                   ///< paths of a pixel in a pass

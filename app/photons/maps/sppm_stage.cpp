@@ -39,7 +39,7 @@ struct ClusterPhotons {
 
 class SppmStage final : public Stage {
 public:
-  SppmStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+  SppmStage(StageContext& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), photons_(static_cast<std::uint32_t>(settings.photons_per_pass)),
         random_(settings.effort == Settings::Effort::random), alpha_(settings.sppm.alpha),
         first_radius_(first_map_radius(settings, scene)), map_(world.context, photons_, world.defines),
@@ -278,7 +278,7 @@ private:
                         });
   }
 
-  DeviceWorld& world_;
+  StageContext& world_;
   std::uint32_t photons_; ///< photons of an iteration
   bool random_;
   double alpha_, first_radius_;

@@ -275,7 +275,7 @@ void plan_layer_film(const char* name, std::size_t layers, std::size_t cells, co
                                                      6 * sizeof(float) * (padded + pixels)});
 }
 
-const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene) {
+const Relighting& relighting_of(StageContext& world, const scene::Scene& scene) {
   if (world.relighting) return *world.relighting;
   const RunTables& tables = world.tables;
   world.relighting = std::make_shared<Relighting>();
@@ -302,7 +302,7 @@ const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene) {
   return relighting;
 }
 
-void change_light(Relighting& relighting, DeviceWorld& world, LayerLight light) {
+void change_light(Relighting& relighting, StageContext& world, LayerLight light) {
   relighting.weights = layer_weights(light, world.tables.wavelengths);
   relighting.light = std::move(light);
   ++relighting.changes;

@@ -8,7 +8,7 @@
 #include "mpi/rank_context.h"
 #include "photons/plan_part.h"
 #include "photons/relight/layer_light.h"
-#include "photons/tables/device_world.h"
+#include "photons/stage_context.h"
 #include "scene/scene.h"
 #include "tracing/state.h"
 
@@ -118,11 +118,11 @@ struct Relighting {
   compute::Buffer<float> mean_reflectance, luminance_share; ///< FlatLight
 };
 
-/// Returns DeviceWorld::relighting. The first call surveys on the device what the camera sees.
-const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene);
+/// Returns StageContext::relighting. The first call surveys on the device what the camera sees.
+const Relighting& relighting_of(StageContext& world, const scene::Scene& scene);
 
 /// Changes the light. The energy counters begin anew, but for refused contributions.
-void change_light(Relighting& relighting, DeviceWorld& world, LayerLight light);
+void change_light(Relighting& relighting, StageContext& world, LayerLight light);
 
 /// Adds a film of so many cells to the plan: its sums under their name, and its cells and weighed pictures.
 void plan_layer_film(const char* name, std::size_t layers, std::size_t cells, const PlanInput& input, PlanPart& part);

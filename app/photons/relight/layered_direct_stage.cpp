@@ -13,7 +13,7 @@ namespace {
 
 class LayeredDirectStage final : public Stage {
 public:
-  LayeredDirectStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+  LayeredDirectStage(StageContext& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), relighting_(relighting_of(world, scene)), pixel_samples_(*settings.pixel_samples),
         unbent_(world.context, "film direct", relighting_.unbent, world.tables.lights.size(), world.halves,
                 world.defines),
@@ -112,7 +112,7 @@ private:
                                     : tracing::halves_of(passes, sampled ? 1 : 0);
   }
 
-  DeviceWorld& world_;
+  StageContext& world_;
   const Relighting& relighting_;
   std::int64_t pixel_samples_;
   LayerFilm unbent_, bent_;

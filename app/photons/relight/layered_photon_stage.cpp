@@ -14,7 +14,7 @@ namespace {
 
 class LayeredPhotonStage final : public Stage {
 public:
-  LayeredPhotonStage(DeviceWorld& world, const scene::Scene& scene, const Settings&)
+  LayeredPhotonStage(StageContext& world, const scene::Scene& scene, const Settings&)
       : world_(world), relighting_(relighting_of(world, scene)), emitters_(world.tables.emitters),
         sent_(emitters_.size()), film_(world.context, "film caustic", relighting_.unbent,
                                        world.tables.lights.size() * cluster_count(), world.halves, world.defines),
@@ -157,7 +157,7 @@ private:
     world_.emitters.write(emitters_);
   }
 
-  DeviceWorld& world_;
+  StageContext& world_;
   const Relighting& relighting_;
   std::vector<shared::DeviceEmitter> emitters_;
   std::vector<std::array<std::uint64_t, 2>>

@@ -32,7 +32,7 @@ struct PreviewBlocks {
 
 struct Relighting;
 
-struct DeviceWorld : tracing::World {
+struct StageContext : tracing::World {
   RunTables tables;
   double white = 1;
   unsigned halves = 2;                    ///< halves of a film: 2 where the error is estimated (tracing/film.h)
