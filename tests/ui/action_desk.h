@@ -20,7 +20,7 @@ public:
   const preset::Preset& preset() const { return *workbench.preset(); }
   const preset::Scene& scene() const { return preset().scene; }
   const ui::ViewState& view_state() const { return workbench.view_state(); }
-  const ui::Settings& settings() const { return workbench.setup().settings(); }
+  const ui::WindowSettings& settings() const { return workbench.setup().settings(); }
   const ui::RunInHand& run() const { return workbench.run(); }
   const auto& comparing() const { return workbench.comparing(); }
   std::string file() const { return (folder.path() / "test.json").string(); }
@@ -47,7 +47,7 @@ public:
   struct Before {
     preset::Preset preset;
     ui::ViewState view_state;
-    ui::Settings settings;
+    ui::WindowSettings settings;
     std::uint64_t run = 0;
   } before;
 

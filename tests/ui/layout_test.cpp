@@ -11,7 +11,7 @@ class LayoutTest : public test::WindowFixture {
 protected:
   using test::WindowFixture::WindowFixtureOf;
   void set_ini(const std::string& ini) {
-    Settings settings = workbench.setup().settings();
+    WindowSettings settings = workbench.setup().settings();
     settings.engines["spectral"].ini = ini;
     workbench.setup().set_settings(settings);
   }
@@ -213,9 +213,9 @@ TEST_F(LayoutTest, EveryPanelIsClosedAndShownByItsAction) {
 
 TEST_F(LayoutTest, AnImpossibleSizeOfTextStaysAtTheEnd) {
   workbench.apply({command::SetAppearance{Theme::light, 1e9}});
-  EXPECT_EQ(workbench.setup().settings().text_size, Settings::largest_text);
+  EXPECT_EQ(workbench.setup().settings().text_size, WindowSettings::largest_text);
   workbench.apply({command::SetAppearance{Theme::dark, -1}});
-  EXPECT_EQ(workbench.setup().settings().text_size, Settings::smallest_text);
+  EXPECT_EQ(workbench.setup().settings().text_size, WindowSettings::smallest_text);
 }
 
 TEST_F(LayoutTest, ThePaletteRunsWhatIsTyped) {

@@ -276,7 +276,7 @@ TEST_F(SessionTest, SettingsAreThoseOfTheLastWindow) {
 }
 
 TEST(Settings, WhatCannotBeIsRefused) {
-  Settings settings;
+  WindowSettings settings;
   settings.engines["spectral"] = {"[Docking][Data]\nDockNode ID=0x00000003\n", {"plan"}};
   const std::string text = to_json(settings);
   EXPECT_EQ(parse_settings(text, ""), settings);
@@ -286,7 +286,7 @@ TEST(Settings, WhatCannotBeIsRefused) {
   EXPECT_THROW(parse_settings(with("\"text_size\": 1.0", "\"text_size\": 1e9"), ""), Error);
   for (std::size_t length = 0; length < text.size(); length += 3)
     EXPECT_THROW(parse_settings(text.substr(0, length), ""), Error) << length;
-  Settings crowded;
+  WindowSettings crowded;
   for (int i = 0; i < 100; ++i) crowded.engines["spectral"].closed.insert(std::to_string(i));
   EXPECT_THROW(parse_settings(to_json(crowded), ""), Error);
 }

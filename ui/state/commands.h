@@ -70,13 +70,13 @@ struct EngineLayout {
   bool operator==(const EngineLayout&) const = default;
 };
 
-struct Settings {
+struct WindowSettings {
   static constexpr double smallest_text = 0.6, largest_text = 3;
 
   Theme theme = Theme::dark;
   double text_size = 1;                        ///< a factor on the display's own scale; smallest_text..largest_text
   std::map<std::string, EngineLayout> engines; ///< keyed by the engine's name
-  bool operator==(const Settings&) const = default;
+  bool operator==(const WindowSettings&) const = default;
 };
 
 /// What a dialog is open for. unsaved: a command waits for the answer (Workbench::waiting).
@@ -266,7 +266,7 @@ struct ShowPanel {
 };
 struct SetAppearance {
   Theme theme = Theme::dark;
-  double text_size = 1; ///< Settings::smallest_text..largest_text; clamped
+  double text_size = 1; ///< WindowSettings::smallest_text..largest_text; clamped
 };
 /// Becomes a message: an error from a panel that could not go on, or a note that disappears by itself.
 struct Report {

@@ -11,7 +11,7 @@ struct Context {
   const RunInHand& run;
   const Comparing& comparing;
   const ViewState& view_state;
-  const Settings& settings;
+  const WindowSettings& settings;
   bool has_earlier_session; ///< there is an earlier session to reopen
   Commands& commands;
   const RecentFiles& recent;

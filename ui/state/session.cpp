@@ -148,7 +148,7 @@ auto read_session(const std::string& text, const std::string& source, Read read)
 
 } // namespace
 
-std::string to_json(const Settings& settings) {
+std::string to_json(const WindowSettings& settings) {
   Json engines = Json::object();
   for (const auto& [engine, layout] : settings.engines)
     engines[engine] = {{"closed", layout.closed}, {"ini", layout.ini}, {"checksum", checksum(layout.ini)}};
@@ -159,13 +159,13 @@ std::string to_json(const Settings& settings) {
                    2);
 }
 
-Settings parse_settings(const std::string& text, const std::string& source) {
+WindowSettings parse_settings(const std::string& text, const std::string& source) {
   return read_kept(text, settings_version, source, "these are no settings of the window",
                    "delete the file; the window writes a new one", [](const Json& value) {
-                     Settings settings;
+                     WindowSettings settings;
                      settings.theme = value.at("theme").get<std::string>() == "light" ? Theme::light : Theme::dark;
                      settings.text_size =
-                         within(value.at("text_size"), Settings::smallest_text, Settings::largest_text);
+                         within(value.at("text_size"), WindowSettings::smallest_text, WindowSettings::largest_text);
                      for (const auto& [engine, layout] : value.at("engines").items())
                        settings.engines[engine] = read_engine_layout(layout);
                      return settings;

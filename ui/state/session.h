@@ -45,8 +45,8 @@ SessionHeader parse_session_header(const std::string& text, const std::string& s
 /// Throws bad_input at source where the text is no session, is cut, or holds an invalid preset.
 Session parse_session(const std::string& text, const std::string& source);
 
-std::string to_json(const Settings& settings);
+std::string to_json(const WindowSettings& settings);
 /// Throws bad_input at source where the text is no settings, or holds an invalid value.
-Settings parse_settings(const std::string& text, const std::string& source);
+WindowSettings parse_settings(const std::string& text, const std::string& source);
 
 } // namespace nephroid::ui

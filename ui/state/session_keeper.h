@@ -43,7 +43,7 @@ private:
   struct Work {
     Session session;
     std::vector<PinnedRun> pins; ///< session.pins, in their order
-    Settings settings;
+    WindowSettings settings;
     std::filesystem::path replaces; ///< an earlier session, removed when this one is kept; empty: none
     FileLock lock;                  ///< that session's lock
   };

@@ -13,9 +13,9 @@ public:
   /// document outlives it.
   explicit WindowSetup(const Document& document) : document_(document) {}
 
-  const Settings& settings() const { return settings_; }
+  const WindowSettings& settings() const { return settings_; }
   /// Restores kept settings, before the first frame.
-  void set_settings(Settings settings) { settings_ = std::move(settings); }
+  void set_settings(WindowSettings settings) { settings_ = std::move(settings); }
   bool help_shown() const { return help_shown_; }
   /// True once after ResetLayout.
   bool take_layout_reset() { return std::exchange(layout_reset_, false); }
@@ -38,7 +38,7 @@ public:
   }
   void carry_out(const command::SetAppearance& c) {
     settings_.theme = c.theme;
-    settings_.text_size = std::clamp(c.text_size, Settings::smallest_text, Settings::largest_text);
+    settings_.text_size = std::clamp(c.text_size, WindowSettings::smallest_text, WindowSettings::largest_text);
   }
 
 private:
@@ -46,7 +46,7 @@ private:
   EngineLayout& engine_layout() { return settings_.engines[std::string(document_.preset()->settings.engine())]; }
 
   const Document& document_;
-  Settings settings_;
+  WindowSettings settings_;
   std::string panel_to_front_;
   bool help_shown_ = false, layout_reset_ = false;
 };
