@@ -19,7 +19,7 @@ namespace nephroid::environment {
 namespace {
 
 /// fault: from bake_file_fault().
-plan::Pass bake_pass(const EnvironmentPlan& plan, const Settings& s, const std::optional<std::string>& fault) {
+plan::Decision bake_decision(const EnvironmentPlan& plan, const Settings& s, const std::optional<std::string>& fault) {
   if (!fault)
     return {"bake", false, fmt::format("{} has it: the same object, material and settings", plan.bake_file.string())};
   return {"bake", true,
@@ -28,63 +28,63 @@ plan::Pass bake_pass(const EnvironmentPlan& plan, const Settings& s, const std::
                       preset::word(s.radii))};
 }
 
-plan::Pass colours_pass(const BakeTask& task) {
+plan::Decision colours_decision(const BakeTask& task) {
   return {"colours", task.coloured,
           task.coloured ? "each photon has one wavelength of white light"
                         : "all wavelengths go the same way and lose alike: one channel"};
 }
 
 /// The code omissions that concern photons on their way through the object.
-std::vector<plan::Pass> code_passes(const preset::Preset& preset, const BakeTask& task) {
+std::vector<plan::Decision> code_decisions(const preset::Preset& preset, const BakeTask& task) {
   static constexpr std::array<std::string_view, 4> names{"mirrors", "bending", "attenuation", "smooth normals"};
-  std::vector<plan::Pass> passes = tracing::code_omissions(tracing::LeaveOut{.all = preset.leave_out},
+  std::vector<plan::Decision> decisions = tracing::code_omissions(tracing::LeaveOut{.all = preset.leave_out},
                                                            task.caster.scene, task.tables.wavelengths.attenuator_count)
-                                       .passes;
-  std::erase_if(passes, [](const plan::Pass& pass) { return !std::ranges::count(names, pass.name); });
-  return passes;
+                                       .decisions;
+  std::erase_if(decisions, [](const plan::Decision& decision) { return !std::ranges::count(names, decision.name); });
+  return decisions;
 }
 
 /// Rows that say whether caustics are visible at all, and by which light.
-std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTask* render) {
+std::vector<plan::Decision> view_decisions(const preset::Preset& preset, const RenderTask* render) {
   const Settings& s = settings(preset);
   if (!render) return {{"view", false, "the scene has no light: only the spheres are shown"}};
   const std::size_t lights = render->segmentation.lights.size();
   const bool sky = render->cube.size > 0;
-  std::vector<plan::Pass> passes;
+  std::vector<plan::Decision> decisions;
   const bool even = is_cut_evenly(preset, render->cube);
-  passes.push_back(
+  decisions.push_back(
       {"segments", sky && !even,
        !sky   ? "there is no environment, only lamps"
        : even ? fmt::format("the environment has one colour all around: {} equal lights", lights)
               : fmt::format("the environment is cut into {} lights by {}", lights, preset::word(s.segmentation))});
-  passes.push_back({"occlusion", sky && render->has_surroundings,
+  decisions.push_back({"occlusion", sky && render->has_surroundings,
                     !sky ? "there is no environment"
                     : render->has_surroundings
                         ? fmt::format("{} rays a light from all over the object", samples_per_light(lights))
                         : "nothing stands around the object"});
   const bool receivers = tracing::count_objects(*render->scene).diffuse > 0;
-  passes.push_back({"cast", receivers && s.cast,
+  decisions.push_back({"cast", receivers && s.cast,
                     !s.cast     ? "environment.cast is false"
                     : receivers ? "caustics on diffuse surfaces, where a path ends"
                                 : "no surface is diffuse"});
-  passes.push_back({"volume", render->has_medium,
+  decisions.push_back({"volume", render->has_medium,
                     render->has_medium ? "caustics in the air: 128 steps a path"
                                        : "there is no medium: environment.extinction or albedo is 0"});
-  passes.push_back({"colours of the view", render->coloured,
+  decisions.push_back({"colours of the view", render->coloured,
                     render->coloured ? "glass is looked through in three colours"
                                      : "all wavelengths go the same way and lose alike"});
-  return passes;
+  return decisions;
 }
 
 /// Rows that say whether photons join, and how.
-std::vector<plan::Pass> photon_passes(const Settings& s, const photons::RunPlan* photons) {
+std::vector<plan::Decision> photon_decisions(const Settings& s, const photons::RunPlan* photons) {
   const char* const field = "/environment/refine";
   if (!s.refine)
     return {{"photons", false, "environment.refine is false: spheres alone, as in the thesis", field, true}};
-  const auto row = [&](std::string_view name) { return *std::ranges::find(photons->passes, name, &plan::Pass::name); };
-  const plan::Pass sent = row("photons");
+  const auto row = [&](std::string_view name) { return *std::ranges::find(photons->decisions, name, &plan::Decision::name); };
+  const plan::Decision sent = row("photons");
   if (!sent.runs) return {{"photons", false, s.cast ? sent.reason : "environment.cast is false"}};
-  const plan::Pass maps = row("photon maps");
+  const plan::Decision maps = row("photon maps");
   return {
       {"photons", true, sent.reason + ", mixed with what the spheres say as their two halves say is best", field, true},
       {"photon maps", maps.runs, maps.reason}};
@@ -133,11 +133,11 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   plan.bake_file = bake_path(plan.key);
   const std::optional<std::string> fault = bake_file_fault(plan.bake_file, {plan.key, 0});
   plan.bakes = fault.has_value();
-  plan.passes = {bake_pass(plan, s, fault), colours_pass(task)};
+  plan.decisions = {bake_decision(plan, s, fault), colours_decision(task)};
   const auto append = [](auto more, auto& list) { std::ranges::move(more, std::back_inserter(list)); };
-  append(view_passes(preset, plan.render.get()), plan.passes);
-  if (plan.render) append(photon_passes(s, plan.photons ? &*plan.photons : nullptr), plan.passes);
-  append(code_passes(preset, task), plan.passes);
+  append(view_decisions(preset, plan.render.get()), plan.decisions);
+  if (plan.render) append(photon_decisions(s, plan.photons ? &*plan.photons : nullptr), plan.decisions);
+  append(code_decisions(preset, task), plan.decisions);
   plan.buffers = buffers_of(task, scene, plan.bakes);
   if (plan.render) append(view_buffers(*plan.render, task), plan.buffers);
   if (plan.photons && plan.photons->layers > 0)

@@ -34,7 +34,7 @@ std::uint64_t triangles_of(const Settings& s, const Layout& l) {
                                     static_cast<double>(mesh.facet_count()));
 }
 
-std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l) {
+std::vector<plan::Decision> decisions_of(const Settings& s, const Layout& l) {
   const bool blurred = l.blurs(), straight = !l.light.facets;
   const bool assign = s.method == Settings::Method::assign, thesis = s.method == Settings::Method::thesis,
              lens = s.method == Settings::Method::lens;
@@ -94,7 +94,7 @@ InversePlan make_plan(const preset::Preset& preset) {
   plan.layers = 1;
   plan.defines = facet_defines(l);
   plan.smaller = "choose fewer inverse.facets, inverse.cells or inverse.frames, or a smaller scene.camera.resolution";
-  plan.passes = passes_of(s, l);
+  plan.decisions = decisions_of(s, l);
   const std::uint64_t light_channels = l.coloured() ? 6 : 2; // even and odd rounds
   const int cut = 2 * halvings(l);
   const std::uint64_t with_errors = (cut > 0 ? triangle_bytes : copied_triangle_bytes) * (triangles << cut) +

@@ -104,7 +104,7 @@ private:
   compute::Kernel kernel_;
 };
 
-plan::Pass background_pass(const PlanInput& input) {
+plan::Decision background_decision(const PlanInput& input) {
   const char* const name = "background";
   const auto& environment = input.scene.environment;
   if (!input.settings.background) return not_asked_for(name, name);
@@ -118,7 +118,7 @@ plan::Pass background_pass(const PlanInput& input) {
 
 PlanPart plan_background(const PlanInput& input) {
   const std::uint64_t texels = input.scene.environment ? input.scene.environment->rgb.size() : 0;
-  return part_of(background_pass(input),
+  return part_of(background_decision(input),
                  {{"environment", texels * sizeof(float)}, {"film background", input.film_bytes()}});
 }
 

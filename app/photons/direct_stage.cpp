@@ -28,7 +28,7 @@ private:
   compute::Kernel kernel_;
 };
 
-plan::Pass direct_pass(const PlanInput& input) {
+plan::Decision direct_decision(const PlanInput& input) {
   const char* const name = "direct";
   if (!input.settings.direct) return not_asked_for(name, name);
   const std::string missing = input.objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light(input);
@@ -40,7 +40,7 @@ plan::Pass direct_pass(const PlanInput& input) {
 }
 
 PlanPart plan_direct(const PlanInput& input) {
-  return part_of(direct_pass(input), {{"film direct", input.film_bytes()}});
+  return part_of(direct_decision(input), {{"film direct", input.film_bytes()}});
 }
 
 } // namespace

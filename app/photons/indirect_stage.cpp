@@ -142,7 +142,7 @@ private:
   tracing::PhotonSlices slices_;
 };
 
-plan::Pass indirect_pass(const PlanInput& input) {
+plan::Decision indirect_decision(const PlanInput& input) {
   const char* const name = "indirect";
   if (input.settings.relight) return not_in_layers(name, "its light met several reflectors");
   if (!input.settings.indirect) return not_asked_for(name, name);
@@ -155,7 +155,7 @@ plan::Pass indirect_pass(const PlanInput& input) {
 }
 
 PlanPart plan_indirect(const PlanInput& input) {
-  return part_of(indirect_pass(input), {{"film indirect", input.film_bytes()}});
+  return part_of(indirect_decision(input), {{"film indirect", input.film_bytes()}});
 }
 
 } // namespace

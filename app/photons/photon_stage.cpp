@@ -166,9 +166,9 @@ private:
 };
 
 PlanPart plan_photons(const PlanInput& input) {
-  if (!input.caustics.runs) return {.passes = {input.caustics}};
-  if (input.is_sppm()) return {.passes = {{"photons", false, "spectral.estimator is sppm: nothing is splatted"}}};
-  PlanPart part{.passes = {input.caustics}, .buffers = {{"film caustic", input.film_bytes()}}};
+  if (!input.caustics.runs) return {.decisions = {input.caustics}};
+  if (input.is_sppm()) return {.decisions = {{"photons", false, "spectral.estimator is sppm: nothing is splatted"}}};
+  PlanPart part{.decisions = {input.caustics}, .buffers = {{"film caustic", input.film_bytes()}}};
   using Effort = Settings::Effort;
   if (const Effort effort = input.settings.effort; effort == Effort::variance || effort == Effort::automatic)
     part.buffers.push_back({"guide of directions",

@@ -41,20 +41,20 @@ PlanPart plan_scene(const PlanInput& input) {
 }
 
 PlanPart plan_omissions(const PlanInput& input) {
-  PlanPart part{.passes = tracing::data_omissions(input.leave_out, input.scene, input.tables.spheres)};
+  PlanPart part{.decisions = tracing::data_omissions(input.leave_out, input.scene, input.tables.spheres)};
   // Layers of dark lights are kept for lights to come.
   if (input.settings.relight)
-    std::erase_if(part.passes, [](const plan::Pass& pass) {
-      return pass.name == "dark lights" || pass.name == "unlit wavelengths";
+    std::erase_if(part.decisions, [](const plan::Decision& decision) {
+      return decision.name == "dark lights" || decision.name == "unlit wavelengths";
     });
   tracing::CodeOmissions code =
       tracing::code_omissions(input.leave_out, input.scene, input.tables.wavelengths.attenuator_count);
-  std::ranges::move(code.passes, std::back_inserter(part.passes));
+  std::ranges::move(code.decisions, std::back_inserter(part.decisions));
   part.defines = std::move(code.defines);
   return part;
 }
 
-plan::Pass environment_light_pass(const PlanInput& input) {
+plan::Decision environment_light_decision(const PlanInput& input) {
   const std::string name = "environment light", field = "/scene/environment/lights";
   const scene::Environment& environment = *input.scene.environment;
   if (environment.is_black()) return {name, false, "the environment is black"};
@@ -66,12 +66,12 @@ plan::Pass environment_light_pass(const PlanInput& input) {
 
 PlanPart plan_environment_light(const PlanInput& input) {
   PlanPart part;
-  if (input.scene.environment) part.passes = {environment_light_pass(input)};
+  if (input.scene.environment) part.decisions = {environment_light_decision(input)};
   return part;
 }
 
 /// Decides PlanInput::estimate; caustics is PlanInput::caustics.
-plan::Pass estimate_pass(const preset::Preset& preset, const Settings& settings, const plan::Pass& caustics) {
+plan::Decision estimate_decision(const preset::Preset& preset, const Settings& settings, const plan::Decision& caustics) {
   const char* const name = "error estimate";
   if (preset.measure.estimate && caustics.runs && settings.estimator == Settings::Estimator::sppm)
     return {name, false,
@@ -84,9 +84,9 @@ plan::Pass estimate_pass(const preset::Preset& preset, const Settings& settings,
           "/measure/estimate", true};
 }
 
-PlanPart plan_estimate(const PlanInput& input) { return {.passes = {input.estimate}}; }
+PlanPart plan_estimate(const PlanInput& input) { return {.decisions = {input.estimate}}; }
 
-plan::Pass stray_photons_pass(const PlanInput& input) {
+plan::Decision stray_photons_decision(const PlanInput& input) {
   const bool aims = input.leave_out.stray_photons;
   return tracing::not_needed("stray photons", aims,
                              aims ? fmt::format("photons start towards {} about glass and mirrors only",
@@ -94,14 +94,14 @@ plan::Pass stray_photons_pass(const PlanInput& input) {
                                   : "photons need not start where there is no glass and no mirror");
 }
 
-plan::Pass low_discrepancy_pass(const Settings& settings) {
+plan::Decision low_discrepancy_decision(const Settings& settings) {
   return {"low discrepancy", settings.low_discrepancy,
           settings.low_discrepancy ? "photons leave the lights by a scrambled Sobol sequence"
                                    : "spectral.low_discrepancy is false: plain random numbers",
           "/spectral/low_discrepancy", true};
 }
 
-plan::Pass differentials_pass(const PlanInput& input) {
+plan::Decision differentials_decision(const PlanInput& input) {
   const char* const name = "differentials";
   if (input.settings.relight) return not_in_layers(name, "a layer is a whole cluster's");
   if (!input.settings.differentials) return not_asked_for(name, name);
@@ -118,11 +118,11 @@ plan::Pass differentials_pass(const PlanInput& input) {
 
 /// How the photons of caustics are sent, whichever stage splats or gathers them.
 PlanPart plan_caustics(const PlanInput& input) {
-  const plan::Pass jitter = jitter_pass(input), low_discrepancy = low_discrepancy_pass(input.settings),
-                   differentials = differentials_pass(input);
+  const plan::Decision jitter = jitter_decision(input), low_discrepancy = low_discrepancy_decision(input.settings),
+                   differentials = differentials_decision(input);
   PlanPart part;
   if (input.caustics.runs)
-    part.passes = {effort_pass(input.settings, input.tables.importance), stray_photons_pass(input), jitter,
+    part.decisions = {effort_decision(input.settings, input.tables.importance), stray_photons_decision(input), jitter,
                    low_discrepancy, differentials};
   part.defines = {{"NEPHROID_JITTER", std::to_string(int(jitter.runs))},
                   {"NEPHROID_LOW_DISCREPANCY", std::to_string(int(low_discrepancy.runs))},
@@ -151,7 +151,7 @@ std::vector<const RunPart*> parts_of(const Settings& settings) {
 }
 
 void add(PlanPart part, plan::Plan& plan) {
-  std::ranges::move(part.passes, std::back_inserter(plan.passes));
+  std::ranges::move(part.decisions, std::back_inserter(plan.decisions));
   for (plan::PlannedBuffer& buffer : part.buffers)
     if (const auto same = std::ranges::find(plan.buffers, buffer.name, &plan::PlannedBuffer::name);
         same != plan.buffers.end())
@@ -172,11 +172,11 @@ int enough_samples(const scene::Scene& scene) {
 
 } // namespace
 
-plan::Pass not_asked_for(const std::string& name, const std::string& field) {
+plan::Decision not_asked_for(const std::string& name, const std::string& field) {
   return {name, false, fmt::format("spectral.{} is false", field), "/spectral/" + field, true};
 }
 
-plan::Pass not_in_layers(const std::string& name, const std::string& why) {
+plan::Decision not_in_layers(const std::string& name, const std::string& why) {
   return {name, false, "spectral.relight is true, and layers cannot hold it: " + why};
 }
 
@@ -205,12 +205,12 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const sc
   const Settings& settings = plan.settings;
   plan.tables = make_run_tables(preset, settings, scene, bvh, leave_out);
   PlanInput input{preset, settings, scene, bvh, leave_out, plan.tables, tracing::count_objects(scene)};
-  input.caustics = caustics_pass(input);
-  input.estimate = estimate_pass(preset, settings, input.caustics);
+  input.caustics = caustics_decision(input);
+  input.estimate = estimate_decision(preset, settings, input.caustics);
   std::set<std::string_view> layers;
   for (const RunPart* part : parts_of(settings)) {
     PlanPart planned = part->plan(input);
-    if (!planned.passes.empty() && planned.passes[0].runs) {
+    if (!planned.decisions.empty() && planned.decisions[0].runs) {
       plan.parts.push_back(part);
       if (part->make) layers.insert(part->layer);
     }
@@ -220,12 +220,12 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const sc
   plan.estimates_error = input.estimate.runs;
   plan.picture_bytes_a_pixel = plan.runs(smoothing_part) ? 120 : 48; // what is smoothed; a film of two halves read back
   if (layers.empty())
-    plan.notes.insert(plan.notes.begin(), fmt::format("there is nothing to render: {}", plan.passes[0].reason));
+    plan.notes.insert(plan.notes.begin(), fmt::format("there is nothing to render: {}", plan.decisions[0].reason));
   plan.notes.insert(plan.notes.begin(), scene.warnings.begin(), scene.warnings.end());
   return plan;
 }
 
-plan::Pass caustics_pass(const PlanInput& input) {
+plan::Decision caustics_decision(const PlanInput& input) {
   const char* const name = "photons";
   if (!input.settings.caustic) return not_asked_for(name, "caustic");
   // No field turns these on, as there is nothing to send.
@@ -241,7 +241,7 @@ plan::Pass caustics_pass(const PlanInput& input) {
                                      counted(std::ssize(input.tables.wavelengths.clusters), "wavelength cluster")));
 }
 
-plan::Pass jitter_pass(const PlanInput& input) {
+plan::Decision jitter_decision(const PlanInput& input) {
   const char *const name = "jitter", *const field = "/spectral/jitter";
   if (!input.settings.jitter)
     return {name, false, "spectral.jitter is false: every path of a cluster has the cluster's mean n", field, true};

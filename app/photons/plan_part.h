@@ -31,8 +31,8 @@ struct PlanInput {
   const tracing::LeaveOut& leave_out;
   const RunTables& tables;
   tracing::ObjectCounts objects;
-  plan::Pass caustics = {}; ///< whether there are any, splatted or gathered, and why
-  plan::Pass estimate = {}; ///< whether films have two halves, and why
+  plan::Decision caustics = {}; ///< whether there are any, splatted or gathered, and why
+  plan::Decision estimate = {}; ///< whether films have two halves, and why
 
   bool is_sppm() const { return settings.estimator == Settings::Estimator::sppm; }
   std::uint64_t halves() const { return estimate.runs ? 2 : 1; }
@@ -43,21 +43,21 @@ struct PlanInput {
 
 /// What a part adds to the plan.
 struct PlanPart {
-  std::vector<plan::Pass> passes = {};
+  std::vector<plan::Decision> decisions = {};
   std::vector<plan::PlannedBuffer> buffers = {}; ///< buffers; those of one name in several parts are added up
   std::map<std::string, std::string> defines = {};
   std::vector<std::string> notes = {};
 };
 
-/// The plan of a stage: its pass, and its buffers where that runs.
-inline PlanPart part_of(plan::Pass pass, std::vector<plan::PlannedBuffer> buffers) {
-  PlanPart part{.passes = {std::move(pass)}};
-  if (part.passes[0].runs) part.buffers = std::move(buffers);
+/// The plan of a stage: its decision, and its buffers where that runs.
+inline PlanPart part_of(plan::Decision decision, std::vector<plan::PlannedBuffer> buffers) {
+  PlanPart part{.decisions = {std::move(decision)}};
+  if (part.decisions[0].runs) part.buffers = std::move(buffers);
   return part;
 }
 
 struct RunPart {
-  /// Plans the part. It runs if its first pass does; without passes it does not run.
+  /// Plans the part. It runs if its first decision says so; without decisions it does not run.
   PlanPart (*plan)(const PlanInput& input);
   /// Makes the stage of a part that runs; null for other parts. world outlives the stage. Throws as make_job does.
   std::unique_ptr<Stage> (*make)(StageContext& world, const scene::Scene& scene, const Settings& settings) = nullptr;
@@ -71,10 +71,10 @@ extern const RunPart layered_direct_stage, layered_photon_stage;
 extern const RunPart relighting_part; ///< relight/layer_film.cpp: what these two share
 extern const RunPart smoothing_part;  ///< smoothing.cpp
 
-/// The pass of a stage that the preset turns off with `field` of its section "spectral".
-plan::Pass not_asked_for(const std::string& name, const std::string& field);
-/// The pass of something that a preset with layers cannot have, whatever its fields.
-plan::Pass not_in_layers(const std::string& name, const std::string& why);
+/// The decision on a stage that the preset turns off with `field` of its section "spectral".
+plan::Decision not_asked_for(const std::string& name, const std::string& field);
+/// The decision on something that a preset with layers cannot have, whatever its fields.
+plan::Decision not_in_layers(const std::string& name, const std::string& why);
 
 /// The number of lights that shine, or, where layers are kept, may shine when the light changes.
 std::ptrdiff_t shining_lights(const PlanInput& input);
@@ -84,8 +84,8 @@ std::string no_light(const PlanInput& input);
 std::string size_of(const scene::Environment& environment);
 
 /// Decides PlanInput::caustics from the other members of input.
-plan::Pass caustics_pass(const PlanInput& input);
+plan::Decision caustics_decision(const PlanInput& input);
 /// Decides whether each path has one wavelength of its cluster.
-plan::Pass jitter_pass(const PlanInput& input);
+plan::Decision jitter_decision(const PlanInput& input);
 
 } // namespace nephroid::photons

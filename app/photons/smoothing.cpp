@@ -425,7 +425,7 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
 
 namespace {
 
-plan::Pass smoothing_pass(const PlanInput& input) {
+plan::Decision smoothing_decision(const PlanInput& input) {
   const char* const name = "smoothing";
   using Choice = Settings::Smoothing;
   const Choice choice = input.settings.smoothing;
@@ -444,9 +444,9 @@ plan::Pass smoothing_pass(const PlanInput& input) {
 }
 
 PlanPart plan_smoothing(const PlanInput& input) {
-  const plan::Pass pass = smoothing_pass(input);
+  const plan::Decision pass = smoothing_decision(input);
   PlanPart part;
-  if (input.caustics.runs) part.passes = {pass};
+  if (input.caustics.runs) part.decisions = {pass};
   if (pass.runs) part.buffers = {{"surfaces in pixels (host)", Smoothing::bytes(input.scene, input.bvh), true}};
   if (input.settings.smoothing != Settings::Smoothing::on) return part;
   if (!pass.runs)

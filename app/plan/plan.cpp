@@ -22,27 +22,27 @@ std::size_t widest(const Items& items, Name name) {
 }
 
 /// "; to compute it: --set leave_out=false", for what a field can turn back on.
-std::string way_back(const Pass& pass) {
-  if (pass.runs || pass.field.empty()) return "";
-  std::string key = pass.field.substr(1); // names of fields hold no '/' and no '~'
+std::string way_back(const Decision& decision) {
+  if (decision.runs || decision.field.empty()) return "";
+  std::string key = decision.field.substr(1); // names of fields hold no '/' and no '~'
   std::replace(key.begin(), key.end(), '/', '.');
-  return fmt::format("; to compute it: --set {}={}", key, pass.run_value);
+  return fmt::format("; to compute it: --set {}={}", key, decision.run_value);
 }
 
 Json json_of(const Plan& plan) {
-  Json passes = Json::array(), buffers = Json::array(), defines = Json::object(), inputs = Json::array();
-  for (const Pass& pass : plan.passes) {
-    Json entry{{"name", pass.name}, {"runs", pass.runs}, {"reason", pass.reason}};
-    if (!pass.field.empty()) {
-      entry["field"] = pass.field;
-      entry["run_value"] = pass.run_value;
+  Json decisions = Json::array(), buffers = Json::array(), defines = Json::object(), inputs = Json::array();
+  for (const Decision& decision : plan.decisions) {
+    Json entry{{"name", decision.name}, {"runs", decision.runs}, {"reason", decision.reason}};
+    if (!decision.field.empty()) {
+      entry["field"] = decision.field;
+      entry["run_value"] = decision.run_value;
     }
-    passes.push_back(std::move(entry));
+    decisions.push_back(std::move(entry));
   }
   for (const PlannedBuffer& buffer : plan.buffers) buffers.push_back({{"name", buffer.name}, {"bytes", buffer.bytes}});
   for (const auto& [name, value] : plan.defines) defines[name] = value;
   for (const Input& input : plan.inputs) inputs.push_back({{"file", input.file}, {"content", input.content}});
-  return {{"engine", plan.engine}, {"passes", passes}, {"buffers", buffers},
+  return {{"engine", plan.engine}, {"passes", decisions}, {"buffers", buffers},
           {"defines", defines},    {"inputs", inputs}, {"notes", plan.notes}};
 }
 
@@ -83,10 +83,10 @@ std::string to_json_line(const Plan& plan, const std::string& name) {
 
 std::string to_text(const Plan& plan) {
   std::string text = fmt::format("Engine: {}\n\nPasses\n", plan.engine);
-  const std::size_t pass_width = widest(plan.passes, [](const Pass& pass) { return pass.name; });
-  for (const Pass& pass : plan.passes)
-    text += fmt::format("  {:<{}}  {}  {}{}\n", pass.name, pass_width, pass.runs ? "runs    " : "left out", pass.reason,
-                        way_back(pass));
+  const std::size_t pass_width = widest(plan.decisions, [](const Decision& decision) { return decision.name; });
+  for (const Decision& decision : plan.decisions)
+    text += fmt::format("  {:<{}}  {}  {}{}\n", decision.name, pass_width, decision.runs ? "runs    " : "left out", decision.reason,
+                        way_back(decision));
   text += "\nMemory\n";
   const std::size_t buffer_width =
       std::max<std::size_t>(5, widest(plan.buffers, [](const PlannedBuffer& buffer) { return buffer.name; }));

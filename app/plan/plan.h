@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan: which passes a run has, which are left out and why, the memory of each buffer, the -D flags of its kernels.
+// The plan: what a run computes, what is left out and why, the memory of each buffer, the -D flags of its kernels.
 // Engines make one from the preset and the loaded scene; the command line prints it, every run saves it.
 #pragma once
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace nephroid::plan {
 
-struct Pass {
+/// Whether a part of the work is done.
+struct Decision {
   std::string name;
   bool runs = true;
   std::string reason;     ///< a sentence a person can read
@@ -39,7 +40,7 @@ struct Plan {
   Plan& operator=(Plan&&) = default;
 
   std::string engine;
-  std::vector<Pass> passes;
+  std::vector<Decision> decisions;
   std::vector<PlannedBuffer> buffers;
   std::map<std::string, std::string> defines;
   std::vector<Input> inputs;               ///< what the run was made of

@@ -119,20 +119,20 @@ bool may_see_glass_or_mirror(const scene::Scene& scene) {
   });
 }
 
-plan::Pass needed(const std::string& name, std::string reason) {
+plan::Decision needed(const std::string& name, std::string reason) {
   return {name, true, std::move(reason), "/leave_out", false};
 }
 
-plan::Pass not_needed(const std::string& name, bool leave_out, std::string reason) {
+plan::Decision not_needed(const std::string& name, bool leave_out, std::string reason) {
   if (!leave_out) reason += ", but leave_out is false";
   return {name, !leave_out, std::move(reason), "/leave_out", false};
 }
 
-std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene,
+std::vector<plan::Decision> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene,
                                        const std::vector<scene::Sphere>& targets) {
-  std::vector<plan::Pass> passes;
+  std::vector<plan::Decision> decisions;
   const auto add = [&](const char* name, bool may, std::size_t without, const std::string& reason) {
-    if (without > 0) passes.push_back(not_needed(name, may, reason));
+    if (without > 0) decisions.push_back(not_needed(name, may, reason));
   };
   std::size_t dark = 0, ways = 0, unreached = 0;
   for (const scene::Light& light : scene.lights) {
@@ -149,7 +149,7 @@ std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::S
   const auto unlit = static_cast<std::size_t>(std::ranges::count(lit, false));
   add("unlit wavelengths", leave_out.unlit_wavelengths, unlit,
       fmt::format("no light has {} of the {} wavelengths", unlit, lit.size()));
-  return passes;
+  return decisions;
 }
 
 CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scene, int attenuators) {
@@ -158,9 +158,9 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
   const bool bends = anything_bends(scene), blocked = !nothing_blocks_the_view(scene);
   CodeOmissions omissions;
   // Adds a row, and returns whether its code is compiled.
-  const auto has = [&](plan::Pass pass) {
-    omissions.passes.push_back(std::move(pass));
-    return omissions.passes.back().runs;
+  const auto has = [&](plan::Decision decision) {
+    omissions.decisions.push_back(std::move(decision));
+    return omissions.decisions.back().runs;
   };
   const bool occlusion = has(
       blocked ? needed("occlusion", "objects in view may stand before each other")

@@ -23,15 +23,15 @@ ObjectCounts count_objects(const scene::Scene& scene);
 bool may_see_glass_or_mirror(const scene::Scene& scene);
 
 /// Rows of the plan for what may be left out. What the scene does not need runs where nothing is left out.
-plan::Pass needed(const std::string& name, std::string reason);
-plan::Pass not_needed(const std::string& name, bool leave_out, std::string reason);
+plan::Decision needed(const std::string& name, std::string reason);
+plan::Decision not_needed(const std::string& name, bool leave_out, std::string reason);
 
 /// What the tables leave out: rows for what the scene has and does not need. targets: SceneTables::spheres.
-std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene,
+std::vector<plan::Decision> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene,
                                        const std::vector<scene::Sphere>& targets);
 
 struct CodeOmissions {
-  std::vector<plan::Pass> passes;
+  std::vector<plan::Decision> decisions;
   std::map<std::string, std::string> defines; ///< -D flags
 };
 /// attenuators: the number of materials with losses.

@@ -127,8 +127,8 @@ std::unique_ptr<plan::Plan> make_plan(const preset::Preset& preset, const scene:
   plan->settings = settings(preset);
   plan->layers = 1;
   plan->estimates_error = preset.measure.estimate;
-  plan->passes.push_back({"gradient", true, "every pixel by its column"});
-  plan->passes.push_back(
+  plan->decisions.push_back({"gradient", true, "every pixel by its column"});
+  plan->decisions.push_back(
       {"noise", plan->settings.noise > 0, plan->settings.noise > 0 ? "as asked for" : "gradient.noise is 0"});
   return plan;
 }

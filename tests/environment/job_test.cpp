@@ -16,9 +16,9 @@ protected:
     return bake_preset(glass_ball, overrides);
   }
   static bool runs(const EnvironmentPlan& plan, std::string_view pass) {
-    const auto found = std::ranges::find(plan.passes, pass, &plan::Pass::name);
-    EXPECT_NE(found, plan.passes.end()) << pass;
-    return found != plan.passes.end() && found->runs;
+    const auto found = std::ranges::find(plan.decisions, pass, &plan::Decision::name);
+    EXPECT_NE(found, plan.decisions.end()) << pass;
+    return found != plan.decisions.end() && found->runs;
   }
 };
 

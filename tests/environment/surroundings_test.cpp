@@ -190,11 +190,11 @@ TEST(SurfacePoints, SeeACardHideTheSunLittleByLittle) {
 
 class EnvironmentLeavesOut : public EnvironmentJobs {
 protected:
-  static plan::Pass pass(const preset::Preset& p, const std::string& name) {
+  static plan::Decision pass(const preset::Preset& p, const std::string& name) {
     const environment::EnvironmentPlan plan = plan_of(p);
-    const auto found = std::ranges::find(plan.passes, name, &plan::Pass::name);
-    EXPECT_NE(found, plan.passes.end()) << name;
-    return found == plan.passes.end() ? plan::Pass{} : *found;
+    const auto found = std::ranges::find(plan.decisions, name, &plan::Decision::name);
+    EXPECT_NE(found, plan.decisions.end()) << name;
+    return found == plan.decisions.end() ? plan::Decision{} : *found;
   }
   /// Those of `b` that `a` has too.
   static void expect_same_layers(const job::Snapshot& a, const job::Snapshot& b) {

@@ -241,8 +241,8 @@ TEST(Relighting, ThePlanSaysWhatIsKeptAndTheMemory) {
   p.scene.camera.resolution = {128, 128};
   const photons::RunPlan plan = plan_of(p);
   const auto job = job_as_it_is(p);
-  EXPECT_THAT(plan.passes, Not(Contains(testing::Field(&plan::Pass::name, "dark lights")))) << "it is kept";
-  EXPECT_THAT(plan.passes, Contains(testing::Field(&plan::Pass::name, "relighting")));
+  EXPECT_THAT(plan.decisions, Not(Contains(testing::Field(&plan::Decision::name, "dark lights")))) << "it is kept";
+  EXPECT_THAT(plan.decisions, Contains(testing::Field(&plan::Decision::name, "relighting")));
   std::uint64_t films = 0;
   for (const plan::PlannedBuffer& b : plan.buffers)
     if (b.name.starts_with("film ")) films += b.bytes;

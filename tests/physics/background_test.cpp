@@ -328,9 +328,9 @@ TEST(Background, APrismTakesWhiteApart) {
 
 TEST(Background, IsLeftOutWhereThereIsNothingToSee) {
   const auto pass = [](const preset::Preset& p) {
-    for (const plan::Pass& candidate : plan_of(p).passes)
+    for (const plan::Decision& candidate : plan_of(p).decisions)
       if (candidate.name == "background") return candidate;
-    return plan::Pass{};
+    return plan::Decision{};
   };
   preset::Preset p = with_constant({1, 1, 1}, 4);
   EXPECT_TRUE(pass(p).runs);

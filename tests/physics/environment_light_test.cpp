@@ -276,9 +276,9 @@ TEST(EnvironmentLight, IsAskedFor) {
   EXPECT_TRUE(scene::load_scene(p).lights.empty());
   const auto row = [&] {
     const auto plan = plan_of(p);
-    const auto found = std::find_if(plan.passes.begin(), plan.passes.end(),
+    const auto found = std::find_if(plan.decisions.begin(), plan.decisions.end(),
                                     [](const auto& pass) { return pass.name == "environment light"; });
-    return found == plan.passes.end() ? std::string("no row") : (found->runs ? "runs: " : "") + found->reason;
+    return found == plan.decisions.end() ? std::string("no row") : (found->runs ? "runs: " : "") + found->reason;
   };
   EXPECT_EQ(row(), "scene.environment.lights is false: it is only seen");
   p.scene.environment->lights = true;

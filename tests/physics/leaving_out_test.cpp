@@ -9,10 +9,10 @@
 
 namespace nephroid::leaving_out_test {
 
-plan::Pass pass_of(const preset::Preset& p, std::string name, const LeaveOut& leave_out = {}) {
+plan::Decision pass_of(const preset::Preset& p, std::string name, const LeaveOut& leave_out = {}) {
   std::replace(name.begin(), name.end(), '_', ' ');
   const scene::Scene scene = scene::load_scene(p);
-  for (const plan::Pass& pass : spectral::make_plan(p, scene, scene::build_bvh(scene.geometry), leave_out).passes)
+  for (const plan::Decision& pass : spectral::make_plan(p, scene, scene::build_bvh(scene.geometry), leave_out).decisions)
     if (pass.name == name) return pass;
   return {"", false, "no pass " + name, "", false};
 }
@@ -34,7 +34,7 @@ class LeavingOut : public testing::TestWithParam<Omission> {};
 
 TEST_P(LeavingOut, ThePlanSaysWhyAndWhatTurnsItBackOn) {
   const Omission& o = GetParam();
-  const plan::Pass out = pass_of(o.scene, o.key), in = pass_of(o.scene, o.key, all_but(o));
+  const plan::Decision out = pass_of(o.scene, o.key), in = pass_of(o.scene, o.key, all_but(o));
   EXPECT_FALSE(out.runs);
   EXPECT_GT(out.reason.size(), 10u) << out.reason;
   EXPECT_EQ(out.field, "/leave_out");

@@ -225,8 +225,8 @@ INSTANTIATE_TEST_SUITE_P(Estimators, MapRuns,
                                          Case{"random", Estimator::sppm, Effort::random, false}),
                          [](const auto& c) { return std::string(c.param.name); });
 
-plan::Pass pass_of(const plan::Plan& plan, const std::string& name) {
-  for (const plan::Pass& pass : plan.passes)
+plan::Decision pass_of(const plan::Plan& plan, const std::string& name) {
+  for (const plan::Decision& pass : plan.decisions)
     if (pass.name == name) return pass;
   return {};
 }

@@ -35,9 +35,9 @@ double mean_distance(const std::vector<float>& a, const std::vector<float>& b) {
   return all / static_cast<double>(a.size());
 }
 
-plan::Pass smoothing_pass(const preset::Preset& preset) {
+plan::Decision smoothing_decision(const preset::Preset& preset) {
   const scene::Scene scene = scene::load_scene(preset);
-  for (const plan::Pass& pass : spectral::make_plan(preset, scene, scene::build_bvh(scene.geometry)).passes)
+  for (const plan::Decision& pass : spectral::make_plan(preset, scene, scene::build_bvh(scene.geometry)).decisions)
     if (pass.name == "smoothing") return pass;
   throw std::runtime_error("the plan does not tell of smoothing");
 }
@@ -110,17 +110,17 @@ TEST(SmoothedRun, leaves_other_layers_alone) {
 }
 
 TEST(SmoothedRun, needs_halves_and_splats_and_says_so) {
-  EXPECT_TRUE(smoothing_pass(ball(2, Smooth::on)).runs);
-  EXPECT_FALSE(smoothing_pass(ball(2, Smooth::off)).runs);
-  EXPECT_FALSE(smoothing_pass(ball(1, Smooth::on)).runs);
+  EXPECT_TRUE(smoothing_decision(ball(2, Smooth::on)).runs);
+  EXPECT_FALSE(smoothing_decision(ball(2, Smooth::off)).runs);
+  EXPECT_FALSE(smoothing_decision(ball(1, Smooth::on)).runs);
   preset::Preset whole = ball(2, Smooth::on), sppm = ball(2, Smooth::on);
   whole.measure.estimate = false;
-  EXPECT_FALSE(smoothing_pass(whole).runs);
-  EXPECT_EQ(smoothing_pass(whole).field, "/measure/estimate");
-  EXPECT_TRUE(smoothing_pass(whole).run_value);
+  EXPECT_FALSE(smoothing_decision(whole).runs);
+  EXPECT_EQ(smoothing_decision(whole).field, "/measure/estimate");
+  EXPECT_TRUE(smoothing_decision(whole).run_value);
   spectral::settings(sppm).estimator = photons::Settings::Estimator::sppm;
-  EXPECT_FALSE(smoothing_pass(sppm).runs);
-  EXPECT_EQ(smoothing_pass(sppm).field, "");
+  EXPECT_FALSE(smoothing_decision(sppm).runs);
+  EXPECT_EQ(smoothing_decision(sppm).field, "");
 }
 
 // What the camera sees through glass gets samples as long as a run goes on, and its share of the work by what that

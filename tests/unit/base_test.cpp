@@ -139,7 +139,7 @@ compute::DeviceInfo device(const char* type, std::uint64_t memory_bytes, std::ui
 /// 16384 x 16384 pixels with two layers: two films of 6 GiB, of one image each, and 48 GiB on the host.
 plan::Plan large_plan() {
   plan::Plan plan;
-  plan.passes = {{"direct", true, ""}, {"photons", true, ""}};
+  plan.decisions = {{"direct", true, ""}, {"photons", true, ""}};
   plan.layers = 2;
   plan.picture_bytes_a_pixel = 48;
   plan.buffers = {

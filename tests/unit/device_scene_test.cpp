@@ -161,7 +161,7 @@ TEST(EyePaths, AreAThirdOfThePhotonsWhereThePictureShowsGlass) {
 }
 
 bool planned_to_run(const plan::Plan& plan, const std::string& name, std::string* reason = nullptr) {
-  for (const plan::Pass& pass : plan.passes)
+  for (const plan::Decision& pass : plan.decisions)
     if (pass.name == name) {
       if (reason) *reason = pass.reason;
       return pass.runs;

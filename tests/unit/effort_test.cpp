@@ -131,7 +131,7 @@ TEST(AllocatedEffort, IsNotAskedForWhereThereIsNoCaustic) {
 TEST(AllocatedEffort, IsInThePlan) {
   const auto reason_of = [](Effort effort, bool runs) {
     const plan::Plan plan = plan_of(lit_ball(effort));
-    for (const plan::Pass& pass : plan.passes)
+    for (const plan::Decision& pass : plan.decisions)
       if (pass.name == "importance") {
         EXPECT_EQ(pass.runs, runs);
         return pass.reason;

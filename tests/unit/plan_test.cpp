@@ -19,7 +19,7 @@ using Estimator = photons::Settings::Estimator;
 Plan example() {
   Plan plan;
   plan.engine = "spectral";
-  plan.passes = {{"photons", true, "one light reaches 1 dielectric"}, {"absorption", false, "k is 0 everywhere"}};
+  plan.decisions = {{"photons", true, "one light reaches 1 dielectric"}, {"absorption", false, "k is 0 everywhere"}};
   plan.buffers = {{"film", 3ull << 20}, {"tree", 5ull << 33}};
   plan.defines = {{"BVH_STACK", "32"}};
   plan.notes = {"bunny: 12 open edges"};
@@ -52,13 +52,13 @@ TEST(Plan, AJsonLineHasTheNameToo) {
 // What a panel draws its check box from, and what a person types.
 TEST(Plan, APassNamesTheFieldThatTurnsItBackOn) {
   Plan plan = example();
-  plan.passes[1].field = "/leave_out";
+  plan.decisions[1].field = "/leave_out";
   const auto json = Json::parse(to_json(plan));
   EXPECT_EQ(json["passes"][1]["field"], "/leave_out");
   EXPECT_EQ(json["passes"][1]["run_value"], false);
   EXPECT_FALSE(json["passes"][0].contains("field"));
   EXPECT_THAT(to_text(plan), HasSubstr("k is 0 everywhere; to compute it: --set leave_out=false\n"));
-  plan.passes[1].runs = true;
+  plan.decisions[1].runs = true;
   EXPECT_THAT(to_text(plan), HasSubstr("k is 0 everywhere\n"));
 }
 
@@ -119,15 +119,15 @@ protected:
   std::set<std::string> found_; ///< the fields of all passes
 
   /// Of a preset with this scene.
-  plan::Pass pass_of(const preset::Preset& p, const std::string& name) const {
-    const std::vector<plan::Pass> passes = spectral::make_plan(p, scene_, bvh_).passes;
+  plan::Decision pass_of(const preset::Preset& p, const std::string& name) const {
+    const std::vector<plan::Decision> passes = spectral::make_plan(p, scene_, bvh_).decisions;
     const auto found =
-        std::find_if(passes.begin(), passes.end(), [&](const plan::Pass& pass) { return pass.name == name; });
-    return found == passes.end() ? plan::Pass{name, false, "there is no such pass"} : *found;
+        std::find_if(passes.begin(), passes.end(), [&](const plan::Decision& pass) { return pass.name == name; });
+    return found == passes.end() ? plan::Decision{name, false, "there is no such pass"} : *found;
   }
   void expect_true_fields(const preset::Preset& p, const std::string& what) {
     const Json fields = Json::parse(preset::to_json(p));
-    for (const plan::Pass& pass : spectral::make_plan(p, scene_, bvh_).passes) {
+    for (const plan::Decision& pass : spectral::make_plan(p, scene_, bvh_).decisions) {
       if (pass.field.empty()) continue;
       SCOPED_TRACE(what + ": " + pass.name + (pass.runs ? " runs: " : " is left out: ") + pass.reason);
       found_.insert(pass.field);
@@ -176,7 +176,7 @@ TEST_P(PlanFields, AreTrueWhateverIsSwitched) {
 // light.
 TEST_P(PlanFields, TurnTheirPassesOnAndOff) {
   for (const char* name : {"low discrepancy", "error estimate", "light types"}) {
-    const plan::Pass pass = pass_of(preset_, name);
+    const plan::Decision pass = pass_of(preset_, name);
     SCOPED_TRACE(std::string(name) + ": " + pass.reason);
     ASSERT_NE(pass.field, "");
     EXPECT_TRUE(pass_of(with_field(preset_, pass.field, pass.run_value).value(), name).runs);

@@ -18,10 +18,10 @@ std::string path_of(const std::string& pointer) {
   return path;
 }
 
-std::optional<double> seconds_of(const job::Snapshot* snapshot, const std::string& pass) {
+std::optional<double> seconds_of(const job::Snapshot* snapshot, const std::string& decision) {
   if (!snapshot) return std::nullopt;
   for (const auto& [phase, seconds] : snapshot->phases)
-    if (phase == pass) return seconds;
+    if (phase == decision) return seconds;
   return std::nullopt;
 }
 
@@ -35,7 +35,7 @@ void seconds_cell(std::optional<double> seconds) {
   if (seconds) ImGui::Text("%.3g s", *seconds);
 }
 
-/// Seconds that are no pass of the plan's: other phases, and measuring, which is not in the work's time.
+/// Seconds that are none of the plan's decisions: other phases, and measuring, which is not in the work's time.
 void draw_other_seconds(const Context& context, const plan::Plan& plan) {
   const auto row = [](const std::string& name, double seconds, const char* why) {
     ImGui::TableNextRow();
@@ -47,8 +47,8 @@ void draw_other_seconds(const Context& context, const plan::Plan& plan) {
   };
   if (!context.run.snapshot()) return;
   for (const auto& [phase, seconds] : context.run.snapshot()->phases)
-    if (std::none_of(plan.passes.begin(), plan.passes.end(),
-                     [&, name = phase](const plan::Pass& pass) { return pass.name == name; }))
+    if (std::none_of(plan.decisions.begin(), plan.decisions.end(),
+                     [&, name = phase](const plan::Decision& decision) { return decision.name == name; }))
       row(phase, seconds, "");
   if (const auto history = context.run.error_history())
     row("measuring", history->measuring_seconds, "not counted as work");
@@ -89,9 +89,9 @@ void PlanPanel::draw(const Context& context) {
   places_.clear();
   ImGui::AlignTextToFramePadding();
   const auto left_out =
-      std::count_if(plan->passes.begin(), plan->passes.end(), [](const plan::Pass& pass) { return !pass.runs; });
+      std::count_if(plan->decisions.begin(), plan->decisions.end(), [](const plan::Decision& decision) { return !decision.runs; });
   ImGui::TextUnformatted(
-      fmt::format("Engine {}: {} left out of {}", plan->engine, left_out, plan->passes.size()).c_str());
+      fmt::format("Engine {}: {} left out of {}", plan->engine, left_out, plan->decisions.size()).c_str());
   ImGui::SameLine(std::max(ImGui::GetContentRegionAvail().x - 8 * em(), 14 * em()));
   action_button("Copy plan as JSON", context);
   if (ImGui::BeginChild("plan")) {
@@ -114,11 +114,11 @@ void PlanPanel::read_fields(const Context& context) {
   preset_ = *context.preset();
   computed_.clear();
   const nlohmann::json fields = preset::as_json(preset_);
-  for (const plan::Pass& pass : plan_->passes) {
+  for (const plan::Decision& decision : plan_->decisions) {
     std::optional<bool>& computed = computed_.emplace_back();
-    const nlohmann::json::json_pointer pointer(pass.field);
-    if (!pass.field.empty() && fields.contains(pointer) && fields[pointer].is_boolean())
-      computed = fields[pointer] == pass.run_value;
+    const nlohmann::json::json_pointer pointer(decision.field);
+    if (!decision.field.empty() && fields.contains(pointer) && fields[pointer].is_boolean())
+      computed = fields[pointer] == decision.run_value;
   }
 }
 
@@ -128,32 +128,32 @@ void PlanPanel::draw_passes(const Context& context) {
     ImGui::TableSetupColumn(column, ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("Why", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
-  for (std::size_t i = 0; i < plan_->passes.size(); ++i) {
-    const plan::Pass& pass = plan_->passes[i];
+  for (std::size_t i = 0; i < plan_->decisions.size(); ++i) {
+    const plan::Decision& decision = plan_->decisions[i];
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushID(static_cast<int>(i));
-    if (computed_[i]) draw_box(context, pass, *computed_[i]);
+    if (computed_[i]) draw_box(context, decision, *computed_[i]);
     ImGui::PopID();
     ImGui::TableNextColumn();
-    draw_text(pass.runs ? colour::text : colour::quiet_text, pass.name);
-    seconds_cell(seconds_of(context.run.snapshot().get(), pass.name));
+    draw_text(decision.runs ? colour::text : colour::quiet_text, decision.name);
+    seconds_cell(seconds_of(context.run.snapshot().get(), decision.name));
     ImGui::TableNextColumn();
-    draw_wrapped(colour::quiet_text, (pass.runs ? "runs: " : "left out: ") + pass.reason);
+    draw_wrapped(colour::quiet_text, (decision.runs ? "runs: " : "left out: ") + decision.reason);
   }
   draw_other_seconds(context, *plan_);
   ImGui::EndTable();
 }
 
-void PlanPanel::draw_box(const Context& context, const plan::Pass& pass, bool computed) {
+void PlanPanel::draw_box(const Context& context, const plan::Decision& decision, bool computed) {
   if (ImGui::Checkbox("##computed", &computed)) {
-    const std::string label = (computed ? "compute " : "leave out ") + pass.name;
+    const std::string label = (computed ? "compute " : "leave out ") + decision.name;
     context.push(
-        command::Edit{label, with_field(*context.preset(), pass.field, computed ? pass.run_value : !pass.run_value)});
+        command::Edit{label, with_field(*context.preset(), decision.field, computed ? decision.run_value : !decision.run_value)});
   }
-  places_.note(pass.name,
+  places_.note(decision.name,
                fmt::format("Computed whatever the scene needs: {} = {}. Without the check the scene decides.",
-                           path_of(pass.field), pass.run_value));
+                           path_of(decision.field), decision.run_value));
 }
 
 } // namespace nephroid::ui

@@ -117,7 +117,7 @@ ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& 
   return {by_importance(importance, watts, tables), importance};
 }
 
-plan::Pass effort_pass(const Settings& settings, const std::vector<double>& importance) {
+plan::Decision effort_decision(const Settings& settings, const std::vector<double>& importance) {
   const Strategy& strategy = strategy_of(settings);
   const bool matters = strategy.by == Strategy::By::wavelength;
   if (settings.effort == Choice::importance && !settings.importance.geometry)

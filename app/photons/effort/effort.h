@@ -26,6 +26,6 @@ ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& 
                                   const std::vector<double>& watts, const tracing::WavelengthTables& tables);
 
 /// The plan's pass "importance": how photons are allocated, and how much of equal work is left.
-plan::Pass effort_pass(const Settings& settings, const std::vector<double>& importance);
+plan::Decision effort_decision(const Settings& settings, const std::vector<double>& importance);
 
 } // namespace nephroid::photons

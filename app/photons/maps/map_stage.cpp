@@ -142,7 +142,7 @@ private:
   std::int64_t sorted_pass_ = -1; ///< the pass whose photons the grid has
 };
 
-plan::Pass map_pass(const PlanInput& input) {
+plan::Decision map_decision(const PlanInput& input) {
   const char* const name = "photon maps";
   if (input.settings.relight)
     return {name, false, "spectral.relight is true: layers are kept of splats, not of photon maps", "/spectral/relight",
@@ -164,13 +164,13 @@ plan::Pass map_pass(const PlanInput& input) {
 }
 
 PlanPart plan_maps(const PlanInput& input) {
-  PlanPart part = plan_gathering(input, map_pass(input), input.tables.photons_per_pass());
-  const bool runs = part.passes[0].runs;
+  PlanPart part = plan_gathering(input, map_decision(input), input.tables.photons_per_pass());
+  const bool runs = part.decisions[0].runs;
   if (runs) part.buffers.push_back({"film photon maps", input.film_bytes()});
   // Photons and eye paths must share a wavelength. A pass has 32 in all: a picture of fewer has a colour cast.
   const int clusters = std::max(static_cast<int>(input.tables.wavelengths.clusters.size()), 1);
   part.defines = {
-      {"NEPHROID_PASS_BANDS", std::to_string(runs && jitter_pass(input).runs ? std::max(1, 32 / clusters) : 1)}};
+      {"NEPHROID_PASS_BANDS", std::to_string(runs && jitter_decision(input).runs ? std::max(1, 32 / clusters) : 1)}};
   return part;
 }
 

@@ -123,9 +123,9 @@ unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsi
   return static_cast<unsigned>(std::clamp(share_of_work * photons_per_pass / std::max(pixels, 1.0), 1.0, most));
 }
 
-PlanPart plan_gathering(const PlanInput& input, plan::Pass pass, std::uint32_t photons) {
-  PlanPart part{.passes = {std::move(pass)}};
-  if (!part.passes[0].runs) return part;
+PlanPart plan_gathering(const PlanInput& input, plan::Decision pass, std::uint32_t photons) {
+  PlanPart part{.decisions = {std::move(pass)}};
+  if (!part.decisions[0].runs) return part;
   const std::size_t objects = input.scene.objects.size(), clusters = input.tables.wavelengths.clusters.size();
   if (2 * clusters * objects > MAX_PHOTON_GROUPS)
     throw bad_input(Location(input.scene.source) / "scene" / "objects",

@@ -48,7 +48,7 @@ unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsi
 
 /// The plan of a stage that gathers `photons` photons at a time, where `pass` runs. Throws bad_input at
 /// FILE#/scene/objects where photons cannot tell so many objects apart in so many clusters.
-PlanPart plan_gathering(const PlanInput& input, plan::Pass pass, std::uint32_t photons);
+PlanPart plan_gathering(const PlanInput& input, plan::Decision pass, std::uint32_t photons);
 
 /// spectral.sppm.radius, in scene units. By default it is twice the width of a pixel at the distance of the scene's
 /// middle (at a quarter of the scene's radius for a camera that is nearer).

@@ -294,7 +294,7 @@ private:
   bool sorted_ = false; ///< whether the grid has this iteration's photons
 };
 
-plan::Pass sppm_pass(const PlanInput& input) {
+plan::Decision sppm_decision(const PlanInput& input) {
   const char* const name = "photon maps";
   if (!input.caustics.runs) return {name, false, "there are no caustics to gather"};
   return {name, true,
@@ -305,10 +305,10 @@ plan::Pass sppm_pass(const PlanInput& input) {
 }
 
 PlanPart plan_sppm(const PlanInput& input) {
-  PlanPart part = plan_gathering(input, sppm_pass(input), static_cast<std::uint32_t>(input.settings.photons_per_pass));
+  PlanPart part = plan_gathering(input, sppm_decision(input), static_cast<std::uint32_t>(input.settings.photons_per_pass));
   // A pass gives one cluster after the other its turn, with one wavelength each.
   part.defines = {{"NEPHROID_PASS_BANDS", "1"}};
-  if (!part.passes[0].runs) return part;
+  if (!part.decisions[0].runs) return part;
   const std::uint64_t runs =
       input.settings.effort == Settings::Effort::random ? 1 : input.tables.wavelengths.clusters.size();
   part.buffers.push_back({"statistics of pixels", runs * input.pixels() * sizeof(shared::PixelStatistics)});

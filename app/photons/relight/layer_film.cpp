@@ -99,7 +99,7 @@ PlanPart plan_relighting(const PlanInput& input) {
                         largest_loss_difference)
           : "";
   return {
-      .passes = {{"relighting", true,
+      .decisions = {{"relighting", true,
                   fmt::format(
                       "{} of {} in {} are kept apart, so that spectra and powers can change; dark ones too, for which "
                       "half of the photons go to every cluster alike{}",

@@ -123,8 +123,8 @@ private:
 };
 
 PlanPart plan_layered_direct(const PlanInput& input) {
-  PlanPart part{.passes = direct_stage.plan(input).passes};
-  if (!part.passes[0].runs) return part;
+  PlanPart part{.decisions = direct_stage.plan(input).passes};
+  if (!part.decisions[0].runs) return part;
   const RunTables& tables = input.tables;
   const std::size_t lights = tables.lights.size(), clusters = tables.wavelengths.clusters.size();
   plan_layer_film("film direct", lights, unbent_cells(tables.camera), input, part);
