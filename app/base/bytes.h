@@ -67,12 +67,12 @@ private:
   Location where_;
 };
 
-/// Saves or loads a job's state. A class with state writes one function state(State&), which serves both ways.
-class State {
+/// Saves or loads a job's state. A class with state writes one function serialize(Archive&), which serves both ways.
+class Archive {
 public:
-  /// Both outlive the State.
-  explicit State(ByteSink& to) : to_(&to) {}
-  explicit State(ByteSource& from) : from_(&from) {}
+  /// Both outlive the Archive.
+  explicit Archive(ByteSink& to) : to_(&to) {}
+  explicit Archive(ByteSource& from) : from_(&from) {}
   bool is_read() const { return from_ != nullptr; }
 
   template <class T>

@@ -95,23 +95,23 @@ public:
   }
 
   void save(ByteSink& sink) override {
-    tracing::State state(sink, context_.communicator());
+    tracing::Archive archive(sink, context_.communicator());
     bool complete = baking_.is_complete();
-    state.value(bake_seconds_);
-    state.value(render_seconds_);
-    state.value(complete);
-    if (!complete) baking_.state(state);
-    if (renderer()) state_of_picture(state);
+    archive.value(bake_seconds_);
+    archive.value(render_seconds_);
+    archive.value(complete);
+    if (!complete) baking_.serialize(archive);
+    if (renderer()) state_of_picture(archive);
   }
 
   /// A complete bake is in its file; without the file it is baked again.
   void load(ByteSource& source) override {
-    tracing::State state(source, context_.communicator());
+    tracing::Archive archive(source, context_.communicator());
     double bake_seconds = 0, render_seconds = 0;
     bool complete = false;
-    state.value(bake_seconds);
-    state.value(render_seconds);
-    state.value(complete);
+    archive.value(bake_seconds);
+    archive.value(render_seconds);
+    archive.value(complete);
     if (complete && !baking_.is_complete()) return read_to_end(source);
     if (!complete) {
       if (baking_.is_complete()) { // another run has completed it since
@@ -119,9 +119,9 @@ public:
         baking_.begin_anew();
         if (refines()) begin_view();
       }
-      baking_.state(state);
+      baking_.serialize(archive);
     }
-    if (renderer()) state_of_picture(state);
+    if (renderer()) state_of_picture(archive);
     bake_seconds_ = bake_seconds;
     render_seconds_ = render_seconds;
   }
@@ -231,13 +231,13 @@ private:
     return picture;
   }
 
-  void state_of_picture(tracing::State& state) {
+  void state_of_picture(tracing::Archive& archive) {
     double caustics_seconds = view_->caustics_seconds();
-    state.value(caustics_seconds);
-    state.value(photon_seconds_);
-    view_->state(state);
+    archive.value(caustics_seconds);
+    archive.value(photon_seconds_);
+    view_->serialize(archive);
     view_->set_caustics_seconds(caustics_seconds);
-    photons_.state(state, *view_);
+    photons_.serialize(archive, *view_);
   }
 
   /// Adds the lights for the panel Environment.

@@ -77,14 +77,14 @@ void JoinedPhotons::join(std::vector<Renderer::Layer>& layers, const Renderer::L
   caustic = {"caustic", sent->layers.front().rgb, sent->error_draw};
 }
 
-void JoinedPhotons::state(tracing::State& state, const SceneView& view) {
+void JoinedPhotons::serialize(tracing::Archive& archive, const SceneView& view) {
   bool has_run = run_ != nullptr;
-  state.value(ahead_);
-  state.value(has_run);
+  archive.value(ahead_);
+  archive.value(has_run);
   has_planned_ = has_run && has_planned_;
   if (!has_run) return run_.reset();
   if (!run_) advance(view); // begins the run
-  run_->state(state);
+  run_->serialize(archive);
 }
 
 } // namespace nephroid::environment

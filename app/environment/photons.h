@@ -51,7 +51,7 @@ public:
   /// there are spheres, and no layer keeps the noise of a single sample. smooth: the layer of that name.
   void join(std::vector<Renderer::Layer>& layers, const Renderer::Layer& smooth, bool has_spheres);
 
-  void state(tracing::State& state, const SceneView& view);
+  void serialize(tracing::Archive& archive, const SceneView& view);
 
 private:
   mpi::RankContext context_;

@@ -92,27 +92,27 @@ public:
   }
 
   void save(ByteSink& to) override {
-    State saved(to);
-    state(saved);
+    Archive saved(to);
+    serialize(saved);
   }
   void load(ByteSource& from) override {
-    State saved(from);
-    state(saved);
+    Archive saved(from);
+    serialize(saved);
     find_conflicts();
   }
 
 private:
   /// A run that ended at its stop goes on where it is given more steps or time; what it had judged then counts no more.
-  void state(State& state) {
-    search_.state_of_method(state);
-    state.value(judge_seconds_);
-    search_.state_of_count(state);
+  void serialize(Archive& archive) {
+    search_.state_of_method(archive);
+    archive.value(judge_seconds_);
+    search_.state_of_count(archive);
     bool judged = judgement_.has_value();
-    state.value(judged);
+    archive.value(judged);
     if (!judged) return;
-    if (state.is_read()) begin_judging();
-    judgement_->state(state);
-    if (state.is_read() && !search_.is_over()) stop_judging();
+    if (archive.is_read()) begin_judging();
+    judgement_->serialize(archive);
+    if (archive.is_read() && !search_.is_over()) stop_judging();
   }
 
   void advance_stage() {

@@ -277,18 +277,18 @@ std::vector<Cost> Judge::noise(const std::vector<Target>& targets) const {
   return noise;
 }
 
-void Judge::state(State& state) {
-  state.value(row_);
-  state.value(round_);
-  state.value(finished_);
+void Judge::serialize(Archive& archive) {
+  archive.value(row_);
+  archive.value(round_);
+  archive.value(finished_);
   for (auto& half : light_on_screens_) {
     std::vector<std::int64_t> light = context_.all_reduced_sum(half);
-    state.items(light);
-    if (state.is_read()) write_sum(half, light, context_.communicator());
+    archive.items(light);
+    if (archive.is_read()) write_sum(half, light, context_.communicator());
   }
   std::vector<std::int64_t> outcomes = context_.all_reduced_sum(outcomes_);
-  state.items(outcomes);
-  if (!state.is_read()) return;
+  archive.items(outcomes);
+  if (!archive.is_read()) return;
   write_sum(outcomes_, outcomes, context_.communicator());
   if (finished_) read_sums();
 }

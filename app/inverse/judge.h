@@ -71,7 +71,7 @@ public:
   /// The noise in each figure. Without it, a figure would be the root of the difference of the squares.
   std::vector<Cost> noise(const std::vector<Target>& targets) const;
 
-  void state(State& state);
+  void serialize(Archive& archive);
 
 private:
   static inline const std::vector<Target> no_targets{};

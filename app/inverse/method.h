@@ -33,7 +33,7 @@ public:
   virtual void show(job::Snapshot&) const {}
 
   /// All that the method needs to go on with the same bits.
-  virtual void state(State& state) = 0;
+  virtual void serialize(Archive& archive) = 0;
 };
 
 } // namespace nephroid::inverse

@@ -110,14 +110,14 @@ void Search::show(job::Snapshot& snapshot) const {
   method_->show(snapshot);
 }
 
-void Search::state_of_method(State& state) {
-  method_->state(state);
-  state.value(seconds_);
+void Search::state_of_method(Archive& archive) {
+  method_->serialize(archive);
+  archive.value(seconds_);
 }
 
-void Search::state_of_count(State& state) {
-  state.value(began_);
-  state.list(history_);
+void Search::state_of_count(Archive& archive) {
+  archive.value(began_);
+  archive.list(history_);
 }
 
 void Search::note_step() {

@@ -35,8 +35,8 @@ public:
   void show(job::Snapshot& snapshot) const;
 
   /// Two parts of a state; the job's own part stands between them.
-  void state_of_method(State& state);
-  void state_of_count(State& state);
+  void state_of_method(Archive& archive);
+  void state_of_count(Archive& archive);
 
 private:
   /// Where the stop counts from: the run's begin, or the newest preset that it adopted.

@@ -111,21 +111,21 @@ void Tolerances::advance() {
   judge_.reset();
 }
 
-void Tolerances::state(State& state) {
+void Tolerances::serialize(Archive& archive) {
   std::size_t done = rows_.size();
-  state.value(done);
-  if (state.is_read()) {
+  archive.value(done);
+  if (archive.is_read()) {
     rows_.clear();
     for (std::size_t i = 0; i < std::min(done, errors.size()); ++i)
       rows_.push_back({errors[i].what, std::vector<Cost>(layout_.distances.size())});
   }
-  for (Row& row : rows_) state.items(row.costs);
+  for (Row& row : rows_) archive.items(row.costs);
   bool judges = judge_.has_value();
-  state.value(judges);
-  if (state.is_read()) judge_.reset();
+  archive.value(judges);
+  if (archive.is_read()) judge_.reset();
   if (!judges || finished()) return;
-  if (state.is_read()) begin();
-  judge_->state(state);
+  if (archive.is_read()) begin();
+  judge_->serialize(archive);
 }
 
 std::string tolerance_table(const std::vector<Cost>& judged, const std::vector<Tolerances::Row>& rows) {

@@ -27,7 +27,7 @@ public:
   };
   const std::vector<Row>& rows() const { return rows_; } ///< the errors judged so far
 
-  void state(State& state);
+  void serialize(Archive& archive);
 
 private:
   void begin();
@@ -83,9 +83,9 @@ public:
   /// Empty where the preset asks for no tolerances.
   const std::optional<Tolerances>& tolerances() const { return tolerances_; }
 
-  void state(State& state) {
-    judge_.state(state);
-    if (tolerances_) tolerances_->state(state);
+  void serialize(Archive& archive) {
+    judge_.serialize(archive);
+    if (tolerances_) tolerances_->serialize(archive);
   }
 
 private:

@@ -18,30 +18,30 @@ namespace {
 /// A history in a checkpoint, before the job's own bytes, so that a resumed run goes on with one history. How it lies
 /// there is part of the checkpoint's format (run/checkpoint.cpp). `from` is what is read; null where the history is
 /// written. Throws bad_input where the checkpoint is cut.
-void history_state(State state, const ByteSource* from, job::History& history, double& wall_seconds) {
+void history_state(Archive archive, const ByteSource* from, job::History& history, double& wall_seconds) {
   // Items of at least so many bytes each, which the rest of the checkpoint must hold: no wrong count takes all memory.
   const auto sized = [&](auto& items, std::size_t bytes_each) {
     std::uint64_t count = items.size();
-    state.value(count);
+    archive.value(count);
     if (from && count > from->left() / bytes_each)
       throw bad_input("checkpoint", "is cut", "", "delete it and start again");
     items.resize(static_cast<std::size_t>(count));
   };
-  state.value(wall_seconds);
-  state.value(history.measuring_seconds);
+  archive.value(wall_seconds);
+  archive.value(history.measuring_seconds);
   sized(history.columns, sizeof(std::uint64_t));
   for (std::string& column : history.columns) {
     sized(column, 1);
-    state.items(std::span(column));
+    archive.items(std::span(column));
   }
   sized(history.rows, (4 + history.columns.size()) * sizeof(double));
   for (job::HistoryRow& row : history.rows) {
-    state.value(row.seconds);
-    state.value(row.wall_seconds);
-    state.value(row.step);
-    state.value(row.work);
+    archive.value(row.seconds);
+    archive.value(row.wall_seconds);
+    archive.value(row.step);
+    archive.value(row.work);
     row.errors.resize(history.columns.size());
-    state.items(row.errors);
+    archive.items(row.errors);
   }
 }
 
@@ -150,7 +150,7 @@ public:
 
   void save(ByteSink& to) override {
     double wall = wall_seconds();
-    history_state(State(to), nullptr, history_, wall);
+    history_state(Archive(to), nullptr, history_, wall);
     job_->save(to);
   }
 
@@ -182,7 +182,7 @@ public:
 
   void load(ByteSource& from) override {
     job::History saved;
-    history_state(State(from), &from, saved, wall_before_);
+    history_state(Archive(from), &from, saved, wall_before_);
     job_->load(from);
     began_ = Clock::now();
     history_.measuring_seconds = saved.measuring_seconds;

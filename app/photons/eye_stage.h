@@ -59,11 +59,11 @@ public:
     tracing::add_layer(layer_, {world_.context.all_reduced_sum(preview_film_), quanta_per_unit(), samples}, picture);
   }
 
-  void state(tracing::State& state) override {
-    pixels_.state(state);
-    state.buffer(film_);
-    if (state.is_read()) preview_film_ = world_.preview_film();
-    state.buffer(preview_film_);
+  void serialize(tracing::Archive& archive) override {
+    pixels_.serialize(archive);
+    archive.buffer(film_);
+    if (archive.is_read()) preview_film_ = world_.preview_film();
+    archive.buffer(preview_film_);
   }
 
 protected:

@@ -125,10 +125,10 @@ public:
     energy.caustics.refused_contributions += energy.indirect->refused_contributions;
   }
 
-  void state(tracing::State& state) override {
-    slices_.state(state);
-    state.buffer(film_);
-    state.buffer(energy_);
+  void serialize(tracing::Archive& archive) override {
+    slices_.serialize(archive);
+    archive.buffer(film_);
+    archive.buffer(energy_);
   }
 
 private:

@@ -137,13 +137,13 @@ public:
   }
 
   void save(ByteSink& sink) override {
-    tracing::State state(sink, world_.context.communicator());
-    this->state(state);
+    tracing::Archive archive(sink, world_.context.communicator());
+    this->serialize(archive);
   }
 
   void load(ByteSource& source) override {
-    tracing::State state(source, world_.context.communicator());
-    this->state(state);
+    tracing::Archive archive(source, world_.context.communicator());
+    this->serialize(archive);
     world_.context.finish();
   }
 
@@ -164,11 +164,11 @@ public:
   std::int64_t batches() const override { return static_cast<std::int64_t>(passes_.photon_batches()); }
   std::int64_t batches_per_pass() const override { return world_.tables.batches; }
 
-  void state(tracing::State& state) override {
-    passes_.state_of_position(state);
-    preview_.state(state);
-    state.buffer(world_.energy);
-    passes_.state_of_stages(state);
+  void serialize(tracing::Archive& archive) override {
+    passes_.state_of_position(archive);
+    preview_.serialize(archive);
+    archive.buffer(world_.energy);
+    passes_.state_of_stages(archive);
   }
 
 private:

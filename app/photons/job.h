@@ -8,7 +8,7 @@
 #include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
-#include "tracing/state.h"
+#include "tracing/archive.h"
 
 #include <memory>
 #include <span>
@@ -30,7 +30,7 @@ public:
   virtual std::int64_t batches() const = 0;
   virtual std::int64_t batches_per_pass() const = 0;
   /// The whole state that save() and load() handle.
-  virtual void state(tracing::State& state) = 0;
+  virtual void serialize(tracing::Archive& archive) = 0;
 };
 
 /// Copies scene and tree to the device; they need not outlive the call. plan belongs to the same preset and scene.

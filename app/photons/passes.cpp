@@ -46,10 +46,10 @@ double Passes::photon_batches() const {
   return 0;
 }
 
-void Passes::state_of_stages(tracing::State& state) {
+void Passes::state_of_stages(tracing::Archive& archive) {
   for (TimedStage& s : stages_) {
-    state.value(s.seconds);
-    s.stage->state(state);
+    archive.value(s.seconds);
+    s.stage->serialize(archive);
   }
 }
 

@@ -54,8 +54,8 @@ public:
   double energy_batches() const { return photon_batches() - at_.energy_from; }
   void begin_energy() { at_.energy_from = photon_batches(); }
 
-  void state_of_position(tracing::State& state) { state.value(at_); }
-  void state_of_stages(tracing::State& state);
+  void state_of_position(tracing::Archive& archive) { archive.value(at_); }
+  void state_of_stages(tracing::Archive& archive);
 
 private:
   struct Position {
@@ -84,9 +84,9 @@ public:
   /// Renders the whole next picture at once: a part of it would be of no use.
   void next(Passes& passes);
 
-  void state(tracing::State& state) {
-    state.value(pictures_);
-    if (state.is_read() && has_picture()) begin_picture();
+  void serialize(tracing::Archive& archive) {
+    archive.value(pictures_);
+    if (archive.is_read() && has_picture()) begin_picture();
   }
 
 private:

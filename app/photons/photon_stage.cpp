@@ -93,17 +93,17 @@ public:
                        picture);
   }
 
-  void state(tracing::State& state) override {
+  void serialize(tracing::Archive& archive) override {
     const bool was_by_variance = by_variance_;
-    slices_.state(state);
-    state.value(batch_);
-    state.value(by_variance_);
-    state.buffer(film_);
-    allocation_.state(state);
-    guide_.state(state);
-    state.buffer(moments_);
-    state.buffer(guide_moments_);
-    if (state.is_read()) write_allocation();
+    slices_.serialize(archive);
+    archive.value(batch_);
+    archive.value(by_variance_);
+    archive.buffer(film_);
+    allocation_.serialize(archive);
+    guide_.serialize(archive);
+    archive.buffer(moments_);
+    archive.buffer(guide_moments_);
+    if (archive.is_read()) write_allocation();
     if (by_variance_ != was_by_variance) make_kernel();
   }
 

@@ -123,11 +123,11 @@ void SampledPixels::share_work(const Noise& noise) {
   });
 }
 
-void SampledPixels::state(tracing::State& state) {
-  state.value(passes_);
-  state.value(done_);
-  state.items(counts_);
-  state.items(rates_);
+void SampledPixels::serialize(tracing::Archive& archive) {
+  archive.value(passes_);
+  archive.value(done_);
+  archive.items(counts_);
+  archive.items(rates_);
   if (std::ranges::count(rates_, 0) > 0) throw bad_input("checkpoint.bin", "is of another run");
 }
 

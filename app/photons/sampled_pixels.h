@@ -9,7 +9,7 @@
 #include "photons/stage.h"
 #include "photons/stage_context.h"
 #include "tracing/slices.h"
-#include "tracing/state.h"
+#include "tracing/archive.h"
 
 #include <array>
 #include <cstdint>
@@ -44,7 +44,7 @@ public:
 
   void share_work(const Noise& noise);
 
-  void state(tracing::State& state);
+  void serialize(tracing::Archive& archive);
 
 private:
   std::int64_t samples_in(std::size_t pixel, std::int64_t pass) const;

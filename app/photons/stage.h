@@ -8,7 +8,7 @@
 #include "photons/stage_context.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
-#include "tracing/state.h"
+#include "tracing/archive.h"
 
 #include <cmath>
 #include <cstdint>
@@ -46,12 +46,12 @@ public:
   /// not part of the run's work. The caller resets the shared energy counters.
   virtual void warm_up(const Communicator& communicator) {
     ByteStore kept; // little: films are still all 0, and pieces of zeros are left out
-    tracing::State before(kept, communicator);
-    state(before);
+    tracing::Archive before(kept, communicator);
+    serialize(before);
     advance(0);
     StoredBytes bytes(kept.bytes(), name());
-    tracing::State back(bytes, communicator);
-    state(back);
+    tracing::Archive back(bytes, communicator);
+    serialize(back);
   }
   /// The number of passes that it takes part in; it stops once it has enough samples.
   virtual std::int64_t passes() const { return preset::max_passes; }
@@ -79,7 +79,7 @@ public:
   virtual std::uint64_t photons_per_pass() const { return 0; }
   /// Whether StageContext::energy holds the power of its photons.
   virtual bool counts_energy() const { return false; }
-  virtual void state(tracing::State& state) = 0;
+  virtual void serialize(tracing::Archive& archive) = 0;
 };
 
 /// The function RunPart::make of a stage.

@@ -2,7 +2,7 @@
 // The pixels, rows or photons of a pass in slices of about 30 ms.
 #pragma once
 #include "base/communicator.h"
-#include "tracing/state.h"
+#include "tracing/archive.h"
 
 #include <algorithm>
 #include <chrono>
@@ -65,9 +65,9 @@ public:
     return true;
   }
 
-  void state(State& state) {
-    state.value(done_);
-    state.value(size_);
+  void serialize(Archive& archive) {
+    archive.value(done_);
+    archive.value(size_);
   }
 
 private:
@@ -109,7 +109,7 @@ public:
     return true;
   }
 
-  void state(State& state) { state.value(at_); }
+  void serialize(Archive& archive) { archive.value(at_); }
 
 private:
   struct Position {

@@ -29,7 +29,7 @@ std::vector<std::string> seeds() {
   ui::UndoStack edits(preset);
   edits.push("seed", std::move(other));
   edits.push("sweep", preset, preset::Sweep{{"seed", {"1", "2"}}});
-  session.edits = edits.state();
+  session.edits = edits.serialize();
   session.view_state.bookmarks = {{"near", {}}};
   session.pins = {{"pin-1", "first", 7, true}};
   return {ui::to_json(settings), ui::SessionText().of(session)};

@@ -61,7 +61,7 @@ TEST(Assignment, GoesOnWithTheSameBits) {
   Assignment whole(test::shared_context(), layout, targets, 5), first(test::shared_context(), layout, targets, 5),
       second(test::shared_context(), layout, targets, 5), other(test::shared_context(), layout, targets, 6);
   for (int i = 0; i < 70; ++i) first.advance(); // 64 batches a sweep: in the middle of the second one
-  ASSERT_TRUE(test::load<State>(second, test::saved<State>(first)));
+  ASSERT_TRUE(test::load<Archive>(second, test::saved<Archive>(first)));
   sweep(whole, 3);
   sweep(second, 3);
   sweep(other, 3);
@@ -106,12 +106,12 @@ TEST(Assignment, GoesOnWithTheSameBitsInTheRefinement) {
   for (std::uint64_t tried = 0; !whole.finished(); tried = whole.tried()) {
     whole.advance();
     if (whole.tried() - tried == layout.facet_count())
-      cuts.push_back(test::saved<State>(whole)); // a step moves all facets
+      cuts.push_back(test::saved<Archive>(whole)); // a step moves all facets
   }
   ASSERT_GT(cuts.size(), 8u);
   for (const std::size_t cut : {std::size_t{0}, std::size_t{7}, cuts.size() - 1}) {
     Assignment other(test::shared_context(), layout, targets, 5);
-    ASSERT_TRUE(test::load<State>(other, cuts[cut]));
+    ASSERT_TRUE(test::load<Archive>(other, cuts[cut]));
     while (!other.finished()) other.advance();
     EXPECT_EQ(other.slopes(), whole.slopes());
     EXPECT_EQ(other.light(0), whole.light(0));

@@ -48,7 +48,7 @@ TEST(GoingOn, IsAsBeginningFromThoseSlopes) {
   }
   EXPECT_NEAR(a.residual(), residual, 1e-5 * residual);
   Assignment b(test::shared_context(), layout, targets, 1);
-  ASSERT_TRUE(test::load<State>(b, test::saved<State>(a)));
+  ASSERT_TRUE(test::load<Archive>(b, test::saved<Archive>(a)));
   sweep(a, 4);
   sweep(b, 4);
   EXPECT_EQ(a.slopes(), b.slopes());

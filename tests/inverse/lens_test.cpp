@@ -129,7 +129,7 @@ TEST_F(Lens, GoesOnWithTheSameBits) {
   for (const int cut : {10, 42}) {
     inverse::Lens first(layout, target, 0.3, own), second(layout, target, 0.3, own);
     for (int i = 0; i < cut; ++i) first.advance();
-    ASSERT_TRUE(test::load<State>(second, test::saved<State>(first)));
+    ASSERT_TRUE(test::load<Archive>(second, test::saved<Archive>(first)));
     EXPECT_EQ(first.light(0), second.light(0));
     advance_to(second, 4);
     EXPECT_EQ(lens.light(0), second.light(0)) << cut;

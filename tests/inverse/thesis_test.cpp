@@ -65,13 +65,13 @@ TEST_F(ThesisPipeline, GoesOnWithTheSameBitsInEveryStage) {
     Pipeline whole(layout, targets, settings, 7);
     std::vector<std::vector<std::byte>> cuts;
     for (int i = 0; !whole.finished(); ++i) {
-      if (i % 3 == 1) cuts.push_back(test::saved<State>(whole)); // between trials and in the middle of one
+      if (i % 3 == 1) cuts.push_back(test::saved<Archive>(whole)); // between trials and in the middle of one
       whole.advance();
     }
-    cuts.push_back(test::saved<State>(whole));
+    cuts.push_back(test::saved<Archive>(whole));
     for (const auto& cut : cuts) {
       Pipeline other(layout, targets, settings, 7);
-      ASSERT_TRUE(test::load<State>(other, cut));
+      ASSERT_TRUE(test::load<Archive>(other, cut));
       const job::Curve curve = finish(other).curves.at(0);
       ASSERT_EQ(other.slopes(), whole.slopes());
       ASSERT_EQ(other.light(0), whole.light(0));

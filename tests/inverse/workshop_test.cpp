@@ -158,7 +158,7 @@ TEST(Tolerances, GoOnWithTheSameFigures) {
       first(test::shared_context(), layout, targets, solid, 1),
       second(test::shared_context(), layout, targets, solid, 1);
   for (int i = 0; i < 17; ++i) first.advance();
-  ASSERT_TRUE(test::load<State>(second, test::saved<State>(first)));
+  ASSERT_TRUE(test::load<Archive>(second, test::saved<Archive>(first)));
   const auto is = all_of(second), expected = all_of(whole);
   ASSERT_EQ(is.size(), expected.size());
   for (std::size_t i = 0; i < is.size(); ++i) {

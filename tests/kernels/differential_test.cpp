@@ -55,13 +55,13 @@ __kernel void follow(WORLD_ARGUMENTS, __global const float* rays, __global const
   }
 })";
 
-struct State {
+struct Archive {
   glm::dvec3 position, direction, d_position, d_direction;
 };
 
 struct Followed {
   std::vector<Encounter> encounters;
-  std::vector<State> states;
+  std::vector<Archive> states;
 };
 
 struct Lab {
@@ -274,7 +274,7 @@ TEST_P(Differential, IsWhatFiniteDifferencesOfTheSamePathGive) {
                      d_direction = (above.direction - below.direction) / (2 * h);
     // Mirrors only, parallel faces (the ends of a rod), the critical angle.
     if (!std::isfinite(glm::length(d_position)) || glm::length(d_direction) < 1e-4) continue;
-    const State& last = paths[i].states.back();
+    const Archive& last = paths[i].states.back();
     of_place.push_back(glm::distance(last.d_position, d_position) / glm::length(d_position));
     of_direction.push_back(glm::distance(last.d_direction, d_direction) / glm::length(d_direction));
     most = std::max(most, encounters.size());
@@ -329,7 +329,7 @@ TEST(PrismDifferential, IsTheAngularDispersionAtMinimumDeviation) {
     if (path.encounters.size() != 3 || !path.encounters[0].transmitted || !path.encounters[1].transmitted) continue;
     const double n = indices(tables, clusters[i], 0)[material], sine = std::sin(half_apex);
     const double dispersion = 2 * sine / std::sqrt(1 - n * n * sine * sine);
-    const State& out = path.states[1];
+    const Archive& out = path.states[1];
     // Further down, about the axis.
     const glm::dvec3 down(out.direction.z, 0, -out.direction.x);
     worst = std::max(worst, glm::distance(out.d_direction, dispersion * down) / dispersion);

@@ -7,18 +7,18 @@
 
 namespace nephroid::test {
 
-/// saver: a job, or a part of one with a state of its own (tracing::State).
+/// saver: a job, or a part of one with a state of its own (Archive).
 template <class Writer = ByteSink, class Saver>
 std::vector<std::byte> saved(Saver& saver) {
   ByteStore store;
   if constexpr (std::is_same_v<Writer, ByteSink>) {
     saver.save(store);
-  } else if constexpr (std::is_same_v<Writer, State>) {
-    State to(store);
-    saver.state(to);
+  } else if constexpr (std::is_same_v<Writer, Archive>) {
+    Archive to(store);
+    saver.serialize(to);
   } else {
     Writer to(store, Communicator());
-    saver.state(to);
+    saver.serialize(to);
   }
   return store.bytes();
 }
@@ -29,12 +29,12 @@ bool load(Loader& loader, std::span<const std::byte> bytes) {
   StoredBytes stored(bytes, "checkpoint");
   if constexpr (std::is_same_v<Reader, ByteSource>) {
     loader.load(stored);
-  } else if constexpr (std::is_same_v<Reader, State>) {
-    State from(stored);
-    loader.state(from);
+  } else if constexpr (std::is_same_v<Reader, Archive>) {
+    Archive from(stored);
+    loader.serialize(from);
   } else {
     Reader from(stored, Communicator());
-    loader.state(from);
+    loader.serialize(from);
   }
   return stored.left() == 0;
 }

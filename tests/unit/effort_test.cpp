@@ -288,9 +288,9 @@ TEST(NeymanAllocation, CanGoBackToTheFirst) {
 TEST(NeymanAllocation, IsSavedWhole) {
   NeymanAllocation allocation(emitters({40, 60}));
   allocation.reallocate(2, std::vector<std::int64_t>{5, 700}, 2);
-  const std::vector<std::byte> bytes = test::saved<tracing::State>(allocation);
+  const std::vector<std::byte> bytes = test::saved<tracing::Archive>(allocation);
   NeymanAllocation other(emitters({40, 60}));
-  EXPECT_TRUE(test::load<tracing::State>(other, bytes));
+  EXPECT_TRUE(test::load<tracing::Archive>(other, bytes));
   allocation.reallocate(4, std::vector<std::int64_t>{100, 3}, 2);
   other.reallocate(4, std::vector<std::int64_t>{100, 3}, 2);
   for (std::size_t e = 0; e < 2; ++e)

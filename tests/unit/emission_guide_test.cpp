@@ -136,9 +136,9 @@ TEST(EmissionGuide, IsSavedWhole) {
   second[2000] = 1 << 30;
   EmissionGuide guide(1);
   guide.learn(first, std::vector<double>{1000}, 2);
-  const std::vector<std::byte> bytes = test::saved<tracing::State>(guide);
+  const std::vector<std::byte> bytes = test::saved<tracing::Archive>(guide);
   EmissionGuide other(1);
-  EXPECT_TRUE(test::load<tracing::State>(other, bytes));
+  EXPECT_TRUE(test::load<tracing::Archive>(other, bytes));
   EXPECT_EQ(other.table(), guide.table());
   guide.learn(second, std::vector<double>{1000}, 2);
   other.learn(second, std::vector<double>{1000}, 2);

@@ -173,26 +173,26 @@ void Baker::clear() {
   sent_ = 0;
 }
 
-void Baker::state(tracing::State& state) {
+void Baker::serialize(tracing::Archive& archive) {
   // The directions in hand are baked again, so that any number of ranks may go on.
   const bool is_alone = world_.context.communicator().is_alone();
   std::uint64_t baked = bake_.baked.size();
   std::uint32_t sent = is_alone ? sent_ : 0;
-  state.value(sent);
-  state.value(baked);
-  if (state.is_read() && (baked > task_.directions.size() || sent >= task_.photons))
+  archive.value(sent);
+  archive.value(baked);
+  if (archive.is_read() && (baked > task_.directions.size() || sent >= task_.photons))
     throw bad_input("checkpoint", "is of another run");
   bake_.baked.resize(baked);
   bake_.light.resize(baked * bake_.direction_items());
   bake_.ways.resize(baked * bake_.direction_texels());
-  state.items(std::span(bake_.baked));
-  state.items(std::span(bake_.light));
-  state.items(std::span(bake_.ways));
+  archive.items(std::span(bake_.baked));
+  archive.items(std::span(bake_.light));
+  archive.items(std::span(bake_.ways));
   if (sent > 0) {
-    state.buffer(film_);
-    state.buffer(energy_);
+    archive.buffer(film_);
+    archive.buffer(energy_);
   }
-  if (!state.is_read()) return;
+  if (!archive.is_read()) return;
   if (sent == 0 || !is_alone) clear();
   sent_ = is_alone ? sent : 0;
 }

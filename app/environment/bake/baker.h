@@ -71,7 +71,7 @@ public:
   /// Only when finished().
   Bake take() { return std::move(bake_); }
 
-  void state(tracing::State& state);
+  void serialize(tracing::Archive& archive);
 
 private:
   /// How many directions are in hand: one for each rank.
@@ -125,7 +125,7 @@ public:
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Only for a bake that is not complete.
-  void state(tracing::State& state) { baker_->state(state); }
+  void serialize(tracing::Archive& archive) { baker_->serialize(archive); }
 
 private:
   void read();

@@ -363,16 +363,16 @@ void Renderer::set_segmentation(Segmentation segmentation) {
   begin_anew();
 }
 
-void Renderer::state(tracing::State& state) {
-  state.value(pass_);
-  state.value(shaded_);
-  shade_slices_.state(state);
-  volume_slices_.state(state);
+void Renderer::serialize(tracing::Archive& archive) {
+  archive.value(pass_);
+  archive.value(shaded_);
+  shade_slices_.serialize(archive);
+  volume_slices_.serialize(archive);
   for (const std::size_t half : {0, 1}) {
-    state.owned(sums_[half], own_pixels(), 3);
-    if (task_.has_medium) state.owned(volume_sums_[half], own_pixels(), 3);
+    archive.owned(sums_[half], own_pixels(), 3);
+    if (task_.has_medium) archive.owned(volume_sums_[half], own_pixels(), 3);
   }
-  if (!state.is_read()) return;
+  if (!archive.is_read()) return;
   // The ends of the pass in hand are found again. Pixels that are already shaded are not shaded again.
   stage_ = shaded_ ? Stage::compile_air : Stage::see;
   see_slices_ = tracing::PixelSlices(pixels(), 8192);

@@ -10,7 +10,7 @@
 #include "job/job.h"
 #include "mpi/rank_context.h"
 #include "tracing/slices.h"
-#include "tracing/state.h"
+#include "tracing/archive.h"
 
 #include <array>
 #include <cstdint>
@@ -65,7 +65,7 @@ public:
   const scene::Scene& scene() const { return *task_.scene; }
   const scene::Bvh& bvh() const { return *task_.bvh; }
 
-  void state(tracing::State& state);
+  void serialize(tracing::Archive& archive);
 
 private:
   enum class Stage { see, cast, compile_air, shade, volume };

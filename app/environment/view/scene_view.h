@@ -44,7 +44,7 @@ public:
   /// The time that caustics took since the picture began.
   double caustics_seconds() const { return caustics_ ? caustics_->seconds() - caustics_seconds_before_ : 0; }
 
-  void state(tracing::State& state) { renderer_->state(state); }
+  void serialize(tracing::Archive& archive) { renderer_->serialize(archive); }
   void set_caustics_seconds(double seconds);
 
 private:

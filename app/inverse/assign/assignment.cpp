@@ -151,27 +151,27 @@ double Assignment::fraction_done() const {
 
 std::vector<Cost> Assignment::costs() const { return costs_of(targets_, all_light(), light_sent(layout_, slopes())); }
 
-void Assignment::state(State& state) {
-  state.value(sweeps_);
-  state.value(next_);
-  state.value(tried_);
-  state.value(residual_);
-  state.items(tones_);
-  if (state.is_read()) aim();
-  facets_.state(state);
-  if (layout_.free_heights) state.items(heights_);
+void Assignment::serialize(Archive& archive) {
+  archive.value(sweeps_);
+  archive.value(next_);
+  archive.value(tried_);
+  archive.value(residual_);
+  archive.items(tones_);
+  if (archive.is_read()) aim();
+  facets_.serialize(archive);
+  if (layout_.free_heights) archive.items(heights_);
   if (layout_.light.facets)
     for (Incoming& in : *layout_.light.facets) {
-      state.value(in.around.x);
-      state.value(in.around.y);
+      archive.value(in.around.x);
+      archive.value(in.around.y);
     }
-  state.value(converged_);
+  archive.value(converged_);
   bool refines = refinement_.has_value();
-  state.value(refines);
-  if (state.is_read()) refinement_.reset();
-  if (refines && state.is_read()) refinement_.emplace(layout_, wanted_, weights_, heights_);
-  if (refines) refinement_->state(state);
-  if (!state.is_read()) return;
+  archive.value(refines);
+  if (archive.is_read()) refinement_.reset();
+  if (refines && archive.is_read()) refinement_.emplace(layout_, wanted_, weights_, heights_);
+  if (refines) refinement_->serialize(archive);
+  if (!archive.is_read()) return;
   facets_.set_incoming(layout_);
   forget();
   begin_sweep();

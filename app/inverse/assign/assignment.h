@@ -37,7 +37,7 @@ public:
   /// Begins the sweep in hand again.
   void relight() override;
 
-  void state(State& state) override;
+  void serialize(Archive& archive) override;
 
 private:
   void begin_sweep();

@@ -302,14 +302,14 @@ std::uint64_t DeviceFacets::bytes(const Layout& l) {
          l.incoming().size() * sizeof(shared::DeviceIncoming) + cells * (sizeof(std::int64_t) + 5 * sizeof(float));
 }
 
-void DeviceFacets::state(State& state) {
+void DeviceFacets::serialize(Archive& archive) {
   std::vector<Pair> slopes = slopes_.read();
   std::vector<float> heights = heights_.read();
   std::vector<std::int64_t> light = light_.read();
-  state.items(slopes);
-  state.items(heights);
-  state.items(light);
-  if (!state.is_read()) return;
+  archive.items(slopes);
+  archive.items(heights);
+  archive.items(light);
+  if (!archive.is_read()) return;
   slopes_.write(slopes);
   heights_.write(heights);
   light_.write(light);

@@ -44,7 +44,7 @@ public:
 
   static std::uint64_t bytes(const Layout& layout);
 
-  void state(State& state);
+  void serialize(Archive& archive);
 
 private:
   mpi::RankContext context_;

@@ -73,12 +73,12 @@ void Refinement::advance(DeviceFacets& facets) {
   stuck_ = true;
 }
 
-void Refinement::state(State& state) {
-  state.items(before_);
-  state.items(direction_);
-  state.value(step_);
-  state.value(done_);
-  state.value(stuck_);
+void Refinement::serialize(Archive& archive) {
+  archive.items(before_);
+  archive.items(direction_);
+  archive.value(step_);
+  archive.value(done_);
+  archive.value(stuck_);
 }
 
 } // namespace nephroid::inverse

@@ -18,7 +18,7 @@ public:
   bool finished() const { return stuck_ || done_ >= most_steps; }
   double fraction_done() const { return static_cast<double>(done_) / static_cast<double>(most_steps); }
 
-  void state(State& state);
+  void serialize(Archive& archive);
 
 private:
   /// Sixty steps take as long as a sweep or two and gain 0.02 to 0.15 of rel_l2, more where pictures are fine.

@@ -313,16 +313,16 @@ Solid Lens::solid() const {
 
 void Lens::show(job::Snapshot& made) const { made.scalars.push_back({"lens", "astray", transport_.astray()}); }
 
-void Lens::state(State& state) {
-  transport_.state(state);
-  state.value(moved_);
-  state.value(steps_);
-  state.value(stale_);
-  state.value(share_);
-  state.value(best_);
+void Lens::serialize(Archive& archive) {
+  transport_.serialize(archive);
+  archive.value(moved_);
+  archive.value(steps_);
+  archive.value(stale_);
+  archive.value(share_);
+  archive.value(best_);
   for (Grid* const grid : {&heights_, &best_heights_})
-    state.items(std::span(grid->data(), static_cast<std::size_t>(grid->size())));
-  if (!state.is_read()) return;
+    archive.items(std::span(grid->data(), static_cast<std::size_t>(grid->size())));
+  if (!archive.is_read()) return;
   constexpr double farthest = 1e7; // mm
   if (!(heights_.array().abs() < farthest).all() || !(best_heights_.array().abs() < farthest).all())
     throw bad_input("checkpoint.bin", "is of another run");

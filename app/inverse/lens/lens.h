@@ -31,7 +31,7 @@ public:
   Solid solid() const override;
   void show(job::Snapshot& made) const override;
 
-  void state(State& state) override;
+  void serialize(Archive& archive) override;
 
   static std::uint64_t bytes(const Layout& layout); ///< memory of fine grids, about
 

@@ -166,12 +166,12 @@ glm::dvec2 Transport::map(const glm::dvec2& p) const {
   return p - glm::mix(glm::mix(way(0, 0), way(1, 0), at.x), glm::mix(way(0, 1), way(1, 1), at.x), at.y);
 }
 
-void Transport::state(State& state) {
+void Transport::serialize(Archive& archive) {
   for (Side* const side : {&phi_, &psi_}) {
-    state.items(values(side->potential));
-    state.value(side->step);
+    archive.items(values(side->potential));
+    archive.value(side->step);
   }
-  state.value(astray_);
+  archive.value(astray_);
 }
 
 } // namespace nephroid::inverse

@@ -24,7 +24,7 @@ public:
 
   glm::dvec2 cells() const { return {from_.cols(), from_.rows()}; } ///< across and down
 
-  void state(State& state);
+  void serialize(Archive& archive);
 
 private:
   struct Side {

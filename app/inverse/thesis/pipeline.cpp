@@ -54,13 +54,13 @@ bool Annealer::decide(double cost) {
   return true;
 }
 
-void Annealer::state(State& state) {
-  state.items(values_);
-  state.items(lowest_);
-  state.value(cost_);
-  state.value(lowest_cost_);
-  state.value(done_);
-  state.value(accepted_);
+void Annealer::serialize(Archive& archive) {
+  archive.items(values_);
+  archive.items(lowest_);
+  archive.value(cost_);
+  archive.value(lowest_cost_);
+  archive.value(done_);
+  archive.value(accepted_);
 }
 
 std::int64_t Pipeline::trials_of(const Thesis& settings) {
@@ -249,35 +249,35 @@ void Pipeline::show(job::Snapshot& snapshot) const {
   snapshot.curves.push_back(std::move(curve));
 }
 
-void Pipeline::state(State& state) {
-  state.value(stage_);
-  state.value(trials_);
-  state.list(sizes_);
-  if (state.is_read()) {
+void Pipeline::serialize(Archive& archive) {
+  archive.value(stage_);
+  archive.value(trials_);
+  archive.list(sizes_);
+  if (archive.is_read()) {
     adjust(sizes_);
     if (stage_ > Stage::annealing_1) find_needs();
   }
-  state.list(reach_);
-  for (auto& picture : pictures_) state.list(picture);
-  state.value(rounds_);
-  state.value(idle_);
-  state.items(best_.slopes);
-  state.value(best_.dark);
+  archive.list(reach_);
+  for (auto& picture : pictures_) archive.list(picture);
+  archive.value(rounds_);
+  archive.value(idle_);
+  archive.items(best_.slopes);
+  archive.value(best_.dark);
   bool tried = !best_.light.empty();
-  state.value(tried);
+  archive.value(tried);
   best_.light.resize(tried ? targets_.size() : 0);
-  for (auto& light : best_.light) state.list(light);
-  for (auto& light : light_) state.list(light);
-  state.value(lowest_);
-  state.value(costs_);
-  state.list(history_);
-  if (state.is_read()) annealer_ = annealer();
-  if (annealer_) annealer_->state(state);
-  if (state.is_read()) {
+  for (auto& light : best_.light) archive.list(light);
+  for (auto& light : light_) archive.list(light);
+  archive.value(lowest_);
+  archive.value(costs_);
+  archive.list(history_);
+  if (archive.is_read()) annealer_ = annealer();
+  if (annealer_) annealer_->serialize(archive);
+  if (archive.is_read()) {
     trial_.reset();
     if (stage_ != Stage::done) begin_trial();
   }
-  if (trial_) trial_->state(state);
+  if (trial_) trial_->serialize(archive);
 }
 
 } // namespace nephroid::inverse

@@ -36,7 +36,7 @@ public:
   std::int64_t accepted() const { return accepted_; }
   std::int64_t refused() const { return done_ - accepted_; }
 
-  void state(State& state);
+  void serialize(Archive& archive);
 
 private:
   std::vector<AnnealedParameter> knobs_;
@@ -72,7 +72,7 @@ public:
   Solid solid() const override { return make_solid(layout_, slopes()); }
   void show(job::Snapshot& snapshot) const override;
 
-  void state(State& state) override;
+  void serialize(Archive& archive) override;
 
   /// The trials of all stages, at most.
   static std::int64_t trials_of(const Thesis& settings);

@@ -204,11 +204,11 @@ TrialResult Trial::drawn() const {
   return drawn;
 }
 
-void Trial::state(State& state) {
-  state.value(next_);
-  for (auto& counts : counts_) state.items(counts);
-  state.items(slopes_);
-  state.value(dark_);
+void Trial::serialize(Archive& archive) {
+  archive.value(next_);
+  for (auto& counts : counts_) archive.items(counts);
+  archive.items(slopes_);
+  archive.value(dark_);
 }
 
 } // namespace nephroid::inverse

@@ -66,7 +66,7 @@ public:
   std::size_t tried() const { return next_; } ///< completed facets
   TrialResult drawn() const;
 
-  void state(State& state); ///< is loaded only into a trial of the same aims
+  void serialize(Archive& archive); ///< is loaded only into a trial of the same aims
 
 private:
   const Layout& layout_;

@@ -168,13 +168,13 @@ void NeymanAllocation::assign(std::int64_t pass, const std::vector<unsigned>& co
   first_iteration_ = pass;
 }
 
-void NeymanAllocation::state(tracing::State& state) {
-  state.value(first_iteration_);
-  state.value(first_variance_);
-  state.value(last_variance_);
-  state.items(std::span(emitters_));
-  state.items(std::span(squares_));
-  state.items(std::span(photons_));
+void NeymanAllocation::serialize(tracing::Archive& archive) {
+  archive.value(first_iteration_);
+  archive.value(first_variance_);
+  archive.value(last_variance_);
+  archive.items(std::span(emitters_));
+  archive.items(std::span(squares_));
+  archive.items(std::span(photons_));
 }
 
 EmissionGuide::EmissionGuide(std::size_t lights) : squares_(lights * cells, 0), samples_(lights * cells, 0) {
@@ -210,9 +210,9 @@ void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const
   }
 }
 
-void EmissionGuide::state(tracing::State& state) {
-  for (std::vector<double>* values : {&chance_, &squares_, &samples_}) state.items(std::span(*values));
-  state.items(std::span(table_));
+void EmissionGuide::serialize(tracing::Archive& archive) {
+  for (std::vector<double>* values : {&chance_, &squares_, &samples_}) archive.items(std::span(*values));
+  archive.items(std::span(table_));
 }
 
 } // namespace nephroid::photons

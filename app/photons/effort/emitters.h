@@ -3,7 +3,7 @@
 // directions where they matter. Here "pass" means one batch (RunTables::batches).
 #pragma once
 #include "kernels/tracing/shared_types.h"
-#include "tracing/state.h"
+#include "tracing/archive.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -59,7 +59,7 @@ public:
   /// measured by reallocate(). 1 before there were two allocations, or where nothing was measured.
   double gain() const;
 
-  void state(tracing::State& state);
+  void serialize(tracing::Archive& archive);
 
 private:
   std::vector<shared::DeviceEmitter> emitters_;
@@ -89,7 +89,7 @@ public:
   /// picture, in any unit. photons[light] is their number in each of those passes. Every cell keeps a chance.
   void learn(std::span<const std::int64_t> moments, std::span<const double> photons, double passes);
 
-  void state(tracing::State& state);
+  void serialize(tracing::Archive& archive);
 
 private:
   std::vector<double> chance_;            ///< [light][cell]: a photon's chance of a cell; sums to 1 for each light

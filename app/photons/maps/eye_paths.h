@@ -52,7 +52,7 @@ public:
   std::int64_t done() const { return slices_.done(); }
   std::uint32_t size() const { return size_; }
 
-  void state(tracing::State& state) { slices_.state(state); }
+  void serialize(tracing::Archive& archive) { slices_.serialize(archive); }
 
   /// Queues the next path of each of `count` of the camera's pixels, into points().
   void trace(const shared::DeviceCamera& camera, shared::uint2 seed, std::uint32_t pass, const Paths& paths,

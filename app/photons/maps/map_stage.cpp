@@ -95,15 +95,15 @@ public:
                        picture);
   }
 
-  void state(tracing::State& state) override {
-    eye_.state(state);
-    state.value(paths_);
-    state.value(before_);
-    state.buffer(film_);
-    if (state.is_read()) preview_film_ = world_.preview_film();
-    state.buffer(preview_film_);
-    state.joined(map_.stored());
-    if (state.is_read()) sorted_pass_ = -1;
+  void serialize(tracing::Archive& archive) override {
+    eye_.serialize(archive);
+    archive.value(paths_);
+    archive.value(before_);
+    archive.buffer(film_);
+    if (archive.is_read()) preview_film_ = world_.preview_film();
+    archive.buffer(preview_film_);
+    archive.joined(map_.stored());
+    if (archive.is_read()) sorted_pass_ = -1;
   }
 
 private:

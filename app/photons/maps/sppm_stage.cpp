@@ -143,16 +143,16 @@ public:
     energy.caustics = balance_of(watts);
   }
 
-  void state(tracing::State& state) override {
-    state.value(at_);
-    slices_.state(state);
-    eye_.state(state);
-    state.joined(map_.stored());
+  void serialize(tracing::Archive& archive) override {
+    archive.value(at_);
+    slices_.serialize(archive);
+    eye_.serialize(archive);
+    archive.joined(map_.stored());
     for (ClusterRun& run : runs_) {
-      state.owned(run.statistics, own_pixels(), 1);
-      state.buffer(run.energy);
+      archive.owned(run.statistics, own_pixels(), 1);
+      archive.buffer(run.energy);
     }
-    if (state.is_read()) sorted_ = false;
+    if (archive.is_read()) sorted_ = false;
   }
 
 private:

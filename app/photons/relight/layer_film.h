@@ -10,7 +10,7 @@
 #include "photons/relight/layer_light.h"
 #include "photons/stage_context.h"
 #include "scene/scene.h"
-#include "tracing/state.h"
+#include "tracing/archive.h"
 
 #include <array>
 #include <cstddef>
@@ -86,7 +86,7 @@ public:
 
   std::vector<LayerSums> pixel(std::size_t index) const;
 
-  void state(tracing::State& state) { state.buffer(sums_); }
+  void serialize(tracing::Archive& archive) { archive.buffer(sums_); }
 
 private:
   mpi::RankContext context_{};

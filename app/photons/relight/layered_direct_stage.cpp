@@ -98,10 +98,10 @@ public:
     return true;
   }
 
-  void state(tracing::State& state) override {
-    rows_.state(state);
-    unbent_.state(state);
-    bent_.state(state);
+  void serialize(tracing::Archive& archive) override {
+    rows_.serialize(archive);
+    unbent_.serialize(archive);
+    bent_.serialize(archive);
   }
 
 private:

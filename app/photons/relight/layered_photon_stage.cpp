@@ -86,15 +86,15 @@ public:
     return true;
   }
 
-  void state(tracing::State& state) override {
+  void serialize(tracing::Archive& archive) override {
     bool allocated = allocated_ == relighting_.changes;
-    state.value(at_);
-    state.value(allocated);
-    slices_.state(state);
-    state.items(std::span(sent_));
-    state.items(std::span(emitters_));
-    film_.state(state);
-    if (!state.is_read()) return;
+    archive.value(at_);
+    archive.value(allocated);
+    slices_.serialize(archive);
+    archive.items(std::span(sent_));
+    archive.items(std::span(emitters_));
+    film_.serialize(archive);
+    if (!archive.is_read()) return;
     allocated_ = relighting_.changes - (allocated ? 0 : 1);
     world_.emitters.write(emitters_);
   }

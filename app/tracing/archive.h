@@ -14,11 +14,11 @@
 
 namespace nephroid::tracing {
 
-/// nephroid::State with the buffers of a device. The ranks' buffers are one buffer there, whatever the number of ranks.
-class State : public nephroid::State {
+/// nephroid::Archive with the buffers of a device. The ranks' buffers are one buffer there, whatever the number of ranks.
+class Archive : public nephroid::Archive {
 public:
-  State(ByteSink& to, const Communicator& communicator) : nephroid::State(to), communicator_(communicator) {}
-  State(ByteSource& from, const Communicator& communicator) : nephroid::State(from), communicator_(communicator) {}
+  Archive(ByteSink& to, const Communicator& communicator) : nephroid::Archive(to), communicator_(communicator) {}
+  Archive(ByteSource& from, const Communicator& communicator) : nephroid::Archive(from), communicator_(communicator) {}
 
   /// Sums that every rank adds to (mpi::RankContext::all_reduced_sum). What is loaded goes to rank 0.
   void buffer(compute::Buffer<std::int64_t>& buffer) {
