@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Processes that compute one run together: this one alone, or the ranks of an MPI job (app/team).
+// Processes that compute one run together: this one alone, or the ranks of an MPI job (app/mpi).
 //
 // They keep in step: each makes the same calls in the same order, and does a part of the work in between. What is
 // summed up in whole numbers, and what only one of them writes, is the same to the bit on any number of them.

@@ -169,7 +169,7 @@ Judge::Judge(const mpi::RankContext& context, const Layout& layout, const Solid&
   for (auto& half : light_on_screens_)
     half = compute::zeroed<std::int64_t>(context, "light on the screens",
                                          layout.cell_count() * screens.size() * channels(layout));
-  outcomes_ = compute::zeroed<std::int64_t>(context, "where the light goes", std::size_t{FATES} * FATE_SUMS);
+  outcomes_ = compute::zeroed<std::int64_t>(context, "where the light goes", std::size_t{RAY_OUTCOMES} * RAY_OUTCOME_SUMS);
   judge_ = solid_.program->kernel("judge");
   light_.assign(screens.size(), std::vector<double>(layout.cell_count()));
   halves_.fill(light_);
@@ -214,7 +214,7 @@ void Judge::judge_rows(std::uint32_t first, std::uint32_t count, std::uint32_t t
               {"first_row", first},
               {"count", count},
               {"light", light_on_screens_[turn % 2]},
-              {"fates", outcomes_}});
+              {"outcomes", outcomes_}});
 }
 
 void Judge::end_pair() {
@@ -236,12 +236,12 @@ void Judge::read_sums() {
   for (std::size_t j = 0; j < light_.size(); ++j)
     for (std::size_t c = 0; c < cells; ++c) light_[j][c] = (halves_[0][j][c] + halves_[1][j][c]) / 2;
   const std::vector<std::int64_t> outcomes = context_.all_reduced_sum(outcomes_);
-  std::array<std::int64_t, FATES> sums{};
-  for (std::size_t i = 0; i < outcomes.size(); ++i) sums[i % FATES] += outcomes[i];
-  const auto facets = [&](int fate) {
-    return static_cast<double>(sums[static_cast<std::size_t>(fate)]) / RAY_QUANTA / round_;
+  std::array<std::int64_t, RAY_OUTCOMES> sums{};
+  for (std::size_t i = 0; i < outcomes.size(); ++i) sums[i % RAY_OUTCOMES] += outcomes[i];
+  const auto facets = [&](int outcome) {
+    return static_cast<double>(sums[static_cast<std::size_t>(outcome)]) / RAY_QUANTA / round_;
   };
-  sum_ = {facets(FATE_REFLECTED), facets(FATE_LOST), facets(FATE_SENT), facets(FATE_BY_WALLS)};
+  sum_ = {facets(RAY_REFLECTED), facets(RAY_LOST), facets(RAY_SENT), facets(RAY_BY_WALLS)};
   if (finished()) solid_ = {}; // no ray follows
 }
 

@@ -23,7 +23,7 @@ struct RunPlan : plan::Plan {
   bool runs(const RunPart& part) const;
 };
 
-/// Throws bad_input as make_run_tables does.
+/// Throws bad_input as make_run_tables (relight/layer_light.h) does.
 RunPlan make_plan(const preset::Preset& preset, const Settings& settings, const scene::Scene& scene,
                   const scene::Bvh& bvh, const tracing::LeaveOut& leave_out);
 

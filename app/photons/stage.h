@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stage is one kind of work that every pass of engine 1 has: the direct layer, photons that are splatted, photon
+// A stage is one kind of work that every pass of a photon job has: the direct layer, photons that are splatted, photon
 // maps, ... It owns its kernels and films; the job gives each its turn. Sums are exact, so slices change no bit.
 #pragma once
 #include "job/job.h"

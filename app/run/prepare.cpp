@@ -61,8 +61,8 @@ std::unique_ptr<plan::Plan> make_plan(const preset::Preset& preset, const Loaded
 
 Prepared prepare(const preset::Preset& preset, const Prepared* previous, const Watch& watch) {
   const bool lends_scene = previous && same_but_camera(preset, previous->preset);
-  // Before the files are loaded: of one that is written meanwhile the run is bound to what it held before, and goes on
-  // nowhere.
+  // Hashed before the files are loaded. If one is written in between, the hash is of its old contents, and no resume
+  // goes on with the new ones.
   std::vector<plan::Input> inputs =
       read_inputs(preset, lends_scene ? inputs_of_scene(*previous) : std::vector<plan::Input>());
   auto loaded = std::make_shared<const LoadedScene>(load(preset, previous, lends_scene, watch));

@@ -53,7 +53,7 @@ void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& option
 /// of rank 0 does, and there is nothing to observe.
 void drive(const ReadyRun& run, job::Observer& observer, const std::stop_token& stop);
 
-/// The part of make_ready that needs no device.
+/// Prepares the preset as make_ready does, with what the run before lends, but makes no job: for the plan alone.
 const Prepared& prepare_next(ReadyRun& run, const preset::Preset& preset, const Watch& watch);
 
 /// Throws as require_memory. No rank goes on where one lacks it. ranks: may be null.

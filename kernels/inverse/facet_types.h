@@ -68,12 +68,12 @@ typedef struct {
 #define RAY_QUANTA 0x1p32f
 
 // Where the light on the front goes: inverse::RayOutcomes. Many places keep the sums, so that rays seldom meet there.
-#define FATE_REFLECTED 0
-#define FATE_LOST 1
-#define FATE_SENT 2
-#define FATE_BY_WALLS 3
-#define FATES 4
-#define FATE_SUMS 256
+#define RAY_REFLECTED 0
+#define RAY_LOST 1
+#define RAY_SENT 2
+#define RAY_BY_WALLS 3
+#define RAY_OUTCOMES 4
+#define RAY_OUTCOME_SUMS 256
 
 // The judge's light: what falls on the front, and the screens behind the object.
 typedef struct {

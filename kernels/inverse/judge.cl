@@ -83,15 +83,15 @@ static inline float3 beside(float3 d, float2 offset) {
 }
 #endif
 
-static inline void add_fate(global long* fates, uint item, int fate, float light) {
-  add_exactly(fates + FATES * (item % FATE_SUMS) + fate, convert_long_rte(light * RAY_QUANTA));
+static inline void add_ray_outcome(global long* outcomes, uint item, int outcome, float light) {
+  add_exactly(outcomes + RAY_OUTCOMES * (item % RAY_OUTCOME_SUMS) + outcome, convert_long_rte(light * RAY_QUANTA));
 }
 
 // Rays first .. first + count - 1 of a round: a jittered lattice on each facet, one facet after the other. Each ray of
 // a facet takes one of `parts`, an index and a colour of the spectrum. light: [screen][y, x, z][cell].
 __kernel void judge(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals,
                     DeviceFront front, __global const float4* parts, __global const DeviceReceiver* screens, uint2 seed,
-                    uint turn, uint first_row, uint count, __global long* light, __global long* fates) {
+                    uint turn, uint first_row, uint count, __global long* light, __global long* outcomes) {
   const uint item = (uint)get_global_id(0);
   if (item >= count) return;
   const uint along = (uint)front.along, rays = along * along, facet = first_row * (uint)front.columns + item / rays,
@@ -129,13 +129,13 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
   const DeviceWayOut out =
       follow(nodes, blocks, root, normals, n, place - 1e-3f * front.thickness * direction, direction);
   const float counts = part * colour.y, sent = counts * out.part;
-  add_fate(fates, item, FATE_REFLECTED, counts * out.reflected);
+  add_ray_outcome(outcomes, item, RAY_REFLECTED, counts * out.reflected);
   if (!(out.part > 0.0f)) {
-    add_fate(fates, item, FATE_LOST, counts * (1.0f - out.reflected));
+    add_ray_outcome(outcomes, item, RAY_LOST, counts * (1.0f - out.reflected));
     return;
   }
-  add_fate(fates, item, FATE_SENT, sent);
-  if (out.met_wall) add_fate(fates, item, FATE_BY_WALLS, sent);
+  add_ray_outcome(outcomes, item, RAY_SENT, sent);
+  if (out.met_wall) add_ray_outcome(outcomes, item, RAY_BY_WALLS, sent);
   float2 slope = out.direction.xy / -out.direction.z;
 #if NEPHROID_SPREAD
   if (front.scatter > 0.0f) // two independent normal numbers of two of 0..1 (Box and Muller 1958)

@@ -79,7 +79,7 @@ struct WindowSettings {
   bool operator==(const WindowSettings&) const = default;
 };
 
-/// What a dialog is open for. unsaved: a command waits for the answer (Workbench::waiting).
+/// What a dialog is open for. unsaved: a command waits for the answer (Questions::waiting).
 enum class Question {
   none,
   open,

@@ -124,48 +124,48 @@ NeymanAllocation::NeymanAllocation(std::vector<shared::DeviceEmitter> emitters)
   }
 }
 
-bool NeymanAllocation::is_due(std::int64_t pass) const {
-  return pass >= 2 && pass > first_iteration_ && std::has_single_bit(static_cast<std::uint64_t>(pass));
+bool NeymanAllocation::is_due(std::int64_t batch) const {
+  return batch >= 2 && batch > first_iteration_ && std::has_single_bit(static_cast<std::uint64_t>(batch));
 }
 
-// A photon of an emitter with n of them adds v = Phi f / n, so the sum of v^2 over the n photons of a pass is Phi^2
+// A photon of an emitter with n of them adds v = Phi f / n, so the sum of v^2 over the n photons of a batch is Phi^2
 // E[f^2] / n, and n times that estimates V = Phi^2 E[f^2].
-void NeymanAllocation::reallocate(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves) {
+void NeymanAllocation::reallocate(std::int64_t batch, std::span<const std::int64_t> moments, unsigned halves) {
   // The fraction of the photons that keeps its first allocation: a variance that few photons measured may be far off.
   constexpr double first_part = 0.1;
-  const double passes = static_cast<double>(pass - first_iteration_);
+  const double batches = static_cast<double>(batch - first_iteration_);
   std::vector<double> deviation(emitters_.size());
-  unsigned photons_per_pass = 0;
+  unsigned photons_per_batch = 0;
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
     const double count = emitters_[e].photon_count;
     squares_[e] += count * count * static_cast<double>(moments[e]);
-    photons_[e] += count * passes;
+    photons_[e] += count * batches;
     deviation[e] = std::sqrt(squares_[e] / photons_[e]);
-    photons_per_pass += emitters_[e].photon_count;
+    photons_per_batch += emitters_[e].photon_count;
   }
-  last_variance_ = std::accumulate(moments.begin(), moments.end(), 0.0) / passes;
+  last_variance_ = std::accumulate(moments.begin(), moments.end(), 0.0) / batches;
   if (first_iteration_ == 0) first_variance_ = last_variance_;
   const double total = std::accumulate(deviation.begin(), deviation.end(), 0.0);
   std::vector<double> weights = initial_shares_;
   if (total > 0)
     for (std::size_t e = 0; e < weights.size(); ++e)
       weights[e] = first_part * initial_shares_[e] + (1 - first_part) * deviation[e] / total;
-  assign(pass, allocate_photons(weights, photons_per_pass), halves);
+  assign(batch, allocate_photons(weights, photons_per_batch), halves);
 }
 
-void NeymanAllocation::restore_initial(std::int64_t pass, unsigned halves) { assign(pass, initial_counts_, halves); }
+void NeymanAllocation::restore_initial(std::int64_t batch, unsigned halves) { assign(batch, initial_counts_, halves); }
 
 double NeymanAllocation::gain() const { return last_variance_ > 0 ? first_variance_ / last_variance_ : 1; }
 
-void NeymanAllocation::assign(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves) {
+void NeymanAllocation::assign(std::int64_t batch, const std::vector<unsigned>& counts, unsigned halves) {
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
     shared::DeviceEmitter& emitter = emitters_[e];
     advance_sequence(emitter,
-                     static_cast<std::uint64_t>(pass - first_iteration_) / halves * emitter.light_photon_count);
+                     static_cast<std::uint64_t>(batch - first_iteration_) / halves * emitter.light_photon_count);
     emitter.photon_count = counts[e];
   }
   number_photons(emitters_);
-  first_iteration_ = pass;
+  first_iteration_ = batch;
 }
 
 void NeymanAllocation::serialize(tracing::Archive& archive) {
@@ -184,9 +184,9 @@ EmissionGuide::EmissionGuide(std::size_t lights) : squares_(lights * cells, 0), 
 }
 
 // A photon of a cell that comes `density` times as often as evenly counts 1 / density; with n photons of the light it
-// adds v = f / (n density). The cell gets n density / GUIDE_CELLS photons, so a pass' sum of v^2 there is E[f^2] / (n
+// adds v = f / (n density). The cell gets n density / GUIDE_CELLS photons, so a batch's sum of v^2 there is E[f^2] / (n
 // density GUIDE_CELLS), and n density times that estimates E[f^2] / GUIDE_CELLS. Allocations count by photons.
-void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const double> photons, double passes) {
+void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const double> photons, double batches) {
   table_.clear();
   for (std::size_t l = 0; l < photons.size(); ++l) {
     const std::size_t first = l * cells;
@@ -194,7 +194,7 @@ void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const
     for (std::size_t c = 0; c < cells; ++c) {
       const double n_density = photons[l] * chance_[first + c] * cells;
       squares_[first + c] += n_density * n_density * static_cast<double>(moments[first + c]);
-      samples_[first + c] += n_density * passes;
+      samples_[first + c] += n_density * batches;
       deviation[c] = squares_[first + c] > 0 ? std::sqrt(squares_[first + c] / samples_[first + c]) : 0;
     }
     deviation = blurred(deviation);

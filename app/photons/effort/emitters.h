@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons of a batch are allocated to emitters, pairs of a light and a wavelength cluster, and leave lights in
-// directions where they matter. Here "pass" means one batch (RunTables::batches).
+// directions where they matter. Here "batch" means one batch (RunTables::batches).
 #pragma once
 #include "kernels/tracing/shared_types.h"
 #include "tracing/archive.h"
@@ -23,7 +23,7 @@ struct PhotonSource {
 /// Numbers the emitters of those sources that allocate_photons gives photons. Sources of a light follow each other.
 std::vector<shared::DeviceEmitter> make_emitters(const std::vector<PhotonSource>& sources, unsigned photons);
 
-/// Allocates the photons of one pass in proportion to the weights. Each positive weight gets at least one photon, a
+/// Allocates so many photons in proportion to the weights. Each positive weight gets at least one photon, a
 /// weight of 0 none. The result sums to max(photons, number of positive weights).
 std::vector<unsigned> allocate_photons(const std::vector<double>& weights, unsigned photons);
 
@@ -36,26 +36,26 @@ unsigned count_photons(const std::vector<shared::DeviceEmitter>& emitters);
 /// Moves an emitter on in its low-discrepancy sequence.
 void advance_sequence(shared::DeviceEmitter& emitter, std::uint64_t photons);
 
-/// Allocates the photons of a pass to the emitters by their variance in earlier passes. V_e is the variance of one
+/// Allocates the photons of a batch to the emitters by their variance in earlier batches. V_e is the variance of one
 /// photon that carries all of the emitter's power. Of all allocations of n photons, n_e in proportion to sqrt(V_e)
 /// makes the sum of the emitters' variances V_e / n_e smallest.
 class NeymanAllocation {
 public:
-  /// emitters have the allocation of the first passes, each with at least one photon.
+  /// emitters have the allocation of the first batches, each with at least one photon.
   explicit NeymanAllocation(std::vector<shared::DeviceEmitter> emitters);
 
   const std::vector<shared::DeviceEmitter>& emitters() const { return emitters_; }
-  /// The first pass that emitters() are for.
+  /// The first batch that emitters() are for.
   std::int64_t first_iteration() const { return first_iteration_; }
-  /// Whether photons are allocated anew before this pass: before passes 2, 4, 8, 16, ...
-  bool is_due(std::int64_t pass) const;
+  /// Whether photons are allocated anew before this batch: before batches 2, 4, 8, 16, ...
+  bool is_due(std::int64_t batch) const;
   /// moments[emitter] is the sum, since first_iteration(), of the squares of what each photon added to the picture, in
-  /// any unit. They are taken for the variance, as is right for few photons a pixel and pass. halves: of the film, each
+  /// any unit. They are taken for the variance, as is right for few photons a pixel and batch. halves: of the film, each
   /// with its own low-discrepancy sequence. A tenth of the photons keeps its first allocation.
-  void reallocate(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves);
-  /// Restores the first allocation from this pass on.
-  void restore_initial(std::int64_t pass, unsigned halves);
-  /// The gain of the allocation: the variance of a pass as allocated first over that of a pass as allocated last, as
+  void reallocate(std::int64_t batch, std::span<const std::int64_t> moments, unsigned halves);
+  /// Restores the first allocation from this batch on.
+  void restore_initial(std::int64_t batch, unsigned halves);
+  /// The gain of the allocation: the variance of a batch as allocated first over that of a batch as allocated last, as
   /// measured by reallocate(). 1 before there were two allocations, or where nothing was measured.
   double gain() const;
 
@@ -63,13 +63,13 @@ public:
 
 private:
   std::vector<shared::DeviceEmitter> emitters_;
-  std::vector<unsigned> initial_counts_;  ///< [emitter] photons of a pass at the start
+  std::vector<unsigned> initial_counts_;  ///< [emitter] photons of a batch at the start
   std::vector<double> initial_shares_;    ///< [emitter] share of the photons at the start
-  std::vector<double> squares_, photons_; ///< [emitter] sums of n^2 moments and of n passes: the ratio estimates V_e
-  double first_variance_ = 0, last_variance_ = 0; ///< variances of a pass, in the unit of `moments`; 0: not known yet
+  std::vector<double> squares_, photons_; ///< [emitter] sums of n^2 moments and of n batches: the ratio estimates V_e
+  double first_variance_ = 0, last_variance_ = 0; ///< variances of a batch, in the unit of `moments`; 0: not known yet
   std::int64_t first_iteration_ = 0;
 
-  void assign(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves);
+  void assign(std::int64_t batch, const std::vector<unsigned>& counts, unsigned halves);
 };
 
 /// Where a light's photons matter: a histogram over the numbers that give their directions (kernels/photons/guide.h),
@@ -85,9 +85,9 @@ public:
 
   /// The table [light][GUIDE_FLOATS]; kernels/photons/guide.h describes it.
   const std::vector<float>& table() const { return table_; }
-  /// moments[light][GUIDE_CELLS] is the sum over `passes` passes of the squares of what each photon added to the
-  /// picture, in any unit. photons[light] is their number in each of those passes. Every cell keeps a chance.
-  void learn(std::span<const std::int64_t> moments, std::span<const double> photons, double passes);
+  /// moments[light][GUIDE_CELLS] is the sum over `batches` batches of the squares of what each photon added to the
+  /// picture, in any unit. photons[light] is their number in each of those batches. Every cell keeps a chance.
+  void learn(std::span<const std::int64_t> moments, std::span<const double> photons, double batches);
 
   void serialize(tracing::Archive& archive);
 
