@@ -175,8 +175,8 @@ private:
   void begun(job::Job& job) override {
     if (recorder_) recorder_->begun(job);
   }
-  void stepped(job::Job& job) override {
-    if (recorder_) recorder_->stepped(job);
+  void advanced(job::Job& job) override {
+    if (recorder_) recorder_->advanced(job);
   }
   void ended(job::Job& job) override {
     if (recorder_) recorder_->ended(job);

@@ -48,9 +48,6 @@ public:
   void operator()() {
     for (int frame = range_.first; frame <= range_.second; ++frame)
       preset::at_frame(target_.preset, frame); // throws at once for a frame that cannot be
-    run::ReadyRun& run = series_.run;
-    if (ranks_)
-      run::require_same(*ranks_, run::prepare_next(run, target_.preset, {interrupted_, {}}), run.device.context());
     begin();
     if (ranks_)
       distribute_frames();
@@ -77,6 +74,7 @@ private:
     preset::at_origins(target_.preset, [&] {
       run::ReadyRun& run = series_.run;
       const run::Prepared& prepared = run::prepare_next(run, target_.preset, {interrupted_, {}});
+      if (ranks_) run::require_same(*ranks_, prepared, run.device.context());
       run::require_memory(prepared, run.device.context(), ranks_); // throws before a folder is made
     });
     if (!is_root()) return;

@@ -120,9 +120,9 @@ public:
     display_.emplace(progress_style(options_.json), ProgressSubject{target_.label, target_.preset.name},
                      job.progress());
   }
-  void stepped(job::Job& job) override {
+  void advanced(job::Job& job) override {
     display_->update(job.progress());
-    Recorder::stepped(job);
+    Recorder::advanced(job);
   }
   void ended(job::Job& job) override {
     display_->finish(job.progress());

@@ -71,11 +71,13 @@ struct Window {
 /// Parses and runs one command. Returns the exit code; every error is one line on standard error.
 int run_command_line(int argc, const char* const* argv, const Window& window);
 
-/// The verbs. Each file adds one verb here; lists.cpp has those that only list. A verb's callback does the work and
-/// throws Error. Results go to standard output, everything else to standard error.
+/// What a verb leaves behind beside its output.
 struct Session {
   int exit_code = 0;
 };
+
+// The verbs, a file each; lists.cpp has those that only list. A verb's callback does the work and throws Error. Results
+// go to standard output, everything else to standard error.
 
 void add_run(CLI::App& program, Session& session);
 void add_plan(CLI::App& program, Session& session);

@@ -225,7 +225,7 @@ struct Worker::Impl {
         continue;
       }
       job.advance();
-      observer->stepped(job);
+      observer->advanced(job);
       Clock::time_point due = Clock::time_point::max(); // nobody waits for the picture of a job that was replaced
       update(generation, [&, progress = job.progress()] {
         status.progress = progress;

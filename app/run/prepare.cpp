@@ -89,10 +89,10 @@ std::unique_ptr<job::Job> make_job(const Prepared& prepared, const mpi::RankCont
 }
 
 job::Snapshot render_picture(const Prepared& prepared, const compute::Context& context,
-                             const std::function<bool(const job::Progress&)>& stepped) {
+                             const std::function<bool(const job::Progress&)>& advanced) {
   require_memory(prepared, context);
   const std::unique_ptr<job::Job> job = make_job(prepared, context);
-  for (bool goes_on = true; goes_on && !job->finished(); goes_on = stepped(job->progress())) job->advance();
+  for (bool goes_on = true; goes_on && !job->finished(); goes_on = advanced(job->progress())) job->advance();
   return job->snapshot();
 }
 

@@ -43,10 +43,10 @@ Prepared with_scene(const Prepared& prepared, scene::Scene scene, const std::str
 /// Throws BuildError for a kernel that does not compile, and bad_input for what the engine cannot render.
 std::unique_ptr<job::Job> make_job(const Prepared& prepared, const mpi::RankContext& context);
 
-/// A picture that something else is made of: not measured, nothing written. stepped: hears of each step, and says
+/// A picture that something else is made of: not measured, nothing written. advanced: hears of each slice, and says
 /// whether another one follows; may throw. Throws as require_memory and make_job do.
 job::Snapshot render_picture(const Prepared& prepared, const compute::Context& context,
-                             const std::function<bool(const job::Progress&)>& stepped);
+                             const std::function<bool(const job::Progress&)>& advanced);
 
 /// A device that is opened by the first who needs it, and stays open for the next run: opening takes a while.
 class DeviceOnDemand {

@@ -95,7 +95,7 @@ void drive(const ReadyRun& run, job::Observer& observer, const std::stop_token& 
   observer.begun(job);
   while (!job.finished() && !stop.stop_requested()) {
     job.advance();
-    observer.stepped(job);
+    observer.advanced(job);
   }
   observer.ended(job);
 }

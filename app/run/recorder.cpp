@@ -23,7 +23,7 @@ void Recorder::begun(job::Job& job) {
       note(fmt::format("{} s of work are past: no picture of then", times[next_picture_]));
 }
 
-void Recorder::stepped(job::Job& job) {
+void Recorder::advanced(job::Job& job) {
   write_new_history(job);
   const double work_seconds = job.progress().work_seconds;
   if (!write_due_pictures(job) || work_seconds - saved_at_ < options_.checkpoint_seconds) return;

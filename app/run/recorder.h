@@ -26,7 +26,7 @@ public:
   Recorder(const ReadyRun& run, RecorderOptions options) : run_(run), options_(std::move(options)) {}
 
   void begun(job::Job& job) override;
-  void stepped(job::Job& job) override;
+  void advanced(job::Job& job) override;
   void ended(job::Job& job) override;
 
   /// The last snapshot, without its picture, once the run has ended.

@@ -61,7 +61,7 @@ typedef struct {
 } Eight;
 
 // Tries slopes on a lattice, `count` across and down from x and y on: by the sum of what lacks where light falls.
-static SEPARATE void try_lattice(const Search* s, global const float* smeared, float8 x_from, float8 y_from,
+static SEPARATE void try_lattice(const FacetSearch* s, global const float* smeared, float8 x_from, float8 y_from,
                                  float2 step, int2 count, Eight* best) {
   global const DeviceLayout* layout = s->layout;
   SET_ASIDE float8 lowest = best->lowest, best_x = best->x, best_y = best->y, x_begin = x_from, y_begin = y_from;
@@ -117,7 +117,7 @@ __kernel void propose(SEARCH_ARGUMENTS, __global const float* smeared, __global 
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const uint index = order[first + i];
-  Search s = {layout, receivers, lack, facet_at(layout, incoming, heights, index)};
+  FacetSearch s = {layout, receivers, lack, facet_at(layout, incoming, heights, index)};
 #if NEPHROID_SMOOTHS
   s.pull = smoothing * pull_on(layout, incoming, heights, slopes, index);
 #endif

@@ -8,7 +8,7 @@
 #define FINEST 0.25f
 
 // What the weighted squares would change by, were the facet's light put back with this slope; it counts as taken away.
-static SEPARATE float score(const Search* s, float2 slope) {
+static SEPARATE float score(const FacetSearch* s, float2 slope) {
   global const DeviceLayout* layout = s->layout;
   const Beams beams = beams_of(layout, &s->facet, slope);
 #if NEPHROID_SMOOTHS
@@ -42,10 +42,10 @@ static SEPARATE float score(const Search* s, float2 slope) {
   return sum;
 }
 
-static SEPARATE Search search_of(global const DeviceLayout* layout, global const DeviceReceiver* receivers,
+static SEPARATE FacetSearch search_of(global const DeviceLayout* layout, global const DeviceReceiver* receivers,
                                  global const DeviceIncoming* incoming, global const float* heights,
                                  global const float2* slopes, global const float* lack, float smoothing, uint index) {
-  Search s = {layout, receivers, lack, facet_at(layout, incoming, heights, index)};
+  FacetSearch s = {layout, receivers, lack, facet_at(layout, incoming, heights, index)};
   s.now = beams_of(layout, &s.facet, slopes[index]);
 #if NEPHROID_SMOOTHS
   s.pull = smoothing * pull_on(layout, incoming, heights, slopes, index);
@@ -59,7 +59,7 @@ __kernel void improve(SEARCH_ARGUMENTS, __global const float2* candidates, __glo
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const uint index = order[first + i];
-  const Search s = search_of(layout, receivers, incoming, heights, slopes, lack, smoothing, index);
+  const FacetSearch s = search_of(layout, receivers, incoming, heights, slopes, lack, smoothing, index);
   const float2 now = slopes[index];
   const float begin = score(&s, now);
   float2 from = now;
@@ -176,7 +176,7 @@ __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long
     if (facets[neighbour(layout, index, side)] != key) return;
 #endif
   done[i] = 1;
-  const Search s = search_of(layout, receivers, incoming, heights, slopes, lack, smoothing, index);
+  const FacetSearch s = search_of(layout, receivers, incoming, heights, slopes, lack, smoothing, index);
   if (!(score(&s, found[i]) < score(&s, slopes[index]))) return;
   for (int j = 0; j < layout->receivers; ++j) {
     const Footprint before = footprint(layout, &facet, &now, receivers[j]),

@@ -28,7 +28,7 @@ typedef struct {
   Facet facet;
   Beams now; // where its light is; that light counts as taken away
   float3 pull;
-} Search;
+} FacetSearch;
 
 #if NEPHROID_SMOOTHS
 // The facet at a side, 0 .. 3; at the rim the facet itself.

@@ -85,7 +85,7 @@ TEST(Worker, IsIdleAtFirst) {
 }
 
 TEST(Worker, FinishesWithTheLastSnapshot) {
-  for (const int steps : {20, 0}) { // a job that is finished at once is never stepped
+  for (const int steps : {20, 0}) { // a job that is finished at once is never advanced
     Worker worker;
     worker.set_snapshot_interval(1h);
     worker.start(counting(steps));
@@ -100,7 +100,7 @@ TEST(Worker, FinishesWithTheLastSnapshot) {
 TEST(Worker, TellsItsObserverOfEachStepAndOfTheEndHoweverItComes) {
   struct Counts : Observer {
     void begun(Job&) override { ++beginnings; }
-    void stepped(Job&) override { ++steps; }
+    void advanced(Job&) override { ++steps; }
     void ended(Job& job) override {
       ++ends;
       finished = job.finished();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons of a batch are allocated to emitters, pairs of a light and a wavelength cluster, and leave lights in
-// directions where they matter. Here "batch" means one batch (RunTables::batches).
+// directions where they matter.
 #pragma once
 #include "kernels/tracing/shared_types.h"
 #include "tracing/archive.h"

@@ -131,7 +131,9 @@ PlanPart plan_gathering(const PlanInput& input, plan::Decision pass, std::uint32
     throw bad_input(Location(input.scene.source) / "scene" / "objects",
                     fmt::format("{} objects in {} wavelength clusters", objects, clusters),
                     fmt::format("photon maps tell {} surfaces in clusters apart", int{MAX_PHOTON_GROUPS}),
-                    "choose spectral.estimator splat, or a larger threshold_deg");
+                    input.preset.settings.engine() == "spectral"
+                        ? "choose spectral.estimator splat, or a larger threshold_deg"
+                        : "choose fewer objects, or environment.refine false");
   const std::uint64_t stored = photons * sizeof(shared::StoredPhoton);
   part.buffers = {{"photons on surfaces", stored},
                   {"photon grid", PhotonMap::bytes(photons) - stored},
