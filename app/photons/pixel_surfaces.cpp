@@ -230,16 +230,18 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
     const scene::Object& object = scene.objects[static_cast<std::size_t>(hit->object)];
     const Type type = material_of(scene, object).type;
     const glm::dvec3 arrives = ray.way();
-    if (type == Type::mirror) ray.reflect(*hit);
-    if (type == Type::dielectric && !ray.cross(*hit)) continue;
+    if (is_refractive(type)) {
+      if (!ray.cross(*hit)) continue;
+    } else if (is_specular(type))
+      ray.reflect(*hit);
     const bool is_first = surfaces.first.object < 0;
-    if (is_first || type == Type::diffuse) {
+    if (is_first || !is_specular(type)) {
       surfaces.last = {glm::vec3(hit->position), glm::vec3(hit->geometric), hit->object};
       surfaces.way = glm::vec3(arrives);
       surfaces.spacing = static_cast<float>(spacing * ray.length());
     }
     if (is_first) surfaces.first = surfaces.last;
-    if (type == Type::diffuse) break;
+    if (!is_specular(type)) break;
   }
   return surfaces;
 }
@@ -248,7 +250,7 @@ std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene) {
   if (scene.camera.receiver >= 0) return {};
   Marks marks(scene.camera);
   for (const scene::Object& object : scene.objects) {
-    if (material_of(scene, object).type == scene::Material::Type::diffuse) continue;
+    if (!is_specular(material_of(scene, object).type)) continue;
     for (const glm::uvec3& triangle : scene::triangles_of(scene, object)) {
       std::array<Seen, 3> corners;
       for (int c = 0; c < 3; ++c)

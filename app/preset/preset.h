@@ -60,6 +60,26 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
+/// Whether a surface sends a path on in one direction (`bend_path` of kernels/tracing/world.h), and does not scatter it.
+constexpr bool is_specular(Material::Type type) {
+  switch (type) {
+  case Material::Type::diffuse: return false;
+  case Material::Type::dielectric:
+  case Material::Type::mirror: break;
+  }
+  return true;
+}
+
+/// Whether light passes the surface: a body with an index of refraction.
+constexpr bool is_refractive(Material::Type type) {
+  switch (type) {
+  case Material::Type::dielectric: return true;
+  case Material::Type::diffuse:
+  case Material::Type::mirror: break;
+  }
+  return false;
+}
+
 /// Applied in the order scale, rotate (about x, then y, then z), translate.
 struct Transform {
   Vec3 scale{1, 1, 1};

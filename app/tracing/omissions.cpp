@@ -20,7 +20,7 @@ namespace {
 
 using optics::wavelength_count;
 
-constexpr unsigned all_light_types = 31;
+constexpr unsigned all_light_types = (1u << LIGHT_TYPE_COUNT) - 1;
 
 bool is_dielectric(const scene::Scene& scene, const scene::Object& object) {
   return material_of(scene, object).type == scene::Material::Type::dielectric;
@@ -83,7 +83,7 @@ unsigned light_type_bits(const scene::Scene& scene) {
 std::string light_types_reason(unsigned bits) {
   std::vector<std::string_view> names;
   for (const auto& choice : preset::choices<preset::Light::Type>)
-    if (bits >> static_cast<int>(choice.value) & 1) names.push_back(choice.name);
+    if (bits >> device_light_type(choice.value) & 1) names.push_back(choice.name);
   if (bits >> LIGHT_ENVIRONMENT & 1) names.push_back("environment");
   return names.empty() ? "there is no light" : fmt::format("every light is of type {}", fmt::join(names, " or "));
 }
@@ -105,9 +105,9 @@ ObjectCounts count_objects(const scene::Scene& scene) {
   ObjectCounts counts;
   for (const scene::Object& object : scene.objects) {
     const scene::Material::Type type = material_of(scene, object).type;
-    counts.dielectrics += type == scene::Material::Type::dielectric;
-    counts.mirrors += type == scene::Material::Type::mirror;
-    counts.diffuse += type == scene::Material::Type::diffuse;
+    counts.dielectrics += is_refractive(type);
+    counts.mirrors += is_specular(type) && !is_refractive(type);
+    counts.diffuse += !is_specular(type);
     counts.smooth += object.smooth;
   }
   return counts;

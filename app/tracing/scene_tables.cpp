@@ -19,10 +19,6 @@ namespace {
 
 using std::numbers::pi;
 
-using LightType = preset::Light::Type;
-static_assert(int(LightType::point) == LIGHT_POINT && int(LightType::spot) == LIGHT_SPOT &&
-              int(LightType::directional) == LIGHT_DIRECTIONAL && int(LightType::area) == LIGHT_AREA);
-
 /// where: the camera or light that the dielectrics enclose. Throws bad_input there for more than a path can carry.
 shared::Media to_media(const std::vector<int>& inside, const Location& where) {
   if (inside.size() > MEDIA_DEPTH)
@@ -230,8 +226,18 @@ shared::DeviceCamera device_camera(const scene::Camera& camera, const Location& 
   return out;
 }
 
+int device_light_type(preset::Light::Type type) {
+  switch (type) {
+  case preset::Light::Type::spot: return LIGHT_SPOT;
+  case preset::Light::Type::directional: return LIGHT_DIRECTIONAL;
+  case preset::Light::Type::area: return LIGHT_AREA;
+  case preset::Light::Type::point: break;
+  }
+  return LIGHT_POINT;
+}
+
 int device_light_type(const scene::Light& light) {
-  return is_environment(light) ? LIGHT_ENVIRONMENT : static_cast<int>(light.type);
+  return is_environment(light) ? LIGHT_ENVIRONMENT : device_light_type(light.type);
 }
 
 SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters,

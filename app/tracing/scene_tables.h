@@ -59,6 +59,7 @@ inline shared::float4 to_float4(const glm::dvec3& v, double w = 0) {
 shared::DeviceCamera device_camera(const scene::Camera& camera, const Location& where);
 
 /// LIGHT_* of kernels/tracing/shared_types.h.
+int device_light_type(preset::Light::Type type);
 int device_light_type(const scene::Light& light);
 
 /// clusters: each of the 401 wavelengths is in exactly one. Throws bad_input at FILE#/pointer where the camera or a

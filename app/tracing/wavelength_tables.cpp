@@ -18,8 +18,15 @@ using optics::wavelength_count;
 static_assert(WAVELENGTH_COUNT == wavelength_count, "kernels and host mean the same wavelengths");
 
 using MaterialType = scene::Material::Type;
-static_assert(int(MaterialType::diffuse) == MATERIAL_DIFFUSE && int(MaterialType::dielectric) == MATERIAL_DIELECTRIC &&
-              int(MaterialType::mirror) == MATERIAL_MIRROR);
+
+int device_type(MaterialType type) {
+  switch (type) {
+  case MaterialType::dielectric: return MATERIAL_DIELECTRIC;
+  case MaterialType::mirror: return MATERIAL_MIRROR;
+  case MaterialType::diffuse: break;
+  }
+  return MATERIAL_DIFFUSE;
+}
 
 float4 to_float4(const glm::dvec4& v) { return tracing::to_float4(glm::dvec3(v), v.w); }
 
@@ -40,9 +47,9 @@ void add_material_rows(const scene::Scene& scene, WavelengthTables& tables,
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const scene::Material& material = scene.materials[i];
     shared::DeviceMaterial& row = materials[i];
-    row.type = static_cast<int>(material.type);
+    row.type = device_type(material.type);
     if (!used[i]) continue;
-    if (material.type == MaterialType::diffuse) {
+    if (!is_specular(material.type)) {
       row.reflector = tables.reflector_count++;
       tables.reflectance.insert(tables.reflectance.end(), material.reflectance.begin(), material.reflectance.end());
     } else if (const std::vector<double> coefficients = loss_coefficients(material); !coefficients.empty()) {
@@ -220,12 +227,18 @@ double slope(const Spectrum& n, const Spectrum& s, const std::vector<int>& clust
 
 std::vector<double> loss_coefficients(const scene::Material& material) {
   std::vector<double> a;
-  if (material.type == MaterialType::dielectric && material.absorbs)
+  switch (material.type) {
+  case MaterialType::dielectric:
+    if (!material.absorbs) break;
     for (int w = 0; w < optics::wavelength_count; ++w)
       a.push_back(4 * std::numbers::pi * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9));
-  if (material.type == MaterialType::mirror &&
-      std::ranges::any_of(material.reflectance, [](double r) { return r != 1; }))
+    break;
+  case MaterialType::mirror:
+    if (std::ranges::all_of(material.reflectance, [](double r) { return r == 1; })) break;
     for (const double r : material.reflectance) a.push_back(r > 0 ? std::min(-std::log(r), blackest) : blackest);
+    break;
+  case MaterialType::diffuse: break;
+  }
   return a;
 }
 

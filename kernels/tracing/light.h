@@ -6,7 +6,7 @@
 
 // Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing.
 #ifndef NEPHROID_LIGHT_TYPES
-#define NEPHROID_LIGHT_TYPES 31
+#define NEPHROID_LIGHT_TYPES ((1 << LIGHT_TYPE_COUNT) - 1)
 #endif
 
 static inline bool is_light(const DeviceLight* light, int type) {

@@ -43,6 +43,7 @@ struct alignas(8) uint2 {
 #define LIGHT_DIRECTIONAL 2
 #define LIGHT_AREA 3
 #define LIGHT_ENVIRONMENT 4 // the last light, if there is one; as directional light but for what sky.h says
+#define LIGHT_TYPE_COUNT 5
 
 // Where a photon ended. The energy counters, in quanta of power (RunTables::energy_scale), are in this order.
 #define OUTCOME_EMITTED 0   // sum of the next five

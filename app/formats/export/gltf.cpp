@@ -155,10 +155,9 @@ private:
   }
 
   Json plain(const scene::Material& material) {
-    using Type = scene::Material::Type;
-    if (material.type == Type::dielectric) return glass(material);
+    if (is_refractive(material.type)) return glass(material);
     Json made = matt(material);
-    if (material.type == Type::mirror)
+    if (is_specular(material.type))
       made["pbrMetallicRoughness"]["metallicFactor"] = 1, made["pbrMetallicRoughness"]["roughnessFactor"] = 0;
     return made;
   }

@@ -88,7 +88,7 @@ std::vector<std::vector<int>> split_by_losses(std::vector<std::vector<int>> clus
         used ? tracing::loss_coefficients(scene.materials[m]) : std::vector<double>{};
     if (coefficients.empty()) continue;
     const double longest =
-        scene.materials[m].type == scene::Material::Type::mirror ? reflections : 2 * diagonal_m(scene, m);
+        is_refractive(scene.materials[m].type) ? 2 * diagonal_m(scene, m) : reflections;
     std::vector<std::vector<int>> parts;
     for (std::vector<int>& cluster : clusters) split(std::move(cluster), coefficients, longest, most, parts);
     clusters = std::move(parts);
