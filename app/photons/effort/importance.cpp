@@ -162,7 +162,7 @@ Spectrum importance_of_light(const ImportanceGeometry& where, std::span<const sc
 
 std::vector<int> caustic_objects(const scene::Scene& scene) {
   std::vector<int> objects;
-  for (const auto throws : {is_refractive, is_specular}) { // mirrors where there is no glass
+  for (const auto throws : {preset::is_refractive, preset::is_specular}) { // mirrors where there is no glass
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
       if (!is_empty(scene.objects[i]) && throws(material_of(scene, scene.objects[i]).type))
         objects.push_back(static_cast<int>(i));
