@@ -25,8 +25,8 @@ std::string line_of(const Location& location, const std::string& text) {
 } // namespace
 
 Error::Error(ErrorKind kind, Location location, std::string what, std::string expected, std::string remedy)
-    : std::runtime_error(line_of(location, joined(what, expected, remedy))), kind_(kind), location_(std::move(location)),
-      text_(joined(std::move(what), expected, remedy)) {}
+    : std::runtime_error(line_of(location, joined(what, expected, remedy))), kind_(kind),
+      location_(std::move(location)), text_(joined(std::move(what), expected, remedy)) {}
 
 std::string pointer_key(std::string_view key) {
   std::string escaped;

@@ -178,8 +178,8 @@ void run_on_ranks(const RunOptions& options, const std::stop_token& interrupted,
   } catch (const Error& error) {
     const bool is_root = ranks->rank() == 0;
     if (!is_root) std::this_thread::sleep_for(std::chrono::seconds(1));
-    fmt::print(stderr, "nephroid: {}{}\n", is_root || error.location() == Location(ranks->name()) ? "" : ranks->name() + ": ",
-               error.line());
+    fmt::print(stderr, "nephroid: {}{}\n",
+               is_root || error.location() == Location(ranks->name()) ? "" : ranks->name() + ": ", error.line());
     ranks->abort(error.exit_code());
   }
 }

@@ -37,9 +37,10 @@ plan::Decision colours_decision(const BakeTask& task) {
 /// The code omissions that concern photons on their way through the object.
 std::vector<plan::Decision> code_decisions(const preset::Preset& preset, const BakeTask& task) {
   static constexpr std::array<std::string_view, 4> names{"mirrors", "bending", "attenuation", "smooth normals"};
-  std::vector<plan::Decision> decisions = tracing::code_omissions(tracing::LeaveOut{.all = preset.leave_out},
-                                                           task.caster.scene, task.tables.wavelengths.attenuator_count)
-                                       .decisions;
+  std::vector<plan::Decision> decisions =
+      tracing::code_omissions(tracing::LeaveOut{.all = preset.leave_out}, task.caster.scene,
+                              task.tables.wavelengths.attenuator_count)
+          .decisions;
   std::erase_if(decisions, [](const plan::Decision& decision) { return !std::ranges::count(names, decision.name); });
   return decisions;
 }
@@ -58,21 +59,21 @@ std::vector<plan::Decision> view_decisions(const preset::Preset& preset, const R
        : even ? fmt::format("the environment has one colour all around: {} equal lights", lights)
               : fmt::format("the environment is cut into {} lights by {}", lights, preset::word(s.segmentation))});
   decisions.push_back({"occlusion", sky && render->has_surroundings,
-                    !sky ? "there is no environment"
-                    : render->has_surroundings
-                        ? fmt::format("{} rays a light from all over the object", samples_per_light(lights))
-                        : "nothing stands around the object"});
+                       !sky ? "there is no environment"
+                       : render->has_surroundings
+                           ? fmt::format("{} rays a light from all over the object", samples_per_light(lights))
+                           : "nothing stands around the object"});
   const bool receivers = tracing::count_objects(*render->scene).diffuse > 0;
   decisions.push_back({"cast", receivers && s.cast,
-                    !s.cast     ? "environment.cast is false"
-                    : receivers ? "caustics on diffuse surfaces, where a path ends"
-                                : "no surface is diffuse"});
+                       !s.cast     ? "environment.cast is false"
+                       : receivers ? "caustics on diffuse surfaces, where a path ends"
+                                   : "no surface is diffuse"});
   decisions.push_back({"volume", render->has_medium,
-                    render->has_medium ? "caustics in the air: 128 steps a path"
-                                       : "there is no medium: environment.extinction or albedo is 0"});
+                       render->has_medium ? "caustics in the air: 128 steps a path"
+                                          : "there is no medium: environment.extinction or albedo is 0"});
   decisions.push_back({"colours of the view", render->coloured,
-                    render->coloured ? "glass is looked through in three colours"
-                                     : "all wavelengths go the same way and lose alike"});
+                       render->coloured ? "glass is looked through in three colours"
+                                        : "all wavelengths go the same way and lose alike"});
   return decisions;
 }
 
@@ -81,7 +82,9 @@ std::vector<plan::Decision> photon_decisions(const Settings& s, const photons::R
   const char* const field = "/environment/refine";
   if (!s.refine)
     return {{"photons", false, "environment.refine is false: spheres alone, as in the thesis", field, true}};
-  const auto row = [&](std::string_view name) { return *std::ranges::find(photons->decisions, name, &plan::Decision::name); };
+  const auto row = [&](std::string_view name) {
+    return *std::ranges::find(photons->decisions, name, &plan::Decision::name);
+  };
   const plan::Decision sent = row("photons");
   if (!sent.runs) return {{"photons", false, s.cast ? sent.reason : "environment.cast is false"}};
   const plan::Decision maps = row("photon maps");

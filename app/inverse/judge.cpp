@@ -169,7 +169,8 @@ Judge::Judge(const mpi::RankContext& context, const Layout& layout, const Solid&
   for (auto& half : light_on_screens_)
     half = compute::zeroed<std::int64_t>(context, "light on the screens",
                                          layout.cell_count() * screens.size() * channels(layout));
-  outcomes_ = compute::zeroed<std::int64_t>(context, "where the light goes", std::size_t{RAY_OUTCOMES} * RAY_OUTCOME_SUMS);
+  outcomes_ =
+      compute::zeroed<std::int64_t>(context, "where the light goes", std::size_t{RAY_OUTCOMES} * RAY_OUTCOME_SUMS);
   judge_ = solid_.program->kernel("judge");
   light_.assign(screens.size(), std::vector<double>(layout.cell_count()));
   halves_.fill(light_);

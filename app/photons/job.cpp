@@ -179,7 +179,7 @@ private:
       passes_.work(0, [&] { development_.share_work(); });
   }
 
-  StageContext world_;     ///< used by the stages
+  StageContext world_;    ///< used by the stages
   preset::Preset preset_; ///< preset with the present lights
   Passes passes_;
   Preview preview_;

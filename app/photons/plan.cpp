@@ -71,7 +71,8 @@ PlanPart plan_environment_light(const PlanInput& input) {
 }
 
 /// Decides PlanInput::estimate; caustics is PlanInput::caustics.
-plan::Decision estimate_decision(const preset::Preset& preset, const Settings& settings, const plan::Decision& caustics) {
+plan::Decision estimate_decision(const preset::Preset& preset, const Settings& settings,
+                                 const plan::Decision& caustics) {
   const char* const name = "error estimate";
   if (preset.measure.estimate && caustics.runs && settings.estimator == Settings::Estimator::sppm)
     return {name, false,
@@ -119,11 +120,11 @@ plan::Decision differentials_decision(const PlanInput& input) {
 /// How the photons of caustics are sent, whichever stage splats or gathers them.
 PlanPart plan_caustics(const PlanInput& input) {
   const plan::Decision jitter = jitter_decision(input), low_discrepancy = low_discrepancy_decision(input.settings),
-                   differentials = differentials_decision(input);
+                       differentials = differentials_decision(input);
   PlanPart part;
   if (input.caustics.runs)
     part.decisions = {effort_decision(input.settings, input.tables.importance), stray_photons_decision(input), jitter,
-                   low_discrepancy, differentials};
+                      low_discrepancy, differentials};
   part.defines = {{"NEPHROID_JITTER", std::to_string(int(jitter.runs))},
                   {"NEPHROID_LOW_DISCREPANCY", std::to_string(int(low_discrepancy.runs))},
                   {"NEPHROID_DIFFERENTIALS", std::to_string(int(differentials.runs))}};

@@ -8,8 +8,8 @@
 #include "kernels/tracing/shared_types.h"
 #include "photons/stage.h"
 #include "photons/stage_context.h"
-#include "tracing/slices.h"
 #include "tracing/archive.h"
+#include "tracing/slices.h"
 
 #include <array>
 #include <cstdint>

@@ -57,7 +57,8 @@ public:
   virtual std::int64_t passes() const { return preset::max_passes; }
   /// Does one slice of about 30 ms of a pass that it takes part in. True when its part of that pass is complete.
   virtual bool advance(std::int64_t pass) = 0;
-  /// Does one slice of its part of a preview (StageContext::preview), before the first pass. True when that is complete.
+  /// Does one slice of its part of a preview (StageContext::preview), before the first pass. True when that is
+  /// complete.
   virtual bool advance_preview() { return true; }
   /// Adds its layers to the preview, as develop() does.
   virtual void develop_preview(job::Picture& /*picture*/) {}

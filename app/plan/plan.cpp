@@ -43,7 +43,7 @@ Json json_of(const Plan& plan) {
   for (const auto& [name, value] : plan.defines) defines[name] = value;
   for (const Input& input : plan.inputs) inputs.push_back({{"file", input.file}, {"content", input.content}});
   return {{"engine", plan.engine}, {"passes", decisions}, {"buffers", buffers},
-          {"defines", defines},    {"inputs", inputs}, {"notes", plan.notes}};
+          {"defines", defines},    {"inputs", inputs},    {"notes", plan.notes}};
 }
 
 } // namespace
@@ -85,8 +85,8 @@ std::string to_text(const Plan& plan) {
   std::string text = fmt::format("Engine: {}\n\nPasses\n", plan.engine);
   const std::size_t pass_width = widest(plan.decisions, [](const Decision& decision) { return decision.name; });
   for (const Decision& decision : plan.decisions)
-    text += fmt::format("  {:<{}}  {}  {}{}\n", decision.name, pass_width, decision.runs ? "runs    " : "left out", decision.reason,
-                        way_back(decision));
+    text += fmt::format("  {:<{}}  {}  {}{}\n", decision.name, pass_width, decision.runs ? "runs    " : "left out",
+                        decision.reason, way_back(decision));
   text += "\nMemory\n";
   const std::size_t buffer_width =
       std::max<std::size_t>(5, widest(plan.buffers, [](const PlannedBuffer& buffer) { return buffer.name; }));

@@ -10,7 +10,7 @@ namespace nephroid::preset {
 
 /// Who gave a value: a file, or something in it or on the command line that has a name of its own.
 struct Origin {
-  Location place;                  ///< the file, or "--set a.b=c", or FILE#/sweep/seed/0
+  Location place;               ///< the file, or "--set a.b=c", or FILE#/sweep/seed/0
   bool is_file = true;          ///< then the value is at its own pointer in it
   std::filesystem::path folder; ///< where the file names in the value are looked up first
   bool is_typed = false;        ///< on a command line: file names are looked up in the current folder before that

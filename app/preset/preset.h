@@ -60,7 +60,8 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
-/// Whether a surface sends a path on in one direction (`bend_path` of kernels/tracing/world.h), and does not scatter it.
+/// Whether a surface sends a path on in one direction (`bend_path` of kernels/tracing/world.h), and does not scatter
+/// it.
 constexpr bool is_specular(Material::Type type) {
   switch (type) {
   case Material::Type::diffuse: return false;

@@ -25,7 +25,9 @@ namespace {
 
 constexpr const char* first_seed = "first_seed"; ///< the further channels' layer
 
-Location place(const Prepared& prepared, const char* field) { return Location(prepared.preset.source) / "reference" / field; }
+Location place(const Prepared& prepared, const char* field) {
+  return Location(prepared.preset.source) / "reference" / field;
+}
 
 /// The preset of one seed of the recipe.
 preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed) {

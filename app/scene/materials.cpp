@@ -76,7 +76,8 @@ optics::DispersionCurve load_dispersion(const std::string& name) {
   }
 }
 
-optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Location& where) {
+optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder,
+                                   const Location& where) {
   using Type = preset::Dispersion::Type;
   return at(where, [&] {
     switch (dispersion.type) {

@@ -29,7 +29,8 @@ std::set<std::string> shipped_materials();
 optics::DispersionCurve load_dispersion(const std::string& name);
 
 /// where (all four): the field's FILE#/json/pointer. They throw bad_input there with the reason that optics gives.
-optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Location& where);
+optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder,
+                                   const Location& where);
 /// Sums to 1.
 optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Location& where);
 /// Each value in 0..1.

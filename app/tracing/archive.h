@@ -14,7 +14,8 @@
 
 namespace nephroid::tracing {
 
-/// nephroid::Archive with the buffers of a device. The ranks' buffers are one buffer there, whatever the number of ranks.
+/// nephroid::Archive with the buffers of a device. The ranks' buffers are one buffer there, whatever the number of
+/// ranks.
 class Archive : public nephroid::Archive {
 public:
   Archive(ByteSink& to, const Communicator& communicator) : nephroid::Archive(to), communicator_(communicator) {}

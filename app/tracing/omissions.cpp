@@ -129,7 +129,7 @@ plan::Decision not_needed(const std::string& name, bool leave_out, std::string r
 }
 
 std::vector<plan::Decision> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene,
-                                       const std::vector<scene::Sphere>& targets) {
+                                           const std::vector<scene::Sphere>& targets) {
   std::vector<plan::Decision> decisions;
   const auto add = [&](const char* name, bool may, std::size_t without, const std::string& reason) {
     if (without > 0) decisions.push_back(not_needed(name, may, reason));

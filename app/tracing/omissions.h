@@ -28,7 +28,7 @@ plan::Decision not_needed(const std::string& name, bool leave_out, std::string r
 
 /// What the tables leave out: rows for what the scene has and does not need. targets: SceneTables::spheres.
 std::vector<plan::Decision> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene,
-                                       const std::vector<scene::Sphere>& targets);
+                                           const std::vector<scene::Sphere>& targets);
 
 struct CodeOmissions {
   std::vector<plan::Decision> decisions;

@@ -73,7 +73,8 @@ std::vector<scene::Sphere> scene_targets(const LeaveOut& leave_out, const scene:
 void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, const scene::Scene& scene,
                const LeaveOut& leave_out, SceneTables& tables) {
   const auto number = static_cast<int>(&light - scene.lights.data());
-  shared::DeviceLight out = device_light(light, tables.power_unit, Location(scene.source) / "scene" / "lights" / number);
+  shared::DeviceLight out =
+      device_light(light, tables.power_unit, Location(scene.source) / "scene" / "lights" / number);
   out.number = number;
   if (leave_out.unreached_targets)
     std::erase_if(targets, [&](const scene::Sphere& target) { return !reaches(light, target); });

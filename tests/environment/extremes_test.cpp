@@ -27,7 +27,8 @@ job::Snapshot shown(const preset::Preset& p) {
 }
 bool runs(const preset::Preset& p, const std::string& name) {
   const environment::EnvironmentPlan plan = planned(p);
-  return std::ranges::any_of(plan.decisions, [&](const plan::Decision& pass) { return pass.name == name && pass.runs; });
+  return std::ranges::any_of(plan.decisions,
+                             [&](const plan::Decision& pass) { return pass.name == name && pass.runs; });
 }
 /// The first note of the plan.
 std::string note(const preset::Preset& p) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels of facets against the host, which has double precision: the light that facets send, and how the weighted
 // squares change with a slope.
-#include "inverse/assign/device_facets.h"
 #include "inverse/assign/cost.h"
+#include "inverse/assign/device_facets.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
 #include "inverse/light.h"

@@ -12,7 +12,8 @@ namespace nephroid::leaving_out_test {
 plan::Decision pass_of(const preset::Preset& p, std::string name, const LeaveOut& leave_out = {}) {
   std::replace(name.begin(), name.end(), '_', ' ');
   const scene::Scene scene = scene::load_scene(p);
-  for (const plan::Decision& pass : spectral::make_plan(p, scene, scene::build_bvh(scene.geometry), leave_out).decisions)
+  for (const plan::Decision& pass :
+       spectral::make_plan(p, scene, scene::build_bvh(scene.geometry), leave_out).decisions)
     if (pass.name == name) return pass;
   return {"", false, "no pass " + name, "", false};
 }

@@ -2,8 +2,8 @@
 // Small parts of base/ and preset/: counts in words, numbers as people type them, places and how they read (RFC 6901),
 // which field an error is about, and the memory that a run is refused for.
 #include "base/counted.h"
-#include "base/numbers.h"
 #include "base/location.h"
+#include "base/numbers.h"
 #include "cli/verb.h"
 #include "preset/origins.h"
 #include "preset/read.h"

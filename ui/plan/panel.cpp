@@ -88,8 +88,8 @@ void PlanPanel::draw(const Context& context) {
   read_fields(context);
   places_.clear();
   ImGui::AlignTextToFramePadding();
-  const auto left_out =
-      std::count_if(plan->decisions.begin(), plan->decisions.end(), [](const plan::Decision& decision) { return !decision.runs; });
+  const auto left_out = std::count_if(plan->decisions.begin(), plan->decisions.end(),
+                                      [](const plan::Decision& decision) { return !decision.runs; });
   ImGui::TextUnformatted(
       fmt::format("Engine {}: {} left out of {}", plan->engine, left_out, plan->decisions.size()).c_str());
   ImGui::SameLine(std::max(ImGui::GetContentRegionAvail().x - 8 * em(), 14 * em()));
@@ -148,8 +148,8 @@ void PlanPanel::draw_passes(const Context& context) {
 void PlanPanel::draw_box(const Context& context, const plan::Decision& decision, bool computed) {
   if (ImGui::Checkbox("##computed", &computed)) {
     const std::string label = (computed ? "compute " : "leave out ") + decision.name;
-    context.push(
-        command::Edit{label, with_field(*context.preset(), decision.field, computed ? decision.run_value : !decision.run_value)});
+    context.push(command::Edit{
+        label, with_field(*context.preset(), decision.field, computed ? decision.run_value : !decision.run_value)});
   }
   places_.note(decision.name,
                fmt::format("Computed whatever the scene needs: {} = {}. Without the check the scene decides.",

@@ -9,8 +9,8 @@
 #include "environment/view/render_task.h"
 #include "job/job.h"
 #include "mpi/rank_context.h"
-#include "tracing/slices.h"
 #include "tracing/archive.h"
+#include "tracing/slices.h"
 
 #include <array>
 #include <cstdint>

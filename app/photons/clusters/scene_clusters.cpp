@@ -87,8 +87,7 @@ std::vector<std::vector<int>> split_by_losses(std::vector<std::vector<int>> clus
     const std::vector<double> coefficients =
         used ? tracing::loss_coefficients(scene.materials[m]) : std::vector<double>{};
     if (coefficients.empty()) continue;
-    const double longest =
-        is_refractive(scene.materials[m].type) ? 2 * diagonal_m(scene, m) : reflections;
+    const double longest = is_refractive(scene.materials[m].type) ? 2 * diagonal_m(scene, m) : reflections;
     std::vector<std::vector<int>> parts;
     for (std::vector<int>& cluster : clusters) split(std::move(cluster), coefficients, longest, most, parts);
     clusters = std::move(parts);

@@ -50,8 +50,8 @@ public:
   /// Whether photons are allocated anew before this batch: before batches 2, 4, 8, 16, ...
   bool is_due(std::int64_t batch) const;
   /// moments[emitter] is the sum, since first_iteration(), of the squares of what each photon added to the picture, in
-  /// any unit. They are taken for the variance, as is right for few photons a pixel and batch. halves: of the film, each
-  /// with its own low-discrepancy sequence. A tenth of the photons keeps its first allocation.
+  /// any unit. They are taken for the variance, as is right for few photons a pixel and batch. halves: of the film,
+  /// each with its own low-discrepancy sequence. A tenth of the photons keeps its first allocation.
   void reallocate(std::int64_t batch, std::span<const std::int64_t> moments, unsigned halves);
   /// Restores the first allocation from this batch on.
   void restore_initial(std::int64_t batch, unsigned halves);

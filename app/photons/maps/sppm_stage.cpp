@@ -305,7 +305,8 @@ plan::Decision sppm_decision(const PlanInput& input) {
 }
 
 PlanPart plan_sppm(const PlanInput& input) {
-  PlanPart part = plan_gathering(input, sppm_decision(input), static_cast<std::uint32_t>(input.settings.photons_per_pass));
+  PlanPart part =
+      plan_gathering(input, sppm_decision(input), static_cast<std::uint32_t>(input.settings.photons_per_pass));
   // A pass gives one cluster after the other its turn, with one wavelength each.
   part.defines = {{"NEPHROID_PASS_BANDS", "1"}};
   if (!part.decisions[0].runs) return part;

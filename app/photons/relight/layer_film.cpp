@@ -98,15 +98,15 @@ PlanPart plan_relighting(const PlanInput& input) {
           ? fmt::format("; in a cluster, what a material leaves of two wavelengths differs by at most {}",
                         largest_loss_difference)
           : "";
-  return {
-      .decisions = {{"relighting", true,
-                  fmt::format(
-                      "{} of {} in {} are kept apart, so that spectra and powers can change; dark ones too, for which "
-                      "half of the photons go to every cluster alike{}",
-                      counted(lights * clusters, "layer"), counted(lights, "light"),
-                      counted(clusters, "wavelength cluster"), split),
-                  "/spectral/relight", true}},
-      .buffers = {{"survey and weighing", input.pixels() * SURVEY_PLACES * (1 + SURVEY_PATHS) * sizeof(int)}}};
+  return {.decisions =
+              {{"relighting", true,
+                fmt::format(
+                    "{} of {} in {} are kept apart, so that spectra and powers can change; dark ones too, for which "
+                    "half of the photons go to every cluster alike{}",
+                    counted(lights * clusters, "layer"), counted(lights, "light"),
+                    counted(clusters, "wavelength cluster"), split),
+                "/spectral/relight", true}},
+          .buffers = {{"survey and weighing", input.pixels() * SURVEY_PLACES * (1 + SURVEY_PATHS) * sizeof(int)}}};
 }
 
 } // namespace

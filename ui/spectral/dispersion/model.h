@@ -45,7 +45,8 @@ struct GlassCurve {
   std::vector<double> line_nm, line_n, line_k;
 };
 /// where: the field's FILE#/json/pointer, for messages. Whatever is wrong becomes the curve's error.
-GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const Location& where);
+GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source,
+                            const Location& where);
 
 /// How much the refraction angle differs inside a cluster: between the rays of its highest and its lowest n, which all
 /// go the way of the mean. A cluster of one wavelength has none.
