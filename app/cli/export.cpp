@@ -116,7 +116,7 @@ void export_scene(const ExportOptions& options, const std::stop_token& interrupt
     if (prepared.plan->layers == 0)
       throw bad_input(preset.source,
                       "has no caustic: " +
-                          std::ranges::find(prepared.plan->passes, "photons", &plan::Decision::name)->reason);
+                          std::ranges::find(prepared.plan->decisions, "photons", &plan::Decision::name)->reason);
     run::DeviceOnDemand device(device_opener(options.run.device));
     const compute::Context& context = device.context();
     const run::ClaimedFolder claimed(folder, true, {"an export", {formats::list_file}});

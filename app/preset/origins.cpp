@@ -78,7 +78,7 @@ void rethrow_at_origin(const Preset& preset, const Error& error) {
   // A missing device is missing for every run, and what is interrupted names the run's folder.
   const bool may_be_of_one_run = error.kind() == ErrorKind::bad_input || error.kind() == ErrorKind::failed;
   // An item of the sweep's list says already what runs it is about.
-  const bool is_at_swept_value = error_at_origin.place().pointer.value_or("").starts_with("/sweep/");
+  const bool is_at_swept_value = error_at_origin.location().pointer.value_or("").starts_with("/sweep/");
   if (part.empty() || is_at_swept_value || !may_be_of_one_run) throw error_at_origin;
   throw error_at_origin.noting(part);
 }

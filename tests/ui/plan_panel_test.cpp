@@ -9,7 +9,7 @@ class PlanPanelTest : public test::WindowFixture {
 protected:
   PlanPanelTest() : test::WindowFixture("plan") {
     runs.plan.engine = "spectral";
-    runs.plan.passes = {{"direct", true, "1 diffuse object", "/spectral/direct", true},
+    runs.plan.decisions = {{"direct", true, "1 diffuse object", "/spectral/direct", true},
                         {"mirrors", false, "no object is a mirror", "/leave_out", false},
                         {"indirect", false, "not rendered yet", "", false},
                         {"fog", false, "there is none", "/leave_out/fog", false}};

@@ -117,10 +117,10 @@ TEST(ErrorPlace, OfAValueThatTurnsOutWrongLater) {
   };
   const Error typed = fail_at(Location(p.source) / "white");
   EXPECT_EQ(typed.line(), "--set white=2: is wrong");
-  EXPECT_EQ(field_of(p, typed.place()), "/white");
+  EXPECT_EQ(field_of(p, typed.location()), "/white");
   const Error in_file = fail_at(Location(p.source) / "scene" / "lights" / 0);
   EXPECT_EQ(in_file.line(), "p.json#/scene/lights/0: is wrong");
-  EXPECT_EQ(field_of(p, in_file.place()), "/scene/lights/0");
+  EXPECT_EQ(field_of(p, in_file.location()), "/scene/lights/0");
   EXPECT_EQ(field_of(p, fail_at(Location("bunny.obj", 3)).location()), "") << "no field of the preset";
   EXPECT_EQ(field_of(p, fail_at(Location(p.source)).location()), "");
 

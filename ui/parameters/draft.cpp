@@ -87,9 +87,9 @@ std::variant<preset::Preset, Problem> Draft::read(const Edits& edits, const std:
     check_loads(preset_, edited);
     return edited;
   } catch (const Error& error) {
-    const Location& place = error.location();
-    const bool known = place.name == preset_.source && place.pointer;
-    return Problem{pointer, known ? *place.pointer : pointer, known ? error.text() : error.line()};
+    const Location& location = error.location();
+    const bool known = location.name == preset_.source && location.pointer;
+    return Problem{pointer, known ? *location.pointer : pointer, known ? error.text() : error.line()};
   }
 }
 

@@ -43,7 +43,7 @@ void ParametersPanel::follow_run(const Context& context) {
   form_.refused.reset();
   const std::optional<Error>& error = context.run.status().error;
   if (!error) return;
-  const std::string field = preset::field_of(*context.preset(), error->place());
+  const std::string field = preset::field_of(*context.preset(), error->location());
   if (!field.empty()) form_.refused = {field, field, error->text()};
 }
 

@@ -123,7 +123,7 @@ private:
 };
 
 PlanPart plan_layered_direct(const PlanInput& input) {
-  PlanPart part{.decisions = direct_stage.plan(input).passes};
+  PlanPart part{.decisions = direct_stage.plan(input).decisions};
   if (!part.decisions[0].runs) return part;
   const RunTables& tables = input.tables;
   const std::size_t lights = tables.lights.size(), clusters = tables.wavelengths.clusters.size();
