@@ -192,7 +192,8 @@ def tests_of(s, group):
 
 def by_window_tests(s, name):
     """Tests that move the mouse write their pictures, and the table of keys, into the docs themselves."""
-    test = "*Session.From*" if name.startswith("session-") else "PanelPictures.*:GizmoWindowTest.*"
+    in_session = name.startswith("session-") or name in ("window-annealing-facet.png", "window-environment.png")
+    test = "*Session.From*" if in_session else "PanelPictures.*:GizmoWindowTest.*"
     done = s.folder / test.replace("*", "").replace(":", "")
     if not done.exists():
         s.call(tests_of(s, "ui"), f"--gtest_filter={test}", env=os.environ | {"NEPHROID_PICTURES": str(s.docs)})

@@ -137,7 +137,7 @@ TEST_F(PanelPictures, AControlPointIsDragged) {
   const Canvas& canvas = like.view().canvas();
   const std::vector<ControlPoint> points = sorted_points(preset.scene.materials.at("glass").dispersion);
   const ControlPoint point = points[points.size() / 2];
-  const std::array way{pixel(plot.to_screen(point)), pixel(plot.to_screen({point[0] + 20, point[1] + 0.055}))};
+  const std::array way{pixel(plot.to_screen(point)), pixel(plot.to_screen({point[0] + 20, point[1] + 0.08}))};
   test::PlayedWindow window = open(file, "dispersion");
   const auto before = strip(taken(window, "window-dispersion.png", "a picture of the run", picture_in(canvas)), plot);
   EXPECT_GT(count(before), 24u);
