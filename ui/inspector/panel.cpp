@@ -159,7 +159,8 @@ void InspectorPanel::draw_neighbours(const Context& context) {
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   for (int i = 0; i < across * across; ++i) {
     const unsigned char* c = &n.rgba[4 * static_cast<std::size_t>(i)];
-    const ImVec2 at = corner + ImVec2(static_cast<float>(i % across), static_cast<float>(i / across)) * cell;
+    const int row = i / across, column = i % across;
+    const ImVec2 at = corner + ImVec2(static_cast<float>(column), static_cast<float>(row)) * cell;
     draw_list->AddRectFilled(at, at + ImVec2(cell, cell), IM_COL32(c[0], c[1], c[2], c[3]));
   }
   const ImVec2 own = corner + ImVec2(reach, reach) * cell, end = own + ImVec2(cell, cell);

@@ -203,7 +203,8 @@ std::vector<glm::dvec2> Lens::corners_land() const {
   std::vector<glm::dvec2> corners(rows * columns);
   for_ranges(rows, 16, [&](std::size_t, const Range& range) {
     for (std::size_t i = range.begin * columns; i < range.end * columns; ++i) {
-      const glm::dvec2 p = fine_.corner(static_cast<double>(i % columns), static_cast<double>(i / columns));
+      const std::size_t row = i / columns, column = i % columns;
+      const glm::dvec2 p = fine_.corner(static_cast<double>(column), static_cast<double>(row));
       corners[i] = from_corner(landing(p, surface_.at(p))) / cell;
     }
   });

@@ -2,6 +2,7 @@
 #include "inverse/lens/transport.h"
 
 #include "base/parallel.h"
+#include "inverse/layout.h"
 
 #include <algorithm>
 #include <cmath>
