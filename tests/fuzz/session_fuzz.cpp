@@ -9,7 +9,7 @@ void read(std::string_view input) {
   const std::string text(input);
   accepts([&] { ui::parse_session_header(text, "session.json"); });
   accepts([&] {
-    const ui::Settings settings = ui::parse_settings(text, "settings.json");
+    const ui::WindowSettings settings = ui::parse_settings(text, "settings.json");
     if (ui::parse_settings(ui::to_json(settings), "settings.json") != settings)
       finding("other settings are read than were written");
   });
@@ -20,7 +20,7 @@ void read(std::string_view input) {
 }
 
 std::vector<std::string> seeds() {
-  ui::Settings settings;
+  ui::WindowSettings settings;
   settings.engines["spectral"] = {"[Window][View]\nPos=0,20\n", {"Plan"}};
   ui::Session session;
   const preset::Preset preset = preset::read_preset("first-light");
@@ -29,7 +29,7 @@ std::vector<std::string> seeds() {
   ui::UndoStack edits(preset);
   edits.push("seed", std::move(other));
   edits.push("sweep", preset, preset::Sweep{{"seed", {"1", "2"}}});
-  session.edits = edits.serialize();
+  session.edits = edits.state();
   session.view_state.bookmarks = {{"near", {}}};
   session.pins = {{"pin-1", "first", 7, true}};
   return {ui::to_json(settings), ui::SessionText().of(session)};

@@ -330,7 +330,7 @@ void draw_overlay(const ImVec2& at, const std::string& text) {
 void draw_luminance_scale(const LuminanceRange& range, const Canvas& canvas) {
   const double low = std::log10(range.low), high = std::log10(range.high);
   std::vector<ScaleMark> marks{{0, fmt::format("{:.3g}", range.low)}, {1, fmt::format("{:.3g}", range.high)}};
-  for (double decade = std::ceil(low); decade <= high; ++decade) // without numbers that would touch the ends
+  for (int decade = static_cast<int>(std::ceil(low)); decade <= high; ++decade) // none that would touch the ends
     if (const double position = (decade - low) / (high - low); position > 0.06 && position < 0.94)
       marks.emplace_back(position, fmt::format("{:.3g}", std::pow(10.0, decade)));
   if (marks.size() > 12) marks.resize(2);
