@@ -15,7 +15,7 @@ namespace nephroid::test {
 template <class Runs = FakeRuns>
 class RecordedSession {
 public:
-  using Location = std::array<double, 2>;
+  using ScreenPoint = std::array<double, 2>;
   static constexpr std::array<int, 2> size{1280, 800};
 
   /// name: of the sheet, session-NAME.jpg. What the window saves by a name alone is in saved(). opened_lately: a
@@ -32,7 +32,7 @@ public:
 
   // What the person does, in both windows.
 
-  void move(const Location& to) {
+  void move(const ScreenPoint& to) {
     window_.move(pixel(to));
     imgui_.move(pixel(to)[0], pixel(to)[1]);
     draw(2);
@@ -47,12 +47,12 @@ public:
     imgui_.button(0, false);
     draw(4);
   }
-  void click(const Location& at) {
+  void click(const ScreenPoint& at) {
     move(at);
     press();
     let_go();
   }
-  void drag(const Location& from, const Location& by) {
+  void drag(const ScreenPoint& from, const ScreenPoint& by) {
     move(from);
     press();
     constexpr int moves = 4;
@@ -89,14 +89,14 @@ public:
   }
   /// The tab of a panel.
   template <class P>
-  Location tab() const {
+  ScreenPoint tab() const {
     const ImGuiWindow* found = ImGui::FindWindowByName(P::title);
     if (!found) throw std::runtime_error(std::string("there is no panel ") + P::title);
     const ImVec2 middle = found->DC.DockTabItemRect.GetCenter();
     return {middle.x, middle.y};
   }
   /// Of a part of the picture.
-  Location in_view(double x, double y) const {
+  ScreenPoint in_view(double x, double y) const {
     const ui::Canvas& canvas = panel<ui::ViewPanel>().canvas();
     return {canvas.corner[0] + x * canvas.size[0], canvas.corner[1] + y * canvas.size[1]};
   }

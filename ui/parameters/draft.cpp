@@ -88,8 +88,8 @@ std::variant<preset::Preset, Problem> Draft::read(const Edits& edits, const std:
     return edited;
   } catch (const Error& error) {
     const Location& location = error.location();
-    const bool known = location.name == preset_.source && location.pointer;
-    return Problem{pointer, known ? *location.pointer : pointer, known ? error.text() : error.line()};
+    const bool in_preset = location.name == preset_.source && location.pointer;
+    return Problem{pointer, in_preset ? *location.pointer : pointer, in_preset ? error.text() : error.line()};
   }
 }
 

@@ -148,13 +148,13 @@ void ValueWidgets::draw_value(const Outline& o, const Json& value, const std::st
   default: {
     const preset::Names names = o.field.names;
     if (names != preset::Names::nothing) {
-      std::vector<std::string> known;
+      std::vector<std::string> choices;
       if (names == preset::Names::material)
-        for (const auto& [name, material] : form_.draft.value()["scene"]["materials"].items()) known.push_back(name);
+        for (const auto& [name, material] : form_.draft.value()["scene"]["materials"].items()) choices.push_back(name);
       else
-        known = names == preset::Names::illuminant ? optics::illuminant_names() : optics::colorchecker_names();
+        choices = names == preset::Names::illuminant ? optics::illuminant_names() : optics::colorchecker_names();
       std::vector<Outline::Word> words;
-      for (const std::string& name : known) words.push_back({name, {}});
+      for (const std::string& name : choices) words.push_back({name, {}});
       draw_choice(pointer, text_of(value), words, set, width);
       break;
     }

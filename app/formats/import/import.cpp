@@ -100,6 +100,9 @@ public:
     return made_;
   }
 
+  /// Whether an object has the mesh with this key.
+  bool uses(const std::string& mesh) const { return used_.contains(mesh); }
+
 private:
   void see(const glm::dvec3& p) { bounds_ = scene::enclosing(bounds_, {p, p}); }
   glm::dvec3 middle() const { return 0.5 * (bounds_.low + bounds_.high); }
@@ -136,7 +139,7 @@ private:
       if (!mesh.normals.empty()) object.normals = preset::Object::Normals::smooth;
       for (const glm::vec3& p : mesh.positions) see(to_world * glm::dvec4(glm::dvec3(p), 1));
       object.mesh = folder_ + "/" + key;
-      used.insert(key);
+      used_.insert(key);
     }
     object.transform = *transform;
     made_.scene.objects.push_back(std::move(object));
@@ -255,9 +258,7 @@ private:
   glm::dmat4 mirror_{1};
   std::set<std::string> names_;
   scene::Bounds bounds_;
-
-public:
-  std::set<std::string> used; ///< keys of meshes
+  std::set<std::string> used_; ///< keys of the objects' meshes
 };
 
 } // namespace
@@ -274,7 +275,7 @@ Imported import_scene(const fs::path& file, const fs::path& preset) {
   Description description = (kind == ".xml" ? describe_mitsuba : kind == ".pbrt" ? describe_pbrt : describe_gltf)(file);
   PresetBuilder builder(description, name + "-meshes");
   const preset::Preset made = builder.make(name);
-  std::erase_if(description.meshes, [&](const auto& mesh) { return !builder.used.contains(mesh.first); });
+  std::erase_if(description.meshes, [&](const auto& mesh) { return !builder.uses(mesh.first); });
 
   const std::string text = preset::to_json(made);
   preset::parse_preset(text, preset.string()); // what cannot be read again is not written

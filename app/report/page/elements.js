@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The data that stands in the page (report.h says what), and the pieces that the page is built from. What files say becomes text nodes,
-// never HTML.
+// The data that stands in the page (report.h says what), and the pieces that the page is built from. What files say
+// becomes text nodes, never HTML.
 "use strict";
 
 const data = JSON.parse(document.getElementById("data").textContent);
