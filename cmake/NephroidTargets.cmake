@@ -42,18 +42,14 @@ endfunction()
 set(nephroid_computes_little cli formats job plan preset report run ui)
 
 # nephroid_library(NAME [FOLDERS folder...] [LIBS lib...]): every .cpp of the current folder, and of these folders in
-# it, as the static library nephroid_NAME. The preset "alone" has a source for each header that includes it alone.
+# it, as the static library nephroid_NAME.
 function(nephroid_library name)
   cmake_parse_arguments(arg "" "" "FOLDERS;LIBS" ${ARGN})
   set(folders . ${arg_FOLDERS})
   list(TRANSFORM folders PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   list(TRANSFORM folders APPEND /*.cpp OUTPUT_VARIABLE patterns)
   file(GLOB sources CONFIGURE_DEPENDS ${patterns})
-  list(TRANSFORM folders APPEND /*.h OUTPUT_VARIABLE patterns)
-  file(GLOB headers CONFIGURE_DEPENDS ${patterns})
-  set(scope INTERFACE)
   if(sources)
-    set(scope PUBLIC)
     add_library(nephroid_${name} STATIC ${sources})
     nephroid_unity(nephroid_${name} 12 ${sources})
     target_link_libraries(nephroid_${name} PUBLIC nephroid_settings ${arg_LIBS})
@@ -64,8 +60,6 @@ function(nephroid_library name)
     add_library(nephroid_${name} INTERFACE)
     target_link_libraries(nephroid_${name} INTERFACE nephroid_settings ${arg_LIBS})
   endif()
-  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR PARENT_PATH root) # that includes are named from
-  target_sources(nephroid_${name} ${scope} FILE_SET HEADERS BASE_DIRS ${root} FILES ${headers})
 endfunction()
 
 # nephroid_tests(LIB...): every *_test.cpp of the current folder, as the program GROUP_tests; GROUP is the folder's
