@@ -10,9 +10,9 @@ protected:
   PlanPanelTest() : test::WindowFixture("plan") {
     runs.plan.engine = "spectral";
     runs.plan.decisions = {{"direct", true, "1 diffuse object", "/spectral/direct", true},
-                        {"mirrors", false, "no object is a mirror", "/leave_out", false},
-                        {"indirect", false, "not rendered yet", "", false},
-                        {"fog", false, "there is none", "/leave_out/fog", false}};
+                           {"mirrors", false, "no object is a mirror", "/leave_out", false},
+                           {"indirect", false, "not rendered yet", "", false},
+                           {"fog", false, "there is none", "/leave_out/fog", false}};
     runs.plan.buffers = {{"tree", 1 << 20}, {"film", 3 << 20}};
     runs.plan.defines = {{"NEPHROID_MIRRORS", "0"}};
   }
