@@ -220,18 +220,17 @@ TEST_F(PanelPictures, AnImpossibleFieldIsSaid) {
 }
 
 /// The picture that README.md shows, as if another program had made it, beside the run that begins; then both cut at a
-/// line.
+/// line. The panel Runs is not in front: it names the folder of the picture.
 TEST_F(PanelPictures, TwoPicturesAreCompared) {
   const std::string preset = NEPHROID_SOURCE_DIR "/presets/first-light.json",
                     png = NEPHROID_SOURCE_DIR "/docs/first-light.png";
-  test::HeadlessWindow<> like(size, "runs", preset);
+  test::HeadlessWindow<> like(size, "", preset);
   like.apply({command::Arrange{Arrangement::split}});
   const Canvas& canvas = like.view().canvas();
   const double half = canvas.size[0] / 2;
   const Canvas left{canvas.corner, {half - 6, canvas.size[1]}},
       right{{canvas.corner[0] + half + 6, canvas.corner[1]}, left.size};
-  test::PlayedWindow window(preset, {png, "--layout", "runs", "--size", fmt::format("{}x{}", size[0], size[1])},
-                            folder.path());
+  test::PlayedWindow window(preset, {png, "--size", fmt::format("{}x{}", size[0], size[1])}, folder.path());
   window.until("a picture of the run", [&] { return picture_in(canvas)(window.picture("before.png")); });
   window.chord({"shift"}, "2");
   window.key("v");
