@@ -82,10 +82,10 @@ std::string to_json_line(const Plan& plan, const std::string& name) {
 }
 
 std::string to_text(const Plan& plan) {
-  std::string text = fmt::format("Engine: {}\n\nPasses\n", plan.engine);
-  const std::size_t pass_width = widest(plan.decisions, [](const Decision& decision) { return decision.name; });
+  std::string text = fmt::format("Engine: {}\n\nDecisions\n", plan.engine);
+  const std::size_t name_width = widest(plan.decisions, [](const Decision& decision) { return decision.name; });
   for (const Decision& decision : plan.decisions)
-    text += fmt::format("  {:<{}}  {}  {}{}\n", decision.name, pass_width, decision.runs ? "runs    " : "left out",
+    text += fmt::format("  {:<{}}  {}  {}{}\n", decision.name, name_width, decision.runs ? "runs    " : "left out",
                         decision.reason, way_back(decision));
   text += "\nMemory\n";
   const std::size_t buffer_width =

@@ -15,7 +15,7 @@ struct Decision {
   bool runs = true;
   std::string reason;     ///< a sentence a person can read
   std::string field = {}; ///< JSON pointer of the preset's boolean that decides; empty where none does
-  bool run_value = false; ///< what it must be for the pass to run; a pass that is needed runs whatever it is
+  bool run_value = false; ///< what it must be for that to run; what is needed runs whatever it is
 };
 
 struct PlannedBuffer {
@@ -52,7 +52,8 @@ struct Plan {
 };
 
 /// {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{},
-/// "inputs":[{"file","content"}]}, plus "notes"; "field" and "run_value" only where a field decides.
+/// "inputs":[{"file","content"}]}, plus "notes"; "field" and "run_value" only where a field decides. "passes" are the
+/// decisions, by the name that files have.
 std::string to_json(const Plan& plan);
 /// The inputs in a plan.json; none if it is damaged.
 std::vector<Input> inputs_of(const std::string& plan_json);

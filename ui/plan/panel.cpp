@@ -95,7 +95,7 @@ void PlanPanel::draw(const Context& context) {
   ImGui::SameLine(std::max(ImGui::GetContentRegionAvail().x - 8 * em(), 14 * em()));
   action_button("Copy plan as JSON", context);
   if (ImGui::BeginChild("plan")) {
-    draw_passes(context);
+    draw_decisions(context);
     draw_buffers(*plan);
     if (!plan->defines.empty()) heading("Kernels are built with");
     for (const auto& [name, value] : plan->defines)
@@ -122,9 +122,9 @@ void PlanPanel::read_fields(const Context& context) {
   }
 }
 
-void PlanPanel::draw_passes(const Context& context) {
-  if (!ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
-  for (const char* column : {"Always", "Pass", "Time"})
+void PlanPanel::draw_decisions(const Context& context) {
+  if (!ImGui::BeginTable("decisions", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
+  for (const char* column : {"Always", "Decision", "Time"})
     ImGui::TableSetupColumn(column, ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("Why", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();

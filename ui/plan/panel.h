@@ -15,7 +15,7 @@ public:
 
 private:
   void read_fields(const Context& context);
-  void draw_passes(const Context& context);
+  void draw_decisions(const Context& context);
   void draw_box(const Context& context, const plan::Decision& decision, bool computed);
 
   std::shared_ptr<const plan::Plan> plan_;    ///< what computed_ belongs to,
