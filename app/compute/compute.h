@@ -167,9 +167,9 @@ private:
 class Kernel {
 public:
   /// Queues the kernel over `global` work items in groups of `local`. `global` is rounded up, so kernels test their
-  /// index. Every argument must be given once, in `shared` or in `own`, in any order. Throws failed for an argument
-  /// that the kernel does not have, has with another type, or lacks. Throws failed also if memory runs out, and names
-  /// the largest of its buffers, their bytes and the device's memory.
+  /// index, which is work_item() (kernels/tracing/work_item.h). Every argument must be given once, in `shared` or in
+  /// `own`, in any order. Throws failed for an argument that the kernel does not have, has with another type, or lacks.
+  /// Throws failed also if memory runs out, and names the largest of its buffers, their bytes and the device's memory.
   void run(std::size_t global, std::size_t local, std::span<const Argument> shared,
            std::initializer_list<Argument> own);
   void run(std::size_t global, std::size_t local, std::initializer_list<Argument> arguments) {

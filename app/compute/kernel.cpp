@@ -18,6 +18,12 @@ struct Zeros {
   cl_ulong low = 0, high = 0;
 };
 
+/// The most items in a row of a launch: half of what PoCL calls a small grid (kernels/tracing/work_item.h), so that
+/// rows of whole groups stay below that, too.
+constexpr std::size_t most_in_a_row = 0x8000;
+
+std::size_t divided_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
+
 /// Calls work(), and names the buffer if that fails.
 template <class Work>
 void named(const detail::BufferState& buffer, const Work& work) {
@@ -133,15 +139,18 @@ void Kernel::run(std::size_t global, std::size_t local, std::span<const Argument
     if (!given[i]) throw failed(state->name, fmt::format("argument {} is not given", state->parameters[i].name));
   if (global == 0) return;
   if (local == 0) throw failed(state->name, "queued in groups of 0 items");
-  const std::size_t rounded = (global + local - 1) / local * local;
+  const std::size_t groups = divided_up(global, local), rows = divided_up(groups * local, most_in_a_row),
+                    row = divided_up(groups, rows) * local;
   try {
-    state->context->queue.enqueueNDRangeKernel(state->kernel, cl::NullRange, cl::NDRange(rounded), cl::NDRange(local));
+    state->context->queue.enqueueNDRangeKernel(state->kernel, cl::NullRange, cl::NDRange(row, rows),
+                                               cl::NDRange(local, 1));
   } catch (const cl::Error& error) {
     std::vector<const detail::BufferState*> buffers;
     for (const std::span<const Argument> arguments : {shared, std::span<const Argument>(own)})
       for (const Argument& argument : arguments)
         if (argument.buffer_) buffers.push_back(argument.buffer_->state.get());
-    throw detail::buffers_failed(error, fmt::format("{} over {} items in groups of {}", state->name, rounded, local),
+    throw detail::buffers_failed(error,
+                                 fmt::format("{} over {} items in groups of {}", state->name, groups * local, local),
                                  state->context->info, std::move(buffers));
   }
 }

@@ -6,6 +6,7 @@
 #include "kernels/tracing/media.h"
 #include "kernels/tracing/attenuation.h"
 #include "kernels/tracing/emission.h"
+#include "kernels/tracing/work_item.h"
 
 // The order of app/check/arithmetic.cpp.
 enum {
@@ -36,28 +37,28 @@ static inline float built_in(int function, float4 a) {
 }
 
 kernel void built_ins(int function, global const float4* in, global float* out, uint count) {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i < count) out[i] = built_in(function, in[i]);
 }
 
 kernel void to_quanta(global const float* in, global long* out, uint count) {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i < count) out[i] = convert_long_rte(in[i]);
 }
 
 kernel void philox(global const uint4* counters, global const uint2* keys, global uint4* results, uint count) {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i < count) results[i] = philox4x32(counters[i], keys[i]);
 }
 
 kernel void uniforms(uint2 seed, uint pass, uint block, uint stream, global float4* results, uint count) {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i < count) results[i] = random4(seed, pass, i, block, stream);
 }
 
 // in: cos_i, n_i, n_t. out: cos_t, negative for total reflection; reflectance.
 kernel void interfaces(global const float4* in, global float4* out, uint count) {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const float cos_t = refracted_cosine(in[i].x, in[i].y / in[i].z);
   const float r = cos_t < 0.0f ? 1.0f : fresnel_reflectance(in[i].x, cos_t, in[i].y, in[i].z);
@@ -66,7 +67,7 @@ kernel void interfaces(global const float4* in, global float4* out, uint count) 
 
 // in: a direction that meets the plane z = 0, and n_i / n_t. out: the reflected one; the refracted one, its cosine.
 kernel void directions(global const float4* in, global float4* out, uint count) {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const float3 d = in[i].xyz, n = (float3)(0.0f, 0.0f, 1.0f);
   const float cos_i = -d.z, cos_t = refracted_cosine(cos_i, in[i].w);
@@ -78,7 +79,7 @@ kernel void directions(global const float4* in, global float4* out, uint count) 
 // medium, -1 for air, or -2 where the list of media is full.
 kernel void media_walks(global const DeviceObject* objects, global const int* steps, global int* mediums,
                         int steps_each, uint count) {
-  const uint walk = get_global_id(0);
+  const uint walk = work_item();
   if (walk >= count) return;
   Media media = {0ul, 0ul};
   for (int s = 0; s < steps_each; ++s) {
@@ -96,7 +97,7 @@ kernel void media_walks(global const DeviceObject* objects, global const int* st
 kernel void attenuated(global const int* first, global const int* wavelengths, global const float* coefficient,
                        global const float4* light_xyz, global const float* reflectance, global const int4* in,
                        global const float* lengths, global float4* out, uint count) {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const SpectralTables tables = {.cluster_first = first,
                                  .cluster_wavelengths = wavelengths,
@@ -111,7 +112,7 @@ kernel void attenuated(global const int* first, global const int* wavelengths, g
 // out: for photon i of a light origin and watts, then direction.
 kernel void emissions(global const DeviceLight* lights, int light, global const DeviceTarget* targets,
                       DeviceScene scene, uint2 seed, global float4* out, uint count) {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const DeviceLight from = lights[light];
   const Emission e = emit(&from, targets, &scene, random4(seed, 0u, i, 0u, STREAM_PHOTONS),

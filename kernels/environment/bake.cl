@@ -5,6 +5,7 @@
 #include "kernels/tracing/emission.h"
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/outcomes.h"
+#include "kernels/tracing/work_item.h"
 #include "kernels/tracing/world.h"
 
 #ifndef NEPHROID_PHOTONS_PER_ITEM
@@ -93,7 +94,7 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
   light.direction = direction;
   OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
-    const uint item = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
+    const uint item = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
     if (item >= count) break;
     const uint photon = first + item;
     const float4 start = sobol4(seed, (uint3)(number, 0u, 0u), 0u, photon);

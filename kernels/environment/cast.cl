@@ -3,13 +3,14 @@
 // the spheres of every light. And light in the air, by one set of spheres that adds them up (Algorithm 3.5).
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
+#include "kernels/tracing/work_item.h"
 
 // caustics: [texel][3], linear sRGB: E r^2 on the receivers. normals: [texel], unit, on the object's side.
 __kernel void cast(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of,
                    __global const float* radii, __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres,
                    __global const uint* list, uint first, uint count, int size, __global const float* distances,
                    __global const float4* normals, __global float* caustics) {
-  const uint index = (uint)get_global_id(0);
+  const uint index = work_item();
   if (index >= count) return;
   const uint texel = list[first + index];
   const float distance = distances[texel];
@@ -30,7 +31,7 @@ __kernel void compile_air(__global const ushort* stored, __global const ushort* 
                           __global const float* radii, __global const DeviceEightSets* sets, int eights,
                           DeviceSpheres spheres, float4 object_x, float4 object_y, float4 object_z, int side,
                           uint count, __global float* air) {
-  const uint item = (uint)get_global_id(0);
+  const uint item = work_item();
   if (item >= count) return;
   const uint texels = (uint)((side + 2) * (side + 2));
   const Maps maps = {stored, ways, way_of};

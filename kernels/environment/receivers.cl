@@ -2,13 +2,14 @@
 // What stands around the caustic object: the distance from the object's middle to the first surface, in texels of a
 // cube that some path needs, and its unit normal on the middle's side. The tree is without the object.
 #include "kernels/environment/cube.h"
+#include "kernels/tracing/work_item.h"
 #include "kernels/tracing/world.h"
 
 // list: texels. distances: [texel]: INFINITY where there is nothing.
 __kernel void receivers(WORLD_ARGUMENTS, __global const uint* list, uint first, uint count, int size, float4 middle,
                         __global float* distances, __global float4* facing) {
   const World world = WORLD;
-  const uint index = (uint)get_global_id(0);
+  const uint index = work_item();
   if (index >= count) return;
   const uint texel = list[first + index];
   const float3 direction = cube_texel_direction(texel, size);

@@ -5,6 +5,7 @@
 #include "kernels/environment/render_types.h"
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/work_item.h"
 
 static inline DeviceEnd nowhere(void) {
   DeviceEnd end;
@@ -94,7 +95,7 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
                   int size, float4 middle, DeviceCamera camera, uint2 seed, uint pass, int block, uint first,
                   uint count) {
   const World world = WORLD;
-  const uint index = (uint)get_global_id(0);
+  const uint index = work_item();
   if (index >= count) return;
   const uint item = first + index;
   const int columns = (camera.width + block - 1) / block, column = (int)item % columns * block,

@@ -5,6 +5,7 @@
 #include "kernels/environment/render_types.h"
 #include "kernels/tracing/background.h"
 #include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/work_item.h"
 
 // 1: the direct layer is the smooth one.
 #ifndef NEPHROID_COARSE
@@ -115,7 +116,7 @@ __kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global co
                     __global const float* parts_seen, __global float* sums, int width, int height, uint2 seed,
                     uint pass, int block, int anew, uint first, uint count) {
   const World world = WORLD;
-  const uint index = (uint)get_global_id(0);
+  const uint index = work_item();
   if (index >= count) return;
   const Background background = {texels, 0, texels_size};
   const Receivers receivers = {middle, size, distances, caustics, parts_seen};

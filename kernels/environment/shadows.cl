@@ -3,6 +3,7 @@
 // receivers. Each of the few lights that it is cut into is seen or hidden. The tree is that of the whole scene, because
 // light that the object bends belongs to its caustic.
 #include "kernels/environment/cube.h"
+#include "kernels/tracing/work_item.h"
 #include "kernels/tracing/world.h"
 
 // The offset of shadow rays from a receiver, as a part of its distance: beyond the rounding of both.
@@ -13,7 +14,7 @@ __kernel void shadows(WORLD_ARGUMENTS, __global const uint* list, uint first, ui
                       __global const float* distances, __global const float4* facing, __global const float4* sky_lights,
                       int light_count, __global float* parts_seen) {
   const World world = WORLD;
-  const uint index = (uint)get_global_id(0);
+  const uint index = work_item();
   if (index >= count) return;
   const uint texel = list[first + index];
   const float distance = distances[texel];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Visibility of the environment's directions from points of the object (Algorithm 3.4 of the thesis).
+#include "kernels/tracing/work_item.h"
 #include "kernels/tracing/world.h"
 
 // directions: unit, in the map before it is turned. points: their number is a power of 2. Neighbouring cells of a light
@@ -7,7 +8,7 @@
 // turned_z: where the turn takes +x and +z; +y stays.
 __kernel void visible(WORLD_ARGUMENTS, __global const float4* directions, __global uchar* seen, uint count,
                       __global const float4* points, uint last_point, float4 turned_x, float4 turned_z) {
-  const uint i = (uint)get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const World world = WORLD;
   const float3 d = directions[i].xyz, direction = d.x * turned_x.xyz + (float3)(0.0f, d.y, 0.0f) + d.z * turned_z.xyz;

@@ -5,6 +5,7 @@
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 #include "kernels/tracing/camera.h"
+#include "kernels/tracing/work_item.h"
 #include "kernels/tracing/world.h"
 
 #define VOLUME_STEPS 128
@@ -24,7 +25,7 @@ __kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const 
                      float4 middle, DeviceCamera camera, float extinction, float albedo, int rayleigh, float anisotropy,
                      __global float* sums, uint2 seed, uint pass, int block, int anew, uint first, uint count) {
   const World world = WORLD;
-  const uint index = (uint)get_global_id(0);
+  const uint index = work_item();
   if (index >= count) return;
   const uint item = first + index;
   const int columns = (camera.width + block - 1) / block, column = (int)item % columns * block,

@@ -5,6 +5,7 @@
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/fresnel.h"
 #include "kernels/tracing/random.h"
+#include "kernels/tracing/work_item.h"
 
 // 0: light is of one direction and one wavelength.
 #ifndef NEPHROID_SPREAD
@@ -59,7 +60,7 @@ static inline DeviceWayOut follow(global const float* nodes, global const float*
 __kernel void follow_rays(__global const float* nodes, __global const float* blocks, int root,
                           __global const float4* normals, float n, __global const float4* from,
                           __global const float4* directions, uint count, __global DeviceWayOut* ways) {
-  const uint i = (uint)get_global_id(0);
+  const uint i = work_item();
   if (i < count) ways[i] = follow(nodes, blocks, root, normals, n, from[i].xyz, directions[i].xyz);
 }
 
@@ -92,7 +93,7 @@ static inline void add_ray_outcome(global long* outcomes, uint item, int outcome
 __kernel void judge(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals,
                     DeviceFront front, __global const float4* parts, __global const DeviceReceiver* screens, uint2 seed,
                     uint turn, uint first_row, uint count, __global long* light, __global long* outcomes) {
-  const uint item = (uint)get_global_id(0);
+  const uint item = work_item();
   if (item >= count) return;
   const uint along = (uint)front.along, rays = along * along, facet = first_row * (uint)front.columns + item / rays,
              ray = item % rays;

@@ -3,12 +3,13 @@
 #include "kernels/inverse/light.h"
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/registers.h"
+#include "kernels/tracing/work_item.h"
 
 // light: [receiver][cell], to which every facet adds.
 __kernel void add_light(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
                         __global const DeviceIncoming* incoming, __global const float* heights,
                         __global const float2* slopes, __global long* light) {
-  const uint index = (uint)get_global_id(0);
+  const uint index = work_item();
   if (index >= (uint)(layout->columns * layout->rows)) return;
   const Facet facet = facet_at(layout, incoming, heights, index);
   const Beams beams = beams_of(layout, &facet, slopes[index]);
@@ -22,7 +23,7 @@ __kernel void add_light(__global const DeviceLayout* layout, __global const Devi
 
 __kernel void find_lack(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
                         __global const long* light, __global const float* wanted, __global float* lack) {
-  const uint item = (uint)get_global_id(0), cells = (uint)(layout->cells_x * layout->cells_y);
+  const uint item = work_item(), cells = (uint)(layout->cells_x * layout->cells_y);
   if (item < cells * (uint)layout->receivers)
     lack[item] = lack_of(light[item], wanted[item], receivers[item / cells].weight);
 }
@@ -75,7 +76,7 @@ __kernel void find_gradient(__global const DeviceLayout* layout, __global const 
                             __global const DeviceIncoming* incoming, __global const float* heights,
                             __global const float2* slopes, __global const float* lack, uint first, uint count,
                             __global float2* gradient) {
-  const uint item = (uint)get_global_id(0), index = first + item;
+  const uint item = work_item(), index = first + item;
   if (item >= count) return;
   const Facet facet = facet_at(layout, incoming, heights, index);
   const Beams beams = beams_of(layout, &facet, slopes[index]);

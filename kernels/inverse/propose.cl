@@ -2,6 +2,7 @@
 // Facets of a batch look for slopes that are worth to be scored exactly: by what lacks about the middle of their light.
 #include "kernels/inverse/search.h"
 #include "kernels/tracing/registers.h"
+#include "kernels/tracing/work_item.h"
 
 // A receiver's cells with a rim of one more all around, where nothing lacks.
 static inline size_t rimmed_at(global const DeviceLayout* layout, int receiver, int x, int y) {
@@ -22,7 +23,7 @@ static inline Beam flat_beam(global const DeviceLayout* layout, float distance, 
 // cell. First along y, then along x; a row of cells an item.
 __kernel void smear_y(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
                       __global const float* lack, __global float* along_y) {
-  const int row = (int)get_global_id(0), cells_x = layout->cells_x, cells_y = layout->cells_y;
+  const int row = (int)work_item(), cells_x = layout->cells_x, cells_y = layout->cells_y;
   if (row >= cells_y * layout->receivers) return;
   const int y = row % cells_y;
   const Beam beam = flat_beam(layout, receivers[row / cells_y].distance, 1);
@@ -37,7 +38,7 @@ __kernel void smear_y(__global const DeviceLayout* layout, __global const Device
 }
 __kernel void smear_x(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
                       __global const float* along_y, __global float* smeared) {
-  const int row = (int)get_global_id(0), cells_x = layout->cells_x, cells_y = layout->cells_y;
+  const int row = (int)work_item(), cells_x = layout->cells_x, cells_y = layout->cells_y;
   if (row >= cells_y * layout->receivers) return;
   const Beam beam = flat_beam(layout, receivers[row / cells_y].distance, 0);
   const int reach = (int)fmin(ceil(beam.reach - 0.5f), (float)cells_x);
@@ -114,7 +115,7 @@ static SEPARATE void try_lattice(const FacetSearch* s, global const float* smear
 // eighth column, then of the cells about each; of the parts' the better one. x is infinite where none was reachable.
 __kernel void propose(SEARCH_ARGUMENTS, __global const float* smeared, __global const uint* order, uint first,
                       uint count, uint2 seed, uint sweep, __global float2* candidates) {
-  const uint i = (uint)get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const uint index = order[first + i];
   FacetSearch s = {layout, receivers, lack, facet_at(layout, incoming, heights, index)};

@@ -2,6 +2,7 @@
 // Facets of a batch look for better slopes among the light of the others, all at once. Then they take them, those first
 // that share no cell with a facet before them: so that each gains as much as it would alone.
 #include "kernels/inverse/search.h"
+#include "kernels/tracing/work_item.h"
 
 // Refining takes so many steps of one length at most, and halves them until they are this part of a cell.
 #define STEPS 2
@@ -56,7 +57,7 @@ static SEPARATE FacetSearch search_of(global const DeviceLayout* layout, global 
 // Facet order[first + i] looks for found[i], first among its candidates; done[i]: it has none that is better.
 __kernel void improve(SEARCH_ARGUMENTS, __global const float2* candidates, __global const uint* order, uint first,
                    uint count, uint2 seed, uint sweep, __global float2* found, __global int* done) {
-  const uint i = (uint)get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const uint index = order[first + i];
   const FacetSearch s = search_of(layout, receivers, incoming, heights, slopes, lack, smoothing, index);
@@ -118,7 +119,7 @@ static SEPARATE bool holds_cells(global const DeviceLayout* layout, const Footpr
 
 __kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, uint count, __global const float2* found,
                     __global const int* done, __global uint* claims, uint turn) {
-  const uint i = (uint)get_global_id(0);
+  const uint i = work_item();
   if (i >= count || done[i]) return;
   const uint index = order[first + i], key = KEY(turn, i);
   const Facet facet = facet_at(layout, incoming, heights, index);
@@ -159,7 +160,7 @@ static SEPARATE void note_lack(global const DeviceLayout* layout, const Footprin
 __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long* light, __global const uint* order,
                    uint first, uint count, __global const float2* found, __global int* done,
                    __global const uint* claims, uint turn) {
-  const uint i = (uint)get_global_id(0);
+  const uint i = work_item();
   if (i >= count || done[i]) return;
   const uint index = order[first + i], key = KEY(turn, i);
   const Facet facet = facet_at(layout, incoming, heights, index);

@@ -4,6 +4,7 @@
 #include "kernels/tracing/background.h"
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/work_item.h"
 
 // 1: no glass disperses light.
 #ifndef NEPHROID_ONE_WAY
@@ -47,7 +48,7 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
                          float film_scale, float film_limit) {
   const World world = WORLD;
   const Background background = {texels, primary_xyz, size};
-  const uint index = (uint)get_global_id(0);
+  const uint index = work_item();
   if (index >= count) return;
   const uint pixel = samples[index].x, frame = samples[index].y;
   const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;

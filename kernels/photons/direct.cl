@@ -3,6 +3,7 @@
 // reaches unbent. Glass and mirrors block those shadow rays: light that passes them belongs to the caustic layer.
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/work_item.h"
 
 // The XYZ radiance that a diffuse surface sends back along the path.
 IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, int reflector,
@@ -51,7 +52,7 @@ __kernel void direct(WORLD_ARGUMENTS,
                      DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,
                      float film_scale, float film_limit) {
   const World world = WORLD;
-  const uint index = (uint)get_global_id(0);
+  const uint index = work_item();
   if (index >= count) return;
   const uint pixel = samples[index].x;
   SET_ASIDE uint frame = samples[index].y;

@@ -7,6 +7,7 @@
 //   L = sum of F / (pi * pi r^2),
 // and what reaches the eye is L times the path's throughput.
 #include "kernels/tracing/film.h"
+#include "kernels/tracing/work_item.h"
 #include "kernels/photons/photon_map.h"
 
 // points: as in view.cl, for pixels[first] and those after it. picture: its number of pixels. radius: the same for all.
@@ -15,7 +16,7 @@ kernel void gather_to_film(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* poin
                            volatile global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
                            __global const uint* pixels, uint picture, uint pass, uint first, uint count, float radius,
                            float film_per_quantum) {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const VisiblePoint point = points[i];
   if (point.group == NO_PHOTON) return;
@@ -36,7 +37,7 @@ kernel void gather_to_film(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* poin
 kernel void gather_to_statistics(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points,
                                  global PixelStatistics* statistics, uint first_pixel, uint count, float alpha,
                                  float unit) {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const VisiblePoint point = points[i];
   if (point.group == NO_PHOTON) return;
@@ -56,7 +57,7 @@ kernel void gather_to_statistics(PHOTON_MAP_ARGUMENTS, global const VisiblePoint
 }
 
 kernel void start_statistics(global PixelStatistics* statistics, uint pixels, float radius2) {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= pixels) return;
   const PixelStatistics start = {radius2, 0.0f, {0.0f, 0.0f, 0.0f}};
   statistics[i] = start;
@@ -66,7 +67,7 @@ kernel void start_statistics(global PixelStatistics* statistics, uint pixels, fl
 // `split` and those after. per_iteration_*: 1 / (pi^2 iterations m^2), m metres a unit of length; 0 for no iterations.
 kernel void add_radiance(global const PixelStatistics* statistics, global float* xyz, uint pixels, uint split,
                          float per_iteration_before, float per_iteration_after) {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= pixels) return;
   const PixelStatistics pixel = statistics[i];
   const float scale = (i < split ? per_iteration_before : per_iteration_after) / pixel.radius2;

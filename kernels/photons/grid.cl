@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sorts photons into the buckets of photon_map.h: count_photons, sum_blocks, scan_blocks, then scatter_photons.
 #include "kernels/photons/photon_map.h"
+#include "kernels/tracing/work_item.h"
 
 // The number of blocks in which the buckets are added up, one a work item.
 #ifndef NEPHROID_SCAN_BLOCKS
@@ -22,7 +23,7 @@ static inline uint bucket_count(PhotonGrid grid) { return grid.bucket_mask + GRI
 // counts: [bucket + 1], zero before.
 kernel void count_photons(global const StoredPhoton* stored, volatile global uint* counts, PhotonGrid grid, uint slots)
 {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= slots) return;
   const StoredPhoton photon = stored[i];
   if (photon.group == NO_PHOTON) return;
@@ -30,7 +31,7 @@ kernel void count_photons(global const StoredPhoton* stored, volatile global uin
 }
 
 kernel void sum_blocks(global const uint* counts, global uint* sums, PhotonGrid grid) {
-  const uint block = get_global_id(0), buckets = bucket_count(grid), length = buckets / NEPHROID_SCAN_BLOCKS + 1u;
+  const uint block = work_item(), buckets = bucket_count(grid), length = buckets / NEPHROID_SCAN_BLOCKS + 1u;
   if (block >= NEPHROID_SCAN_BLOCKS) return;
   const uint first = min(block * length, buckets), last = min(first + length, buckets);
   uint sum = 0;
@@ -40,7 +41,7 @@ kernel void sum_blocks(global const uint* counts, global uint* sums, PhotonGrid 
 
 // Turns counts into the ends of buckets.
 kernel void scan_blocks(global uint* counts, global const uint* sums, PhotonGrid grid) {
-  const uint block = get_global_id(0), buckets = bucket_count(grid), length = buckets / NEPHROID_SCAN_BLOCKS + 1u;
+  const uint block = work_item(), buckets = bucket_count(grid), length = buckets / NEPHROID_SCAN_BLOCKS + 1u;
   if (block >= NEPHROID_SCAN_BLOCKS) return;
   const uint first = min(block * length, buckets), last = min(first + length, buckets);
   uint sum = 0;
@@ -55,7 +56,7 @@ kernel void scan_blocks(global uint* counts, global const uint* sums, PhotonGrid
 // Turns the buckets' ends into their starts. No key matches the eight photons beyond the last.
 kernel void scatter_photons(global const StoredPhoton* stored, volatile global uint* ends, global float* positions,
                             global int* values, PhotonGrid grid, uint slots) {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i < 8) values[ends[bucket_count(grid)] + i] = NO_PHOTON;
   if (i >= slots) return;
   const StoredPhoton photon = stored[i];

@@ -4,6 +4,7 @@
 // on, each adds to the pixel that sees it. Only absorption changes its power: reflectances decide by chance.
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
+#include "kernels/tracing/work_item.h"
 
 // A photon in any direction that the light shines in. everything: one target, about the scene and the lights. An area
 // light's directions are cosine-distributed, each of the same power; emit() has uniform ones, which are noisier.
@@ -104,7 +105,7 @@ indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything, __global cons
   const Receiver receiver = {film_of_iteration(film, iteration, camera.width * camera.height), film_scale, camera};
   OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
-    const uint item = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
+    const uint item = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
     if (item >= count) break;
     const uint number = offset + stride * item;
     const DeviceEmitter emitter = emitters[emitter_of(emitters, emitter_count, number)];

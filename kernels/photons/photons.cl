@@ -5,6 +5,7 @@
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_map.h"
 #include "kernels/photons/stretch.h"
+#include "kernels/tracing/work_item.h"
 
 // 1: photons are guided to where they matter, and that is measured.
 #ifndef NEPHROID_MOMENTS
@@ -67,7 +68,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
   OUTCOMES(outcomes);
   film = film_of_iteration(film, iteration, camera.width * camera.height);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
-    const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
+    const uint number = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= count) break;
     const uint photon = offset + stride * neighbours_follow(number, count);
 #if NEPHROID_STORE

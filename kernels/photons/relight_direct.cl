@@ -4,13 +4,14 @@
 // its own. Before the first pass a survey finds the reflectors that each pixel sees.
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/work_item.h"
 #include "kernels/photons/layers.h"
 
 // Each work item finds the reflector at each fixed place of one pixel, -1 where there is none.
 __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global int* unbent, // [pixel][SURVEY_PLACES]
                      __global int* bent) { // [pixel][SURVEY_PLACES * SURVEY_PATHS]
   const World world = WORLD;
-  const int pixel = (int)get_global_id(0);
+  const int pixel = (int)work_item();
   if (pixel >= camera.width * camera.height) return;
   for (int place = 0; place < SURVEY_PLACES; ++place) {
     const float2 jitter = (float2)(place % 2 == 0 ? 0.25f : 0.75f, place < 2 ? 0.25f : 0.75f);
@@ -44,7 +45,7 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
                      DeviceCamera camera, uint2 seed, uint frame, int first_row, int row_count, float film_scale,
                      float film_limit) {
   const World world = WORLD;
-  const int index = (int)get_global_id(0);
+  const int index = (int)work_item();
   if (index >= row_count * camera.width) return;
   const LayerFilm unbent = LAYER_FILM(unbent, frame), bent = LAYER_FILM(bent, frame);
   const int column = index % camera.width, row = first_row + index / camera.width, pixel = row * camera.width + column;

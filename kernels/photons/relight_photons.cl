@@ -3,6 +3,7 @@
 #include "kernels/photons/layers.h"
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
+#include "kernels/tracing/work_item.h"
 
 // Follows `count` photons offset, offset + stride, ... of a pass. All lamps have 1 W or 1 W m^-2. An emitter's `share`
 // is its cluster's present power in the unit of energy_scale, for the energy counters. Every photon counts alike.
@@ -15,7 +16,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
   const LayerFilm film = LAYER_FILM(film, iteration);
   OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
-    const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
+    const uint number = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= count) break;
     const uint photon = offset + stride * number;
     const PhotonStart start =

@@ -2,12 +2,13 @@
 // Two weighted sums of a film of layers (layers.h): the picture under a light and the draw of its error. The film is
 // read once: first each cell by itself, then each pixel's cells together.
 #include "kernels/photons/layer_types.h"
+#include "kernels/tracing/work_item.h"
 
 // Each work item weighs eight cells of one reflector. rows: halves times layers.
 __kernel void weigh(__global const long* sums, int block_count, int rows, __global const int* reflector_of_block,
                     __global const float* weights,     // [reflector][row][6]: RGB of the one, RGB of the other
                     __global float* weighed) { // [eight cells][6][cell of the eight]
-  const int item = (int)get_global_id(0), block = item / (LAYER_BLOCK / 8), eighth = item % (LAYER_BLOCK / 8);
+  const int item = (int)work_item(), block = item / (LAYER_BLOCK / 8), eighth = item % (LAYER_BLOCK / 8);
   if (block >= block_count) return;
   __global const long* from = sums + (size_t)block * (size_t)rows * LAYER_BLOCK;
   __global const float* weight = weights + (size_t)reflector_of_block[block] * (size_t)rows * 6;
@@ -30,7 +31,7 @@ __kernel void weigh(__global const long* sums, int block_count, int rows, __glob
 __kernel void gather_cells(__global const int* first, __global const LayerCell* cells, __global const float* weighed,
                            int pixel_count,
                            __global float* pictures) { // [2][pixel][3]
-  const int pixel = (int)get_global_id(0);
+  const int pixel = (int)work_item();
   if (pixel >= pixel_count) return;
   float sums[6] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
   for (int i = first[pixel]; i < first[pixel + 1]; ++i) {

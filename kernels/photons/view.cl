@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Paths from the eye through glass and mirrors to the diffuse surface whose photons they gather (gather.cl).
 #include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/work_item.h"
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_map.h"
 
@@ -59,7 +60,7 @@ __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global 
                    DeviceCamera camera, uint2 seed, uint pass, uint sample, uint place, uint path_count, int cluster,
                    int object_count, __global const uint* pixels, uint first, uint count) {
   const World world = WORLD;
-  const uint index = (uint)get_global_id(0);
+  const uint index = work_item();
   if (index >= count) return;
   const uint pixel = pixels[first + index];
   const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;

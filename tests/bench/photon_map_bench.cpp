@@ -19,9 +19,10 @@ constexpr float radius = 0.00745f;
 
 const char* const source = R"(
 #include "kernels/photons/photon_map.h"
+#include "kernels/tracing/work_item.h"
 kernel void gather_all(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, global float4* sums, uint count)
 {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const PhotonMap map = PHOTON_MAP;
   const VisiblePoint p = points[i];

@@ -5,6 +5,7 @@
 #include "tests/support/child.h"
 
 #include <cctype>
+#include <numeric>
 
 namespace nephroid::compute_test {
 
@@ -99,6 +100,22 @@ TEST_F(EditedKernels, RunWithIncludesDefinesAndRoundedSizes) {
     Program program(context, "test.cl", {{"OFFSET", std::to_string(offset)}});
     program.kernel("fill").run(a.size(), 64, {{"a", a}, {"first", 4}, {"count", 100u}});
     EXPECT_EQ(a.read(), std::vector<int>(100, 8 + offset + 64));
+  }
+}
+
+TEST_F(EditedKernels, HaveEachItemOfALongLaunchOnce) {
+  std::ifstream work_item(NEPHROID_SOURCE_DIR "/kernels/tracing/work_item.h");
+  write("test.cl", std::string(std::istreambuf_iterator<char>(work_item), {}) +
+                       "kernel void visit(global int* visits, uint count)\n"
+                       "{ const uint i = work_item(); if (i < count) visits[i] += i + 1; }\n");
+  const Context context = open();
+  Program program(context, "test.cl");
+  for (const std::uint32_t count : {32767u, 65535u, 65537u, 1000001u}) {
+    auto visits = compute::zeroed<int>(context, "visits", count);
+    program.kernel("visit").run(count, 48, {{"visits", visits}, {"count", count}});
+    std::vector<int> once(count);
+    std::iota(once.begin(), once.end(), 1);
+    EXPECT_EQ(visits.read(), once);
   }
 }
 

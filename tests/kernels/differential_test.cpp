@@ -15,6 +15,7 @@ constexpr int steps = 24; // surfaces of a path
 
 const char* const source = R"(#include "kernels/tracing/world.h"
 #include "kernels/tracing/random.h"
+#include "kernels/tracing/work_item.h"
 
 #define STEPS 24
 // What each ray meets: triangle * 4 + (0: ends there, 1: reflected, 2: transmitted), and place, direction and their derivatives after that.
@@ -22,7 +23,7 @@ __kernel void follow(WORLD_ARGUMENTS, __global const float* rays, __global const
                      __global int* lengths, __global float* states, uint count)
 {
   const World world = WORLD;
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   Path path = {vload3(2 * i, rays), vload3(2 * i + 1, rays), NEPHROID_NO_PRIMITIVE, {0}, no_losses(), 0.0f};
   const Band band = whole_cluster(clusters[i]);

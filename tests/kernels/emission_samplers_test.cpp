@@ -15,9 +15,10 @@ constexpr const char* source = R"(
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/light.h"
 #include "kernels/tracing/emission.h"
+#include "kernels/tracing/work_item.h"
 kernel void sample(global const DeviceTarget* targets, int target_count, float4 from, uint2 seed, global float4* out, uint count)
 {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   Emission photon;
   const float steradians = sample_targets(targets, target_count, from.xyz, random4(seed, 0u, i, 0u, 0u), &photon);
@@ -28,7 +29,7 @@ typedef struct {
 } Sent;
 kernel void emissions(DeviceLight light, global const DeviceTarget* targets, DeviceScene scene, uint2 seed, global Sent* out, uint count)
 {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const Emission sent = emit(&light, targets, &scene, random4(seed, 0u, i, 0u, STREAM_PHOTONS), random4(seed, 0u, i, 1u, STREAM_PHOTONS).xy);
   out[i].origin_watts = (float4)(sent.origin, sent.watts);

@@ -38,30 +38,31 @@ const char* const source = R"(
 #include "kernels/tracing/random.h"
 #include "kernels/photons/guide.h"
 #include "kernels/photons/photon_path.h"
+#include "kernels/tracing/work_item.h"
 // How many photons of a pass fall into each of 401 equal parts of their clusters, of emitters of at most `largest` photons.
 __kernel void wavelengths(__global const DeviceEmitter* emitters, int emitter_count, __global const DeviceLight* lights, uint2 seed,
                           uint pass, uint photons, uint largest, volatile __global uint* hits)
 {
-  for (uint i = (uint)get_global_id(0); i < photons; i += (uint)get_global_size(0)) {
+  for (uint i = work_item(); i < photons; i += (uint)get_global_size(0)) {
     const PhotonStart start = photon_start(emitters, emitter_count, lights, seed, pass, 0u, i);
     if (emitters[start.emitter].photon_count <= largest) atomic_inc(hits + (uint)(start.wavelength * 401.0f));
   }
 }
 __kernel void points(__global float4* out, uint2 seed, uint4 sequence_set, uint first, uint count)
 {
-  const uint i = (uint)get_global_id(0);
+  const uint i = work_item();
   if (i < count) out[i] = sobol4(seed, sequence_set.xyz, sequence_set.w, first + i);
 }
 // Point 3 of `count` sequences that follow each other.
 __kernel void over_sequences(__global float4* out, uint2 seed, uint4 sequence_set, uint count)
 {
-  const uint i = (uint)get_global_id(0);
+  const uint i = work_item();
   if (i < count) out[i] = sobol4(seed, sequence_set.xyz + (uint3)(i, 0u, 0u), sequence_set.w, 3u);
 }
 // Moves plain random numbers; xyz: the moved ones, w: the density. w of the numbers must come back as it was.
 __kernel void guided(__global const float* guide, __global float4* out, __global uint* cell, uint seed, uint count)
 {
-  const uint i = (uint)get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   float4 numbers = random4((uint2)(seed, 0u), 0u, i, 0u, STREAM_PHOTONS);
   const float w = numbers.w;
@@ -72,7 +73,7 @@ __kernel void guided(__global const float* guide, __global float4* out, __global
 // Moves the numbers that it is given.
 __kernel void moved(__global const float* guide, __global float4* numbers, uint count)
 {
-  const uint i = (uint)get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   float4 of_item = numbers[i];
   const Guided guided = guide_numbers(guide, &of_item);

@@ -207,10 +207,11 @@ TEST(Photons, SameSeedSameBitsAnotherSeedNot) {
 
 const char* const source = R"(
 #include "kernels/photons/photon_map.h"
+#include "kernels/tracing/work_item.h"
 typedef long4 Sum;
 kernel void gather_all(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, global Sum* sums, uint count)
 {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const PhotonMap map = PHOTON_MAP;
   const VisiblePoint p = points[i];

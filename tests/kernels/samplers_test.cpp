@@ -14,21 +14,22 @@ using shared::float4;
 constexpr const char* source = R"(
 #include "kernels/tracing/random.h"
 #include "kernels/photons/direct.cl"
+#include "kernels/tracing/work_item.h"
 
 kernel void uniforms(uint2 seed, uint pass, uint block, uint stream, global float4* out, uint count)
 {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i < count) out[i] = random4(seed, pass, i, block, stream);
 }
 kernel void area_places(DeviceLight light, uint2 seed, global float4* out, uint count)
 {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i < count) out[i] = (float4)(area_point(&light, random4(seed, 0u, i, 1u, STREAM_PHOTONS).xy), 0.0f);
 }
 // Item i is frame i / pixels of pixel i % pixels.
 kernel void camera_directions(DeviceCamera camera, uint2 seed, global float4* out, uint count)
 {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const uint pixels = (uint)(camera.width * camera.height), pixel = i % pixels;
   const float4 jitter = random4(seed, i / pixels, pixel, 0u, STREAM_CAMERA);
@@ -36,13 +37,13 @@ kernel void camera_directions(DeviceCamera camera, uint2 seed, global float4* ou
 }
 kernel void clusters(global const float* cdf, int clusters, uint2 seed, uint frame, uint path, global int* out, uint count)
 {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i < count) out[i] = choose_cluster(cdf, clusters, seed, frame, path, PATHS_THROUGH_GLASS, i, STREAM_CAMERA_CLUSTER);
 }
 // Item i meets interface i % interfaces: (cosine, n before, n after). Bit k of the answer: choice k of four reflects.
 kernel void reflections(global const float4* interfaces, int interface_count, uint2 seed, global int* out, uint count)
 {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const float4 at = interfaces[i % interface_count];
   Surface surface;

@@ -16,10 +16,11 @@ using shared::float4;
 constexpr const char* source = R"(
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/sky.h"
+#include "kernels/tracing/work_item.h"
 kernel void places(global const float* cdf, global const float* colour, DeviceBackground size, uint2 seed, int by_peaks, global float4* out,
                    uint count)
 {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i >= count) return;
   const Sky sky = {cdf, colour, size};
   const SkyPlace drawn = sample_sky(&sky, by_peaks ? cdf_of_peaks(&sky) : sky.texel_cdf, random4(seed, 0u, i, 0u, STREAM_PHOTONS).xy),

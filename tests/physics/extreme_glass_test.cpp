@@ -116,9 +116,10 @@ preset::Preset nested(int count) {
 double transmission_error(double theta_deg, double n, bool turned) {
   const TestKernels kernels(R"(
 #include "kernels/tracing/fresnel.h"
+#include "kernels/tracing/work_item.h"
 kernel void bend(global const float4* direction, global const float4* normal, float n, global float* transmitted)
 {
-  const int i = get_global_id(0);
+  const int i = work_item();
   const float cos_i = -dot(direction[i].xyz, normal[i].xyz);
   transmitted[i] = 1.0f - fresnel_reflectance(cos_i, refracted_cosine(cos_i, 1.0f / n), 1.0f, n);
 }

@@ -194,9 +194,10 @@ TEST(BrewstersAngle, HalfOfTheOtherPolarisationIsReflected) {
 TEST(BrewstersAngle, TheKernelReflectsNothingPolarisedInThePlane) {
   const TestKernels kernels(R"(
 #include "kernels/tracing/fresnel.h"
+#include "kernels/tracing/work_item.h"
 kernel void reflectances(global const float4* in, global float4* out, uint count)
 {
-  const uint i = get_global_id(0);
+  const uint i = work_item();
   if (i < count) out[i] = (float4)(fresnel_reflectance(in[i].x, refracted_cosine(in[i].x, in[i].y / in[i].z), in[i].y, in[i].z));
 }
 )");

@@ -125,6 +125,14 @@ TEST(House, lines_are_within_120_columns) {
   });
 }
 
+// A long launch has rows (kernels/tracing/work_item.h).
+TEST(House, kernels_number_their_items_by_work_item) {
+  expect_no([](const fs::path& file) {
+    const bool kernel = *file.begin() == "kernels" && file.filename() != "work_item.h";
+    return kernel && text_of(root / file).find("get_global_id") != std::string::npos ? "get_global_id" : "";
+  });
+}
+
 // Several are compiled as one, and a suite runs in one process: a fixture of the same name elsewhere would be
 // another's.
 TEST(House, tests_are_in_a_namespace_of_their_own_and_suites_in_one_file) {
