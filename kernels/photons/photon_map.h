@@ -10,6 +10,7 @@
 //
 // Powers are whole quanta, so a sum does not depend on a bucket's order, which atomic operations decide.
 #include "kernels/photons/photon_map_types.h"
+#include "kernels/tracing/registers.h"
 
 // A search may span this many rows each way, so its radius may be up to 3 cells.
 #define GRID_ROWS 8
@@ -114,7 +115,7 @@ static inline void gather_run(const PhotonMap* map, uint begin, uint end, int ke
 // Adds up the photons of a group in a flat spheroid about a point of a surface, d^2 + 16 (d . n)^2 < r^2. It is as wide
 // as the radius in the tangent plane and a quarter of that along the normal, so that light around an object's corner
 // does not count. radius: at most 3 cells. The kernel is constant: photons count in full.
-static inline Gathered gather_photons(const PhotonMap* map, float3 position, float3 normal, int group, float radius) {
+COMPILED_ONCE Gathered gather_photons(const PhotonMap* map, float3 position, float3 normal, int group, float radius) {
   Gathering g;
   g.position = position;
   g.tilt = 4.0f * normal;

@@ -53,7 +53,7 @@ typedef struct {
 // spread evenly. Its fourth number chooses the cluster and the wavelength in it. It has 32 bits, of which the choice of
 // the cluster takes up to 24; plain random bits below them make the wavelength as fine as any. The halves must be
 // independent, so they have sequences of their own.
-static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, int emitter_count,
+COMPILED_ONCE PhotonStart photon_start(__global const DeviceEmitter* emitters, int emitter_count,
                                        __global const DeviceLight* lights, uint2 seed, uint iteration,
                                        uint first_iteration, uint photon) {
   PhotonStart start;
@@ -138,7 +138,7 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
 }
 
 // Like trace_way, but also works out what is left and its colour. share: of the light's power in the photon's band.
-static inline PhotonEnd trace_photon(const World* world, Source source, const Band* band, float share, Path* path,
+COMPILED_ONCE PhotonEnd trace_photon(const World* world, Source source, const Band* band, float share, Path* path,
                                      uint2 seed, uint iteration, uint photon) {
   PhotonEnd end = trace_way(world, band, path, seed, iteration, photon);
   const bool deposited = end.outcome == OUTCOME_DEPOSITED;

@@ -46,7 +46,7 @@ typedef struct {
 } Splat;
 
 // The pixel that sees a place of a surface that light arrives at.
-static inline Splat splat_at(const World* world, const DeviceCamera* camera, const Surface* surface, uint triangle,
+COMPILED_ONCE Splat splat_at(const World* world, const DeviceCamera* camera, const Surface* surface, uint triangle,
                              float3 arriving) {
   Splat splat = {-1, 0.0f};
   splat.pixel = project_to_pixel(camera, surface->position, surface->geometric, arriving, world->scene.metres_per_unit,

@@ -98,7 +98,7 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
 // Decides how a deposited photon is splatted: as a streak of its cluster; if that is impossible, with jitter, as a
 // streak of its own wavelength; else as a point. The first choice depends on where the whole cluster's light goes and
 // not on the photon's wavelength, so no light is counted twice or lost where a streak would leave the receiver.
-static inline Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
+COMPILED_ONCE Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
                                  const Band* band) {
 #if NEPHROID_DIFFERENTIALS
   const float origin = stretch_origin(world, band);
@@ -141,7 +141,7 @@ typedef struct {
 
 // The splat number i of stretch->count. u in [0, 1) is the same for all: they are spread over the cluster's
 // distribution, and with jitter the first has the photon's own wavelength. False where it does not reach the receiver.
-static inline bool strand_of(const World* world, const PhotonEnd* end, const Path* path, Source source,
+COMPILED_ONCE bool strand_of(const World* world, const PhotonEnd* end, const Path* path, Source source,
                              const Band* band, const Stretch* stretch, int i, float u, Strand* strand) {
   strand->surface = end->surface;
   strand->triangle = end->triangle;

@@ -37,7 +37,7 @@ static inline VisiblePoint nothing_visible(void) {
 }
 
 // Where a path that has hit `hit` ends in a band, which belongs to a part of its cluster. weight is the path's.
-static inline VisiblePoint see(const World* world, Path path, Hit hit, const Band* band, int part, float weight,
+COMPILED_ONCE VisiblePoint see(const World* world, Path path, Hit hit, const Band* band, int part, float weight,
                                int object_count, uint2 seed, uint sample, uint pixel) {
   VisiblePoint point = nothing_visible();
   Surface surface;

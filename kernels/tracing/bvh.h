@@ -16,6 +16,8 @@
 // between two triangles that share an edge (Woop, Benthin and Wald 2013, "Watertight ray/triangle intersection"). Boxes
 // are grown by more than every rounding error of the tests, so the tree loses no primitive. Among hits at the same
 // distance the lowest primitive id wins, so the answer depends on the mesh and the ray alone.
+#include "kernels/tracing/registers.h"
+
 // Entries of the traversal stack: at least Bvh::stack of the tree.
 #ifndef NEPHROID_BVH_STACK
 #define NEPHROID_BVH_STACK 96
@@ -372,7 +374,7 @@ static inline bool bvh_any(global const float* nodes, global const float* blocks
 // The closest hit with t_min < t <= t_max. skip: the triangle or ellipsoid that the ray leaves, or
 // NEPHROID_NO_PRIMITIVE; an ellipsoid is met again on its far side. The direction need not be of unit length, but must
 // not be shorter than 1e-15. t_min may be negative, because a point near its goal defines a ray from afar more exactly.
-static inline Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin,
+COMPILED_ONCE Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin,
                               float3 direction, float t_min, float t_max, uint skip) {
   float3 nearest;
   const float way = bvh_approach(origin, direction, &nearest);
@@ -391,7 +393,7 @@ static inline Hit closest_hit(global const float* nodes, global const float* blo
 }
 
 // Whether anything but `skip` (as in closest_hit) is hit with 0 < t <= t_max.
-static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin,
+COMPILED_ONCE bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin,
                            float3 direction, float t_max, uint skip) {
   float3 nearest;
   const float way = bvh_approach(origin, direction, &nearest);

@@ -3,6 +3,7 @@
 // in proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly
 // inside it. Where `count` targets overlap, each could have made a photon: its density is count / (sum of all).
 #include "kernels/tracing/light.h"
+#include "kernels/tracing/registers.h"
 
 typedef struct {
   float3 origin, direction; // the photon flies along origin + t direction, t > -behind
@@ -159,7 +160,7 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
 }
 
 // targets: the whole table. light: the environment as source_of (world.h) turns it into a light for one photon.
-static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
+COMPILED_ONCE Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
                             float4 random, float2 place) {
   targets += light->first_target;
   if (is_light(light, LIGHT_DIRECTIONAL) || is_light(light, LIGHT_ENVIRONMENT))

@@ -52,7 +52,7 @@ static inline uint4 reverse_bits4(uint4 x) {
 }
 
 // Point `index` of four dimensions, in units of 2^-32. sequence: its purpose. Sets of one sequence are independent.
-static inline uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index) {
+COMPILED_ONCE uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index) {
   const uint4 key = philox4x32((uint4)(sequence, set << 16 | STREAM_SOBOL), seed);
   // Every set but the first shuffles the order of its points by a key of its own, so that sets are not paired alike.
   uint shuffled = index;

@@ -1,5 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Means to save registers, which are few on a GPU. They do nothing elsewhere.
+// Which functions are inlined, and means to save registers, which are few on a GPU and do nothing elsewhere.
+// COMPILED_ONCE: a large function that is called once a path or a ray. PoCL compiles a kernel three times, for three
+// ways to launch it, with all that is inlined in it, and a function of its own once.
+#if defined(NEPHROID_CPU) && defined(POCL_DEVICE_ADDRESS_BITS)
+#define COMPILED_ONCE static __attribute__((noinline))
+#else
+#define COMPILED_ONCE static inline
+#endif
+
 // For a large function that takes a World, which it would need in memory without inlining.
 #define IN_PLACE static inline __attribute__((always_inline))
 

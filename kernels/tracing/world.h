@@ -76,7 +76,7 @@ static inline __global const float* index_of_band(const World* world, const Band
 
 // The band of a path in a cluster. light: where its light comes from, or light_count for a path that any light may
 // reach. u: in [0, 1), picks a wavelength by the worth of the light (app/tracing/scales.h).
-static inline Band choose_band(const World* world, int light, int cluster, float u) {
+COMPILED_ONCE Band choose_band(const World* world, int light, int cluster, float u) {
 #if NEPHROID_JITTER
   const int first = world->tables.cluster_first[cluster], count = world->tables.cluster_first[cluster + 1] - first;
   const int members = world->tables.cluster_first[world->scene.cluster_count];
