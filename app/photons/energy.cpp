@@ -36,8 +36,7 @@ void add_parts(const std::string& group, const EnergyBalance& energy, job::Snaps
 OutcomeWatts outcome_watts(std::span<const std::int64_t> quanta, double quanta_per_watt, double passes) {
   OutcomeWatts watts{};
   for (std::size_t i = 0; i < watts.size(); ++i)
-    watts[i] =
-        i == OUTCOME_REFUSED ? static_cast<double>(quanta[i]) : tracing::mean_watts(quanta[i], quanta_per_watt, passes);
+    watts[i] = is_count(i) ? static_cast<double>(quanta[i]) : tracing::mean_watts(quanta[i], quanta_per_watt, passes);
   return watts;
 }
 
@@ -45,14 +44,21 @@ EnergyBalance balance_of(const OutcomeWatts& watts) {
   EnergyBalance energy;
   for (const Part& part : parts) energy.*part.watts = watts[part.outcome];
   energy.refused_contributions = static_cast<std::uint64_t>(watts[OUTCOME_REFUSED]);
+  energy.segments = static_cast<std::uint64_t>(watts[OUTCOME_SEGMENTS]);
   return energy;
 }
 
-void add_energy(const Energy& energy, job::Snapshot& snapshot) {
+void add_energy(const Energy& energy, std::uint64_t photons, job::Snapshot& snapshot) {
   const std::uint64_t refused = energy.caustics.refused_contributions;
   add_parts("energy", energy.caustics, snapshot);
   snapshot.scalars.push_back({"energy", "refused_contributions", static_cast<double>(refused)});
   if (energy.indirect) add_parts("indirect_energy", *energy.indirect, snapshot);
+  if (photons > 0) {
+    const auto segments =
+        static_cast<double>(energy.caustics.segments + (energy.indirect ? energy.indirect->segments : 0));
+    snapshot.scalars.push_back({"paths", "segments", segments});
+    snapshot.scalars.push_back({"paths", "segments_per_photon", segments / static_cast<double>(photons)});
+  }
   if (refused > 0)
     snapshot.warnings.push_back(fmt::format(
         "{} too bright for the film and missing from the picture; move the camera or the light away from the "

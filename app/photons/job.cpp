@@ -112,7 +112,7 @@ public:
         {}};
     for (std::size_t s = 0; s < passes_.stages().size(); ++s)
       passes_.stages()[s].stage->report(passes_.complete(), passes_.had_turn(s), energy);
-    add_energy(energy, snapshot);
+    add_energy(energy, passes_.photons(), snapshot);
     return snapshot;
   }
 

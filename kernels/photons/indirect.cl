@@ -57,13 +57,14 @@ static inline bool show(const World* world, const Receiver* receiver, const Phot
   return film_add_dithered(receiver->film, splat.pixel, xyz * scale, receiver->scale, FILM_LIMIT, dither);
 }
 
-// Follows a photon to its end and returns its OUTCOME_*. Counts what the film refuses.
+// Follows a photon to its end and returns its OUTCOME_*. *segments: rays of its path. Counts what the film refuses.
 static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed,
-                                uint iteration, uint number, Outcomes outcomes) {
+                                uint iteration, uint number, int* segments, Outcomes outcomes) {
   Path* path = &photon->path;
   bool met_diffuse = false;
   for (int surface_number = 0;; ++surface_number) {
     const Hit hit = next_hit(world, path);
+    *segments = surface_number + 1;
     if (hit.primitive == NEPHROID_NO_PRIMITIVE) return OUTCOME_ESCAPED;
     const Surface surface = surface_at(&world->geometry, hit);
     const DeviceMaterial material = material_of(world, surface.object);
@@ -125,9 +126,11 @@ indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything, __global cons
         band.weight,
         source.light,
         source.rgb};
-    const int outcome = follow_photon(&world, &receiver, &photon, seed, iteration, number, outcomes);
+    int segments;
+    const int outcome = follow_photon(&world, &receiver, &photon, seed, iteration, number, &segments, outcomes);
     const Band end = band_of(&photon);
-    count_photon(outcomes, outcome, photon.watts * band_share(&world, light_of(&photon), &end, 0.0f) * energy_scale,
+    count_photon(outcomes, outcome, segments,
+                 photon.watts * band_share(&world, light_of(&photon), &end, 0.0f) * energy_scale,
                  wavelength_left(&world.tables, &photon.path.losses, photon.wavelength));
   }
   add_outcomes(energy, outcomes);

@@ -10,12 +10,14 @@
 #define NEPHROID_PHOTONS_PER_ITEM 1
 #endif
 
-// Counts the outcome, OUTCOME_*, of a photon of `power` quanta, of which `left` (0..1) came to its end.
-static inline void count_photon(Outcomes outcomes, int outcome, float power, float left) {
+// Counts the outcome, OUTCOME_*, of a photon of `power` quanta, of which `left` (0..1) came to its end, and its
+// segments.
+static inline void count_photon(Outcomes outcomes, int outcome, int segments, float power, float left) {
   const long quanta = convert_long_rte(power), rest = left >= 1.0f ? quanta : convert_long_rte((float)quanta * left);
   add_outcome(outcomes, OUTCOME_EMITTED, quanta);
   add_outcome(outcomes, outcome, rest);
   add_outcome(outcomes, OUTCOME_ABSORBED, quanta - rest);
+  add_outcome(outcomes, OUTCOME_SEGMENTS, segments);
 }
 
 // The last emitter that begins at this photon or before it, by bisection.
@@ -96,6 +98,7 @@ COMPILED_ONCE PhotonStart photon_start(__global const DeviceEmitter* emitters, i
 // A photon's end: where it ended, and how much of its power was left.
 typedef struct {
   int outcome;     // OUTCOME_*
+  int segments;    // rays of its path
   float left;      // 0..1
   Surface surface; // the surface of a deposit
   uint triangle;
@@ -113,6 +116,7 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
   SET_ASIDE float4 choices = (float4)(0.0f);
   for (int surface_number = 0; surface_number <= world->scene.max_surfaces; ++surface_number) {
     const Hit hit = next_hit(world, path);
+    end.segments = surface_number + 1;
     if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
       end.outcome = met_caustic_object ? OUTCOME_ESCAPED : OUTCOME_MISSED;
       break;

@@ -132,7 +132,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
       add_exactly(guide_moments + emitter.light * GUIDE_CELLS + guided.cell, moment);
     }
 #endif
-    count_photon(outcomes, end.outcome, watts * share * energy_scale, end.left);
+    count_photon(outcomes, end.outcome, end.segments, watts * share * energy_scale, end.left);
   }
   add_outcomes(energy, outcomes);
 }

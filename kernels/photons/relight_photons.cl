@@ -39,8 +39,8 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
                      FILM_LIMIT, mean_reflectance + emitter.cluster * scene.reflector_count, start.emission.w))
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
     }
-    count_photon(outcomes, end.outcome, emission.watts / (float)emitter.photon_count * emitter.share * energy_scale,
-                 left);
+    count_photon(outcomes, end.outcome, end.segments,
+                 emission.watts / (float)emitter.photon_count * emitter.share * energy_scale, left);
   }
   add_outcomes(energy, outcomes);
 }

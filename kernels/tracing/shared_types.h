@@ -53,7 +53,8 @@ struct alignas(8) uint2 {
 #define OUTCOME_ESCAPED 4   // left the scene after glass or a mirror
 #define OUTCOME_LOST 5      // met max_surfaces interfaces, or more than MEDIA_DEPTH nested media
 #define OUTCOME_REFUSED 6   // a plain count: film contributions too large for the film's fixed point
-#define OUTCOME_COUNT 7
+#define OUTCOME_SEGMENTS 7  // a plain count: rays that the photons' paths are made of
+#define OUTCOME_COUNT 8
 
 typedef struct {
   int type;       // MATERIAL_*

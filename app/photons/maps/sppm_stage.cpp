@@ -137,8 +137,7 @@ public:
           outcome_watts(world_.context.all_reduced_sum(runs_[static_cast<std::size_t>(run)].energy),
                         world_.tables.energy_scale, count);
       const double share = random_ ? cluster_count() : 1; // a run that all clusters share draws one of them for all
-      for (std::size_t i = 0; i < watts.size(); ++i)
-        watts[i] += i == OUTCOME_REFUSED ? run_watts[i] : share * run_watts[i];
+      for (std::size_t i = 0; i < watts.size(); ++i) watts[i] += is_count(i) ? run_watts[i] : share * run_watts[i];
     }
     energy.caustics = balance_of(watts);
   }

@@ -3,6 +3,7 @@
 
 #include "base/counted.h"
 #include "photons/clusters/scene_clusters.h"
+#include "photons/energy.h"
 
 #include <fmt/format.h>
 
@@ -309,7 +310,7 @@ void change_light(Relighting& relighting, StageContext& world, LayerLight light)
   world.tables.energy_scale = layer_energy_scale(relighting.light, world.tables);
   std::vector<std::int64_t> sums = world.context.all_reduced_sum(world.energy);
   for (int outcome = 0; outcome < OUTCOME_COUNT; ++outcome)
-    if (outcome != OUTCOME_REFUSED) sums[static_cast<std::size_t>(outcome)] = 0;
+    if (!is_count(static_cast<std::size_t>(outcome))) sums[static_cast<std::size_t>(outcome)] = 0;
   world.energy.write(sums);
 }
 
