@@ -18,6 +18,9 @@ inline constexpr Choice<photons::Settings::Estimator> choices<photons::Settings:
      "Splats where the camera sees the receiver directly, photon maps elsewhere."},
     {photons::Settings::Estimator::splat, "splat",
      "Splats only: what is seen through glass or in a mirror has no caustics."},
+    {photons::Settings::Estimator::tiles, "tiles",
+     "Photons on lattices, each splatted as the piece that it stands for; only where the camera sees the receiver "
+     "directly."},
     {photons::Settings::Estimator::sppm, "sppm",
      "Progressive photon mapping, a run of its own for each cluster, as the thesis has it."}};
 

@@ -105,7 +105,7 @@ plan::Decision low_discrepancy_decision(const Settings& settings) {
 plan::Decision differentials_decision(const PlanInput& input) {
   const char* const name = "differentials";
   if (input.settings.relight) return not_in_layers(name, "a layer is a whole cluster's");
-  if (!input.settings.differentials) return not_asked_for(name, name);
+  if (!input.settings.differentials && input.settings.estimator != Settings::Estimator::tiles) return not_asked_for(name, name);
   if (!input.caustics.runs || input.is_sppm()) return {name, false, "nothing is splatted"};
   const tracing::StretchParameter along = tracing::stretch_parameter(input.scene);
   if (along == tracing::StretchParameter::none)
@@ -139,7 +139,9 @@ std::vector<const RunPart*> parts_of(const Settings& settings) {
   const bool sppm = settings.estimator == Settings::Estimator::sppm;
   return {&scene_part,
           settings.relight ? &layered_direct_stage : &direct_stage,
-          settings.relight ? &layered_photon_stage : &photon_stage,
+          settings.relight ? &layered_photon_stage
+          : settings.estimator == Settings::Estimator::tiles ? &tile_stage
+                           : &photon_stage,
           &caustics_part,
           &smoothing_part,
           &omissions_part,

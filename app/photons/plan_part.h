@@ -65,7 +65,7 @@ struct RunPart {
 };
 
 /// The stages, each in its file NAME_stage.cpp.
-extern const RunPart direct_stage, photon_stage, map_stage, sppm_stage, indirect_stage, background_stage;
+extern const RunPart direct_stage, photon_stage, tile_stage, map_stage, sppm_stage, indirect_stage, background_stage;
 /// The stages in their place where layers are kept for another light.
 extern const RunPart layered_direct_stage, layered_photon_stage;
 extern const RunPart relighting_part; ///< relight/layer_film.cpp: what these two share

@@ -18,24 +18,32 @@ static inline float2 place_on_film(const DeviceCamera* camera, float3 position, 
   return (float2)(x * (float)camera->width, y * (float)camera->height);
 }
 
-// The pixel that sees `position`, or -1; *weight becomes the irradiance-to-pixel factor in m^-2: a flux F deposited
+// Whether the camera sees the side of `position` that light arrives on; *weight becomes the irradiance-to-pixel factor in m^-2: a flux F deposited
 // there adds F reflectance / pi * weight to the pixel's radiance.
 // A pixel's value is the mean of the radiance over its area A on the plane at distance 1, so F enters as F dq / (dA A),
 // with dq / dA = cos(theta) distance / z^3 (theta at the surface, z along the view axis).
-static inline int project_to_pixel(const DeviceCamera* camera, float3 position, float3 geometric, float3 arriving,
-                                   float metres_per_unit, float* weight) {
+static inline bool project_to_film(const DeviceCamera* camera, float3 position, float3 geometric, float3 arriving,
+                                   float metres_per_unit, float2* place, float* weight) {
   const float3 to_camera = camera->position.xyz - position;
   const float cos_camera = dot(to_camera, geometric), cos_arriving = -dot(arriving, geometric);
-  if (!(cos_camera * cos_arriving > 0.0f)) return -1; // the camera sees its other side
+  if (!(cos_camera * cos_arriving > 0.0f)) return false; // the camera sees its other side
   float z;
-  const float2 place = place_on_film(camera, position, &z);
-  if (!(z > 0.0f)) return -1;
-  if (!(place.x >= 0.0f && place.x < (float)camera->width && place.y >= 0.0f && place.y < (float)camera->height))
-    return -1;
+  *place = place_on_film(camera, position, &z);
+  if (!(z > 0.0f)) return false;
   const float pixel_area = 4.0f * camera->tan_x * camera->tan_y / ((float)camera->width * (float)camera->height);
   const float depth = z * metres_per_unit;
   // cos_camera already is cos(theta) times the distance.
   *weight = fabs(cos_camera) / (z * depth * depth * pixel_area);
+  return true;
+}
+
+// The pixel that sees `position`, or -1; *weight as above.
+static inline int project_to_pixel(const DeviceCamera* camera, float3 position, float3 geometric, float3 arriving,
+                                   float metres_per_unit, float* weight) {
+  float2 place;
+  if (!project_to_film(camera, position, geometric, arriving, metres_per_unit, &place, weight)) return -1;
+  if (!(place.x >= 0.0f && place.x < (float)camera->width && place.y >= 0.0f && place.y < (float)camera->height))
+    return -1;
   return (int)place.y * camera->width + (int)place.x;
 }
 

@@ -76,16 +76,13 @@ static inline float3 normal_differential(const DevicePrimitive* primitive, float
 
 // Carries the derivatives to a surface that the path meets at `distance`.
 static inline void differential_to_surface(Differential* d, float3 direction, float distance, const Surface* surface) {
-#if NEPHROID_DIFFERENTIALS
   d->position = transferred(d, direction, distance, surface->geometric);
-#endif
 }
 
 // Carries them across a bend at that surface. direction: before it. n_i, n_t and their n': equal at a mirror.
 static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint primitive,
                                              const Surface* surface, float3 direction, const Bend* bend, float n_i,
                                              float n_t, float d_n_i, float d_n_t) {
-#if NEPHROID_DIFFERENTIALS
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   float3 d_normal = (float3)(0.0f);
   const DevicePrimitive met = geometry->primitives[primitive];
@@ -96,5 +93,4 @@ static inline void differential_through_bend(Differential* d, const Geometry* ge
   d->direction = bend->transmitted ? refracted_differential(direction, d->direction, bend->normal, d_normal, eta,
                                                             (d_n_i - eta * d_n_t) / n_t)
                                    : reflected_differential(direction, d->direction, bend->normal, d_normal);
-#endif
 }

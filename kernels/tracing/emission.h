@@ -2,6 +2,7 @@
 // Photons sent towards the caustic objects only. Every object has a bounding sphere, a target; a photon picks a target
 // in proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly
 // inside it. Where `count` targets overlap, each could have made a photon: its density is count / (sum of all).
+#include "kernels/tracing/differential.h"
 #include "kernels/tracing/light.h"
 #include "kernels/tracing/registers.h"
 
@@ -167,4 +168,84 @@ COMPILED_ONCE Emission emit(const DeviceLight* light, __global const DeviceTarge
     return emit_directional(light, targets, scene, random);
   if (is_light(light, LIGHT_AREA)) return emit_from_area(light, targets, random, place);
   return emit_from_point(light, targets, random);
+}
+
+// Where a photon of a lattice starts. disc: its place in the square [-1, 1] x [-1, 1], of which the unit disc stands for
+// the target of that number, or for the cone of a spot (-1): a disc of equal areas (Lambert's map), or the target's
+// shadow. d: derivatives by the place. The density is that of `emit` with as many photons in the disc as it sends there.
+static inline Emission emit_on_lattice(const DeviceLight* light, __global const DeviceTarget* targets,
+                                       const DeviceScene* scene, int target, float2 disc, float2 place,
+                                       Differential d[2]) {
+  targets += light->first_target;
+  const int target_count = light->target_count;
+  Emission emission = {light->position.xyz, light->direction.xyz, 0.0f, 0.0f};
+  if (is_light(light, LIGHT_DIRECTIONAL) || is_light(light, LIGHT_ENVIRONMENT)) {
+    float3 axis[2];
+    make_frame(light->direction.xyz, &axis[0], &axis[1]);
+    const float4 sphere = targets[target].centre_radius;
+    emission.origin = sphere.xyz + sphere.w * (disc.x * axis[0] + disc.y * axis[1]);
+    emission.behind = scene->outside_distance;
+    float sum = 0.0f;
+    int count = 0;
+    for (int i = 0; i < target_count; ++i) {
+      const float3 way = emission.origin - targets[i].centre_radius.xyz;
+      const float3 aside = way - dot(way, emission.direction) * emission.direction;
+      const float radius2 = targets[i].centre_radius.w * targets[i].centre_radius.w;
+      sum += radius2;
+      if (i == target || dot(aside, aside) <= radius2) ++count;
+    }
+    for (int i = 0; i < 2; ++i) {
+      d[i].position = sphere.w * axis[i];
+      d[i].direction = (float3)(0.0f);
+    }
+    const float square_metres = PI_F * sum * scene->metres_per_unit * scene->metres_per_unit;
+    emission.watts = light->radiometric * square_metres / (float)count;
+    return emission;
+  }
+  const float3 from = is_light(light, LIGHT_AREA) ? area_point(light, place) : light->position.xyz;
+  float3 axis = light->direction.xyz, x, y;
+  float one_minus_cos = light->one_minus_cos, distance = 0.0f;
+  if (target >= 0) {
+    const float3 way = targets[target].centre_radius.xyz - from;
+    distance = length(way);
+    if (distance > 0.0f) axis = way / distance;
+    one_minus_cos = one_minus_cos_of(targets[target].centre_radius, from);
+  }
+  make_frame(axis, &x, &y);
+  const float2 in_disc = disc;
+  const float radius2 = dot(in_disc, in_disc), below = one_minus_cos * radius2;
+  const float stretch = sqrt(one_minus_cos * (2.0f - below)); // sine of the angle over the radius
+  const float3 outwards = disc.x * x + disc.y * y, aside = stretch * outwards;
+  const bool is_far = target >= 0 && one_minus_cos <= 1e-3f; // as in aim
+  emission.direction = normalize(aside + axis * (1.0f - below));
+  emission.origin = from;
+  if (is_far) {
+    emission.behind = distance / (1.0f - below);
+    emission.origin = targets[target].centre_radius.xyz + emission.behind * aside;
+  }
+  for (int i = 0; i < 2; ++i) {
+    const float along = i == 0 ? disc.x : disc.y, d_below = 2.0f * one_minus_cos * along;
+    const float3 d_aside =
+        stretch * (i == 0 ? x : y) - outwards * (one_minus_cos * one_minus_cos * along / stretch);
+    d[i].direction = d_aside - d_below * axis;
+    d[i].position = is_far ? emission.behind * (d_aside + aside * (d_below / (1.0f - below))) : (float3)(0.0f);
+  }
+  if (target < 0) {
+    emission.watts = light->radiometric;
+    return emission;
+  }
+  float sum = 0.0f;
+  int count = 0;
+  for (int i = 0; i < target_count; ++i) {
+    sum += one_minus_cos_of(targets[i].centre_radius, from);
+    if (i == target || meets_sphere(targets[i].centre_radius, from, &emission)) ++count;
+  }
+  const float steradians = 2.0f * PI_F * sum / (float)count;
+  if (is_light(light, LIGHT_POINT))
+    emission.watts = light->radiometric * steradians / (4.0f * PI_F);
+  else if (is_light(light, LIGHT_AREA))
+    emission.watts = fmax(dot(emission.direction, light->direction.xyz), 0.0f) * light->radiometric / PI_F * steradians;
+  else if (in_spot(light, emission.direction))
+    emission.watts = light->radiometric * steradians / light->solid_angle;
+  return emission;
 }

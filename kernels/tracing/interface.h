@@ -37,6 +37,7 @@ static inline bool cross_interface(Media* media, const Surface* surface, __globa
   if (!bends) { // nothing changes: one medium hides the other, or both are the same
     bend->direction = direction;
     bend->transmitted = bend->straight = true;
+    bend->reflectance = 0.0f;
   } else
     *bend = bend_at_surface(direction, surface, n_i, n_t, choice);
   bend->near_material = near_material;

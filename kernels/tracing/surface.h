@@ -139,6 +139,7 @@ typedef struct {
   float3 normal;    // the normal of the bend: unit, on the side that the ray came from
   int near_material; // materials before and beyond an interface; -1: air
   int far_material;
+  float reflectance; // Fresnel's; 1 at a mirror and where all is reflected
   bool transmitted;
   bool straight; // nothing bent it: the normal is not set
 } Bend;
@@ -152,7 +153,8 @@ static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t
   const float cos_i = clamp(-dot(direction, normal), 0.0f, 1.0f);
   const float eta = n_i / n_t;
   const float cos_t = refracted_cosine(cos_i, eta);
-  bend.transmitted = cos_t >= 0.0f && !(choice < fresnel_reflectance(cos_i, cos_t, n_i, n_t));
+  bend.reflectance = cos_t >= 0.0f ? fresnel_reflectance(cos_i, cos_t, n_i, n_t) : 1.0f;
+  bend.transmitted = cos_t >= 0.0f && !(choice < bend.reflectance);
   bend.direction = bend.transmitted ? refract_through(direction, normal, cos_i, cos_t, eta)
                                     : reflect_about(direction, normal, cos_i);
   return bend;

@@ -25,6 +25,11 @@ typedef struct {
   {{GEOMETRY_TABLES(TABLE_VALUE) scene.root}, OBJECT_TABLES(TABLE_VALUE) {WAVELENGTH_TABLES(TABLE_VALUE)}, \
    STRETCH_TABLES(TABLE_VALUE) {SKY_TABLES(TABLE_VALUE) scene.sky_size}, scene}
 
+// 1: paths carry how they move with the place in the lattice that they start from.
+#ifndef NEPHROID_TILES
+#define NEPHROID_TILES 0
+#endif
+
 typedef struct {
   float3 origin, direction;
   uint skip;   // the triangle that the path leaves
@@ -32,6 +37,9 @@ typedef struct {
   Losses losses;
   float behind; // the path begins this far behind `origin` (Emission); 0 after its first hit
   Differential differential;
+#if NEPHROID_TILES
+  Differential tile[2]; // a prime is the derivative by the first, the second coordinate in the lattice's square
+#endif
 } Path;
 
 static inline Path path_from_eye(const DeviceCamera* camera, float3 direction) {
@@ -90,9 +98,19 @@ COMPILED_ONCE Band choose_band(const World* world, int light, int cluster, float
 // Carries the path's derivatives to a surface and across the bend there, before `path` itself goes on.
 static inline void bend_differential(const World* world, Path* path, uint triangle, const Surface* surface,
                                      const Band* band, const Bend* bend) {
+  const float distance = dot(surface->position - path->origin, path->direction);
+#if NEPHROID_TILES
+  for (int i = 0; i < 2; ++i) {
+    differential_to_surface(&path->tile[i], path->direction, distance, surface);
+    if (bend->straight) continue;
+    __global const float* n_of = index_of_band(world, band);
+    const int near = bend->near_material, far = bend->far_material;
+    differential_through_bend(&path->tile[i], &world->geometry, triangle, surface, path->direction, bend,
+                              near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far], 0.0f, 0.0f);
+  }
+#endif
 #if NEPHROID_DIFFERENTIALS
-  // The distance is from the path's origin. If that is not the light (Emission), nothing depends on wavelength yet.
-  differential_to_surface(&path->differential, path->direction, distance(path->origin, surface->position), surface);
+  differential_to_surface(&path->differential, path->direction, distance, surface);
   if (bend->straight) return;
   __global const float* n_of = index_of_band(world, band);
   __global const float* slope_of = world->index_slope + band->cluster * world->scene.material_count;
@@ -103,9 +121,11 @@ static inline void bend_differential(const World* world, Path* path, uint triang
 #endif
 }
 
-// Continues the path at a mirror or dielectric. choice: uniform in [0, 1). *n_ratio, false: as in cross_interface.
-static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface,
-                             const DeviceMaterial* material, const Band* band, float choice, float* n_ratio) {
+// Continues the path at a mirror or dielectric. choice: uniform in [0, 1); -1 reflects, 2 goes through where anything
+// does. *n_ratio, false: as in cross_interface.
+static inline bool bend_path_as(const World* world, Path* path, uint triangle, const Surface* surface,
+                                const DeviceMaterial* material, const Band* band, float choice, float* n_ratio,
+                                Bend* made) {
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
   Bend bend;
   *n_ratio = 1.0f;
@@ -125,7 +145,14 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   path->origin = start_on_side(surface, from_outside == bend.transmitted ? -1.0f : 1.0f);
   path->skip = triangle;
   path->behind = 0.0f;
+  *made = bend;
   return true;
+}
+
+static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface,
+                             const DeviceMaterial* material, const Band* band, float choice, float* n_ratio) {
+  Bend bend;
+  return bend_path_as(world, path, triangle, surface, material, band, choice, n_ratio, &bend);
 }
 
 // A light for one photon. The environment becomes, in *light, directional light from one place, drawn by `place`.

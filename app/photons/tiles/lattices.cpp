@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photons/tiles/lattices.h"
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+
+namespace nephroid::photons {
+namespace {
+
+using std::numbers::pi;
+
+class Uniform {
+public:
+  Uniform(shared::uint2 seed, std::int64_t round, unsigned half) {
+    std::seed_seq words{seed.x, seed.y, static_cast<std::uint32_t>(round), half};
+    engine_.seed(words);
+  }
+  std::uint32_t bits() { return engine_(); }
+  double operator()() { return engine_() * 0x1p-32; }
+
+private:
+  std::mt19937 engine_;
+};
+
+glm::dvec3 vector(const shared::float4& v) { return {v.x, v.y, v.z}; }
+
+/// A target of a light, or the cone of a spot, and its part of the photons.
+struct Disc {
+  int target;
+  double part;
+};
+
+/// one_minus_cos_of in kernels/tracing/emission.h.
+double one_minus_cos(const shared::float4& sphere, const glm::dvec3& from) {
+  const double distance2 = glm::dot(vector(sphere) - from, vector(sphere) - from), radius2 = double{sphere.w} * sphere.w;
+  if (distance2 <= radius2) return 2;
+  return radius2 / distance2 / (1 + std::sqrt(1 - radius2 / distance2));
+}
+
+std::vector<Disc> discs_of(const RunTables& tables, const shared::DeviceLight& light, std::array<double, 2> place) {
+  const glm::dvec3 from = light.type == LIGHT_AREA ? vector(light.position) + (place[0] - 0.5) * vector(light.edge_u) +
+                                                         (place[1] - 0.5) * vector(light.edge_v)
+                                                   : vector(light.position);
+  std::vector<Disc> discs;
+  double sum = 0;
+  for (int t = 0; t < light.target_count; ++t) {
+    const shared::float4& sphere = tables.targets[static_cast<std::size_t>(light.first_target + t)].centre_radius;
+    const bool parallel = light.type == LIGHT_DIRECTIONAL || light.type == LIGHT_ENVIRONMENT;
+    discs.push_back({t, parallel ? double{sphere.w} * sphere.w : one_minus_cos(sphere, from)});
+    sum += discs.back().part;
+  }
+  if (light.type == LIGHT_SPOT && light.solid_angle <= 2 * pi * sum) return {{-1, 1}};
+  for (Disc& disc : discs) disc.part /= sum;
+  return discs;
+}
+
+/// How many places of a lamp of a size, or directions of a sky, have a lattice: few show copies of the caustic, with
+/// many a lattice is coarse.
+double places_of(const shared::DeviceLight& light, double photons) {
+  if (light.type != LIGHT_AREA && light.type != LIGHT_ENVIRONMENT) return 1;
+  return std::max(1.0, std::round(std::pow(photons, 0.4)));
+}
+
+/// Into how many parts the wavelengths of a cluster are cut, each with a lattice: a footprint is swept along its part's.
+double parts_of(double photons) {
+  static const double per = std::getenv("PARTS") ? std::atof(std::getenv("PARTS")) : 4096;
+  return std::clamp(std::round(std::sqrt(photons / per)), 1.0, 64.0);
+}
+
+/// The widest footprint in pixels: some 80 times the mean one, so that it shrinks as photons grow, and at most a quarter
+/// of the picture.
+double widest_of(const shared::DeviceCamera& camera, double photons) {
+  return std::min(80 * std::sqrt(double{camera.width * 1.0} * camera.height / photons),
+                  0.25 * std::max(camera.width, camera.height));
+}
+
+} // namespace
+
+Lattices make_lattices(const RunTables& tables, unsigned halves, std::int64_t batches, shared::uint2 seed,
+                       std::int64_t round) {
+  Lattices result;
+  for (unsigned half = 0; half < halves; ++half) {
+    Uniform uniform(seed, round, half);
+    for (const shared::DeviceEmitter& emitter : tables.emitters) {
+      const shared::DeviceLight& light = tables.lights[static_cast<std::size_t>(emitter.light)];
+      const double photons = double{emitter.photon_count * 1.0} * static_cast<double>(batches);
+      const double places = places_of(light, photons);
+      const std::array<double, 3> start{uniform(), uniform(), uniform()};
+      for (double k = 0; k < places; ++k) {
+        const auto step_on = [k](double from, double step) { return std::fmod(from + k * step, 1.0); };
+        const std::array<double, 2> place{step_on(start[0], 0.7548776662466927), step_on(start[1], 0.5698402909980532)};
+        const double parts = places > 1 ? 1 : parts_of(photons), lattices = places * parts;
+        for (double part = 0; part < parts; ++part)
+        for (const Disc& disc : discs_of(tables, light, place)) {
+          const double step = std::sqrt(pi * lattices / (photons * disc.part));
+          shared::DeviceLattice lattice{};
+          lattice.first_photon = result.points;
+          lattice.side = static_cast<std::uint32_t>(std::ceil(2 / step)) + 1;
+          lattice.light = emitter.light;
+          lattice.cluster = emitter.cluster;
+          lattice.target = disc.target;
+          lattice.film_half = half;
+          lattice.step = static_cast<float>(step);
+          lattice.shift_x = static_cast<float>(uniform());
+          lattice.shift_y = static_cast<float>(uniform());
+          lattice.place_x = static_cast<float>(place[0]);
+          lattice.place_y = static_cast<float>(place[1]);
+          lattice.wavelength = static_cast<float>(std::min((part + (places > 1 ? step_on(start[2], 0.6180339887498949) : 0.5)) / parts, 0x1.fffffep-1));
+          lattice.low = static_cast<float>(part / parts);
+          lattice.high = static_cast<float>((part + 1) / parts);
+          lattice.photons = static_cast<float>(photons / parts);
+          lattice.share = emitter.share;
+          lattice.widest = static_cast<float>(widest_of(tables.camera, photons / lattices));
+          lattice.phase = uniform.bits();
+          result.points += lattice.side * lattice.side;
+          result.lattices.push_back(lattice);
+        }
+      }
+    }
+  }
+  return result;
+}
+
+} // namespace nephroid::photons
