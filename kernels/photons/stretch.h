@@ -15,7 +15,7 @@
 #define STRETCH_SHORTEST 0.1f
 // The largest angle, in radians, between the last directions of a streak for which D' predicts them. A rainbow of
 // streaks some three times as wide is off by 3 % (docs/notebook/differentials.md). It excludes the critical angle, too.
-#define STRETCH_WIDEST 0.01f
+#define STRETCH_WIDEST 0.05f
 
 // How a photon is splatted: `count` splats, of its whole cluster's light or its band's, each at its wavelength's place.
 typedef struct {

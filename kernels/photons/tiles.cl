@@ -88,6 +88,7 @@ static inline bool splat_way(const World* world, const DeviceCamera* camera, con
   if (!stretch_over(world, camera, end, path, from_x, to_x, &stretch)) stretch.count = 1;
 #endif
   bool fits = true;
+  const float turn = place_within(photon, 0u).x;
   for (int i = 0; i < stretch.count; ++i) {
 #if NEPHROID_DIFFERENTIALS
     const float part = (lattice->high - lattice->low) / (float)stretch.count, low = lattice->low + part * (float)i;
@@ -95,7 +96,7 @@ static inline bool splat_way(const World* world, const DeviceCamera* camera, con
     if (stretch.count > 1) {
       float x;
       float3 place;
-      stretched_band(world, source.light, band, low + 0.5f * part, &x);
+      stretched_band(world, source.light, band, low + turn * part, &x);
       if (!stretched_place(path, &end->surface, x, &place)) continue;
       strand.surface = end->surface;
       strand.triangle = end->triangle;
