@@ -99,14 +99,15 @@ static inline float2 place_within(uint photon, uint pixel) {
 static inline bool add_footprint(const World* world, volatile __global long* film, const DeviceCamera* camera,
                                  const SeenReceiver* receiver, const FilmFootprint* f, uint photon,
                                  float3 xyz, float scale) {
-  const float3 quanta = xyz * scale;
-  if (!(fabs(quanta.x) <= FILM_LIMIT && fabs(quanta.y) <= FILM_LIMIT && fabs(quanta.z) <= FILM_LIMIT)) return false;
   float2 low = f->corner[0], high = f->corner[0];
   for (int i = 1; i < 4; ++i) {
     low = fmin(low, f->corner[i]);
     high = fmax(high, f->corner[i]);
   }
   const int2 first = convert_int2_rtn(f->middle + low), last = convert_int2_rtn(f->middle + high);
+  if (any(last < 0) || first.x >= camera->width || first.y >= camera->height) return true;
+  const float3 quanta = xyz * scale;
+  if (!(fabs(quanta.x) <= FILM_LIMIT && fabs(quanta.y) <= FILM_LIMIT && fabs(quanta.z) <= FILM_LIMIT)) return false;
   const bool one = all(first == last);
   float part = 0.0f;
   long added[3] = {0, 0, 0};

@@ -76,7 +76,8 @@ double parts_of(double photons) {
 /// The widest footprint in pixels: some 80 times the mean one, so that it shrinks as photons grow, and at most a quarter
 /// of the picture.
 double widest_of(const shared::DeviceCamera& camera, double photons) {
-  return std::min(80 * std::sqrt(double{camera.width * 1.0} * camera.height / photons),
+  static const double cap = std::getenv("CAP") ? std::atof(std::getenv("CAP")) : 80;
+  return std::min(cap * std::sqrt(double{camera.width * 1.0} * camera.height / photons),
                   0.25 * std::max(camera.width, camera.height));
 }
 
@@ -116,7 +117,7 @@ Lattices make_lattices(const RunTables& tables, unsigned halves, std::int64_t ba
           lattice.high = static_cast<float>((part + 1) / parts);
           lattice.photons = static_cast<float>(photons / parts);
           lattice.share = emitter.share;
-          lattice.widest = static_cast<float>(widest_of(tables.camera, photons / lattices));
+          lattice.widest = static_cast<float>(widest_of(tables.camera, double{tables.photons_per_batch * 1.0} * static_cast<double>(batches)));
           lattice.phase = uniform.bits();
           result.points += lattice.side * lattice.side;
           result.lattices.push_back(lattice);
