@@ -8,9 +8,11 @@
 
 // The part of a photon's light below which not every point of the lattice follows what is left: one of 4, then of 16,
 // ... does, and stands for all, as a lattice twice as wide.
-#define TILE_LEAST 0.1f
+#define TILE_LEAST 0.3f
 #define TILE_LEVELS 4
 #define TILE_PENDING 8
+#define COARSE 1.0f
+#define COARSE_PART 0.125f
 
 // A way of a photon that is still to be followed.
 typedef struct {
@@ -19,6 +21,7 @@ typedef struct {
   float stands; // photons that it stands for
   int surfaces;
   bool met; // a caustic object
+  bool is_coarse; // its cell has spanned more than a triangle, so that its footprint is a guess
 } Way;
 
 // The lattice that a point belongs to.
@@ -66,9 +69,17 @@ static inline float3 light_of_part(const World* world, const Losses* losses, Sou
 }
 #endif
 
+// Whether a cell of the lattice is wider than the triangle that its middle meets.
+static inline bool spans_triangles(const Geometry* geometry, uint primitive, const Differential* tile, float size) {
+  const DevicePrimitive met = geometry->primitives[primitive];
+  if (is_ellipsoid(&met) || kind_of(&met) != PRIMITIVE_SMOOTH) return false;
+  const float3 a = size * tile[0].position, b = size * tile[1].position, u = met.edge_u.xyz, v = met.edge_v.xyz;
+  return dot(a, a) + dot(b, b) > COARSE * (dot(u, u) + dot(v, v));
+}
+
 // Splats a way that ends on a diffuse surface. Returns false where a contribution is too large.
 static inline bool splat_way(const World* world, const DeviceCamera* camera, const DeviceLattice* lattice,
-                             const PhotonEnd* end, const Path* path, Source source, const Band* band, float stands,
+                             const PhotonEnd* end, const Path* path, Source source, const Band* band, float stands, bool is_coarse,
                              float watts, __global const uint2* corners, volatile __global long* film,
                              float film_scale, uint photon) {
   const float distance = dot(end->surface.position - path->origin, path->direction), size = lattice->step * sqrt(stands);
@@ -111,7 +122,7 @@ static inline bool splat_way(const World* world, const DeviceCamera* camera, con
     if (!project_to_film(camera, strand.surface.position, strand.surface.geometric, path->direction,
                          world->scene.metres_per_unit, &f.middle, &weight))
       continue;
-    if (!footprint_on_film(camera, strand.surface.position, a, b, lattice->widest, &f, &shrunk)) f.area = 0.0f;
+    if (!footprint_on_film(camera, strand.surface.position, a, b, is_coarse ? COARSE_PART * lattice->widest : lattice->widest, &f, &shrunk)) f.area = 0.0f;
     // Beyond its triangle the receiver goes on, or the footprint shrinks to its middle.
     for (int c = 0; c < 4 && f.area != 0.0f; ++c) {
       const float3 corner = strand.surface.position + (0.5f * shrunk) * ((c == 1 || c == 2 ? a : -a) + (c >= 2 ? b : -b));
@@ -168,7 +179,7 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
     way.path.differential.position = way.path.differential.direction = (float3)(0.0f);
     way.weight = way.stands = 1.0f;
     way.surfaces = 0;
-    way.met = false;
+    way.met = way.is_coarse = false;
     Way pending[TILE_PENDING];
     int waiting = 0;
     uint draws = 0;
@@ -193,6 +204,9 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
           float n_ratio;
           if (bend_path_as(&world, &way.path, hit.primitive, &end.surface, &material, &band, 2.0f, &n_ratio, &bend)) {
             goes_on = true;
+            way.is_coarse = way.is_coarse || spans_triangles(&world.geometry, hit.primitive, way.path.tile,
+                                                             lattice.step * sqrt(way.stands));
+            reflected.is_coarse = way.is_coarse;
             if (bend.transmitted && bend.reflectance > 0.0f) {
               const float4 u = random4(seed, iteration, photon, draws++, STREAM_PHOTONS);
               reflected.weight *= bend.reflectance;
@@ -232,7 +246,7 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
         if (way.path.losses.any) end.left = share != 0.0f ? carried.w / share : 1.0f;
       }
       const float carried_watts = watts * way.weight * way.stands;
-      if (deposited && !splat_way(&world, &camera, &lattice, &end, &way.path, source, &band, way.stands, carried_watts, corners,
+      if (deposited && !splat_way(&world, &camera, &lattice, &end, &way.path, source, &band, way.stands, way.is_coarse, carried_watts, corners,
                                   film_of_iteration(film, lattice.film_half, camera.width * camera.height), film_scale, photon))
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
       count_photon(outcomes, end.outcome, carried_watts * power_share * (lattice.high - lattice.low) * energy_scale, end.left);

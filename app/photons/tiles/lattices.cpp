@@ -69,7 +69,7 @@ double places_of(const shared::DeviceLight& light, double photons) {
 
 /// Into how many parts the wavelengths of a cluster are cut, each with a lattice: a footprint is swept along its part's.
 double parts_of(double photons) {
-  static const double per = std::getenv("PARTS") ? std::atof(std::getenv("PARTS")) : 4096;
+  static const double per = std::getenv("PARTS") ? std::atof(std::getenv("PARTS")) : 65536;
   return std::clamp(std::round(std::sqrt(photons / per)), 1.0, 64.0);
 }
 
