@@ -113,7 +113,7 @@ static inline bool add_footprint(const World* world, volatile __global long* fil
   long added[3] = {0, 0, 0};
   for (int row = max(first.y, 0); row <= min(last.y, camera->height - 1); ++row) {
     // what the footprint has of this row
-    float left = INFINITY, right = -INFINITY;
+    float left = INFINITY, right = -INFINITY, inner_left = -INFINITY, inner_right = INFINITY;
     const float top = (float)row - f->middle.y;
     for (int i = 0; i < 4; ++i) {
       const float2 a = f->corner[i], b = f->corner[(i + 1) & 3];
@@ -122,11 +122,19 @@ static inline bool add_footprint(const World* world, volatile __global long* fil
       const float xa = a.x + (clamp(a.y, top, top + 1.0f) - a.y) * slope, xb = b.x + (clamp(b.y, top, top + 1.0f) - b.y) * slope;
       left = fmin(left, fmin(xa, xb));
       right = fmax(right, fmax(xa, xb));
+      const float turn = (b.y - a.y) * f->area; // on which side of the footprint the edge lies
+      if (turn < 0.0f) inner_left = fmax(inner_left, fmax(xa, xb));
+      if (turn > 0.0f) inner_right = fmin(inner_right, fmin(xa, xb));
     }
+    const bool whole_row = low.y <= top && high.y >= top + 1.0f;
     const int from = max((int)floor(f->middle.x + left), 0), to = min((int)floor(f->middle.x + right), camera->width - 1);
     for (int column = from; column <= to; ++column) {
       float share = 1.0f;
-      if (!one) share = covered(f, (float2)((float)column, (float)row) - f->middle) / f->area;
+      const float start = (float)column - f->middle.x;
+      if (whole_row && start >= inner_left && start + 1.0f <= inner_right)
+        share = 1.0f / fabs(f->area);
+      else if (!one)
+        share = covered(f, (float2)(start, top)) / f->area;
       if (!(share > 0.0f)) continue;
       // rounded sums, so that all pixels together get all of it
       part += share;
