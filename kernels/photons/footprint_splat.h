@@ -95,6 +95,16 @@ static inline float2 place_within(uint photon, uint pixel) {
   return convert_float2((uint2)(start + photon * 0xc13fa9a9u, (start ^ 0x5bd1e995u) + photon * 0x91e10da5u) >> 8) * 0x1p-24f;
 }
 
+// Whether a footprint reaches the picture.
+static inline bool touches_film(const DeviceCamera* camera, const FilmFootprint* f) {
+  float2 low = f->corner[0], high = f->corner[0];
+  for (int i = 1; i < 4; ++i) {
+    low = fmin(low, f->corner[i]);
+    high = fmax(high, f->corner[i]);
+  }
+  return all(f->middle + high >= 0.0f) && all(f->middle + low < (float2)((float)camera->width, (float)camera->height));
+}
+
 // Adds a photon's light to the pixels. xyz: as of one pixel that gets all of it. False: too large for the film.
 static inline bool add_footprint(const World* world, volatile __global long* film, const DeviceCamera* camera,
                                  const SeenReceiver* receiver, const FilmFootprint* f, uint photon,

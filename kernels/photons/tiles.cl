@@ -103,7 +103,6 @@ static inline bool splat_way(const World* world, const DeviceCamera* camera, con
   for (int i = 0; i < stretch.count; ++i) {
 #if NEPHROID_DIFFERENTIALS
     const float part = (lattice->high - lattice->low) / (float)stretch.count, low = lattice->low + part * (float)i;
-    strand.xyz = light_of_part(world, &path->losses, source, band->cluster, reflector, low, low + part);
     if (stretch.count > 1) {
       float x;
       float3 place;
@@ -123,6 +122,9 @@ static inline bool splat_way(const World* world, const DeviceCamera* camera, con
                          world->scene.metres_per_unit, &f.middle, &weight))
       continue;
     if (!footprint_on_film(camera, strand.surface.position, a, b, is_coarse ? COARSE_PART * lattice->widest : lattice->widest, &f, &shrunk)) f.area = 0.0f;
+    if (f.area == 0.0f)
+      for (int c = 0; c < 4; ++c) f.corner[c] = (float2)(0.0f);
+    if (!touches_film(camera, &f)) continue;
     // Beyond its triangle the receiver goes on, or the footprint shrinks to its middle.
     for (int c = 0; c < 4 && f.area != 0.0f; ++c) {
       const float3 corner = strand.surface.position + (0.5f * shrunk) * ((c == 1 || c == 2 ? a : -a) + (c >= 2 ? b : -b));
@@ -134,6 +136,9 @@ static inline bool splat_way(const World* world, const DeviceCamera* camera, con
     if (f.area == 0.0f)
       for (int c = 0; c < 4; ++c) f.corner[c] = (float2)(0.0f);
     if (camera->receiver >= 0 && strand.surface.object != camera->receiver) continue;
+#if NEPHROID_DIFFERENTIALS
+    strand.xyz = light_of_part(world, &path->losses, source, band->cluster, reflector, low, low + part);
+#endif
     const SeenReceiver receiver = {corners, strand.surface.object, strand.surface.position, strand.surface.geometric,
                                    side, strand.surface.offset, strand.triangle};
     const float3 xyz = strand.xyz * (watts * weight * shading_ratio(&strand.surface, path->direction) / PI_F);
