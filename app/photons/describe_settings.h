@@ -19,8 +19,7 @@ inline constexpr Choice<photons::Settings::Estimator> choices<photons::Settings:
     {photons::Settings::Estimator::splat, "splat",
      "Splats only: what is seen through glass or in a mirror has no caustics."},
     {photons::Settings::Estimator::tiles, "tiles",
-     "Photons on lattices, each splatted as the piece that it stands for; only where the camera sees the receiver "
-     "directly."},
+     "As splat, but photons leave a light on a lattice, and each is splatted as the piece of it that it stands for."},
     {photons::Settings::Estimator::sppm, "sppm",
      "Progressive photon mapping, a run of its own for each cluster, as the thesis has it."}};
 

@@ -96,6 +96,8 @@ plan::Decision stray_photons_decision(const PlanInput& input) {
 }
 
 plan::Decision low_discrepancy_decision(const Settings& settings) {
+  if (settings.estimator == Settings::Estimator::tiles)
+    return {"low discrepancy", true, "photons leave the lights on square lattices"};
   return {"low discrepancy", settings.low_discrepancy,
           settings.low_discrepancy ? "photons leave the lights by a scrambled Sobol sequence"
                                    : "spectral.low_discrepancy is false: plain random numbers",
@@ -105,16 +107,17 @@ plan::Decision low_discrepancy_decision(const Settings& settings) {
 plan::Decision differentials_decision(const PlanInput& input) {
   const char* const name = "differentials";
   if (input.settings.relight) return not_in_layers(name, "a layer is a whole cluster's");
-  if (!input.settings.differentials && input.settings.estimator != Settings::Estimator::tiles) return not_asked_for(name, name);
+  const bool tiles = input.settings.estimator == Settings::Estimator::tiles;
+  if (!input.settings.differentials && !tiles) return not_asked_for(name, name);
   if (!input.caustics.runs || input.is_sppm()) return {name, false, "nothing is splatted"};
   const tracing::StretchParameter along = tracing::stretch_parameter(input.scene);
   if (along == tracing::StretchParameter::none)
     return {name, false, "no glass bends one wavelength otherwise than another"};
   return {name, true,
-          fmt::format("splats are stretched along the way that they move with the {}",
+          fmt::format("splats are {} along the way that they move with the {}", tiles ? "swept" : "stretched",
                       along == tracing::StretchParameter::index ? "index of refraction"
                                                                 : "wavelength, for there are several curves"),
-          "/spectral/differentials", true};
+          tiles ? "" : "/spectral/differentials", true};
 }
 
 /// How the photons of caustics are sent, whichever stage splats or gathers them.
@@ -139,9 +142,9 @@ std::vector<const RunPart*> parts_of(const Settings& settings) {
   const bool sppm = settings.estimator == Settings::Estimator::sppm;
   return {&scene_part,
           settings.relight ? &layered_direct_stage : &direct_stage,
-          settings.relight ? &layered_photon_stage
+          settings.relight                                   ? &layered_photon_stage
           : settings.estimator == Settings::Estimator::tiles ? &tile_stage
-                           : &photon_stage,
+                                                             : &photon_stage,
           &caustics_part,
           &smoothing_part,
           &omissions_part,

@@ -432,6 +432,8 @@ plan::Decision smoothing_decision(const PlanInput& input) {
   if (choice == Choice::off) return {name, false, "spectral.smoothing is off"};
   if (!input.caustics.runs) return {name, false, "there are no caustics"};
   if (input.is_sppm()) return {name, false, "spectral.estimator is sppm, which has radii of its own"};
+  if (input.settings.estimator == Settings::Estimator::tiles)
+    return {name, false, "spectral.estimator is tiles, whose footprints are as wide as their cells"};
   if (!input.estimate.runs)
     return {name, false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
   if (input.preset.stop.passes == 1)

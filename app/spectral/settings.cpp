@@ -15,12 +15,14 @@ using preset::Where;
 
 /// A cluster drawn at random needs sppm's pass of its own; a variance is measured where all share a film.
 void check_effort(const photons::Settings& s, const std::string& pointer, const Where& where) {
-  const bool sppm = s.estimator == photons::Settings::Estimator::sppm;
+  const bool sppm = s.estimator == photons::Settings::Estimator::sppm,
+             tiles = s.estimator == photons::Settings::Estimator::tiles;
   if (s.effort == photons::Settings::Effort::random && !sppm)
     throw bad_input(where(preset::child(pointer, "effort")), "random needs the estimator sppm",
                     "expected spectral.estimator to be sppm", "choose that, or another effort");
-  if (s.effort == photons::Settings::Effort::variance && sppm)
-    throw bad_input(where(preset::child(pointer, "effort")), "variance is not measured by the estimator sppm",
+  if (s.effort == photons::Settings::Effort::variance && (sppm || tiles))
+    throw bad_input(where(preset::child(pointer, "effort")),
+                    fmt::format("variance is not measured by the estimator {}", sppm ? "sppm" : "tiles"),
                     "expected another effort or estimator", "choose effort importance, or estimator automatic");
 }
 
@@ -34,6 +36,8 @@ void check_relight(const preset::Preset& preset, const photons::Settings& spectr
   };
   refuse(spectral.estimator == photons::Settings::Estimator::sppm, "estimator",
          "photon maps add up colours, not layers");
+  refuse(spectral.estimator == photons::Settings::Estimator::tiles, "estimator",
+         "a tile's light is of a part of the wavelengths, not of whole clusters");
   refuse(spectral.effort != photons::Settings::Effort::automatic && spectral.effort != photons::Settings::Effort::power,
          "effort",
          "half of the photons go by the present light's power, and half to every cluster alike for lights to come");

@@ -113,7 +113,7 @@ const float* reflectance_row(const WavelengthTables& tables, int reflector) {
   return tables.reflectance.data() + static_cast<std::size_t>(reflector) * wavelength_count;
 }
 
-/// Adds one row of light_xyz, reflected_xyz and reflected_xyz_all, a spectrum that a photon may carry.
+/// Adds one row to each table of light, for a spectrum that a photon may carry.
 void add_spectrum_rows(const Spectrum& spectrum, const std::vector<int>& all, WavelengthTables& tables) {
   for (const int w : all) tables.light_xyz.push_back(to_float4(reflected(spectrum, nullptr, {w})));
   for (const std::vector<int>& cluster : tables.clusters)
@@ -121,6 +121,14 @@ void add_spectrum_rows(const Spectrum& spectrum, const std::vector<int>& all, Wa
       tables.reflected_xyz.push_back(to_float4(reflected(spectrum, reflectance_row(tables, r), cluster)));
   for (int r = 0; r < tables.reflector_count; ++r)
     tables.reflected_xyz_all.push_back(to_float4(reflected(spectrum, reflectance_row(tables, r), all)));
+  for (int r = 0; r < tables.reflector_count; ++r)
+    for (const std::vector<int>& cluster : tables.clusters) {
+      glm::dvec4 before(0);
+      for (const int w : cluster) {
+        tables.reflected_before.push_back(to_float4(before));
+        before += reflected(spectrum, reflectance_row(tables, r), {w});
+      }
+    }
 }
 
 /// Photons are allocated by a light's spectrum and carry it too. Only the environment's carry three parts.

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Splats a photon as the parallelogram that it stands for, by exact area: each pixel gets the part of the photon's light
-// that lies in it. Footprints of neighbours in a lattice share their edges, so together they leave no gap.
+// Splats a photon as the parallelogram that it stands for, by exact area: each pixel gets the part of the photon's
+// light that lies in it. Footprints of neighbours in a lattice share their edges, so together they leave no gap.
+#include "kernels/photons/pixel_view_types.h"
 #include "kernels/photons/splat.h"
 
-// A parallelogram on the film, in pixels.
+// A quadrilateral on the film, in pixels.
 typedef struct {
-  float2 corner[4]; // around it, relative to `middle`
+  float4 x, y;  // its corners, around it, relative to `middle`
+  float4 slope; // dx / dy of the edge from each corner to the next; 0: level
   float2 middle;
-  float area;
+  float area; // signed by its orientation
 } FilmFootprint;
+
+static inline float least(float4 v) { return fmin(fmin(v.x, v.y), fmin(v.z, v.w)); }
+static inline float greatest(float4 v) { return fmax(fmax(v.x, v.y), fmax(v.z, v.w)); }
 
 // How far a place moves on the film when it moves by `way`. False: behind the camera.
 static inline bool moved_on_film(const DeviceCamera* camera, float3 position, float3 way, float2* moved) {
@@ -19,68 +24,71 @@ static inline bool moved_on_film(const DeviceCamera* camera, float3 position, fl
   const float z = here.z + step.z;
   if (!(z > 1e-3f * here.z)) return false;
   const float2 slope = (step.xy * here.z - here.xy * step.z) / (here.z * z); // the difference, without cancellation
-  *moved = 0.5f * (float2)(slope.x / camera->tan_x * (float)camera->width, -slope.y / camera->tan_y * (float)camera->height);
+  *moved =
+      0.5f * (float2)(slope.x / camera->tan_x * (float)camera->width, -slope.y / camera->tan_y * (float)camera->height);
   return true;
 }
 
 // The integral of clamp(x, 0, 1) from 0 to x.
-static inline float ramp_sum(float x) {
-  const float inside = clamp(x, 0.0f, 1.0f);
+static inline float4 ramp_sum(float4 x) {
+  const float4 inside = clamp(x, 0.0f, 1.0f);
   return 0.5f * inside * inside + fmax(x - 1.0f, 0.0f);
 }
 
 // The area of the pixel at `pixel` (its corner relative to the middle) that lies in the footprint, 0..1, signed by its
 // orientation: the sum over the edges of what lies beside them.
 static inline float covered(const FilmFootprint* f, float2 pixel) {
-  float sum = 0.0f;
-  for (int i = 0; i < 4; ++i) {
-    const float2 a = f->corner[i] - pixel, b = f->corner[(i + 1) & 3] - pixel;
-    const float y0 = clamp(a.y, 0.0f, 1.0f), y1 = clamp(b.y, 0.0f, 1.0f);
-    if (y0 == y1) continue;
-    const float slope = (b.x - a.x) / (b.y - a.y);
-    const float x0 = a.x + (y0 - a.y) * slope, x1 = a.x + (y1 - a.y) * slope;
-    const float beside = fabs(x1 - x0) < 1e-2f ? clamp(0.5f * (x0 + x1), 0.0f, 1.0f)
-                                               : (ramp_sum(x1) - ramp_sum(x0)) / (x1 - x0);
-    sum += (y1 - y0) * beside;
-  }
-  return sum;
+  const float4 x = f->x - pixel.x, y = f->y - pixel.y, y0 = clamp(y, 0.0f, 1.0f), y1 = y0.yzwx;
+  const float4 x0 = x + (y0 - y) * f->slope, x1 = x + (y1 - y) * f->slope, across = x1 - x0;
+  const float4 beside =
+      select((ramp_sum(x1) - ramp_sum(x0)) / across, clamp(0.5f * (x0 + x1), 0.0f, 1.0f), fabs(across) < 1e-2f);
+  return dot(y1 - y0, beside);
 }
 
-// What stands between the camera and a receiver.
+// A receiver's plane, for what stands between the camera and it.
 typedef struct {
-  __global const uint2* corners; // pixel_corners.cl
+  __global const PixelView* views;
   int object;
-  float3 position, normal; // the receiver's plane
-  float side;              // 1: light falls on its outer side
+  float3 per_depth; // 1 / depth along the view at (1, column, row)
+  float3 position, normal;
+  float side; // 1: light falls on its outer side
   float offset;
   uint triangle;
 } SeenReceiver;
 
-// Whether the camera sees the receiver at a place of a pixel, in pixels. Asks a ray only where the pixel's corners see
-// different things.
-static inline bool is_seen(const World* world, const DeviceCamera* camera, const SeenReceiver* receiver, int column,
-                           int row, float2 place) {
+static inline SeenReceiver seen_receiver(const DeviceCamera* camera, __global const PixelView* views,
+                                         const Surface* surface, uint triangle, float side) {
+  // The ray of a pixel is forward + x right + y up at depth 1, x = (2 column / width - 1) tan_x, and it meets the plane
+  // where depth * (normal . ray) = normal . (position - camera).
+  const float3 n = surface->geometric / dot(surface->position - camera->position.xyz, surface->geometric);
+  const float right = dot(n, camera->right.xyz) * camera->tan_x, up = dot(n, camera->up.xyz) * camera->tan_y;
+  const SeenReceiver receiver = {views,
+                                 surface->object,
+                                 (float3)(dot(n, camera->forward.xyz) - right + up, 2.0f * right / (float)camera->width,
+                                          -2.0f * up / (float)camera->height),
+                                 surface->position,
+                                 surface->geometric,
+                                 side,
+                                 surface->offset,
+                                 triangle};
+  return receiver;
+}
+
+// Whether the camera sees the receiver at a place of a pixel, in pixels. Asks a ray only where the pixel has several
+// things in view.
+static inline bool is_seen(const World* world, const DeviceCamera* camera, const SeenReceiver* receiver, int pixel,
+                           float2 place) {
 #if NEPHROID_OCCLUSION
   if (camera->receiver >= 0) return true;
+  const PixelView view = receiver->views[pixel];
+  const float per_depth = receiver->per_depth.x + receiver->per_depth.y * place.x + receiver->per_depth.z * place.y;
+  if (view.object != VIEW_OF_SEVERAL)
+    return view.object == receiver->object && per_depth >= view.farthest && per_depth <= view.nearest;
   const float2 slope = (float2)((2.0f * place.x / (float)camera->width - 1.0f) * camera->tan_x,
                                 (1.0f - 2.0f * place.y / (float)camera->height) * camera->tan_y);
-  const float3 way = camera->forward.xyz + slope.x * camera->right.xyz + slope.y * camera->up.xyz;
-  const float depth = dot(receiver->position - camera->position.xyz, receiver->normal) / dot(way, receiver->normal);
-  __global const uint2* corner = receiver->corners + (size_t)row * (camera->width + 1) + column;
-  const uint2 seen[4] = {corner[0], corner[1], corner[camera->width + 1], corner[camera->width + 2]};
-  bool alike = true;
-  float nearest = INFINITY, farthest = 0.0f;
-  for (int i = 0; i < 4; ++i) {
-    alike = alike && seen[i].x == seen[0].x;
-    nearest = fmin(nearest, as_float(seen[i].y));
-    farthest = fmax(farthest, as_float(seen[i].y));
-  }
-  // A pixel of one slanted surface has a small range of depths.
-  if (alike && farthest - nearest < 0.1f * nearest)
-    return (int)seen[0].x == receiver->object && depth > nearest - (farthest - nearest) - 1e-3f * nearest &&
-           depth < farthest + (farthest - nearest) + 1e-3f * nearest;
-  const float3 at = camera->position.xyz + depth * way;
-  const float3 from = at + receiver->side * receiver->offset * receiver->normal;
+  const float3 from = camera->position.xyz +
+                      (camera->forward.xyz + slope.x * camera->right.xyz + slope.y * camera->up.xyz) / per_depth +
+                      receiver->side * receiver->offset * receiver->normal;
   const float3 back = camera->position.xyz - from;
   const float distance = length(back);
   return !is_blocked(world, from, back / distance, distance, receiver->triangle);
@@ -92,68 +100,66 @@ static inline bool is_seen(const World* world, const DeviceCamera* camera, const
 // A place in a square for each photon and pixel, evenly spread over the photons (Roberts' R2 sequence).
 static inline float2 place_within(uint photon, uint pixel) {
   const uint start = pixel * 0x9e3779b9u ^ pixel >> 7;
-  return convert_float2((uint2)(start + photon * 0xc13fa9a9u, (start ^ 0x5bd1e995u) + photon * 0x91e10da5u) >> 8) * 0x1p-24f;
+  return convert_float2((uint2)(start + photon * 0xc13fa9a9u, (start ^ 0x5bd1e995u) + photon * 0x91e10da5u) >> 8) *
+         0x1p-24f;
 }
 
 // Whether a footprint reaches the picture.
 static inline bool touches_film(const DeviceCamera* camera, const FilmFootprint* f) {
-  float2 low = f->corner[0], high = f->corner[0];
-  for (int i = 1; i < 4; ++i) {
-    low = fmin(low, f->corner[i]);
-    high = fmax(high, f->corner[i]);
-  }
-  return all(f->middle + high >= 0.0f) && all(f->middle + low < (float2)((float)camera->width, (float)camera->height));
+  return f->middle.x + greatest(f->x) >= 0.0f && f->middle.y + greatest(f->y) >= 0.0f &&
+         f->middle.x + least(f->x) < (float)camera->width && f->middle.y + least(f->y) < (float)camera->height;
+}
+
+// Makes a footprint a point.
+static inline void shrink_to_point(FilmFootprint* f) {
+  f->x = f->y = f->slope = (float4)(0.0f);
+  f->area = 0.0f;
 }
 
 // Adds a photon's light to the pixels. xyz: as of one pixel that gets all of it. False: too large for the film.
 static inline bool add_footprint(const World* world, volatile __global long* film, const DeviceCamera* camera,
-                                 const SeenReceiver* receiver, const FilmFootprint* f, uint photon,
-                                 float3 xyz, float scale) {
-  float2 low = f->corner[0], high = f->corner[0];
-  for (int i = 1; i < 4; ++i) {
-    low = fmin(low, f->corner[i]);
-    high = fmax(high, f->corner[i]);
-  }
+                                 const SeenReceiver* receiver, const FilmFootprint* f, uint photon, float3 xyz,
+                                 float scale) {
+  const float2 low = (float2)(least(f->x), least(f->y)), high = (float2)(greatest(f->x), greatest(f->y));
   const int2 first = convert_int2_rtn(f->middle + low), last = convert_int2_rtn(f->middle + high);
   if (any(last < 0) || first.x >= camera->width || first.y >= camera->height) return true;
   const float3 quanta = xyz * scale;
   if (!(fabs(quanta.x) <= FILM_LIMIT && fabs(quanta.y) <= FILM_LIMIT && fabs(quanta.z) <= FILM_LIMIT)) return false;
   const bool one = all(first == last);
+  const float per_area = 1.0f / f->area;
   float part = 0.0f;
   long added[3] = {0, 0, 0};
   for (int row = max(first.y, 0); row <= min(last.y, camera->height - 1); ++row) {
     // what the footprint has of this row
-    float left = INFINITY, right = -INFINITY, inner_left = -INFINITY, inner_right = INFINITY;
     const float top = (float)row - f->middle.y;
-    for (int i = 0; i < 4; ++i) {
-      const float2 a = f->corner[i], b = f->corner[(i + 1) & 3];
-      if (fmax(a.y, b.y) < top || fmin(a.y, b.y) > top + 1.0f) continue;
-      const float slope = a.y == b.y ? 0.0f : (b.x - a.x) / (b.y - a.y);
-      const float xa = a.x + (clamp(a.y, top, top + 1.0f) - a.y) * slope, xb = b.x + (clamp(b.y, top, top + 1.0f) - b.y) * slope;
-      left = fmin(left, fmin(xa, xb));
-      right = fmax(right, fmax(xa, xb));
-      const float turn = (b.y - a.y) * f->area; // on which side of the footprint the edge lies
-      if (turn < 0.0f) inner_left = fmax(inner_left, fmax(xa, xb));
-      if (turn > 0.0f) inner_right = fmin(inner_right, fmin(xa, xb));
-    }
+    const float4 y = clamp(f->y, top, top + 1.0f), xa = f->x + (y - f->y) * f->slope,
+                 xb = f->x + (y.yzwx - f->y) * f->slope, rise = (f->y.yzwx - f->y) * f->area;
+    const int4 is_beside = fmax(f->y, f->y.yzwx) < top || fmin(f->y, f->y.yzwx) > top + 1.0f;
+    const float left = least(select(fmin(xa, xb), (float4)(INFINITY), is_beside)),
+                right = greatest(select(fmax(xa, xb), (float4)(-INFINITY), is_beside)),
+                inner_left = greatest(select(fmax(xa, xb), (float4)(-INFINITY), is_beside || rise >= 0.0f)),
+                inner_right = least(select(fmin(xa, xb), (float4)(INFINITY), is_beside || rise <= 0.0f));
     const bool whole_row = low.y <= top && high.y >= top + 1.0f;
-    const int from = max((int)floor(f->middle.x + left), 0), to = min((int)floor(f->middle.x + right), camera->width - 1);
+    const int from = max((int)floor(f->middle.x + left), 0),
+              to = min((int)floor(f->middle.x + right), camera->width - 1);
     for (int column = from; column <= to; ++column) {
       float share = 1.0f;
       const float start = (float)column - f->middle.x;
       if (whole_row && start >= inner_left && start + 1.0f <= inner_right)
-        share = 1.0f / fabs(f->area);
+        share = fabs(per_area);
       else if (!one)
-        share = covered(f, (float2)(start, top)) / f->area;
+        share = covered(f, (float2)(start, top)) * per_area;
       if (!(share > 0.0f)) continue;
       // rounded sums, so that all pixels together get all of it
       part += share;
       const float2 from_corner = fmax((float2)((float)column, (float)row), f->middle + low),
                    to_corner = fmin((float2)((float)column + 1.0f, (float)row + 1.0f), f->middle + high);
-      const bool seen = is_seen(world, camera, receiver, column, row,
-                                from_corner + (to_corner - from_corner) * place_within(photon, (uint)(row * camera->width + column)));
-      volatile __global long* sum = film + 3 * (size_t)(row * camera->width + column);
-      const long whole[3] = {convert_long_rte(quanta.x * part), convert_long_rte(quanta.y * part), convert_long_rte(quanta.z * part)};
+      const int pixel = row * camera->width + column;
+      const bool seen = is_seen(world, camera, receiver, pixel,
+                                from_corner + (to_corner - from_corner) * place_within(photon, (uint)pixel));
+      volatile __global long* sum = film + 3 * (size_t)pixel;
+      const long whole[3] = {convert_long_rte(quanta.x * part), convert_long_rte(quanta.y * part),
+                             convert_long_rte(quanta.z * part)};
       for (int c = 0; c < 3; ++c) {
         if (seen && whole[c] != added[c]) add_exactly(sum + c, whole[c] - added[c]);
         added[c] = whole[c];
@@ -163,8 +169,8 @@ static inline bool add_footprint(const World* world, volatile __global long* fil
   return true;
 }
 
-// The footprint that reaches from -a/2 - b/2 to a/2 + b/2 about a place, shrunk to `widest` pixels. False where there is
-// none: it has no area, is not finite, or reaches behind the camera. *shrunk: by which factor.
+// The footprint that reaches from -a/2 - b/2 to a/2 + b/2 about a place, shrunk to `widest` pixels. False where there
+// is none: it has no area, is not finite, or reaches behind the camera. *shrunk: by which factor.
 static inline bool footprint_on_film(const DeviceCamera* camera, float3 position, float3 a, float3 b, float widest,
                                      FilmFootprint* f, float* shrunk) {
   float2 u, v;
@@ -178,13 +184,15 @@ static inline bool footprint_on_film(const DeviceCamera* camera, float3 position
   if (extent > widest) *shrunk = widest / extent;
   const float3 half_a = (0.5f * *shrunk) * a, half_b = (0.5f * *shrunk) * b;
   f->area = 0.0f;
+  float2 corner[4];
   for (int i = 0; i < 4; ++i) {
     const float3 way = (i == 1 || i == 2 ? half_a : -half_a) + (i >= 2 ? half_b : -half_b);
-    if (!moved_on_film(camera, position, way, &f->corner[i])) return false;
+    if (!moved_on_film(camera, position, way, &corner[i])) return false;
   }
-  for (int i = 0; i < 4; ++i) {
-    const float2 p = f->corner[i], q = f->corner[(i + 1) & 3];
-    f->area += 0.5f * (p.x * q.y - p.y * q.x);
-  }
+  f->x = (float4)(corner[0].x, corner[1].x, corner[2].x, corner[3].x);
+  f->y = (float4)(corner[0].y, corner[1].y, corner[2].y, corner[3].y);
+  const float4 rise = f->y.yzwx - f->y;
+  f->slope = select((f->x.yzwx - f->x) / rise, (float4)(0.0f), fabs(rise) < 1e-6f);
+  f->area = 0.5f * dot(f->x, f->y.yzwx) - 0.5f * dot(f->y, f->x.yzwx);
   return fabs(f->area) > 1e-6f;
 }

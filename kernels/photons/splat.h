@@ -18,10 +18,10 @@ static inline float2 place_on_film(const DeviceCamera* camera, float3 position, 
   return (float2)(x * (float)camera->width, y * (float)camera->height);
 }
 
-// Whether the camera sees the side of `position` that light arrives on; *weight becomes the irradiance-to-pixel factor in m^-2: a flux F deposited
-// there adds F reflectance / pi * weight to the pixel's radiance.
-// A pixel's value is the mean of the radiance over its area A on the plane at distance 1, so F enters as F dq / (dA A),
-// with dq / dA = cos(theta) distance / z^3 (theta at the surface, z along the view axis).
+// Whether the camera sees the side of `position` that light arrives on; *weight becomes the irradiance-to-pixel factor
+// in m^-2: a flux F deposited there adds F reflectance / pi * weight to the pixel's radiance. A pixel's value is the
+// mean of the radiance over its area A on the plane at distance 1, so F enters as F dq / (dA A), with dq / dA =
+// cos(theta) distance / z^3 (theta at the surface, z along the view axis).
 static inline bool project_to_film(const DeviceCamera* camera, float3 position, float3 geometric, float3 arriving,
                                    float metres_per_unit, float2* place, float* weight) {
   const float3 to_camera = camera->position.xyz - position;

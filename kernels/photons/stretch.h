@@ -82,7 +82,7 @@ static inline bool stretch_end(const World* world, const DeviceCamera* camera, c
 
 // Tries to stretch a photon from `low` to `high`, its own s being 0. False: that leaves the receiver or goes too far.
 static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
-                                float low, float high, Stretch* stretch) {
+                                float low, float high, float shortest, Stretch* stretch) {
   if (!(fabs(high - low) * length(path->differential.direction) <= STRETCH_WIDEST)) return false;
   float2 first, last = (float2)(0.0f);
   for (int i = 0; i < 2; ++i) { // a loop, for one copy of the code
@@ -90,7 +90,7 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
     if (!stretch_end(world, camera, end, path, i == 0 ? low : high, &last, &stretch->beside)) return false;
   }
   const float pixels = distance(first, last);
-  if (!(pixels < STRETCH_SHORTEST))
+  if (!(pixels < shortest))
     stretch->count = pixels < STRETCH_SPLATS - 1 ? 1 + (int)ceil(pixels) : STRETCH_SPLATS;
   return true;
 }
@@ -105,7 +105,7 @@ COMPILED_ONCE Stretch stretch_of(const World* world, const DeviceCamera* camera,
   for (int i = 0; i < (band->wavelength >= 0 ? 2 : 1); ++i) {
     const float4 span = i == 0 ? world->stretch_span[band->cluster] : world->stretch_place[band->wavelength];
     Stretch stretch = {1, i == 0, false};
-    if (stretch_over(world, camera, end, path, span.y - origin, span.z - origin, &stretch)) return stretch;
+    if (stretch_over(world, camera, end, path, span.y - origin, span.z - origin, STRETCH_SHORTEST, &stretch)) return stretch;
   }
 #endif
   const Stretch point = {1, false, false};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caustic layer by tiles: photons leave the lights on square lattices, go both ways at glass, and each is splatted as
-// the piece of its lattice that it stands for (Schjoth et al. 2007, "Photon differentials"; lattices in the place of
+// The caustic layer by tiles: photons leave the lights on square lattices, go both ways at glass, and each is splatted
+// as the piece of its lattice that it stands for (Schjoth et al. 2007, "Photon differentials"; lattices in the place of
 // random points make footprints tile).
 #define NEPHROID_TILES 1
 #include "kernels/photons/footprint_splat.h"
@@ -10,8 +10,10 @@
 // ... does, and stands for all, as a lattice twice as wide.
 #define TILE_LEAST 0.3f
 #define TILE_LEVELS 4
-#define TILE_PENDING 8
-#define COARSE 1.0f
+#define TILE_PENDING 4
+// The length in pixels below which a footprint is not swept.
+#define SWEEP_SHORTEST 0.5f
+// The part of the widest footprint that is left to one whose cell has spanned more than a triangle: it is a guess.
 #define COARSE_PART 0.125f
 
 // A way of a photon that is still to be followed.
@@ -20,7 +22,7 @@ typedef struct {
   float weight; // Fresnel's part of the photon's light
   float stands; // photons that it stands for
   int surfaces;
-  bool met; // a caustic object
+  bool met;       // a caustic object
   bool is_coarse; // its cell has spanned more than a triangle, so that its footprint is a guess
 } Way;
 
@@ -52,18 +54,40 @@ static inline bool is_followed(float weight, uint2 point, float u, float* stands
 }
 
 #if NEPHROID_DIFFERENTIALS
+// The light of the part 0 .. u of a cluster's distribution of wavelengths, in a row of the tables of lights.
+static inline float3 light_before(const World* world, __global const float4* reflected_before,
+                                  __global const float* cdf, int row, int reflector, int first, int count, float u) {
+  const int member = choose(cdf, count, u), members = world->tables.cluster_first[world->scene.cluster_count];
+  const int wavelength = world->tables.cluster_wavelengths[first + member];
+  const float before = chance_before(cdf, member), part = (u - before) / (cdf[member] - before);
+  return reflected_before[(row * world->scene.reflector_count + reflector) * members + first + member].xyz +
+         part * world->tables.reflectance[reflector * WAVELENGTH_COUNT + wavelength] *
+             world->tables.light_xyz[row * WAVELENGTH_COUNT + wavelength].xyz;
+}
+
 // The light of the part low .. high of a cluster's distribution of wavelengths, as PhotonEnd's xyz.
-static inline float3 light_of_part(const World* world, const Losses* losses, Source source, int cluster, int reflector,
-                                   float low, float high) {
+static inline float3 light_of_part(const World* world, __global const float4* reflected_before, const Losses* losses,
+                                   Source source, int cluster, int reflector, float low, float high) {
   const int first = world->tables.cluster_first[cluster], count = world->tables.cluster_first[cluster + 1] - first;
-  __global const float* cdf = world->tables.wavelength_cdf +
-                              source.light * world->tables.cluster_first[world->scene.cluster_count] + first;
+  __global const float* cdf =
+      world->tables.wavelength_cdf + source.light * world->tables.cluster_first[world->scene.cluster_count] + first;
   float3 xyz = (float3)(0.0f);
-  for (int member = choose(cdf, count, low); member < count; ++member) {
-    const float before = chance_before(cdf, member), after = cdf[member];
-    if (before >= high) break;
-    const Band band = {cluster, world->tables.cluster_wavelengths[first + member], 1.0f / (after - before)};
-    xyz += (fmin(after, high) - fmax(before, low)) * carried_light(world, losses, source, &band, reflector).xyz;
+  if (losses->any) {
+    for (int member = choose(cdf, count, low); member < count; ++member) {
+      const float before = chance_before(cdf, member), after = cdf[member];
+      if (before >= high) break;
+      const Band band = {cluster, world->tables.cluster_wavelengths[first + member], 1.0f / (after - before)};
+      xyz += (fmin(after, high) - fmax(before, low)) * carried_light(world, losses, source, &band, reflector).xyz;
+    }
+    return xyz;
+  }
+  const bool is_sky = is_of_environment(world, source.light);
+  for (int row = 0; row < (is_sky ? 3 : 1); ++row) {
+    const float of_row = row == 0 ? source.rgb.x : row == 1 ? source.rgb.y : source.rgb.z;
+    const float3 of_part =
+        light_before(world, reflected_before, cdf, source.light + row, reflector, first, count, high) -
+        light_before(world, reflected_before, cdf, source.light + row, reflector, first, count, low);
+    xyz += (is_sky ? of_row : 1.0f) * of_part;
   }
   return xyz;
 }
@@ -74,36 +98,71 @@ static inline bool spans_triangles(const Geometry* geometry, uint primitive, con
   const DevicePrimitive met = geometry->primitives[primitive];
   if (is_ellipsoid(&met) || kind_of(&met) != PRIMITIVE_SMOOTH) return false;
   const float3 a = size * tile[0].position, b = size * tile[1].position, u = met.edge_u.xyz, v = met.edge_v.xyz;
-  return dot(a, a) + dot(b, b) > COARSE * (dot(u, u) + dot(v, v));
+  return dot(a, a) + dot(b, b) > dot(u, u) + dot(v, v);
 }
 
-// Splats a way that ends on a diffuse surface. Returns false where a contribution is too large.
+// What splats need beside the photon.
+typedef struct {
+  __global const float4* reflected_before;
+  __global const PixelView* views;
+  volatile __global long* film; // the lattice's half of it
+  float scale;
+} TileFilm;
+
+// The footprint about a place of a receiver, which spans a and b there. Where the receiver ends, it shrinks to what
+// fits; beyond its triangle a receiver goes on.
+static inline FilmFootprint footprint_at(const World* world, const DeviceCamera* camera, const PhotonEnd* end,
+                                         const Strand* strand, float side, float3 a, float3 b, float widest,
+                                         float2 middle) {
+  FilmFootprint f;
+  f.middle = middle;
+  for (int halvings = 0; halvings < 4; ++halvings) {
+    float shrunk;
+    if (!footprint_on_film(camera, strand->surface.position, a, b, widest, &f, &shrunk)) break;
+    if (!touches_film(camera, &f)) return f;
+    a *= 0.5f * shrunk;
+    b *= 0.5f * shrunk;
+    bool fits = true;
+    for (int c = 0; c < 4 && fits; ++c) {
+      const float3 corner = strand->surface.position + (c == 1 || c == 2 ? a : -a) + (c >= 2 ? b : -b);
+      Surface beside;
+      uint triangle;
+      fits = is_in_triangle(&world->geometry, strand->triangle, corner) ||
+             surface_beside(world, end, side, corner, &beside, &triangle);
+    }
+    if (fits) return f;
+  }
+  shrink_to_point(&f);
+  return f;
+}
+
+// Splats a way that ends on a diffuse surface, swept along the wavelengths low .. high of its cluster. Returns false
+// where a contribution is too large.
 static inline bool splat_way(const World* world, const DeviceCamera* camera, const DeviceLattice* lattice,
-                             const PhotonEnd* end, const Path* path, Source source, const Band* band, float stands, bool is_coarse,
-                             float watts, __global const uint2* corners, volatile __global long* film,
-                             float film_scale, uint photon) {
-  const float distance = dot(end->surface.position - path->origin, path->direction), size = lattice->step * sqrt(stands);
+                             const PhotonEnd* end, const Way* way, Source source, const Band* band, float watts,
+                             const TileFilm* film, uint photon) {
+  const Path* path = &way->path;
+  const float distance = dot(end->surface.position - path->origin, path->direction),
+              size = lattice->step * sqrt(way->stands),
+              widest = way->is_coarse ? COARSE_PART * lattice->widest : lattice->widest;
   const float3 a = size * transferred(&path->tile[0], path->direction, distance, end->surface.geometric),
                b = size * transferred(&path->tile[1], path->direction, distance, end->surface.geometric);
   const float side = dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f;
-  Strand strand;
-  strand.surface = end->surface;
-  strand.triangle = end->triangle;
-  strand.xyz = end->xyz;
-  Stretch stretch = {1, true, false};
+  Strand strand = {end->surface, end->triangle, end->xyz};
+  Stretch sweep = {1, true, false};
 #if NEPHROID_DIFFERENTIALS
   const int reflector = material_of(world, end->surface.object).reflector;
   float from_x, to_x;
   stretched_band(world, source.light, band, lattice->low, &from_x);
   stretched_band(world, source.light, band, fmin(lattice->high, 0x1.fffffep-1f), &to_x);
-  if (!stretch_over(world, camera, end, path, from_x, to_x, &stretch)) stretch.count = 1;
+  if (!stretch_over(world, camera, end, path, from_x, to_x, SWEEP_SHORTEST, &sweep)) sweep.count = 1;
 #endif
   bool fits = true;
   const float turn = place_within(photon, 0u).x;
-  for (int i = 0; i < stretch.count; ++i) {
+  for (int i = 0; i < sweep.count; ++i) {
 #if NEPHROID_DIFFERENTIALS
-    const float part = (lattice->high - lattice->low) / (float)stretch.count, low = lattice->low + part * (float)i;
-    if (stretch.count > 1) {
+    const float part = (lattice->high - lattice->low) / (float)sweep.count, low = lattice->low + part * (float)i;
+    if (sweep.count > 1) {
       float x;
       float3 place;
       stretched_band(world, source.light, band, low + turn * part, &x);
@@ -111,46 +170,115 @@ static inline bool splat_way(const World* world, const DeviceCamera* camera, con
       strand.surface = end->surface;
       strand.triangle = end->triangle;
       strand.surface.position = place;
-      if (stretch.beside && !is_in_triangle(&world->geometry, end->triangle, place) &&
+      if (sweep.beside && !is_in_triangle(&world->geometry, end->triangle, place) &&
           !surface_beside(world, end, side, place, &strand.surface, &strand.triangle))
         continue;
     }
 #endif
-    float weight, shrunk;
-    FilmFootprint f;
-    if (!project_to_film(camera, strand.surface.position, strand.surface.geometric, path->direction,
-                         world->scene.metres_per_unit, &f.middle, &weight))
-      continue;
-    if (!footprint_on_film(camera, strand.surface.position, a, b, is_coarse ? COARSE_PART * lattice->widest : lattice->widest, &f, &shrunk)) f.area = 0.0f;
-    if (f.area == 0.0f)
-      for (int c = 0; c < 4; ++c) f.corner[c] = (float2)(0.0f);
-    if (!touches_film(camera, &f)) continue;
-    // Beyond its triangle the receiver goes on, or the footprint shrinks to its middle.
-    for (int c = 0; c < 4 && f.area != 0.0f; ++c) {
-      const float3 corner = strand.surface.position + (0.5f * shrunk) * ((c == 1 || c == 2 ? a : -a) + (c >= 2 ? b : -b));
-      if (is_in_triangle(&world->geometry, strand.triangle, corner)) continue;
-      Surface beside;
-      uint triangle;
-      if (!surface_beside(world, end, side, corner, &beside, &triangle)) f.area = 0.0f;
-    }
-    if (f.area == 0.0f)
-      for (int c = 0; c < 4; ++c) f.corner[c] = (float2)(0.0f);
     if (camera->receiver >= 0 && strand.surface.object != camera->receiver) continue;
+    float2 middle;
+    float weight;
+    if (!project_to_film(camera, strand.surface.position, strand.surface.geometric, path->direction,
+                         world->scene.metres_per_unit, &middle, &weight))
+      continue;
+    const FilmFootprint f = footprint_at(world, camera, end, &strand, side, a, b, widest, middle);
+    if (!touches_film(camera, &f)) continue;
 #if NEPHROID_DIFFERENTIALS
-    strand.xyz = light_of_part(world, &path->losses, source, band->cluster, reflector, low, low + part);
+    if (sweep.count > 1 || lattice->high - lattice->low < 1.0f)
+      strand.xyz = light_of_part(world, film->reflected_before, &path->losses, source, band->cluster, reflector, low,
+                                 low + part);
 #endif
-    const SeenReceiver receiver = {corners, strand.surface.object, strand.surface.position, strand.surface.geometric,
-                                   side, strand.surface.offset, strand.triangle};
+    const SeenReceiver receiver = seen_receiver(camera, film->views, &strand.surface, strand.triangle, side);
     const float3 xyz = strand.xyz * (watts * weight * shading_ratio(&strand.surface, path->direction) / PI_F);
-    fits = add_footprint(world, film, camera, &receiver, &f, photon, xyz, film_scale) && fits;
+    fits = add_footprint(world, film->film, camera, &receiver, &f, photon, xyz, film->scale) && fits;
   }
   return fits;
 }
 
-// Follows the photons first .. first + count - 1 of a round.
+// What became of a way at its next surface.
+#define WAY_GOES_ON 0
+#define WAY_ENDS 1
+#define WAY_IS_DROPPED 2 // other points of the lattice stand for it
+
+// At glass a photon goes both ways. `way` has gone through and `reflected` waits before the surface; what is followed
+// later is put into `pending`, and of two that with more light: so few ways wait.
+static inline int split_way(const World* world, const DeviceMaterial* material, const Band* band, const Bend* through,
+                            const PhotonEnd* end, uint2 point, float4 u, Way* way, Way* reflected, Way* pending,
+                            int* waiting) {
+  reflected->weight *= through->reflectance;
+  way->weight *= 1.0f - through->reflectance;
+  bool goes_through = is_followed(way->weight, point, u.x, &way->stands);
+  bool goes_back = is_followed(reflected->weight, point, u.y, &reflected->stands);
+  if (goes_through && goes_back && *waiting == TILE_PENDING) { // no room: one stands for both
+    const float light = way->weight * way->stands, chance = light / (light + reflected->weight * reflected->stands);
+    goes_through = u.z < chance;
+    goes_back = !goes_through;
+    way->stands /= chance;
+    reflected->stands /= 1.0f - chance;
+  }
+  float n_ratio;
+  Bend back;
+  goes_back = goes_back && bend_path_as(world, &reflected->path, end->triangle, &end->surface, material, band, -1.0f,
+                                        &n_ratio, &back);
+  if (goes_through && goes_back) {
+    const bool more_through = way->weight > reflected->weight;
+    pending[(*waiting)++] = more_through ? *way : *reflected;
+    if (more_through) *way = *reflected;
+  } else if (goes_back)
+    *way = *reflected;
+  return goes_through || goes_back ? WAY_GOES_ON : WAY_IS_DROPPED;
+}
+
+// Takes a way to its next surface and, at glass or a mirror, on from there. end: the outcome where it ends, and the
+// surface. cell: the side of the lattice's cells. u: uniform in [0, 1).
+static inline int next_surface(const World* world, const Band* band, float cell, uint2 point, float4 u, Way* way,
+                               Way* pending, int* waiting, PhotonEnd* end) {
+  const Hit hit = next_hit(world, &way->path);
+  if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
+    end->outcome = way->met ? OUTCOME_ESCAPED : OUTCOME_MISSED;
+    return WAY_ENDS;
+  }
+  end->surface = surface_at(&world->geometry, hit);
+  end->triangle = hit.primitive;
+  const DeviceMaterial material = material_of(world, end->surface.object);
+  lose_in_medium(world, &way->path, hit.t);
+  if (material.type == MATERIAL_DIFFUSE) {
+    end->outcome = way->met ? OUTCOME_DEPOSITED : OUTCOME_MISSED;
+    return WAY_ENDS;
+  }
+  end->outcome = OUTCOME_LOST;
+  if (way->surfaces++ == world->scene.max_surfaces) return WAY_ENDS;
+  way->met = true;
+  Way reflected = *way;
+  Bend bend;
+  float n_ratio;
+  if (!bend_path_as(world, &way->path, hit.primitive, &end->surface, &material, band, 2.0f, &n_ratio, &bend))
+    return WAY_ENDS;
+  way->is_coarse =
+      way->is_coarse || spans_triangles(&world->geometry, hit.primitive, way->path.tile, cell * sqrt(way->stands));
+  reflected.is_coarse = way->is_coarse;
+  if (!bend.transmitted || bend.reflectance == 0.0f) return WAY_GOES_ON;
+  return split_way(world, &material, band, &bend, end, point, u, way, &reflected, pending, waiting);
+}
+
+// A photon's first way. emission: its tile[2] is set already.
+static inline void start_way(Way* way, const Emission* emission, Media inside) {
+  way->path.origin = emission->origin;
+  way->path.direction = emission->direction;
+  way->path.skip = NEPHROID_NO_PRIMITIVE;
+  way->path.media = inside;
+  way->path.losses = no_losses();
+  way->path.behind = emission->behind;
+  way->path.differential.position = way->path.differential.direction = (float3)(0.0f);
+  way->weight = way->stands = 1.0f;
+  way->surfaces = 0;
+  way->met = way->is_coarse = false;
+}
+
+// Follows the points first .. first + count - 1 of a round. energy: as of photons.cl.
 __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceLattice* lattices,
-                    __global const uint2* corners, volatile __global long* film,
-                    volatile __global long* energy, // [OUTCOME_COUNT]
+                    __global const float4* reflected_before, __global const PixelView* views,
+                    volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
                     int lattice_count, DeviceCamera camera, uint2 seed, uint iteration, uint first, uint count,
                     float film_scale, float energy_scale) {
   const World world = WORLD;
@@ -173,88 +301,34 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
     if (emission.watts == 0.0f) continue;
     const Band band = choose_band(&world, lattice.light, lattice.cluster, lattice.wavelength);
     const Band whole = whole_cluster(lattice.cluster);
-    const float share = band_share(&world, source, &band, lattice.share),
-                power_share = band_share(&world, source, &whole, lattice.share), watts = emission.watts / lattice.photons;
-    way.path.origin = emission.origin;
-    way.path.direction = emission.direction;
-    way.path.skip = NEPHROID_NO_PRIMITIVE;
-    way.path.media = light.inside;
-    way.path.losses = no_losses();
-    way.path.behind = emission.behind;
-    way.path.differential.position = way.path.differential.direction = (float3)(0.0f);
-    way.weight = way.stands = 1.0f;
-    way.surfaces = 0;
-    way.met = way.is_coarse = false;
+    const float power_share = band_share(&world, source, &whole, lattice.share),
+                watts = emission.watts / lattice.photons;
+    const TileFilm to_film = {reflected_before, views,
+                              film_of_iteration(film, lattice.film_half, camera.width * camera.height), film_scale};
+    start_way(&way, &emission, light.inside);
     Way pending[TILE_PENDING];
     int waiting = 0;
-    uint draws = 0;
-    for (;;) {
-      bool goes_on = false;
+    for (uint draw = 0;; ++draw) {
       PhotonEnd end;
-      end.outcome = OUTCOME_LOST;
-      const Hit hit = next_hit(&world, &way.path);
-      if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
-        end.outcome = way.met ? OUTCOME_ESCAPED : OUTCOME_MISSED;
-      } else {
-        end.surface = surface_at(&world.geometry, hit);
-        end.triangle = hit.primitive;
-        const DeviceMaterial material = material_of(&world, end.surface.object);
-        lose_in_medium(&world, &way.path, hit.t);
-        if (material.type == MATERIAL_DIFFUSE) {
-          end.outcome = way.met ? OUTCOME_DEPOSITED : OUTCOME_MISSED;
-        } else if (way.surfaces++ < world.scene.max_surfaces) {
-          way.met = true;
-          Way reflected = way;
-          Bend bend;
-          float n_ratio;
-          if (bend_path_as(&world, &way.path, hit.primitive, &end.surface, &material, &band, 2.0f, &n_ratio, &bend)) {
-            goes_on = true;
-            way.is_coarse = way.is_coarse || spans_triangles(&world.geometry, hit.primitive, way.path.tile,
-                                                             lattice.step * sqrt(way.stands));
-            reflected.is_coarse = way.is_coarse;
-            if (bend.transmitted && bend.reflectance > 0.0f) {
-              const float4 u = random4(seed, iteration, photon, draws++, STREAM_PHOTONS);
-              reflected.weight *= bend.reflectance;
-              way.weight *= 1.0f - bend.reflectance;
-              bool through = is_followed(way.weight, point, u.x, &way.stands);
-              bool back = is_followed(reflected.weight, point, u.y, &reflected.stands);
-              if (through && back && waiting == TILE_PENDING) { // no room: one stands for both
-                const float chance = way.weight * way.stands / (way.weight * way.stands + reflected.weight * reflected.stands);
-                through = u.z < chance;
-                back = !through;
-                way.stands /= chance;
-                reflected.stands /= 1.0f - chance;
-              }
-              if (back) back = bend_path_as(&world, &reflected.path, hit.primitive, &end.surface, &material, &band, -1.0f,
-                                            &n_ratio, &bend);
-              if (through && back) { // the one with less light first: so few ways wait
-                const bool more_through = way.weight > reflected.weight;
-                pending[waiting++] = more_through ? way : reflected;
-                if (more_through) way = reflected;
-              } else if (back)
-                way = reflected;
-              else if (!through) {
-                if (waiting == 0) break;
-                way = pending[--waiting];
-              }
-            }
-          }
+      const float4 u = random4(seed, iteration, photon, draw, STREAM_PHOTONS);
+      const int became = next_surface(&world, &band, lattice.step, point, u, &way, pending, &waiting, &end);
+      if (became == WAY_GOES_ON) continue;
+      if (became == WAY_ENDS) {
+        const bool deposited = end.outcome == OUTCOME_DEPOSITED;
+        end.left = 1.0f;
+        if (deposited || way.path.losses.any) {
+          const int reflector = deposited ? material_of(&world, end.surface.object).reflector : -1;
+          const float4 carried = carried_light(&world, &way.path.losses, source, &whole, reflector);
+          end.xyz = carried.xyz;
+          if (way.path.losses.any && power_share != 0.0f) end.left = carried.w / power_share;
         }
+        const float carried_watts = watts * way.weight * way.stands;
+        if (deposited &&
+            !splat_way(&world, &camera, &lattice, &end, &way, source, &band, carried_watts, &to_film, photon))
+          add_outcome(outcomes, OUTCOME_REFUSED, 1);
+        count_photon(outcomes, end.outcome, carried_watts * power_share * (lattice.high - lattice.low) * energy_scale,
+                     end.left);
       }
-      if (goes_on) continue;
-      end.left = 1.0f;
-      const bool deposited = end.outcome == OUTCOME_DEPOSITED;
-      if (deposited || way.path.losses.any) {
-        const int reflector = deposited ? material_of(&world, end.surface.object).reflector : -1;
-        const float4 carried = carried_light(&world, &way.path.losses, source, &band, reflector);
-        end.xyz = carried.xyz;
-        if (way.path.losses.any) end.left = share != 0.0f ? carried.w / share : 1.0f;
-      }
-      const float carried_watts = watts * way.weight * way.stands;
-      if (deposited && !splat_way(&world, &camera, &lattice, &end, &way.path, source, &band, way.stands, way.is_coarse, carried_watts, corners,
-                                  film_of_iteration(film, lattice.film_half, camera.width * camera.height), film_scale, photon))
-        add_outcome(outcomes, OUTCOME_REFUSED, 1);
-      count_photon(outcomes, end.outcome, carried_watts * power_share * (lattice.high - lattice.low) * energy_scale, end.left);
       if (waiting == 0) break;
       way = pending[--waiting];
     }

@@ -170,9 +170,10 @@ COMPILED_ONCE Emission emit(const DeviceLight* light, __global const DeviceTarge
   return emit_from_point(light, targets, random);
 }
 
-// Where a photon of a lattice starts. disc: its place in the square [-1, 1] x [-1, 1], of which the unit disc stands for
-// the target of that number, or for the cone of a spot (-1): a disc of equal areas (Lambert's map), or the target's
-// shadow. d: derivatives by the place. The density is that of `emit` with as many photons in the disc as it sends there.
+// Where a photon of a lattice starts. disc: its place in the square [-1, 1] x [-1, 1], of which the unit disc stands
+// for the target of that number, or for the cone of a spot (-1): a disc of equal areas (Lambert's map), or the target's
+// shadow. d: derivatives by the place. The density is that of `emit` with as many photons in the disc as it sends
+// there.
 static inline Emission emit_on_lattice(const DeviceLight* light, __global const DeviceTarget* targets,
                                        const DeviceScene* scene, int target, float2 disc, float2 place,
                                        Differential d[2]) {
@@ -225,8 +226,7 @@ static inline Emission emit_on_lattice(const DeviceLight* light, __global const 
   }
   for (int i = 0; i < 2; ++i) {
     const float along = i == 0 ? disc.x : disc.y, d_below = 2.0f * one_minus_cos * along;
-    const float3 d_aside =
-        stretch * (i == 0 ? x : y) - outwards * (one_minus_cos * one_minus_cos * along / stretch);
+    const float3 d_aside = stretch * (i == 0 ? x : y) - outwards * (one_minus_cos * one_minus_cos * along / stretch);
     d[i].direction = d_aside - d_below * axis;
     d[i].position = is_far ? emission.behind * (d_aside + aside * (d_below / (1.0f - below))) : (float3)(0.0f);
   }

@@ -50,7 +50,9 @@
   TABLE(DeviceTarget, targets, "targets") /* lists: DeviceLight::first_target */
 #define COLOUR_TABLES(TABLE) \
   TABLE(float, cluster_cdf, "cluster choice") /* [cluster + 1]: what paths through glass are worth */ \
-  TABLE(float4, reflected_xyz_all, "reflected colours") /* [row][reflector]: reflected_xyz of all clusters */
+  TABLE(float4, reflected_xyz_all, "reflected colours") /* [row][reflector]: reflected_xyz of all clusters */ \
+  TABLE(float4, reflected_before, "reflected colours by wavelength") /* [row][reflector][of cluster_wavelengths]: the \
+    sum over the members of the cluster before it, as reflected_xyz's */
 
 // Tables that every kernel of the scene reads: WORLD_ARGUMENTS.
 #define WORLD_TABLES(TABLE) \

@@ -37,9 +37,10 @@ constexpr Strategy strategies[] = {
     {Choice::random, Strategy::By::alike, "each pass has one cluster, drawn at random: spectral.effort is random"},
 };
 
-/// The strategy of the settings. Layers and progressive photon mapping measure no variance.
+/// The strategy of the settings. Layers, tiles and progressive photon mapping measure no variance.
 const Strategy& strategy_of(const Settings& settings) {
-  const bool measures = !settings.relight && settings.estimator != Settings::Estimator::sppm;
+  const bool measures = !settings.relight && settings.estimator != Settings::Estimator::sppm &&
+                        settings.estimator != Settings::Estimator::tiles;
   const Choice choice = settings.effort == Choice::automatic && !measures ? Choice::power : settings.effort;
   return *std::ranges::find(strategies, choice, &Strategy::choice);
 }

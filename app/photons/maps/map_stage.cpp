@@ -149,11 +149,12 @@ plan::Decision map_decision(const PlanInput& input) {
             false};
   if (!input.caustics.runs) return {name, false, "there are no caustics to gather"};
   const bool sees = tracing::may_see_glass_or_mirror(input.scene);
-  if (input.settings.estimator == Settings::Estimator::splat ||
-      input.settings.estimator == Settings::Estimator::tiles)
+  const bool splat = input.settings.estimator == Settings::Estimator::splat;
+  if (splat || input.settings.estimator == Settings::Estimator::tiles)
     return {name, false,
-            fmt::format("spectral.estimator is splat: {}", sees ? "what glass and mirrors show of caustics is left out"
-                                                                : "the camera sees no glass and no mirror")};
+            fmt::format("spectral.estimator is {}: {}", splat ? "splat" : "tiles",
+                        sees ? "what glass and mirrors show of caustics is left out"
+                             : "the camera sees no glass and no mirror")};
   if (!sees)
     return tracing::not_needed(name, input.leave_out.photon_maps,
                                "the camera sees no glass and no mirror, so every caustic is splatted");

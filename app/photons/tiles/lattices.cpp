@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <random>
 
@@ -38,7 +37,8 @@ struct Disc {
 
 /// one_minus_cos_of in kernels/tracing/emission.h.
 double one_minus_cos(const shared::float4& sphere, const glm::dvec3& from) {
-  const double distance2 = glm::dot(vector(sphere) - from, vector(sphere) - from), radius2 = double{sphere.w} * sphere.w;
+  const double distance2 = glm::dot(vector(sphere) - from, vector(sphere) - from),
+               radius2 = double{sphere.w} * sphere.w;
   if (distance2 <= radius2) return 2;
   return radius2 / distance2 / (1 + std::sqrt(1 - radius2 / distance2));
 }
@@ -67,18 +67,15 @@ double places_of(const shared::DeviceLight& light, double photons) {
   return std::max(1.0, std::round(std::pow(photons, 0.4)));
 }
 
-/// Into how many parts the wavelengths of a cluster are cut, each with a lattice: a footprint is swept along its part's.
-double parts_of(double photons) {
-  static const double per = std::getenv("PARTS") ? std::atof(std::getenv("PARTS")) : 65536;
-  return std::clamp(std::round(std::sqrt(photons / per)), 1.0, 64.0);
-}
+/// Into how many parts the wavelengths of a cluster are cut, each with a lattice: a footprint is swept along its
+/// part's.
+double parts_of(double photons) { return std::clamp(std::round(std::sqrt(photons / 65536)), 1.0, 64.0); }
 
-/// The widest footprint in pixels: some 80 times the mean one, so that it shrinks as photons grow, and at most a quarter
-/// of the picture.
+/// The widest footprint in pixels: some 80 times the mean one, so that it shrinks as photons grow, and at most a
+/// quarter of the picture.
 double widest_of(const shared::DeviceCamera& camera, double photons) {
-  static const double cap = std::getenv("CAP") ? std::atof(std::getenv("CAP")) : 80;
-  return std::min(cap * std::sqrt(double{camera.width * 1.0} * camera.height / photons),
-                  0.25 * std::max(camera.width, camera.height));
+  const double pixels = static_cast<double>(camera.width) * camera.height;
+  return std::min(80 * std::sqrt(pixels / photons), 0.25 * std::max(camera.width, camera.height));
 }
 
 } // namespace
@@ -86,20 +83,24 @@ double widest_of(const shared::DeviceCamera& camera, double photons) {
 Lattices make_lattices(const RunTables& tables, unsigned halves, std::int64_t batches, shared::uint2 seed,
                        std::int64_t round) {
   Lattices result;
+  const auto in_all = [batches](unsigned photons) {
+    return static_cast<double>(photons) * static_cast<double>(batches);
+  };
   for (unsigned half = 0; half < halves; ++half) {
     Uniform uniform(seed, round, half);
     for (const shared::DeviceEmitter& emitter : tables.emitters) {
       const shared::DeviceLight& light = tables.lights[static_cast<std::size_t>(emitter.light)];
-      const double photons = double{emitter.photon_count * 1.0} * static_cast<double>(batches);
-      const double places = places_of(light, photons);
+      const double photons = in_all(emitter.photon_count), places = places_of(light, photons),
+                   parts = places > 1 ? 1 : parts_of(photons);
       const std::array<double, 3> start{uniform(), uniform(), uniform()};
-      for (double k = 0; k < places; ++k) {
+      for (double k = 0; k < places * parts; ++k) {
+        // A place has all wavelengths, and then one of its own, or a part of the wavelengths has its middle one.
+        const double part = places > 1 ? 0 : k;
         const auto step_on = [k](double from, double step) { return std::fmod(from + k * step, 1.0); };
         const std::array<double, 2> place{step_on(start[0], 0.7548776662466927), step_on(start[1], 0.5698402909980532)};
-        const double parts = places > 1 ? 1 : parts_of(photons), lattices = places * parts;
-        for (double part = 0; part < parts; ++part)
+        const double wavelength = places > 1 ? step_on(start[2], std::numbers::phi - 1) : (part + 0.5) / parts;
         for (const Disc& disc : discs_of(tables, light, place)) {
-          const double step = std::sqrt(pi * lattices / (photons * disc.part));
+          const double step = std::sqrt(pi * places * parts / (photons * disc.part));
           shared::DeviceLattice lattice{};
           lattice.first_photon = result.points;
           lattice.side = static_cast<std::uint32_t>(std::ceil(2 / step)) + 1;
@@ -112,12 +113,12 @@ Lattices make_lattices(const RunTables& tables, unsigned halves, std::int64_t ba
           lattice.shift_y = static_cast<float>(uniform());
           lattice.place_x = static_cast<float>(place[0]);
           lattice.place_y = static_cast<float>(place[1]);
-          lattice.wavelength = static_cast<float>(std::min((part + (places > 1 ? step_on(start[2], 0.6180339887498949) : 0.5)) / parts, 0x1.fffffep-1));
+          lattice.wavelength = std::min(static_cast<float>(wavelength), 0x1.fffffep-1f);
           lattice.low = static_cast<float>(part / parts);
           lattice.high = static_cast<float>((part + 1) / parts);
           lattice.photons = static_cast<float>(photons / parts);
           lattice.share = emitter.share;
-          lattice.widest = static_cast<float>(widest_of(tables.camera, double{tables.photons_per_batch * 1.0} * static_cast<double>(batches)));
+          lattice.widest = static_cast<float>(widest_of(tables.camera, in_all(tables.photons_per_batch)));
           lattice.phase = uniform.bits();
           result.points += lattice.side * lattice.side;
           result.lattices.push_back(lattice);

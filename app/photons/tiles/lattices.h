@@ -14,8 +14,8 @@ struct Lattices {
   std::uint32_t points = 0; ///< of all lattices; those outside the discs are no photons
 };
 
-/// Makes the lattices of a round of so many batches of photons in each half. Shifts, wavelengths and places on lamps of a
-/// size are drawn anew for each round.
+/// Makes the lattices of a round of so many batches of photons in each half. Shifts, wavelengths and places on lamps of
+/// a size are drawn anew for each round.
 Lattices make_lattices(const RunTables& tables, unsigned halves, std::int64_t batches, shared::uint2 seed,
                        std::int64_t round);
 
