@@ -15,7 +15,7 @@
 #define STRETCH_SHORTEST 0.1f
 // The largest angle, in radians, between the last directions of a streak for which D' predicts them. A rainbow of
 // streaks some three times as wide is off by 3 % (docs/notebook/differentials.md). It excludes the critical angle, too.
-#define STRETCH_WIDEST 0.05f
+#define STRETCH_WIDEST 0.01f
 
 // How a photon is splatted: `count` splats, of its whole cluster's light or its band's, each at its wavelength's place.
 typedef struct {
@@ -82,8 +82,8 @@ static inline bool stretch_end(const World* world, const DeviceCamera* camera, c
 
 // Tries to stretch a photon from `low` to `high`, its own s being 0. False: that leaves the receiver or goes too far.
 static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
-                                float low, float high, float shortest, Stretch* stretch) {
-  if (!(fabs(high - low) * length(path->differential.direction) <= STRETCH_WIDEST)) return false;
+                                float low, float high, float shortest, float widest, Stretch* stretch) {
+  if (!(fabs(high - low) * length(path->differential.direction) <= widest)) return false;
   float2 first, last = (float2)(0.0f);
   for (int i = 0; i < 2; ++i) { // a loop, for one copy of the code
     first = last;
@@ -105,7 +105,8 @@ COMPILED_ONCE Stretch stretch_of(const World* world, const DeviceCamera* camera,
   for (int i = 0; i < (band->wavelength >= 0 ? 2 : 1); ++i) {
     const float4 span = i == 0 ? world->stretch_span[band->cluster] : world->stretch_place[band->wavelength];
     Stretch stretch = {1, i == 0, false};
-    if (stretch_over(world, camera, end, path, span.y - origin, span.z - origin, STRETCH_SHORTEST, &stretch)) return stretch;
+    if (stretch_over(world, camera, end, path, span.y - origin, span.z - origin, STRETCH_SHORTEST, STRETCH_WIDEST,
+                     &stretch)) return stretch;
   }
 #endif
   const Stretch point = {1, false, false};

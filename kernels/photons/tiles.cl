@@ -11,8 +11,9 @@
 #define TILE_LEAST 0.3f
 #define TILE_LEVELS 4
 #define TILE_PENDING 4
-// The length in pixels below which a footprint is not swept.
+// The length in pixels below which a footprint is not swept, and the angle in radians above which.
 #define SWEEP_SHORTEST 0.5f
+#define SWEEP_WIDEST 0.05f
 // The part of the widest footprint that is left to one whose cell has spanned more than a triangle: it is a guess.
 #define COARSE_PART 0.125f
 
@@ -155,7 +156,7 @@ static inline bool splat_way(const World* world, const DeviceCamera* camera, con
   float from_x, to_x;
   stretched_band(world, source.light, band, lattice->low, &from_x);
   stretched_band(world, source.light, band, fmin(lattice->high, 0x1.fffffep-1f), &to_x);
-  if (!stretch_over(world, camera, end, path, from_x, to_x, SWEEP_SHORTEST, &sweep)) sweep.count = 1;
+  if (!stretch_over(world, camera, end, path, from_x, to_x, SWEEP_SHORTEST, SWEEP_WIDEST, &sweep)) sweep.count = 1;
 #endif
   bool fits = true;
   const float turn = place_within(photon, 0u).x;

@@ -87,6 +87,12 @@ TEST_F(Ranks, GiveOnePictureOfProgressiveMaps) {
                      {3});
 }
 
+TEST_F(Ranks, GiveOnePictureOfTiles) {
+  expect_one_picture({"first-light", "--passes", "3", "--set", "scene.camera.resolution=[96,72]", "--set",
+                      "spectral.estimator=tiles", "--set", "spectral.photons_per_pass=20000"},
+                     {2, 3, 4});
+}
+
 TEST_F(Ranks, GiveOnePictureOfLayers) {
   expect_one_picture(
       {"first-light", "--passes", "2", "--set", "scene.camera.resolution=[40,30]", "--set", "spectral.relight=true"},

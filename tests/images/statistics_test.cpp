@@ -211,6 +211,19 @@ TEST_P(StoredPicture, HasTheStoredMeanAndVariance) {
                   << write_artefacts(GetParam().name, *snapshot.picture, stored, comparison);
 }
 
+// Tiles have another noise and the same mean, but for the bias of what light does within a tile: a few hundredths of
+// the noise that a picture of points has here.
+class StoredMean : public StoredPicture {};
+TEST_P(StoredMean, IsThatOfTiles) {
+  preset::Preset p = GetParam().preset();
+  spectral::settings(p).estimator = photons::Settings::Estimator::tiles;
+  spectral::settings(p).photons_per_pass = 1 << 16;
+  const job::Snapshot snapshot = Renderer(p).render(fresh_seed);
+  const Comparison comparison = compare(to_xyz(snapshot.picture->rgb), read_statistics(stored_file(GetParam().name)));
+  EXPECT_EQ(photons::energy_of(snapshot).refused_contributions, 0u);
+  EXPECT_GT(comparison.block_p, false_alarm) << comparison.worst;
+}
+
 // The test itself: a picture that is 5 % brighter, one whose rows have moved by one, one with a single far too bright
 // pixel and one with twice the noise are found out in every scene.
 TEST_P(StoredPicture, IsToldFromWrongOnes) {
@@ -269,6 +282,10 @@ TEST_P(StoredPicture, DISABLED_PassesWithTwentySeeds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, StoredPicture, testing::ValuesIn(cases),
+                         [](const auto& tested) { return tested.param.name; });
+// All but the prism: it is stored as a line for each cluster, and tiles make one band of it
+// (tests/physics/spectral_differentials_test.cpp).
+INSTANTIATE_TEST_SUITE_P(Scenes, StoredMean, testing::Values(cases[0], cases[2], cases[3], cases[4]),
                          [](const auto& tested) { return tested.param.name; });
 
 } // namespace nephroid::statistics_test

@@ -24,6 +24,7 @@ check() {
 
 check first-light
 check spectral/glass-in-a-room --set spectral.indirect_photons_per_pass=64 # photon maps, indirect light
+check first-light --set spectral.estimator=tiles
 check spectral/three-lamps                                                 # an environment
 check spectral/prism --set spectral.relight=true                           # a layer a light and cluster
 check extremes/nested-eight                                                # spheres

@@ -222,6 +222,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, MapRuns,
                          testing::Values(Case{"automatic", Estimator::automatic, Effort::power, false},
                                          Case{"jittered", Estimator::automatic, Effort::power, true},
                                          Case{"sppm", Estimator::sppm, Effort::importance, false},
+                                         Case{"tiles", Estimator::tiles, Effort::power, true},
                                          Case{"random", Estimator::sppm, Effort::random, false}),
                          [](const auto& c) { return std::string(c.param.name); });
 

@@ -212,6 +212,21 @@ TEST(SpectralDifferentials, PutEachWavelengthWhereSnellPutsIt) {
   record("farthest of five wavelengths from its place, pixels", worst, 0, 0.25);
 }
 
+// Tiles of 2^12 photons for each of 32 clusters, swept over their parts of the rainbow.
+TEST(SpectralDifferentials, SweepTilesOverARainbow) {
+  Newton newton;
+  spectral::settings(newton.preset()).method = photons::Settings::Method::optimal;
+  spectral::settings(newton.preset()).threshold_deg = 0.05;
+  spectral::settings(newton.preset()).photons_per_pass = 1 << 17;
+  spectral::settings(newton.preset()).estimator = photons::Settings::Estimator::tiles;
+  const Columns band = newton.rendered(render_as_it_is(newton.preset())), truth = newton.truth();
+  record("mean error of a column: tiles", mean_error(band, truth), 0, 0.05);
+  EXPECT_EQ(dark(band), 0);
+  EXPECT_LT(mean_error(band, truth), 0.05);
+  // Hardly any blue is left in view.
+  for (std::size_t c = 0; c < 2; ++c) EXPECT_NEAR(sum_of(band, c) / sum_of(truth, c), 1, 0.005) << c;
+}
+
 // 32 paths for the whole rainbow: without stretching it is as many lines. Where clusters are too coarse to be stretched
 // as a whole, a jittered photon still is a streak of its own wavelength.
 TEST(SpectralDifferentials, SpreadWholeClustersWithAndWithoutJitter) {

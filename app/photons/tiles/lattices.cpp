@@ -67,8 +67,8 @@ double places_of(const shared::DeviceLight& light, double photons) {
   return std::max(1.0, std::round(std::pow(photons, 0.4)));
 }
 
-/// Into how many parts the wavelengths of a cluster are cut, each with a lattice: a footprint is swept along its
-/// part's.
+/// Into how many parts the wavelengths of a cluster are cut where glass parts them, each with a lattice: a footprint is
+/// swept along its part's.
 double parts_of(double photons) { return std::clamp(std::round(std::sqrt(photons / 65536)), 1.0, 64.0); }
 
 /// The widest footprint in pixels: some 80 times the mean one, so that it shrinks as photons grow, and at most a
@@ -91,7 +91,7 @@ Lattices make_lattices(const RunTables& tables, unsigned halves, std::int64_t ba
     for (const shared::DeviceEmitter& emitter : tables.emitters) {
       const shared::DeviceLight& light = tables.lights[static_cast<std::size_t>(emitter.light)];
       const double photons = in_all(emitter.photon_count), places = places_of(light, photons),
-                   parts = places > 1 ? 1 : parts_of(photons);
+                   parts = places == 1 && tables.wavelengths.clusters_spread ? parts_of(photons) : 1;
       const std::array<double, 3> start{uniform(), uniform(), uniform()};
       for (double k = 0; k < places * parts; ++k) {
         // A place has all wavelengths, and then one of its own, or a part of the wavelengths has its middle one.
