@@ -3,12 +3,13 @@
 // photon there.
 #include "kernels/photons/pixel_view_types.h"
 #include "kernels/tracing/camera.h"
+#include "kernels/tracing/work_item.h"
 #include "kernels/tracing/world.h"
 
 // corners: [row][column] of (height + 1) x (width + 1): the object, -1: none; as_uint(1 / its depth along the view).
 __kernel void pixel_corners(WORLD_ARGUMENTS, DeviceCamera camera, __global uint2* corners, uint count) {
   const World world = WORLD;
-  const uint number = (uint)get_global_id(0);
+  const uint number = work_item();
   if (number >= count) return;
   const uint across = (uint)camera.width + 1u;
   const float3 direction = primary_direction(&camera, (int)(number % across), (int)(number / across), (float2)(0.0f));
@@ -25,7 +26,7 @@ __kernel void pixel_corners(WORLD_ARGUMENTS, DeviceCamera camera, __global uint2
 
 // views: [row][column].
 __kernel void pixel_views(__global const uint2* corners, int width, int height, __global PixelView* views) {
-  const int number = (int)get_global_id(0);
+  const int number = (int)work_item();
   if (number >= width * height) return;
   __global const uint2* corner = corners + (size_t)(number / width) * (width + 1) + number % width;
   const uint2 seen[4] = {corner[0], corner[1], corner[width + 1], corner[width + 2]};

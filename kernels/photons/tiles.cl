@@ -5,6 +5,7 @@
 #define NEPHROID_TILES 1
 #include "kernels/photons/footprint_splat.h"
 #include "kernels/photons/stretch.h"
+#include "kernels/tracing/work_item.h"
 
 // The part of a photon's light below which not every point of the lattice follows what is left: one of 4, then of 16,
 // ... does, and stands for all, as a lattice twice as wide.
@@ -17,7 +18,7 @@
 // The part of the widest footprint that is left to one whose cell has spanned more than a triangle: it is a guess.
 #define COARSE_PART 0.125f
 
-// A way of a photon that is still to be followed.
+// A branch of a photon's path, up to its last surface.
 typedef struct {
   Path path;
   float weight; // Fresnel's part of the photon's light
@@ -25,7 +26,7 @@ typedef struct {
   int surfaces;
   bool met;       // a caustic object
   bool is_coarse; // its cell has spanned more than a triangle, so that its footprint is a guess
-} Way;
+} Branch;
 
 // The lattice that a point belongs to.
 static inline int lattice_of(__global const DeviceLattice* lattices, int count, uint photon) {
@@ -40,8 +41,8 @@ static inline int lattice_of(__global const DeviceLattice* lattices, int count, 
   return low;
 }
 
-// Decides whether a way with this part of the light is followed from this point. *stands: the photons that the way
-// before stood for, then that this one does. u: uniform in [0, 1), for what is too little for every lattice.
+// Decides whether a branch with this part of the light is followed from this point. *stands: the photons that the
+// branch before stood for, then that this one does. u: uniform in [0, 1), for what is too little for every lattice.
 static inline bool is_followed(float weight, uint2 point, float u, float* stands) {
   int level = clamp((int)ceil(0.5f * log2(TILE_LEAST / weight) - 0.5f), 0, TILE_LEVELS);
   const uint mask = (1u << level) - 1u;
@@ -137,15 +138,15 @@ static inline FilmFootprint footprint_at(const World* world, const DeviceCamera*
   return f;
 }
 
-// Splats a way that ends on a diffuse surface, swept along the wavelengths low .. high of its cluster. Returns false
+// Splats a branch that ends on a diffuse surface, swept along the wavelengths low .. high of its cluster. Returns false
 // where a contribution is too large.
-static inline bool splat_way(const World* world, const DeviceCamera* camera, const DeviceLattice* lattice,
-                             const PhotonEnd* end, const Way* way, Source source, const Band* band, float watts,
-                             const TileFilm* film, uint photon) {
-  const Path* path = &way->path;
+COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, const DeviceLattice* lattice,
+                                const PhotonEnd* end, const Branch* branch, Source source, const Band* band,
+                                float watts, const TileFilm* film, uint photon) {
+  const Path* path = &branch->path;
   const float distance = dot(end->surface.position - path->origin, path->direction),
-              size = lattice->step * sqrt(way->stands),
-              widest = way->is_coarse ? COARSE_PART * lattice->widest : lattice->widest;
+              size = lattice->step * sqrt(branch->stands),
+              widest = branch->is_coarse ? COARSE_PART * lattice->widest : lattice->widest;
   const float3 a = size * transferred(&path->tile[0], path->direction, distance, end->surface.geometric),
                b = size * transferred(&path->tile[1], path->direction, distance, end->surface.geometric);
   const float side = dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f;
@@ -196,25 +197,26 @@ static inline bool splat_way(const World* world, const DeviceCamera* camera, con
   return fits;
 }
 
-// What became of a way at its next surface.
-#define WAY_GOES_ON 0
-#define WAY_ENDS 1
-#define WAY_IS_DROPPED 2 // other points of the lattice stand for it
+// What became of a branch at its next surface.
+#define BRANCH_GOES_ON 0
+#define BRANCH_ENDS 1
+#define BRANCH_IS_DROPPED 2 // other points of the lattice stand for it
 
-// At glass a photon goes both ways. `way` has gone through and `reflected` waits before the surface; what is followed
-// later is put into `pending`, and of two that with more light: so few ways wait.
-static inline int split_way(const World* world, const DeviceMaterial* material, const Band* band, const Bend* through,
-                            const PhotonEnd* end, uint2 point, float4 u, Way* way, Way* reflected, Way* pending,
-                            int* waiting) {
+// At glass a photon goes both ways. `branch` has gone through and `reflected` waits before the surface; what is
+// followed later is put into `pending`, and of two that with more light: so few branches wait.
+static inline int split_branch(const World* world, const DeviceMaterial* material, const Band* band,
+                               const Bend* through, const PhotonEnd* end, uint2 point, float4 u, Branch* branch,
+                               Branch* reflected, Branch* pending, int* waiting) {
   reflected->weight *= through->reflectance;
-  way->weight *= 1.0f - through->reflectance;
-  bool goes_through = is_followed(way->weight, point, u.x, &way->stands);
+  branch->weight *= 1.0f - through->reflectance;
+  bool goes_through = is_followed(branch->weight, point, u.x, &branch->stands);
   bool goes_back = is_followed(reflected->weight, point, u.y, &reflected->stands);
   if (goes_through && goes_back && *waiting == TILE_PENDING) { // no room: one stands for both
-    const float light = way->weight * way->stands, chance = light / (light + reflected->weight * reflected->stands);
+    const float light = branch->weight * branch->stands,
+                chance = light / (light + reflected->weight * reflected->stands);
     goes_through = u.z < chance;
     goes_back = !goes_through;
-    way->stands /= chance;
+    branch->stands /= chance;
     reflected->stands /= 1.0f - chance;
   }
   float n_ratio;
@@ -222,58 +224,58 @@ static inline int split_way(const World* world, const DeviceMaterial* material, 
   goes_back = goes_back && bend_path_as(world, &reflected->path, end->triangle, &end->surface, material, band, -1.0f,
                                         &n_ratio, &back);
   if (goes_through && goes_back) {
-    const bool more_through = way->weight > reflected->weight;
-    pending[(*waiting)++] = more_through ? *way : *reflected;
-    if (more_through) *way = *reflected;
+    const bool more_through = branch->weight > reflected->weight;
+    pending[(*waiting)++] = more_through ? *branch : *reflected;
+    if (more_through) *branch = *reflected;
   } else if (goes_back)
-    *way = *reflected;
-  return goes_through || goes_back ? WAY_GOES_ON : WAY_IS_DROPPED;
+    *branch = *reflected;
+  return goes_through || goes_back ? BRANCH_GOES_ON : BRANCH_IS_DROPPED;
 }
 
-// Takes a way to its next surface and, at glass or a mirror, on from there. end: the outcome where it ends, and the
+// Takes a branch to its next surface and, at glass or a mirror, on from there. end: the outcome where it ends, and the
 // surface. cell: the side of the lattice's cells. u: uniform in [0, 1).
-static inline int next_surface(const World* world, const Band* band, float cell, uint2 point, float4 u, Way* way,
-                               Way* pending, int* waiting, PhotonEnd* end) {
-  const Hit hit = next_hit(world, &way->path);
+COMPILED_ONCE int next_surface(const World* world, const Band* band, float cell, uint2 point, float4 u, Branch* branch,
+                               Branch* pending, int* waiting, PhotonEnd* end) {
+  const Hit hit = next_hit(world, &branch->path);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
-    end->outcome = way->met ? OUTCOME_ESCAPED : OUTCOME_MISSED;
-    return WAY_ENDS;
+    end->outcome = branch->met ? OUTCOME_ESCAPED : OUTCOME_MISSED;
+    return BRANCH_ENDS;
   }
   end->surface = surface_at(&world->geometry, hit);
   end->triangle = hit.primitive;
   const DeviceMaterial material = material_of(world, end->surface.object);
-  lose_in_medium(world, &way->path, hit.t);
+  lose_in_medium(world, &branch->path, hit.t);
   if (material.type == MATERIAL_DIFFUSE) {
-    end->outcome = way->met ? OUTCOME_DEPOSITED : OUTCOME_MISSED;
-    return WAY_ENDS;
+    end->outcome = branch->met ? OUTCOME_DEPOSITED : OUTCOME_MISSED;
+    return BRANCH_ENDS;
   }
   end->outcome = OUTCOME_LOST;
-  if (way->surfaces++ == world->scene.max_surfaces) return WAY_ENDS;
-  way->met = true;
-  Way reflected = *way;
+  if (branch->surfaces++ == world->scene.max_surfaces) return BRANCH_ENDS;
+  branch->met = true;
+  Branch reflected = *branch;
   Bend bend;
   float n_ratio;
-  if (!bend_path_as(world, &way->path, hit.primitive, &end->surface, &material, band, 2.0f, &n_ratio, &bend))
-    return WAY_ENDS;
-  way->is_coarse =
-      way->is_coarse || spans_triangles(&world->geometry, hit.primitive, way->path.tile, cell * sqrt(way->stands));
-  reflected.is_coarse = way->is_coarse;
-  if (!bend.transmitted || bend.reflectance == 0.0f) return WAY_GOES_ON;
-  return split_way(world, &material, band, &bend, end, point, u, way, &reflected, pending, waiting);
+  if (!bend_path_as(world, &branch->path, hit.primitive, &end->surface, &material, band, 2.0f, &n_ratio, &bend))
+    return BRANCH_ENDS;
+  branch->is_coarse = branch->is_coarse ||
+                      spans_triangles(&world->geometry, hit.primitive, branch->path.tile, cell * sqrt(branch->stands));
+  reflected.is_coarse = branch->is_coarse;
+  if (!bend.transmitted || bend.reflectance == 0.0f) return BRANCH_GOES_ON;
+  return split_branch(world, &material, band, &bend, end, point, u, branch, &reflected, pending, waiting);
 }
 
-// A photon's first way. emission: its tile[2] is set already.
-static inline void start_way(Way* way, const Emission* emission, Media inside) {
-  way->path.origin = emission->origin;
-  way->path.direction = emission->direction;
-  way->path.skip = NEPHROID_NO_PRIMITIVE;
-  way->path.media = inside;
-  way->path.losses = no_losses();
-  way->path.behind = emission->behind;
-  way->path.differential.position = way->path.differential.direction = (float3)(0.0f);
-  way->weight = way->stands = 1.0f;
-  way->surfaces = 0;
-  way->met = way->is_coarse = false;
+// A photon's first branch. emission: its tile[2] is set already.
+static inline void start_branch(Branch* branch, const Emission* emission, Media inside) {
+  branch->path.origin = emission->origin;
+  branch->path.direction = emission->direction;
+  branch->path.skip = NEPHROID_NO_PRIMITIVE;
+  branch->path.media = inside;
+  branch->path.losses = no_losses();
+  branch->path.behind = emission->behind;
+  branch->path.differential.position = branch->path.differential.direction = (float3)(0.0f);
+  branch->weight = branch->stands = 1.0f;
+  branch->surfaces = 0;
+  branch->met = branch->is_coarse = false;
 }
 
 // Follows the points first .. first + count - 1 of a round. energy: as of photons.cl.
@@ -285,7 +287,7 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
   const World world = WORLD;
   OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
-    const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
+    const uint number = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= count) break;
     const uint photon = first + number;
     const DeviceLattice lattice = lattices[lattice_of(lattices, lattice_count, photon)];
@@ -297,8 +299,8 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
     DeviceLight light = lights[lattice.light];
     const float2 place = (float2)(lattice.place_x, lattice.place_y);
     const Source source = source_of(&world, lattice.light, place, &light);
-    Way way;
-    const Emission emission = emit_on_lattice(&light, targets, &scene, lattice.target, disc, place, way.path.tile);
+    Branch branch;
+    const Emission emission = emit_on_lattice(&light, targets, &scene, lattice.target, disc, place, branch.path.tile);
     if (emission.watts == 0.0f) continue;
     const Band band = choose_band(&world, lattice.light, lattice.cluster, lattice.wavelength);
     const Band whole = whole_cluster(lattice.cluster);
@@ -306,33 +308,34 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
                 watts = emission.watts / lattice.photons;
     const TileFilm to_film = {reflected_before, views,
                               film_of_iteration(film, lattice.film_half, camera.width * camera.height), film_scale};
-    start_way(&way, &emission, light.inside);
-    Way pending[TILE_PENDING];
-    int waiting = 0;
-    for (uint draw = 0;; ++draw) {
+    start_branch(&branch, &emission, light.inside);
+    Branch pending[TILE_PENDING];
+    int waiting = 0, segments = 0;
+    for (;;) {
       PhotonEnd end;
-      const float4 u = random4(seed, iteration, photon, draw, STREAM_PHOTONS);
-      const int became = next_surface(&world, &band, lattice.step, point, u, &way, pending, &waiting, &end);
-      if (became == WAY_GOES_ON) continue;
-      if (became == WAY_ENDS) {
+      const float4 u = random4(seed, iteration, photon, (uint)segments++, STREAM_PHOTONS);
+      const int became = next_surface(&world, &band, lattice.step, point, u, &branch, pending, &waiting, &end);
+      if (became == BRANCH_GOES_ON) continue;
+      if (became == BRANCH_ENDS) {
         const bool deposited = end.outcome == OUTCOME_DEPOSITED;
         end.left = 1.0f;
-        if (deposited || way.path.losses.any) {
+        if (deposited || branch.path.losses.any) {
           const int reflector = deposited ? material_of(&world, end.surface.object).reflector : -1;
-          const float4 carried = carried_light(&world, &way.path.losses, source, &whole, reflector);
+          const float4 carried = carried_light(&world, &branch.path.losses, source, &whole, reflector);
           end.xyz = carried.xyz;
-          if (way.path.losses.any && power_share != 0.0f) end.left = carried.w / power_share;
+          if (branch.path.losses.any && power_share != 0.0f) end.left = carried.w / power_share;
         }
-        const float carried_watts = watts * way.weight * way.stands;
+        const float carried_watts = watts * branch.weight * branch.stands;
         if (deposited &&
-            !splat_way(&world, &camera, &lattice, &end, &way, source, &band, carried_watts, &to_film, photon))
+            !splat_branch(&world, &camera, &lattice, &end, &branch, source, &band, carried_watts, &to_film, photon))
           add_outcome(outcomes, OUTCOME_REFUSED, 1);
-        count_photon(outcomes, end.outcome, carried_watts * power_share * (lattice.high - lattice.low) * energy_scale,
-                     end.left);
+        count_photon(outcomes, end.outcome, 0,
+                     carried_watts * power_share * (lattice.high - lattice.low) * energy_scale, end.left);
       }
       if (waiting == 0) break;
-      way = pending[--waiting];
+      branch = pending[--waiting];
     }
+    add_outcome(outcomes, OUTCOME_SEGMENTS, segments);
   }
   add_outcomes(energy, outcomes);
 }

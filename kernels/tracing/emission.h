@@ -76,6 +76,15 @@ static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 r
   photon->origin = centre + photon->behind * aside;
 }
 
+// 1 / density of a photon that was sent towards the target `chosen`. sum: of one_minus_cos_of all targets.
+static inline float steradians_a_photon(__global const DeviceTarget* targets, int target_count, int chosen, float sum,
+                                        float3 from, const Emission* photon) {
+  int count = 1;
+  for (int i = 0; i < target_count; ++i)
+    if (i != chosen && meets_sphere(targets[i].centre_radius, from, photon)) ++count;
+  return 2.0f * PI_F * sum / (float)count;
+}
+
 // Sends a photon from a point towards the targets: writes its line to *photon. Returns 1 / density in steradians.
 static inline float sample_targets(__global const DeviceTarget* targets, int target_count, float3 from, float4 random,
                                    Emission* photon) {
@@ -89,10 +98,18 @@ static inline float sample_targets(__global const DeviceTarget* targets, int tar
   float rest = random.x * sum;
   while (chosen + 1 < target_count && rest >= one_minus_cos[chosen]) rest -= one_minus_cos[chosen++];
   aim(targets[chosen].centre_radius.xyz, one_minus_cos[chosen], from, random.yz, photon);
-  int count = 1;
-  for (int i = 0; i < target_count; ++i)
-    if (i != chosen && meets_sphere(targets[i].centre_radius, from, photon)) ++count;
-  return 2.0f * PI_F * sum / (float)count;
+  return steradians_a_photon(targets, target_count, chosen, sum, from, photon);
+}
+
+// What a photon of `steradians` = 1 / density carries of a light with a place. Radiance is power / (area pi), and the
+// place uniform, so a photon of an area light carries power cos(theta) / pi per steradian.
+static inline float watts_of(const DeviceLight* light, float3 direction, float steradians) {
+  if (is_light(light, LIGHT_AREA)) {
+    const float cosine = dot(direction, light->direction.xyz);
+    return cosine > 0.0f ? light->radiometric * cosine / PI_F * steradians : 0.0f;
+  }
+  if (is_light(light, LIGHT_POINT)) return light->radiometric * steradians / (4.0f * PI_F);
+  return in_spot(light, direction) ? light->radiometric * steradians / light->solid_angle : 0.0f;
 }
 
 static inline Emission emit_from_point(const DeviceLight* light, __global const DeviceTarget* targets, float4 random) {
@@ -111,21 +128,30 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
     }
   }
   const float steradians = sample_targets(targets, target_count, light->position.xyz, random, &emission);
-  if (is_light(light, LIGHT_POINT))
-    emission.watts = light->radiometric * steradians / (4.0f * PI_F);
-  else if (in_spot(light, emission.direction))
-    emission.watts = light->radiometric * steradians / light->solid_angle;
+  emission.watts = watts_of(light, emission.direction, steradians);
   return emission;
 }
 
-// Radiance is power / (area pi), and the place uniform, so a photon carries power cos(theta) / pi per steradian.
 static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random,
                                       float2 place) {
   Emission emission;
   const float steradians = sample_targets(targets, light->target_count, area_point(light, place), random, &emission);
-  const float cosine = dot(emission.direction, light->direction.xyz);
-  emission.watts = cosine > 0.0f ? light->radiometric * cosine / PI_F * steradians : 0.0f;
+  emission.watts = watts_of(light, emission.direction, steradians);
   return emission;
+}
+
+// What a photon of parallel light carries that starts at a place of the target `chosen`. sum: of the radii squared.
+static inline float parallel_watts(const DeviceLight* light, __global const DeviceTarget* targets,
+                                   const DeviceScene* scene, int chosen, float sum, float3 place) {
+  const float3 direction = light->direction.xyz;
+  int count = 1;
+  for (int i = 0; i < light->target_count; ++i) {
+    const float3 way = place - targets[i].centre_radius.xyz;
+    const float3 aside = way - dot(way, direction) * direction;
+    if (i != chosen && dot(aside, aside) <= targets[i].centre_radius.w * targets[i].centre_radius.w) ++count;
+  }
+  const float square_metres = PI_F * sum * scene->metres_per_unit * scene->metres_per_unit;
+  return light->radiometric * square_metres / (float)count;
 }
 
 static inline Emission emit_directional(const DeviceLight* light, __global const DeviceTarget* targets,
@@ -148,15 +174,8 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
   const float sine_phi = sincos(2.0f * PI_F * random.z, &cosine_phi);
   const float radius = targets[chosen].centre_radius.w * sqrt(random.y);
   const float3 place = targets[chosen].centre_radius.xyz + radius * (cosine_phi * x + sine_phi * y);
-  int count = 1;
-  for (int i = 0; i < target_count; ++i) {
-    const float3 way = place - targets[i].centre_radius.xyz;
-    const float3 aside = way - dot(way, direction) * direction;
-    if (i != chosen && dot(aside, aside) <= targets[i].centre_radius.w * targets[i].centre_radius.w) ++count;
-  }
-  const float square_metres = PI_F * sum * scene->metres_per_unit * scene->metres_per_unit;
   const Emission emission = {place, direction, scene->outside_distance,
-                             light->radiometric * square_metres / (float)count};
+                             parallel_watts(light, targets, scene, chosen, sum, place)};
   return emission;
 }
 
@@ -180,31 +199,22 @@ static inline Emission emit_on_lattice(const DeviceLight* light, __global const 
   targets += light->first_target;
   const int target_count = light->target_count;
   Emission emission = {light->position.xyz, light->direction.xyz, 0.0f, 0.0f};
+  float3 x, y;
+  float sum = 0.0f;
   if (is_light(light, LIGHT_DIRECTIONAL) || is_light(light, LIGHT_ENVIRONMENT)) {
-    float3 axis[2];
-    make_frame(light->direction.xyz, &axis[0], &axis[1]);
+    make_frame(light->direction.xyz, &x, &y);
+    for (int i = 0; i < target_count; ++i) sum += targets[i].centre_radius.w * targets[i].centre_radius.w;
     const float4 sphere = targets[target].centre_radius;
-    emission.origin = sphere.xyz + sphere.w * (disc.x * axis[0] + disc.y * axis[1]);
+    emission.origin = sphere.xyz + sphere.w * (disc.x * x + disc.y * y);
     emission.behind = scene->outside_distance;
-    float sum = 0.0f;
-    int count = 0;
-    for (int i = 0; i < target_count; ++i) {
-      const float3 way = emission.origin - targets[i].centre_radius.xyz;
-      const float3 aside = way - dot(way, emission.direction) * emission.direction;
-      const float radius2 = targets[i].centre_radius.w * targets[i].centre_radius.w;
-      sum += radius2;
-      if (i == target || dot(aside, aside) <= radius2) ++count;
-    }
-    for (int i = 0; i < 2; ++i) {
-      d[i].position = sphere.w * axis[i];
-      d[i].direction = (float3)(0.0f);
-    }
-    const float square_metres = PI_F * sum * scene->metres_per_unit * scene->metres_per_unit;
-    emission.watts = light->radiometric * square_metres / (float)count;
+    emission.watts = parallel_watts(light, targets, scene, target, sum, emission.origin);
+    d[0].position = sphere.w * x;
+    d[1].position = sphere.w * y;
+    d[0].direction = d[1].direction = (float3)(0.0f);
     return emission;
   }
   const float3 from = is_light(light, LIGHT_AREA) ? area_point(light, place) : light->position.xyz;
-  float3 axis = light->direction.xyz, x, y;
+  float3 axis = light->direction.xyz;
   float one_minus_cos = light->one_minus_cos, distance = 0.0f;
   if (target >= 0) {
     const float3 way = targets[target].centre_radius.xyz - from;
@@ -213,8 +223,7 @@ static inline Emission emit_on_lattice(const DeviceLight* light, __global const 
     one_minus_cos = one_minus_cos_of(targets[target].centre_radius, from);
   }
   make_frame(axis, &x, &y);
-  const float2 in_disc = disc;
-  const float radius2 = dot(in_disc, in_disc), below = one_minus_cos * radius2;
+  const float below = one_minus_cos * dot(disc, disc);
   const float stretch = sqrt(one_minus_cos * (2.0f - below)); // sine of the angle over the radius
   const float3 outwards = disc.x * x + disc.y * y, aside = stretch * outwards;
   const bool is_far = target >= 0 && one_minus_cos <= 1e-3f; // as in aim
@@ -230,22 +239,10 @@ static inline Emission emit_on_lattice(const DeviceLight* light, __global const 
     d[i].direction = d_aside - d_below * axis;
     d[i].position = is_far ? emission.behind * (d_aside + aside * (d_below / (1.0f - below))) : (float3)(0.0f);
   }
-  if (target < 0) {
-    emission.watts = light->radiometric;
-    return emission;
-  }
-  float sum = 0.0f;
-  int count = 0;
-  for (int i = 0; i < target_count; ++i) {
-    sum += one_minus_cos_of(targets[i].centre_radius, from);
-    if (i == target || meets_sphere(targets[i].centre_radius, from, &emission)) ++count;
-  }
-  const float steradians = 2.0f * PI_F * sum / (float)count;
-  if (is_light(light, LIGHT_POINT))
-    emission.watts = light->radiometric * steradians / (4.0f * PI_F);
-  else if (is_light(light, LIGHT_AREA))
-    emission.watts = fmax(dot(emission.direction, light->direction.xyz), 0.0f) * light->radiometric / PI_F * steradians;
-  else if (in_spot(light, emission.direction))
-    emission.watts = light->radiometric * steradians / light->solid_angle;
+  emission.watts = light->radiometric;
+  if (target < 0) return emission;
+  for (int i = 0; i < target_count; ++i) sum += one_minus_cos_of(targets[i].centre_radius, from);
+  emission.watts =
+      watts_of(light, emission.direction, steradians_a_photon(targets, target_count, target, sum, from, &emission));
   return emission;
 }
