@@ -26,7 +26,7 @@ inline constexpr Choice<photons::Settings::Estimator> choices<photons::Settings:
 template <>
 inline constexpr Choice<photons::Settings::Effort> choices<photons::Settings::Effort>[] = {
     {photons::Settings::Effort::automatic, "automatic",
-     "As variance, and as power where that has not gained enough; as power with sppm and relight."},
+     "As variance, and as power where that has not gained enough; as power with sppm, tiles and relight."},
     {photons::Settings::Effort::power, "power", "By what the eye makes of a cluster's light."},
     {photons::Settings::Effort::equal, "equal", "The same for each cluster."},
     {photons::Settings::Effort::importance, "importance",
@@ -34,7 +34,8 @@ inline constexpr Choice<photons::Settings::Effort> choices<photons::Settings::Ef
     {photons::Settings::Effort::radziszewski, "radziszewski",
      "By 1 / cosh^2(0.0072 (lambda - 538)), whatever the scene."},
     {photons::Settings::Effort::variance, "variance",
-     "By the variance that is measured while the run goes on, as are the directions of photons; not with sppm."},
+     "By the variance that is measured while the run goes on, as are the directions of photons; not with sppm or "
+     "tiles."},
     {photons::Settings::Effort::random, "random", "One cluster a pass, drawn at random; with sppm only."}};
 
 template <>

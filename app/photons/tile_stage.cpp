@@ -10,8 +10,11 @@
 #include "tracing/film.h"
 #include "tracing/slices.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace nephroid::photons {
@@ -21,7 +24,7 @@ class TileStage final : public Stage {
 public:
   TileStage(StageContext& world, const scene::Scene&, const Settings&)
       : world_(world), film_(world.zeroed("film caustic", world.film_size())), sums_(world.film_size(), 0.0),
-        bias_(world.film_size() / world.halves, 0.0),
+        bias_(world.film_size() / world.halves, 0.0), energy_(world.zeroed("energy of tiles", OUTCOME_COUNT)),
         kernel_(compute::Program(world.context, "photons/tiles.cl", world.photon_defines()).kernel("tiles")) {
     begin_round();
     see_pixels();
@@ -34,7 +37,6 @@ public:
     return (static_cast<double>(batch_) + part) / world_.tables.batches;
   }
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass(); }
-  bool counts_energy() const override { return true; }
 
   bool advance(std::int64_t) override {
     const auto [first, last] = points_of_batch();
@@ -64,13 +66,23 @@ public:
       const double bias = world_.halves == 2 ? bias_[i % bias_.size()] : 0;
       sums[i] = std::llround(sums_[i] + (half == 0 ? bias : -bias));
     }
-    const double count = batches_ > 0 ? 1 : 0;
+    const double first = batches_ > 0 ? 1 : 0, second = world_.halves == 2 ? first : 0;
     tracing::add_layer("caustic",
                        {std::move(sums), world_.tables.caustic_scale * 0x1p16 * world_.white,
-                        [count](std::size_t) {
-                          return std::array<double, 2>{count, count};
+                        [first, second](std::size_t) {
+                          return std::array<double, 2>{first, second};
                         }},
                        picture);
+  }
+
+  /// Powers are those of complete rounds: part of a lattice is no fair sample.
+  void report(std::int64_t, bool, Energy& energy) override {
+    std::vector<std::int64_t> quanta = outcomes_;
+    const std::vector<std::int64_t> in_hand = world_.context.all_reduced_sum(energy_);
+    for (std::size_t i = 0; i < quanta.size(); ++i)
+      if (is_count(i)) quanta[i] += in_hand[i];
+    const double batches = static_cast<double>(std::max<std::int64_t>(batches_, 1));
+    energy.caustics = balance_of(outcome_watts(quanta, world_.tables.energy_scale, batches));
   }
 
   void serialize(tracing::Archive& archive) override {
@@ -81,6 +93,8 @@ public:
     archive.value(weight_);
     archive.items(std::span(sums_));
     archive.items(std::span(bias_));
+    archive.items(std::span(outcomes_));
+    archive.buffer(energy_);
     archive.buffer(film_);
     if (archive.is_read()) begin_round();
   }
@@ -127,7 +141,7 @@ private:
                               {"reflected_before", world_.buffers.reflected_before},
                               {"views", views_},
                               {"film", film_},
-                              {"energy", world_.energy},
+                              {"energy", energy_},
                               {"lattice_count", static_cast<int>(lattices_.lattices.size())},
                               {"camera", world_.tables.camera},
                               {"seed", world_.seed},
@@ -152,15 +166,18 @@ private:
       sums_[i] += part * added[i];
     }
     if (world_.halves == 2 && batches_ > 0) estimate_bias(added);
+    const std::vector<std::int64_t> quanta = world_.context.all_reduced_sum(energy_);
+    for (std::size_t i = 0; i < quanta.size(); ++i) outcomes_[i] += quanta[i];
+    energy_.fill_zero();
     batches_ += round_batches();
     of_round_ = 0;
     point_ = 0;
     begin_round();
   }
 
-  /// What the last round changed in both halves alike is noise and bias; what it changed in one and not in the other is
-  /// as much noise. A bias that falls as 1 / N is 0.7 of that change. Where it is mostly noise 0.5 of it still are
-  /// needed: lattices share more of their errors at edges and silhouettes than their halves show.
+  /// added: by how much the last round is brighter than the mean of those before. What both halves have of it is noise
+  /// and bias; what one has and the other has not is as much noise. A bias that falls as 1 / N is 0.7 of it. Where it
+  /// is mostly noise, 0.5 of it still is needed: both halves err alike at edges and silhouettes.
   void estimate_bias(const std::vector<double>& added) {
     const std::size_t size = bias_.size();
     double alike2 = 0, apart2 = 0;
@@ -179,7 +196,9 @@ private:
   /// An estimate of the error that the halves share. It is added to one and taken from the other, so that the estimated
   /// error has it.
   std::vector<double> bias_;
-  double weight_ = 0; ///< sum of the rounds' weights
+  std::vector<std::int64_t> outcomes_ = std::vector<std::int64_t>(OUTCOME_COUNT); ///< of all complete rounds
+  compute::Buffer<std::int64_t> energy_;                                          ///< of the round in hand
+  double weight_ = 0;                                                             ///< sum of the rounds' weights
   compute::Kernel kernel_;
   Lattices lattices_;
   compute::Buffer<shared::DeviceLattice> on_device_{world_.context, "no lattices", 0};
@@ -193,10 +212,19 @@ private:
 
 PlanPart plan_tiles(const PlanInput& input) {
   if (!input.caustics.runs) return {.decisions = {input.caustics}};
+  std::vector<std::string> notes;
+  if (const auto passes = input.preset.stop.passes) {
+    const auto most = static_cast<std::uint64_t>(*passes), whole = std::bit_floor(most);
+    if (whole != most)
+      notes.push_back(fmt::format("stop.passes: the picture is of {} of {} passes: a round of tiles has as many as all "
+                                  "before it, and the last one is not complete",
+                                  whole, most));
+  }
   return {.decisions = {input.caustics},
           .buffers = {{"film caustic", input.film_bytes()},
                       {"what pixels show", sizeof(shared::PixelView) * input.pixels()},
-                      {"rounds of tiles (host)", input.film_bytes(), true}}};
+                      {"rounds of tiles (host)", 2 * input.film_bytes(), true}},
+          .notes = std::move(notes)};
 }
 
 } // namespace

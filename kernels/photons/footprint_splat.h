@@ -84,6 +84,7 @@ static inline bool is_seen(const World* world, const DeviceCamera* camera, const
   const float per_depth = receiver->per_depth.x + receiver->per_depth.y * place.x + receiver->per_depth.z * place.y;
   if (view.object != VIEW_OF_SEVERAL)
     return view.object == receiver->object && per_depth >= view.farthest && per_depth <= view.nearest;
+  if (!(per_depth > 0.0f)) return false; // above the plane's horizon
   const float2 slope = (float2)((2.0f * place.x / (float)camera->width - 1.0f) * camera->tan_x,
                                 (1.0f - 2.0f * place.y / (float)camera->height) * camera->tan_y);
   const float3 from = camera->position.xyz +
@@ -151,7 +152,7 @@ static inline bool add_footprint(const World* world, volatile __global long* fil
         share = covered(f, (float2)(start, top)) * per_area;
       if (!(share > 0.0f)) continue;
       // rounded sums, so that all pixels together get all of it
-      part += share;
+      part = fmin(part + share, 1.0f); // tiny footprints' shares are rounded
       const float2 from_corner = fmax((float2)((float)column, (float)row), f->middle + low),
                    to_corner = fmin((float2)((float)column + 1.0f, (float)row + 1.0f), f->middle + high);
       const int pixel = row * camera->width + column;

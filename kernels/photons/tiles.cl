@@ -23,6 +23,7 @@ typedef struct {
   Path path;
   float weight; // Fresnel's part of the photon's light
   float stands; // photons that it stands for
+  int level;    // one of 4^level points of the lattice follows it
   int surfaces;
   bool met;       // a caustic object
   bool is_coarse; // its cell has spanned more than a triangle, so that its footprint is a guess
@@ -43,12 +44,13 @@ static inline int lattice_of(__global const DeviceLattice* lattices, int count, 
 
 // Decides whether a branch with this part of the light is followed from this point. *stands: the photons that the
 // branch before stood for, then that this one does. u: uniform in [0, 1), for what is too little for every lattice.
-static inline bool is_followed(float weight, uint2 point, float u, float* stands) {
-  int level = clamp((int)ceil(0.5f * log2(TILE_LEAST / weight) - 0.5f), 0, TILE_LEVELS);
-  const uint mask = (1u << level) - 1u;
+static inline bool is_followed(float weight, uint2 point, float u, int* level, float* stands) {
+  if (!(weight > 0.0f)) return false;
+  const int now = max(*level, clamp((int)ceil(0.5f * log2(TILE_LEAST / weight) - 0.5f), 0, TILE_LEVELS));
+  const uint mask = (1u << now) - 1u;
   if (((point.x | point.y) & mask) != 0u) return false;
-  const float of_level = (float)(1u << 2 * level);
-  *stands = fmax(*stands, of_level);
+  *stands *= (float)(1u << 2 * (now - *level));
+  *level = now;
   const float left = weight * *stands / TILE_LEAST;
   if (left >= 0.25f) return true;
   *stands /= left;
@@ -59,6 +61,7 @@ static inline bool is_followed(float weight, uint2 point, float u, float* stands
 // The light of the part 0 .. u of a cluster's distribution of wavelengths, in a row of the tables of lights.
 static inline float3 light_before(const World* world, __global const float4* reflected_before,
                                   __global const float* cdf, int row, int reflector, int first, int count, float u) {
+  u = fmin(u, 0x1.fffffep-1f);
   const int member = choose(cdf, count, u), members = world->tables.cluster_first[world->scene.cluster_count];
   const int wavelength = world->tables.cluster_wavelengths[first + member];
   const float before = chance_before(cdf, member), part = (u - before) / (cdf[member] - before);
@@ -78,6 +81,7 @@ static inline float3 light_of_part(const World* world, __global const float4* re
     for (int member = choose(cdf, count, low); member < count; ++member) {
       const float before = chance_before(cdf, member), after = cdf[member];
       if (before >= high) break;
+      if (after == before) continue;
       const Band band = {cluster, world->tables.cluster_wavelengths[first + member], 1.0f / (after - before)};
       xyz += (fmin(after, high) - fmax(before, low)) * carried_light(world, losses, source, &band, reflector).xyz;
     }
@@ -157,7 +161,10 @@ COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, 
   float from_x, to_x;
   stretched_band(world, source.light, band, lattice->low, &from_x);
   stretched_band(world, source.light, band, fmin(lattice->high, 0x1.fffffep-1f), &to_x);
-  if (!stretch_over(world, camera, end, path, from_x, to_x, SWEEP_SHORTEST, SWEEP_WIDEST, &sweep)) sweep.count = 1;
+  if (!stretch_over(world, camera, end, path, from_x, to_x, SWEEP_SHORTEST, SWEEP_WIDEST, &sweep)) {
+    sweep.count = 1;
+    if (lattice->is_drawn) strand.xyz = carried_light(world, &path->losses, source, band, reflector).xyz;
+  }
 #endif
   bool fits = true;
   const float turn = place_within(photon, 0u).x;
@@ -167,7 +174,7 @@ COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, 
     if (sweep.count > 1) {
       float x;
       float3 place;
-      stretched_band(world, source.light, band, low + turn * part, &x);
+      stretched_band(world, source.light, band, fmin(low + turn * part, 0x1.fffffep-1f), &x);
       if (!stretched_place(path, &end->surface, x, &place)) continue;
       strand.surface = end->surface;
       strand.triangle = end->triangle;
@@ -209,8 +216,8 @@ static inline int split_branch(const World* world, const DeviceMaterial* materia
                                Branch* reflected, Branch* pending, int* waiting) {
   reflected->weight *= through->reflectance;
   branch->weight *= 1.0f - through->reflectance;
-  bool goes_through = is_followed(branch->weight, point, u.x, &branch->stands);
-  bool goes_back = is_followed(reflected->weight, point, u.y, &reflected->stands);
+  bool goes_through = is_followed(branch->weight, point, u.x, &branch->level, &branch->stands);
+  bool goes_back = is_followed(reflected->weight, point, u.y, &reflected->level, &reflected->stands);
   if (goes_through && goes_back && *waiting == TILE_PENDING) { // no room: one stands for both
     const float light = branch->weight * branch->stands,
                 chance = light / (light + reflected->weight * reflected->stands);
@@ -274,7 +281,7 @@ static inline void start_branch(Branch* branch, const Emission* emission, Media 
   branch->path.behind = emission->behind;
   branch->path.differential.position = branch->path.differential.direction = (float3)(0.0f);
   branch->weight = branch->stands = 1.0f;
-  branch->surfaces = 0;
+  branch->surfaces = branch->level = 0;
   branch->met = branch->is_coarse = false;
 }
 

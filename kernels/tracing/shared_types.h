@@ -124,7 +124,8 @@ typedef struct {
   float place_x, place_y; // DeviceLight with places: where its light begins, 0..1
   float wavelength;  // 0..1: chooses a wavelength of its cluster
   float low, high;   // the part of the cluster's wavelengths that it stands for
-  float photons;     // photons of its emitter in this half
+  int is_drawn;      // whether its wavelength was drawn from that part; 0: it is the middle one
+  float photons;     // photons of its emitter in this half, at all places, over the number of parts
   float share;       // DeviceEmitter::share
   float widest;      // pixels that a footprint may reach
   uint phase;        // random bits: which points stand for others where little light is left
@@ -177,7 +178,7 @@ typedef struct {
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 8 && sizeof(Media) == 16);
 static_assert(sizeof(DeviceLight) == 112 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
-static_assert(sizeof(DeviceLattice) == 72);
+static_assert(sizeof(DeviceLattice) == 76);
 static_assert(sizeof(DeviceCamera) == 112 && sizeof(DeviceScene) == 52 && sizeof(DeviceBackground) == 16);
 static_assert(sizeof(DevicePrimitive) == 64);
 } // namespace nephroid::shared

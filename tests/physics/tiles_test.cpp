@@ -5,6 +5,8 @@
 #include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 
+#include <numeric>
+
 namespace nephroid::tiles_test {
 
 using photons::Settings;
@@ -125,6 +127,37 @@ preset::Preset of_a_narrow_spot() {
   return p;
 }
 
+/// So many branches that not all can wait to be followed: half of the light is reflected at each of sixteen faces.
+preset::Preset through_plates_at_grazing_incidence() {
+  preset::Preset p = on_a_floor();
+  p.scene.objects.erase(p.scene.objects.begin());
+  for (int i = 0; i < 8; ++i)
+    p.scene.objects.push_back(object(fmt::format("plate {}", i), box(2, 0.02, 2), "glass", at({0, 0.3 + 0.1 * i, 0})));
+  p.scene.lights = {parallel_light({std::sin(80 * degree), -std::cos(80 * degree), 0})};
+  return p;
+}
+
+/// A lamp with gaps in its spectrum beside one without, and glass that bends and absorbs each wavelength otherwise.
+preset::Preset of_unlike_lamps() {
+  preset::Preset p = on_a_floor();
+  preset::Material& dye = p.scene.materials["glass"];
+  dye.dispersion.type = preset::Dispersion::Type::file;
+  dye.dispersion.file = "materials/rhodamine-6G-Seckin.yml";
+  p.unit = preset::Preset::Unit::mm;
+  p.scene.lights.push_back(p.scene.lights[0]);
+  p.scene.lights[0].spectrum = line(640);
+  p.scene.lights[1].spectrum = {.illuminant = "D65"};
+  p.scene.lights[1].position = {-0.6, 4, 0.4};
+  spectral::settings(p).threshold_deg = 0.5;
+  return p;
+}
+
+preset::Preset within_a_round() {
+  preset::Preset p = of_unlike_lamps();
+  p.stop.passes = 5;
+  return p;
+}
+
 struct Case {
   std::string name;
   preset::Preset (*preset)();
@@ -156,13 +189,23 @@ TEST_P(TilesAndPoints, SendTheSameLight) {
   EXPECT_NEAR(sum(tiles) / sum(points), 1, GetParam().most);
 }
 
-INSTANTIATE_TEST_SUITE_P(, TilesAndPoints,
-                         testing::Values(Case{"floor", on_a_floor, 0.01}, Case{"edge", over_an_edge, 0.01},
-                                         Case{"hill", on_a_hill, 0.01},
-                                         Case{"low_camera", with_few_photons_and_a_low_camera, 0.1},
-                                         Case{"wedge", through_a_wedge, 0.01}, Case{"panel", of_a_panel, 0.04},
-                                         Case{"spot", of_a_narrow_spot, 0.01}),
-                         [](const auto& c) { return c.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    , TilesAndPoints,
+    testing::Values(Case{"floor", on_a_floor, 0.01}, Case{"edge", over_an_edge, 0.01}, Case{"hill", on_a_hill, 0.01},
+                    Case{"low_camera", with_few_photons_and_a_low_camera, 0.1}, Case{"wedge", through_a_wedge, 0.01},
+                    Case{"panel", of_a_panel, 0.04}, Case{"spot", of_a_narrow_spot, 0.01},
+                    Case{"plates", through_plates_at_grazing_incidence, 0.02},
+                    Case{"unlike_lamps", of_unlike_lamps, 0.02}, Case{"within_a_round", within_a_round, 0.02}),
+    [](const auto& c) { return c.param.name; });
+
+TEST(Tiles, AreAsBrightInOneImageAsInTwoHalves) {
+  preset::Preset p = by_tiles(on_a_floor());
+  const std::vector<double> halves = luminance(layer(render(p), "caustic"));
+  p.measure.estimate = false;
+  const std::vector<double> one = luminance(layer(render(p), "caustic"));
+  EXPECT_NEAR(std::accumulate(one.begin(), one.end(), 0.0) / std::accumulate(halves.begin(), halves.end(), 0.0), 1,
+              0.01);
+}
 
 // The estimate of a run's error has what both halves of the film do wrong alike.
 TEST(Tiles, EstimateTheErrorOfABall) {

@@ -8,6 +8,7 @@
 #include "tracing/scales.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -20,7 +21,9 @@ using std::numbers::pi;
 unsigned batches_per_pass(const Settings& settings) {
   constexpr int photons_a_batch = 1 << 13, most = 32;
   if (settings.relight || settings.estimator == Settings::Estimator::sppm) return 1;
-  return static_cast<unsigned>(std::clamp(settings.photons_per_pass / photons_a_batch, 1, most));
+  const auto batches = static_cast<unsigned>(std::clamp(settings.photons_per_pass / photons_a_batch, 1, most));
+  // Rounds of 2, 2, 4, 8, ... batches end with passes.
+  return settings.estimator == Settings::Estimator::tiles ? std::max(std::bit_floor(batches), 4u) : batches;
 }
 
 /// weights is ClusterShares::photons.

@@ -29,6 +29,9 @@ private:
 
 glm::dvec3 vector(const shared::float4& v) { return {v.x, v.y, v.z}; }
 
+/// As a float, which rounding could make 1.
+float below_1(double number) { return std::min(static_cast<float>(number), 0x1.fffffep-1f); }
+
 /// A target of a light, or the cone of a spot, and its part of the photons.
 struct Disc {
   int target;
@@ -109,11 +112,12 @@ Lattices make_lattices(const RunTables& tables, unsigned halves, std::int64_t ba
           lattice.target = disc.target;
           lattice.film_half = half;
           lattice.step = static_cast<float>(step);
-          lattice.shift_x = static_cast<float>(uniform());
-          lattice.shift_y = static_cast<float>(uniform());
-          lattice.place_x = static_cast<float>(place[0]);
-          lattice.place_y = static_cast<float>(place[1]);
-          lattice.wavelength = std::min(static_cast<float>(wavelength), 0x1.fffffep-1f);
+          lattice.shift_x = below_1(uniform());
+          lattice.shift_y = below_1(uniform());
+          lattice.place_x = below_1(place[0]);
+          lattice.place_y = below_1(place[1]);
+          lattice.wavelength = below_1(wavelength);
+          lattice.is_drawn = places > 1;
           lattice.low = static_cast<float>(part / parts);
           lattice.high = static_cast<float>((part + 1) / parts);
           lattice.photons = static_cast<float>(photons / parts);
