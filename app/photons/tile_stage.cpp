@@ -39,11 +39,11 @@ public:
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass(); }
 
   bool advance(std::int64_t) override {
-    const auto [first, last] = points_of_batch();
-    const auto count = std::clamp<std::int64_t>(std::llround(amount_.amount(world_.context.communicator())), 1,
-                                                std::max<std::int64_t>(last - point_, 1));
-    amount_.timed(static_cast<double>(count), [&] { send(std::min(count, last - point_)); });
-    point_ = std::min(point_ + count, last);
+    const std::int64_t last = points_of_batch()[1],
+                       amount = std::llround(amount_.amount(world_.context.communicator())),
+                       count = std::min(std::max<std::int64_t>(amount, 1), last - point_);
+    amount_.timed(static_cast<double>(count), [&] { send(count); });
+    point_ += count;
     if (point_ < last) return false;
     ++batch_;
     if (++of_round_ == round_batches()) end_round();

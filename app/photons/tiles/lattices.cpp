@@ -53,7 +53,8 @@ std::vector<Disc> discs_of(const RunTables& tables, const shared::DeviceLight& l
   std::vector<Disc> discs;
   double sum = 0;
   for (int t = 0; t < light.target_count; ++t) {
-    const shared::float4& sphere = tables.targets[static_cast<std::size_t>(light.first_target + t)].centre_radius;
+    const int target = light.first_target + t;
+    const shared::float4& sphere = tables.targets[static_cast<std::size_t>(target)].centre_radius;
     const bool parallel = light.type == LIGHT_DIRECTIONAL || light.type == LIGHT_ENVIRONMENT;
     discs.push_back({t, parallel ? double{sphere.w} * sphere.w : one_minus_cos(sphere, from)});
     sum += discs.back().part;
@@ -96,7 +97,8 @@ Lattices make_lattices(const RunTables& tables, unsigned halves, std::int64_t ba
       const double photons = in_all(emitter.photon_count), places = places_of(light, photons),
                    parts = places == 1 && tables.wavelengths.clusters_spread ? parts_of(photons) : 1;
       const std::array<double, 3> start{uniform(), uniform(), uniform()};
-      for (double k = 0; k < places * parts; ++k) {
+      const int count = static_cast<int>(places * parts);
+      for (int k = 0; k < count; ++k) {
         // A place has all wavelengths, and then one of its own, or a part of the wavelengths has its middle one.
         const double part = places > 1 ? 0 : k;
         const auto step_on = [k](double from, double step) { return std::fmod(from + k * step, 1.0); };
