@@ -23,6 +23,19 @@ double seconds_of(const Work& work) {
 class SliceSize {
 public:
   explicit SliceSize(double start) : amount_(start) {}
+  /// Calls work(first, count) for this rank's part (Partition) of the next slice of `size` items, of which `done` are
+  /// done; a slice has at most `most`. Returns how many it had on all ranks.
+  template <class Work>
+  std::int64_t advance(const Communicator& communicator, std::int64_t size, std::int64_t done, std::int64_t most,
+                       const Work& work) {
+    const std::int64_t count = std::min(std::max<std::int64_t>(std::llround(amount(communicator)), 1), most);
+    timed(static_cast<double>(count), [&] {
+      Partition(communicator, size).for_own(done, count, [&](std::int64_t first, std::int64_t own) {
+        work(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(own));
+      });
+    });
+    return count;
+  }
   /// Rank 0's amount, for all ranks.
   double amount(const Communicator& communicator) { return amount_ = communicator.broadcast(amount_); }
   /// Calls work(), which does `amount`, and learns from the time it took. It learns a little at a time, because the
@@ -52,14 +65,7 @@ public:
   /// pass is complete.
   template <class Work>
   bool advance(const Communicator& communicator, const Work& work) {
-    const auto count =
-        std::clamp<std::int64_t>(std::llround(amount_.amount(communicator)), 1, std::min(most_, size_ - done_));
-    amount_.timed(static_cast<double>(count), [&] {
-      Partition(communicator, size_).for_own(done_, count, [&](std::int64_t first, std::int64_t own) {
-        work(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(own));
-      });
-    });
-    done_ += count;
+    done_ += amount_.advance(communicator, size_, done_, std::min(most_, size_ - done_), work);
     if (done_ < size_) return false;
     done_ = 0;
     return true;
