@@ -19,14 +19,14 @@ inline constexpr Choice<photons::Settings::Estimator> choices<photons::Settings:
     {photons::Settings::Estimator::splat, "splat",
      "Splats only: what is seen through glass or in a mirror has no caustics."},
     {photons::Settings::Estimator::tiles, "tiles",
-     "As splat, but photons leave a light on a lattice, and each is splatted as the piece of it that it stands for."},
+     "As splat, with photons on lattices, each the piece that it stands for."},
     {photons::Settings::Estimator::sppm, "sppm",
      "Progressive photon mapping, a run of its own for each cluster, as the thesis has it."}};
 
 template <>
 inline constexpr Choice<photons::Settings::Effort> choices<photons::Settings::Effort>[] = {
     {photons::Settings::Effort::automatic, "automatic",
-     "As variance, and as power where that has not gained enough; as power with sppm, tiles and relight."},
+     "As variance, or power where that gains too little; power with sppm, tiles and relight."},
     {photons::Settings::Effort::power, "power", "By what the eye makes of a cluster's light."},
     {photons::Settings::Effort::equal, "equal", "The same for each cluster."},
     {photons::Settings::Effort::importance, "importance",
@@ -34,8 +34,7 @@ inline constexpr Choice<photons::Settings::Effort> choices<photons::Settings::Ef
     {photons::Settings::Effort::radziszewski, "radziszewski",
      "By 1 / cosh^2(0.0072 (lambda - 538)), whatever the scene."},
     {photons::Settings::Effort::variance, "variance",
-     "By the variance that is measured while the run goes on, as are the directions of photons; not with sppm or "
-     "tiles."},
+     "By the variance measured in the run, as photons' directions are; not with sppm, tiles."},
     {photons::Settings::Effort::random, "random", "One cluster a pass, drawn at random; with sppm only."}};
 
 template <>

@@ -2,9 +2,8 @@
 // Photons that are splatted as the pieces of their lattices: kernels/photons/tiles.cl.
 //
 // A lattice's error falls as it grows, and not as lattices are added up. So photons come in rounds, each with as many
-// as all before, and a round weighs as much as its squared error is expected to be small. Until a round is complete the
-// picture is of those before.
-#include "kernels/photons/pixel_view_types.h"
+// as all before, and the picture is the mean of all complete rounds, in which later ones have larger weights.
+#include "kernels/photons/tile_types.h"
 #include "photons/stage.h"
 #include "photons/tiles/lattices.h"
 #include "tracing/film.h"
@@ -39,11 +38,10 @@ public:
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass(); }
 
   bool advance(std::int64_t) override {
-    const std::int64_t last = points_of_batch()[1],
-                       amount = std::llround(amount_.amount(world_.context.communicator())),
-                       count = std::min(std::max<std::int64_t>(amount, 1), last - point_);
-    amount_.timed(static_cast<double>(count), [&] { send(count); });
-    point_ += count;
+    const std::int64_t last = points_of_batch()[1];
+    if (point_ < last)
+      point_ += amount_.advance(world_.context.communicator(), lattices_.points, point_, last - point_,
+                                [&](std::uint32_t first, std::uint32_t count) { send(first, count); });
     if (point_ < last) return false;
     ++batch_;
     if (++of_round_ == round_batches()) end_round();
@@ -109,7 +107,7 @@ private:
     world_.run(of_corners, corner_count, 64, {{"camera", camera}, {"corners", corners}, {"count", corner_count}});
     const auto pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
     views_ = compute::Buffer<shared::PixelView>(world_.context, "what pixels show", pixels);
-    of_pixels.run((pixels + 63) / 64 * 64, 64,
+    of_pixels.run(pixels, 64,
                   {{"corners", corners}, {"width", camera.width}, {"height", camera.height}, {"views", views_}});
   }
 
@@ -119,7 +117,6 @@ private:
   }
   /// Quanta a unit grow with the round, so that a photon always has as many.
   double growth() const { return static_cast<double>(round_batches()) / world_.halves; }
-  double scale() const { return world_.tables.caustic_scale * growth(); }
 
   void begin_round() {
     lattices_ = make_lattices(world_.tables, world_.halves, round_batches() / world_.halves, world_.seed, batches_);
@@ -131,26 +128,22 @@ private:
     return {points * of_round_ / batches, points * (of_round_ + 1) / batches};
   }
 
-  void send(std::int64_t count) {
-    if (count <= 0) return;
-    Partition(world_.context.communicator(), lattices_.points)
-        .for_own(point_, count, [&](std::int64_t first, std::int64_t own) {
-          world_.run_photons(kernel_, static_cast<std::uint32_t>(own),
-                             {{"targets", world_.buffers.targets},
-                              {"lattices", on_device_},
-                              {"reflected_before", world_.buffers.reflected_before},
-                              {"views", views_},
-                              {"film", film_},
-                              {"energy", energy_},
-                              {"lattice_count", static_cast<int>(lattices_.lattices.size())},
-                              {"camera", world_.tables.camera},
-                              {"seed", world_.seed},
-                              {"iteration", static_cast<std::uint32_t>(batches_)},
-                              {"first", static_cast<std::uint32_t>(first)},
-                              {"count", static_cast<std::uint32_t>(own)},
-                              {"film_scale", world_.on_device(scale())},
-                              {"energy_scale", world_.on_device(world_.tables.energy_scale * growth())}});
-        });
+  void send(std::uint32_t first, std::uint32_t count) {
+    world_.run_photons(kernel_, count,
+                       {{"targets", world_.buffers.targets},
+                        {"lattices", on_device_},
+                        {"reflected_before", world_.buffers.reflected_before},
+                        {"views", views_},
+                        {"film", film_},
+                        {"energy", energy_},
+                        {"lattice_count", static_cast<int>(lattices_.lattices.size())},
+                        {"camera", world_.tables.camera},
+                        {"seed", world_.seed},
+                        {"iteration", static_cast<std::uint32_t>(batches_)},
+                        {"first", first},
+                        {"count", count},
+                        {"film_scale", world_.on_device(world_.tables.caustic_scale * growth())},
+                        {"energy_scale", world_.on_device(world_.tables.energy_scale * growth())}});
   }
 
   void end_round() {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Splats a photon as the parallelogram that it stands for, by exact area: each pixel gets the part of the photon's
 // light that lies in it. Footprints of neighbours in a lattice share their edges, so together they leave no gap.
-#include "kernels/photons/pixel_view_types.h"
 #include "kernels/photons/splat.h"
+#include "kernels/photons/tile_types.h"
 
 // A quadrilateral on the film, in pixels.
 typedef struct {
@@ -15,12 +15,13 @@ typedef struct {
 static inline float least(float4 v) { return fmin(fmin(v.x, v.y), fmin(v.z, v.w)); }
 static inline float greatest(float4 v) { return fmax(fmax(v.x, v.y), fmax(v.z, v.w)); }
 
-// How far a place moves on the film when it moves by `way`. False: behind the camera.
-static inline bool moved_on_film(const DeviceCamera* camera, float3 position, float3 way, float2* moved) {
+// How far a place moves on the film when it moves by `offset`. False: behind the camera.
+static inline bool moved_on_film(const DeviceCamera* camera, float3 position, float3 offset, float2* moved) {
   const float3 from_camera = position - camera->position.xyz;
   const float3 here = (float3)(dot(from_camera, camera->right.xyz), dot(from_camera, camera->up.xyz),
                                dot(from_camera, camera->forward.xyz));
-  const float3 step = (float3)(dot(way, camera->right.xyz), dot(way, camera->up.xyz), dot(way, camera->forward.xyz));
+  const float3 step =
+      (float3)(dot(offset, camera->right.xyz), dot(offset, camera->up.xyz), dot(offset, camera->forward.xyz));
   const float z = here.z + step.z;
   if (!(z > 1e-3f * here.z)) return false;
   const float2 slope = (step.xy * here.z - here.xy * step.z) / (here.z * z); // the difference, without cancellation
@@ -126,10 +127,10 @@ static inline bool add_footprint(const World* world, volatile __global long* fil
   if (any(last < 0) || first.x >= camera->width || first.y >= camera->height) return true;
   const float3 quanta = xyz * scale;
   if (!(fabs(quanta.x) <= FILM_LIMIT && fabs(quanta.y) <= FILM_LIMIT && fabs(quanta.z) <= FILM_LIMIT)) return false;
-  const bool one = all(first == last);
+  const bool in_one_pixel = all(first == last);
   const float per_area = 1.0f / f->area;
   float part = 0.0f;
-  long added[3] = {0, 0, 0};
+  long rounded_before[3] = {0, 0, 0};
   for (int row = max(first.y, 0); row <= min(last.y, camera->height - 1); ++row) {
     // what the footprint has of this row
     const float top = (float)row - f->middle.y;
@@ -148,7 +149,7 @@ static inline bool add_footprint(const World* world, volatile __global long* fil
       const float start = (float)column - f->middle.x;
       if (whole_row && start >= inner_left && start + 1.0f <= inner_right)
         share = fabs(per_area);
-      else if (!one)
+      else if (!in_one_pixel)
         share = covered(f, (float2)(start, top)) * per_area;
       if (!(share > 0.0f)) continue;
       // rounded sums, so that all pixels together get all of it
@@ -159,11 +160,11 @@ static inline bool add_footprint(const World* world, volatile __global long* fil
       const bool seen = is_seen(world, camera, receiver, pixel,
                                 from_corner + (to_corner - from_corner) * place_within(photon, (uint)pixel));
       volatile __global long* sum = film + 3 * (size_t)pixel;
-      const long whole[3] = {convert_long_rte(quanta.x * part), convert_long_rte(quanta.y * part),
-                             convert_long_rte(quanta.z * part)};
+      const long rounded[3] = {convert_long_rte(quanta.x * part), convert_long_rte(quanta.y * part),
+                               convert_long_rte(quanta.z * part)};
       for (int c = 0; c < 3; ++c) {
-        if (seen && whole[c] != added[c]) add_exactly(sum + c, whole[c] - added[c]);
-        added[c] = whole[c];
+        if (seen && rounded[c] != rounded_before[c]) add_exactly(sum + c, rounded[c] - rounded_before[c]);
+        rounded_before[c] = rounded[c];
       }
     }
   }
@@ -187,8 +188,8 @@ static inline bool footprint_on_film(const DeviceCamera* camera, float3 position
   f->area = 0.0f;
   float2 corner[4];
   for (int i = 0; i < 4; ++i) {
-    const float3 way = (i == 1 || i == 2 ? half_a : -half_a) + (i >= 2 ? half_b : -half_b);
-    if (!moved_on_film(camera, position, way, &corner[i])) return false;
+    const float3 offset = (i == 1 || i == 2 ? half_a : -half_a) + (i >= 2 ? half_b : -half_b);
+    if (!moved_on_film(camera, position, offset, &corner[i])) return false;
   }
   f->x = (float4)(corner[0].x, corner[1].x, corner[2].x, corner[3].x);
   f->y = (float4)(corner[0].y, corner[1].y, corner[2].y, corner[3].y);

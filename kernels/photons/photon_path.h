@@ -20,17 +20,22 @@ static inline void count_photon(Outcomes outcomes, int outcome, int segments, fl
   add_outcome(outcomes, OUTCOME_SEGMENTS, segments);
 }
 
-// The last emitter that begins at this photon or before it, by bisection.
-static inline int emitter_of(__global const DeviceEmitter* emitters, int count, uint photon) {
+// The last item of a list that begins at this photon or before it, by bisection. first: first_photon of item 0, which
+// is repeated every `stride` words.
+static inline int last_from(__global const uint* first, int stride, int count, uint photon) {
   int low = 0, high = count - 1;
   while (low < high) {
     const int middle = (low + high + 1) >> 1;
-    if (emitters[middle].first_photon <= photon)
+    if (first[middle * stride] <= photon)
       low = middle;
     else
       high = middle - 1;
   }
   return low;
+}
+
+static inline int emitter_of(__global const DeviceEmitter* emitters, int count, uint photon) {
+  return last_from(&emitters->first_photon, sizeof(DeviceEmitter) / sizeof(uint), count, photon);
 }
 
 // The order in which the photons 0 .. count - 1 of a launch are followed: in each 4096, by the number with its bits

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the camera sees of each pixel: whether one surface fills it, so that no ray need be asked what stands before a
 // photon there.
-#include "kernels/photons/pixel_view_types.h"
+#include "kernels/photons/tile_types.h"
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/work_item.h"
 #include "kernels/tracing/world.h"

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caustic layer by tiles: photons leave the lights on square lattices, go both ways at glass, and each is splatted
-// as the piece of its lattice that it stands for (Schjoth et al. 2007, "Photon differentials"; lattices in the place of
-// random points make footprints tile).
+// The caustic layer by tiles: photons leave the lights on square lattices, follow both branches at glass, and each is
+// splatted as the piece of its lattice that it stands for (Schjoth et al. 2007, "Photon differentials"; lattices in the
+// place of random points make footprints tile).
 #define NEPHROID_TILES 1
 #include "kernels/photons/footprint_splat.h"
 #include "kernels/photons/stretch.h"
 #include "kernels/tracing/work_item.h"
 
 // The part of a photon's light below which not every point of the lattice follows what is left: one of 4, then of 16,
-// ... does, and stands for all, as a lattice twice as wide.
+// ... does, and stands for all, as a lattice twice as wide. Beyond that many levels chance decides.
 #define TILE_LEAST 0.3f
 #define TILE_LEVELS 4
+// How many branches of a photon can wait to be followed.
 #define TILE_PENDING 4
-// The length in pixels below which a footprint is not swept, and the angle in radians above which.
+// A footprint is swept where that moves it by so many pixels or more, and its direction by so many radians or less.
 #define SWEEP_SHORTEST 0.5f
 #define SWEEP_WIDEST 0.05f
-// The part of the widest footprint that is left to one whose cell has spanned more than a triangle: it is a guess.
+// By how much less wide than others a footprint may be whose cell has spanned more than a triangle: it is a guess.
 #define COARSE_PART 0.125f
 
 // A branch of a photon's path, up to its last surface.
@@ -28,19 +29,6 @@ typedef struct {
   bool met;       // a caustic object
   bool is_coarse; // its cell has spanned more than a triangle, so that its footprint is a guess
 } Branch;
-
-// The lattice that a point belongs to.
-static inline int lattice_of(__global const DeviceLattice* lattices, int count, uint photon) {
-  int low = 0, high = count - 1;
-  while (low < high) {
-    const int middle = (low + high + 1) >> 1;
-    if (lattices[middle].first_photon <= photon)
-      low = middle;
-    else
-      high = middle - 1;
-  }
-  return low;
-}
 
 // Decides whether a branch with this part of the light is followed from this point. *stands: the photons that the
 // branch before stood for, then that this one does. u: uniform in [0, 1), for what is too little for every lattice.
@@ -209,7 +197,7 @@ COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, 
 #define BRANCH_ENDS 1
 #define BRANCH_IS_DROPPED 2 // other points of the lattice stand for it
 
-// At glass a photon goes both ways. `branch` has gone through and `reflected` waits before the surface; what is
+// At glass both branches are followed. `branch` has gone through and `reflected` waits before the surface; what is
 // followed later is put into `pending`, and of two that with more light: so few branches wait.
 static inline int split_branch(const World* world, const DeviceMaterial* material, const Band* band,
                                const Bend* through, const PhotonEnd* end, uint2 point, float4 u, Branch* branch,
@@ -297,7 +285,8 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
     const uint number = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= count) break;
     const uint photon = first + number;
-    const DeviceLattice lattice = lattices[lattice_of(lattices, lattice_count, photon)];
+    const DeviceLattice lattice =
+        lattices[last_from(&lattices->first_photon, sizeof(DeviceLattice) / sizeof(uint), lattice_count, photon)];
     const uint in_lattice = photon - lattice.first_photon;
     const uint2 index = (uint2)(in_lattice % lattice.side, in_lattice / lattice.side);
     const float2 disc = (convert_float2(index) + (float2)(lattice.shift_x, lattice.shift_y)) * lattice.step - 1.0f;
@@ -311,7 +300,11 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
     if (emission.watts == 0.0f) continue;
     const Band band = choose_band(&world, lattice.light, lattice.cluster, lattice.wavelength);
     const Band whole = whole_cluster(lattice.cluster);
-    const float power_share = band_share(&world, source, &whole, lattice.share),
+    const Losses none = no_losses();
+    // Any reflector's row of the table has the share as w.
+    const float power_share = is_of_environment(&world, lattice.light)
+                                  ? carried_light(&world, &none, source, &whole, 0).w
+                                  : lattice.share,
                 watts = emission.watts / lattice.photons;
     const TileFilm to_film = {reflected_before, views,
                               film_of_iteration(film, lattice.film_half, camera.width * camera.height), film_scale};

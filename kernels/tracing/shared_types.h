@@ -112,25 +112,6 @@ typedef struct {
   int padding[2];
 } DeviceEmitter;
 
-// A square lattice of photons from one place of a light, in one band, towards one target.
-typedef struct {
-  uint first_photon; // of the round; its points follow row after row
-  uint side;         // points in a row and in a column
-  int light, cluster;
-  int target;        // among those of the light; -1: the cone of a spot
-  uint film_half;    // the half of the film that it adds to
-  float step;        // distance of two points in the square [-1, 1] x [-1, 1]
-  float shift_x, shift_y; // of the first point, in steps, 0..1
-  float place_x, place_y; // DeviceLight with places: where its light begins, 0..1
-  float wavelength;  // 0..1: chooses a wavelength of its cluster
-  float low, high;   // the part of the cluster's wavelengths that it stands for
-  int is_drawn;      // whether its wavelength was drawn from that part; 0: it is the middle one
-  float photons;     // photons of its emitter in this half, at all places, over the number of parts
-  float share;       // DeviceEmitter::share
-  float widest;      // pixels that a footprint may reach
-  uint phase;        // random bits: which points stand for others where little light is left
-} DeviceLattice;
-
 typedef struct {
   float4 position;
   float4 right, up, forward; // orthonormal
@@ -178,7 +159,6 @@ typedef struct {
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 8 && sizeof(Media) == 16);
 static_assert(sizeof(DeviceLight) == 112 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
-static_assert(sizeof(DeviceLattice) == 76);
 static_assert(sizeof(DeviceCamera) == 112 && sizeof(DeviceScene) == 52 && sizeof(DeviceBackground) == 16);
 static_assert(sizeof(DevicePrimitive) == 64);
 } // namespace nephroid::shared

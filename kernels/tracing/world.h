@@ -122,10 +122,10 @@ static inline void bend_differential(const World* world, Path* path, uint triang
 }
 
 // Continues the path at a mirror or dielectric. choice: uniform in [0, 1); -1 reflects, 2 goes through where anything
-// does. *n_ratio, false: as in cross_interface.
+// does. *n_ratio, false: as in cross_interface. *at_surface: what happened there.
 static inline bool bend_path_as(const World* world, Path* path, uint triangle, const Surface* surface,
                                 const DeviceMaterial* material, const Band* band, float choice, float* n_ratio,
-                                Bend* made) {
+                                Bend* at_surface) {
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
   Bend bend;
   *n_ratio = 1.0f;
@@ -145,7 +145,7 @@ static inline bool bend_path_as(const World* world, Path* path, uint triangle, c
   path->origin = start_on_side(surface, from_outside == bend.transmitted ? -1.0f : 1.0f);
   path->skip = triangle;
   path->behind = 0.0f;
-  *made = bend;
+  *at_surface = bend;
   return true;
 }
 

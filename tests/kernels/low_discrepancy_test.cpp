@@ -43,7 +43,7 @@ const char* const source = R"(
 __kernel void wavelengths(__global const DeviceEmitter* emitters, int emitter_count, __global const DeviceLight* lights, uint2 seed,
                           uint pass, uint photons, uint largest, volatile __global uint* hits)
 {
-  for (uint i = work_item(); i < photons; i += (uint)get_global_size(0)) {
+  for (uint i = work_item(); i < photons; i += (uint)(get_global_size(0) * get_global_size(1))) {
     const PhotonStart start = photon_start(emitters, emitter_count, lights, seed, pass, 0u, i);
     if (emitters[start.emitter].photon_count <= largest) atomic_inc(hits + (uint)(start.wavelength * 401.0f));
   }

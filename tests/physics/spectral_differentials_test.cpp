@@ -223,8 +223,8 @@ TEST(SpectralDifferentials, SweepTilesOverARainbow) {
   record("mean error of a column: tiles", mean_error(band, truth), 0, 0.05);
   EXPECT_EQ(dark(band), 0);
   EXPECT_LT(mean_error(band, truth), 0.05);
-  // Hardly any blue is left in view.
-  for (std::size_t c = 0; c < 2; ++c) EXPECT_NEAR(sum_of(band, c) / sum_of(truth, c), 1, 0.005) << c;
+  // What little blue is in view is in the first columns, where wide sweeps are off by a column.
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(sum_of(band, c) / sum_of(truth, c), 1, c < 2 ? 0.005 : 0.1) << c;
 }
 
 // 32 paths for the whole rainbow: without stretching it is as many lines. Where clusters are too coarse to be stretched

@@ -14,6 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
+/// The random numbers of a round and a half.
 class Uniform {
 public:
   Uniform(shared::uint2 seed, std::int64_t round, unsigned half) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lattices on which the photons of a round leave the lights: kernels/photons/tiles.cl.
 #pragma once
+#include "kernels/photons/tile_types.h"
 #include "photons/tables/run_tables.h"
 
 #include <cstdint>
