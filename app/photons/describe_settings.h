@@ -19,7 +19,7 @@ inline constexpr Choice<photons::Settings::Estimator> choices<photons::Settings:
     {photons::Settings::Estimator::splat, "splat",
      "Splats only: what is seen through glass or in a mirror has no caustics."},
     {photons::Settings::Estimator::tiles, "tiles",
-     "As splat, with photons on lattices, each the piece that it stands for."},
+     "As automatic, with photons on lattices, each the piece that it stands for."},
     {photons::Settings::Estimator::sppm, "sppm",
      "Progressive photon mapping, a run of its own for each cluster, as the thesis has it."}};
 

@@ -56,6 +56,13 @@ void Development::smooth(std::vector<float>& rgb, std::vector<float>& error_draw
   if (smoothing_) smoothing_->pixels().spread(rgb, error_draw, {estimate, direct_noise});
 }
 
+void Development::smooth(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known) {
+  const LayerEstimate plain = smooths_splats_ ? LayerEstimate() : caustics;
+  smoothing_->spread(caustics, known);
+  for (std::size_t i = 0; i < plain.rgb.size(); ++i)
+    if (!world_.pixels.may_show_glass[i / 3]) caustics.rgb[i] = plain.rgb[i], caustics.draw[i] = plain.draw[i];
+}
+
 void Development::share_work() {
   job::Picture picture = black(), caustics = picture;
   std::vector<std::vector<float>> draws; // each stage's draw
@@ -71,14 +78,14 @@ void Development::share_work() {
   }
   if (photons == 0) return;
   LayerEstimate splatted{std::move(tracing::layer_of(caustics, "caustic").rgb), std::move(caustics.error_draw)};
-  if (smoothing_) smoothing_->spread(splatted, {});
+  if (smoothing_) smooth(splatted, {});
   tracing::layer_of(picture, "caustic").rgb = std::move(splatted.rgb);
   for (const job::Layer& layer : picture.layers) add(layer.rgb, picture.rgb);
 
   Noise caustic_noise_now{splatted.draw, picture.rgb, passes_.complete()};
-  double noise = 0; // photons' alone: what glass shows are also paths
+  double noise = 0; // photons' alone: what glass shows are also paths, but beside tiles photons are stored for it only
   for (std::size_t i = 0; i < picture.rgb.size(); ++i)
-    if (!world_.pixels.may_show_glass[i / 3]) noise += caustic_noise_now.of(i);
+    if (!smooths_splats_ || !world_.pixels.may_show_glass[i / 3]) noise += caustic_noise_now.of(i);
   if (noise == 0) return;
   caustic_noise_now.photon_gain = noise / (static_cast<double>(passes_.complete()) * static_cast<double>(photons));
   for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
@@ -139,7 +146,7 @@ LayerEstimate Development::caustics() {
   LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
   for (std::size_t i = 0; lacks_maps && i < estimate_.size(); ++i)
     if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = estimate_[i], layer.draw[i] = 0;
-  if (smoothing_ && !layer.draw.empty()) timed([&] { smoothing_->spread(layer, {estimate_, caustic_noise}); });
+  if (smoothing_ && !layer.draw.empty()) timed([&] { smooth(layer, {estimate_, caustic_noise}); });
   add(preview.rgb, layer.rgb);
   add(preview.draw, layer.draw);
   return layer;

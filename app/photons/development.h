@@ -13,11 +13,12 @@ namespace nephroid::photons {
 
 class Development {
 public:
-  /// smoothing is for caustics, with smooths_paths also for what paths from the eye see. The references outlive this.
+  /// smoothing is for caustics that glass and mirrors show, with smooths_splats for all, with smooths_paths also for
+  /// what paths from the eye see. The references outlive this.
   Development(const StageContext& world, const Passes& passes, const Preview& preview,
-              std::optional<BlockSmoothing> smoothing, bool smooths_paths)
+              std::optional<BlockSmoothing> smoothing, bool smooths_splats, bool smooths_paths)
       : world_(world), passes_(passes), preview_(preview), smoothing_(std::move(smoothing)),
-        smooths_paths_(smooths_paths) {}
+        smooths_splats_(smooths_splats), smooths_paths_(smooths_paths) {}
 
   job::Picture picture();
   /// Divides the work of the next passes among the stages by how much each lowers the picture's noise. A stage that
@@ -44,6 +45,7 @@ private:
   LayerEstimate preview_of(Stage& stage);
   LayerEstimate layer_of(std::size_t stage);
   LayerEstimate caustics();
+  void smooth(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known);
   template <class Work>
   void timed(const Work& work) {
     smoothing_seconds_ += tracing::seconds_of(work);
@@ -53,7 +55,7 @@ private:
   const Passes& passes_;
   const Preview& preview_;
   std::optional<BlockSmoothing> smoothing_;
-  bool smooths_paths_;
+  bool smooths_splats_, smooths_paths_;
   std::vector<float> estimate_; ///< PhotonJob::set_estimate
   double smoothing_seconds_ = 0;
 };

@@ -52,7 +52,7 @@ public:
       : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables,
                preset.white.value(), plan.estimates_error ? 2u : 1u},
         preset_(preset), passes_(plan.tables.batches), preview_(world_, edges_of_previews(plan, scene)),
-        development_(world_, passes_, preview_, make_smoothing(plan, scene, bvh),
+        development_(world_, passes_, preview_, make_smoothing(plan, scene, bvh), !plan.runs(tile_stage),
                      plan.has_previews && plan.settings.smoothing == Settings::Smoothing::automatic),
         shares_work_(plan.settings.effort == Settings::Effort::automatic && !plan.settings.relight &&
                      plan.estimates_error) {

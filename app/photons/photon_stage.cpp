@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons that are splatted into the pixel that sees them: kernels/photons/photons.cl.
+// Photons that are splatted into the pixel that sees them, and stored where there is a photon map:
+// kernels/photons/photons.cl.
 #include "photons/effort/emitters.h"
 #include "photons/stage.h"
 #include "tracing/film.h"
@@ -21,27 +22,34 @@ constexpr double least_gain = 1.5;
 /// The first batch whose photons are allocated by measurements: after half a pass, as fewer photons show too little.
 std::int64_t first_reallocation(unsigned batches) { return std::max<std::int64_t>(batches / 2, 2); }
 
-class PhotonStage final : public Stage {
+class PhotonStage : public Stage {
 public:
   PhotonStage(StageContext& world, const scene::Scene&, const Settings& settings)
-      : world_(world), insists_(settings.effort == Settings::Effort::variance),
-        by_variance_(insists_ || settings.effort == Settings::Effort::automatic), allocation_(world.tables.emitters),
-        guide_(by_variance_ ? world.tables.lights.size() : 0),
+      : PhotonStage(world, settings, true) {}
+
+protected:
+  PhotonStage(StageContext& world, const Settings& settings, bool splats)
+      : world_(world), splats_(splats), insists_(settings.effort == Settings::Effort::variance),
+        by_variance_(splats && (insists_ || settings.effort == Settings::Effort::automatic)),
+        allocation_(world.tables.emitters), guide_(by_variance_ ? world.tables.lights.size() : 0),
         moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
         guide_moments_(world.zeroed("variance of each direction",
                                     by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
         guide_table_(world.context, "guide of directions", guide_.table()),
-        film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0) {
+        film_(world.zeroed("film caustic", splats ? world.film_size() : 0)),
+        own_energy_(world.zeroed("energy of stored photons", splats ? 0 : OUTCOME_COUNT)),
+        stored_(world.context, "no photons", 0) {
     if (world.map) stored_ = world.map->stored();
     make_kernel();
   }
 
-  const char* name() const override { return "photons"; }
+public:
+  const char* name() const override { return splats_ ? "photons" : "stored photons"; }
   double fraction_done() const override {
     return (static_cast<double>(batch_) + slices_.fraction_done()) / world_.tables.batches;
   }
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass(); }
-  bool counts_energy() const override { return true; }
+  bool counts_energy() const override { return splats_; }
 
   bool advance(std::int64_t pass) override {
     const RunTables& t = world_.tables;
@@ -56,7 +64,7 @@ public:
               {{"targets", world_.buffers.targets},
                {"emitters", world_.emitters},
                {"film", film_},
-               {"energy", world_.energy},
+               {"energy", splats_ ? world_.energy : own_energy_},
                {"moments", moments_},
                {"guide_moments", guide_moments_},
                {"guide", guide_table_},
@@ -78,7 +86,7 @@ public:
     return true;
   }
 
-  bool has_halves(std::int64_t passes, bool done) const override { return batches(passes, done) >= 2; }
+  bool has_halves(std::int64_t passes, bool done) const override { return !splats_ || batches(passes, done) >= 2; }
 
   bool advance_preview() override {
     if (batch_ < world_.preview.batches) advance(0);
@@ -86,6 +94,7 @@ public:
   }
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override {
+    if (!splats_) return;
     const std::array<double, 2> samples = tracing::halves_of(batches(passes, done), slices_.fraction_done());
     tracing::add_layer("caustic",
                        {world_.context.all_reduced_sum(film_), world_.tables.caustic_scale * world_.white,
@@ -115,6 +124,7 @@ private:
   void make_kernel() {
     compute::Defines defines = world_.photon_defines();
     defines["NEPHROID_MOMENTS"] = std::to_string(int(by_variance_));
+    defines["NEPHROID_SPLAT"] = std::to_string(int(splats_));
     defines["NEPHROID_STORE"] = std::to_string(int(stored_.size() > 0));
     kernel_ = compute::Program(world_.context, "photons/photons.cl", defines).kernel("photons");
   }
@@ -151,6 +161,7 @@ private:
   }
 
   StageContext& world_;
+  bool splats_;      ///< false: photons are for the map only, beside tiles
   bool insists_;     ///< whether the preset asks for allocation by variance
   bool by_variance_; ///< whether photons are measured, and allocated and guided by that
   NeymanAllocation allocation_;
@@ -159,10 +170,18 @@ private:
   compute::Buffer<std::int64_t> guide_moments_; ///< [light][GUIDE_CELLS], see EmissionGuide::learn
   compute::Buffer<float> guide_table_;
   compute::Buffer<std::int64_t> film_;
+  compute::Buffer<std::int64_t> own_energy_;     ///< of photons that the tiles' energy does without
   compute::Buffer<shared::StoredPhoton> stored_; ///< the photon map's, where there is one
   compute::Kernel kernel_;
   tracing::PhotonSlices slices_;
   std::int64_t batch_ = 0; ///< number of the batch in the current pass
+};
+
+/// Photons for the maps beside tiles, which are no fair sample of a batch.
+class StoredPhotonStage final : public PhotonStage {
+public:
+  StoredPhotonStage(StageContext& world, const scene::Scene&, const Settings& settings)
+      : PhotonStage(world, settings, false) {}
 };
 
 PlanPart plan_photons(const PlanInput& input) {
@@ -182,8 +201,15 @@ PlanPart plan_photons(const PlanInput& input) {
   return part;
 }
 
+PlanPart plan_stored_photons(const PlanInput& input) {
+  const bool runs = input.caustics.runs && map_decision(input).runs;
+  return {.decisions = {{"stored photons", runs,
+                         runs ? "photons are sent for the maps, beside the tiles" : "there are no photon maps"}}};
+}
+
 } // namespace
 
 const RunPart photon_stage{plan_photons, make_stage<PhotonStage>, "caustic"};
+const RunPart stored_photon_stage{plan_stored_photons, make_stage<StoredPhotonStage>, "caustic"};
 
 } // namespace nephroid::photons

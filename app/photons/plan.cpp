@@ -140,20 +140,23 @@ constexpr RunPart scene_part{plan_scene}, caustics_part{plan_caustics}, omission
 /// The parts in the order of the plan's rows, and of the stages' turns in a pass.
 std::vector<const RunPart*> parts_of(const Settings& settings) {
   const bool sppm = settings.estimator == Settings::Estimator::sppm;
-  return {&scene_part,
-          settings.relight ? &layered_direct_stage : &direct_stage,
-          settings.relight                                   ? &layered_photon_stage
-          : settings.estimator == Settings::Estimator::tiles ? &tile_stage
-                                                             : &photon_stage,
-          &caustics_part,
-          &smoothing_part,
-          &omissions_part,
-          sppm ? &sppm_stage : &map_stage,
-          &indirect_stage,
-          &background_stage,
-          &estimate_part,
-          &environment_light_part,
-          &relighting_part};
+  const bool tiles = settings.estimator == Settings::Estimator::tiles;
+  std::vector<const RunPart*> parts{&scene_part,
+                                    settings.relight ? &layered_direct_stage : &direct_stage,
+                                    settings.relight ? &layered_photon_stage
+                                    : tiles          ? &tile_stage
+                                                     : &photon_stage,
+                                    &caustics_part,
+                                    &smoothing_part,
+                                    &omissions_part,
+                                    sppm ? &sppm_stage : &map_stage,
+                                    &indirect_stage,
+                                    &background_stage,
+                                    &estimate_part,
+                                    &environment_light_part,
+                                    &relighting_part};
+  if (tiles) parts.insert(parts.begin() + 3, &stored_photon_stage);
+  return parts;
 }
 
 void add(PlanPart part, plan::Plan& plan) {

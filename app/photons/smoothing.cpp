@@ -432,12 +432,12 @@ plan::Decision smoothing_decision(const PlanInput& input) {
   if (choice == Choice::off) return {name, false, "spectral.smoothing is off"};
   if (!input.caustics.runs) return {name, false, "there are no caustics"};
   if (input.is_sppm()) return {name, false, "spectral.estimator is sppm, which has radii of its own"};
-  if (input.settings.estimator == Settings::Estimator::tiles)
-    return {name, false, "spectral.estimator is tiles, whose footprints are as wide as their cells"};
   if (!input.estimate.runs)
     return {name, false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
   if (input.preset.stop.passes == 1)
     return {name, false, "the run has one pass, and it takes two to tell how noisy a pixel is"};
+  if (input.settings.estimator == Settings::Estimator::tiles && !map_decision(input).runs)
+    return {name, false, "tiles are as wide as their cells, and the camera sees no glass and no mirror"};
   return {name, true,
           fmt::format("a pixel's caustics are spread until their noise is {} of them, {}; the estimated error takes in "
                       "how far it goes",

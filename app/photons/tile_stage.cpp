@@ -19,10 +19,14 @@
 namespace nephroid::photons {
 namespace {
 
+/// Beside photon maps, which have more noise and need photons of their own, a pass has fewer tiles.
+constexpr double share_beside_maps = 0.25;
+
 class TileStage final : public Stage {
 public:
   TileStage(StageContext& world, const scene::Scene&, const Settings&)
-      : world_(world), film_(world.zeroed("film caustic", world.film_size())), sums_(world.film_size(), 0.0),
+      : world_(world), share_(world.map ? share_beside_maps : 1),
+        film_(world.zeroed("film caustic", world.film_size())), sums_(world.film_size(), 0.0),
         bias_(world.film_size() / world.halves, 0.0), energy_(world.zeroed("energy of tiles", OUTCOME_COUNT)),
         kernel_(compute::Program(world.context, "photons/tiles.cl", world.photon_defines()).kernel("tiles")) {
     begin_round();
@@ -35,7 +39,9 @@ public:
     const double part = last > first ? double(point_ - first) / double(last - first) : 0;
     return (static_cast<double>(batch_) + part) / world_.tables.batches;
   }
-  std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass(); }
+  std::uint64_t photons_per_pass() const override {
+    return static_cast<std::uint64_t>(share_ * static_cast<double>(world_.tables.photons_per_pass()));
+  }
 
   bool advance(std::int64_t) override {
     const std::int64_t last = points_of_batch()[1];
@@ -119,7 +125,7 @@ private:
   double growth() const { return static_cast<double>(round_batches()) / world_.halves; }
 
   void begin_round() {
-    lattices_ = make_lattices(world_.tables, world_.halves, round_batches() / world_.halves, world_.seed, batches_);
+    lattices_ = make_lattices(world_.tables, world_.halves, share_ * growth(), world_.seed, batches_);
     on_device_ = compute::Buffer<shared::DeviceLattice>(world_.context, "lattices", lattices_.lattices);
   }
 
@@ -184,6 +190,7 @@ private:
   }
 
   StageContext& world_;
+  double share_;                       ///< of a batch's photons
   compute::Buffer<std::int64_t> film_; ///< of the round in hand
   std::vector<double> sums_;           ///< of the rounds before, as Film::sums
   /// An estimate of the error that the halves share. It is added to one and taken from the other, so that the estimated

@@ -17,8 +17,7 @@ photons::Settings brute_force(const photons::Settings& settings) {
   exact.max_surfaces = std::max(exact.max_surfaces, settings.max_surfaces);
   // Photon maps have a radius, and the estimator sppm keeps to them: where splats can replace them, they are the truth.
   using Estimator = photons::Settings::Estimator;
-  if (settings.estimator == Estimator::splat || settings.estimator == Estimator::tiles)
-    exact.estimator = Estimator::splat;
+  if (settings.estimator == Estimator::splat) exact.estimator = Estimator::splat;
   exact.direct = settings.direct;
   exact.caustic = settings.caustic;
   exact.indirect = settings.indirect;

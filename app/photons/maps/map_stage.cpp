@@ -142,29 +142,6 @@ private:
   std::int64_t sorted_pass_ = -1; ///< the pass whose photons the grid has
 };
 
-plan::Decision map_decision(const PlanInput& input) {
-  const char* const name = "photon maps";
-  if (input.settings.relight)
-    return {name, false, "spectral.relight is true: layers are kept of splats, not of photon maps", "/spectral/relight",
-            false};
-  if (!input.caustics.runs) return {name, false, "there are no caustics to gather"};
-  const bool sees = tracing::may_see_glass_or_mirror(input.scene);
-  const bool splat = input.settings.estimator == Settings::Estimator::splat;
-  if (splat || input.settings.estimator == Settings::Estimator::tiles)
-    return {name, false,
-            fmt::format("spectral.estimator is {}: {}", splat ? "splat" : "tiles",
-                        sees ? "what glass and mirrors show of caustics is left out"
-                             : "the camera sees no glass and no mirror")};
-  if (!sees)
-    return tracing::not_needed(name, input.leave_out.photon_maps,
-                               "the camera sees no glass and no mirror, so every caustic is splatted");
-  return tracing::needed(
-      name,
-      fmt::format(
-          "caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
-          map_radius(input.settings, input.scene), counted(input.tables.eye_paths, "path")));
-}
-
 PlanPart plan_maps(const PlanInput& input) {
   PlanPart part = plan_gathering(input, map_decision(input), input.tables.photons_per_pass());
   const bool runs = part.decisions[0].runs;
@@ -177,6 +154,27 @@ PlanPart plan_maps(const PlanInput& input) {
 }
 
 } // namespace
+
+plan::Decision map_decision(const PlanInput& input) {
+  const char* const name = "photon maps";
+  if (input.settings.relight)
+    return {name, false, "spectral.relight is true: layers are kept of splats, not of photon maps", "/spectral/relight",
+            false};
+  if (!input.caustics.runs) return {name, false, "there are no caustics to gather"};
+  const bool sees = tracing::may_see_glass_or_mirror(input.scene);
+  if (input.settings.estimator == Settings::Estimator::splat)
+    return {name, false,
+            fmt::format("spectral.estimator is splat: {}", sees ? "what glass and mirrors show of caustics is left out"
+                                                                : "the camera sees no glass and no mirror")};
+  if (!sees)
+    return tracing::not_needed(name, input.leave_out.photon_maps,
+                               "the camera sees no glass and no mirror, so every caustic is splatted");
+  return tracing::needed(
+      name,
+      fmt::format(
+          "caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
+          map_radius(input.settings, input.scene), counted(input.tables.eye_paths, "path")));
+}
 
 const RunPart map_stage{plan_maps, make_stage<MapStage>, "caustic"};
 

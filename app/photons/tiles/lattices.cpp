@@ -85,12 +85,10 @@ double widest_of(const shared::DeviceCamera& camera, double photons) {
 
 } // namespace
 
-Lattices make_lattices(const RunTables& tables, unsigned halves, std::int64_t batches, shared::uint2 seed,
+Lattices make_lattices(const RunTables& tables, unsigned halves, double batches, shared::uint2 seed,
                        std::int64_t round) {
   Lattices result;
-  const auto in_all = [batches](unsigned photons) {
-    return static_cast<double>(photons) * static_cast<double>(batches);
-  };
+  const auto in_all = [batches](unsigned photons) { return static_cast<double>(photons) * batches; };
   for (unsigned half = 0; half < halves; ++half) {
     Uniform uniform(seed, round, half);
     for (const shared::DeviceEmitter& emitter : tables.emitters) {

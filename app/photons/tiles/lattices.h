@@ -17,7 +17,7 @@ struct Lattices {
 
 /// Makes the lattices of a round of so many batches of photons in each half. Shifts, wavelengths and places on lamps of
 /// a size are drawn anew for each round.
-Lattices make_lattices(const RunTables& tables, unsigned halves, std::int64_t batches, shared::uint2 seed,
+Lattices make_lattices(const RunTables& tables, unsigned halves, double batches, shared::uint2 seed,
                        std::int64_t round);
 
 } // namespace nephroid::photons
