@@ -44,8 +44,9 @@ typedef struct {
 typedef struct {
   float4 throughput; // what white radiance there is to the pixel, linear sRGB; w: END_*
   float4 place;      // sky: the direction; surface: its position; w: Surface::offset
-  float4 geometric;  // surface: the triangle's unit normal on the side that is seen; w: the primitive
-  float4 shading;    // surface: the shading normal on that side; w: the reflector
+  float4 geometric;  // surface: the triangle's unit normal on the side that is seen; w: the primitive. sky: u of its
+                     // piece (piece.h); w: at.x
+  float4 shading;    // surface: the shading normal on that side; w: the reflector. sky: v; w: at.y
 } DeviceEnd;
 
 #ifndef __OPENCL_C_VERSION__

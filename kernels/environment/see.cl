@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the pixels' paths end: at a diffuse surface or at the environment, straight or through glass and mirrors.
 // shade.cl adds the light there. While only light changes, ends stay.
+#define NEPHROID_TILES 1
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/piece.h"
 #include "kernels/tracing/work_item.h"
 
 static inline DeviceEnd nowhere(void) {
@@ -13,9 +15,11 @@ static inline DeviceEnd nowhere(void) {
   return end;
 }
 
-// Traces a path to its end. first: its next hit, where known. weight: linear sRGB. likelier: as in trace_to_diffuse.
+// Traces a path to its end. first: its next hit, where known: then nothing has bent it. weight: linear sRGB. likelier:
+// as in trace_to_diffuse. place, edges: as in piece_of.
 static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, bool known, const Band* band,
-                               float3 weight, uint2 seed, uint sample, uint pixel, bool likelier) {
+                               float3 weight, uint2 seed, uint sample, uint pixel, bool likelier, float2 place,
+                               float2 edges) {
   DeviceEnd end = nowhere();
   Surface surface;
   Hit hit = *first;
@@ -26,6 +30,10 @@ static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, 
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
     end.throughput = (float4)(throughput, (float)END_SKY);
     end.place = (float4)(path.direction, 0.0f);
+    if (known) return end;
+    const Piece piece = piece_of(&path, place, edges);
+    end.geometric = (float4)(piece.u, piece.at.x);
+    end.shading = (float4)(piece.v, piece.at.y);
     return end;
   }
   const float side = dot(path.direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
@@ -45,13 +53,6 @@ static inline void want(const DeviceEnd* end, float4 middle, int size, __global 
       states[four.texels[i]] = RECEIVER_WANTED; // other items may write the same
 }
 
-// The part of light that glass reflects, from a path's directions before and after. n_ratio: n, near over far.
-static inline float reflected_share(float3 direction, float3 reflected, float n_ratio) {
-  const float3 normal = normalize(reflected - direction);
-  const float cos_i = -dot(direction, normal), cos_t = refracted_cosine(cos_i, n_ratio);
-  return cos_t < 0.0f ? 1.0f : fresnel_reflectance(cos_i, cos_t, n_ratio, 1.0f);
-}
-
 // The band of a path for one channel: a wavelength drawn by its share of that. channel_cdf: [channel][401].
 static inline Band band_of_channel(__global const float* channel_cdf, int channel, float u) {
 #if NEPHROID_JITTER
@@ -60,31 +61,6 @@ static inline Band band_of_channel(__global const float* channel_cdf, int channe
 #else
   return whole_cluster(0);
 #endif
-}
-
-// Continues a path from the eye at the glass or mirror that it meets first. reflected: whether it is reflected or goes
-// through. weight: linear sRGB of the channel. False where there is no such way.
-static inline bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, int channel,
-                              bool reflected, float3* weight) {
-  const Surface surface = surface_at(&world->geometry, *hit);
-  const DeviceMaterial material = material_of(world, surface.object);
-  lose_in_medium(world, path, hit->t);
-  const float3 direction = path->direction;
-  Path other = *path;
-  float n_through = 1.0f, n_reflected = 1.0f;
-  const bool goes_on = bend_path(world, path, hit->primitive, &surface, &material, band, 1.0f, &n_through);
-  const bool reflects = bend_path(world, &other, hit->primitive, &surface, &material, band, 0.0f, &n_reflected);
-  // A mirror, total reflection and glass that does not bend leave one way.
-  const bool two_ways = dot(path->direction, surface.geometric) * dot(other.direction, surface.geometric) < 0.0f;
-  const float share = two_ways ? reflected_share(direction, other.direction, n_through) : 0.0f;
-  if (reflected) {
-    *path = other;
-    *weight = share * (float3)(1.0f);
-    return two_ways && reflects;
-  }
-  *weight = (1.0f - share) * n_through * n_through *
-            (ENDS_OF_PIXEL == 2 ? (float3)(1.0f) : (float3)(channel == 0, channel == 1, channel == 2));
-  return goes_on;
 }
 
 // Traces the paths of blocks first .. first + count - 1 of block x block pixels, row after row. ends: ENDS_OF_PIXEL for
@@ -102,7 +78,8 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
             row = (int)item / columns * block;
   const uint pixel = (uint)(row * camera.width + column);
   const bool coarse = block > 1;
-  const float2 jitter = coarse ? (float2)(0.5f * (float)block) : random4(seed, pass, pixel, 0u, STREAM_SEE).xy;
+  const float2 jitter = coarse ? (float2)(0.5f * (float)block) : eye_numbers(seed, pass, 1u, pixel, 0u, STREAM_SEE).xy;
+  const float2 edges = coarse ? (float2)((float)block) : piece_edges(pass / NEPHROID_FILM_HALVES);
   Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter));
   const Hit hit = next_hit(&world, &path);
   const bool bent = hit.primitive != NEPHROID_NO_PRIMITIVE &&
@@ -118,11 +95,18 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
     bool goes_on = i == 0;
     if (bent) {
       band = band_of_channel(channel_cdf, channel, u);
-      goes_on = first_bend(&world, &way, &hit, &band, channel, i == ENDS_OF_PIXEL - 1, &weight);
+      const bool reflected = i == ENDS_OF_PIXEL - 1;
+      float share;
+      Bend bend;
+      goes_on = first_bend(&world, &way, &hit, &band, reflected, &share, &bend) &&
+                !(reflected && leaves_one_way(&bend));
+      weight = share *
+               (reflected || ENDS_OF_PIXEL == 2 ? (float3)(1.0f) : (float3)(channel == 0, channel == 1, channel == 2));
     }
     DeviceEnd end = nowhere();
     if (goes_on)
-      end = end_of(&world, way, &hit, !bent, &band, weight, seed, ENDS_OF_PIXEL * pass + (uint)i, pixel, coarse);
+      end = end_of(&world, way, &hit, !bent, &band, weight, seed, ENDS_OF_PIXEL * pass + (uint)i, pixel, coarse, jitter,
+                   edges);
     ends[ENDS_OF_PIXEL * item + i] = end;
     want(&end, middle, size, states);
   }

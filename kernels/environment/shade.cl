@@ -3,8 +3,8 @@
 // the environment and lamps, and caustics from the cube of receivers.
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
-#include "kernels/tracing/background.h"
 #include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/piece.h"
 #include "kernels/tracing/work_item.h"
 
 // 1: the direct layer is the smooth one.
@@ -128,8 +128,11 @@ __kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global co
   for (uint i = 0; i < ENDS_OF_PIXEL; ++i) {
     const DeviceEnd end = ends[ENDS_OF_PIXEL * item + i];
     const float3 throughput = end.throughput.xyz;
-    if (end.throughput.w == (float)END_SKY)
-      layers[LAYER_BACKGROUND] += throughput * (radiance * background_rgb(&background, end.place.xyz));
+    if (end.throughput.w == (float)END_SKY) {
+      const Piece piece = {end.place.xyz, end.geometric.xyz, end.shading.xyz, (float2)(end.geometric.w, end.shading.w)};
+      const float2 numbers = random4(seed, ENDS_OF_PIXEL * pass + i, pixel, 0u, STREAM_PEAKS).xy;
+      layers[LAYER_BACKGROUND] += throughput * (radiance * rgb_of_piece(&world.sky, &background, &piece, numbers));
+    }
     if (end.throughput.w != (float)END_SURFACE) continue;
     float3 smooth, seen;
     const float3 caustic = caustic_irradiance(&receivers, &end, &seen);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "background": paths from the eye that meet no diffuse surface, straight or through glass and mirrors, end
 // at the environment. A path through glass has one wavelength, unless all go the same way: then it has all of them.
-#include "kernels/tracing/background.h"
+#include "kernels/tracing/light.h"
+// Where the environment is no light, its peaks are not known.
+#define NEPHROID_TILES (NEPHROID_LIGHT_TYPES >> LIGHT_ENVIRONMENT & 1)
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/piece.h"
 #include "kernels/tracing/work_item.h"
 
 // 1: no glass disperses light.
@@ -26,15 +29,49 @@ static inline float3 shown_after(const World* world, const Background* backgroun
 #endif
 }
 
-// The XYZ radiance of the environment where a path that has met `hit` ends; 0 where it ends elsewhere.
-static inline float3 seen_through(const World* world, const Background* background, Path path, Hit hit,
-                                  const Band* band, uint2 seed, uint sample, uint pixel) {
+// What glass that a path leaves at once reflects of a colour, in all wavelengths. All go the same way, by nearly the
+// same share: the share at the mean index counts for all of them, and what this wavelength's differs from it for
+// itself.
+static inline float3 reflected_after(const World* world, const Background* background, float3 rgb, const Band* band,
+                                     float scale, const Bend* bend) {
+  __global const float* n_of = world->tables.index_of_cluster;
+  const float n_i = bend->near_material < 0 ? 1.0f : n_of[bend->near_material],
+              n_t = bend->far_material < 0 ? 1.0f : n_of[bend->far_material];
+  const float cos_i = dot(bend->direction, bend->normal), cos_t = refracted_cosine(cos_i, n_i / n_t);
+  const float share = cos_t < 0.0f ? 1.0f : fresnel_reflectance(cos_i, cos_t, n_i, n_t);
+  return scale * share * background_xyz(background, rgb, WAVELENGTH_COUNT) +
+         scale * (bend->reflectance - share) * band->weight * background_xyz(background, rgb, band->wavelength);
+}
+
+// The XYZ radiance of the environment that the paths of a pixel's sample see which have met `first`, one of them by
+// reflection there. The part that is seen by path i of PATHS_THROUGH_GLASS; 0 where it ends elsewhere.
+IN_PLACE float3 seen_through(const World* world, const Background* background, Path path, Hit first, const Band* band,
+                             float2 place, uint2 seed, uint frame, uint i, uint pixel) {
+  const bool reflected = i == 0u;
+  const uint sample = frame * PATHS_THROUGH_GLASS + i;
+  float share;
+  Bend bend;
+  if (!first_bend(world, &path, &first, band, reflected, &share, &bend)) return (float3)(0.0f);
+  const bool one_way = leaves_one_way(&bend);
+  const float part = 1.0f / (one_way ? PATHS_THROUGH_GLASS : reflected ? 1.0f : PATHS_THROUGH_GLASS - 1.0f);
   Surface surface;
-  const float radiance_scale = trace_to_diffuse(world, &path, &hit, true, band, seed, sample, PATHS_THROUGH_GLASS,
+  Hit hit = next_hit(world, &path);
+  const bool leaves = hit.primitive == NEPHROID_NO_PRIMITIVE;
+  const float radiance_scale = part * share *
+                               trace_to_diffuse(world, &path, &hit, true, band, seed, sample, PATHS_THROUGH_GLASS,
                                                 pixel, STREAM_BACKGROUND, false, &surface);
   if (radiance_scale == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
-  return radiance_scale * shown_after(world, background, background_rgb(background, path.direction), &path.losses,
-                                      band);
+#if NEPHROID_TILES
+  const Piece piece = piece_of(&path, place, piece_edges(frame / NEPHROID_FILM_HALVES));
+  const float3 rgb = rgb_of_piece(&world->sky, background, &piece, random4(seed, sample, pixel, 0u, STREAM_PEAKS).xy);
+#else
+  const float3 rgb = background_rgb(background, path.direction);
+#endif
+#if !NEPHROID_ONE_WAY
+  if (leaves && reflected && !one_way && !path.losses.any)
+    return reflected_after(world, background, rgb, band, part, &bend);
+#endif
+  return radiance_scale * shown_after(world, background, rgb, &path.losses, band);
 }
 
 // samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.
@@ -50,13 +87,15 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
   const Background background = {texels, primary_xyz, size};
   const uint index = work_item();
   if (index >= count) return;
-  const uint pixel = samples[index].x, frame = samples[index].y;
+  const uint pixel = samples[index].x;
+  SET_ASIDE uint frame = samples[index].y;
   const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
-  const float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_BACKGROUND);
+  SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_BACKGROUND);
   Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter.xy));
   const Hit hit = next_hit(&world, &path);
 
-  float3 xyz = (float3)(0.0f);
+  SET_ASIDE float3 xyz = (float3)(0.0f), outwards = path.direction;
+  SET_ASIDE Hit first = hit;
   if (hit.primitive == NEPHROID_NO_PRIMITIVE)
     xyz = background_xyz(&background, background_rgb(&background, path.direction), WAVELENGTH_COUNT);
   else if (material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type == MATERIAL_DIFFUSE)
@@ -65,8 +104,8 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
     for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {
       const float place = golden_place(seed, frame, i, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND_WAVELENGTH);
       const Band band = wavelength_of_cluster(0, wavelengths, spectrum_cdf, WAVELENGTH_COUNT, place);
-      xyz += seen_through(&world, &background, path, hit, &band, seed, frame * PATHS_THROUGH_GLASS + i, pixel) /
-             (float)PATHS_THROUGH_GLASS;
+      xyz += seen_through(&world, &background, path_from_eye(&camera, outwards), first, &band, jitter.xy, seed, frame,
+                          i, pixel);
     }
   const float limit = limit_of_sample(frame, enough, film_limit);
   if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale,

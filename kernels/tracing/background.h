@@ -15,22 +15,33 @@ static inline float3 texel_at(const Background* b, int row, int column) {
   return vload3((size_t)row * (size_t)b->size.width + (size_t)column, b->texels);
 }
 
-// Linear sRGB in a direction, bilinear between texels. Columns go on around; the first and the last row are repeated.
-static inline float3 background_rgb(const Background* b, float3 direction) {
+// The four texels about a direction. Columns go on around; the first and the last row are repeated.
+typedef struct {
+  int row, next_row, column, next_column;
+  float right_part, lower_part; // weights of the next ones
+} TexelPlace;
+
+static inline TexelPlace texel_place(const DeviceBackground* size, float3 direction) {
   // The azimuth goes from the picture's middle, -z, to its right, +x. A map turned to the left is read to the right.
-  const float azimuth = atan2(direction.x, -direction.z) / (2.0f * PI_F) + 0.5f + b->size.turns;
+  const float azimuth = atan2(direction.x, -direction.z) / (2.0f * PI_F) + 0.5f + size->turns;
   const float zenith = atan2(sqrt(direction.x * direction.x + direction.z * direction.z), direction.y) / PI_F;
-  const float x = (azimuth - floor(azimuth)) * (float)b->size.width - 0.5f;
-  const float y = clamp(zenith * (float)b->size.height - 0.5f, 0.0f, (float)(b->size.height - 1));
-  const float left = floor(x), top = floor(y), right_part = x - left, lower_part = y - top;
-  const int column = left < 0.0f ? b->size.width - 1 : min((int)left, b->size.width - 1);
-  const int next_column = column + 1 < b->size.width ? column + 1 : 0;
-  const int row = (int)top, next_row = min(row + 1, b->size.height - 1);
+  const float x = (azimuth - floor(azimuth)) * (float)size->width - 0.5f;
+  const float y = clamp(zenith * (float)size->height - 0.5f, 0.0f, (float)(size->height - 1));
+  const float left = floor(x), top = floor(y);
+  const int column = left < 0.0f ? size->width - 1 : min((int)left, size->width - 1), row = (int)top;
+  const TexelPlace place = {
+      row, min(row + 1, size->height - 1), column, column + 1 < size->width ? column + 1 : 0, x - left, y - top};
+  return place;
+}
+
+// Linear sRGB in a direction, bilinear between texels.
+static inline float3 background_rgb(const Background* b, float3 direction) {
+  const TexelPlace at = texel_place(&b->size, direction);
   // a + t (b - a) is exact where a and b are equal.
-  const float3 a = texel_at(b, row, column), c = texel_at(b, next_row, column);
-  const float3 upper = a + right_part * (texel_at(b, row, next_column) - a),
-               lower = c + right_part * (texel_at(b, next_row, next_column) - c);
-  return upper + lower_part * (lower - upper);
+  const float3 a = texel_at(b, at.row, at.column), c = texel_at(b, at.next_row, at.column);
+  const float3 upper = a + at.right_part * (texel_at(b, at.row, at.next_column) - a),
+               lower = c + at.right_part * (texel_at(b, at.next_row, at.next_column) - c);
+  return upper + at.lower_part * (lower - upper);
 }
 
 // The XYZ of one wavelength of a colour's spectrum. wavelength: WAVELENGTH_COUNT for all of them.

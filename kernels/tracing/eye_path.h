@@ -106,6 +106,24 @@ static inline bool is_unbent(const World* world, const DeviceCamera* camera, con
   return material_of(world, object).type == MATERIAL_DIFFUSE && is_in_air(&camera->inside);
 }
 
+// A mirror, total reflection and glass that does not bend leave one way.
+static inline bool leaves_one_way(const Bend* bend) { return bend->reflectance == 0.0f || bend->reflectance == 1.0f; }
+
+// Continues a path at the glass or mirror that it meets first. reflected: whether it is reflected there or goes on
+// through, where there are both ways. *share: the factor of the radiance there. False: the path is lost.
+IN_PLACE bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, bool reflected,
+                         float* share, Bend* bend) {
+  const Surface surface = surface_at(&world->geometry, *hit);
+  const DeviceMaterial material = material_of(world, surface.object);
+  lose_in_medium(world, path, hit->t);
+  float n_ratio;
+  if (!bend_path_as(world, path, hit->primitive, &surface, &material, band, reflected ? 0.0f : 1.0f, &n_ratio, bend))
+    return false;
+  const float part = bend->transmitted ? 1.0f - bend->reflectance : bend->reflectance;
+  *share = part * n_ratio * n_ratio;
+  return true;
+}
+
 // Continues a path through glass and mirrors in one band to a diffuse surface or out of the scene. known: `hit` is its
 // next hit. `hit` and, at a diffuse surface, `surface` become those of its end. Returns the factor of the radiance
 // there, 0 where the path is lost: a path keeps radiance over n^2 (Nicodemus 1963, "Radiance"). stream: for the numbers

@@ -14,6 +14,7 @@
 #define STREAM_BACKGROUND 14u            // background.cl: index is the pixel
 #define STREAM_BACKGROUND_WAVELENGTH 15u // where a pixel starts in the spectrum
 #define STREAM_INDIRECT 16u              // indirect.cl: index is the photon of a pass
+#define STREAM_PEAKS 17u                 // piece.h: index is the pixel
 #define STREAM_SURVEY 24u                // relight_direct.cl, its survey: index is the pixel
 #define STREAM_VIEW 32u                  // view.cl, here and below: index is the pixel
 #define STREAM_VIEW_CLUSTER 33u

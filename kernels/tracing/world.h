@@ -25,7 +25,7 @@ typedef struct {
   {{GEOMETRY_TABLES(TABLE_VALUE) scene.root}, OBJECT_TABLES(TABLE_VALUE) {WAVELENGTH_TABLES(TABLE_VALUE)}, \
    STRETCH_TABLES(TABLE_VALUE) {SKY_TABLES(TABLE_VALUE) scene.sky_size}, scene}
 
-// 1: paths carry how they move with the place in the lattice that they start from.
+// 1: paths carry how they move with the place in the lattice or in the pixel that they start from.
 #ifndef NEPHROID_TILES
 #define NEPHROID_TILES 0
 #endif
@@ -38,12 +38,24 @@ typedef struct {
   float behind; // the path begins this far behind `origin` (Emission); 0 after its first hit
   Differential differential;
 #if NEPHROID_TILES
-  Differential tile[2]; // a prime is the derivative by the first, the second coordinate in the lattice's square
+  // A prime is the derivative by the first, the second coordinate: in the lattice's square, or in pixels to the right
+  // and down.
+  Differential tile[2];
 #endif
 } Path;
 
+// direction: unit, along forward + x right + y up, so its derivative by x is (right - (right.D) D) (forward.D).
 static inline Path path_from_eye(const DeviceCamera* camera, float3 direction) {
-  const Path path = {camera->position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera->inside, no_losses(), 0.0f};
+  Path path = {camera->position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera->inside, no_losses(), 0.0f};
+#if NEPHROID_TILES
+  const float along = dot(direction, camera->forward.xyz);
+  const float3 right = camera->right.xyz, up = camera->up.xyz;
+  path.tile[0].position = path.tile[1].position = (float3)(0.0f);
+  path.tile[0].direction =
+      2.0f * camera->tan_x / (float)camera->width * along * (right - dot(right, direction) * direction);
+  path.tile[1].direction =
+      -2.0f * camera->tan_y / (float)camera->height * along * (up - dot(up, direction) * direction);
+#endif
   return path;
 }
 
@@ -122,30 +134,29 @@ static inline void bend_differential(const World* world, Path* path, uint triang
 }
 
 // Continues the path at a mirror or dielectric. choice: uniform in [0, 1); -1 reflects, 2 goes through where anything
-// does. *n_ratio, false: as in cross_interface. *at_surface: what happened there.
-static inline bool bend_path_as(const World* world, Path* path, uint triangle, const Surface* surface,
-                                const DeviceMaterial* material, const Band* band, float choice, float* n_ratio,
-                                Bend* at_surface) {
+// does. *n_ratio, false: as in cross_interface. *bend: what happened there.
+IN_PLACE bool bend_path_as(const World* world, Path* path, uint triangle, const Surface* surface,
+                           const DeviceMaterial* material, const Band* band, float choice, float* n_ratio,
+                           Bend* bend) {
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
-  Bend bend;
   *n_ratio = 1.0f;
 #if NEPHROID_MIRRORS
   if (material->type == MATERIAL_MIRROR) {
-    bend = bend_at_surface(path->direction, surface, 1.0f, 1.0f, -1.0f);
+    *bend = bend_at_surface(path->direction, surface, 1.0f, 1.0f, -1.0f);
+    bend->reflectance = 1.0f;
     lose(&path->losses, material->attenuator, 1.0f);
   } else
 #endif
   {
     if (!cross_interface(&path->media, surface, world->objects, index_of_band(world, band), path->direction, choice,
-                         &bend, n_ratio))
+                         bend, n_ratio))
       return false;
   }
-  bend_differential(world, path, triangle, surface, band, &bend);
-  path->direction = bend.direction;
-  path->origin = start_on_side(surface, from_outside == bend.transmitted ? -1.0f : 1.0f);
+  bend_differential(world, path, triangle, surface, band, bend);
+  path->direction = bend->direction;
+  path->origin = start_on_side(surface, from_outside == bend->transmitted ? -1.0f : 1.0f);
   path->skip = triangle;
   path->behind = 0.0f;
-  *at_surface = bend;
   return true;
 }
 

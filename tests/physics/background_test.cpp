@@ -7,6 +7,8 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
+#include <numeric>
+
 namespace nephroid::background_test {
 
 preset::Preset with_constant(const preset::Vec3& colour, int resolution, double radiance = 1) {
@@ -324,6 +326,64 @@ TEST(Background, APrismTakesWhiteApart) {
   for (std::size_t c = 0; c < 2; ++c) // there is little Z
     expect_truth(std::string("background, prism and slit: ") + "XYZ"[c], estimates[c].mean / truth[c], 1,
                  tolerance(estimates[c]) / truth[c] + 0.005);
+}
+
+/// A mirror ball far away, under a map that is black but for one texel at the horizon. Seen from afar the ball's disc
+/// sends every direction equally much of its area: R^2 / 4 a steradian, for its curvature takes the angle from the axis
+/// to twice that. The texel's colour is bilinear, so its flux is radiance * (2 pi / columns) (pi / rows) but for
+/// (pi / rows)^2 / 12 of it.
+struct SunInABall {
+  static constexpr int columns = 256, rows = 128, pixels = 8;
+  static constexpr double radius = 0.2, distance = 2000 * radius, side = 2.2 * radius, radiance = 1e5;
+  static constexpr double truth = radius * radius / 4 * radiance * (2 * M_PI / columns) * (M_PI / rows) / (side * side);
+  TemporaryFolder temporary;
+  preset::Preset preset = [this] {
+    std::vector<float> map(std::size_t{3} * columns * rows, 0.0f);
+    for (std::size_t c = 0; c < 3; ++c) map[3 * (rows / 2 * columns + columns / 8) + c] = radiance;
+    preset::Preset p = with_map(temporary.path(), columns, rows, map, pixels);
+    p.scene.materials["mirror"] = check::mirror(1);
+    p.scene.objects = {object("ball", check::ball(radius), "mirror")};
+    p.scene.objects[0].normals = preset::Object::Normals::smooth;
+    p.scene.camera.position = {0, 0, distance};
+    p.scene.camera.target = {0, 0, 0};
+    p.scene.camera.fov_deg = 2 * std::atan(side / 2 / distance) / degree;
+    spectral::settings(p).direct = false;
+    return p;
+  }();
+
+  /// The pictures' means of as many seeds, of so many samples a pixel. lit: the map is a light, so that it has peaks.
+  std::vector<double> means(bool lit, int samples, int seeds) {
+    preset.scene.environment->lights = lit;
+    spectral::settings(preset).pixel_samples = preset.stop.passes.emplace(samples);
+    std::vector<double> result;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      preset.seed = static_cast<std::uint64_t>(seed);
+      result.push_back(mean_of(layer(render(preset), "background").rgb).y);
+    }
+    return result;
+  }
+};
+
+double mean_of_seeds(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double deviation_of_seeds(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += std::pow(v - mean_of_seeds(values), 2);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
+// The texel fills 5e-5 of the ball's disc. Pieces find it at once, and in the end with its whole light.
+TEST(Background, ASunInABallIsItsShareOfAPiece) {
+  SunInABall sun;
+  constexpr int seeds = 24;
+  const std::vector<double> points = sun.means(false, 16, seeds), pieces = sun.means(true, 16, seeds),
+                            many = sun.means(true, 1024, 8);
+  const double few_error = deviation_of_seeds(pieces) / sun.truth, many_error = deviation_of_seeds(many) / sun.truth;
+  EXPECT_LT(few_error, 0.1 * deviation_of_seeds(points) / sun.truth);
+  expect_truth("background, a sun in a mirror ball", mean_of_seeds(many) / sun.truth, 1,
+               sigmas * many_error / std::sqrt(8) + 0.01);
 }
 
 TEST(Background, IsLeftOutWhereThereIsNothingToSee) {
