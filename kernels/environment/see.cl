@@ -16,7 +16,7 @@ static inline DeviceEnd nowhere(void) {
 }
 
 // Traces a path to its end. first: its next hit, where known: then nothing has bent it. weight: linear sRGB. likelier:
-// as in trace_to_diffuse. place, edges: as in piece_of.
+// as in trace_to_diffuse, and it sees a point of the sky. place, edges: as in piece_of.
 static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, bool known, const Band* band,
                                float3 weight, uint2 seed, uint sample, uint pixel, bool likelier, float2 place,
                                float2 edges) {
@@ -30,7 +30,7 @@ static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, 
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
     end.throughput = (float4)(throughput, (float)END_SKY);
     end.place = (float4)(path.direction, 0.0f);
-    if (known) return end;
+    if (known || likelier) return end;
     const Piece piece = piece_of(&path, place, edges);
     end.geometric = (float4)(piece.u, piece.at.x);
     end.shading = (float4)(piece.v, piece.at.y);
@@ -79,7 +79,7 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
   const uint pixel = (uint)(row * camera.width + column);
   const bool coarse = block > 1;
   const float2 jitter = coarse ? (float2)(0.5f * (float)block) : eye_numbers(seed, pass, 1u, pixel, 0u, STREAM_SEE).xy;
-  const float2 edges = coarse ? (float2)((float)block) : piece_edges(pass / NEPHROID_FILM_HALVES);
+  const float2 edges = piece_edges(pass / NEPHROID_FILM_HALVES);
   Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter));
   const Hit hit = next_hit(&world, &path);
   const bool bent = hit.primitive != NEPHROID_NO_PRIMITIVE &&
@@ -98,8 +98,8 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
       const bool reflected = i == ENDS_OF_PIXEL - 1;
       float share;
       Bend bend;
-      goes_on = first_bend(&world, &way, &hit, &band, reflected, &share, &bend) &&
-                !(reflected && leaves_one_way(&bend));
+      goes_on =
+          first_bend(&world, &way, &hit, &band, reflected, &share, &bend) && !(reflected && leaves_one_way(&bend));
       weight = share *
                (reflected || ENDS_OF_PIXEL == 2 ? (float3)(1.0f) : (float3)(channel == 0, channel == 1, channel == 2));
     }

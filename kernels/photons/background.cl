@@ -24,8 +24,8 @@ static inline float3 shown_after(const World* world, const Background* backgroun
     xyz += wavelength_left(&world->tables, losses, w) * background_xyz(background, rgb, w);
   return xyz;
 #else
-  return wavelength_left(&world->tables, losses, band->wavelength)
-         * band->weight * background_xyz(background, rgb, band->wavelength);
+  return wavelength_left(&world->tables, losses, band->wavelength) * band->weight *
+         background_xyz(background, rgb, band->wavelength);
 #endif
 }
 

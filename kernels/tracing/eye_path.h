@@ -111,8 +111,8 @@ static inline bool leaves_one_way(const Bend* bend) { return bend->reflectance =
 
 // Continues a path at the glass or mirror that it meets first. reflected: whether it is reflected there or goes on
 // through, where there are both ways. *share: the factor of the radiance there. False: the path is lost.
-IN_PLACE bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, bool reflected,
-                         float* share, Bend* bend) {
+IN_PLACE bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, bool reflected, float* share,
+                         Bend* bend) {
   const Surface surface = surface_at(&world->geometry, *hit);
   const DeviceMaterial material = material_of(world, surface.object);
   lose_in_medium(world, path, hit->t);
@@ -129,7 +129,7 @@ IN_PLACE bool first_bend(const World* world, Path* path, const Hit* hit, const B
 // there, 0 where the path is lost: a path keeps radiance over n^2 (Nicodemus 1963, "Radiance"). stream: for the numbers
 // that choose between reflection and refraction. likelier: takes the likelier of both, for a preview.
 IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool known, const Band* band, uint2 seed,
-                         uint sample, uint paths, uint pixel, uint stream, bool likelier, Surface* surface) {
+                                uint sample, uint paths, uint pixel, uint stream, bool likelier, Surface* surface) {
   float radiance_scale = 1.0f;
   SET_ASIDE float4 choices = (float4)(0.0f);
   for (int surface_number = 0; surface_number <= world->scene.max_surfaces; ++surface_number) {

@@ -31,8 +31,7 @@ static inline float2 piece_edges(uint index) {
 // much of the sky is seen. All of that vanishes as pieces shrink.
 static inline Piece piece_of(const Path* path, float2 place, float2 edges) {
   const float2 at = place / edges;
-  Piece piece = {path->direction, edges.x * path->tile[0].direction, edges.y * path->tile[1].direction,
-                 at - floor(at)};
+  Piece piece = {path->direction, edges.x * path->tile[0].direction, edges.y * path->tile[1].direction, at - floor(at)};
   // The singular values of (u, v) are the lengths of these.
   float cosine;
   const float sine =

@@ -136,8 +136,7 @@ static inline void bend_differential(const World* world, Path* path, uint triang
 // Continues the path at a mirror or dielectric. choice: uniform in [0, 1); -1 reflects, 2 goes through where anything
 // does. *n_ratio, false: as in cross_interface. *bend: what happened there.
 IN_PLACE bool bend_path_as(const World* world, Path* path, uint triangle, const Surface* surface,
-                           const DeviceMaterial* material, const Band* band, float choice, float* n_ratio,
-                           Bend* bend) {
+                           const DeviceMaterial* material, const Band* band, float choice, float* n_ratio, Bend* bend) {
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
   *n_ratio = 1.0f;
 #if NEPHROID_MIRRORS

@@ -254,7 +254,8 @@ TEST_F(EnvironmentView, AFloorGetsThePowerThatLeavesTheBallTowardsIt) {
                  expected = y_of_lamp(p) * power_on_floor(1.5, depth, half);
     fmt::print("floor at {}: {:.4f} W, by rays {:.4f}, of {:.4f} W that meet the ball\n", depth, power, expected,
                y_of_lamp(p) * pi);
-    EXPECT_NEAR(power, expected, 0.02 * expected);
+    // At 1.5 the floor lies in the focus. There spheres lose 1.8 %, and pixels' places change that by 0.6 %.
+    EXPECT_NEAR(power, expected, 0.03 * expected);
     EXPECT_GT(expected, 0.2 * y_of_lamp(p) * pi);
   }
 }
