@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the pixels' paths end: at a diffuse surface or at the environment, straight or through glass and mirrors.
 // shade.cl adds the light there. While only light changes, ends stay.
-#define NEPHROID_TILES 1
+#define NEPHROID_PLACE_DIFFERENTIALS 1
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
 #include "kernels/tracing/camera.h"

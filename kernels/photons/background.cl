@@ -3,7 +3,7 @@
 // at the environment. A path through glass has one wavelength, unless all go the same way: then it has all of them.
 #include "kernels/tracing/light.h"
 // Where the environment is no light, its peaks are not known.
-#define NEPHROID_TILES (NEPHROID_LIGHT_TYPES >> LIGHT_ENVIRONMENT & 1)
+#define NEPHROID_PLACE_DIFFERENTIALS (NEPHROID_LIGHT_TYPES >> LIGHT_ENVIRONMENT & 1)
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 #include "kernels/tracing/piece.h"
@@ -61,7 +61,7 @@ IN_PLACE float3 seen_through(const World* world, const Background* background, P
                                trace_to_diffuse(world, &path, &hit, true, band, seed, sample, PATHS_THROUGH_GLASS,
                                                 pixel, STREAM_BACKGROUND, false, &surface);
   if (radiance_scale == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
-#if NEPHROID_TILES
+#if NEPHROID_PLACE_DIFFERENTIALS
   const Piece piece = piece_of(&path, place, piece_edges(frame / NEPHROID_FILM_HALVES));
   const float3 rgb = rgb_of_piece(&world->sky, background, &piece, random4(seed, sample, pixel, 0u, STREAM_PEAKS).xy);
 #else

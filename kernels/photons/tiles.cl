@@ -2,7 +2,7 @@
 // The caustic layer by tiles: photons leave the lights on square lattices, follow both branches at glass, and each is
 // splatted as the piece of its lattice that it stands for (Schjoth et al. 2007, "Photon differentials"; lattices in the
 // place of random points make footprints tile).
-#define NEPHROID_TILES 1
+#define NEPHROID_PLACE_DIFFERENTIALS 1
 #include "kernels/photons/footprint_splat.h"
 #include "kernels/photons/stretch.h"
 #include "kernels/tracing/work_item.h"
@@ -88,10 +88,10 @@ static inline float3 light_of_part(const World* world, __global const float4* re
 #endif
 
 // Whether a cell of the lattice is wider than the triangle that its middle meets.
-static inline bool spans_triangles(const Geometry* geometry, uint primitive, const Differential* tile, float size) {
+static inline bool spans_triangles(const Geometry* geometry, uint primitive, const Differential* by_place, float size) {
   const DevicePrimitive met = geometry->primitives[primitive];
   if (is_ellipsoid(&met) || kind_of(&met) != PRIMITIVE_SMOOTH) return false;
-  const float3 a = size * tile[0].position, b = size * tile[1].position, u = met.edge_u.xyz, v = met.edge_v.xyz;
+  const float3 a = size * by_place[0].position, b = size * by_place[1].position, u = met.edge_u.xyz, v = met.edge_v.xyz;
   return dot(a, a) + dot(b, b) > dot(u, u) + dot(v, v);
 }
 
@@ -139,8 +139,8 @@ COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, 
   const float distance = dot(end->surface.position - path->origin, path->direction),
               size = lattice->step * sqrt(branch->stands),
               widest = branch->is_coarse ? COARSE_PART * lattice->widest : lattice->widest;
-  const float3 a = size * transferred(&path->tile[0], path->direction, distance, end->surface.geometric),
-               b = size * transferred(&path->tile[1], path->direction, distance, end->surface.geometric);
+  const float3 a = size * transferred(&path->by_place[0], path->direction, distance, end->surface.geometric),
+               b = size * transferred(&path->by_place[1], path->direction, distance, end->surface.geometric);
   const float side = dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f;
   Strand strand = {end->surface, end->triangle, end->xyz};
   Stretch sweep = {1, true, false};
@@ -252,14 +252,14 @@ COMPILED_ONCE int next_surface(const World* world, const Band* band, float cell,
   float n_ratio;
   if (!bend_path_as(world, &branch->path, hit.primitive, &end->surface, &material, band, 2.0f, &n_ratio, &bend))
     return BRANCH_ENDS;
-  branch->is_coarse = branch->is_coarse ||
-                      spans_triangles(&world->geometry, hit.primitive, branch->path.tile, cell * sqrt(branch->stands));
+  branch->is_coarse = branch->is_coarse || spans_triangles(&world->geometry, hit.primitive, branch->path.by_place,
+                                                           cell * sqrt(branch->stands));
   reflected.is_coarse = branch->is_coarse;
   if (!bend.transmitted || bend.reflectance == 0.0f) return BRANCH_GOES_ON;
   return split_branch(world, &material, band, &bend, end, point, u, branch, &reflected, pending, waiting);
 }
 
-// A photon's first branch. emission: its tile[2] is set already.
+// A photon's first branch. emission: its by_place[2] is set already.
 static inline void start_branch(Branch* branch, const Emission* emission, Media inside) {
   branch->path.origin = emission->origin;
   branch->path.direction = emission->direction;
@@ -296,7 +296,8 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
     const float2 place = (float2)(lattice.place_x, lattice.place_y);
     const Source source = source_of(&world, lattice.light, place, &light);
     Branch branch;
-    const Emission emission = emit_on_lattice(&light, targets, &scene, lattice.target, disc, place, branch.path.tile);
+    const Emission emission =
+        emit_on_lattice(&light, targets, &scene, lattice.target, disc, place, branch.path.by_place);
     if (emission.watts == 0.0f) continue;
     const Band band = choose_band(&world, lattice.light, lattice.cluster, lattice.wavelength);
     const Band whole = whole_cluster(lattice.cluster);

@@ -24,14 +24,15 @@ static inline float2 piece_edges(uint index) {
   return 1.0f / (float2)((float)(1u << (level + 1u) / 2u), (float)(1u << level / 2u));
 }
 
-#if NEPHROID_TILES
+#if NEPHROID_PLACE_DIFFERENTIALS
 // The piece at the end of a path. place: of the sample in its pixel; edges: of its piece, in pixels. Through curved
 // glass a long piece is bent: to second order it is wide by the square of its length, and not the line that it is to
 // first order near a fold. Longer than a radian, or after surfaces whose derivatives are not finite, it says only that
 // much of the sky is seen. All of that vanishes as pieces shrink.
 static inline Piece piece_of(const Path* path, float2 place, float2 edges) {
   const float2 at = place / edges;
-  Piece piece = {path->direction, edges.x * path->tile[0].direction, edges.y * path->tile[1].direction, at - floor(at)};
+  Piece piece = {path->direction, edges.x * path->by_place[0].direction, edges.y * path->by_place[1].direction,
+                 at - floor(at)};
   // The singular values of (u, v) are the lengths of these.
   float cosine;
   const float sine =

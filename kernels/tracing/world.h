@@ -26,8 +26,8 @@ typedef struct {
    STRETCH_TABLES(TABLE_VALUE) {SKY_TABLES(TABLE_VALUE) scene.sky_size}, scene}
 
 // 1: paths carry how they move with the place in the lattice or in the pixel that they start from.
-#ifndef NEPHROID_TILES
-#define NEPHROID_TILES 0
+#ifndef NEPHROID_PLACE_DIFFERENTIALS
+#define NEPHROID_PLACE_DIFFERENTIALS 0
 #endif
 
 typedef struct {
@@ -37,23 +37,23 @@ typedef struct {
   Losses losses;
   float behind; // the path begins this far behind `origin` (Emission); 0 after its first hit
   Differential differential;
-#if NEPHROID_TILES
+#if NEPHROID_PLACE_DIFFERENTIALS
   // A prime is the derivative by the first, the second coordinate: in the lattice's square, or in pixels to the right
   // and down.
-  Differential tile[2];
+  Differential by_place[2];
 #endif
 } Path;
 
 // direction: unit, along forward + x right + y up, so its derivative by x is (right - (right.D) D) (forward.D).
 static inline Path path_from_eye(const DeviceCamera* camera, float3 direction) {
   Path path = {camera->position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera->inside, no_losses(), 0.0f};
-#if NEPHROID_TILES
+#if NEPHROID_PLACE_DIFFERENTIALS
   const float along = dot(direction, camera->forward.xyz);
   const float3 right = camera->right.xyz, up = camera->up.xyz;
-  path.tile[0].position = path.tile[1].position = (float3)(0.0f);
-  path.tile[0].direction =
+  path.by_place[0].position = path.by_place[1].position = (float3)(0.0f);
+  path.by_place[0].direction =
       2.0f * camera->tan_x / (float)camera->width * along * (right - dot(right, direction) * direction);
-  path.tile[1].direction =
+  path.by_place[1].direction =
       -2.0f * camera->tan_y / (float)camera->height * along * (up - dot(up, direction) * direction);
 #endif
   return path;
@@ -111,13 +111,13 @@ COMPILED_ONCE Band choose_band(const World* world, int light, int cluster, float
 static inline void bend_differential(const World* world, Path* path, uint triangle, const Surface* surface,
                                      const Band* band, const Bend* bend) {
   const float distance = dot(surface->position - path->origin, path->direction);
-#if NEPHROID_TILES
+#if NEPHROID_PLACE_DIFFERENTIALS
   for (int i = 0; i < 2; ++i) {
-    differential_to_surface(&path->tile[i], path->direction, distance, surface);
+    differential_to_surface(&path->by_place[i], path->direction, distance, surface);
     if (bend->straight) continue;
     __global const float* n_of = index_of_band(world, band);
     const int near = bend->near_material, far = bend->far_material;
-    differential_through_bend(&path->tile[i], &world->geometry, triangle, surface, path->direction, bend,
+    differential_through_bend(&path->by_place[i], &world->geometry, triangle, surface, path->direction, bend,
                               near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far], 0.0f, 0.0f);
   }
 #endif
