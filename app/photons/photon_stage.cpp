@@ -170,14 +170,14 @@ private:
   compute::Buffer<std::int64_t> guide_moments_; ///< [light][GUIDE_CELLS], see EmissionGuide::learn
   compute::Buffer<float> guide_table_;
   compute::Buffer<std::int64_t> film_;
-  compute::Buffer<std::int64_t> own_energy_;     ///< of photons that the tiles' energy does without
+  compute::Buffer<std::int64_t> own_energy_;     ///< of stored photons: the run's energy is that of tiles
   compute::Buffer<shared::StoredPhoton> stored_; ///< the photon map's, where there is one
   compute::Kernel kernel_;
   tracing::PhotonSlices slices_;
   std::int64_t batch_ = 0; ///< number of the batch in the current pass
 };
 
-/// Photons for the maps beside tiles, which are no fair sample of a batch.
+/// Photons for the maps beside tiles: the tiles of a batch are no fair sample of its light.
 class StoredPhotonStage final : public PhotonStage {
 public:
   StoredPhotonStage(StageContext& world, const scene::Scene&, const Settings& settings)

@@ -19,7 +19,7 @@
 namespace nephroid::photons {
 namespace {
 
-/// Beside photon maps, which have more noise and need photons of their own, a pass has fewer tiles.
+/// The part of a pass's photons that tiles have beside photon maps, which have more noise and photons of their own.
 constexpr double share_beside_maps = 0.25;
 
 class TileStage final : public Stage {

@@ -87,8 +87,9 @@ TEST_P(SampledPixels, HaveTheMeanOfAsManySamplesEverywhere) {
       const double d = (shared.sum[i] - even.sum[i]) / runs, v = variance_of(shared) + variance_of(even);
       difference += d;
       variance += v;
-      if (std::min(variance_of(shared), variance_of(even)) <= 1e-12)
-        continue; // what is so rare that not both have met it
+      // What is so rare that a few events make all of a pixel's light: their variance says little.
+      const auto is_rare = [&](const Sums& s) { return std::pow(s.sum[i] / runs, 2) < 16 * variance_of(s); };
+      if (std::min(variance_of(shared), variance_of(even)) <= 1e-12 || is_rare(shared) || is_rare(even)) continue;
       squares += d * d / v;
       gain += std::log(std::max(variance_of(even), 1e-12) / std::max(variance_of(shared), 1e-12));
       ++pixels;
