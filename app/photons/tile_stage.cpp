@@ -203,11 +203,11 @@ private:
   Lattices lattices_;
   compute::Buffer<shared::DeviceLattice> on_device_{world_.context, "no lattices", 0};
   compute::Buffer<shared::PixelView> views_{world_.context, "no views", 0};
-  tracing::SliceSize amount_{4096};
-  std::int64_t batch_ = 0;    ///< number of the batch in the current pass
-  std::int64_t batches_ = 0;  ///< batches of all complete rounds
-  std::int64_t of_round_ = 0; ///< complete batches of the round in hand
-  std::int64_t point_ = 0;    ///< points of the round in hand that are done
+  tracing::SliceSize amount_{4096, 256}; ///< fewer would not be worth a launch, however slow the device
+  std::int64_t batch_ = 0;               ///< number of the batch in the current pass
+  std::int64_t batches_ = 0;             ///< batches of all complete rounds
+  std::int64_t of_round_ = 0;            ///< complete batches of the round in hand
+  std::int64_t point_ = 0;               ///< points of the round in hand that are done
 };
 
 PlanPart plan_tiles(const PlanInput& input) {

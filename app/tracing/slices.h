@@ -22,7 +22,7 @@ double seconds_of(const Work& work) {
 /// How much work fits into a slice, learned from the slices before.
 class SliceSize {
 public:
-  explicit SliceSize(double start) : amount_(start) {}
+  explicit SliceSize(double start, double least = 1) : amount_(start), least_(least) {}
   /// Calls work(first, count) for this rank's part (Partition) of the next slice of `size` items, of which `done` are
   /// done; a slice has at most `most`. Returns how many it had on all ranks.
   template <class Work>
@@ -42,12 +42,13 @@ public:
   /// first slice of a kernel also compiles it, and the rows of a picture differ.
   template <class Work>
   void timed(double amount, const Work& work) {
-    amount_ = std::clamp(amount * slice_seconds / std::max(seconds_of(work), 1e-6), 0.25 * amount_, 2 * amount_);
+    const double fits = amount * slice_seconds / std::max(seconds_of(work), 1e-6);
+    amount_ = std::clamp(fits, std::max(0.25 * amount_, least_), std::max(2 * amount_, least_));
   }
 
 private:
   static constexpr double slice_seconds = 0.03;
-  double amount_;
+  double amount_, least_;
 };
 
 /// The pixels of a pass, or its rows.
