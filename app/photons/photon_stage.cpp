@@ -22,28 +22,24 @@ constexpr double least_gain = 1.5;
 /// The first batch whose photons are allocated by measurements: after half a pass, as fewer photons show too little.
 std::int64_t first_reallocation(unsigned batches) { return std::max<std::int64_t>(batches / 2, 2); }
 
-class PhotonStage : public Stage {
+class PhotonStage final : public Stage {
 public:
   PhotonStage(StageContext& world, const scene::Scene&, const Settings& settings)
-      : PhotonStage(world, settings, true) {}
-
-protected:
-  PhotonStage(StageContext& world, const Settings& settings, bool splats)
-      : world_(world), splats_(splats), insists_(settings.effort == Settings::Effort::variance),
-        by_variance_(splats && (insists_ || settings.effort == Settings::Effort::automatic)),
+      : world_(world), splats_(settings.estimator != Settings::Estimator::tiles),
+        insists_(settings.effort == Settings::Effort::variance),
+        by_variance_(splats_ && (insists_ || settings.effort == Settings::Effort::automatic)),
         allocation_(world.tables.emitters), guide_(by_variance_ ? world.tables.lights.size() : 0),
         moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
         guide_moments_(world.zeroed("variance of each direction",
                                     by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
         guide_table_(world.context, "guide of directions", guide_.table()),
-        film_(world.zeroed("film caustic", splats ? world.film_size() : 0)),
-        own_energy_(world.zeroed("energy of stored photons", splats ? 0 : OUTCOME_COUNT)),
+        film_(world.zeroed("film caustic", splats_ ? world.film_size() : 0)),
+        own_energy_(world.zeroed("energy of stored photons", splats_ ? 0 : OUTCOME_COUNT)),
         stored_(world.context, "no photons", 0) {
     if (world.map) stored_ = world.map->stored();
     make_kernel();
   }
 
-public:
   const char* name() const override { return splats_ ? "photons" : "stored photons"; }
   double fraction_done() const override {
     return (static_cast<double>(batch_) + slices_.fraction_done()) / world_.tables.batches;
@@ -161,7 +157,7 @@ private:
   }
 
   StageContext& world_;
-  bool splats_;      ///< false: photons are for the map only, beside tiles
+  bool splats_;      ///< false: for the map only, beside tiles, of which a batch is no fair sample
   bool insists_;     ///< whether the preset asks for allocation by variance
   bool by_variance_; ///< whether photons are measured, and allocated and guided by that
   NeymanAllocation allocation_;
@@ -175,13 +171,6 @@ private:
   compute::Kernel kernel_;
   tracing::PhotonSlices slices_;
   std::int64_t batch_ = 0; ///< number of the batch in the current pass
-};
-
-/// Photons for the maps beside tiles: the tiles of a batch are no fair sample of its light.
-class StoredPhotonStage final : public PhotonStage {
-public:
-  StoredPhotonStage(StageContext& world, const scene::Scene&, const Settings& settings)
-      : PhotonStage(world, settings, false) {}
 };
 
 PlanPart plan_photons(const PlanInput& input) {
@@ -210,6 +199,6 @@ PlanPart plan_stored_photons(const PlanInput& input) {
 } // namespace
 
 const RunPart photon_stage{plan_photons, make_stage<PhotonStage>, "caustic"};
-const RunPart stored_photon_stage{plan_stored_photons, make_stage<StoredPhotonStage>, "caustic"};
+const RunPart stored_photon_stage{plan_stored_photons, make_stage<PhotonStage>, "caustic"};
 
 } // namespace nephroid::photons
