@@ -69,7 +69,7 @@ bool goes_one_way(const scene::Scene& scene) {
 class BackgroundStage final : public EyeStage {
 public:
   BackgroundStage(StageContext& world, const scene::Scene& scene, const Settings& settings)
-      : EyeStage(world, "background", settings), radiance_(scene.environment->radiance),
+      : EyeStage(world, "background", "background", settings), radiance_(scene.environment->radiance),
         tables_(make_background_tables(*scene.environment, *settings.pixel_samples)),
         texels_(compute::Buffer(world.context, "environment", scene.environment->rgb)),
         primary_xyz_(compute::Buffer(world.context, "colours of the primaries", tables_.primary_xyz)),

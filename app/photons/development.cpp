@@ -76,23 +76,36 @@ void Development::share_work() {
     draws.push_back(std::move(before));
     if (s.caustics()) photons += s.stage->photons_per_pass();
   }
-  if (photons == 0) return;
+  if (draws.empty()) return;
   LayerEstimate splatted{std::move(tracing::layer_of(caustics, "caustic").rgb), std::move(caustics.error_draw)};
+  const std::vector<float> plain = splatted.draw;
   if (smoothing_) smooth(splatted, {});
   tracing::layer_of(picture, "caustic").rgb = std::move(splatted.rgb);
   for (const job::Layer& layer : picture.layers) add(layer.rgb, picture.rgb);
 
-  Noise caustic_noise_now{splatted.draw, picture.rgb, passes_.complete()};
-  double noise = 0; // photons' alone: what glass shows are also paths, but beside tiles photons are stored for it only
-  for (std::size_t i = 0; i < picture.rgb.size(); ++i)
-    if (!smooths_splats_ || !world_.pixels.may_show_glass[i / 3]) noise += caustic_noise_now.of(i);
-  if (noise == 0) return;
-  caustic_noise_now.photon_gain = noise / (static_cast<double>(passes_.complete()) * static_cast<double>(photons));
-  for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
+  const auto noise_of = [&](const std::vector<float>& draw) {
+    const Noise noise{draw, picture.rgb};
+    double sum = 0; // without what glass shows, which are paths, too; but beside tiles photons are stored for it only
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+      if (!smooths_splats_ || !world_.pixels.may_show_glass[i / 3]) sum += noise.of(i);
+    return sum;
+  };
+  const double noise = noise_of(splatted.draw), smoothed = noise / noise_of(plain);
+  if (!(noise > 0)) return;
+  double sampled = 0; // noise of caustics that samples from the eye bring
+  for (std::size_t s = 0; s < draws.size(); ++s) {
     const TimedStage& timed = passes_.stages()[s];
-    timed.stage->share_work(timed.caustics()
-                                ? caustic_noise_now
-                                : Noise{draws[s], picture.rgb, passes_.complete(), caustic_noise_now.photon_gain});
+    if (!timed.caustics() || !timed.stage->samples_pixels()) continue;
+    for (float& value : draws[s]) value *= static_cast<float>(std::sqrt(smoothed));
+    sampled += noise_of(draws[s]);
+  }
+  const double work = photons > 0 ? static_cast<double>(photons) : paths_through_glass * world_.pixels.count;
+  const double gain = (photons > 0 ? std::max(noise - sampled, 0.0) : sampled) /
+                      (static_cast<double>(passes_.complete()) * work);
+  if (!(gain > 0)) return;
+  for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
+    Stage& stage = *passes_.stages()[s].stage;
+    stage.share_work({stage.samples_pixels() ? draws[s] : splatted.draw, picture.rgb, passes_.complete(), gain});
   }
 }
 
@@ -129,7 +142,7 @@ LayerEstimate Development::layer_of(std::size_t s) {
 }
 
 LayerEstimate Development::caustics() {
-  LayerEstimate preview; // photon maps' preview; they come after all photons of a pass, and until then glass shows this
+  LayerEstimate preview; // of stages that come after all photons of a pass
   bool lacks_maps = false;
   job::Picture picture = black();
   tracing::layer_of(picture, "caustic");
@@ -139,8 +152,11 @@ LayerEstimate Development::caustics() {
     if (!smoothing_ || passes_.has_halves(s)) {
       timed_stage.stage->develop(passes_.complete(), passes_.had_turn(s), picture);
     } else {
-      lacks_maps = true;
-      if (preview_.has_picture()) preview = preview_of(*timed_stage.stage);
+      lacks_maps = lacks_maps || !timed_stage.stage->samples_pixels();
+      LayerEstimate more = preview_.has_picture() ? preview_of(*timed_stage.stage) : LayerEstimate();
+      add(preview.rgb, more.rgb);
+      add(preview.draw, more.draw);
+      if (!more.rgb.empty()) preview = std::move(more);
     }
   }
   LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};

@@ -11,7 +11,7 @@ namespace {
 class DirectStage final : public EyeStage {
 public:
   DirectStage(StageContext& world, const scene::Scene&, const Settings& settings)
-      : EyeStage(world, "direct", settings),
+      : EyeStage(world, "direct", "direct", settings),
         kernel_(compute::Program(world.context, "photons/direct.cl", world.defines).kernel("direct")) {}
 
 private:

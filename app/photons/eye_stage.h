@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stage of samples from the eye, as many as each pixel needs: the layers "direct" and "background".
+// A stage of samples from the eye, as many as each pixel needs.
 #pragma once
 #include "photons/sampled_pixels.h"
 #include "photons/stage.h"
@@ -20,14 +20,16 @@ inline const char* more_through_glass(const PlanInput& input) {
 
 class EyeStage : public Stage {
 public:
-  EyeStage(StageContext& world, const char* layer, const Settings& settings)
-      : world_(world), layer_(layer), enough_(static_cast<std::uint32_t>(*settings.pixel_samples)),
-        film_(world.zeroed(std::string("film ") + layer, world.film_size())), preview_film_(world.preview_film()),
-        pixels_(world, *settings.pixel_samples) {}
+  /// paths is the number of paths in a sample that meets no glass and no mirror first.
+  EyeStage(StageContext& world, const char* name, const char* layer, const Settings& settings, double paths = 1)
+      : world_(world), name_(name), layer_(layer), enough_(static_cast<std::uint32_t>(*settings.pixel_samples)),
+        film_(world.zeroed(std::string("film ") + name, world.film_size())), preview_film_(world.preview_film()),
+        pixels_(world, *settings.pixel_samples, paths) {}
 
-  const char* name() const override { return layer_; }
+  const char* name() const override { return name_; }
   std::int64_t passes() const override { return pixels_.passes(); }
   double fraction_done() const override { return pixels_.fraction_done(); }
+  bool samples_pixels() const override { return true; }
   void share_work(const Noise& noise) override { pixels_.share_work(noise); }
 
   bool advance(std::int64_t pass) override {
@@ -89,7 +91,7 @@ private:
                 {"film_limit", static_cast<float>(limit())}});
   }
 
-  const char* layer_;
+  const char *name_, *layer_;
   std::uint32_t enough_; ///< Settings::pixel_samples
   compute::Buffer<std::int64_t> film_;
   compute::Buffer<std::int64_t> preview_film_; ///< film with a pixel for each block of the preview

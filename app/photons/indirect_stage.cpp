@@ -80,6 +80,7 @@ public:
         energy_(world.zeroed("energy of indirect light", OUTCOME_COUNT)) {
     compute::Defines defines = world.photon_defines();
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every photon has a wavelength of its own
+    defines.insert_or_assign("NEPHROID_PEAKS_ALONE", std::to_string(0));
     kernel_ = compute::Program(world.context, "photons/indirect.cl", defines).kernel("indirect");
   }
 

@@ -130,7 +130,8 @@ PlanPart plan_caustics(const PlanInput& input) {
                       low_discrepancy, differentials};
   part.defines = {{"NEPHROID_JITTER", std::to_string(int(jitter.runs))},
                   {"NEPHROID_LOW_DISCREPANCY", std::to_string(int(low_discrepancy.runs))},
-                  {"NEPHROID_DIFFERENTIALS", std::to_string(int(differentials.runs))}};
+                  {"NEPHROID_DIFFERENTIALS", std::to_string(int(differentials.runs))},
+                  {"NEPHROID_PEAKS_ALONE", std::to_string(int(input.tables.has_even_sky))}};
   return part;
 }
 
@@ -150,6 +151,7 @@ std::vector<const RunPart*> parts_of(const Settings& settings) {
                                     &smoothing_part,
                                     &omissions_part,
                                     sppm ? &sppm_stage : &map_stage,
+                                    &even_sky_stage,
                                     &indirect_stage,
                                     &background_stage,
                                     &estimate_part,
@@ -244,7 +246,10 @@ plan::Decision caustics_decision(const PlanInput& input) {
                               : input.objects.diffuse == 0 ? "no diffuse surface can receive a caustic"
                                                            : "";
   if (!missing.empty()) return tracing::not_needed(name, input.leave_out.photons, missing);
-  if (input.tables.emitters.empty()) return {name, false, "no light shines on glass or a mirror"};
+  if (input.tables.emitters.empty())
+    return {name, false,
+            input.tables.has_even_sky ? "all light that shines on glass and mirrors is even: it is found from the eye"
+                                      : "no light shines on glass or a mirror"};
   return tracing::needed(name,
                          fmt::format("{} photons a pass in {}", input.tables.photons_per_pass(),
                                      counted(std::ssize(input.tables.wavelengths.clusters), "wavelength cluster")));

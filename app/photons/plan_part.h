@@ -31,9 +31,10 @@ struct PlanInput {
   const tracing::LeaveOut& leave_out;
   const RunTables& tables;
   tracing::ObjectCounts objects;
-  plan::Decision caustics = {}; ///< whether there are any, splatted or gathered, and why
+  plan::Decision caustics = {}; ///< whether there are any of photons, splatted or gathered, and why
   plan::Decision estimate = {}; ///< whether films have two halves, and why
 
+  bool has_caustics() const { return caustics.runs || tables.has_even_sky; }
   bool is_sppm() const { return settings.estimator == Settings::Estimator::sppm; }
   std::uint64_t halves() const { return estimate.runs ? 2 : 1; }
   std::uint64_t pixels() const { return scene.camera.pixels(); }
@@ -65,7 +66,7 @@ struct RunPart {
 };
 
 /// The stages, each in its file NAME_stage.cpp.
-extern const RunPart direct_stage, photon_stage, map_stage, sppm_stage, indirect_stage, background_stage;
+extern const RunPart direct_stage, photon_stage, map_stage, even_sky_stage, sppm_stage, indirect_stage, background_stage;
 /// The stages in the place of photon_stage where photons are tiles.
 extern const RunPart tile_stage, stored_photon_stage;
 /// The stages in their place where layers are kept for another light.

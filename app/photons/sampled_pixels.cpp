@@ -64,8 +64,8 @@ private:
 
 } // namespace
 
-SampledPixels::SampledPixels(const StageContext& world, std::int64_t enough)
-    : world_(world), enough_(enough), passes_(world.pixels.glass.empty() ? enough : preset::max_passes),
+SampledPixels::SampledPixels(const StageContext& world, std::int64_t enough, double paths)
+    : world_(world), enough_(enough), paths_(paths), passes_(world.pixels.glass.empty() ? enough : preset::max_passes),
       counts_(world.pixels.count), rates_(world.pixels.count, 1),
       on_device_(world.context, "samples", most_samples_a_slice) {}
 
@@ -116,7 +116,7 @@ void SampledPixels::share_work(const Noise& noise) {
       const double variance = std::min(Noise::noise_beside(light_squared / 3, sampled.variance), 3 * had);
       // n samples, each of the work c, leave the noise v / n, and one more lowers it by v / n^2. For the same work this
       // is to equal what photons gain, at the end of the next passes, which are as many as there were.
-      const double work = glass ? paths_through_glass * work_through_glass : work_of_a_path;
+      const double work = glass ? paths_through_glass * work_through_glass : paths_ * work_of_a_path;
       const double wanted = std::sqrt(variance / (work * noise.photon_gain));
       rates_[i] = whole_rate(std::clamp((2 * wanted - had) / static_cast<double>(noise.passes), least_rate, most_rate));
     }

@@ -19,8 +19,8 @@ namespace nephroid::photons {
 
 class SampledPixels {
 public:
-  /// enough is the most samples of a pixel that shows neither glass nor a mirror.
-  SampledPixels(const StageContext& world, std::int64_t enough);
+  /// enough is the most samples of a pixel that shows neither glass nor a mirror, paths the number of paths in one.
+  SampledPixels(const StageContext& world, std::int64_t enough, double paths);
 
   /// The number of passes that may have samples.
   std::int64_t passes() const { return passes_; }
@@ -51,7 +51,9 @@ private:
   void take_next(std::int64_t pass, double amount);
 
   const StageContext& world_;
-  std::int64_t enough_, passes_;
+  std::int64_t enough_;
+  double paths_;
+  std::int64_t passes_;
   std::vector<std::array<std::uint32_t, 2>> counts_; ///< [pixel]: samples in even and in odd passes
   std::vector<std::int16_t> rates_; ///< [pixel]: n > 0: n samples a pass; n < 0: one sample in every -n passes
   std::int64_t done_ = 0;           ///< pixels done in the current pass

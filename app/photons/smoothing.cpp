@@ -430,7 +430,7 @@ plan::Decision smoothing_decision(const PlanInput& input) {
   using Choice = Settings::Smoothing;
   const Choice choice = input.settings.smoothing;
   if (choice == Choice::off) return {name, false, "spectral.smoothing is off"};
-  if (!input.caustics.runs) return {name, false, "there are no caustics"};
+  if (!input.has_caustics()) return {name, false, "there are no caustics"};
   if (input.is_sppm()) return {name, false, "spectral.estimator is sppm, which has radii of its own"};
   if (!input.estimate.runs)
     return {name, false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
@@ -448,7 +448,7 @@ plan::Decision smoothing_decision(const PlanInput& input) {
 PlanPart plan_smoothing(const PlanInput& input) {
   const plan::Decision pass = smoothing_decision(input);
   PlanPart part;
-  if (input.caustics.runs) part.decisions = {pass};
+  if (input.has_caustics()) part.decisions = {pass};
   if (pass.runs) part.buffers = {{"surfaces in pixels (host)", Smoothing::bytes(input.scene, input.bvh), true}};
   if (input.settings.smoothing != Settings::Smoothing::on) return part;
   if (!pass.runs)

@@ -21,9 +21,9 @@ namespace nephroid::photons {
 /// "direct" and "background" has so many paths (PATHS_THROUGH_GLASS in kernels/tracing/eye_path.h).
 inline constexpr double work_of_a_path = 1, work_through_glass = 2, paths_through_glass = 4;
 
-/// The noise of a stage's layer, and how much it matters in the picture.
+/// The noise of a stage, and how much it matters in the picture.
 struct Noise {
-  const std::vector<float>& draw;  ///< draw of the layer's error, [pixel][3]
+  const std::vector<float>& draw;  ///< draw of the error that it brings, [pixel][3]; of photons, of the caustic layer's
   const std::vector<float>& light; ///< light of the whole picture, [pixel][3]
   std::int64_t passes = 0;         ///< passes of the layer until now
   double photon_gain = 0;          ///< by how much a splatted photon lowers the sum of noise_beside() of all pixels
@@ -74,6 +74,8 @@ public:
   virtual bool add_spectrum(std::int64_t /*passes*/, bool /*done*/, job::PixelSpectrum& /*to*/) { return false; }
   /// Adds where the power of its photons went in the same passes, if it has counters of its own.
   virtual void report(std::int64_t /*passes*/, bool /*done*/, Energy& /*energy*/) {}
+  /// Whether its noise is its own; photons, and maps of them, share that of the caustic layer.
+  virtual bool samples_pixels() const { return false; }
   /// Decides the work of as many passes as there were: its paths are to gain as much as photons for their work.
   virtual void share_work(const Noise& /*noise*/) {}
   /// Photons sent in one pass; 0 where it sends none.

@@ -101,6 +101,7 @@ double chance(const std::vector<float>& cdf, std::size_t i) {
 struct Flux {
   std::vector<double> rows;               ///< [row] grey above the floor, times steradians
   std::vector<std::vector<float>> texels; ///< [row] exact_cdf
+  std::array<double, 3> rgb{};            ///< of all rows, in the texels' colours
 };
 
 Flux flux_by_rows(const scene::Environment& environment, double floor) {
@@ -109,9 +110,15 @@ Flux flux_by_rows(const scene::Environment& environment, double floor) {
   for (std::size_t row = 0; row < height; ++row) {
     std::vector<double> values(width);
     double sum = 0;
-    for (std::size_t column = 0; column < width; ++column)
-      sum += values[column] = std::max(scene::grey(environment, row * width + column) - floor, 0.0);
-    flux.rows.push_back(sum * scene::texel_steradians(environment, static_cast<int>(row)));
+    const double steradians = scene::texel_steradians(environment, static_cast<int>(row));
+    for (std::size_t column = 0; column < width; ++column) {
+      const std::size_t texel = row * width + column;
+      const double grey = scene::grey(environment, texel);
+      sum += values[column] = std::max(grey - floor, 0.0);
+      for (std::size_t c = 0; c < 3 && grey > 0; ++c)
+        flux.rgb[c] += environment.rgb[3 * texel + c] * values[column] / grey * steradians;
+    }
+    flux.rows.push_back(sum * steradians);
     flux.texels.push_back(exact_cdf(values));
   }
   return flux;
@@ -187,8 +194,11 @@ SkyTables make_sky_tables(const scene::Environment& environment) {
   SkyTables tables;
   tables.size = picture_size(environment);
   tables.texel_cdf = exact_cdf(flux.rows);
-  tables.mean_colour = {static_cast<float>(whole.mean[0]), static_cast<float>(whole.mean[1]),
-                        static_cast<float>(whole.mean[2]), 0};
+  const auto colour = [&](const Flux& of) {
+    return to_float4({of.rgb[0] / whole.grey, of.rgb[1] / whole.grey, of.rgb[2] / whole.grey});
+  };
+  tables.mean_colour = colour(flux);
+  tables.peak_colour = colour(peaks);
   tables.texel_colour.reserve(environment.rgb.size());
   for (std::size_t row = 0; row < flux.rows.size(); ++row) {
     const double steradians = scene::texel_steradians(environment, static_cast<int>(row)),
@@ -205,7 +215,8 @@ SkyTables make_sky_tables(const scene::Environment& environment) {
     tables.texel_cdf.insert(tables.texel_cdf.end(), cdf.begin(), cdf.end());
   };
   std::ranges::for_each(flux.texels, append);
-  tables.size.has_peaks = std::accumulate(peaks.rows.begin(), peaks.rows.end(), 0.0) > least_peaks * whole.grey;
+  tables.peak_part = std::accumulate(peaks.rows.begin(), peaks.rows.end(), 0.0) / whole.grey;
+  tables.size.has_peaks = tables.peak_part > least_peaks;
   if (!tables.size.has_peaks) return tables;
   append(exact_cdf(peaks.rows));
   std::ranges::for_each(peaks.texels, append);

@@ -35,6 +35,8 @@ struct SkyTables {
   shared::DeviceBackground size{};
   SKY_TABLES(TABLE_VECTOR)
   shared::float4 mean_colour{}; ///< the mean over all photons
+  double peak_part = 0;         ///< of the light, what is above the mean over all directions (kernels/tracing/sky.h)
+  shared::float4 peak_colour{}; ///< mean_colour of that part, less by as much
 };
 
 struct SceneTables {

@@ -7,8 +7,9 @@
 // background.h. These are three rows of the tables of lights, from the environment's own on. A photon carries their
 // sum, which may be negative at a wavelength where a primary is. Flux counts colours by (r + g + b) / 3.
 //
-// Surfaces draw by the peaks alone, the light above the mean over all directions. Their second draw, by the cosine,
-// finds the rest (Karlik et al. 2019, "MIS compensation").
+// Its light is even up to the mean over all directions; what is above is its peaks. Surfaces draw by the peaks alone.
+// Their second draw, by the cosine, finds the rest (Karlik et al. 2019, "MIS compensation"). Photons of caustics are
+// of the peaks alone where even_sky.cl brings the rest.
 #include "kernels/tracing/light.h"
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/scene_table_types.h"
@@ -26,6 +27,12 @@ typedef struct {
   float density;
   float peak_density; // the same among the peaks
 } SkyPlace;
+
+// The part of a texel's light that is even. The mean radiance of a sky of 1 W m^-2 in all is 1 / (4 pi).
+static inline float even_part(const SkyPlace* place) {
+  const float grey = (place->rgb.x + place->rgb.y + place->rgb.z) / 3.0f * place->density;
+  return fmin(1.0f / (4.0f * PI_F * grey), 1.0f);
+}
 
 static inline __global const float* cdf_of_peaks(const Sky* sky) {
   return sky->texel_cdf + (size_t)sky->size.height * (size_t)(sky->size.width + 1);

@@ -11,6 +11,11 @@
 #define NEPHROID_MIRRORS 1
 #endif
 
+// 1: photons of the environment have its peaks only (sky.h).
+#ifndef NEPHROID_PEAKS_ALONE
+#define NEPHROID_PEAKS_ALONE 0
+#endif
+
 typedef struct {
   Geometry geometry;
   OBJECT_TABLES(TABLE_MEMBER)
@@ -169,9 +174,14 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
 static inline Source source_of(const World* world, int index, float2 place, DeviceLight* light) {
   Source source = {index, (float3)(1.0f)};
   if (is_light(light, LIGHT_ENVIRONMENT)) {
+#if NEPHROID_PEAKS_ALONE
+    const SkyPlace from = sample_sky(&world->sky, cdf_of_peaks(&world->sky), place);
+    source.rgb = from.rgb * (from.density * (1.0f - even_part(&from)) / from.peak_density);
+#else
     const SkyPlace from = sample_sky(&world->sky, world->sky.texel_cdf, place);
-    light->direction.xyz = -from.direction;
     source.rgb = from.rgb;
+#endif
+    light->direction.xyz = -from.direction;
   }
   return source;
 }

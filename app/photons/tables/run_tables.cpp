@@ -5,12 +5,14 @@
 #include "photons/effort/effort.h"
 #include "photons/effort/emitters.h"
 #include "photons/maps/photon_map.h"
+#include "tracing/omissions.h"
 #include "tracing/scales.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace nephroid::photons {
 namespace {
@@ -49,6 +51,24 @@ void set_scales(const scene::Scene& scene, int pixel_samples, RunTables& tables)
   tables.energy_scale = tracing::energy_scale(tables.light_towards_targets_w);
 }
 
+/// Whether paths from the eye bring the environment's even light, where it is not too little for its own rays.
+bool takes_even_sky(const Settings& settings, const scene::Scene& scene, const tracing::SceneTables& tables) {
+  constexpr double least_part = 0.05;
+  return settings.caustic && !settings.relight && settings.estimator != Settings::Estimator::sppm && tables.sky &&
+         1 - tables.sky->peak_part >= least_part && !tables.spheres.empty() &&
+         tracing::count_objects(scene).diffuse > 0;
+}
+
+void leave_peaks_to_photons(RunTables& tables) {
+  tables.has_even_sky = true;
+  const auto light = std::ranges::find(tables.lights, LIGHT_ENVIRONMENT, &shared::DeviceLight::type);
+  light->edge_u = tables.sky->peak_colour;
+  tables.towards_targets_w[static_cast<std::size_t>(light - tables.lights.begin())] *=
+      tables.sky->size.has_peaks ? tables.sky->peak_part : 0;
+  tables.light_towards_targets_w =
+      std::accumulate(tables.towards_targets_w.begin(), tables.towards_targets_w.end(), 0.0);
+}
+
 } // namespace
 
 RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
@@ -56,6 +76,7 @@ RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, c
   RunTables tables;
   static_cast<tracing::SceneTables&>(tables) =
       tracing::make_scene_tables(scene, scene_clusters(settings, scene), leave_out);
+  if (takes_even_sky(settings, scene, tables)) leave_peaks_to_photons(tables);
   ClusterShares shares = make_cluster_shares(settings, scene, bvh, tables.towards_targets_w, tables.wavelengths);
   tables.batches = batches_per_pass(settings);
   tables.emitters = make_emitters(photon_sources(shares.photons, tables.wavelengths),

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of the layer "caustic" that is the even light of the environment (sky.h), without photons: paths from the
+// eye, through glass and mirrors, to the first diffuse surface, and from there on through glass and mirrors to the sky.
+// Light that comes from everywhere is found more surely from where it falls than from where it starts.
+#include "kernels/tracing/camera.h"
+#include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/work_item.h"
+
+#define BOUNCES 4u // of a sample, each in a band of its own
+
+// A direction from a surface towards glass or a mirror, and cosine / density. normal: of the side that is lit. Small
+// targets are drawn by their solid angle; where they fill half of what is above, the cosine is as good.
+static inline float3 direction_to_targets(__global const DeviceTarget* targets, int target_count, float3 from,
+                                          float3 normal, float4 random, float* weight) {
+  float sum = 0.0f;
+  for (int i = 0; i < target_count; ++i) sum += one_minus_cos_of(targets[i].centre_radius, from);
+  *weight = PI_F;
+  if (sum > 0.5f) return cosine_direction(normal, random.x, random.y);
+  Emission towards = {from, normal, 0.0f, 0.0f};
+  const float steradians = sample_targets(targets, target_count, from, random, &towards);
+  *weight = steradians * dot(towards.direction, normal);
+  return towards.direction;
+}
+
+// The irradiance times Source::rgb of even light that reaches a diffuse surface through glass and mirrors, on the side
+// that `path` arrives at. Continues the path from there.
+IN_PLACE float3 even_light(const World* world, const DeviceLight* light, __global const DeviceTarget* targets,
+                           Path* path, const Surface* surface, uint triangle, const Band* band, uint2 seed, uint sample,
+                           uint pixel) {
+  const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
+  path->origin = start_on_side(surface, side);
+  path->skip = triangle;
+  path->behind = 0.0f;
+  const float4 random = eye_numbers(seed, sample, BOUNCES, pixel, 0u, STREAM_EVEN_SKY_BOUNCE);
+  float weight;
+  path->direction = direction_to_targets(targets + light->first_target, light->target_count, path->origin,
+                                         side * surface->shading, random, &weight);
+  if (!(weight > 0.0f) || !(side * dot(path->direction, surface->geometric) > 0.0f)) return (float3)(0.0f);
+  Hit hit = next_hit(world, path);
+  if (hit.primitive == NEPHROID_NO_PRIMITIVE) return (float3)(0.0f); // unbent light is of the layer "direct"
+  Surface last;
+  weight *= trace_to_diffuse(world, path, &hit, true, band, seed, sample, BOUNCES, pixel, STREAM_EVEN_SKY_BOUNCE, false,
+                             &last);
+  if (weight == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
+  const SkyPlace place = sky_in(&world->sky, path->direction);
+  return light->radiometric * weight * even_part(&place) * place.density * place.rgb;
+}
+
+// samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.
+__kernel void even_sky(WORLD_ARGUMENTS, __global const DeviceTarget* targets, int light_index,
+                       __global const float* cluster_cdf, // [cluster + 1]: chances of a path through glass
+                       volatile __global long* film,
+                       volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
+                       DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,
+                       float film_scale, float film_limit) {
+  const World world = WORLD;
+  const uint index = work_item();
+  if (index >= count) return;
+  const uint pixel = samples[index].x;
+  SET_ASIDE uint frame = samples[index].y;
+  const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
+  SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_EVEN_SKY);
+  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter.xy));
+  const Hit hit = next_hit(&world, &path);
+  if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
+
+  const DeviceLight light = lights[light_index];
+  SET_ASIDE float3 xyz = (float3)(0.0f), outwards = path.direction;
+  SET_ASIDE Hit first = hit;
+  for (uint i = 0; i < BOUNCES; ++i) {
+    const uint sample = frame * BOUNCES + i;
+    const int cluster =
+        choose_cluster(cluster_cdf, scene.cluster_count, seed, frame, i, BOUNCES, pixel, STREAM_EVEN_SKY_CLUSTER);
+    const Band band =
+        choose_band(&world, light_index, cluster, random4(seed, sample, pixel, 0u, STREAM_EVEN_SKY_WAVELENGTH).x);
+    Path way = path_from_eye(&camera, outwards);
+    Hit end = first;
+    Surface surface;
+    const float radiance_scale =
+        reach_diffuse(&world, &way, &end, &band, seed, sample, BOUNCES, pixel, STREAM_EVEN_SKY, &surface);
+    if (radiance_scale == 0.0f) continue;
+    const Source sky = {light_index, even_light(&world, &light, targets, &way, &surface, end.primitive, &band, seed,
+                                                sample, pixel)};
+    xyz += carried_light(&world, &way.losses, sky, &band, material_of(&world, surface.object).reflector).xyz *
+           (radiance_scale / (PI_F * (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)BOUNCES));
+  }
+  const float limit = limit_of_sample(frame, enough, film_limit);
+  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale,
+                         limit, jitter.z))
+    add_exactly(energy + OUTCOME_REFUSED, 1);
+}
