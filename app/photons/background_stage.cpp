@@ -5,6 +5,7 @@
 #include "optics/colour.h"
 #include "photons/eye_stage.h"
 #include "scene/scene.h"
+#include "tracing/omissions.h"
 #include "tracing/scales.h"
 #include "tracing/scene_tables.h"
 
@@ -57,15 +58,6 @@ BackgroundTables make_background_tables(const scene::Environment& environment, i
   return tables;
 }
 
-/// Whether no object's glass disperses light.
-bool goes_one_way(const scene::Scene& scene) {
-  return std::ranges::none_of(scene.objects, [&](const scene::Object& object) {
-    const scene::Material& material = material_of(scene, object);
-    const auto same = [&](double n) { return n == material.n.front(); };
-    return material.type == scene::Material::Type::dielectric && !std::ranges::all_of(material.n, same);
-  });
-}
-
 class BackgroundStage final : public EyeStage {
 public:
   BackgroundStage(StageContext& world, const scene::Scene& scene, const Settings& settings)
@@ -77,7 +69,7 @@ public:
         spectrum_cdf_(compute::Buffer(world.context, "wavelengths of the environment", tables_.spectrum_cdf)) {
     compute::Defines defines = world.defines;
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every path has a wavelength of its own
-    defines.insert_or_assign("NEPHROID_ONE_WAY", std::to_string(goes_one_way(scene) ? 1 : 0));
+    defines.insert_or_assign("NEPHROID_ONE_WAY", std::to_string(int(tracing::goes_one_way(scene))));
     kernel_ = compute::Program(world.context, "photons/background.cl", defines).kernel("background");
   }
 

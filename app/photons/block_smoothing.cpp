@@ -20,7 +20,7 @@ double pixels_needed(const Blocks& blocks, const LayerEstimate& layer) {
   const std::vector<double> light = light_of(layer.rgb),
                             portion = portions(light, layer.draw, blocks.across(), blocks.down());
   const double light_sum = std::reduce(light.begin(), light.end());
-  const double needed = std::reduce(portion.begin(), portion.end()) / (Smoothing::noise * Smoothing::noise);
+  const double needed = std::reduce(portion.begin(), portion.end()) / (Smoothing::usual_noise * Smoothing::usual_noise);
   return light_sum > 0 ? needed / light_sum * blocks.edge * blocks.edge : 1;
 }
 

@@ -4,6 +4,7 @@
 #include "tracing/film.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace nephroid::photons {
@@ -17,11 +18,13 @@ void add(const std::vector<float>& more, std::vector<float>& sum) {
   std::ranges::transform(sum, more, sum.begin(), std::plus());
 }
 
-void add(const char* name, LayerEstimate layer, job::Picture& picture) {
+void add(const char* name, const LayerEstimate& layer, job::Picture& picture) {
   add(layer.rgb, picture.rgb);
   if (layer.draw.empty()) picture.error_draw.clear();
   add(layer.draw, picture.error_draw);
-  picture.layers.push_back({name, std::move(layer.rgb)});
+  std::vector<float>& sum = tracing::layer_of(picture, name).rgb;
+  if (sum.empty()) sum.assign(layer.rgb.size(), 0.0f);
+  add(layer.rgb, sum);
 }
 
 } // namespace
@@ -79,7 +82,7 @@ void Development::share_work() {
   if (draws.empty()) return;
   LayerEstimate splatted{std::move(tracing::layer_of(caustics, "caustic").rgb), std::move(caustics.error_draw)};
   const std::vector<float> plain = splatted.draw;
-  if (smoothing_) smooth(splatted, {});
+  if (smoothing_ && photons > 0) smooth(splatted, {});
   tracing::layer_of(picture, "caustic").rgb = std::move(splatted.rgb);
   for (const job::Layer& layer : picture.layers) add(layer.rgb, picture.rgb);
 
@@ -90,18 +93,21 @@ void Development::share_work() {
       if (!smooths_splats_ || !world_.pixels.may_show_glass[i / 3]) sum += noise.of(i);
     return sum;
   };
-  const double noise = noise_of(splatted.draw), smoothed = noise / noise_of(plain);
-  if (!(noise > 0)) return;
-  double sampled = 0; // noise of caustics that samples from the eye bring
+  const double noise = noise_of(splatted.draw), smoothed = noise > 0 ? noise / noise_of(plain) : 1;
+  double by_samples = 0, work = 0, of_caustics = 0; // noise that samples from the eye bring, and their work
   for (std::size_t s = 0; s < draws.size(); ++s) {
     const TimedStage& timed = passes_.stages()[s];
-    if (!timed.caustics() || !timed.stage->samples_pixels()) continue;
-    for (float& value : draws[s]) value *= static_cast<float>(std::sqrt(smoothed));
-    sampled += noise_of(draws[s]);
+    if (!timed.stage->samples_pixels()) continue;
+    if (timed.caustics())
+      for (float& value : draws[s]) value *= static_cast<float>(std::sqrt(smoothed));
+    const double brought = noise_of(draws[s]);
+    if (timed.caustics()) of_caustics += brought;
+    by_samples += brought;
+    work += timed.stage->work();
   }
-  const double work = photons > 0 ? static_cast<double>(photons) : paths_through_glass * world_.pixels.count;
-  const double gain = (photons > 0 ? std::max(noise - sampled, 0.0) : sampled) /
-                      (static_cast<double>(passes_.complete()) * work);
+  const double gain = photons > 0 ? (noise - of_caustics) / (static_cast<double>(passes_.complete()) *
+                                                             static_cast<double>(photons))
+                                  : by_samples / work;
   if (!(gain > 0)) return;
   for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
     Stage& stage = *passes_.stages()[s].stage;
@@ -134,7 +140,7 @@ LayerEstimate Development::layer_of(std::size_t s) {
       if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = preview.rgb[i];
     layer.draw = std::move(preview.draw);
   } else if (smoothing_ && smooths_paths_ && passes_.has_halves(s)) {
-    timed([&] { smoothing_->pixels().spread(layer.rgb, layer.draw); });
+    timed([&] { smoothing_->pixels().spread(layer.rgb, layer.draw, {}, getenv("NN") ? atof(getenv("NN")) : .25); });
   } else if (is_previewed) { // photons of a stage that has no preview of its own
     layer = between(world_.preview.blocks, means(world_.preview.blocks, layer));
   }

@@ -22,8 +22,6 @@ private:
                 {"film_scale", world_.on_device(world_.tables.direct_scale)}},
                more);
   }
-  double limit() const override { return world_.tables.direct_limit; }
-  double quanta_per_unit() const override { return world_.tables.direct_scale * world_.white; }
 
   compute::Kernel kernel_;
 };

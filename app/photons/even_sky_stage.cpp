@@ -27,15 +27,13 @@ private:
                 {"film_scale", world_.on_device(world_.tables.direct_scale)}},
                more);
   }
-  double limit() const override { return world_.tables.direct_limit; }
-  double quanta_per_unit() const override { return world_.tables.direct_scale * world_.white; }
 
   int light_; ///< index of the environment in the table of lights
   compute::Kernel kernel_;
 };
 
 PlanPart plan_even_sky(const PlanInput& input) {
-  if (!input.tables.has_even_sky) return {};
+  if (!input.tables.has_even_sky || !input.settings.caustic) return {};
   return part_of({"even sky", true,
                   fmt::format("{:.0f} % of the environment's light is even: paths from the eye find what of it comes "
                               "through glass and mirrors, {} a pixel",

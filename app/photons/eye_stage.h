@@ -5,6 +5,7 @@
 #include "photons/stage.h"
 #include "tracing/film.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <initializer_list>
@@ -20,16 +21,19 @@ inline const char* more_through_glass(const PlanInput& input) {
 
 class EyeStage : public Stage {
 public:
-  /// paths is the number of paths in a sample that meets no glass and no mirror first.
-  EyeStage(StageContext& world, const char* name, const char* layer, const Settings& settings, double paths = 1)
+  /// paths is the number of paths in a sample that meets no glass and no mirror first, least_enough a bound below for
+  /// the most of such samples.
+  EyeStage(StageContext& world, const char* name, const char* layer, const Settings& settings, double paths = 1,
+           int least_enough = 0)
       : world_(world), name_(name), layer_(layer), enough_(static_cast<std::uint32_t>(*settings.pixel_samples)),
         film_(world.zeroed(std::string("film ") + name, world.film_size())), preview_film_(world.preview_film()),
-        pixels_(world, *settings.pixel_samples, paths) {}
+        pixels_(world, std::max(*settings.pixel_samples, least_enough), paths) {}
 
   const char* name() const override { return name_; }
   std::int64_t passes() const override { return pixels_.passes(); }
   double fraction_done() const override { return pixels_.fraction_done(); }
   bool samples_pixels() const override { return true; }
+  double work() const override { return pixels_.work(); }
   void share_work(const Noise& noise) override { pixels_.share_work(noise); }
 
   bool advance(std::int64_t pass) override {
@@ -72,9 +76,9 @@ protected:
   /// Runs the kernel with the stage's own arguments and `more`.
   virtual void run(std::uint32_t count, std::initializer_list<compute::Argument> more) = 0;
   /// The most quanta of each of a pixel's first pixel_samples contributions. All later ones cannot overflow the film.
-  virtual double limit() const = 0;
+  virtual double limit() const { return world_.tables.direct_limit; }
   /// The film's quanta for a value of 1 in the picture.
-  virtual double quanta_per_unit() const = 0;
+  virtual double quanta_per_unit() const { return world_.tables.direct_scale * world_.white; }
 
   StageContext& world_;
 

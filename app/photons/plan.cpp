@@ -131,7 +131,7 @@ PlanPart plan_caustics(const PlanInput& input) {
   part.defines = {{"NEPHROID_JITTER", std::to_string(int(jitter.runs))},
                   {"NEPHROID_LOW_DISCREPANCY", std::to_string(int(low_discrepancy.runs))},
                   {"NEPHROID_DIFFERENTIALS", std::to_string(int(differentials.runs))},
-                  {"NEPHROID_PEAKS_ALONE", std::to_string(int(input.tables.has_even_sky))}};
+                  {"NEPHROID_EVEN_SKY", std::to_string(int(input.tables.has_even_sky))}};
   return part;
 }
 
@@ -153,6 +153,7 @@ std::vector<const RunPart*> parts_of(const Settings& settings) {
                                     sppm ? &sppm_stage : &map_stage,
                                     &even_sky_stage,
                                     &indirect_stage,
+                                    &indirect_photon_stage,
                                     &background_stage,
                                     &estimate_part,
                                     &environment_light_part,

@@ -34,7 +34,11 @@ struct PlanInput {
   plan::Decision caustics = {}; ///< whether there are any of photons, splatted or gathered, and why
   plan::Decision estimate = {}; ///< whether films have two halves, and why
 
-  bool has_caustics() const { return caustics.runs || tables.has_even_sky; }
+  /// Whether any photon can reach glass or a mirror, and a diffuse surface then.
+  bool sends_photons() const {
+    return objects.dielectrics + objects.mirrors > 0 && objects.diffuse > 0 && !tables.emitters.empty();
+  }
+  bool has_caustics() const { return caustics.runs || (tables.has_even_sky && settings.caustic); }
   bool is_sppm() const { return settings.estimator == Settings::Estimator::sppm; }
   std::uint64_t halves() const { return estimate.runs ? 2 : 1; }
   std::uint64_t pixels() const { return scene.camera.pixels(); }
@@ -66,7 +70,8 @@ struct RunPart {
 };
 
 /// The stages, each in its file NAME_stage.cpp.
-extern const RunPart direct_stage, photon_stage, map_stage, even_sky_stage, sppm_stage, indirect_stage, background_stage;
+extern const RunPart direct_stage, photon_stage, map_stage, even_sky_stage, sppm_stage, indirect_stage,
+    indirect_photon_stage, background_stage;
 /// The stages in the place of photon_stage where photons are tiles.
 extern const RunPart tile_stage, stored_photon_stage;
 /// The stages in their place where layers are kept for another light.
@@ -88,6 +93,8 @@ std::string size_of(const scene::Environment& environment);
 
 /// Decides whether caustics seen through glass and in mirrors are gathered.
 plan::Decision map_decision(const PlanInput& input);
+/// Decides whether there is light that met several diffuse surfaces.
+plan::Decision indirect_decision(const PlanInput& input);
 /// Decides PlanInput::caustics from the other members of input.
 plan::Decision caustics_decision(const PlanInput& input);
 /// Decides whether each path has one wavelength of its cluster.

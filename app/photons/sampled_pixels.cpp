@@ -116,11 +116,16 @@ void SampledPixels::share_work(const Noise& noise) {
       const double variance = std::min(Noise::noise_beside(light_squared / 3, sampled.variance), 3 * had);
       // n samples, each of the work c, leave the noise v / n, and one more lowers it by v / n^2. For the same work this
       // is to equal what photons gain, at the end of the next passes, which are as many as there were.
-      const double work = glass ? paths_through_glass * work_through_glass : paths_ * work_of_a_path;
-      const double wanted = std::sqrt(variance / (work * noise.photon_gain));
+      const double wanted = std::sqrt(variance / (work_of_a_sample(i) * noise.photon_gain));
       rates_[i] = whole_rate(std::clamp((2 * wanted - had) / static_cast<double>(noise.passes), least_rate, most_rate));
     }
   });
+}
+
+double SampledPixels::work() const {
+  double work = 0;
+  for (std::size_t i = 0; i < counts_.size(); ++i) work += work_of_a_sample(i) * (counts_[i][0] + counts_[i][1]);
+  return work;
 }
 
 void SampledPixels::serialize(tracing::Archive& archive) {

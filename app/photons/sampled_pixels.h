@@ -43,10 +43,15 @@ public:
   }
 
   void share_work(const Noise& noise);
+  /// Of all samples, in that of a photon.
+  double work() const;
 
   void serialize(tracing::Archive& archive);
 
 private:
+  double work_of_a_sample(std::size_t pixel) const {
+    return world_.pixels.may_show_glass[pixel] ? paths_through_glass * work_through_glass : paths_ * work_of_a_path;
+  }
   std::int64_t samples_in(std::size_t pixel, std::int64_t pass) const;
   void take_next(std::int64_t pass, double amount);
 

@@ -367,7 +367,8 @@ std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
          (sizeof(PixelSurfaces) + sizeof(PixelSight) + sizeof(Level) + pulled_apart) * scene.camera.pixels();
 }
 
-void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, const BiasedEstimate& known) {
+void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, const BiasedEstimate& known,
+                       double noise) {
   if (error_draw.empty()) return;
   find_surfaces();
   const std::vector<double> light = light_of(rgb);
@@ -425,12 +426,14 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
 
 namespace {
 
+bool is_of_use(const PlanInput& input) { return input.has_caustics() || indirect_decision(input).runs; }
+
 plan::Decision smoothing_decision(const PlanInput& input) {
   const char* const name = "smoothing";
   using Choice = Settings::Smoothing;
   const Choice choice = input.settings.smoothing;
   if (choice == Choice::off) return {name, false, "spectral.smoothing is off"};
-  if (!input.has_caustics()) return {name, false, "there are no caustics"};
+  if (!is_of_use(input)) return {name, false, "there are no caustics and no light of walls"};
   if (input.is_sppm()) return {name, false, "spectral.estimator is sppm, which has radii of its own"};
   if (!input.estimate.runs)
     return {name, false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
@@ -439,16 +442,16 @@ plan::Decision smoothing_decision(const PlanInput& input) {
   if (input.settings.estimator == Settings::Estimator::tiles && !map_decision(input).runs)
     return {name, false, "tiles are as wide as their cells, and the camera sees no glass and no mirror"};
   return {name, true,
-          fmt::format("a pixel's caustics are spread until their noise is {} of them, {}; the estimated error takes in "
+          fmt::format("a pixel's light is spread until their noise is {} of them, {}; the estimated error takes in "
                       "how far it goes",
-                      Smoothing::noise,
+                      Smoothing::usual_noise,
                       choice == Choice::on ? "everywhere" : "where the two halves of the film say that it helps")};
 }
 
 PlanPart plan_smoothing(const PlanInput& input) {
   const plan::Decision pass = smoothing_decision(input);
   PlanPart part;
-  if (input.has_caustics()) part.decisions = {pass};
+  if (is_of_use(input)) part.decisions = {pass};
   if (pass.runs) part.buffers = {{"surfaces in pixels (host)", Smoothing::bytes(input.scene, input.bvh), true}};
   if (input.settings.smoothing != Settings::Smoothing::on) return part;
   if (!pass.runs)

@@ -29,7 +29,7 @@ public:
   enum class Spread { where_it_helps, everywhere };
   /// The noise that may remain: the root of the mean variance of R, G and B over the mean of R, G and B. A kernel then
   /// holds 1 / noise^2 = 16 grey photons. A smaller value blurs more than it needs to.
-  static constexpr double noise = 0.25;
+  static constexpr double usual_noise = 0.25;
 
   /// An estimate of the same light without noise, but with a bias.
   struct BiasedEstimate {
@@ -59,7 +59,8 @@ public:
   /// Values below 0 count as no light when kernels are chosen. Nothing changes where the draw is empty. With `known`,
   /// each place gets the mixture that the halves show to be best (mixture.h): of the spread light, of the estimate, and
   /// of the estimate plus the difference to the picture, spread until its noise is known.noise.
-  void spread(std::vector<float>& rgb, std::vector<float>& error_draw, const BiasedEstimate& known = {});
+  void spread(std::vector<float>& rgb, std::vector<float>& error_draw, const BiasedEstimate& known = {},
+              double noise = usual_noise);
 
   /// Where a pixel's light may go: a bit for each pixel within reach, nearest first, lowest bit first.
   using Level = std::array<std::uint64_t, 2>;

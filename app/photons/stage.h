@@ -76,6 +76,8 @@ public:
   virtual void report(std::int64_t /*passes*/, bool /*done*/, Energy& /*energy*/) {}
   /// Whether its noise is its own; photons, and maps of them, share that of the caustic layer.
   virtual bool samples_pixels() const { return false; }
+  /// The work of its samples until now, in that of a photon.
+  virtual double work() const { return 0; }
   /// Decides the work of as many passes as there were: its paths are to gain as much as photons for their work.
   virtual void share_work(const Noise& /*noise*/) {}
   /// Photons sent in one pass; 0 where it sends none.

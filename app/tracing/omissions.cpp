@@ -113,6 +113,14 @@ ObjectCounts count_objects(const scene::Scene& scene) {
   return counts;
 }
 
+bool goes_one_way(const scene::Scene& scene) {
+  return std::ranges::none_of(scene.objects, [&](const scene::Object& object) {
+    const scene::Material& material = material_of(scene, object);
+    const auto same = [&](double n) { return n == material.n.front(); };
+    return material.type == scene::Material::Type::dielectric && !std::ranges::all_of(material.n, same);
+  });
+}
+
 bool may_see_glass_or_mirror(const scene::Scene& scene) {
   return !scene.camera.inside.empty() || std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
     return material_of(scene, object).type != scene::Material::Type::diffuse && may_be_in_view(scene, object);

@@ -1,137 +1,164 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layer "indirect": light that met a diffuse surface before the last one. Photons of one wavelength each leave the
-// lights everywhere, are bent by glass and mirrors and scattered by diffuse surfaces. From the second diffuse surface
-// on, each adds to the pixel that sees it. Only absorption changes its power: reflectances decide by chance.
-#include "kernels/photons/photon_path.h"
-#include "kernels/photons/splat.h"
+// The layer "indirect", as paths from the eye find it: light that met a diffuse surface before the last one. A path is
+// bent by glass and mirrors and scattered by diffuse surfaces. Each of these from the second on adds the unbent light
+// that lamps and the environment send to it. Light that glass or a mirror sends to its first diffuse surface comes from
+// indirect_photons.cl, but for even light of the environment (sky.h), at which paths end here.
+#include "kernels/tracing/camera.h"
+#include "kernels/tracing/eye_path.h"
 #include "kernels/tracing/work_item.h"
 
-// A photon in any direction that the light shines in. everything: one target, about the scene and the lights. An area
-// light's directions are cosine-distributed, each of the same power; emit() has uniform ones, which are noisier.
-static inline Emission emit_everywhere(DeviceLight light, __global const DeviceTarget* everything,
-                                       const DeviceScene* scene, float4 random, float2 place) {
-  if (is_light(&light, LIGHT_AREA)) {
-    const Emission emission = {area_point(&light, place), cosine_direction(light.direction.xyz, random.y, random.z),
-                               0.0f, light.radiometric};
-    return emission;
-  }
-  light.first_target = 0;
-  light.target_count = 1;
-  return emit(&light, everything, scene, random, place);
-}
+// 1: no glass disperses light.
+#ifndef NEPHROID_ONE_WAY
+#define NEPHROID_ONE_WAY 0
+#endif
 
-typedef struct {
-  volatile __global long* film;
-  float scale; // quanta per unit of radiance
-  DeviceCamera camera;
-} Receiver;
+#define BANDS 4 // of a path, until glass sends them different ways; then only the first goes on
 
 typedef struct {
   Path path;
-  SET_ASIDE float shading;  // product of shading_ratio over the diffuse surfaces behind it
-  SET_ASIDE float watts;    // as if the band had all of the light's power
-  SET_ASIDE int wavelength; // wavelength and weight of its band
-  SET_ASIDE float weight;
-  SET_ASIDE int light;      // light and rgb of its source
-  SET_ASIDE float3 rgb;
-} Photon;
+  bool is_divided;
+  SET_ASIDE Band bands[BANDS];
+  SET_ASIDE float throughput[BANDS]; // reflectances and n^2 behind the path; 0 where the band went another way
+} Walk;
 
-static inline Band band_of(const Photon* photon) {
-  const Band band = {0, photon->wavelength, photon->weight};
-  return band;
+// Leaves one band, which stands for all of them from now on.
+static inline void divide(Walk* walk) {
+  if (NEPHROID_ONE_WAY || walk->is_divided) return;
+  walk->is_divided = true;
+  walk->throughput[0] *= (float)BANDS;
+  for (int i = 1; i < BANDS; ++i) walk->throughput[i] = 0.0f;
 }
 
-static inline Source light_of(const Photon* photon) {
-  const Source source = {photon->light, photon->rgb};
-  return source;
+// The XYZ that a path brings of light, as a reflector (-1: white) sends it.
+static inline float3 brought(const World* world, const Walk* walk, Source source, int reflector) {
+  SET_ASIDE float3 xyz = (float3)(0.0f);
+  ROLLED
+  for (int i = 0; i < BANDS; ++i)
+    if (walk->throughput[i] > 0.0f)
+      xyz += walk->throughput[i] * carried_light(world, &walk->path.losses, source, &walk->bands[i], reflector).xyz;
+  return xyz;
 }
 
-// Adds a photon's light, reflected by a diffuse surface, to the pixel that sees it. False where the film refused it.
-static inline bool show(const World* world, const Receiver* receiver, const Photon* photon, const Surface* surface,
-                        uint triangle, int reflector, float dither) {
-  const Splat splat = splat_at(world, &receiver->camera, surface, triangle, photon->path.direction);
-  if (splat.pixel < 0) return true;
-  const Band band = band_of(photon);
-  const float3 xyz = carried_light(world, &photon->path.losses, light_of(photon), &band, reflector).xyz;
-  const float scale = photon->watts * photon->shading * splat.weight / PI_F;
-  return film_add_dithered(receiver->film, splat.pixel, xyz * scale, receiver->scale, FILM_LIMIT, dither);
+// Of the unbent light of all lights at a diffuse surface. numbers: stands for the pixel in random numbers.
+IN_PLACE float3 unbent_light(const World* world, const Walk* walk, const Surface* surface, uint triangle, int reflector,
+                             uint2 seed, uint sample, uint paths, uint numbers) {
+  SET_ASIDE float3 xyz = (float3)(0.0f);
+  for (int l = 0; l < world->scene.light_count; ++l) {
+    if (is_of_environment(world, l)) {
+      const Source sky = {l, sky_irradiance(world, l, &walk->path, surface, triangle, seed, sample, paths, numbers) / PI_F};
+      if (any(sky.rgb > 0.0f)) xyz += brought(world, walk, sky, reflector);
+    } else {
+      const float irradiance = irradiance_of(world, l, &walk->path, surface, triangle, seed, sample, paths, numbers);
+      const Source lamp = {l, (float3)(1.0f)};
+      if (irradiance > 0.0f) xyz += irradiance / PI_F * brought(world, walk, lamp, reflector);
+    }
+  }
+  return xyz;
 }
 
-// Follows a photon to its end and returns its OUTCOME_*. *segments: rays of its path. Counts what the film refuses.
-static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed,
-                                uint iteration, uint number, int* segments, Outcomes outcomes) {
-  Path* path = &photon->path;
-  bool met_diffuse = false;
+// Of the even light of the environment in the path's direction.
+static inline float3 even_light(const World* world, const Walk* walk) {
+  for (int l = 0; l < world->scene.light_count; ++l) {
+    if (!is_of_environment(world, l)) continue;
+    const SkyPlace place = sky_in(&world->sky, walk->path.direction);
+    const Source sky = {l, world->lights[l].radiometric * even_part(&place) * place.density * place.rgb};
+    return brought(world, walk, sky, -1);
+  }
+  return (float3)(0.0f);
+}
+
+// Scatters a path at a diffuse surface. False: it ends there. random.z: decides that by what is left of its light.
+static inline bool scatter(const World* world, Walk* walk, const Surface* surface, uint triangle, int reflector,
+                           bool may_end, float4 random) {
+  const float side = dot(walk->path.direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
+  float most = 0.0f;
+  for (int i = 0; i < BANDS; ++i) {
+    walk->throughput[i] *= world->tables.reflectance[reflector * WAVELENGTH_COUNT + walk->bands[i].wavelength];
+    most = fmax(most, walk->throughput[i]);
+  }
+  const float chance = may_end ? fmin(most, 1.0f) : 1.0f;
+  if (!(most > 0.0f) || random.z >= chance) return false;
+  for (int i = 0; i < BANDS; ++i) walk->throughput[i] /= chance;
+  walk->path.direction = cosine_direction(side * surface->shading, random.x, random.y);
+  walk->path.origin = start_on_side(surface, side);
+  walk->path.skip = triangle;
+  walk->path.behind = 0.0f;
+  return side * dot(walk->path.direction, surface->geometric) > 0.0f;
+}
+
+// Follows a path that has hit `hit` to its end. Returns the XYZ radiance that it brings.
+IN_PLACE float3 follow(const World* world, Walk* walk, Hit hit, uint2 seed, uint sample, uint paths,
+                       uint pixel) {
+  SET_ASIDE float3 xyz = (float3)(0.0f);
+  SET_ASIDE uint scatterings = 0u;
+  bool is_bent = false; // since the last of them
   for (int surface_number = 0;; ++surface_number) {
-    const Hit hit = next_hit(world, path);
-    *segments = surface_number + 1;
-    if (hit.primitive == NEPHROID_NO_PRIMITIVE) return OUTCOME_ESCAPED;
+    if (surface_number > 0) hit = next_hit(world, &walk->path);
+    if (hit.primitive == NEPHROID_NO_PRIMITIVE) break;
     const Surface surface = surface_at(&world->geometry, hit);
     const DeviceMaterial material = material_of(world, surface.object);
-    lose_in_medium(world, path, hit.t);
-    const float4 random = random4(seed, iteration, number, 2u + (uint)surface_number, STREAM_INDIRECT);
-    const Band band = band_of(photon);
-    if (material.type == MATERIAL_DIFFUSE) {
-      if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, material.reflector, random.w))
-        add_outcome(outcomes, OUTCOME_REFUSED, 1);
-      met_diffuse = true;
-      photon->shading *= shading_ratio(&surface, path->direction);
-      if (random.x >= world->tables.reflectance[material.reflector * WAVELENGTH_COUNT + band.wavelength])
-        return OUTCOME_ABSORBED;
-      const float side = dot(path->direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
-      path->direction = cosine_direction(side * surface.geometric, random.y, random.z);
-      path->origin = start_on_side(&surface, side);
-      path->skip = hit.primitive;
-      path->behind = 0.0f;
+    lose_in_medium(world, &walk->path, hit.t);
+    const bool is_diffuse = material.type == MATERIAL_DIFFUSE;
+    if (is_diffuse && scatterings > 0u)
+      xyz += unbent_light(world, walk, &surface, hit.primitive, material.reflector, seed, sample, paths,
+                          pixel + 0x9e3779b9u * scatterings);
+    if (surface_number == world->scene.max_surfaces) return xyz;
+    const float4 random =
+        eye_numbers(seed, sample, surface_number < 2 ? paths : 0u, pixel, 1u + (uint)surface_number, STREAM_INDIRECT);
+    if (is_diffuse) {
+      if (!scatter(world, walk, &surface, hit.primitive, material.reflector, scatterings > 0u, random)) return xyz;
+      ++scatterings;
+      is_bent = false;
+      continue;
     }
-    if (surface_number == world->scene.max_surfaces) return OUTCOME_LOST;
     float n_ratio;
-    if (material.type != MATERIAL_DIFFUSE &&
-        !bend_path(world, path, hit.primitive, &surface, &material, &band, random.x, &n_ratio))
-      return OUTCOME_LOST;
+    divide(walk);
+    if (!bend_path(world, &walk->path, hit.primitive, &surface, &material, &walk->bands[0], random.x, &n_ratio))
+      return xyz;
+    for (int i = 0; i < BANDS; ++i) walk->throughput[i] *= n_ratio * n_ratio;
+    is_bent = true;
   }
+  if (NEPHROID_EVEN_SKY && is_bent && scatterings > 1u) xyz += even_light(world, walk);
+  return xyz;
 }
 
-// Follows `count` photons offset, offset + stride, ... of a pass. emitters: one for each light that has photons.
-__kernel void
-indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything, __global const DeviceEmitter* emitters,
-         int emitter_count,
-         __global const float* spectrum_cdf, // [light][member of all clusters]: chances of a photon
-         volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-         DeviceCamera camera, uint2 seed, uint iteration, uint offset, uint stride, uint count, float outside_distance,
-         float film_scale, float energy_scale) {
-  scene.outside_distance = outside_distance;
+// samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.
+__kernel void indirect(WORLD_ARGUMENTS,
+                       __global const float* cluster_cdf, // [cluster + 1]: chances of a path through glass
+                       volatile __global long* film,
+                       volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
+                       DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,
+                       float film_scale, float film_limit) {
   const World world = WORLD;
-  const int members = cluster_first[scene.cluster_count];
-  const Receiver receiver = {film_of_iteration(film, iteration, camera.width * camera.height), film_scale, camera};
-  OUTCOMES(outcomes);
-  for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
-    const uint item = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
-    if (item >= count) break;
-    const uint number = offset + stride * item;
-    const DeviceEmitter emitter = emitters[emitter_of(emitters, emitter_count, number)];
-    DeviceLight light = lights[emitter.light];
-    const float4 random = random4(seed, iteration, number, 0u, STREAM_INDIRECT);
-    const float2 place = has_places(&light) ? random4(seed, iteration, number, 1u, STREAM_INDIRECT).xy : (float2)(0.0f);
-    const Source source = source_of(&world, emitter.light, place, &light);
-    const Emission emission = emit_everywhere(light, everything, &scene, random, place);
-    if (emission.watts == 0.0f) continue;
-    const Band band =
-        wavelength_of_cluster(0, cluster_wavelengths, spectrum_cdf + emitter.light * members, members, random.w);
-    Photon photon = {
-        {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind},
-        1.0f,
-        emission.watts / (float)emitter.photon_count,
-        band.wavelength,
-        band.weight,
-        source.light,
-        source.rgb};
-    int segments;
-    const int outcome = follow_photon(&world, &receiver, &photon, seed, iteration, number, &segments, outcomes);
-    const Band end = band_of(&photon);
-    count_photon(outcomes, outcome, segments,
-                 photon.watts * band_share(&world, light_of(&photon), &end, 0.0f) * energy_scale,
-                 wavelength_left(&world.tables, &photon.path.losses, photon.wavelength));
+  const uint index = work_item();
+  if (index >= count) return;
+  const uint pixel = samples[index].x;
+  SET_ASIDE uint frame = samples[index].y;
+  const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
+  SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_INDIRECT);
+  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter.xy));
+  const Hit hit = next_hit(&world, &path);
+  if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
+
+  const bool unbent = is_unbent(&world, &camera, &hit);
+  const uint paths = unbent ? 1u : PATHS_THROUGH_GLASS;
+  SET_ASIDE float3 xyz = (float3)(0.0f), outwards = path.direction;
+  SET_ASIDE Hit first = hit;
+  for (uint p = 0; p < paths; ++p) {
+    Walk walk = {path_from_eye(&camera, outwards), false};
+    for (uint i = 0; i < BANDS; ++i) {
+      // The bands of each path begin with another one.
+      const float place = golden_place(seed, frame, (i + p) % BANDS, BANDS, pixel, STREAM_INDIRECT_BAND);
+      const int cluster = choose(cluster_cdf + 1, scene.cluster_count, place);
+      const float chance = cluster_cdf[cluster + 1] - cluster_cdf[cluster];
+      walk.bands[i] = choose_band(&world, scene.light_count, cluster, (place - cluster_cdf[cluster]) / chance);
+      walk.bands[i].weight /= chance;
+      walk.throughput[i] = 1.0f;
+    }
+    xyz += follow(&world, &walk, first, seed, frame * paths + p, paths, pixel) / (float)(paths * BANDS);
   }
-  add_outcomes(energy, outcomes);
+  const float limit = limit_of_sample(frame, enough, film_limit);
+  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale,
+                         limit, jitter.z))
+    add_exactly(energy + OUTCOME_REFUSED, 1);
 }

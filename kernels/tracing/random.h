@@ -13,12 +13,14 @@
 #define STREAM_SOBOL 5u                  // low_discrepancy.h: how a sequence is scrambled
 #define STREAM_BACKGROUND 14u            // background.cl: index is the pixel
 #define STREAM_BACKGROUND_WAVELENGTH 15u // where a pixel starts in the spectrum
-#define STREAM_INDIRECT 16u              // indirect.cl: index is the photon of a pass
+#define STREAM_INDIRECT_PHOTONS 16u      // indirect_photons.cl: index is the photon of a pass
 #define STREAM_PEAKS 17u                 // piece.h: index is the pixel
 #define STREAM_EVEN_SKY 18u              // even_sky.cl, here and below: index is the pixel
 #define STREAM_EVEN_SKY_BOUNCE 19u
 #define STREAM_EVEN_SKY_CLUSTER 20u
 #define STREAM_EVEN_SKY_WAVELENGTH 21u
+#define STREAM_INDIRECT 22u              // indirect.cl, here and below: index is the pixel
+#define STREAM_INDIRECT_BAND 23u         // where a pixel starts in the spectrum
 #define STREAM_SURVEY 24u                // relight_direct.cl, its survey: index is the pixel
 #define STREAM_VIEW 32u                  // view.cl, here and below: index is the pixel
 #define STREAM_VIEW_CLUSTER 33u

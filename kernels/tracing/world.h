@@ -11,9 +11,10 @@
 #define NEPHROID_MIRRORS 1
 #endif
 
-// 1: photons of the environment have its peaks only (sky.h).
-#ifndef NEPHROID_PEAKS_ALONE
-#define NEPHROID_PEAKS_ALONE 0
+// 1: paths from the eye find the even light of the environment where glass sends it (sky.h), and photons only its
+// peaks.
+#ifndef NEPHROID_EVEN_SKY
+#define NEPHROID_EVEN_SKY 0
 #endif
 
 typedef struct {
@@ -174,7 +175,7 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
 static inline Source source_of(const World* world, int index, float2 place, DeviceLight* light) {
   Source source = {index, (float3)(1.0f)};
   if (is_light(light, LIGHT_ENVIRONMENT)) {
-#if NEPHROID_PEAKS_ALONE
+#if NEPHROID_EVEN_SKY
     const SkyPlace from = sample_sky(&world->sky, cdf_of_peaks(&world->sky), place);
     source.rgb = from.rgb * (from.density * (1.0f - even_part(&from)) / from.peak_density);
 #else

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Photons of the layer "indirect": kernels/photons/indirect_photons.cl.
+#include "base/counted.h"
+#include "optics/colour.h"
+#include "photons/effort/emitters.h"
+#include "photons/stage.h"
+#include "photons/tables/run_tables.h"
+#include "tracing/film.h"
+#include "tracing/scales.h"
+#include "tracing/slices.h"
+#include "tracing/targets.h"
+
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace nephroid::photons {
+namespace {
+
+/// What the eye makes of each wavelength of the light at `index` of the tables.
+std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, const scene::Light& light,
+                                     std::size_t index) {
+  const optics::ColourMatching& eye = optics::cie_1931();
+  std::vector<double> weights;
+  for (const int wavelength : tables.cluster_wavelengths) {
+    const auto w = static_cast<std::size_t>(wavelength);
+    const shared::float4& xyz = tables.light_xyz[index * WAVELENGTH_COUNT + w];
+    if (is_environment(light)) // its rows hold primaries
+      weights.push_back(tracing::worth(light.spectrum[w] * (eye.x[w] + eye.y[w] + eye.z[w]) / 3, light.spectrum[w]));
+    else
+      weights.push_back(tracing::worth((double(xyz.x) + xyz.y + xyz.z) / 3, xyz.w));
+  }
+  return weights;
+}
+
+struct IndirectTables {
+  std::vector<shared::DeviceEmitter>
+      emitters;                    ///< photons of one pass: an emitter for each light; cluster and share are unused
+  std::vector<float> spectrum_cdf; ///< [light][member of cluster_wavelengths]: whole numbers of 2^-24, the last 1
+  unsigned photons_per_pass = 0;   ///< photons of a pass: at least one for each light
+  double film_scale = 1, energy_scale = 1; ///< quanta per unit of XYZ radiance and per watt, powers of two
+};
+
+/// tables belong to the same scene. photons is the number wanted in a pass.
+IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& tables, unsigned photons) {
+  IndirectTables result;
+  std::vector<PhotonSource> sources;
+  for (std::size_t l = 0; l < tables.lights.size(); ++l) {
+    const scene::Light& light = scene.lights[static_cast<std::size_t>(tables.lights[l].number)];
+    const std::vector<double> weights = wavelength_worth(tables.wavelengths, light, l);
+    sources.push_back({tables.towards_targets_w[l] * std::accumulate(weights.begin(), weights.end(), 0.0), static_cast<int>(l), 0, 0});
+    const std::vector<float> cdf = tracing::exact_cdf(weights);
+    result.spectrum_cdf.insert(result.spectrum_cdf.end(), cdf.begin(), cdf.end());
+  }
+  result.emitters = make_emitters(sources, photons);
+  result.photons_per_pass = count_photons(result.emitters);
+  result.film_scale = tracing::splat_scale(scene, result.photons_per_pass, tables.light_towards_targets_w);
+  result.energy_scale = tables.energy_scale;
+  return result;
+}
+
+class IndirectPhotonStage final : public Stage {
+public:
+  IndirectPhotonStage(StageContext& world, const scene::Scene& scene, const Settings& settings)
+      : world_(world),
+        tables_(make_indirect_tables(scene, world.tables, static_cast<unsigned>(settings.indirect_photons_per_pass))),
+        emitters_(world.context, "emitters of indirect photons", tables_.emitters),
+        spectrum_cdf_(world.context, "wavelengths of indirect photons", tables_.spectrum_cdf),
+        film_(world.zeroed("film indirect photons", world.film_size())),
+        energy_(world.zeroed("energy of indirect photons", OUTCOME_COUNT)) {
+    compute::Defines defines = world.photon_defines();
+    defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every photon has a wavelength of its own
+    kernel_ = compute::Program(world.context, "photons/indirect_photons.cl", defines).kernel("indirect_photons");
+  }
+
+  const char* name() const override { return "indirect photons"; }
+  double fraction_done() const override { return slices_.fraction_done(); }
+  std::uint64_t photons_per_pass() const override { return tables_.photons_per_pass; }
+
+  bool advance(std::int64_t pass) override {
+    return slices_.advance(world_.context.communicator(), tables_.photons_per_pass,
+                           [&](const tracing::PhotonSlice& slice) {
+                             world_.send(kernel_, slice, pass,
+                                         {{"targets", world_.buffers.targets},
+                                          {"emitters", emitters_},
+                                          {"emitter_count", static_cast<int>(tables_.emitters.size())},
+                                          {"spectrum_cdf", spectrum_cdf_},
+                                          {"film", film_},
+                                          {"energy", energy_},
+                                          {"seed", world_.seed},
+                                          {"film_scale", world_.on_device(tables_.film_scale)},
+                                          {"energy_scale", world_.on_device(tables_.energy_scale)}});
+                           });
+  }
+
+  /// Sends as large a part of the first pass as caustics do, where a pass has more than a few slices.
+  bool advance_preview() override {
+    const double fraction_of_pass = static_cast<double>(world_.preview.batches) / world_.tables.batches;
+    if (tables_.photons_per_pass < 1 << 16 || fraction_done() >= fraction_of_pass) return true;
+    advance(0);
+    return false;
+  }
+
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override {
+    const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : fraction_done()); };
+    tracing::add_layer("indirect", {world_.context.all_reduced_sum(film_), tables_.film_scale * world_.white, samples},
+                       picture);
+  }
+
+  void report(std::int64_t passes, bool done, Energy& energy) override {
+    const double passes_done = static_cast<double>(passes) + (done ? 1 : fraction_done());
+    energy.indirect =
+        balance_of(outcome_watts(world_.context.all_reduced_sum(energy_), tables_.energy_scale, passes_done));
+    energy.caustics.refused_contributions += energy.indirect->refused_contributions;
+  }
+
+  void serialize(tracing::Archive& archive) override {
+    slices_.serialize(archive);
+    archive.buffer(film_);
+    archive.buffer(energy_);
+  }
+
+private:
+  StageContext& world_;
+  IndirectTables tables_;
+  compute::Buffer<shared::DeviceEmitter> emitters_;
+  compute::Buffer<float> spectrum_cdf_;
+  compute::Buffer<std::int64_t> film_, energy_;
+  compute::Kernel kernel_;
+  tracing::PhotonSlices slices_;
+};
+
+PlanPart plan_indirect_photons(const PlanInput& input) {
+  if (!indirect_decision(input).runs || !input.sends_photons()) return {};
+  return part_of({"indirect photons", true,
+                  counted(input.settings.indirect_photons_per_pass, "photon a pass", "photons a pass") +
+                      " for light of walls that caustics light, where the camera sees a surface directly; through "
+                      "glass and in mirrors that is left out"},
+                 {{"film indirect photons", input.film_bytes()}});
+}
+
+} // namespace
+
+const RunPart indirect_photon_stage{plan_indirect_photons, make_stage<IndirectPhotonStage>, "indirect"};
+
+} // namespace nephroid::photons
