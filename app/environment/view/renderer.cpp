@@ -42,8 +42,6 @@ Renderer::Renderer(RenderTask task, double white, std::uint64_t seed, const mpi:
       channel_cdf_(compute::Buffer(context, "wavelengths of channels", channel_cdf())),
       lit_rgb_(compute::Buffer(context, "colours of lit surfaces", lit_colours(task_.tables.wavelengths))),
       reflected_rgb_(compute::Buffer(context, "colours of surfaces", reflected_primaries(task_.tables.wavelengths))),
-      moments_(irradiance_moments(task_.cube)),
-      irradiance_(context, "irradiance", std::tuple_size_v<IrradiancePolynomial>),
       texels_(compute::Buffer(context, "environment", backdrop(*task_.scene).rgb)),
       texels_size_(tracing::picture_size(backdrop(*task_.scene))),
       ends_(context, "ends of paths", ends_of_pixel(task_) * static_cast<std::size_t>(pixels())),
@@ -109,10 +107,6 @@ void Renderer::light_up() {
       surroundings_ ? seen_lights(task_.lamps, surroundings_->world, task_.surface_points) : task_.lamps;
   lights.insert(lights.end(), lamps.begin(), lamps.end());
   if (caustics_) caustics_->set_lights(lights, task_.placement.turn);
-  std::vector<shared::float4> polynomial;
-  for (const glm::dvec3& factor : irradiance_polynomial(moments_, rotate_deg_))
-    polynomial.push_back(tracing::to_float4(factor));
-  irradiance_.write(polynomial);
   air_side_ = 0;
   coarse_.forget(); // drops what other cameras have seen
   fine_.forget();
@@ -228,7 +222,8 @@ void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first,
               {"radiance", static_cast<float>(sky.radiance)},
               {"lit_rgb", lit_rgb_},
               {"reflected_rgb", reflected_rgb_},
-              {"irradiance", irradiance_},
+              {"sky_lights", sky_lights_},
+              {"sky_light_count", static_cast<int>(sky_lights_.size() / 2)},
               {"power_unit", static_cast<float>(task_.tables.power_unit)},
               {"middle", tracing::to_float4(task_.placement.middle)},
               {"size", receivers.size()},

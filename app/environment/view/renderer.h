@@ -4,7 +4,6 @@
 #pragma once
 #include "environment/light/caustics.h"
 #include "environment/occlusion/occlusion.h"
-#include "environment/segment/irradiance.h"
 #include "environment/view/receivers.h"
 #include "environment/view/render_task.h"
 #include "job/job.h"
@@ -98,9 +97,7 @@ private:
   compute::Kernel see_, shadows_, shade_, coarse_shade_, volume_;
   compute::Buffer<float> channel_cdf_;
   compute::Buffer<shared::float4> lit_rgb_, reflected_rgb_;
-  IrradianceMoments moments_; ///< the task's cube's
-  compute::Buffer<shared::float4> irradiance_;
-  compute::Buffer<shared::float4> sky_lights_; ///< the segmentation's, as shadows.cl has them
+  compute::Buffer<shared::float4> sky_lights_; ///< the segmentation's, as shade.cl has them
   compute::Buffer<float> texels_;
   shared::DeviceBackground texels_size_{};
   compute::Buffer<shared::DeviceEnd> ends_;
