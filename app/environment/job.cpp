@@ -149,7 +149,7 @@ private:
 
   double work_seconds() const { return bake_seconds_ + render_seconds_ + photon_seconds_; }
 
-  /// Whether photons join the spheres.
+  /// Whether photons follow the spheres.
   bool refines() const { return view_ && settings(preset_).refine; }
   bool wants_photons() const { return refines() && photons_.wants_turn(renderer()->passes(), most_passes()); }
   std::int64_t most_passes() const { return passes_ >= 0 ? passes_ : preset::max_passes; }
@@ -205,7 +205,7 @@ private:
     if (!renderer()) return "The object is baked first: its caustic spheres, as far as they are";
     if (baking_.is_complete()) return "";
     const std::optional<double> left = baking_.seconds_left();
-    return fmt::format("Photons alone: the caustic spheres of {} join when they are baked, {:.0f} % are{}",
+    return fmt::format("Photons alone: the caustic spheres of {} show each change at once when they are baked, {:.0f} % are{}",
                        baking_.task().caster.name, 100 * baking_.fraction_done(),
                        left ? fmt::format("; {:.0f} s left", std::ceil(*left)) : "");
   }
@@ -214,7 +214,7 @@ private:
     std::vector<Renderer::Layer> layers = renderer()->layers();
     const Renderer::Layer smooth = std::move(layers[Renderer::smooth]);
     layers.erase(layers.begin() + Renderer::smooth);
-    if (refines()) photons_.join(layers, smooth, view_->has_caustics());
+    if (refines()) photons_.join(layers, smooth);
     auto picture = std::make_shared<job::Picture>();
     picture->width = width_;
     picture->height = height_;

@@ -24,9 +24,7 @@ photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& 
   photons::Settings photons;
   photons.direct = photons.background = false;
   photons.caustic = settings(preset).cast;
-  photons::RunPlan plan = photons::make_plan(without_stop(preset), photons, scene, bvh, {.all = preset.leave_out});
-  plan.has_previews = false; // the spheres make the preview
-  return plan;
+  return photons::make_plan(without_stop(preset), photons, scene, bvh, {.all = preset.leave_out});
 }
 
 std::unique_ptr<photons::PhotonJob> make_photons(const preset::Preset& preset, const scene::Scene& scene,
@@ -67,14 +65,13 @@ void JoinedPhotons::set_white(double white) {
   if (run_) run_->set_white(white);
 }
 
-void JoinedPhotons::join(std::vector<Renderer::Layer>& layers, const Renderer::Layer& smooth, bool has_spheres) {
-  Renderer::Layer &direct = layers[Renderer::direct], &caustic = layers[Renderer::caustic];
+void JoinedPhotons::join(std::vector<Renderer::Layer>& layers, const Renderer::Layer& smooth) {
+  Renderer::Layer& direct = layers[Renderer::direct];
   if (direct.draw.empty()) direct.rgb = smooth.rgb;
   if (!run_ || run_->batches() < 2) return;
   run_->smooth(direct.rgb, direct.draw, smooth.rgb);
-  run_->set_estimate(has_spheres ? std::move(caustic.rgb) : std::vector<float>());
   const std::shared_ptr<const job::Picture> sent = run_->snapshot().picture;
-  caustic = {"caustic", sent->layers.front().rgb, sent->error_draw};
+  layers[Renderer::caustic] = {"caustic", sent->layers.front().rgb, sent->error_draw};
 }
 
 void JoinedPhotons::serialize(tracing::Archive& archive, const SceneView& view) {

@@ -47,9 +47,9 @@ public:
   double passes() const { return static_cast<double>(run_->batches()) / static_cast<double>(run_->batches_per_pass()); }
   void set_white(double white);
 
-  /// Mixes the photons' light into the renderer's layers. The caustics are the best mixture of photons and spheres, if
-  /// there are spheres, and no layer keeps the noise of a single sample. smooth: the layer of that name.
-  void join(std::vector<Renderer::Layer>& layers, const Renderer::Layer& smooth, bool has_spheres);
+  /// Puts the photons' caustics in the place of the spheres' as soon as there are two halves of them, and mixes
+  /// the layer "direct" with its smooth part, the layer of that name.
+  void join(std::vector<Renderer::Layer>& layers, const Renderer::Layer& smooth);
 
   void serialize(tracing::Archive& archive, const SceneView& view);
 

@@ -89,7 +89,7 @@ std::vector<plan::Decision> photon_decisions(const Settings& s, const photons::R
   if (!sent.runs) return {{"photons", false, s.cast ? sent.reason : "environment.cast is false"}};
   const plan::Decision maps = row("photon maps");
   return {
-      {"photons", true, sent.reason + ", mixed with what the spheres say as their two halves say is best", field, true},
+      {"photons", true, sent.reason + ", in the place of the spheres as soon as there are two halves", field, true},
       {"photon maps", maps.runs, maps.reason}};
 }
 

@@ -9,9 +9,6 @@
 namespace nephroid::photons {
 namespace {
 
-/// Values for Smoothing::BiasedEstimate::noise. Shadows in direct light are broader than the fine lines of a caustic.
-constexpr double caustic_noise = 0.05, direct_noise = 0.01;
-
 /// Adds as many values as both have; a sum that is empty stays so.
 void add(const std::vector<float>& more, std::vector<float>& sum) {
   std::ranges::transform(sum, more, sum.begin(), std::plus());
@@ -53,12 +50,13 @@ void Development::prepare() {
 }
 
 void Development::smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) {
+  constexpr double direct_noise = 0.01; // Smoothing::BiasedEstimate::noise: shadows are broad
   if (smoothing_) smoothing_->pixels().spread(rgb, error_draw, {estimate, direct_noise});
 }
 
-void Development::smooth(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known) {
+void Development::smooth(LayerEstimate& caustics) {
   const LayerEstimate plain = smooths_splats_ ? LayerEstimate() : caustics;
-  smoothing_->spread(caustics, known);
+  smoothing_->spread(caustics);
   for (std::size_t i = 0; i < plain.rgb.size(); ++i)
     if (!world_.pixels.may_show_glass[i / 3]) caustics.rgb[i] = plain.rgb[i], caustics.draw[i] = plain.draw[i];
 }
@@ -78,7 +76,7 @@ void Development::share_work() {
   }
   if (photons == 0) return;
   LayerEstimate splatted{std::move(tracing::layer_of(caustics, "caustic").rgb), std::move(caustics.error_draw)};
-  if (smoothing_) smooth(splatted, {});
+  if (smoothing_) smooth(splatted);
   tracing::layer_of(picture, "caustic").rgb = std::move(splatted.rgb);
   for (const job::Layer& layer : picture.layers) add(layer.rgb, picture.rgb);
 
@@ -130,7 +128,6 @@ LayerEstimate Development::layer_of(std::size_t s) {
 
 LayerEstimate Development::caustics() {
   LayerEstimate preview; // photon maps' preview; they come after all photons of a pass, and until then glass shows this
-  bool lacks_maps = false;
   job::Picture picture = black();
   tracing::layer_of(picture, "caustic");
   for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
@@ -138,15 +135,12 @@ LayerEstimate Development::caustics() {
     if (!timed_stage.caustics()) continue;
     if (!smoothing_ || passes_.has_halves(s)) {
       timed_stage.stage->develop(passes_.complete(), passes_.had_turn(s), picture);
-    } else {
-      lacks_maps = true;
-      if (preview_.has_picture()) preview = preview_of(*timed_stage.stage);
+    } else if (preview_.has_picture()) {
+      preview = preview_of(*timed_stage.stage);
     }
   }
   LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
-  for (std::size_t i = 0; lacks_maps && i < estimate_.size(); ++i)
-    if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = estimate_[i], layer.draw[i] = 0;
-  if (smoothing_ && !layer.draw.empty()) timed([&] { smooth(layer, {estimate_, caustic_noise}); });
+  if (smoothing_ && !layer.draw.empty()) timed([&] { smooth(layer); });
   add(preview.rgb, layer.rgb);
   add(preview.draw, layer.draw);
   return layer;

@@ -33,8 +33,7 @@ public:
   /// The seconds of all pictures since the program began. They are not part of the run's work.
   double smoothing_seconds() const { return smoothing_seconds_; }
 
-  /// See PhotonJob::set_estimate.
-  void set_estimate(std::vector<float> caustics) { estimate_ = std::move(caustics); }
+  /// See PhotonJob::smooth.
   void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate);
 
 private:
@@ -45,7 +44,7 @@ private:
   LayerEstimate preview_of(Stage& stage);
   LayerEstimate layer_of(std::size_t stage);
   LayerEstimate caustics();
-  void smooth(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known);
+  void smooth(LayerEstimate& caustics);
   template <class Work>
   void timed(const Work& work) {
     smoothing_seconds_ += tracing::seconds_of(work);
@@ -56,7 +55,6 @@ private:
   const Preview& preview_;
   std::optional<BlockSmoothing> smoothing_;
   bool smooths_splats_, smooths_paths_;
-  std::vector<float> estimate_; ///< PhotonJob::set_estimate
   double smoothing_seconds_ = 0;
 };
 

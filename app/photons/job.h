@@ -16,15 +16,13 @@
 
 namespace nephroid::photons {
 
-/// A job with additional functions for an engine that has an estimate of its own.
+/// A job with additional functions for an engine that renders further layers.
 class PhotonJob : public job::Job {
 public:
-  /// Sets an estimate of the layer "caustic" without noise but with a bias: [pixel][3], over the preset's white. From
-  /// now on it is mixed with what photons show (mixture.h). Empty: there is none.
-  virtual void set_estimate(std::vector<float> caustics) = 0;
-  /// Smooths light on the same surfaces as Smoothing::spread does. Where the run smooths nothing, it changes nothing.
+  /// Smooths light on the same surfaces as Smoothing::spread does, with an estimate of it that has a bias but no noise.
+  /// Where the run smooths nothing, it changes nothing.
   virtual void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) = 0;
-  /// Sets the white of all further pictures; an estimate is over the same white.
+  /// Sets the white of all further pictures.
   virtual void set_white(double white) = 0;
   /// The complete batches of splatted photons, and the batches of a pass.
   virtual std::int64_t batches() const = 0;

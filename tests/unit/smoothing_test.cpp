@@ -319,7 +319,7 @@ TEST_F(Smoothing, in_blocks_keeps_what_a_pixel_shows_and_evens_what_is_even) {
   Photons photons = scatter([&](int x, int y) { return is_glint(x, y) && x < size / 2 ? 40000. : 400.; }, 9);
   photons::BlockSmoothing blocks(scene, bvh, photons::Smoothing::Spread::where_it_helps, 8);
   photons::LayerEstimate layer{photons.rgb, photons.error_draw};
-  blocks.spread(layer, {});
+  blocks.spread(layer);
   int glints = 0;
   double noise2 = 0, noise2_before = 0;
   for (int y = 0; y < size; ++y)
