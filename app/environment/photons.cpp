@@ -11,7 +11,7 @@
 namespace nephroid::environment {
 namespace {
 
-/// This engine decides when to stop, and mixes photons by their halves.
+/// This engine decides when to stop, and needs halves for smoothing.
 preset::Preset without_stop(preset::Preset preset) {
   preset.stop = {};
   preset.measure.estimate = true;
@@ -22,8 +22,8 @@ preset::Preset without_stop(preset::Preset preset) {
 
 photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) {
   photons::Settings photons;
-  photons.direct = photons.background = false;
   photons.caustic = settings(preset).cast;
+  photons.photons_per_pass = 1 << 17; // only after two passes a draw says how noisy a layer is
   return photons::make_plan(without_stop(preset), photons, scene, bvh, {.all = preset.leave_out});
 }
 
@@ -46,10 +46,11 @@ void JoinedPhotons::end() {
   ahead_ = 0;
 }
 
-bool JoinedPhotons::wants_turn(std::int64_t eye_passes, std::int64_t most) const {
+bool JoinedPhotons::wants_turn(std::int64_t eye_passes, std::int64_t most_eye_passes, std::int64_t most) const {
   if (!run_) return !has_planned_;
   const auto done = static_cast<double>(eye_passes);
-  return complete_passes() < most && (eye_passes >= most || passes() < std::max((done + 1) / 4, done - 0.75) + ahead_);
+  return complete_passes() < most &&
+         (eye_passes >= most_eye_passes || passes() < std::max((done + 1) / 4, done - 0.75) + ahead_);
 }
 
 void JoinedPhotons::advance(const SceneView& view) {
@@ -65,13 +66,16 @@ void JoinedPhotons::set_white(double white) {
   if (run_) run_->set_white(white);
 }
 
-void JoinedPhotons::join(std::vector<Renderer::Layer>& layers, const Renderer::Layer& smooth) {
-  Renderer::Layer& direct = layers[Renderer::direct];
-  if (direct.draw.empty()) direct.rgb = smooth.rgb;
-  if (!run_ || run_->batches() < 2) return;
-  run_->smooth(direct.rgb, direct.draw, smooth.rgb);
+std::vector<float> JoinedPhotons::join(std::vector<Renderer::Layer>& layers, std::vector<float> smooth) {
+  if (!run_ || !run_->progress().whole) {
+    layers[Renderer::direct].rgb = std::move(smooth);
+    return {};
+  }
+  run_->set_estimate(std::move(smooth));
   const std::shared_ptr<const job::Picture> sent = run_->snapshot().picture;
-  layers[Renderer::caustic] = {"caustic", sent->layers.front().rgb, sent->error_draw};
+  for (const job::Layer& layer : sent->layers)
+    std::ranges::find(layers, layer.name, &Renderer::Layer::name)->rgb = layer.rgb;
+  return sent->error_draw;
 }
 
 void JoinedPhotons::serialize(tracing::Archive& archive, const SceneView& view) {

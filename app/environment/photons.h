@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The photons of engine 2: engine 1's, for the layer "caustic" alone.
+// The run of engine 1 that takes the picture over from the spheres: photons, and its own paths from the eye.
 #pragma once
 #include "environment/view/renderer.h"
 #include "mpi/rank_context.h"
@@ -21,7 +21,7 @@ std::unique_ptr<photons::PhotonJob> make_photons(const preset::Preset& preset, c
 
 class SceneView;
 
-/// Photons that join the picture of a renderer, in batches between its passes of paths from the eye.
+/// Photons that join the picture of a renderer, between its passes of paths from the eye.
 class JoinedPhotons {
 public:
   explicit JoinedPhotons(const mpi::RankContext& context) : context_(context) {}
@@ -33,9 +33,9 @@ public:
   void end();
   bool has_begun() const { return run_ != nullptr; }
 
-  /// Whether the next turn is the photons'. A quarter of a pass of photons comes before each of the first two passes of
-  /// paths from the eye, so that both halves of both come soon; a whole pass follows each later one. most: of either.
-  bool wants_turn(std::int64_t eye_passes, std::int64_t most) const;
+  /// Whether the next turn is the photons'. A quarter of a pass of photons comes before each of the renderer's first
+  /// two passes, a whole pass follows each later one. most: of the photons' passes.
+  bool wants_turn(std::int64_t eye_passes, std::int64_t most_eye_passes, std::int64_t most) const;
   /// Does one slice of about 30 ms. The first slice starts the photons for what `view` shows.
   void advance(const SceneView& view);
   /// Keeps the lead that photons have now over the passes of paths from the eye.
@@ -44,12 +44,13 @@ public:
   std::int64_t complete_passes() const { return run_->progress().step; }
   std::uint64_t sent() const { return run_->progress().work; }
   /// Includes the part of the pass in hand.
-  double passes() const { return static_cast<double>(run_->batches()) / static_cast<double>(run_->batches_per_pass()); }
+  double passes() const { return run_->passes(); }
   void set_white(double white);
 
-  /// Puts the photons' caustics in the place of the spheres' as soon as there are two halves of them, and mixes
-  /// the layer "direct" with its smooth part, the layer of that name.
-  void join(std::vector<Renderer::Layer>& layers, const Renderer::Layer& smooth);
+  /// Puts the run's layers in the place of the renderer's as soon as it has a whole picture, and returns a draw of
+  /// their error (job::Picture::error_draw). smooth: the renderer's layer of that name, the estimate of the layer
+  /// "direct".
+  std::vector<float> join(std::vector<Renderer::Layer>& layers, std::vector<float> smooth);
 
   void serialize(tracing::Archive& archive, const SceneView& view);
 

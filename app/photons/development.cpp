@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <string_view>
 
 namespace nephroid::photons {
 namespace {
@@ -47,11 +48,6 @@ job::Picture Development::black(const Blocks& blocks) const {
 
 void Development::prepare() {
   if (smoothing_ && smooths_paths_) timed([&] { smoothing_->pixels().find_surfaces(); });
-}
-
-void Development::smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) {
-  constexpr double direct_noise = 0.01; // Smoothing::BiasedEstimate::noise: shadows are broad
-  if (smoothing_) smoothing_->pixels().spread(rgb, error_draw, {estimate, direct_noise});
 }
 
 void Development::smooth(LayerEstimate& caustics) {
@@ -107,9 +103,16 @@ LayerEstimate Development::preview_of(Stage& stage) {
 
 LayerEstimate Development::layer_of(std::size_t s) {
   Stage& stage = *passes_.stages()[s].stage;
+  const bool is_estimated = !estimate_.empty() && passes_.stages()[s].layer == std::string_view("direct");
   const bool whole = passes_.complete() > 0 || passes_.had_turn(s);
   const bool is_previewed = preview_.has_picture() && !passes_.has_halves(s) && (!whole || smoothing_);
   LayerEstimate preview = is_previewed ? preview_of(stage) : LayerEstimate();
+  if (is_estimated && !passes_.has_halves(s)) {
+    if (preview.rgb.empty()) return {estimate_, {}};
+    for (std::size_t i = 0; i < estimate_.size(); ++i)
+      if (!world_.pixels.may_show_glass[i / 3]) preview.rgb[i] = estimate_[i];
+    return preview;
+  }
   if (!preview.rgb.empty() && !whole) return preview;
   job::Picture picture = black();
   stage.develop(passes_.complete(), passes_.had_turn(s), picture);
@@ -119,7 +122,7 @@ LayerEstimate Development::layer_of(std::size_t s) {
       if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = preview.rgb[i];
     layer.draw = std::move(preview.draw);
   } else if (smoothing_ && smooths_paths_ && passes_.has_halves(s)) {
-    timed([&] { smoothing_->pixels().spread(layer.rgb, layer.draw); });
+    timed([&] { smoothing_->pixels().spread(layer.rgb, layer.draw, is_estimated ? estimate_ : std::vector<float>()); });
   } else if (is_previewed) { // photons of a stage that has no preview of its own
     layer = between(world_.preview.blocks, means(world_.preview.blocks, layer));
   }

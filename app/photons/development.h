@@ -33,8 +33,8 @@ public:
   /// The seconds of all pictures since the program began. They are not part of the run's work.
   double smoothing_seconds() const { return smoothing_seconds_; }
 
-  /// See PhotonJob::smooth.
-  void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate);
+  /// See PhotonJob::set_estimate.
+  void set_estimate(std::vector<float> direct) { estimate_ = std::move(direct); }
 
 private:
   /// A picture without layers, with room for a draw of its error where films have halves.
@@ -55,6 +55,7 @@ private:
   const Preview& preview_;
   std::optional<BlockSmoothing> smoothing_;
   bool smooths_splats_, smooths_paths_;
+  std::vector<float> estimate_; ///< PhotonJob::set_estimate
   double smoothing_seconds_ = 0;
 };
 

@@ -156,12 +156,9 @@ public:
     return true;
   }
 
-  void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) override {
-    development_.smooth(rgb, error_draw, estimate);
-  }
+  void set_estimate(std::vector<float> direct) override { development_.set_estimate(std::move(direct)); }
   void set_white(double white) override { world_.white = white; }
-  std::int64_t batches() const override { return static_cast<std::int64_t>(passes_.photon_batches()); }
-  std::int64_t batches_per_pass() const override { return world_.tables.batches; }
+  double passes() const override { return passes_.with_fraction(); }
 
   void serialize(tracing::Archive& archive) override {
     passes_.state_of_position(archive);

@@ -150,11 +150,11 @@ TEST_F(EnvironmentRefined, AdoptsWithTheBitsOfARunOfItsOwn) {
   }
 }
 
-// Nothing to fall on: spheres and photons have nothing to do, and paths from the eye are the picture.
-TEST_F(EnvironmentRefined, WithoutReceiversThereAreNoPhotons) {
+// Nothing to fall on: the sky is the picture.
+TEST_F(EnvironmentRefined, WithoutReceiversThereAreNoCaustics) {
   preset::Preset p = lit();
   p.scene.objects.pop_back();
-  EXPECT_EQ(plan_of(p).photons->layers, 0);
+  EXPECT_EQ(plan_of(p).photons->layers, 1);
   const job::Snapshot made = run(p);
   EXPECT_EQ(made.progress.step, 2);
   EXPECT_EQ(sum(layer_rgb(made, "caustic")), 0);
