@@ -171,7 +171,6 @@ private:
   void bake() {
     baking_.advance();
     if (!baking_.is_complete()) return;
-    photons_.stay_ahead();
     begin_view();
   }
 

@@ -43,14 +43,12 @@ void JoinedPhotons::begin(const preset::Preset& preset, const scene::Scene& scen
 void JoinedPhotons::end() {
   run_.reset();
   has_planned_ = false;
-  ahead_ = 0;
 }
 
 bool JoinedPhotons::wants_turn(std::int64_t eye_passes, std::int64_t most_eye_passes, std::int64_t most) const {
   if (!run_) return !has_planned_;
-  const auto done = static_cast<double>(eye_passes);
   return complete_passes() < most &&
-         (eye_passes >= most_eye_passes || passes() < std::max((done + 1) / 4, done - 0.75) + ahead_);
+         (eye_passes >= most_eye_passes || passes() < std::max(0.25, static_cast<double>(eye_passes) - 0.75));
 }
 
 void JoinedPhotons::advance(const SceneView& view) {
@@ -80,7 +78,6 @@ std::vector<float> JoinedPhotons::join(std::vector<Renderer::Layer>& layers, std
 
 void JoinedPhotons::serialize(tracing::Archive& archive, const SceneView& view) {
   bool has_run = run_ != nullptr;
-  archive.value(ahead_);
   archive.value(has_run);
   has_planned_ = has_run && has_planned_;
   if (!has_run) return run_.reset();

@@ -33,13 +33,11 @@ public:
   void end();
   bool has_begun() const { return run_ != nullptr; }
 
-  /// Whether the next turn is the photons'. A quarter of a pass of photons comes before each of the renderer's first
-  /// two passes, a whole pass follows each later one. most: of the photons' passes.
+  /// Whether the next turn is the photons'. A quarter of a pass, with its previews, comes before the renderer's first
+  /// two passes, a whole pass before each later one. most: of the photons' passes.
   bool wants_turn(std::int64_t eye_passes, std::int64_t most_eye_passes, std::int64_t most) const;
   /// Does one slice of about 30 ms. The first slice starts the photons for what `view` shows.
   void advance(const SceneView& view);
-  /// Keeps the lead that photons have now over the passes of paths from the eye.
-  void stay_ahead() { ahead_ = run_ ? passes() : 0; }
 
   std::int64_t complete_passes() const { return run_->progress().step; }
   std::uint64_t sent() const { return run_->progress().work; }
@@ -58,7 +56,6 @@ private:
   mpi::RankContext context_;
   std::unique_ptr<photons::PhotonJob> run_; ///< null: there are no photons, or they have not begun
   bool has_planned_ = false;                ///< whether run_ is null because there are none
-  double ahead_ = 0;
 };
 
 } // namespace nephroid::environment
