@@ -51,7 +51,7 @@ inline void describe(preset::Fields& v, Settings& s) {
   v.field("threshold", "A region with no more than this part of the environment's light is no light of its own.",
           s.threshold, {.bounds = within(0, 1)});
   v.field("refine",
-          "Photons join the spheres, and the picture goes on to the truth; false: spheres alone, as in the thesis.",
+          "Photons follow the spheres, and the picture goes on to the truth; false: spheres alone, as in the thesis.",
           s.refine);
   v.field("cast", "Whether caustics fall on surfaces.", s.cast);
   v.field("extinction",

@@ -44,7 +44,7 @@ public:
   void advance() override {
     if (renderer()) renderer()->renew_tree();
     const bool photons_next = wants_photons(),
-               rests = !renderer() || (!photons_next && renderer()->passes() >= most_passes());
+               rests = !renderer() || (!photons_next && renderer()->passes() >= most_eye_passes());
     bakes_next_ = !baking_.is_complete() && (rests || !bakes_next_); // else they take turns
     if (bakes_next_)
       bake_seconds_ += tracing::seconds_of([&] { bake(); });
@@ -149,21 +149,28 @@ private:
 
   double work_seconds() const { return bake_seconds_ + render_seconds_ + photon_seconds_; }
 
-  /// Whether photons join the spheres.
+  /// Whether photons follow the spheres.
   bool refines() const { return view_ && settings(preset_).refine; }
-  bool wants_photons() const { return refines() && photons_.wants_turn(renderer()->passes(), most_passes()); }
+  bool wants_photons() const {
+    return refines() && photons_.wants_turn(renderer()->passes(), most_eye_passes(), most_passes());
+  }
   std::int64_t most_passes() const { return passes_ >= 0 ? passes_ : preset::max_passes; }
+  /// Where photons follow, the renderer has to show no more than what is smooth.
+  std::int64_t most_eye_passes() const {
+    return photons_.has_begun() && !view_->has_medium() ? std::min<std::int64_t>(2, most_passes()) : most_passes();
+  }
 
   /// The passes of the whole picture.
   std::int64_t passes() const {
     if (!renderer()) return 0;
-    return photons_.has_begun() ? std::min(renderer()->passes(), photons_.complete_passes()) : renderer()->passes();
+    if (!photons_.has_begun()) return renderer()->passes();
+    const std::int64_t complete = photons_.complete_passes();
+    return renderer()->passes() < most_eye_passes() ? std::min(renderer()->passes(), complete) : complete;
   }
 
   void bake() {
     baking_.advance();
     if (!baking_.is_complete()) return;
-    photons_.stay_ahead();
     begin_view();
   }
 
@@ -183,7 +190,7 @@ private:
     const auto part = [&](double passes) {
       return passes_ > 0 ? std::min(passes / static_cast<double>(passes_), 1.0) : 0;
     };
-    const double rendered = std::min((part(seen) + part(sent)) / 2, 0.999); // photon maps come last
+    const double rendered = std::min(part(view_->has_medium() ? std::min(seen, sent) : sent), 0.999);
     // A bake is taken to last as long as all passes.
     p.fraction = !baking_.is_complete() ? 0.5 * baking_.fraction_done()
                  : bake_seconds_ > 0    ? 0.5 + 0.5 * rendered
@@ -205,27 +212,24 @@ private:
     if (!renderer()) return "The object is baked first: its caustic spheres, as far as they are";
     if (baking_.is_complete()) return "";
     const std::optional<double> left = baking_.seconds_left();
-    return fmt::format("Photons alone: the caustic spheres of {} join when they are baked, {:.0f} % are{}",
-                       baking_.task().caster.name, 100 * baking_.fraction_done(),
-                       left ? fmt::format("; {:.0f} s left", std::ceil(*left)) : "");
+    return fmt::format(
+        "Photons alone: the caustic spheres of {} show each change at once when they are baked, {:.0f} % are{}",
+        baking_.task().caster.name, 100 * baking_.fraction_done(),
+        left ? fmt::format("; {:.0f} s left", std::ceil(*left)) : "");
   }
 
   std::shared_ptr<const job::Picture> picture() {
     std::vector<Renderer::Layer> layers = renderer()->layers();
-    const Renderer::Layer smooth = std::move(layers[Renderer::smooth]);
+    Renderer::Layer smooth = std::move(layers[Renderer::smooth]);
     layers.erase(layers.begin() + Renderer::smooth);
-    if (refines()) photons_.join(layers, smooth, view_->has_caustics());
     auto picture = std::make_shared<job::Picture>();
     picture->width = width_;
     picture->height = height_;
+    if (refines()) picture->error_draw = photons_.join(layers, std::move(smooth.rgb));
+    if (!estimates_error()) picture->error_draw.clear();
     picture->rgb.resize(layers.front().rgb.size());
-    if (estimates_error() &&
-        std::ranges::none_of(layers, [](const Renderer::Layer& layer) { return layer.draw.empty(); }))
-      picture->error_draw.resize(picture->rgb.size());
     for (Renderer::Layer& layer : layers) {
       std::ranges::transform(picture->rgb, layer.rgb, picture->rgb.begin(), std::plus());
-      if (!picture->error_draw.empty())
-        std::ranges::transform(picture->error_draw, layer.draw, picture->error_draw.begin(), std::plus());
       picture->layers.push_back({layer.name, std::move(layer.rgb)});
     }
     return picture;

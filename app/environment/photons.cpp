@@ -11,7 +11,7 @@
 namespace nephroid::environment {
 namespace {
 
-/// This engine decides when to stop, and mixes photons by their halves.
+/// This engine decides when to stop, and needs halves for smoothing.
 preset::Preset without_stop(preset::Preset preset) {
   preset.stop = {};
   preset.measure.estimate = true;
@@ -22,11 +22,9 @@ preset::Preset without_stop(preset::Preset preset) {
 
 photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) {
   photons::Settings photons;
-  photons.direct = photons.background = false;
   photons.caustic = settings(preset).cast;
-  photons::RunPlan plan = photons::make_plan(without_stop(preset), photons, scene, bvh, {.all = preset.leave_out});
-  plan.has_previews = false; // the spheres make the preview
-  return plan;
+  photons.photons_per_pass = 1 << 17; // only after two passes a draw says how noisy a layer is
+  return photons::make_plan(without_stop(preset), photons, scene, bvh, {.all = preset.leave_out});
 }
 
 std::unique_ptr<photons::PhotonJob> make_photons(const preset::Preset& preset, const scene::Scene& scene,
@@ -45,13 +43,12 @@ void JoinedPhotons::begin(const preset::Preset& preset, const scene::Scene& scen
 void JoinedPhotons::end() {
   run_.reset();
   has_planned_ = false;
-  ahead_ = 0;
 }
 
-bool JoinedPhotons::wants_turn(std::int64_t eye_passes, std::int64_t most) const {
+bool JoinedPhotons::wants_turn(std::int64_t eye_passes, std::int64_t most_eye_passes, std::int64_t most) const {
   if (!run_) return !has_planned_;
-  const auto done = static_cast<double>(eye_passes);
-  return complete_passes() < most && (eye_passes >= most || passes() < std::max((done + 1) / 4, done - 0.75) + ahead_);
+  return complete_passes() < most &&
+         (eye_passes >= most_eye_passes || passes() < std::max(0.25, static_cast<double>(eye_passes) - 0.75));
 }
 
 void JoinedPhotons::advance(const SceneView& view) {
@@ -67,19 +64,20 @@ void JoinedPhotons::set_white(double white) {
   if (run_) run_->set_white(white);
 }
 
-void JoinedPhotons::join(std::vector<Renderer::Layer>& layers, const Renderer::Layer& smooth, bool has_spheres) {
-  Renderer::Layer &direct = layers[Renderer::direct], &caustic = layers[Renderer::caustic];
-  if (direct.draw.empty()) direct.rgb = smooth.rgb;
-  if (!run_ || run_->batches() < 2) return;
-  run_->smooth(direct.rgb, direct.draw, smooth.rgb);
-  run_->set_estimate(has_spheres ? std::move(caustic.rgb) : std::vector<float>());
+std::vector<float> JoinedPhotons::join(std::vector<Renderer::Layer>& layers, std::vector<float> smooth) {
+  if (!run_ || !run_->progress().whole) {
+    layers[Renderer::direct].rgb = std::move(smooth);
+    return {};
+  }
+  run_->set_estimate(std::move(smooth));
   const std::shared_ptr<const job::Picture> sent = run_->snapshot().picture;
-  caustic = {"caustic", sent->layers.front().rgb, sent->error_draw};
+  for (const job::Layer& layer : sent->layers)
+    std::ranges::find(layers, layer.name, &Renderer::Layer::name)->rgb = layer.rgb;
+  return sent->error_draw;
 }
 
 void JoinedPhotons::serialize(tracing::Archive& archive, const SceneView& view) {
   bool has_run = run_ != nullptr;
-  archive.value(ahead_);
   archive.value(has_run);
   has_planned_ = has_run && has_planned_;
   if (!has_run) return run_.reset();

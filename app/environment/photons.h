@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The photons of engine 2: engine 1's, for the layer "caustic" alone.
+// The run of engine 1 that takes the picture over from the spheres: photons, and its own paths from the eye.
 #pragma once
 #include "environment/view/renderer.h"
 #include "mpi/rank_context.h"
@@ -21,7 +21,7 @@ std::unique_ptr<photons::PhotonJob> make_photons(const preset::Preset& preset, c
 
 class SceneView;
 
-/// Photons that join the picture of a renderer, in batches between its passes of paths from the eye.
+/// Photons that join the picture of a renderer, between its passes of paths from the eye.
 class JoinedPhotons {
 public:
   explicit JoinedPhotons(const mpi::RankContext& context) : context_(context) {}
@@ -33,23 +33,22 @@ public:
   void end();
   bool has_begun() const { return run_ != nullptr; }
 
-  /// Whether the next turn is the photons'. A quarter of a pass of photons comes before each of the first two passes of
-  /// paths from the eye, so that both halves of both come soon; a whole pass follows each later one. most: of either.
-  bool wants_turn(std::int64_t eye_passes, std::int64_t most) const;
+  /// Whether the next turn is the photons'. A quarter of a pass, with its previews, comes before the renderer's first
+  /// two passes, a whole pass before each later one. most: of the photons' passes.
+  bool wants_turn(std::int64_t eye_passes, std::int64_t most_eye_passes, std::int64_t most) const;
   /// Does one slice of about 30 ms. The first slice starts the photons for what `view` shows.
   void advance(const SceneView& view);
-  /// Keeps the lead that photons have now over the passes of paths from the eye.
-  void stay_ahead() { ahead_ = run_ ? passes() : 0; }
 
   std::int64_t complete_passes() const { return run_->progress().step; }
   std::uint64_t sent() const { return run_->progress().work; }
   /// Includes the part of the pass in hand.
-  double passes() const { return static_cast<double>(run_->batches()) / static_cast<double>(run_->batches_per_pass()); }
+  double passes() const { return run_->passes(); }
   void set_white(double white);
 
-  /// Mixes the photons' light into the renderer's layers. The caustics are the best mixture of photons and spheres, if
-  /// there are spheres, and no layer keeps the noise of a single sample. smooth: the layer of that name.
-  void join(std::vector<Renderer::Layer>& layers, const Renderer::Layer& smooth, bool has_spheres);
+  /// Puts the run's layers in the place of the renderer's as soon as it has a whole picture, and returns a draw of
+  /// their error (job::Picture::error_draw). smooth: the renderer's layer of that name, the estimate of the layer
+  /// "direct".
+  std::vector<float> join(std::vector<Renderer::Layer>& layers, std::vector<float> smooth);
 
   void serialize(tracing::Archive& archive, const SceneView& view);
 
@@ -57,7 +56,6 @@ private:
   mpi::RankContext context_;
   std::unique_ptr<photons::PhotonJob> run_; ///< null: there are no photons, or they have not begun
   bool has_planned_ = false;                ///< whether run_ is null because there are none
-  double ahead_ = 0;
 };
 
 } // namespace nephroid::environment

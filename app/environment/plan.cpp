@@ -88,9 +88,9 @@ std::vector<plan::Decision> photon_decisions(const Settings& s, const photons::R
   const plan::Decision sent = row("photons");
   if (!sent.runs) return {{"photons", false, s.cast ? sent.reason : "environment.cast is false"}};
   const plan::Decision maps = row("photon maps");
-  return {
-      {"photons", true, sent.reason + ", mixed with what the spheres say as their two halves say is best", field, true},
-      {"photon maps", maps.runs, maps.reason}};
+  return {{"photons", true, sent.reason + ", in the place of the spheres as soon as they have a whole picture", field,
+           true},
+          {"photon maps", maps.runs, maps.reason}};
 }
 
 std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake) {

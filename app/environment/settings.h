@@ -21,7 +21,7 @@ struct Settings {
   int lights = 24;                    ///< q: how many lights the map is cut into
   SegmentMethod segmentation = SegmentMethod::variance;
   double threshold = 1e-7; ///< a region with no more than this part of the map's light is no light
-  bool refine = true;      ///< photons join the spheres
+  bool refine = true;      ///< photons follow the spheres
   bool cast = true;        ///< caustics on surfaces
   enum class Phase { henyey_greenstein, rayleigh };
   double extinction = 0;                  ///< the extinction of the medium around the object, 1 / unit; 0: no medium

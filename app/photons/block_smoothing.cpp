@@ -60,7 +60,7 @@ LayerEstimate BlockSmoothing::pixels_of(const Blocks& blocks, LayerEstimate laye
   return between(blocks, layer);
 }
 
-void BlockSmoothing::spread(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known) {
+void BlockSmoothing::spread(LayerEstimate& caustics) {
   std::size_t chosen = levels_.size() - 1;
   if (first_.edge > 1) {
     const double needed = pixels_needed(first_, means(first_, caustics));
@@ -73,13 +73,13 @@ void BlockSmoothing::spread(LayerEstimate& caustics, const Smoothing::BiasedEsti
   const LayerEstimate& plain = caustics;
   const std::vector<double> light = light_of(plain.rgb),
                             portion = portions(light, plain.draw, first_.width, first_.height);
-  LayerEstimate mixed = spread_in(levels_[chosen], plain, known);
+  LayerEstimate mixed = spread_in(levels_[chosen], plain);
   const auto mix_in = [&](const LayerEstimate& estimate) {
     mix(plain.rgb, plain.draw, {estimate.rgb, estimate.draw}, light, first_.width, first_.height, mixed.rgb,
         mixed.draw);
   };
   for (std::size_t finer = chosen + 1; finer < levels_.size(); ++finer) {
-    LayerEstimate fine = spread_in(levels_[finer], plain, known);
+    LayerEstimate fine = spread_in(levels_[finer], plain);
     // Where few portions fell, or none, their noise is unknown: there nothing supports the finer estimate.
     constexpr double least_portions = 16, around = 15 * 15; // pixels
     const std::vector<double> coarse_light = light_of(mixed.rgb);
@@ -89,13 +89,13 @@ void BlockSmoothing::spread(LayerEstimate& caustics, const Smoothing::BiasedEsti
     mix_in(fine);
   }
   for (std::size_t coarser = chosen; coarser > 0 && levels_[coarser - 1].blocks.edge < first_.edge; --coarser)
-    mix_in(spread_in(levels_[coarser - 1], plain, known));
+    mix_in(spread_in(levels_[coarser - 1], plain));
   caustics = std::move(mixed);
 }
 
-LayerEstimate BlockSmoothing::spread_in(Level& level, LayerEstimate plain, const Smoothing::BiasedEstimate& known) {
+LayerEstimate BlockSmoothing::spread_in(Level& level, LayerEstimate plain) {
   if (level.blocks.edge == 1) {
-    level.smoothing.spread(plain.rgb, plain.draw, known);
+    level.smoothing.spread(plain.rgb, plain.draw);
     return plain;
   }
   LayerEstimate blocks = means(level.blocks, plain);

@@ -26,15 +26,15 @@ public:
   /// Returns a preview's layer, smoothed, by pixel. blocks are the preview's; `layer` has a value for each.
   LayerEstimate pixels_of(const Blocks& blocks, LayerEstimate layer);
   /// Spreads caustics in blocks so large that their noise needs no wide kernels. Then mixes in the results of smaller
-  /// and larger blocks where the halves show a gain (mixture.h). known has a value for each pixel.
-  void spread(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known);
+  /// and larger blocks where the halves show a gain (mixture.h).
+  void spread(LayerEstimate& caustics);
 
 private:
   struct Level {
     Blocks blocks;
     Smoothing smoothing;
   };
-  static LayerEstimate spread_in(Level& level, LayerEstimate plain, const Smoothing::BiasedEstimate& known);
+  static LayerEstimate spread_in(Level& level, LayerEstimate plain);
 
   std::vector<Level> levels_; ///< edges from twice first_preview_edge down to 1, each half of the one before
   Blocks first_;

@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string_view>
 
 namespace nephroid::photons {
 namespace {
-
-/// Values for Smoothing::BiasedEstimate::noise. Shadows in direct light are broader than the fine lines of a caustic.
-constexpr double caustic_noise = 0.05, direct_noise = 0.01;
 
 /// Adds as many values as both have; a sum that is empty stays so.
 void add(const std::vector<float>& more, std::vector<float>& sum) {
@@ -55,13 +53,9 @@ void Development::prepare() {
   if (smoothing_ && smooths_paths_) timed([&] { smoothing_->pixels().find_surfaces(); });
 }
 
-void Development::smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) {
-  if (smoothing_) smoothing_->pixels().spread(rgb, error_draw, {estimate, direct_noise});
-}
-
-void Development::smooth(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known) {
+void Development::smooth(LayerEstimate& caustics) {
   const LayerEstimate plain = smooths_splats_ ? LayerEstimate() : caustics;
-  smoothing_->spread(caustics, known);
+  smoothing_->spread(caustics);
   for (std::size_t i = 0; i < plain.rgb.size(); ++i)
     if (!world_.pixels.may_show_glass[i / 3]) caustics.rgb[i] = plain.rgb[i], caustics.draw[i] = plain.draw[i];
 }
@@ -82,7 +76,7 @@ void Development::share_work() {
   if (draws.empty()) return;
   LayerEstimate splatted{std::move(tracing::layer_of(caustics, "caustic").rgb), std::move(caustics.error_draw)};
   const std::vector<float> plain = splatted.draw;
-  if (smoothing_ && photons > 0) smooth(splatted, {});
+  if (smoothing_ && photons > 0) smooth(splatted);
   tracing::layer_of(picture, "caustic").rgb = std::move(splatted.rgb);
   for (const job::Layer& layer : picture.layers) add(layer.rgb, picture.rgb);
 
@@ -128,9 +122,16 @@ LayerEstimate Development::preview_of(Stage& stage) {
 
 LayerEstimate Development::layer_of(std::size_t s) {
   Stage& stage = *passes_.stages()[s].stage;
+  const bool is_estimated = !estimate_.empty() && passes_.stages()[s].layer == std::string_view("direct");
   const bool whole = passes_.complete() > 0 || passes_.had_turn(s);
   const bool is_previewed = preview_.has_picture() && !passes_.has_halves(s) && (!whole || smoothing_);
   LayerEstimate preview = is_previewed ? preview_of(stage) : LayerEstimate();
+  if (is_estimated && !passes_.has_halves(s)) {
+    if (preview.rgb.empty()) return {estimate_, {}};
+    for (std::size_t i = 0; i < estimate_.size(); ++i)
+      if (!world_.pixels.may_show_glass[i / 3]) preview.rgb[i] = estimate_[i];
+    return preview;
+  }
   if (!preview.rgb.empty() && !whole) return preview;
   job::Picture picture = black();
   stage.develop(passes_.complete(), passes_.had_turn(s), picture);
@@ -140,7 +141,10 @@ LayerEstimate Development::layer_of(std::size_t s) {
       if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = preview.rgb[i];
     layer.draw = std::move(preview.draw);
   } else if (smoothing_ && smooths_paths_ && passes_.has_halves(s)) {
-    timed([&] { smoothing_->pixels().spread(layer.rgb, layer.draw, {}, getenv("NN") ? atof(getenv("NN")) : .25); });
+    timed([&] {
+      smoothing_->pixels().spread(layer.rgb, layer.draw, is_estimated ? estimate_ : std::vector<float>(),
+                                  getenv("NN") ? atof(getenv("NN")) : .25);
+    });
   } else if (is_previewed) { // photons of a stage that has no preview of its own
     layer = between(world_.preview.blocks, means(world_.preview.blocks, layer));
   }
@@ -149,7 +153,6 @@ LayerEstimate Development::layer_of(std::size_t s) {
 
 LayerEstimate Development::caustics() {
   LayerEstimate preview; // of stages that come after all photons of a pass
-  bool lacks_maps = false;
   job::Picture picture = black();
   tracing::layer_of(picture, "caustic");
   for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
@@ -157,18 +160,15 @@ LayerEstimate Development::caustics() {
     if (!timed_stage.caustics()) continue;
     if (!smoothing_ || passes_.has_halves(s)) {
       timed_stage.stage->develop(passes_.complete(), passes_.had_turn(s), picture);
-    } else {
-      lacks_maps = lacks_maps || !timed_stage.stage->samples_pixels();
-      LayerEstimate more = preview_.has_picture() ? preview_of(*timed_stage.stage) : LayerEstimate();
+    } else if (preview_.has_picture()) {
+      LayerEstimate more = preview_of(*timed_stage.stage);
       add(preview.rgb, more.rgb);
       add(preview.draw, more.draw);
       if (!more.rgb.empty()) preview = std::move(more);
     }
   }
   LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
-  for (std::size_t i = 0; lacks_maps && i < estimate_.size(); ++i)
-    if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = estimate_[i], layer.draw[i] = 0;
-  if (smoothing_ && !layer.draw.empty()) timed([&] { smooth(layer, {estimate_, caustic_noise}); });
+  if (smoothing_ && !layer.draw.empty()) timed([&] { smooth(layer); });
   add(preview.rgb, layer.rgb);
   add(preview.draw, layer.draw);
   return layer;

@@ -34,8 +34,7 @@ public:
   double smoothing_seconds() const { return smoothing_seconds_; }
 
   /// See PhotonJob::set_estimate.
-  void set_estimate(std::vector<float> caustics) { estimate_ = std::move(caustics); }
-  void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate);
+  void set_estimate(std::vector<float> direct) { estimate_ = std::move(direct); }
 
 private:
   /// A picture without layers, with room for a draw of its error where films have halves.
@@ -45,7 +44,7 @@ private:
   LayerEstimate preview_of(Stage& stage);
   LayerEstimate layer_of(std::size_t stage);
   LayerEstimate caustics();
-  void smooth(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known);
+  void smooth(LayerEstimate& caustics);
   template <class Work>
   void timed(const Work& work) {
     smoothing_seconds_ += tracing::seconds_of(work);

@@ -33,7 +33,7 @@ PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene&
 }
 
 std::vector<int> edges_of_previews(const RunPlan& plan, const scene::Scene& scene) {
-  if (!plan.has_previews || plan.settings.relight || plan.settings.estimator == Settings::Estimator::sppm) return {};
+  if (plan.settings.relight || plan.settings.estimator == Settings::Estimator::sppm) return {};
   return preview_edges(scene.camera.width, scene.camera.height);
 }
 
@@ -53,7 +53,7 @@ public:
                preset.white.value(), plan.estimates_error ? 2u : 1u},
         preset_(preset), passes_(plan.tables.batches), preview_(world_, edges_of_previews(plan, scene)),
         development_(world_, passes_, preview_, make_smoothing(plan, scene, bvh), !plan.runs(tile_stage),
-                     plan.has_previews && plan.settings.smoothing == Settings::Smoothing::automatic),
+                     plan.settings.smoothing == Settings::Smoothing::automatic),
         shares_work_(plan.settings.effort == Settings::Effort::automatic && !plan.settings.relight &&
                      plan.estimates_error) {
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
@@ -156,13 +156,9 @@ public:
     return true;
   }
 
-  void set_estimate(std::vector<float> caustics) override { development_.set_estimate(std::move(caustics)); }
-  void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) override {
-    development_.smooth(rgb, error_draw, estimate);
-  }
+  void set_estimate(std::vector<float> direct) override { development_.set_estimate(std::move(direct)); }
   void set_white(double white) override { world_.white = white; }
-  std::int64_t batches() const override { return static_cast<std::int64_t>(passes_.photon_batches()); }
-  std::int64_t batches_per_pass() const override { return world_.tables.batches; }
+  double passes() const override { return passes_.with_fraction(); }
 
   void serialize(tracing::Archive& archive) override {
     passes_.state_of_position(archive);

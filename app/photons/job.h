@@ -11,7 +11,6 @@
 #include "tracing/archive.h"
 
 #include <memory>
-#include <span>
 #include <vector>
 
 namespace nephroid::photons {
@@ -19,16 +18,13 @@ namespace nephroid::photons {
 /// A job with additional functions for an engine that has an estimate of its own.
 class PhotonJob : public job::Job {
 public:
-  /// Sets an estimate of the layer "caustic" without noise but with a bias: [pixel][3], over the preset's white. From
-  /// now on it is mixed with what photons show (mixture.h). Empty: there is none.
-  virtual void set_estimate(std::vector<float> caustics) = 0;
-  /// Smooths light on the same surfaces as Smoothing::spread does. Where the run smooths nothing, it changes nothing.
-  virtual void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) = 0;
+  /// Sets an estimate of the layer "direct" that has a bias but no noise: [pixel][3], over the preset's white. It
+  /// stands in for the layer while that has no two halves; then it is mixed with what they show (mixture.h).
+  virtual void set_estimate(std::vector<float> direct) = 0;
   /// Sets the white of all further pictures; an estimate is over the same white.
   virtual void set_white(double white) = 0;
-  /// The complete batches of splatted photons, and the batches of a pass.
-  virtual std::int64_t batches() const = 0;
-  virtual std::int64_t batches_per_pass() const = 0;
+  /// The complete passes and the fraction of the one in hand.
+  virtual double passes() const = 0;
   /// The whole state that save() and load() handle.
   virtual void serialize(tracing::Archive& archive) = 0;
 };

@@ -19,7 +19,6 @@ struct RunPlan : plan::Plan {
   Settings settings;
   RunTables tables;
   std::vector<const RunPart*> parts; ///< parts that run; stages in the order of their turns in a pass
-  bool has_previews = true;          ///< whether a large picture begins with previews
   bool runs(const RunPart& part) const;
 };
 

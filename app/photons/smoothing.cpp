@@ -276,25 +276,6 @@ void spread_shares(const SpreadDomain& at, std::span<const Kernel> kernels, std:
   for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = kept[i / 3][i % 3];
 }
 
-/// Makes each of two pictures means by the kernels: a pixel's value is what it gets, over how much gives to it.
-void to_means(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> even,
-              std::vector<float>& first, std::vector<float>& second) {
-  using Two = std::array<float, 8>; // three of each picture, and how much gives
-  std::vector<Two> given(at.level.size()), got(at.level.size());
-  for (std::size_t i = 0; i < given.size(); ++i)
-    given[i] = {
-        first[3 * i], first[3 * i + 1], first[3 * i + 2], second[3 * i], second[3 * i + 1], second[3 * i + 2], 1};
-  give_parts(
-      at, kernels, even, [](std::size_t) { return true; },
-      [&](std::size_t i, std::size_t j, double part) {
-        for (std::size_t c = 0; c < 8; ++c) got[j][c] += static_cast<float>(part) * given[i][c];
-      });
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    first[i] = got[i / 3][i % 3] / got[i / 3][6];
-    second[i] = got[i / 3][3 + i % 3] / got[i / 3][6];
-  }
-}
-
 } // namespace
 
 std::vector<double> light_of(std::span<const float> rgb) {
@@ -367,7 +348,7 @@ std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
          (sizeof(PixelSurfaces) + sizeof(PixelSight) + sizeof(Level) + pulled_apart) * scene.camera.pixels();
 }
 
-void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, const BiasedEstimate& known,
+void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> known,
                        double noise) {
   if (error_draw.empty()) return;
   find_surfaces();
@@ -391,34 +372,17 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
     spread_shares(at, by, favour, share, picture);
     return picture;
   };
-  std::vector<float> rgb_spread = spread_by(kernels, rgb), draw_spread;
-  if (spread_ == Spread::everywhere) {
-    draw_spread = spread_by(kernels, error_draw);
-  } else {
+  std::vector<float> rgb_spread = spread_by(kernels, rgb);
+  if (spread_ == Spread::where_it_helps) {
     std::vector<float> a = rgb, b = rgb;
     std::ranges::transform(rgb, error_draw, a.begin(), std::plus());
     std::ranges::transform(rgb, error_draw, b.begin(), std::minus());
-    const std::vector<Kernel> of_a = find_kernels(at, light_of(a), wanted, favour),
-                              of_b = find_kernels(at, light_of(b), wanted, favour);
-    share =
-        worthwhile_shares(rgb, error_draw, rgb_spread, spread_by(of_a, a), spread_by(of_b, b), light, width_, height_);
+    share = worthwhile_shares(rgb, error_draw, rgb_spread, spread_by(find_kernels(at, light_of(a), wanted, favour), a),
+                              spread_by(find_kernels(at, light_of(b), wanted, favour), b), light, width_, height_);
     rgb_spread = spread_by(kernels, rgb);
-    if (known.rgb.empty()) {
-      draw_spread = spread_by(kernels, error_draw);
-    } else {
-      draw_spread.resize(error_draw.size());
-      std::ranges::transform(spread_by(of_a, a), spread_by(of_b, b), draw_spread.begin(),
-                             [](float of_one, float of_other) { return (of_one - of_other) / 2; });
-      // The correction of the estimate's bias is spread far, so its draw is what these kernels make of the picture's.
-      for (double& portion : wanted) portion *= noise * noise / (known.noise * known.noise);
-      std::vector<float> evened = rgb, evened_draw = error_draw;
-      std::ranges::transform(rgb, known.rgb, evened.begin(), std::minus());
-      to_means(at, find_kernels(at, light, wanted, even), even, evened, evened_draw);
-      std::ranges::transform(evened, known.rgb, evened.begin(), std::plus());
-      mix(rgb, error_draw, {known.rgb, {}}, light, width_, height_, rgb_spread, draw_spread);
-      mix(rgb, error_draw, {evened, evened_draw}, light, width_, height_, rgb_spread, draw_spread);
-    }
   }
+  std::vector<float> draw_spread = spread_by(kernels, error_draw);
+  if (!known.empty()) mix(rgb, error_draw, {known, {}}, light, width_, height_, rgb_spread, draw_spread);
   add_bias(rgb, error_draw, rgb_spread, draw_spread, width_, height_);
   rgb = std::move(rgb_spread);
   error_draw = std::move(draw_spread);

@@ -31,12 +31,6 @@ public:
   /// holds 1 / noise^2 = 16 grey photons. A smaller value blurs more than it needs to.
   static constexpr double usual_noise = 0.25;
 
-  /// An estimate of the same light without noise, but with a bias.
-  struct BiasedEstimate {
-    std::span<const float> rgb; ///< [pixel][3]; empty: there is none
-    double noise; ///< noise that may remain in the estimate with the correction of its bias, as Smoothing::noise
-  };
-
   /// Copies of a scene, but for its environment, and of its tree.
   struct View {
     scene::Scene scene;
@@ -57,9 +51,9 @@ public:
   /// rgb has the caustics alone, [pixel][3] of the camera's size. error_draw is a draw of their error
   /// (Picture::error_draw), from which the noise of a pixel is known. It becomes that of the result, the bias included.
   /// Values below 0 count as no light when kernels are chosen. Nothing changes where the draw is empty. With `known`,
-  /// each place gets the mixture that the halves show to be best (mixture.h): of the spread light, of the estimate, and
-  /// of the estimate plus the difference to the picture, spread until its noise is known.noise.
-  void spread(std::vector<float>& rgb, std::vector<float>& error_draw, const BiasedEstimate& known = {},
+  /// an estimate of the same light that has a bias but no noise, each place gets the mixture of both that the halves
+  /// show to be best (mixture.h).
+  void spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> known = {},
               double noise = usual_noise);
 
   /// Where a pixel's light may go: a bit for each pixel within reach, nearest first, lowest bit first.

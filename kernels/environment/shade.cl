@@ -16,7 +16,7 @@
 #define LAYER_BACKGROUND 0
 #define LAYER_DIRECT 1
 #define LAYER_CAUSTIC 2
-// Direct light without noise: the environment lights surfaces by its smooth part, with shadows of a few lights.
+// Direct light without noise: the environment lights surfaces as the few lights that it is cut into.
 #define LAYER_SMOOTH 3
 
 // How much a receiver's distance may differ from a flat surface's, as a part of that, and of a texel's width.
@@ -56,13 +56,17 @@ static inline float3 caustic_irradiance(const Receivers* receivers, const Device
   return sum / (weights * distance * distance);
 }
 
-// The environment's irradiance on a surface with the normal n, without shadows: the polynomial of
-// app/environment/segment/irradiance.h. polynomial: factors of 1, x, y, z, xx, yy, zz, xy, yz, zx.
-static inline float3 smooth_irradiance(__global const float4* polynomial, float3 n) {
-  __global const float4* p = polynomial;
-  const float4 sum = p[0] + n.x * p[1] + n.y * p[2] + n.z * p[3] + n.x * n.x * p[4] + n.y * n.y * p[5] +
-                     n.z * n.z * p[6] + n.x * n.y * p[7] + n.y * n.z * p[8] + n.z * n.x * p[9];
-  return max(sum.xyz, 0.0f);
+// The lights that the environment is cut into: each one's unit direction, then its irradiance on a plane that faces it.
+typedef struct {
+  __global const float4* lights;
+  int count;
+} SkyLights;
+
+// Their irradiance on a surface with the normal n, without shadows.
+static inline float3 smooth_irradiance(const SkyLights* sky, float3 n) {
+  float3 sum = (float3)(0.0f);
+  for (int l = 0; l < sky->count; ++l) sum += fmax(dot(n, sky->lights[2 * l].xyz), 0.0f) * sky->lights[2 * l + 1].xyz;
+  return sum;
 }
 
 // What a reflector sends back of light of a colour, linear sRGB. reflected_rgb: [reflector][primary].
@@ -75,9 +79,8 @@ static inline float3 reflected_colour(__global const float4* reflected_rgb, int 
 // the part `seen` of the environment's light. lit_rgb: [row of the lights' tables][reflector]. sequence: which numbers
 // draw places in the environment; a pass takes one.
 static inline float3 direct_radiance(const World* world, const DeviceEnd* end, __global const float4* lit_rgb,
-                                     __global const float4* reflected_rgb, __global const float4* irradiance,
-                                     float power_unit, uint2 seed, uint pass, uint sequence, float3 seen,
-                                     float3* smooth) {
+                                     __global const float4* reflected_rgb, const SkyLights* sky, float power_unit,
+                                     uint2 seed, uint pass, uint sequence, float3 seen, float3* smooth) {
   const int reflector = as_int(end->shading.w);
   const uint primitive = as_uint(end->geometric.w);
   Surface surface;
@@ -91,7 +94,7 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
   for (int l = 0; l < world->scene.light_count; ++l) {
     __global const float4* row = lit_rgb + l * world->scene.reflector_count + reflector;
     if (is_of_environment(world, l)) {
-      sum += reflected_colour(reflected_rgb, reflector, seen * smooth_irradiance(irradiance, surface.shading));
+      sum += reflected_colour(reflected_rgb, reflector, seen * smooth_irradiance(sky, surface.shading));
 #if !NEPHROID_COARSE
       const float3 rgb = power_unit * sky_irradiance(world, l, &path, &surface, primitive, seed, pass, 1u, sequence);
       sampled += rgb.x * row[0].xyz + rgb.y * row[world->scene.reflector_count].xyz +
@@ -111,14 +114,15 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
 // Adds to the sums of each block's pixels, or begins them anew. sums: [layer][pixel][3].
 __kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global const float* texels,
                     DeviceBackground texels_size, float radiance, __global const float4* lit_rgb,
-                    __global const float4* reflected_rgb, __global const float4* irradiance, float power_unit,
-                    float4 middle, int size, __global const float* distances, __global const float* caustics,
-                    __global const float* parts_seen, __global float* sums, int width, int height, uint2 seed,
-                    uint pass, int block, int anew, uint first, uint count) {
+                    __global const float4* reflected_rgb, __global const float4* sky_lights, int sky_light_count,
+                    float power_unit, float4 middle, int size, __global const float* distances,
+                    __global const float* caustics, __global const float* parts_seen, __global float* sums, int width,
+                    int height, uint2 seed, uint pass, int block, int anew, uint first, uint count) {
   const World world = WORLD;
   const uint index = work_item();
   if (index >= count) return;
   const Background background = {texels, 0, texels_size};
+  const SkyLights sky_in_lights = {sky_lights, sky_light_count};
   const Receivers receivers = {middle, size, distances, caustics, parts_seen};
   const uint item = first + index;
   const int columns = (width + block - 1) / block, column = (int)item % columns * block,
@@ -136,8 +140,9 @@ __kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global co
     if (end.throughput.w != (float)END_SURFACE) continue;
     float3 smooth, seen;
     const float3 caustic = caustic_irradiance(&receivers, &end, &seen);
-    layers[LAYER_DIRECT] += throughput * direct_radiance(&world, &end, lit_rgb, reflected_rgb, irradiance, power_unit,
-                                                         seed, pass, pixel * ENDS_OF_PIXEL + i, seen, &smooth);
+    layers[LAYER_DIRECT] +=
+        throughput * direct_radiance(&world, &end, lit_rgb, reflected_rgb, &sky_in_lights, power_unit, seed, pass,
+                                     pixel * ENDS_OF_PIXEL + i, seen, &smooth);
     layers[LAYER_SMOOTH] += throughput * smooth;
     layers[LAYER_CAUSTIC] += throughput * reflected_colour(reflected_rgb, as_int(end.shading.w), caustic) / PI_F;
   }

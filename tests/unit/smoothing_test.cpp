@@ -299,27 +299,13 @@ TEST_F(Smoothing, spreads_coloured_photons_as_far_as_their_noise_asks) {
   EXPECT_LT(spread_of(true), 0.6 * spread_of(false));
 }
 
-// Pixels of 100 photons are not spread for themselves. What is known is as wrong as they are noisy, and only both
-// together tell how much.
-TEST_F(Smoothing, finds_what_is_lacking_in_what_is_known) {
-  photons::Smoothing mixing = smoothing_of(scene, bvh, photons::Smoothing::Spread::where_it_helps);
-  constexpr double density = 100;
-  Photons photons = scatter([](int, int) { return density; }, 5);
-  const double power = sum(photons.rgb), noise = moments(photons.rgb, 0, size, 0).variance;
-  const std::vector<float> known(photons.rgb.size(), static_cast<float>(1.1 * density));
-  mixing.spread(photons.rgb, photons.error_draw, {known, 0.01});
-  EXPECT_NEAR(sum(photons.rgb), power, 0.01 * power);
-  const Moments after = moments(photons.rgb, 0, size, 0);
-  EXPECT_LT(after.variance + std::pow(after.mean - density, 2), 0.1 * noise);
-}
-
 // What hardly is noisy is neither left in the blocks of a preview, nor as noisy as it came where it is even.
 TEST_F(Smoothing, in_blocks_keeps_what_a_pixel_shows_and_evens_what_is_even) {
   const auto is_glint = [](int x, int y) { return x % 12 == 5 && y % 12 == 5; };
   Photons photons = scatter([&](int x, int y) { return is_glint(x, y) && x < size / 2 ? 40000. : 400.; }, 9);
   photons::BlockSmoothing blocks(scene, bvh, photons::Smoothing::Spread::where_it_helps, 8);
   photons::LayerEstimate layer{photons.rgb, photons.error_draw};
-  blocks.spread(layer, {});
+  blocks.spread(layer);
   int glints = 0;
   double noise2 = 0, noise2_before = 0;
   for (int y = 0; y < size; ++y)

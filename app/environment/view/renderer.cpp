@@ -25,7 +25,7 @@ int coarse_side(int side) { return std::max(side / 4, 8); }
 
 std::uint64_t Renderer::bytes_a_pixel(const RenderTask& task) {
   return ends_of_pixel(task) * sizeof(shared::DeviceEnd) +
-         std::uint64_t{6} * sizeof(float) * (layer_names.size() + (task.has_medium ? 1 : 0));
+         std::uint64_t{3} * sizeof(float) * (layer_names.size() + (task.has_medium ? 1 : 0));
 }
 
 std::uint64_t Renderer::receiver_bytes() {
@@ -42,20 +42,16 @@ Renderer::Renderer(RenderTask task, double white, std::uint64_t seed, const mpi:
       channel_cdf_(compute::Buffer(context, "wavelengths of channels", channel_cdf())),
       lit_rgb_(compute::Buffer(context, "colours of lit surfaces", lit_colours(task_.tables.wavelengths))),
       reflected_rgb_(compute::Buffer(context, "colours of surfaces", reflected_primaries(task_.tables.wavelengths))),
-      moments_(irradiance_moments(task_.cube)),
-      irradiance_(context, "irradiance", std::tuple_size_v<IrradiancePolynomial>),
       texels_(compute::Buffer(context, "environment", backdrop(*task_.scene).rgb)),
       texels_size_(tracing::picture_size(backdrop(*task_.scene))),
       ends_(context, "ends of paths", ends_of_pixel(task_) * static_cast<std::size_t>(pixels())),
+      sums_(context, "picture", 3 * layer_names.size() * static_cast<std::size_t>(pixels())),
       coarse_(context, coarse_receivers), fine_(context, fine_receivers), see_slices_(pixels(), 8192),
       shade_slices_(pixels(), 8192), volume_slices_(pixels(), 8192) {
-  for (compute::Buffer<float>& sums : sums_)
-    sums = compute::Buffer<float>(context, "picture", 3 * layer_names.size() * static_cast<std::size_t>(pixels()));
   make_occlusion();
   make_kernels();
   if (task_.has_medium) {
-    for (compute::Buffer<float>& sums : volume_sums_)
-      sums = compute::zeroed<float>(context, "light in the air", 3 * static_cast<std::size_t>(pixels()));
+    volume_sums_ = compute::zeroed<float>(context, "light in the air", 3 * static_cast<std::size_t>(pixels()));
     around_.emplace(context, coarse_receivers);
   }
   if (task_.has_surroundings) make_surroundings();
@@ -109,10 +105,6 @@ void Renderer::light_up() {
       surroundings_ ? seen_lights(task_.lamps, surroundings_->world, task_.surface_points) : task_.lamps;
   lights.insert(lights.end(), lamps.begin(), lamps.end());
   if (caustics_) caustics_->set_lights(lights, task_.placement.turn);
-  std::vector<shared::float4> polynomial;
-  for (const glm::dvec3& factor : irradiance_polynomial(moments_, rotate_deg_))
-    polynomial.push_back(tracing::to_float4(factor));
-  irradiance_.write(polynomial);
   air_side_ = 0;
   coarse_.forget(); // drops what other cameras have seen
   fine_.forget();
@@ -220,7 +212,7 @@ void Renderer::see(Receivers& receivers, int block, std::uint32_t first, std::ui
 
 void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first, std::uint32_t count) {
   const scene::Environment& sky = backdrop(*task_.scene);
-  const int anew = pass_ < 2 ? 1 : 0;
+  const int anew = pass_ == 0 ? 1 : 0;
   world_.run(block == 1 ? shade_ : coarse_shade_, count, 32,
              {{"ends", ends_},
               {"texels", texels_},
@@ -228,14 +220,15 @@ void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first,
               {"radiance", static_cast<float>(sky.radiance)},
               {"lit_rgb", lit_rgb_},
               {"reflected_rgb", reflected_rgb_},
-              {"irradiance", irradiance_},
+              {"sky_lights", sky_lights_},
+              {"sky_light_count", static_cast<int>(sky_lights_.size() / 2)},
               {"power_unit", static_cast<float>(task_.tables.power_unit)},
               {"middle", tracing::to_float4(task_.placement.middle)},
               {"size", receivers.size()},
               {"distances", receivers.distances()},
               {"caustics", receivers.caustics()},
               {"parts_seen", receivers.parts_seen()},
-              {"sums", sums_[half()]},
+              {"sums", sums_},
               {"width", task_.tables.camera.width},
               {"height", task_.tables.camera.height},
               {"seed", world_.seed},
@@ -249,7 +242,7 @@ void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first,
 void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count) {
   const Caustics::Air& air = caustics_->air();
   const Settings& s = task_.settings;
-  const int anew = pass_ < 2 ? 1 : 0;
+  const int anew = pass_ == 0 ? 1 : 0;
   world_.run(volume_, count, 32,
              {{"air", air.light},
               {"radii", caustics_->radii()},
@@ -265,7 +258,7 @@ void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count) {
               {"albedo", static_cast<float>(s.albedo)},
               {"rayleigh", static_cast<int>(s.phase == Settings::Phase::rayleigh)},
               {"anisotropy", static_cast<float>(s.anisotropy)},
-              {"sums", volume_sums_[half()]},
+              {"sums", volume_sums_},
               {"seed", world_.seed},
               {"pass", static_cast<std::uint32_t>(pass_)},
               {"block", block},
@@ -277,27 +270,16 @@ void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count) {
 std::vector<Renderer::Layer> Renderer::layers() const {
   const std::size_t values = 3 * static_cast<std::size_t>(pixels());
   const Communicator& communicator = context_.communicator();
-  const auto layer = [&](const char* name, const std::array<compute::Buffer<float>, 2>& sums, std::size_t first,
-                         std::size_t ahead) {
-    std::array<std::vector<float>, 2> halves{std::vector<float>(values), std::vector<float>(values)};
-    for (const std::size_t h : {0, 1})
-      if (pass_ > 0 || h == 0) {
-        sums[h].RawBuffer::read(halves[h].data(), values * sizeof(float), first * sizeof(float));
-        own_pixels().clear_others(std::span(halves[h]), 3);
-        communicator.all_reduce_or(std::as_writable_bytes(std::span(halves[h])));
-      }
-    Layer result{name, std::vector<float>(values), std::vector<float>(pass_ >= 2 ? values : 0)};
+  const auto layer = [&](const char* name, const compute::Buffer<float>& sums, std::size_t first, std::size_t ahead) {
+    Layer result{name, std::vector<float>(values)};
+    sums.RawBuffer::read(result.rgb.data(), values * sizeof(float), first * sizeof(float));
+    own_pixels().clear_others(std::span(result.rgb), 3);
+    communicator.all_reduce_or(std::as_writable_bytes(std::span(result.rgb)));
     for_ranges(values, 1 << 14, [&](std::size_t, const Range& range) {
       for (std::size_t i = range.begin; i < range.end; ++i) {
-        std::array<std::int64_t, 2> passes{(pass_ + 1) / 2, pass_ / 2};
         // The first `ahead` pixels have the pass in hand as well. The coarse picture is one sample.
-        if (i < 3 * ahead || pass_ == 0) passes[half()] = pass_ / 2 + 1;
-        const std::array<double, 2> samples{static_cast<double>(passes[0]), static_cast<double>(passes[1])};
-        const double count = samples[0] + samples[1], a = halves[0][i], b = samples[1] > 0 ? halves[1][i] : 0;
-        result.rgb[i] = static_cast<float>((a + b) / (white_ * count));
-        if (pass_ >= 2)
-          result.draw[i] = static_cast<float>((a / samples[0] - b / samples[1]) * std::sqrt(samples[0] * samples[1]) /
-                                              (white_ * count));
+        const auto samples = static_cast<double>(pass_ + (i < 3 * ahead || pass_ == 0 ? 1 : 0));
+        result.rgb[i] = static_cast<float>(result.rgb[i] / (white_ * samples));
       }
     });
     return result;
@@ -368,10 +350,8 @@ void Renderer::serialize(tracing::Archive& archive) {
   archive.value(shaded_);
   shade_slices_.serialize(archive);
   volume_slices_.serialize(archive);
-  for (const std::size_t half : {0, 1}) {
-    archive.owned(sums_[half], own_pixels(), 3);
-    if (task_.has_medium) archive.owned(volume_sums_[half], own_pixels(), 3);
-  }
+  archive.owned(sums_, own_pixels(), 3);
+  if (task_.has_medium) archive.owned(volume_sums_, own_pixels(), 3);
   if (!archive.is_read()) return;
   // The ends of the pass in hand are found again. Pixels that are already shaded are not shaded again.
   stage_ = shaded_ ? Stage::compile_air : Stage::see;

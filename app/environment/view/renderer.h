@@ -4,7 +4,6 @@
 #pragma once
 #include "environment/light/caustics.h"
 #include "environment/occlusion/occlusion.h"
-#include "environment/segment/irradiance.h"
 #include "environment/view/receivers.h"
 #include "environment/view/render_task.h"
 #include "job/job.h"
@@ -43,7 +42,6 @@ public:
   struct Layer {
     const char* name = "";
     std::vector<float> rgb;
-    std::vector<float> draw; ///< a draw of its error, as job::Picture::error_draw; empty before two passes
   };
   /// Places in layers(). smooth: direct without noise, with the shadows of a few lights. volume: only in a medium.
   enum : std::size_t { background, direct, caustic, smooth, volume };
@@ -84,7 +82,6 @@ private:
   void compile_air(int side);
   bool cast(Receivers& receivers); ///< as Receivers::cast
   bool scatters() const { return task_.has_medium && caustics_; }
-  std::size_t half() const { return static_cast<std::size_t>(pass_ % 2); } ///< the half that the pass in hand adds to
   std::int64_t pixels() const { return std::int64_t{task_.tables.camera.width} * task_.tables.camera.height; }
   Partition own_pixels() const { return {context_.communicator(), pixels()}; }
 
@@ -98,14 +95,12 @@ private:
   compute::Kernel see_, shadows_, shade_, coarse_shade_, volume_;
   compute::Buffer<float> channel_cdf_;
   compute::Buffer<shared::float4> lit_rgb_, reflected_rgb_;
-  IrradianceMoments moments_; ///< the task's cube's
-  compute::Buffer<shared::float4> irradiance_;
-  compute::Buffer<shared::float4> sky_lights_; ///< the segmentation's, as shadows.cl has them
+  compute::Buffer<shared::float4> sky_lights_; ///< the segmentation's, as shade.cl has them
   compute::Buffer<float> texels_;
   shared::DeviceBackground texels_size_{};
   compute::Buffer<shared::DeviceEnd> ends_;
-  std::array<compute::Buffer<float>, 2> sums_;        ///< [half][layer][pixel][3]
-  std::array<compute::Buffer<float>, 2> volume_sums_; ///< [half][pixel][3]
+  compute::Buffer<float> sums_;        ///< [layer][pixel][3]
+  compute::Buffer<float> volume_sums_; ///< [pixel][3]
   Caustics* caustics_ = nullptr;
   Receivers coarse_, fine_;
   std::optional<Receivers> around_; ///< known in all directions, for what hides the medium
