@@ -77,13 +77,11 @@ inline void describe(preset::Fields& v, Settings& s) {
   v.field("estimator", "How caustics are estimated.", s.estimator);
   v.field("effort", "How the work is divided among the clusters.", s.effort);
   v.field("importance", "How much a wavelength matters, where `effort` asks for it.", s.importance);
-  v.field(
-      "jitter",
-      "Each path takes one wavelength of its cluster, so that clusters leave no bias; with photon maps those of a pass "
-      "share few.",
-      s.jitter);
+  v.field("jitter",
+          "Each path takes one wavelength of its cluster, so that clusters leave no bias, and splats are stretched "
+          "along the wavelength; with photon maps the paths of a pass share few.",
+          s.jitter);
   v.field("low_discrepancy", "Photons leave the lights by a scrambled Sobol sequence.", s.low_discrepancy);
-  v.field("differentials", "A splat is stretched along the way that it moves with wavelength.", s.differentials);
   v.field(
       "smoothing",
       "Spread caustics over up to 6 pixels around, or blocks of pixels, until their noise is a quarter of them. Needs "

@@ -108,16 +108,16 @@ plan::Decision differentials_decision(const PlanInput& input) {
   const char* const name = "differentials";
   if (input.settings.relight) return not_in_layers(name, "a layer is a whole cluster's");
   const bool tiles = input.settings.estimator == Settings::Estimator::tiles;
-  if (!input.settings.differentials && !tiles) return not_asked_for(name, name);
   if (!input.caustics.runs || input.is_sppm()) return {name, false, "nothing is splatted"};
   const tracing::StretchParameter along = tracing::stretch_parameter(input.scene);
   if (along == tracing::StretchParameter::none)
     return {name, false, "no glass bends one wavelength otherwise than another"};
+  if (!input.settings.jitter && !tiles)
+    return {name, false, "spectral.jitter is false: a cluster goes one way", "/spectral/jitter", true};
   return {name, true,
           fmt::format("splats are {} along the way that they move with the {}", tiles ? "swept" : "stretched",
                       along == tracing::StretchParameter::index ? "index of refraction"
-                                                                : "wavelength, for there are several curves"),
-          tiles ? "" : "/spectral/differentials", true};
+                                                                : "wavelength, for there are several curves")};
 }
 
 /// How the photons of caustics are sent, whichever stage splats or gathers them.

@@ -34,7 +34,6 @@ struct Settings {
   bool jitter = true; ///< each path takes one wavelength of its cluster (with maps: one that its pass shares), so
                       ///< clusters leave no bias
   bool low_discrepancy = true; ///< photons leave the lights by a scrambled Sobol sequence
-  bool differentials = false;  ///< stretches a splat along the way that it moves with wavelength
   Smoothing smoothing = Smoothing::automatic;
   bool relight = false; ///< keeps a layer for each cluster, so that a light's spectrum can change without a new run
   int photons_per_pass = 1 << 18; ///< photons sent towards the caustic objects in one pass; sppm: for each cluster

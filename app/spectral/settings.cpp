@@ -41,7 +41,6 @@ void check_relight(const preset::Preset& preset, const photons::Settings& spectr
   refuse(spectral.effort != photons::Settings::Effort::automatic && spectral.effort != photons::Settings::Effort::power,
          "effort",
          "half of the photons go by the present light's power, and half to every cluster alike for lights to come");
-  refuse(spectral.differentials, "differentials", "a layer is a whole cluster's");
   refuse(spectral.indirect, "indirect", "its light met several reflectors");
   if (preset.scene.environment && preset.scene.environment->lights)
     throw bad_input(where("/scene/environment/lights"),

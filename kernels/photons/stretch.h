@@ -10,12 +10,13 @@
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
 
-// The most splats of a photon, and the length in pixels below which it stays one.
+// The most splats of a photon, and the length in pixels below which it stays a point of its own wavelength.
 #define STRETCH_SPLATS 16
 #define STRETCH_SHORTEST 0.1f
-// The largest angle, in radians, between the last directions of a streak for which D' predicts them. A rainbow of
-// streaks some three times as wide is off by 3 % (docs/notebook/differentials.md). It excludes the critical angle, too.
-#define STRETCH_WIDEST 0.01f
+// The largest angle, in radians, between the last directions of a streak for which D' predicts them. It excludes the
+// critical angle, too. Clusters of the default threshold, 0.05 degrees, stay well below: photons of one that is about
+// as wide disagree whether it can be stretched, which puts its light wrong (docs/notebook/differentials.md).
+#define STRETCH_WIDEST 0.03f
 
 // How a photon is splatted: `count` splats, of its whole cluster's light or its band's, each at its wavelength's place.
 typedef struct {
@@ -65,13 +66,9 @@ static inline bool surface_beside(const World* world, const PhotonEnd* end, floa
   return surface->object == end->surface.object && dot(surface->geometric, end->surface.geometric) > 0.7f;
 }
 
-// Whether light whose s is larger by x reaches the receiver. *film_place: in pixels. *beside: in another triangle.
-static inline bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
-                               float x, float2* film_place, bool* beside) {
-  float3 place;
-  if (!stretched_place(path, &end->surface, x, &place)) return false;
-  float depth;
-  *film_place = place_on_film(camera, place, &depth);
+// Whether a place on the tangent plane is on the receiver. *beside: in another triangle.
+static inline bool is_on_receiver(const World* world, const PhotonEnd* end, const Path* path, float3 place,
+                                  bool* beside) {
   if (is_in_triangle(&world->geometry, end->triangle, place)) return true;
   *beside = true;
   Surface surface;
@@ -84,14 +81,15 @@ static inline bool stretch_end(const World* world, const DeviceCamera* camera, c
 static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
                                 float low, float high, float shortest, float widest, Stretch* stretch) {
   if (!(fabs(high - low) * length(path->differential.direction) <= widest)) return false;
-  float2 first, last = (float2)(0.0f);
-  for (int i = 0; i < 2; ++i) { // a loop, for one copy of the code
-    first = last;
-    if (!stretch_end(world, camera, end, path, i == 0 ? low : high, &last, &stretch->beside)) return false;
-  }
-  const float pixels = distance(first, last);
-  if (!(pixels < shortest))
-    stretch->count = pixels < STRETCH_SPLATS - 1 ? 1 + (int)ceil(pixels) : STRETCH_SPLATS;
+  float3 first, last;
+  if (!stretched_place(path, &end->surface, low, &first) || !stretched_place(path, &end->surface, high, &last))
+    return false;
+  float depth;
+  const float pixels = distance(place_on_film(camera, first, &depth), place_on_film(camera, last, &depth));
+  if (pixels < shortest) return true;
+  for (int i = 0; i < 2; ++i) // a loop, for one copy of the code
+    if (!is_on_receiver(world, end, path, i == 0 ? first : last, &stretch->beside)) return false;
+  stretch->count = pixels < STRETCH_SPLATS - 1 ? 1 + (int)ceil(pixels) : STRETCH_SPLATS;
   return true;
 }
 
@@ -148,18 +146,13 @@ COMPILED_ONCE bool strand_of(const World* world, const PhotonEnd* end, const Pat
   strand->triangle = end->triangle;
   strand->xyz = end->xyz;
 #if NEPHROID_DIFFERENTIALS
-  const int reflector = material_of(world, end->surface.object).reflector;
-  if (stretch->count == 1) {
-    const Band whole = whole_cluster(band->cluster);
-    if (stretch->whole && band->wavelength >= 0)
-      strand->xyz = carried_light(world, &path->losses, source, &whole, reflector).xyz;
-    return true;
-  }
+  if (stretch->count == 1) return true;
   float turned = u + (float)i / (float)stretch->count;
   turned = turned < 1.0f ? turned : turned - 1.0f;
   float x;
   if (stretch->whole) {
     const Band wavelength = stretched_band(world, source.light, band, turned, &x);
+    const int reflector = material_of(world, end->surface.object).reflector;
     strand->xyz = carried_light(world, &path->losses, source, &wavelength, reflector).xyz;
   } else
     x = place_in_tent(world, band->wavelength, turned, stretch_origin(world, band));

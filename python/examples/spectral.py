@@ -40,8 +40,7 @@ def caustic(preset: nephroid.Preset) -> NDArray[np.float32]:
 reference = caustic(scene.with_values({"spectral.method": "brute_force", "spectral.step_nm": 1}))
 # By default each path has a wavelength of its own, drawn from its cluster, so that no threshold is wrong. In the
 # thesis, as here, one stands for all.
-thesis = {"spectral.jitter": False, "spectral.differentials": False}
-pictures = {t: caustic(scene.with_values({"spectral.threshold_deg": t, **thesis})) for t in thresholds}
+pictures = {t: caustic(scene.with_values({"spectral.threshold_deg": t, "spectral.jitter": False})) for t in thresholds}
 
 # %% Errors: of the picture's light, in the mean square.
 figure, axes = plt.subplots(1, len(thresholds) + 1, figsize=(12, 2.8), constrained_layout=True)

@@ -99,9 +99,9 @@ def smoothing(s, name):
 def grazing_rainbow(s, name):
     """401 lines, 32 clusters, the same clusters stretched: as many photons each."""
     ways = {
-        "lines": ["spectral.method=brute_force", "spectral.differentials=false"],
-        "clusters": ["spectral.jitter=false", "spectral.differentials=false"],
-        "stretched": ["spectral.differentials=true"],
+        "lines": ["spectral.method=brute_force", "spectral.jitter=false"],
+        "clusters": ["spectral.jitter=false"],
+        "stretched": [],
     }
     s.keep(
         name,

@@ -205,11 +205,10 @@ BEYOND_SCENES = {"spectral/thesis/bunny": 12, "spectral/prism": 8, "spectral/bal
 def beyond(e):
     """Each of what goes beyond the thesis, with and without, at equal time."""
     base = {"estimator": "automatic", "jitter": False, "low_discrepancy": False, "effort": "power",
-            "differentials": False, "smoothing": "off"}
-    steps = {"clusters alone": base, "jitter": base | {"jitter": True},
+            "smoothing": "off"}
+    steps = {"clusters alone": base, "jitter, stretched": base | {"jitter": True},
              "low discrepancy": base | {"low_discrepancy": True},
-             "variance": base | {"effort": "variance"}, "differentials": base | {"differentials": True},
-             "smoothing": base | {"smoothing": "on"},
+             "variance": base | {"effort": "variance"}, "smoothing": base | {"smoothing": "on"},
              "jitter, low discrepancy, variance": base | PLAIN,
              "jitter, low discrepancy, variance, smoothing": base | OURS}
     for preset, seconds in BEYOND_SCENES.items():

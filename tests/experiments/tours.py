@@ -2,7 +2,7 @@
 """How pictures.py makes each picture of docs/tours, from the presets and files that stand in the tours themselves."""
 
 GLASS = "scene.materials.glass.dispersion"
-STRIPES = ["spectral.differentials=false", "spectral.threshold_deg=1"]
+STRIPES = ["spectral.threshold_deg=1"]
 NEWTON = ["scene.camera.target=[9.3,0,0]", "scene.camera.fov_deg=30"]
 
 

@@ -142,7 +142,6 @@ preset::Preset room() {
   p.scene.lights.resize(1);
   p.scene.lights[0].position = {0, 6, 0};
   spectral::settings(p).method = photons::Settings::Method::brute_force;
-  spectral::settings(p).differentials = true;
   return p;
 }
 

@@ -16,7 +16,7 @@ using Method = photons::Settings::Method;
 preset::Preset one_by_one(preset::Preset p) {
   spectral::settings(p).method = Method::brute_force;
   spectral::settings(p).effort = Effort::equal;
-  spectral::settings(p).jitter = spectral::settings(p).differentials = spectral::settings(p).low_discrepancy = false;
+  spectral::settings(p).jitter = spectral::settings(p).low_discrepancy = false;
   p.seed = 1000;
   return p;
 }
@@ -46,17 +46,16 @@ Outcome clusters_and_colour(const preset::Preset& p, double clusters) {
 }
 
 /// n is 1.5 and 1.9 in turn, from nanometre to nanometre.
-preset::Preset battlements(bool differentials) {
+preset::Preset battlements() {
   preset::Preset p = caustic_of_ball();
   preset::Dispersion& d = p.scene.materials["glass"].dispersion;
   d.type = preset::Dispersion::Type::table;
   for (int nm = 380; nm <= 780; ++nm) d.table.push_back({double(nm), nm % 2 == 0 ? 1.5 : 1.9});
-  spectral::settings(p).differentials = differentials;
   return p;
 }
 
 /// Control points that fall from 1.9 to 1.5 by ten steps, each within a nanometre.
-preset::Preset stairs(bool differentials) {
+preset::Preset stairs() {
   preset::Preset p = caustic_of_ball();
   preset::Dispersion& d = p.scene.materials["glass"].dispersion;
   d.type = preset::Dispersion::Type::points;
@@ -64,7 +63,6 @@ preset::Preset stairs(bool differentials) {
     d.table.push_back({380 + 40.0 * i, 1.9 - 0.04 * i});
     d.table.push_back({419 + 40.0 * i, 1.9 - 0.04 * i});
   }
-  spectral::settings(p).differentials = differentials;
   return p;
 }
 
@@ -118,10 +116,8 @@ preset::Preset entering_at_grazing_incidence() {
   return p;
 }
 
-Outcome stretched_is_the_same(preset::Preset p) {
-  const std::vector<Estimate> points = colour_by_passes(one_by_one(p));
-  spectral::settings(p).differentials = true;
-  return same_colour(colour_by_passes(p), points);
+Outcome stretched_is_the_same(const preset::Preset& p) {
+  return same_colour(colour_by_passes(p), colour_by_passes(one_by_one(p)));
 }
 
 /// Many lamps in one place that have the power of one together.
@@ -163,15 +159,11 @@ const std::vector<Extreme> extremes = {
     {"Battlements", "n(lambda) 1.5 and 1.9 in turn, from nanometre to nanometre",
      "the same, of that glass; two clusters and the jump between",
      [] {
-       const preset::Preset p = battlements(false);
-       return both(exactly(static_cast<double>(clusters_of(p)), 3),
-                   same_colour(colour_by_passes(p), colour_by_passes(one_by_one(p))));
+       const preset::Preset p = battlements();
+       return both(exactly(static_cast<double>(clusters_of(p)), 3), stretched_is_the_same(p));
      }},
-    {"BattlementsStretched", "that with differentials", "the same",
-     [] { return stretched_is_the_same(battlements(true)); }},
     {"Stairs", "control points that make ten stairs", "the same, of that glass",
-     [] { return same_colour(colour_by_passes(stairs(false)), colour_by_passes(one_by_one(stairs(false)))); }},
-    {"StairsStretched", "that with differentials", "the same", [] { return stretched_is_the_same(stairs(true)); }},
+     [] { return stretched_is_the_same(stairs()); }},
     {"EqualOfOne", "effort equal, one cluster", "401 wavelengths one by one",
      [] { return is_the_ball(in_clusters(89.9, Effort::equal)); }},
     {"ImportanceOfOne", "effort importance, one cluster", "the same",

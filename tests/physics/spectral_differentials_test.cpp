@@ -171,8 +171,9 @@ double mean_error(const Columns& figure, const Columns& truth) {
 
 TEST(SpectralDifferentials, CloseTheGapsBetweenTheLinesOfARainbow) {
   Newton newton;
+  spectral::settings(newton.preset()).jitter = false;
   const Columns lines = newton.rendered(render(newton.preset()));
-  spectral::settings(newton.preset()).differentials = true;
+  spectral::settings(newton.preset()).jitter = true;
   const Columns band = newton.rendered(render(newton.preset())), truth = newton.truth();
   record("columns without light: lines", dark(lines), 0, 1);
   record("columns without light: stretched", dark(band), 0, 0);
@@ -187,7 +188,6 @@ TEST(SpectralDifferentials, CloseTheGapsBetweenTheLinesOfARainbow) {
 
 TEST(SpectralDifferentials, PutEachWavelengthWhereSnellPutsIt) {
   Newton newton;
-  spectral::settings(newton.preset()).differentials = true;
   spectral::settings(newton.preset()).photons_per_pass = 1 << 14;
   double worst = 0;
   for (const double nm : {570.0, 600.0, 630.0, 660.0, 690.0}) {
@@ -228,22 +228,16 @@ TEST(SpectralDifferentials, SweepTilesOverARainbow) {
 }
 
 // 32 paths for the whole rainbow: without stretching it is as many lines. Where clusters are too coarse to be stretched
-// as a whole, a jittered photon still is a streak of its own wavelength.
-TEST(SpectralDifferentials, SpreadWholeClustersWithAndWithoutJitter) {
-  struct Case {
-    double threshold_deg;
-    bool jitter;
-  };
+// as a whole, a photon still is a streak of its own wavelength.
+TEST(SpectralDifferentials, SpreadWholeClusters) {
   Newton newton;
   spectral::settings(newton.preset()).method = photons::Settings::Method::optimal;
   spectral::settings(newton.preset()).photons_per_pass = 1 << 18;
-  spectral::settings(newton.preset()).differentials = true;
   const Columns truth = newton.truth();
-  for (const Case& c : {Case{0.05, false}, Case{0.05, true}, Case{1, true}}) {
-    spectral::settings(newton.preset()).threshold_deg = c.threshold_deg;
-    spectral::settings(newton.preset()).jitter = c.jitter;
+  for (const double threshold_deg : {0.05, 1.0}) {
+    spectral::settings(newton.preset()).threshold_deg = threshold_deg;
     const Columns band = newton.rendered(render(newton.preset()));
-    const std::string what = fmt::format("clusters of {} degrees{}", c.threshold_deg, c.jitter ? ", jittered" : "");
+    const std::string what = fmt::format("clusters of {} degrees", threshold_deg);
     record(what + ": mean error of a column", mean_error(band, truth), 0, 0.15);
     EXPECT_EQ(dark(band), 0) << what;
     EXPECT_LT(mean_error(band, truth), 0.15) << what;
@@ -255,17 +249,15 @@ TEST(SpectralDifferentials, SpreadWholeClustersWithAndWithoutJitter) {
 // show it in mid air.
 TEST(SpectralDifferentials, KeepTheLightAtTheEdgeOfAReceiver) {
   Newton newton;
-  spectral::settings(newton.preset()).jitter = true;
   spectral::settings(newton.preset()).method = photons::Settings::Method::optimal;
   spectral::settings(newton.preset()).threshold_deg = 0.05;
+  const Columns truth = newton.truth();
   const double edge = newton.landing(newton.index(640));
   newton.preset().scene.objects[1].shape->size = {edge - 0.3, 1, 1};
   newton.preset().scene.objects[1].transform.translate = {(edge + 0.3) / 2, -drop, 0};
   const int last = static_cast<int>((edge - newton.left()) / newton.pixel());
-  const Columns points = newton.rendered(render(newton.preset()));
-  spectral::settings(newton.preset()).differentials = true;
   const Columns band = newton.rendered(render(newton.preset()));
-  EXPECT_NEAR(sum_of(band, 1) / sum_of(points, 1), 1, 0.02);
+  EXPECT_NEAR(sum_of(band, 1) / sum_of(Columns(truth.begin(), truth.begin() + last + 1), 1), 1, 0.02);
   for (int i = last + 1; i < columns; ++i)
     EXPECT_EQ(band[static_cast<std::size_t>(i)][1], 0) << i << " beyond " << last;
 }
@@ -280,7 +272,6 @@ TEST(SpectralDifferentials, AreHiddenByWhatStandsBeforeThem) {
                to = middle + (600 - columns / 2) * newton.pixel() / 2;
   newton.preset().scene.objects.push_back(
       object("strip", quad(to - from, 1), "white", at({(from + to) / 2, half_way, 0})));
-  spectral::settings(newton.preset()).differentials = true;
   const Columns band = newton.rendered(render(newton.preset())), truth = newton.truth();
   double seen = 0, expected = 0;
   for (std::size_t i = 0; i < columns; ++i) {
@@ -295,10 +286,12 @@ TEST(SpectralDifferentials, AreHiddenByWhatStandsBeforeThem) {
   EXPECT_NEAR(seen / expected, 1, 0.02);
 }
 
-TEST(SpectralDifferentials, AreLeftOutWhereNothingDisperses) {
+TEST(SpectralDifferentials, AreLeftOutWhereNothingDispersesAndWithoutJitter) {
   Newton newton;
-  spectral::settings(newton.preset()).differentials = true;
   EXPECT_EQ(plan_of(newton.preset()).defines.at("NEPHROID_DIFFERENTIALS"), "1");
+  spectral::settings(newton.preset()).jitter = false;
+  EXPECT_EQ(plan_of(newton.preset()).defines.at("NEPHROID_DIFFERENTIALS"), "0");
+  spectral::settings(newton.preset()).jitter = true;
   newton.preset().scene.materials["flint"] = glass(1.7);
   EXPECT_EQ(plan_of(newton.preset()).defines.at("NEPHROID_DIFFERENTIALS"), "0");
 }

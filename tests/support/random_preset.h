@@ -107,7 +107,7 @@ inline preset::Preset random_preset(std::uint64_t seed) {
   if (photons::Settings& s = spectral::settings(p); s.relight) { // what layers cannot keep
     s.estimator = photons::Settings::Estimator::splat;
     s.effort = photons::Settings::Effort::power;
-    s.differentials = s.indirect = false;
+    s.indirect = false;
     if (p.scene.environment) p.scene.environment->lights = false;
   }
   const bool estimates = p.measure.estimate && spectral::settings(p).estimator != photons::Settings::Estimator::sppm;

@@ -38,7 +38,6 @@ protected:
     scene.camera.target = {11, 0, 0};
     scene.camera.fov_deg = 34;
     scene.camera.resolution = {480, 360};
-    spectral::settings(preset).differentials = false;
     preset.stop = {};
     preset.stop.seconds = 600;
     return preset;

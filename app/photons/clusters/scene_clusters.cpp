@@ -67,8 +67,9 @@ std::vector<std::vector<int>> scene_clusters(const Settings& settings, const sce
   std::vector<std::vector<int>> clusters = refraction_clusters(settings, scene);
   if (settings.relight)
     return split_by_losses(std::move(clusters), scene, settings.max_surfaces, largest_loss_difference);
-  const bool sweeps = settings.differentials || settings.estimator == Settings::Estimator::tiles;
-  if (sweeps && tracing::stretch_parameter(scene) == tracing::StretchParameter::wavelength)
+  const bool stretches = settings.estimator == Settings::Estimator::tiles ||
+                         (settings.jitter && settings.estimator != Settings::Estimator::sppm);
+  if (stretches && tracing::stretch_parameter(scene) == tracing::StretchParameter::wavelength)
     clusters = tracing::split_into_runs(clusters);
   return clusters;
 }

@@ -189,8 +189,8 @@ void DispersionPanel::draw_bias(const Context& context) const {
   draw_wrapped(colour::quiet_text, text);
   if (const auto clusters = model_.clusters_of_run();
       clusters && *clusters != model_.chosen().clustering.clusters.size())
-    draw_wrapped(colour::quiet_text, fmt::format("The run has {}: those of all its glasses, step_nm and differentials",
-                                                 counted(*clusters, "cluster")));
+    draw_wrapped(colour::quiet_text,
+                 fmt::format("The run has {}: those of all its glasses and of step_nm", counted(*clusters, "cluster")));
 }
 
 } // namespace nephroid::ui

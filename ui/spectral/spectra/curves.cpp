@@ -83,7 +83,7 @@ void read_materials(const preset::Preset& preset, scene::Scene& outline) {
 
 /// What the clusters of a scene hang on.
 auto grouping(const photons::Settings& settings) {
-  return std::tuple(settings.method, settings.threshold_deg, settings.step_nm, settings.differentials,
+  return std::tuple(settings.method, settings.threshold_deg, settings.step_nm, settings.estimator, settings.jitter,
                     settings.relight);
 }
 
