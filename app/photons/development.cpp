@@ -11,6 +11,10 @@
 namespace nephroid::photons {
 namespace {
 
+/// The noise that may remain in what paths from the eye see. Shadows and light from walls are broader than the fine
+/// lines of a caustic, and the halves show where they are not.
+constexpr double noise_of_paths = 0.02;
+
 /// Adds as many values as both have; a sum that is empty stays so.
 void add(const std::vector<float>& more, std::vector<float>& sum) {
   std::ranges::transform(sum, more, sum.begin(), std::plus());
@@ -21,7 +25,6 @@ void add(const char* name, const LayerEstimate& layer, job::Picture& picture) {
   if (layer.draw.empty()) picture.error_draw.clear();
   add(layer.draw, picture.error_draw);
   std::vector<float>& sum = tracing::layer_of(picture, name).rgb;
-  if (sum.empty()) sum.assign(layer.rgb.size(), 0.0f);
   add(layer.rgb, sum);
 }
 
@@ -65,20 +68,20 @@ void Development::share_work() {
   std::vector<std::vector<float>> draws; // each stage's draw
   std::uint64_t photons = 0;
   for (const TimedStage& s : passes_.stages()) {
-    job::Picture& into = s.caustics() ? caustics : picture;
-    std::vector<float> before = into.error_draw;
-    s.stage->develop(passes_.complete(), false, into);
-    if (into.error_draw.empty()) return;
-    std::transform(into.error_draw.begin(), into.error_draw.end(), before.begin(), before.begin(), std::minus());
-    draws.push_back(std::move(before));
+    job::Picture own = black();
+    s.stage->develop(passes_.complete(), false, own);
+    if (own.error_draw.empty()) return;
+    LayerEstimate layer{own.layers.empty() ? own.rgb : std::move(own.layers[0].rgb), std::move(own.error_draw)};
     if (s.caustics()) photons += s.stage->photons_per_pass();
+    else if (smoothing_ && smooths_paths_) smoothing_->pixels().spread(layer.rgb, layer.draw, {}, noise_of_paths);
+    add(s.layer, layer, s.caustics() ? caustics : picture);
+    draws.push_back(std::move(layer.draw));
   }
   if (draws.empty()) return;
-  LayerEstimate splatted{std::move(tracing::layer_of(caustics, "caustic").rgb), std::move(caustics.error_draw)};
+  LayerEstimate splatted{std::move(caustics.rgb), std::move(caustics.error_draw)};
   const std::vector<float> plain = splatted.draw;
   if (smoothing_ && photons > 0) smooth(splatted);
-  tracing::layer_of(picture, "caustic").rgb = std::move(splatted.rgb);
-  for (const job::Layer& layer : picture.layers) add(layer.rgb, picture.rgb);
+  add(splatted.rgb, picture.rgb);
 
   const auto noise_of = [&](const std::vector<float>& draw) {
     const Noise noise{draw, picture.rgb};
@@ -143,7 +146,7 @@ LayerEstimate Development::layer_of(std::size_t s) {
   } else if (smoothing_ && smooths_paths_ && passes_.has_halves(s)) {
     timed([&] {
       smoothing_->pixels().spread(layer.rgb, layer.draw, is_estimated ? estimate_ : std::vector<float>(),
-                                  getenv("NN") ? atof(getenv("NN")) : .25);
+                                  noise_of_paths);
     });
   } else if (is_previewed) { // photons of a stage that has no preview of its own
     layer = between(world_.preview.blocks, means(world_.preview.blocks, layer));

@@ -16,7 +16,7 @@ public:
       : EyeStage(world, "even sky", "caustic", settings, paths_through_glass),
         light_(static_cast<int>(std::ranges::find(world.tables.lights, LIGHT_ENVIRONMENT, &shared::DeviceLight::type) -
                                 world.tables.lights.begin())),
-        kernel_(compute::Program(world.context, "photons/even_sky.cl", world.defines).kernel("even_sky")) {}
+        kernel_(compute::Program(world.context, "photons/even_sky.cl", world.eye_defines()).kernel("even_sky")) {}
 
 private:
   void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override {

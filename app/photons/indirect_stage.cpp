@@ -17,7 +17,7 @@ class IndirectStage final : public EyeStage {
 public:
   IndirectStage(StageContext& world, const scene::Scene& scene, const Settings& settings)
       : EyeStage(world, "indirect", "indirect", settings, paths_of_a_sample, least_enough) {
-    compute::Defines defines = world.defines;
+    compute::Defines defines = world.eye_defines();
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // a path has wavelengths, not clusters
     defines.insert_or_assign("NEPHROID_ONE_WAY", std::to_string(int(tracing::goes_one_way(scene))));
     kernel_ = compute::Program(world.context, "photons/indirect.cl", defines).kernel("indirect");

@@ -52,7 +52,7 @@ public:
   /// (Picture::error_draw), from which the noise of a pixel is known. It becomes that of the result, the bias included.
   /// Values below 0 count as no light when kernels are chosen. Nothing changes where the draw is empty. With `known`,
   /// an estimate of the same light that has a bias but no noise, each place gets the mixture of both that the halves
-  /// show to be best (mixture.h).
+  /// show to be best (mixture.h). noise: as usual_noise, for this light.
   void spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> known = {},
               double noise = usual_noise);
 

@@ -74,6 +74,12 @@ struct World {
     result["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item());
     return result;
   }
+  /// Those of paths from the eye, which do not carry derivatives by wavelength.
+  compute::Defines eye_defines() const {
+    compute::Defines result = defines;
+    result["NEPHROID_DIFFERENTIALS"] = std::to_string(0);
+    return result;
+  }
   /// Does what run does, with items for `count` photons, and at least one.
   void run_photons(compute::Kernel& kernel, std::uint32_t count, std::initializer_list<compute::Argument> own,
                    std::initializer_list<compute::Argument> more = {}) {

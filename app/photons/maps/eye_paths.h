@@ -18,7 +18,7 @@ public:
       : world_(world), begin_(pixels == Pixels::all ? 0 : world.pixels.count),
         size_(pixels == Pixels::all ? world.pixels.count : static_cast<std::uint32_t>(world.pixels.glass.size())),
         points_(world.context, "visible points", point_count(world.tables.camera)),
-        view_(compute::Program(world.context, "photons/view.cl", world.defines).kernel("view")),
+        view_(compute::Program(world.context, "photons/view.cl", world.eye_defines()).kernel("view")),
         slices_(size_, 1024, static_cast<std::int64_t>(points_.size())) {}
   static std::uint64_t bytes(const shared::DeviceCamera& camera) {
     return point_count(camera) * sizeof(shared::VisiblePoint);
