@@ -72,8 +72,10 @@ void Development::share_work() {
     s.stage->develop(passes_.complete(), false, own);
     if (own.error_draw.empty()) return;
     LayerEstimate layer{own.layers.empty() ? own.rgb : std::move(own.layers[0].rgb), std::move(own.error_draw)};
-    if (s.caustics()) photons += s.stage->photons_per_pass();
-    else if (smoothing_ && smooths_paths_) smoothing_->pixels().spread(layer.rgb, layer.draw, {}, noise_of_paths);
+    if (s.caustics())
+      photons += s.stage->photons_per_pass();
+    else if (smoothing_ && smooths_paths_)
+      smoothing_->pixels().spread(layer.rgb, layer.draw, {}, noise_of_paths);
     add(s.layer, layer, s.caustics() ? caustics : picture);
     draws.push_back(std::move(layer.draw));
   }
@@ -102,9 +104,9 @@ void Development::share_work() {
     by_samples += brought;
     work += timed.stage->work();
   }
-  const double gain = photons > 0 ? (noise - of_caustics) / (static_cast<double>(passes_.complete()) *
-                                                             static_cast<double>(photons))
-                                  : by_samples / work;
+  const double gain =
+      photons > 0 ? (noise - of_caustics) / (static_cast<double>(passes_.complete()) * static_cast<double>(photons))
+                  : by_samples / work;
   if (!(gain > 0)) return;
   for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
     Stage& stage = *passes_.stages()[s].stage;

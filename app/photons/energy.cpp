@@ -24,7 +24,7 @@ constexpr Part parts[] = {{"emitted_w", OUTCOME_EMITTED, &EnergyBalance::emitted
 void add_parts(const std::string& group, const EnergyBalance& energy, job::Snapshot& snapshot) {
   double accounted = 0;
   for (const Part& part : parts) {
-    if (group == "indirect_energy" && (part.outcome == OUTCOME_DEPOSITED || part.outcome == OUTCOME_MISSED)) continue;
+    if (group == "indirect_energy" && part.outcome == OUTCOME_DEPOSITED) continue;
     snapshot.scalars.push_back({group, part.name, energy.*part.watts});
     if (part.outcome != OUTCOME_EMITTED) accounted += energy.*part.watts;
   }

@@ -21,7 +21,7 @@ struct EnergyBalance {
 struct Energy {
   EnergyBalance caustics;
   /// The balance of the photons of the layer "indirect", where there is one: emitted = absorbed (by any surface, or
-  /// inside glass) + escaped + lost; nothing is deposited or missed.
+  /// inside glass) + escaped + lost + missed (what met neither glass nor a mirror); nothing is deposited.
   std::optional<EnergyBalance> indirect;
 };
 

@@ -34,11 +34,12 @@ private:
 
 PlanPart plan_even_sky(const PlanInput& input) {
   if (!input.tables.has_even_sky || !input.settings.caustic) return {};
-  return part_of({"even sky", true,
-                  fmt::format("{:.0f} % of the environment's light is even: paths from the eye find what of it comes "
-                              "through glass and mirrors, {} a pixel",
-                              100 * (1 - input.tables.sky->peak_part), counted(*input.settings.pixel_samples, "sample"))},
-                 {{"film even sky", input.film_bytes()}});
+  return part_of(
+      {"even sky", true,
+       fmt::format("{:.0f} % of the environment's light is even: paths from the eye find what of it comes "
+                   "through glass and mirrors, {} a pixel",
+                   100 * (1 - input.tables.sky->peak_part), counted(*input.settings.pixel_samples, "sample"))},
+      {{"film even sky", input.film_bytes()}});
 }
 
 } // namespace

@@ -33,6 +33,12 @@ std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, co
   return weights;
 }
 
+/// As the function of that name in kernels/tracing/light.h.
+bool is_narrow(const scene::Light& light) {
+  return !scene::is_environment(light) && light.type == preset::Light::Type::spot &&
+         1 - light.cos_half_angle < NARROW_SPOT;
+}
+
 struct IndirectTables {
   std::vector<shared::DeviceEmitter>
       emitters;                    ///< photons of one pass: an emitter for each light; cluster and share are unused
@@ -45,17 +51,20 @@ struct IndirectTables {
 IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& tables, unsigned photons) {
   IndirectTables result;
   std::vector<PhotonSource> sources;
+  double watts = 0; // that photons carry
   for (std::size_t l = 0; l < tables.lights.size(); ++l) {
     const scene::Light& light = scene.lights[static_cast<std::size_t>(tables.lights[l].number)];
     const std::vector<double> weights = wavelength_worth(tables.wavelengths, light, l);
-    sources.push_back({tables.towards_targets_w[l] * std::accumulate(weights.begin(), weights.end(), 0.0), static_cast<int>(l), 0, 0});
+    const double sent = is_narrow(light) ? light.power_w : tables.towards_targets_w[l];
+    sources.push_back({sent * std::accumulate(weights.begin(), weights.end(), 0.0), static_cast<int>(l), 0, 0});
+    watts += sent;
     const std::vector<float> cdf = tracing::exact_cdf(weights);
     result.spectrum_cdf.insert(result.spectrum_cdf.end(), cdf.begin(), cdf.end());
   }
   result.emitters = make_emitters(sources, photons);
   result.photons_per_pass = count_photons(result.emitters);
-  result.film_scale = tracing::splat_scale(scene, result.photons_per_pass, tables.light_towards_targets_w);
-  result.energy_scale = tables.energy_scale;
+  result.film_scale = tracing::splat_scale(scene, result.photons_per_pass, watts);
+  result.energy_scale = tracing::energy_scale(watts);
   return result;
 }
 
@@ -131,11 +140,18 @@ private:
 };
 
 PlanPart plan_indirect_photons(const PlanInput& input) {
-  if (!indirect_decision(input).runs || !input.sends_photons()) return {};
+  if (!indirect_decision(input).runs) return {};
+  const bool caustics = input.objects.dielectrics + input.objects.mirrors > 0 && !input.tables.emitters.empty();
+  const auto& lights = input.scene.lights;
+  const bool narrow = std::ranges::any_of(lights, [](const auto& l) { return is_narrow(l) && tracing::has_power(l); });
+  if (!caustics && !narrow) return {};
   return part_of({"indirect photons", true,
-                  counted(input.settings.indirect_photons_per_pass, "photon a pass", "photons a pass") +
-                      " for light of walls that caustics light, where the camera sees a surface directly; through "
-                      "glass and in mirrors that is left out"},
+                  fmt::format("{} for light from walls that {} light, where the camera sees a surface directly{}",
+                              counted(input.settings.indirect_photons_per_pass, "photon a pass", "photons a pass"),
+                              caustics && narrow ? "caustics and narrow spots"
+                              : caustics         ? "caustics"
+                                                 : "narrow spots",
+                              caustics ? "; what glass and mirrors show of that of caustics is left out" : "")},
                  {{"film indirect photons", input.film_bytes()}});
 }
 

@@ -10,7 +10,7 @@
 namespace nephroid::photons {
 namespace {
 
-constexpr int paths_of_a_sample = 4; ///< that a walk between walls takes about as long as
+constexpr int paths_of_a_sample = 4;  ///< that a walk between walls takes about as long as
 constexpr int least_enough = 1 << 16; ///< samples of a pixel: light from walls has more noise than that of lamps
 
 class IndirectStage final : public EyeStage {
@@ -25,10 +25,10 @@ public:
 
 private:
   void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override {
-    world_.run(kernel_, count, 64,
-               {{"cluster_cdf", world_.buffers.cluster_cdf},
-                {"film_scale", world_.on_device(world_.tables.direct_scale)}},
-               more);
+    world_.run(
+        kernel_, count, 64,
+        {{"cluster_cdf", world_.buffers.cluster_cdf}, {"film_scale", world_.on_device(world_.tables.direct_scale)}},
+        more);
   }
 
   compute::Kernel kernel_;

@@ -34,10 +34,6 @@ struct PlanInput {
   plan::Decision caustics = {}; ///< whether there are any of photons, splatted or gathered, and why
   plan::Decision estimate = {}; ///< whether films have two halves, and why
 
-  /// Whether any photon can reach glass or a mirror, and a diffuse surface then.
-  bool sends_photons() const {
-    return objects.dielectrics + objects.mirrors > 0 && objects.diffuse > 0 && !tables.emitters.empty();
-  }
   bool has_caustics() const { return caustics.runs || (tables.has_even_sky && settings.caustic); }
   bool is_sppm() const { return settings.estimator == Settings::Estimator::sppm; }
   std::uint64_t halves() const { return estimate.runs ? 2 : 1; }

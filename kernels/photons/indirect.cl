@@ -2,7 +2,8 @@
 // The layer "indirect", as paths from the eye find it: light that met a diffuse surface before the last one. A path is
 // bent by glass and mirrors and scattered by diffuse surfaces. Each of these from the second on adds the unbent light
 // that lamps and the environment send to it. Light that glass or a mirror sends to its first diffuse surface comes from
-// indirect_photons.cl, but for even light of the environment (sky.h), at which paths end here.
+// indirect_photons.cl, but for even light of the environment (sky.h), at which paths end here. So does that of narrow
+// spots, where the pixel shows no glass and no mirror.
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 #include "kernels/tracing/work_item.h"
@@ -39,15 +40,19 @@ static inline float3 brought(const World* world, const Walk* walk, Source source
   return xyz;
 }
 
-// Of the unbent light of all lights at a diffuse surface. numbers: stands for the pixel in random numbers.
+// Of the unbent light at a diffuse surface. narrow: of narrow spots, too. numbers: the pixel in random numbers.
 IN_PLACE float3 unbent_light(const World* world, const Walk* walk, const Surface* surface, uint triangle, int reflector,
-                             uint2 seed, uint sample, uint paths, uint numbers) {
+                             bool narrow, uint2 seed, uint sample, uint paths, uint numbers) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {
     if (is_of_environment(world, l)) {
-      const Source sky = {l, sky_irradiance(world, l, &walk->path, surface, triangle, seed, sample, paths, numbers) / PI_F};
+      const float3 rgb = sky_irradiance(world, l, &walk->path, surface, triangle, seed, sample, paths, numbers);
+      const Source sky = {l, rgb / PI_F};
       if (any(sky.rgb > 0.0f)) xyz += brought(world, walk, sky, reflector);
-    } else {
+      continue;
+    }
+    const DeviceLight light = world->lights[l];
+    if (narrow || !is_narrow(&light)) {
       const float irradiance = irradiance_of(world, l, &walk->path, surface, triangle, seed, sample, paths, numbers);
       const Source lamp = {l, (float3)(1.0f)};
       if (irradiance > 0.0f) xyz += irradiance / PI_F * brought(world, walk, lamp, reflector);
@@ -100,7 +105,7 @@ IN_PLACE float3 follow(const World* world, Walk* walk, Hit hit, uint2 seed, uint
     lose_in_medium(world, &walk->path, hit.t);
     const bool is_diffuse = material.type == MATERIAL_DIFFUSE;
     if (is_diffuse && scatterings > 0u)
-      xyz += unbent_light(world, walk, &surface, hit.primitive, material.reflector, seed, sample, paths,
+      xyz += unbent_light(world, walk, &surface, hit.primitive, material.reflector, paths > 1u, seed, sample, paths,
                           pixel + 0x9e3779b9u * scatterings);
     if (surface_number == world->scene.max_surfaces) return xyz;
     const float4 random =

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of the layer "indirect" that begins as a caustic: photons of one wavelength each leave the lights towards
-// glass and mirrors, are bent by them, and scattered by diffuse surfaces. From the second diffuse surface on, each adds
-// to the pixel that sees it. Only absorption changes its power: reflectances decide by chance.
+// The part of the layer "indirect" that begins as a caustic, or as the light of a narrow spot. Photons of one
+// wavelength each leave the lights, towards glass and mirrors or all over the spot's cone. They are bent, and scattered
+// by diffuse surfaces. From the second diffuse surface on, each adds to the pixel that sees it. Only absorption changes its power:
+// reflectances decide by chance.
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
 #include "kernels/tracing/work_item.h"
@@ -44,21 +45,22 @@ static inline bool show(const World* world, const Receiver* receiver, const Phot
 }
 
 // Follows a photon to its end and returns its OUTCOME_*. *segments: rays of its path. Counts what the film refuses.
-static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed,
-                                uint iteration, uint number, int* segments, Outcomes outcomes) {
+// narrow: of its light; the diffuse surfaces that others light are found from the eye (indirect.cl).
+static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, bool narrow,
+                                uint2 seed, uint iteration, uint number, int* segments, Outcomes outcomes) {
   Path* path = &photon->path;
-  bool is_bent = false, met_diffuse = false;
+  bool counts = narrow, met_diffuse = false;
   for (int surface_number = 0;; ++surface_number) {
     const Hit hit = next_hit(world, path);
     *segments = surface_number + 1;
-    if (hit.primitive == NEPHROID_NO_PRIMITIVE) return is_bent ? OUTCOME_ESCAPED : OUTCOME_MISSED;
+    if (hit.primitive == NEPHROID_NO_PRIMITIVE) return counts ? OUTCOME_ESCAPED : OUTCOME_MISSED;
     const Surface surface = surface_at(&world->geometry, hit);
     const DeviceMaterial material = material_of(world, surface.object);
     lose_in_medium(world, path, hit.t);
     const float4 random = random4(seed, iteration, number, 2u + (uint)surface_number, STREAM_INDIRECT_PHOTONS);
     const Band band = band_of(photon);
     if (material.type == MATERIAL_DIFFUSE) {
-      if (!is_bent) return OUTCOME_MISSED; // what it lights is found from the eye
+      if (!counts) return OUTCOME_MISSED;
       if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, material.reflector, random.w))
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
       met_diffuse = true;
@@ -72,7 +74,7 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
       path->behind = 0.0f;
     }
     if (surface_number == world->scene.max_surfaces) return OUTCOME_LOST;
-    is_bent = true;
+    counts = true;
     float n_ratio;
     if (material.type != MATERIAL_DIFFUSE &&
         !bend_path(world, path, hit.primitive, &surface, &material, &band, random.x, &n_ratio))
@@ -98,9 +100,12 @@ __kernel void indirect_photons(WORLD_ARGUMENTS, __global const DeviceTarget* tar
     const DeviceEmitter emitter = emitters[emitter_of(emitters, emitter_count, number)];
     DeviceLight light = lights[emitter.light];
     const float4 random = random4(seed, iteration, number, 0u, STREAM_INDIRECT_PHOTONS);
-    const float2 place = has_places(&light) ? random4(seed, iteration, number, 1u, STREAM_INDIRECT_PHOTONS).xy : (float2)(0.0f);
+    const float2 place =
+        has_places(&light) ? random4(seed, iteration, number, 1u, STREAM_INDIRECT_PHOTONS).xy : (float2)(0.0f);
     const Source source = source_of(&world, emitter.light, place, &light);
-    const Emission emission = emit(&light, targets, &scene, random, place);
+    const bool narrow = is_narrow(&light);
+    const Emission emission =
+        narrow ? emit_in_cone(&light, random) : emit(&light, targets, &scene, random, place);
     if (emission.watts == 0.0f) continue;
     const Band band =
         wavelength_of_cluster(0, cluster_wavelengths, spectrum_cdf + emitter.light * members, members, random.w);
@@ -113,7 +118,7 @@ __kernel void indirect_photons(WORLD_ARGUMENTS, __global const DeviceTarget* tar
         source.light,
         source.rgb};
     int segments;
-    const int outcome = follow_photon(&world, &receiver, &photon, seed, iteration, number, &segments, outcomes);
+    const int outcome = follow_photon(&world, &receiver, &photon, narrow, seed, iteration, number, &segments, outcomes);
     const Band end = band_of(&photon);
     count_photon(outcomes, outcome, segments,
                  photon.watts * band_share(&world, light_of(&photon), &end, 0.0f) * energy_scale,

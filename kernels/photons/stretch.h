@@ -16,7 +16,7 @@
 // The largest angle, in radians, between the last directions of a streak for which D' predicts them. It excludes the
 // critical angle, too. Clusters of the default threshold, 0.05 degrees, stay well below: photons of one that is about
 // as wide disagree whether it can be stretched, which puts its light wrong (docs/notebook/differentials.md).
-#define STRETCH_WIDEST 0.03f
+#define STRETCH_WIDEST 0.015f
 
 // How a photon is splatted: `count` splats, of its whole cluster's light or its band's, each at its wavelength's place.
 typedef struct {

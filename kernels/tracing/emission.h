@@ -112,6 +112,15 @@ static inline float watts_of(const DeviceLight* light, float3 direction, float s
   return in_spot(light, direction) ? light->radiometric * steradians / light->solid_angle : 0.0f;
 }
 
+// A photon anywhere in the cone of a spot: every one carries the same.
+static inline Emission emit_in_cone(const DeviceLight* light, float4 random) {
+  Emission emission = {light->position.xyz, light->direction.xyz, 0.0f, light->radiometric};
+  float below;
+  float3 aside;
+  emission.direction = sample_cone(light->direction.xyz, light->one_minus_cos, random.y, random.z, &below, &aside);
+  return emission;
+}
+
 static inline Emission emit_from_point(const DeviceLight* light, __global const DeviceTarget* targets, float4 random) {
   const int target_count = light->target_count;
   Emission emission = {light->position.xyz, light->direction.xyz, 0.0f, 0.0f};
@@ -119,13 +128,7 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
     float towards_targets = 0.0f;
     for (int i = 0; i < target_count; ++i)
       towards_targets += 2.0f * PI_F * one_minus_cos_of(targets[i].centre_radius, light->position.xyz);
-    if (light->solid_angle <= towards_targets) { // the spot's cone is the tighter one: every photon carries the same
-      float below;
-      float3 aside;
-      emission.direction = sample_cone(light->direction.xyz, light->one_minus_cos, random.y, random.z, &below, &aside);
-      emission.watts = light->radiometric;
-      return emission;
-    }
+    if (light->solid_angle <= towards_targets) return emit_in_cone(light, random); // the cone is the tighter one
   }
   const float steradians = sample_targets(targets, target_count, light->position.xyz, random, &emission);
   emission.watts = watts_of(light, emission.direction, steradians);

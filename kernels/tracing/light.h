@@ -25,6 +25,11 @@ static inline bool in_spot(const DeviceLight* light, float3 direction) {
   return 0.5f * dot(aside, aside) <= light->one_minus_cos;
 }
 
+// Whether a light shines on places so small that paths from the eye, which scatter anywhere, rarely end there.
+static inline bool is_narrow(const DeviceLight* light) {
+  return is_light(light, LIGHT_SPOT) && light->one_minus_cos < NARROW_SPOT;
+}
+
 // Whether photons begin at different places: on a rectangle, or in the environment.
 static inline bool has_places(const DeviceLight* light) {
   return is_light(light, LIGHT_AREA) || is_light(light, LIGHT_ENVIRONMENT);

@@ -73,13 +73,15 @@ typedef struct {
   ulong latest, earlier; // the last four objects entered, the last one in the lowest bits; the four before
 } Media;
 
+#define NARROW_SPOT 0.05f // half an angle of 18 degrees
+
 typedef struct {
   float4 position;  // area: its centre; directional, environment: unused
   float4 direction; // unit, the way the light goes; point, environment: unused
   float4 edge_u;    // area: the full edges; environment: the mean colour of its photons
   float4 edge_v;
   int type;            // LIGHT_*
-  float one_minus_cos; // spot: 1 - cos of its half angle
+  float one_minus_cos; // spot: 1 - cos of its half angle; less than NARROW_SPOT: see is_narrow (light.h)
   float solid_angle;   // spot: its cone's, in steradians
   float radiometric; // point, spot, area: power in W; directional: irradiance in W m^-2; environment: of all directions
                      // together

@@ -135,7 +135,7 @@ TEST_P(WhiteFurnace, NothingInItCanBeSeen) {
     return figures;
   });
   // What is lost after 400 interfaces is missing from the caustic layer; r's own noise is some percent of it.
-  const double lost = energy.lost_w / energy.emitted_w, slack = lost + 0.03 * r;
+  const double lost = energy.emitted_w > 0 ? energy.lost_w / energy.emitted_w : 0, slack = lost + 0.03 * r;
   EXPECT_LT(lost, 1e-3);
   const Estimate& mean = estimates[squares];
   const std::string name = std::string("white furnace, ") + GetParam().name;
