@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of the layer "indirect" that begins as a caustic, or as the light of a narrow spot. Photons of one
 // wavelength each leave the lights, towards glass and mirrors or all over the spot's cone. They are bent, and scattered
-// by diffuse surfaces. From the second diffuse surface on, each adds to the pixel that sees it. Only absorption changes its power:
-// reflectances decide by chance.
+// by diffuse surfaces. From the second of these on, each adds to the pixel that sees it. Only absorption changes its
+// power: reflectances decide by chance.
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
 #include "kernels/tracing/work_item.h"

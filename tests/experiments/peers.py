@@ -5,9 +5,10 @@ error against processor time.
 
     tests/experiments/peers.py PROGRAM OUT [SCENE...]     of these scenes, or of all: ball, bunny, sky, room, lens
 
-Mitsuba and LuxCore are installed from PyPI into OUT/venv; POV-Ray is Debian's package povray, ImageMagick and
-glmark2-data are asked for too. Each program has the settings that do best at the scene, of those that we tried;
-Nephroid has its defaults, and a second time no smoothing.
+Mitsuba, LuxCore and Open Image Denoise are installed from PyPI into OUT/venv; POV-Ray is Debian's package povray,
+ImageMagick and glmark2-data are asked for too. Each program has the settings that do best at the scene, of those that
+we tried, and rows with and without smoothing: its own for Nephroid, whose default it is, Open Image Denoise for the
+others.
 
 The reference is a long run of Mitsuba, which has no bias: the mean of two halves, whose difference says how much noise
 it has. An error is the root mean square of the distance to it, less that noise, over the mean there: of the glass'
@@ -20,9 +21,10 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
-PACKAGES = ["mitsuba==3.9.1", "pyluxcore==2.11.2", "numpy", "matplotlib", "pillow"]
+PACKAGES = ["mitsuba==3.9.1", "pyluxcore==2.11.2", "pyoidn==2.5.1.0", "numpy", "matplotlib", "pillow"]
 BUDGETS = [4, 12, 36]  # processor seconds
 LONG = 90              # of each half of the reference
 LUXCORE_PATH = {"renderengine.type": "PATHCPU", "sampler.type": "SOBOL", "path.pathdepth.total": 33,
@@ -100,6 +102,19 @@ def read_hdr(path):
     return np.array(mitsuba.Bitmap(str(path))).astype(float)[..., :3]
 
 
+def denoised(pictures, seconds):
+    """What Open Image Denoise makes of pictures, without its first call, which loads its weights."""
+    import numpy as np
+    import pyoidn
+    made, times = [], []
+    pyoidn.denoise(np.ascontiguousarray(pictures[0], np.float32), hdr=True)
+    for picture, took in zip(pictures, seconds):
+        before = time.process_time()
+        made.append(pyoidn.denoise(np.ascontiguousarray(picture, np.float32), hdr=True).astype(float))
+        times.append(took + time.process_time() - before)
+    return made, times
+
+
 def inner(where):
     """Without pixels at an edge: programs differ in where a pixel has its middle."""
     import numpy as np
@@ -132,10 +147,9 @@ def measure(program, out, name):
     where = inner(where)
     aimed = {"ptracer", "bidirectional", "caustic cache"}
 
-    found = [("Nephroid", ours, our_seconds)]
-    if "body" in scene:
-        found.append(("Nephroid, unsmoothed", *nephroid(scene, folder, BUDGETS, program,
-                                                        ["--set", "spectral.smoothing=off"])[:2]))
+    found = [("Nephroid", ours, our_seconds),
+             ("Nephroid, unsmoothed", *nephroid(scene, folder, BUDGETS, program,
+                                                ["--set", "spectral.smoothing=off"])[:2])]
     for method in integrators:
         found.append((f"Mitsuba, {method}", *apart(renderer="mitsuba", method=method, seed=1, budgets=BUDGETS,
                                                    **share)[:2]))
@@ -145,6 +159,8 @@ def measure(program, out, name):
     if povray_works:
         found.append(("POV-Ray, " + ("photons" if "body" in scene else "radiosity"),
                       *povray(scene, folder, povray_works, gather, read_hdr)))
+    found = [row for name, *made in found for row in [(name, *made)] + (
+        [] if name.startswith("Nephroid") else [(f"{name}, denoised", *denoised(*made))])]
 
     level = truth[where].mean()
     floor_noise = np.mean(noise[where] ** 2)
@@ -159,7 +175,7 @@ def measure(program, out, name):
             if not grey[where].any():  # LuxCore still fills its cache
                 cells.append(f"{took:.1f} s, -")
                 continue
-            is_aimed = program_name.split(", ")[-1] in aimed
+            is_aimed = program_name.split(", ")[1:2] and program_name.split(", ")[1] in aimed
             unit = level / grey[where].mean()
             if lit.any() and not is_aimed:
                 shadow_over_plain = grey[where].mean() / grey[lit].mean()
