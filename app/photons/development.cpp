@@ -20,8 +20,8 @@ void add(const std::vector<float>& more, std::vector<float>& sum) {
   std::ranges::transform(sum, more, sum.begin(), std::plus());
 }
 
+/// Adds to a layer, which several stages may have, not to the picture's sum.
 void add(const char* name, const LayerEstimate& layer, job::Picture& picture) {
-  add(layer.rgb, picture.rgb);
   if (layer.draw.empty()) picture.error_draw.clear();
   add(layer.draw, picture.error_draw);
   std::vector<float>& sum = tracing::layer_of(picture, name).rgb;
@@ -40,6 +40,7 @@ job::Picture Development::picture() {
     else if (!std::exchange(has_caustics, true))
       add(stage.layer, caustics(), picture);
   }
+  for (const job::Layer& layer : picture.layers) add(layer.rgb, picture.rgb);
   return picture;
 }
 
@@ -80,10 +81,11 @@ void Development::share_work() {
     draws.push_back(std::move(layer.draw));
   }
   if (draws.empty()) return;
-  LayerEstimate splatted{std::move(caustics.rgb), std::move(caustics.error_draw)};
+  LayerEstimate splatted{std::move(tracing::layer_of(caustics, "caustic").rgb), std::move(caustics.error_draw)};
   const std::vector<float> plain = splatted.draw;
   if (smoothing_ && photons > 0) smooth(splatted);
-  add(splatted.rgb, picture.rgb);
+  tracing::layer_of(picture, "caustic").rgb = std::move(splatted.rgb);
+  for (const job::Layer& layer : picture.layers) add(layer.rgb, picture.rgb);
 
   const auto noise_of = [&](const std::vector<float>& draw) {
     const Noise noise{draw, picture.rgb};

@@ -94,8 +94,8 @@ TEST_P(DiffuseFurnace, IsEvenlyLit) {
   p.scene.camera.target = {0.3, 0, -2};
   p.scene.camera.fov_deg = 70;
   spectral::settings(p).max_surfaces = 400;
-  spectral::settings(p).indirect_photons_per_pass = 1 << 14;
-  p.stop.passes = 64;
+  spectral::settings(p).indirect_photons_per_pass = 1 << 11;
+  p.stop.passes = 512;
 
   photons::EnergyBalance energy;
   const std::vector<Estimate> estimates = render_passes(p, [&](const job::Snapshot& snapshot) {
