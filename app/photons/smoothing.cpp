@@ -19,6 +19,9 @@
 namespace nephroid::photons {
 namespace {
 
+/// Steps by which kernels are balanced at the border of a surface.
+constexpr int balancing_steps = 3;
+
 /// How far a kernel may reach, and the radius around a pixel of its noise's mean, in pixels.
 constexpr int reach = 6, noise_radius = 7;
 constexpr std::size_t block_rows = 64, block_pixels = 1 << 12;
@@ -358,13 +361,16 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
 
   const SpreadDomain at{width_, height_, level_};
   // In even light a pixel at the border of a part takes less than it gives, and one a kernel away from there takes
-  // more. One step of Sinkhorn and Knopp (1967) evens that out, and still every pixel gives away what it has.
+  // more. Sinkhorn and Knopp (1967) even that out, a step after the other, and still every pixel gives away what it has.
   const std::vector<double> even(level_.size(), 1);
-  std::vector<double> favour = even, taken(level_.size());
-  give_parts(
-      at, find_kernels(at, light, wanted, even), even, [](std::size_t) { return true; },
-      [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
-  std::transform(taken.begin(), taken.end(), favour.begin(), [](double sum) { return 1 / sum; });
+  std::vector<double> favour = even;
+  for (int step = 0; step < balancing_steps; ++step) {
+    std::vector<double> taken(level_.size());
+    give_parts(
+        at, find_kernels(at, light, wanted, favour), favour, [](std::size_t) { return true; },
+        [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
+    std::transform(favour.begin(), favour.end(), taken.begin(), favour.begin(), std::divides());
+  }
   const std::vector<Kernel> kernels = find_kernels(at, light, wanted, favour);
 
   std::vector<float> share(level_.size(), 1);
