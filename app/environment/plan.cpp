@@ -85,8 +85,9 @@ std::vector<plan::Decision> photon_decisions(const Settings& s, const photons::R
   const auto row = [&](std::string_view name) {
     return *std::ranges::find(photons->decisions, name, &plan::Decision::name);
   };
+  if (!s.cast) return {{"photons", false, "environment.cast is false"}};
   const plan::Decision sent = row("photons");
-  if (!sent.runs) return {{"photons", false, s.cast ? sent.reason : "environment.cast is false"}};
+  if (!sent.runs) return {{"photons", false, sent.reason}};
   const plan::Decision maps = row("photon maps");
   return {{"photons", true, sent.reason + ", in the place of the spheres as soon as they have a whole picture", field,
            true},

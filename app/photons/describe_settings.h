@@ -82,23 +82,22 @@ inline void describe(preset::Fields& v, Settings& s) {
           "along the wavelength; with photon maps the paths of a pass share few.",
           s.jitter);
   v.field("low_discrepancy", "Photons leave the lights by a scrambled Sobol sequence.", s.low_discrepancy);
-  v.field(
-      "smoothing",
-      "Spread caustics over up to 6 pixels around, or blocks of pixels, until their noise is a quarter of them. Needs "
-      "measure.estimate; not "
-      "with sppm.",
-      s.smoothing);
+  v.field("smoothing",
+          "Spread light over up to 6 pixels around, or blocks of pixels: caustics until their noise is a quarter of "
+          "them, what "
+          "paths from the eye see until it is 2 %. Needs measure.estimate; not with sppm.",
+          s.smoothing);
   v.field("relight", "Keep a layer for each cluster, so that the spectrum of a light can change without a new run.",
           s.relight);
   v.field("photons_per_pass",
           "Photons sent towards the caustic objects in one pass; of the estimator sppm, for each cluster.",
           s.photons_per_pass, {.bounds = preset::within(1, 1 << 24)});
-  v.field("indirect_photons_per_pass", "Photons of the layer \"indirect\" in one pass.", s.indirect_photons_per_pass,
-          {.bounds = preset::within(1, 1 << 24)});
+  v.field("indirect_photons_per_pass",
+          "Photons of the layer \"indirect\" in one pass, of what caustics and narrow spots light.",
+          s.indirect_photons_per_pass, {.bounds = preset::within(1, 1 << 24)});
   v.field("pixel_samples",
-          "Most samples of a pixel that shows neither glass nor a mirror, of the layers \"direct\" and \"background\". "
-          "Without: 64, and 4096 "
-          "where lamps have a size or the environment lights.",
+          "Most samples of a pixel that shows neither glass nor a mirror, of each layer that paths from the eye bring; "
+          "\"indirect\" has at least 65536. Without: 64, and 4096 where lamps have a size or the environment lights.",
           s.pixel_samples, {.bounds = preset::within(1, 1 << 20)});
   v.field("max_surfaces", "Interfaces a path may meet before it counts as lost.", s.max_surfaces,
           {.bounds = preset::within(1, 1024)});

@@ -20,7 +20,7 @@ void add(const std::vector<float>& more, std::vector<float>& sum) {
   std::ranges::transform(sum, more, sum.begin(), std::plus());
 }
 
-/// Adds to a layer, which several stages may have, not to the picture's sum.
+/// Several stages may add to one layer. The picture's sum comes last.
 void add(const char* name, const LayerEstimate& layer, job::Picture& picture) {
   if (layer.draw.empty()) picture.error_draw.clear();
   add(layer.draw, picture.error_draw);
@@ -95,20 +95,20 @@ void Development::share_work() {
     return sum;
   };
   const double noise = noise_of(splatted.draw), smoothed = noise > 0 ? noise / noise_of(plain) : 1;
-  double by_samples = 0, work = 0, of_caustics = 0; // noise that samples from the eye bring, and their work
+  double by_photons = 0, by_samples = 0, work = 0; // noise that they bring, and the samples' work
   for (std::size_t s = 0; s < draws.size(); ++s) {
     const TimedStage& timed = passes_.stages()[s];
-    if (!timed.stage->samples_pixels()) continue;
     if (timed.caustics())
       for (float& value : draws[s]) value *= static_cast<float>(std::sqrt(smoothed));
-    const double brought = noise_of(draws[s]);
-    if (timed.caustics()) of_caustics += brought;
-    by_samples += brought;
+    if (timed.stage->samples_pixels())
+      by_samples += noise_of(draws[s]);
+    else if (timed.caustics())
+      by_photons += noise_of(draws[s]);
     work += timed.stage->work();
   }
-  const double gain =
-      photons > 0 ? (noise - of_caustics) / (static_cast<double>(passes_.complete()) * static_cast<double>(photons))
-                  : by_samples / work;
+  const double gain = by_photons > 0
+                          ? by_photons / (static_cast<double>(passes_.complete()) * static_cast<double>(photons))
+                          : by_samples / work;
   if (!(gain > 0)) return;
   for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
     Stage& stage = *passes_.stages()[s].stage;
@@ -165,9 +165,9 @@ LayerEstimate Development::caustics() {
   for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
     const TimedStage& timed_stage = passes_.stages()[s];
     if (!timed_stage.caustics()) continue;
-    if (!smoothing_ || passes_.has_halves(s)) {
+    if (!smoothing_ || passes_.has_halves(s) || !preview_.has_picture()) {
       timed_stage.stage->develop(passes_.complete(), passes_.had_turn(s), picture);
-    } else if (preview_.has_picture()) {
+    } else {
       LayerEstimate more = preview_of(*timed_stage.stage);
       add(preview.rgb, more.rgb);
       add(preview.draw, more.draw);

@@ -10,10 +10,12 @@
 namespace nephroid::photons {
 namespace {
 
+constexpr double bounces = 4; ///< BOUNCES of the kernel
+
 class EvenSkyStage final : public EyeStage {
 public:
   EvenSkyStage(StageContext& world, const scene::Scene&, const Settings& settings)
-      : EyeStage(world, "even sky", "caustic", settings, paths_through_glass),
+      : EyeStage(world, "even sky", "caustic", settings, bounces),
         light_(static_cast<int>(std::ranges::find(world.tables.lights, LIGHT_ENVIRONMENT, &shared::DeviceLight::type) -
                                 world.tables.lights.begin())),
         kernel_(compute::Program(world.context, "photons/even_sky.cl", world.eye_defines()).kernel("even_sky")) {}

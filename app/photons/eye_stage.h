@@ -21,8 +21,8 @@ inline const char* more_through_glass(const PlanInput& input) {
 
 class EyeStage : public Stage {
 public:
-  /// paths is the number of paths in a sample that meets no glass and no mirror first, least_enough a bound below for
-  /// the most of such samples.
+  /// paths is the number of paths in a sample that meets no glass and no mirror first. A pixel may have at least
+  /// least_enough of such samples.
   EyeStage(StageContext& world, const char* name, const char* layer, const Settings& settings, double paths = 1,
            int least_enough = 0)
       : world_(world), name_(name), layer_(layer), enough_(static_cast<std::uint32_t>(*settings.pixel_samples)),

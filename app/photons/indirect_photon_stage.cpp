@@ -10,8 +10,10 @@
 #include "tracing/slices.h"
 #include "tracing/targets.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <numeric>
-#include <span>
 #include <vector>
 
 namespace nephroid::photons {
@@ -34,9 +36,8 @@ std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, co
 }
 
 /// As the function of that name in kernels/tracing/light.h.
-bool is_narrow(const scene::Light& light) {
-  return !scene::is_environment(light) && light.type == preset::Light::Type::spot &&
-         1 - light.cos_half_angle < NARROW_SPOT;
+bool is_narrow(const shared::DeviceLight& light) {
+  return light.type == LIGHT_SPOT && light.one_minus_cos < NARROW_SPOT;
 }
 
 struct IndirectTables {
@@ -55,7 +56,7 @@ IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& 
   for (std::size_t l = 0; l < tables.lights.size(); ++l) {
     const scene::Light& light = scene.lights[static_cast<std::size_t>(tables.lights[l].number)];
     const std::vector<double> weights = wavelength_worth(tables.wavelengths, light, l);
-    const double sent = is_narrow(light) ? light.power_w : tables.towards_targets_w[l];
+    const double sent = is_narrow(tables.lights[l]) ? light.power_w : tables.towards_targets_w[l];
     sources.push_back({sent * std::accumulate(weights.begin(), weights.end(), 0.0), static_cast<int>(l), 0, 0});
     watts += sent;
     const std::vector<float> cdf = tracing::exact_cdf(weights);
@@ -79,6 +80,7 @@ public:
         energy_(world.zeroed("energy of indirect photons", OUTCOME_COUNT)) {
     compute::Defines defines = world.photon_defines();
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every photon has a wavelength of its own
+    defines.insert_or_assign("NEPHROID_DIFFERENTIALS", std::to_string(0));
     kernel_ = compute::Program(world.context, "photons/indirect_photons.cl", defines).kernel("indirect_photons");
   }
 
@@ -142,8 +144,7 @@ private:
 PlanPart plan_indirect_photons(const PlanInput& input) {
   if (!indirect_decision(input).runs) return {};
   const bool caustics = input.objects.dielectrics + input.objects.mirrors > 0 && !input.tables.emitters.empty();
-  const auto& lights = input.scene.lights;
-  const bool narrow = std::ranges::any_of(lights, [](const auto& l) { return is_narrow(l) && tracing::has_power(l); });
+  const bool narrow = std::ranges::any_of(input.tables.lights, is_narrow);
   if (!caustics && !narrow) return {};
   return part_of({"indirect photons", true,
                   fmt::format("{} for light from walls that {} light, where the camera sees a surface directly{}",

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "indirect" without what photons bring: kernels/photons/indirect.cl.
-#include "base/counted.h"
 #include "photons/eye_stage.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
+#include <string>
 
 namespace nephroid::photons {
 namespace {

@@ -38,9 +38,8 @@ struct Settings {
   bool relight = false; ///< keeps a layer for each cluster, so that a light's spectrum can change without a new run
   int photons_per_pass = 1 << 18; ///< photons sent towards the caustic objects in one pass; sppm: for each cluster
   int indirect_photons_per_pass = 1 << 18; ///< photons of the layer "indirect" in one pass
-  std::optional<int> pixel_samples; ///< most samples of a pixel without glass and mirrors in the layers direct and
-                                    ///< background; RunPlan has a value
-  int max_surfaces = 32;            ///< interfaces a path may meet before it is counted as lost
+  std::optional<int> pixel_samples;        ///< most samples of a pixel without glass and mirrors; RunPlan has a value
+  int max_surfaces = 32;                   ///< interfaces a path may meet before it is counted as lost
   Sppm sppm;
   bool direct = true;     ///< layer: light that reaches a diffuse surface unbent
   bool caustic = true;    ///< layer: light that met glass or a mirror, then one diffuse surface

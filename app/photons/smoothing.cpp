@@ -361,7 +361,8 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
 
   const SpreadDomain at{width_, height_, level_};
   // In even light a pixel at the border of a part takes less than it gives, and one a kernel away from there takes
-  // more. Sinkhorn and Knopp (1967) even that out, a step after the other, and still every pixel gives away what it has.
+  // more. Sinkhorn and Knopp (1967) even that out, a step after the other, and still every pixel gives away what it
+  // has.
   const std::vector<double> even(level_.size(), 1);
   std::vector<double> favour = even;
   for (int step = 0; step < balancing_steps; ++step) {
@@ -409,13 +410,15 @@ plan::Decision smoothing_decision(const PlanInput& input) {
     return {name, false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
   if (input.preset.stop.passes == 1)
     return {name, false, "the run has one pass, and it takes two to tell how noisy a pixel is"};
-  if (input.settings.estimator == Settings::Estimator::tiles && !map_decision(input).runs)
+  if (input.settings.estimator == Settings::Estimator::tiles && !map_decision(input).runs &&
+      !input.tables.has_even_sky && !indirect_decision(input).runs)
     return {name, false, "tiles are as wide as their cells, and the camera sees no glass and no mirror"};
-  return {name, true,
-          fmt::format("a pixel's light is spread until their noise is {} of them, {}; the estimated error takes in "
-                      "how far it goes",
-                      Smoothing::usual_noise,
-                      choice == Choice::on ? "everywhere" : "where the two halves of the film say that it helps")};
+  return {
+      name, true,
+      fmt::format("a pixel's caustics are spread until their noise is {} of them, what paths from the eye see further, "
+                  "{}; the estimated error takes in how far it goes",
+                  Smoothing::usual_noise,
+                  choice == Choice::on ? "everywhere" : "where the two halves of the film say that it helps")};
 }
 
 PlanPart plan_smoothing(const PlanInput& input) {

@@ -48,7 +48,7 @@ public:
 
   static std::uint64_t bytes(const scene::Scene& scene, const scene::Bvh& bvh);
 
-  /// rgb has the caustics alone, [pixel][3] of the camera's size. error_draw is a draw of their error
+  /// rgb has a layer alone, [pixel][3] of the camera's size. error_draw is a draw of their error
   /// (Picture::error_draw), from which the noise of a pixel is known. It becomes that of the result, the bias included.
   /// Values below 0 count as no light when kernels are chosen. Nothing changes where the draw is empty. With `known`,
   /// an estimate of the same light that has a bias but no noise, each place gets the mixture of both that the halves

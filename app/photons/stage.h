@@ -17,8 +17,8 @@
 
 namespace nephroid::photons {
 
-/// A path from the eye takes about as long as a photon, and twice as long through glass. There, a sample of the layers
-/// "direct" and "background" has so many paths (PATHS_THROUGH_GLASS in kernels/tracing/eye_path.h).
+/// A path from the eye takes about as long as a photon, and twice as long through glass. There, a sample
+/// has so many paths (PATHS_THROUGH_GLASS in kernels/tracing/eye_path.h).
 inline constexpr double work_of_a_path = 1, work_through_glass = 2, paths_through_glass = 4;
 
 /// The noise of a stage, and how much it matters in the picture.
@@ -26,7 +26,7 @@ struct Noise {
   const std::vector<float>& draw;  ///< draw of the error that it brings, [pixel][3]; of photons, of the caustic layer's
   const std::vector<float>& light; ///< light of the whole picture, [pixel][3]
   std::int64_t passes = 0;         ///< passes of the layer until now
-  double photon_gain = 0;          ///< by how much a splatted photon lowers the sum of noise_beside() of all pixels
+  double photon_gain = 0;          ///< by how much the work of a photon lowers the sum of noise_beside() of all pixels
 
   /// The relative error of the metric rel_mse.
   static double noise_beside(double light_squared, double noise_squared) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of the layer "caustic" that is the even light of the environment (sky.h), without photons: paths from the
-// eye, through glass and mirrors, to the first diffuse surface, and from there on through glass and mirrors to the sky.
-// Light that comes from everywhere is found more surely from where it falls than from where it starts.
+// The part of the layer "caustic" that is the even light of the environment (sky.h). Paths from the eye go through
+// glass and mirrors to the first diffuse surface, and on through glass and mirrors to the sky. Light that comes from
+// everywhere is found more surely from where it falls than from where it starts.
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 #include "kernels/tracing/work_item.h"
@@ -24,7 +24,7 @@ static inline float3 direction_to_targets(__global const DeviceTarget* targets, 
 
 // The irradiance times Source::rgb of even light that reaches a diffuse surface through glass and mirrors, on the side
 // that `path` arrives at. Continues the path from there.
-IN_PLACE float3 even_light(const World* world, const DeviceLight* light, __global const DeviceTarget* targets,
+IN_PLACE float3 even_irradiance(const World* world, const DeviceLight* light, __global const DeviceTarget* targets,
                            Path* path, const Surface* surface, uint triangle, const Band* band, uint2 seed, uint sample,
                            uint pixel) {
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
@@ -42,8 +42,7 @@ IN_PLACE float3 even_light(const World* world, const DeviceLight* light, __globa
   weight *= trace_to_diffuse(world, path, &hit, true, band, seed, sample, BOUNCES, pixel, STREAM_EVEN_SKY_BOUNCE, false,
                              &last);
   if (weight == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
-  const SkyPlace place = sky_in(&world->sky, path->direction);
-  return light->radiometric * weight * even_part(&place) * place.density * place.rgb;
+  return light->radiometric * weight * even_radiance(&world->sky, path->direction);
 }
 
 // samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.
@@ -79,8 +78,9 @@ __kernel void even_sky(WORLD_ARGUMENTS, __global const DeviceTarget* targets, in
     const float radiance_scale =
         reach_diffuse(&world, &way, &end, &band, seed, sample, BOUNCES, pixel, STREAM_EVEN_SKY, &surface);
     if (radiance_scale == 0.0f) continue;
-    const Source sky = {light_index, even_light(&world, &light, targets, &way, &surface, end.primitive, &band, seed,
-                                                sample, pixel)};
+    const float3 irradiance =
+        even_irradiance(&world, &light, targets, &way, &surface, end.primitive, &band, seed, sample, pixel);
+    const Source sky = {light_index, irradiance};
     xyz += carried_light(&world, &way.losses, sky, &band, material_of(&world, surface.object).reflector).xyz *
            (radiance_scale / (PI_F * (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)BOUNCES));
   }

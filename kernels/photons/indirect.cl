@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "indirect", as paths from the eye find it: light that met a diffuse surface before the last one. A path is
 // bent by glass and mirrors and scattered by diffuse surfaces. Each of these from the second on adds the unbent light
-// that lamps and the environment send to it. Light that glass or a mirror sends to its first diffuse surface comes from
-// indirect_photons.cl, but for even light of the environment (sky.h), at which paths end here. So does that of narrow
-// spots, where the pixel shows no glass and no mirror.
+// that lamps and the environment send to it. indirect_photons.cl brings the light that glass or a mirror sends to its
+// first diffuse surface, but for even light of the environment (sky.h), at which paths end here. It also brings that of
+// narrow spots, where the pixel shows no glass and no mirror.
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 #include "kernels/tracing/work_item.h"
@@ -65,8 +65,7 @@ IN_PLACE float3 unbent_light(const World* world, const Walk* walk, const Surface
 static inline float3 even_light(const World* world, const Walk* walk) {
   for (int l = 0; l < world->scene.light_count; ++l) {
     if (!is_of_environment(world, l)) continue;
-    const SkyPlace place = sky_in(&world->sky, walk->path.direction);
-    const Source sky = {l, world->lights[l].radiometric * even_part(&place) * place.density * place.rgb};
+    const Source sky = {l, world->lights[l].radiometric * even_radiance(&world->sky, walk->path.direction)};
     return brought(world, walk, sky, -1);
   }
   return (float3)(0.0f);
@@ -91,9 +90,10 @@ static inline bool scatter(const World* world, Walk* walk, const Surface* surfac
   return side * dot(walk->path.direction, surface->geometric) > 0.0f;
 }
 
-// Follows a path that has hit `hit` to its end. Returns the XYZ radiance that it brings.
-IN_PLACE float3 follow(const World* world, Walk* walk, Hit hit, uint2 seed, uint sample, uint paths,
-                       uint pixel) {
+// Follows a path that has hit `hit` to its end. Returns the XYZ radiance that it brings, with the light of narrow spots
+// or without.
+IN_PLACE float3 follow(const World* world, Walk* walk, Hit hit, bool narrow, uint2 seed, uint sample,
+                       uint paths, uint pixel) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   SET_ASIDE uint scatterings = 0u;
   bool is_bent = false; // since the last of them
@@ -105,7 +105,7 @@ IN_PLACE float3 follow(const World* world, Walk* walk, Hit hit, uint2 seed, uint
     lose_in_medium(world, &walk->path, hit.t);
     const bool is_diffuse = material.type == MATERIAL_DIFFUSE;
     if (is_diffuse && scatterings > 0u)
-      xyz += unbent_light(world, walk, &surface, hit.primitive, material.reflector, paths > 1u, seed, sample, paths,
+      xyz += unbent_light(world, walk, &surface, hit.primitive, material.reflector, narrow, seed, sample, paths,
                           pixel + 0x9e3779b9u * scatterings);
     if (surface_number == world->scene.max_surfaces) return xyz;
     const float4 random =
@@ -147,6 +147,8 @@ __kernel void indirect(WORLD_ARGUMENTS,
 
   const bool unbent = is_unbent(&world, &camera, &hit);
   const uint paths = unbent ? 1u : PATHS_THROUGH_GLASS;
+  // Photons show the light of narrow spots where the camera sees a surface directly.
+  const bool narrow = material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type != MATERIAL_DIFFUSE;
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = path.direction;
   SET_ASIDE Hit first = hit;
   for (uint p = 0; p < paths; ++p) {
@@ -160,7 +162,7 @@ __kernel void indirect(WORLD_ARGUMENTS,
       walk.bands[i].weight /= chance;
       walk.throughput[i] = 1.0f;
     }
-    xyz += follow(&world, &walk, first, seed, frame * paths + p, paths, pixel) / (float)(paths * BANDS);
+    xyz += follow(&world, &walk, first, narrow, seed, frame * paths + p, paths, pixel) / (float)(paths * BANDS);
   }
   const float limit = limit_of_sample(frame, enough, film_limit);
   if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale,

@@ -30,6 +30,7 @@ typedef struct {
 
 // The part of a texel's light that is even. The mean radiance of a sky of 1 W m^-2 in all is 1 / (4 pi).
 static inline float even_part(const SkyPlace* place) {
+  if (!(place->peak_density > 0.0f)) return 1.0f;
   const float grey = (place->rgb.x + place->rgb.y + place->rgb.z) / 3.0f * place->density;
   return fmin(1.0f / (4.0f * PI_F * grey), 1.0f);
 }
@@ -91,4 +92,10 @@ static inline SkyPlace sky_in(const Sky* sky, float3 direction) {
   const int column = min((int)((azimuth - floor(azimuth)) * (float)sky->size.width), sky->size.width - 1);
   const int row = min((int)(zenith * (float)sky->size.height), sky->size.height - 1);
   return sky_texel(sky, direction, row, column);
+}
+
+// Radiance times Source::rgb of the even light in a direction, for a sky of 1 W m^-2 in all.
+static inline float3 even_radiance(const Sky* sky, float3 direction) {
+  const SkyPlace place = sky_in(sky, direction);
+  return even_part(&place) * place.density * place.rgb;
 }
