@@ -26,6 +26,7 @@ check first-light
 check spectral/glass-in-a-room --set spectral.indirect_photons_per_pass=64 # photon maps, indirect light
 check first-light --set spectral.estimator=tiles
 check spectral/three-lamps                                                 # an environment
+check spectral/evening-sun                                                 # one with even light
 check spectral/prism --set spectral.relight=true                           # a layer a light and cluster
 check extremes/nested-eight                                                # spheres
 small=(--passes 1 --set "inverse.facets=[2,2]" --set "inverse.size_mm=[10,10]" --set "inverse.receiver_mm=[20,20]"

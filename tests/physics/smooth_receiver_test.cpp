@@ -133,8 +133,7 @@ TEST(SmoothReceiver, SendsOnWhatItGetsByItsNormals) {
   p.scene.camera.fov_deg = 15; // of the wall alone
   spectral::settings(p).caustic = false;
   spectral::settings(p).indirect = true;
-  spectral::settings(p).photons_per_pass = 1 << 13;
-  p.stop.passes = 24;
+  p.stop.passes = 256;
   const Estimate faceted = render_passes(p, blocks_of).back();
   p.scene.objects[0].normals = preset::Object::Normals::smooth;
   p.seed = 2;

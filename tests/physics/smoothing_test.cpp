@@ -203,7 +203,7 @@ TEST(ThroughGlass, ARunThatIsResumedHasTheSameBits) {
 TEST(ThroughGlass, SharesChangeNoLight) {
   preset::Preset shared = whole(64), plain = test::plain(shared);
   spectral::settings(shared).smoothing = photons::Settings::Smoothing::off;
-  plain.seed = 7;
+  spectral::settings(shared).photons_per_pass = spectral::settings(plain).photons_per_pass = 1 << 14;
   std::vector<bool> glass(48 * 48, false);
   for (const std::uint32_t pixel : photons::glass_pixels(scene::load_scene(plain))) glass[pixel] = true;
   const auto sum_of = [&](const job::Snapshot& snapshot) {
@@ -212,9 +212,15 @@ TEST(ThroughGlass, SharesChangeNoLight) {
     for (std::size_t i = 0; i < rgb.size(); ++i) sum += glass[i / 3] ? rgb[i] : 0;
     return sum;
   };
-  const double by_gain = sum_of(test::render_as_it_is(shared)), as_before = sum_of(test::render(plain));
+  double by_gain = 0, as_before = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    shared.seed = seed;
+    plain.seed = seed + 4;
+    by_gain += sum_of(test::render_as_it_is(shared));
+    as_before += sum_of(test::render(plain));
+  }
   EXPECT_GT(as_before, 0);
-  EXPECT_NEAR(by_gain / as_before, 1, 0.05);
+  EXPECT_NEAR(by_gain / as_before, 1, 0.07); // with a quarter of the photons a ratio of two runs has a noise of .08
 }
 
 // Which clusters photons are allocated to changes the noise of a picture and not what it shows.

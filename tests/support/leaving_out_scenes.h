@@ -110,6 +110,8 @@ inline std::vector<Omission> omissions() {
   preset::Preset no_glass_seen = floor_scene();
   spectral::settings(no_glass_seen).estimator = photons::Settings::Estimator::automatic;
   spectral::settings(no_glass_seen).jitter = false; // with maps, all photons of a cluster have one wavelength a pass
+  preset::Preset lines = line_light_scene();
+  spectral::settings(lines).jitter = false; // a streak ends with its cluster's wavelengths
   // A tree of a few triangles is soon searched: all other code has its largest share.
   preset::Preset slab = ball;
   slab.scene.objects[0].shape = box(1, 0.4, 1);
@@ -119,7 +121,7 @@ inline std::vector<Omission> omissions() {
           {"stray_photons", &L::stray_photons, close_light, false},
           {"unreached_targets", &L::unreached_targets, spot_scene(40), false},
           {"dark_lights", &L::dark_lights, dark_lights_scene()},
-          {"unlit_wavelengths", &L::unlit_wavelengths, line_light_scene()},
+          {"unlit_wavelengths", &L::unlit_wavelengths, lines},
           {"occlusion", &L::occlusion, floor_scene()},
           {"light_types", &L::light_types, slab},
           {"mirrors", &L::mirrors, slab},
