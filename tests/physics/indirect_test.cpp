@@ -171,18 +171,22 @@ TEST(Indirect, ARedTileTintsAGreenScreen) {
                  2e-3); // middles of pixels, and the pencil's width
 }
 
-// The same with a point light and a white tile, and the screen as a mirror shows it that stands before the camera. What
-// the mirror itself sends to the screen goes elsewhere. Light of the tile's every place is summed up over it: with its
-// irradiance E the screen gets the integral of E rho / pi cos(theta) cos(theta') / d^2.
+// The same with a point light and a white tile, and the screen as a mirror shows it that stands before the camera. A
+// far bead disperses light, so that a path goes on in one wavelength from the mirror on. What the mirror itself sends
+// to the screen goes elsewhere. Light of the tile's every place is summed up over it: with its irradiance E the screen
+// gets the integral of E rho / pi cos(theta) cos(theta') / d^2.
 TEST(Indirect, AMirrorShowsAScreenThatATileLights) {
   constexpr int pixels = 16;
   constexpr double power = 3, height = 0.5, from_screen = 3, from_mirror = 0.06, tile_side = 0.4;
   const preset::Vec3 lamp{0.2, 0.8, 0.1}, tile{-0.8, height, 0};
   preset::Preset p = indirect_only(pixels);
-  p.scene.materials = {{"white", white(0.8)}, {"mirror", check::mirror(1)}};
+  p.scene.materials = {{"white", white(0.8)}, {"mirror", check::mirror(1)}, {"flint", glass(1)}};
+  p.scene.materials["flint"].dispersion.type = preset::Dispersion::Type::file;
+  p.scene.materials["flint"].dispersion.file = "N-SF66.yml";
   p.scene.objects = {object("tile", quad(tile_side, tile_side), "white", at(tile, {0, 0, -90})),
                      object("screen", quad(1, 1), "white"),
-                     object("mirror", quad(0.1, 0.1), "mirror", at({0, from_screen - from_mirror, 0}, {0, 0, -135}))};
+                     object("mirror", quad(0.1, 0.1), "mirror", at({0, from_screen - from_mirror, 0}, {0, 0, -135})),
+                     object("bead", check::ball(0.01), "flint", at({0, 4, 5}))};
   preset::Light light;
   light.spectrum.illuminant = "E";
   light.position = lamp;
