@@ -89,15 +89,14 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
   if (index >= count) return;
   const uint pixel = samples[index].x;
   SET_ASIDE uint frame = samples[index].y;
-  const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
   SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_BACKGROUND);
-  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter.xy));
-  const Hit hit = next_hit(&world, &path);
+  float3 direction;
+  const Hit hit = first_hit(&world, &camera, pixel, jitter.xy, &direction);
 
-  SET_ASIDE float3 xyz = (float3)(0.0f), outwards = path.direction;
+  SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
   if (hit.primitive == NEPHROID_NO_PRIMITIVE)
-    xyz = background_xyz(&background, background_rgb(&background, path.direction), WAVELENGTH_COUNT);
+    xyz = background_xyz(&background, background_rgb(&background, direction), WAVELENGTH_COUNT);
   else if (material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type == MATERIAL_DIFFUSE)
     return;
   else
@@ -107,8 +106,6 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
       xyz += seen_through(&world, &background, path_from_eye(&camera, outwards), first, &band, jitter.xy, seed, frame,
                           i, pixel);
     }
-  const float limit = limit_of_sample(frame, enough, film_limit);
-  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale,
-                         limit, jitter.z))
-    add_exactly(energy + OUTCOME_REFUSED, 1);
+  add_sample(film, energy, &camera, pixel, frame, xyz, film_scale, limit_of_sample(frame, enough, film_limit),
+             jitter.z);
 }

@@ -56,16 +56,15 @@ __kernel void direct(WORLD_ARGUMENTS,
   if (index >= count) return;
   const uint pixel = samples[index].x;
   SET_ASIDE uint frame = samples[index].y;
-  const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
   SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_CAMERA);
-  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter.xy));
-  const Hit hit = next_hit(&world, &path);
+  float3 direction;
+  const Hit hit = first_hit(&world, &camera, pixel, jitter.xy, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
   // One call of follow() for both cases: Intel's vectoriser gets two of them wrong (docs/checking.md).
   const bool unbent = is_unbent(&world, &camera, &hit);
   const uint paths = unbent ? 1u : PATHS_THROUGH_GLASS;
-  SET_ASIDE float3 xyz = (float3)(0.0f), outwards = path.direction;
+  SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
   for (uint i = 0; i < paths; ++i) {
     const Path way = path_from_eye(&camera, outwards);
@@ -81,8 +80,6 @@ __kernel void direct(WORLD_ARGUMENTS,
     }
     xyz += follow(&world, way, first, &band, reflected_xyz_all, seed, sample, pixel) / probability;
   }
-  const float limit = limit_of_sample(frame, enough, film_limit);
-  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale,
-                         limit, jitter.z))
-    add_exactly(energy + OUTCOME_REFUSED, 1);
+  add_sample(film, energy, &camera, pixel, frame, xyz, film_scale, limit_of_sample(frame, enough, film_limit),
+             jitter.z);
 }

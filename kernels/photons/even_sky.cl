@@ -57,14 +57,13 @@ __kernel void even_sky(WORLD_ARGUMENTS, __global const DeviceTarget* targets, in
   if (index >= count) return;
   const uint pixel = samples[index].x;
   SET_ASIDE uint frame = samples[index].y;
-  const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
   SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_EVEN_SKY);
-  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter.xy));
-  const Hit hit = next_hit(&world, &path);
+  float3 direction;
+  const Hit hit = first_hit(&world, &camera, pixel, jitter.xy, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
   const DeviceLight light = lights[light_index];
-  SET_ASIDE float3 xyz = (float3)(0.0f), outwards = path.direction;
+  SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
   for (uint i = 0; i < BOUNCES; ++i) {
     const uint sample = frame * BOUNCES + i;
@@ -84,8 +83,6 @@ __kernel void even_sky(WORLD_ARGUMENTS, __global const DeviceTarget* targets, in
     xyz += carried_light(&world, &way.losses, sky, &band, material_of(&world, surface.object).reflector).xyz *
            (radiance_scale / (PI_F * (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)BOUNCES));
   }
-  const float limit = limit_of_sample(frame, enough, film_limit);
-  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale,
-                         limit, jitter.z))
-    add_exactly(energy + OUTCOME_REFUSED, 1);
+  add_sample(film, energy, &camera, pixel, frame, xyz, film_scale, limit_of_sample(frame, enough, film_limit),
+             jitter.z);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A path from the eye through glass and mirrors to the first diffuse surface, and each lamp's unbent light there.
+#include "kernels/tracing/camera.h"
 #include "kernels/tracing/emission.h"
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/low_discrepancy.h"
@@ -98,6 +99,22 @@ static inline float3 sky_irradiance(const World* world, int light_index, const P
     if (!is_blocked(world, from, place.direction, INFINITY, triangle)) sum += rgb * weight;
   }
   return light.radiometric * sum;
+}
+
+// What the camera sees first in the direction of a place in a pixel. place: in [0, 1) x [0, 1).
+static inline Hit first_hit(const World* world, const DeviceCamera* camera, uint pixel, float2 place,
+                            float3* direction) {
+  *direction = primary_direction(camera, (int)pixel % camera->width, (int)pixel / camera->width, place);
+  Path path = path_from_eye(camera, *direction);
+  return next_hit(world, &path);
+}
+
+// Adds a sample to its pixel, and counts it in `energy` where it is too bright for the film. limit: limit_of_sample's.
+static inline void add_sample(volatile __global long* film, volatile __global long* energy, const DeviceCamera* camera,
+                              uint pixel, uint frame, float3 xyz, float scale, float limit, float dither) {
+  if (!film_add_dithered(film_of_iteration(film, frame, camera->width * camera->height), (int)pixel, xyz, scale, limit,
+                         dither))
+    add_exactly(energy + OUTCOME_REFUSED, 1);
 }
 
 // Whether a path from the eye met a diffuse surface at once, so that all wavelengths went the same way.
