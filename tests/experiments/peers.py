@@ -150,6 +150,9 @@ def measure(program, out, name):
     found = [("Nephroid", ours, our_seconds),
              ("Nephroid, unsmoothed", *nephroid(scene, folder, BUDGETS, program,
                                                 ["--set", "spectral.smoothing=off"])[:2])]
+    if name in ("ball", "bunny"):
+        found.append(("Nephroid, tiles", *nephroid(scene, folder, BUDGETS, program,
+                                                   ["--set", "spectral.estimator=tiles"])[:2]))
     for method in integrators:
         found.append((f"Mitsuba, {method}", *apart(renderer="mitsuba", method=method, seed=1, budgets=BUDGETS,
                                                    **share)[:2]))
