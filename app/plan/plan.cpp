@@ -43,7 +43,8 @@ Json json_of(const Plan& plan) {
   for (const auto& [name, value] : plan.defines) defines[name] = value;
   for (const Input& input : plan.inputs) inputs.push_back({{"file", input.file}, {"content", input.content}});
   return {{"engine", plan.engine}, {"passes", decisions}, {"buffers", buffers},
-          {"defines", defines},    {"inputs", inputs},    {"notes", plan.notes}};
+          {"defines", defines},    {"inputs", inputs},    {"notes", plan.notes},
+          {"not_imported", plan.not_imported}};
 }
 
 } // namespace
@@ -101,10 +102,12 @@ std::string to_text(const Plan& plan) {
     for (const auto& [name, value] : plan.defines)
       text += fmt::format("  -D {}{}{}\n", name, value.empty() ? "" : "=", value);
   }
-  if (!plan.notes.empty()) {
-    text += "\nNotes\n";
-    for (const std::string& note : plan.notes) text += fmt::format("  {}\n", note);
-  }
+  const auto section = [&text](const char* title, const std::vector<std::string>& lines) {
+    if (!lines.empty()) text += fmt::format("\n{}\n", title);
+    for (const std::string& line : lines) text += fmt::format("  {}\n", line);
+  };
+  section("Notes", plan.notes);
+  section("Not imported", plan.not_imported);
   return text;
 }
 

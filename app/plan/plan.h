@@ -45,6 +45,7 @@ struct Plan {
   std::map<std::string, std::string> defines;
   std::vector<Input> inputs;               ///< what the run was made of
   std::vector<std::string> notes;          ///< what the run should say once: extrapolated data, open meshes
+  std::vector<std::string> not_imported;   ///< the preset's
   int layers = 0;                          ///< pictures that the run makes and adds up
   std::uint64_t picture_bytes_a_pixel = 0; ///< on this machine, while a picture is made, beside it
   std::string smaller = {};     ///< what to choose where the memory is too small for it; empty: a smaller picture
@@ -52,7 +53,7 @@ struct Plan {
 };
 
 /// {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{},
-/// "inputs":[{"file","content"}]}, plus "notes"; "field" and "run_value" only where a field decides. "passes" are the
+/// "inputs":[{"file","content"}]}, plus "notes" and "not_imported"; "field" and "run_value" only where a field decides. "passes" are the
 /// decisions, by the name that files have.
 std::string to_json(const Plan& plan);
 /// The inputs in a plan.json; none if it is damaged.

@@ -70,6 +70,9 @@ void describe(Fields& v, Preset& p) {
   v.about("Preset", "A Nephroid preset: everything a run depends on.");
   v.field("name", "A short name; without one, the file's name without .json.", p.name, {.text = Text::line});
   v.field("description", "One line for `nephroid presets`.", p.description, {.text = Text::line});
+  v.field("not_imported",
+          "What the file that this was imported from has and this has not, a sentence each. The plan shows it.",
+          p.not_imported, {.count = {0, max_rows}, .text = Text::line});
   v.engine("engine", "Which engine renders it.", p.settings);
   v.field("unit", "What one unit of length is.", p.unit);
   v.field("seed", "Seed of the random numbers: the same seed gives the same bits.", p.seed,

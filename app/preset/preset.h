@@ -243,6 +243,7 @@ struct Preset {
   enum class Unit { mm, cm, m };
   std::string name;
   std::string description;
+  std::vector<std::string> not_imported; ///< what the file that this was imported from has and this has not
   Unit unit = Unit::m;
   std::uint64_t seed = 1;
   /// The luminance Y (W m^-2 sr^-1, no factor 683) that becomes 1 in the picture; nothing: "auto", which is a number

@@ -53,6 +53,7 @@ LoadedScene load(const preset::Preset& preset, const Prepared* previous, bool le
 
 std::unique_ptr<plan::Plan> make_plan(const preset::Preset& preset, const LoadedScene& loaded) {
   std::unique_ptr<plan::Plan> plan = engine::engine_of(preset).plan(preset, loaded.scene, *loaded.bvh);
+  plan->not_imported = preset.not_imported;
   plan->buffers.push_back(picture_and_files(*plan, loaded.scene.camera.width, loaded.scene.camera.height));
   return plan;
 }

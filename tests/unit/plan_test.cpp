@@ -23,6 +23,7 @@ Plan example() {
   plan.buffers = {{"film", 3ull << 20}, {"tree", 5ull << 33}};
   plan.defines = {{"BVH_STACK", "32"}};
   plan.notes = {"bunny: 12 open edges"};
+  plan.not_imported = {"in.xml:11: the shape hair is left out"};
   plan.inputs = {{"bunny.obj", "00ff"}};
   return plan;
 }
@@ -36,7 +37,8 @@ TEST(Plan, JsonIsTheContract) {
   EXPECT_EQ(json["defines"], (Json{{"BVH_STACK", "32"}}));
   EXPECT_EQ(json["notes"], (Json{"bunny: 12 open edges"}));
   EXPECT_EQ(json["inputs"], Json::parse(R"([{"file":"bunny.obj","content":"00ff"}])"));
-  EXPECT_EQ(json.size(), 6u);
+  EXPECT_EQ(json["not_imported"], (Json{"in.xml:11: the shape hair is left out"}));
+  EXPECT_EQ(json.size(), 7u);
 }
 
 // Lines of a sweep are told apart by their names.
@@ -75,6 +77,7 @@ TEST(Plan, TextSaysWhatIsLeftOutAndWhyAndAddsUpTheMemory) {
   EXPECT_THAT(text, HasSubstr("total   40.0 GiB"));
   EXPECT_THAT(text, HasSubstr("-D BVH_STACK=32"));
   EXPECT_THAT(text, HasSubstr("bunny: 12 open edges"));
+  EXPECT_THAT(text, HasSubstr("Not imported\n  in.xml:11: the shape hair is left out\n"));
 }
 
 /// Nothing where presets may not have these values together.

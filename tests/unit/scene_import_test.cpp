@@ -77,8 +77,10 @@ TEST_F(SceneImport, OneSceneInBothFormatsIsOnePreset) {
 TEST_F(SceneImport, WhatIsLeftOutIsSaidWithItsLine) {
   std::string text = mitsuba;
   text.replace(text.find("</scene>"), 8, "<shape type=\"hair\"/>\n</scene>");
-  imported(text, "in.xml");
+  const preset::Preset p = imported(text, "in.xml");
   EXPECT_THAT(made.notes, ElementsAre(HasSubstr("in.xml:11: the shape hair is left out")));
+  EXPECT_EQ(p.not_imported, made.notes) << "the preset keeps them";
+  EXPECT_EQ(read_file(folder.path() / "out-not-imported.txt"), made.notes[0] + "\n") << "and a text beside it";
   imported(pbrt + "Shape \"curve\"\nLightSource \"goniometric\"\n", "in.pbrt");
   EXPECT_THAT(made.notes,
               ElementsAre(HasSubstr("in.pbrt:13: the shape curve"), HasSubstr("in.pbrt:14: the light goniometric")));

@@ -102,6 +102,8 @@ void PlanPanel::draw(const Context& context) {
       draw_wrapped(colour::quiet_text, fmt::format("-D {}{}{}", name, value.empty() ? "" : "=", value));
     if (!plan->notes.empty()) heading("Notes");
     for (const std::string& note : plan->notes) draw_wrapped(colour::note, note);
+    if (!plan->not_imported.empty()) heading("Not imported");
+    for (const std::string& line : plan->not_imported) draw_wrapped(colour::note, line);
   }
   ImGui::EndChild();
 }

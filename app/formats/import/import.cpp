@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <system_error>
@@ -97,6 +98,9 @@ public:
       look_at_all();
     if (made_.scene.lights.empty() && !made_.scene.environment) light_all();
     expose();
+    for (std::string& line : made_.not_imported = from_.notes)
+      std::ranges::replace_if(
+          line, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' '); // of names in the file
     return made_;
   }
 
@@ -274,11 +278,11 @@ Imported import_scene(const fs::path& file, const fs::path& preset) {
   const std::string kind = lower_case(file.extension().string()), name = preset.stem().string();
   Description description = (kind == ".xml" ? describe_mitsuba : kind == ".pbrt" ? describe_pbrt : describe_gltf)(file);
   PresetBuilder builder(description, name + "-meshes");
-  const preset::Preset made = builder.make(name);
+  // What cannot be read again is not written. The other programs follow light from wall to wall, so this one does.
+  const preset::Preset made =
+      preset::parse_preset(preset::to_json(builder.make(name)), preset.string(), {"spectral.indirect=true"});
   std::erase_if(description.meshes, [&](const auto& mesh) { return !builder.uses(mesh.first); });
 
-  const std::string text = preset::to_json(made);
-  preset::parse_preset(text, preset.string()); // what cannot be read again is not written
   const fs::path folder = preset.parent_path() / (name + "-meshes");
   std::error_code error;
   fs::create_directories(folder, error);
@@ -286,7 +290,10 @@ Imported import_scene(const fs::path& file, const fs::path& preset) {
   for (const auto& [key, glass] : description.glasses) write_file_whole(folder / key, glass);
   for (const auto& [key, mesh] : description.meshes)
     write_file_whole(folder / key, [&mesh = mesh](ByteSink& to) { scene::write_ply(mesh, to); });
-  write_file_whole(preset, text);
+  if (!made.not_imported.empty())
+    write_file_whole(preset.parent_path() / (name + "-not-imported.txt"),
+                     fmt::format("{}\n", fmt::join(made.not_imported, "\n")));
+  write_file_whole(preset, preset::to_json(made));
   return {preset, made.scene.objects.size(), description.meshes.size(), made.scene.lights.size(),
           std::move(description.notes)};
 }
