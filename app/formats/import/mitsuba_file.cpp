@@ -78,9 +78,7 @@ void MitsubaFile::take(xml_node node) {
     if (!fs::is_directory(folder)) throw bad_input(at(node), "the folder " + folder.string() + " is not there");
     folders_.insert(folders_.begin(), folder);
   } else if (kind == "alias") {
-    const auto found = ids_.find(attribute(node, "id"));
-    if (found == ids_.end()) throw bad_input(at(node), "there is no \"" + attribute(node, "id") + "\" above it");
-    ids_.try_emplace(attribute(node, "as"), found->second);
+    aliases_.try_emplace(attribute(node, "as"), attribute(node, "id"));
   } else
     nodes_.push_back(node);
 }
@@ -115,7 +113,8 @@ fs::path MitsubaFile::find(xml_node node, const std::string& name) const {
 
 xml_node MitsubaFile::meant(xml_node node) const {
   for (int step = 0; std::string_view(node.name()) == "ref"; ++step) {
-    const std::string id = attribute(node, "id");
+    std::string id = attribute(node, "id");
+    for (std::size_t i = 0; i < aliases_.size() && aliases_.contains(id); ++i) id = aliases_.at(id);
     const auto found = ids_.find(id);
     if (found == ids_.end())
       throw bad_input(at(node), "nothing has the id \"" + id + "\"", "expected an id of the scene");

@@ -70,6 +70,7 @@ private:
   std::vector<std::filesystem::path> folders_; ///< those of <path>, the last one first
   std::vector<xml_node> nodes_;
   std::map<std::string, xml_node> ids_;
+  std::map<std::string, std::string> aliases_; ///< ids by other names
   std::map<std::string, std::string> defaults_;
 };
 
