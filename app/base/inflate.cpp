@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/inflate.h"
 
+#include "base/counted.h"
+
 #include <algorithm>
 #include <limits>
 #include <zlib.h>
@@ -56,8 +58,8 @@ void Inflater::read(std::span<std::byte> into) {
     throw bad_input(where_, "its packed bytes end too early", {}, "check that the file is whole");
 }
 
-std::string inflated(std::string_view packed, const Location& where) {
-  constexpr std::size_t most = std::size_t{1} << 30, piece = 1 << 20;
+std::string inflated(std::string_view packed, const Location& where, std::size_t most) {
+  constexpr std::size_t piece = 1 << 20;
   Inflater from(packed, where);
   std::string all;
   for (std::size_t got = piece; got == piece;) {
@@ -66,7 +68,8 @@ std::string inflated(std::string_view packed, const Location& where) {
     got = from.read_some(std::as_writable_bytes(std::span(all).subspan(before)));
     all.resize(before + got);
     if (all.size() > most)
-      throw bad_input(where, "holds more than 1 GiB", {}, "unpack it, and name the file that is in it");
+      throw bad_input(where, "holds more than " + counted(most >> 20, "MiB", "MiB"), {},
+                      "unpack it, and name the file that is in it");
   }
   return all;
 }

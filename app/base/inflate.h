@@ -37,7 +37,9 @@ private:
   Location where_;
 };
 
-/// All of it. Throws bad_input where that is more than 1 GiB: a small file may hold terabytes.
-std::string inflated(std::string_view packed, const Location& where);
+/// A small file may hold terabytes.
+inline constexpr std::size_t most_inflated = std::size_t{1} << 30;
+/// All of it. Throws bad_input where that is more than `most` bytes.
+std::string inflated(std::string_view packed, const Location& where, std::size_t most = most_inflated);
 
 } // namespace nephroid
