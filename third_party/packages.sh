@@ -6,7 +6,7 @@
 # Configuring and compiling. python3-pip downloads two source archives (pip_fetch.cmake).
 build_packages=(g++ cmake ninja-build pkg-config python3-pip)
 # Libraries of the program itself, the bunny that the first-light preset shows, the font that words are drawn with, and
-# the chart library that reports hold. zlib1g-dev: Assimp's CMake package names zlib.
+# the chart library that reports hold.
 program_packages=(
   opencl-clhpp-headers ocl-icd-opencl-dev pocl-opencl-icd
   libfmt-dev nlohmann-json3-dev libyaml-cpp-dev libcli11-dev

@@ -3,6 +3,8 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/inflate.h"
+#include "base/lower_case.h"
 #include "base/numbers.h"
 
 #include <fmt/format.h>
@@ -10,11 +12,50 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
 #include <numbers>
 
 namespace nephroid::formats {
 
+namespace fs = std::filesystem;
 using std::numbers::pi;
+
+namespace {
+
+/// The mesh reader takes a file by its ending, so it gets an unpacked one.
+scene::Mesh packed_mesh(const fs::path& file) {
+  const std::string bytes = inflated(read_file(file), file);
+  const fs::path folder = temporary_folder(), unpacked = folder / file.stem().filename();
+  const auto removed = [](const fs::path* made) {
+    std::error_code ignored;
+    fs::remove_all(*made, ignored);
+  };
+  const std::unique_ptr<const fs::path, decltype(removed)> made(&folder, removed);
+  write_file_whole(unpacked, bytes);
+  try {
+    return scene::load_mesh(unpacked);
+  } catch (const Error& error) {
+    throw error.at(file);
+  }
+}
+
+} // namespace
+
+fs::path temporary_folder() {
+  std::string name = (fs::temp_directory_path() / "nephroid-import-XXXXXX").string();
+  if (!mkdtemp(name.data()))
+    throw failed(name, std::string("cannot be made: ") + std::strerror(errno), {},
+                 "set TMPDIR to a folder that you may write to");
+  return name;
+}
+
+std::string read_packed_file(const fs::path& file) {
+  const std::string bytes = read_file(file);
+  return lower_case(file.extension().string()) == ".gz" ? inflated(bytes, file) : bytes;
+}
 
 void Description::note(const std::string& text) {
   if (std::ranges::count(notes, text) == 0) notes.push_back(text);
@@ -24,7 +65,10 @@ std::string Description::mesh_file(const std::filesystem::path& file, const Loca
   const std::string key = file_name_of(file.lexically_normal().string(), ".ply");
   if (meshes.contains(key)) return key;
   if (!is_there(file)) throw bad_input(where, "the mesh " + file.string() + " is not there", {}, "put it there");
-  meshes.emplace(key, scene::load_mesh(file));
+  if (lower_case(file.extension().string()) != ".gz")
+    meshes.emplace(key, scene::load_mesh(file));
+  else
+    meshes.emplace(key, packed_mesh(file));
   return key;
 }
 
@@ -59,12 +103,18 @@ std::optional<double> scene_number(std::string_view text) {
   return number && std::abs(*number) <= 1e12 ? number : std::nullopt;
 }
 
-preset::Material glass_of(double n, const Location& where) {
+DescribedGlass glass_of(double n, const Location& where) {
   if (!(n >= 0.01 && n <= 100)) throw bad_input(where, "its index of refraction is out of range");
-  preset::Material glass;
-  glass.type = preset::Material::Type::dielectric;
-  glass.dispersion.n = n;
+  DescribedGlass glass;
+  glass.inside.n = n;
   return glass;
+}
+
+void require_inverse(const glm::dmat4& matrix, const Location& where) {
+  const glm::dmat3 axes(matrix);
+  const double lengths = glm::length(axes[0]) * glm::length(axes[1]) * glm::length(axes[2]);
+  if (!(std::abs(glm::determinant(axes)) > 1e-12 * lengths))
+    throw bad_input(where, "its transform has no inverse: it flattens what it places", {}, "give no scale of 0");
 }
 
 glm::dmat4 look_at(const glm::dvec3& origin, const glm::dvec3& target, const glm::dvec3& up, const Location& where) {

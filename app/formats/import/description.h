@@ -2,15 +2,11 @@
 // What the readers of glTF, Mitsuba and PBRT files find, in the file's own coordinates and units. import.cpp makes a
 // preset of it. Intensities are colours whose luminance is in the file's unit of power.
 #pragma once
-#include "base/location.h"
-#include "preset/preset.h"
+#include "formats/import/described_colour.h"
 #include "scene/mesh.h"
-
-#include <glm/glm.hpp>
 
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 
 namespace nephroid::formats {
@@ -18,18 +14,32 @@ namespace nephroid::formats {
 struct DescribedShape {
   Location where;
   std::string name;
-  std::string mesh;               ///< a key of Description::meshes; empty: a sphere about the origin
-  double radius = 1;              ///< the sphere's
-  glm::dmat4 to_world{1};         ///< in the file's coordinates
-  std::string material;           ///< a key of Description::materials
-  std::optional<glm::dvec3> glow; ///< radiance of its outside
+  std::string mesh;                    ///< a key of Description::meshes; empty: a sphere about the origin
+  double radius = 1;                   ///< the sphere's
+  glm::dmat4 to_world{1};              ///< in the file's coordinates
+  std::string material;                ///< a key of Description::materials
+  std::optional<bool> smooth;          ///< its normals; nothing: smooth where the mesh has normals
+  int priority = 0;                    ///< of a dielectric, as a preset's object has it
+  bool inside_out = false;             ///< what shines is its inside; what is in a dielectric is around it
+  std::optional<DescribedColour> glow; ///< radiance of its outside
+  std::optional<double> glow_power;    ///< of all of it, in the file's unit, times the luminance of its glow
+  bool glows_on_both_sides = false;    ///< only where it is flat
+};
+
+/// A dielectric of the file.
+struct DescribedGlass {
+  preset::Dispersion inside;                 ///< on the side that normals look away from
+  double outside = 1;                        ///< the index on their other side, as the file has it
+  bool is_ratio = false;                     ///< inside is over what is on the other side, whatever that is
+  bool is_thin = false;                      ///< a sheet whose surfaces are one in the file
+  std::optional<DescribedColour> absorption; ///< a unit of length
 };
 
 struct DescribedLight {
   Location where;
   preset::Light::Type type = preset::Light::Type::point; ///< not area
   glm::dvec3 position{0}, direction{0, 0, 1};
-  glm::dvec3 colour{1}; ///< intensity; irradiance of a directional one
+  DescribedColour colour; ///< intensity; irradiance of a directional one
   double half_angle_deg = 30;
 };
 
@@ -48,6 +58,8 @@ struct DescribedSurroundings {
   glm::dvec3 centre{0, 0, 1}; ///< where the map's centre column looks, y up
 };
 
+inline constexpr std::size_t max_shapes = 1000000; ///< of a file: instances of instances multiply
+
 struct Description {
   std::filesystem::path source;
   double unit = 1; ///< luminance Y (W m^-2 sr^-1, no factor 683) of a radiance of 1 in the file, which is white there
@@ -56,6 +68,7 @@ struct Description {
   std::map<std::string, scene::Mesh> meshes;  ///< by the names of their files
   std::map<std::string, std::string> glasses; ///< dispersion files by their names, which materials have
   std::map<std::string, preset::Material> materials;
+  std::map<std::string, DescribedGlass> dielectrics; ///< by the keys of the materials that settle_dielectrics() makes
   std::vector<DescribedShape> shapes;
   std::vector<DescribedLight> lights;
   std::vector<preset::Light> lamps; ///< lights that are in watts already
@@ -66,11 +79,17 @@ struct Description {
   void note(const std::string& text);
   /// FILE:LINE: the same.
   void note(const Location& where, const std::string& text) { note(where.text() + ": " + text); }
-  /// Reads a mesh and returns its key. where: of the shape, for the message where the file cannot be read.
+  /// Reads a mesh, which may be packed as .gz, and returns its key. where: of the shape, for the message where the file
+  /// cannot be read.
   std::string mesh_file(const std::filesystem::path& file, const Location& where);
   /// Adds a mesh and returns its key.
   std::string own_mesh(const std::string& name, scene::Mesh mesh);
 };
+
+/// A new folder among the system's temporary ones; who asks for it removes it.
+std::filesystem::path temporary_folder();
+/// The file's bytes; unpacked where its name ends in .gz.
+std::string read_packed_file(const std::filesystem::path& file);
 
 /// A text of a file as the name of something: one line, without what parts paths.
 std::string name_of(const std::string& text, const std::string& otherwise);
@@ -82,7 +101,9 @@ std::string unique(const std::string& name, std::set<std::string>& taken);
 /// A number of a file; nothing if the text is none, or one that no scene has.
 std::optional<double> scene_number(std::string_view text);
 /// Throws bad_input at `where` if no glass has this index of refraction.
-preset::Material glass_of(double n, const Location& where);
+DescribedGlass glass_of(double n, const Location& where);
+/// Throws bad_input at `where` if the matrix has no inverse, which flattens what it places.
+void require_inverse(const glm::dmat4& matrix, const Location& where);
 
 /// From a viewer's coordinates, x across `up` and the line of sight, z forward. Throws bad_input at `where`.
 glm::dmat4 look_at(const glm::dvec3& origin, const glm::dvec3& target, const glm::dvec3& up, const Location& where);
@@ -110,8 +131,9 @@ double same_power_half_angle_deg(double outer_deg, const Fade& fade) {
   return glm::degrees(std::acos(1 - part));
 }
 
-Description describe_gltf(const std::filesystem::path& file);
-Description describe_mitsuba(const std::filesystem::path& file);
-Description describe_pbrt(const std::filesystem::path& file);
+/// They fill an empty description, whose notes are there even where they throw.
+void describe_gltf(const std::filesystem::path& file, Description& into);
+void describe_mitsuba(const std::filesystem::path& file, Description& into);
+void describe_pbrt(const std::filesystem::path& file, Description& into);
 
 } // namespace nephroid::formats

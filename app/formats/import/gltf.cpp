@@ -13,7 +13,7 @@ namespace {
 
 class GltfReader {
 public:
-  explicit GltfReader(const GltfFile& file) : root_(file.json, file.where()), meshes_(file) {
+  GltfReader(const GltfFile& file, Description& into) : root_(file.json, file.where()), meshes_(file), d_(into) {
     d_.source = file.file;
     d_.fits_white = true;
     for (const GltfNode& node : nodes_of(file)) {
@@ -24,8 +24,6 @@ public:
     }
     if (!root_.list("animations").empty()) d_.note("animations are left out");
   }
-
-  Description take() { return std::move(d_); }
 
 private:
   void add_mesh(const GltfNode& node) {
@@ -100,7 +98,7 @@ private:
 
   GltfValue root_;
   GltfMeshes meshes_;
-  Description d_;
+  Description& d_;
   std::map<std::pair<std::size_t, std::size_t>, std::string> keys_; ///< keys of meshes by mesh and primitive
   std::map<std::size_t, std::string> material_names_;
   std::set<std::string> taken_materials_;
@@ -108,9 +106,9 @@ private:
 
 } // namespace
 
-Description describe_gltf(const std::filesystem::path& file) {
+void describe_gltf(const std::filesystem::path& file, Description& into) {
   const GltfFile gltf = read_gltf(file);
-  return GltfReader(gltf).take();
+  GltfReader(gltf, into);
 }
 
 } // namespace nephroid::formats

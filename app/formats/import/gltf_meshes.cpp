@@ -2,6 +2,7 @@
 #include "formats/import/gltf_scene.h"
 
 #include "base/files.h"
+#include "formats/import/description.h"
 
 #include <fmt/format.h>
 
@@ -26,14 +27,6 @@ std::string decoded(const std::string& uri) {
     name += escaped ? static_cast<char>(value) : uri[i];
     if (escaped) i += 2;
   }
-  return name;
-}
-
-fs::path make_folder() {
-  std::string name = (fs::temp_directory_path() / "nephroid-import-XXXXXX").string();
-  if (!mkdtemp(name.data()))
-    throw failed(name, std::string("cannot be made: ") + std::strerror(errno), {},
-                 "set TMPDIR to a folder that you may write to");
   return name;
 }
 
@@ -123,7 +116,7 @@ private:
 
 } // namespace
 
-GltfMeshes::GltfMeshes(const GltfFile& file) : file_(file), folder_(make_folder()) {
+GltfMeshes::GltfMeshes(const GltfFile& file) : file_(file), folder_(temporary_folder()) {
   try {
     const GltfValue root(file.json, file.where());
     for (const GltfValue& value : root.list("buffers")) buffers_.push_back(buffer(value, buffers_.size()));

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/lower_case.h"
+#include "formats/import/dielectrics.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "scene/materials.h"
@@ -158,23 +159,12 @@ std::string absorbing_glass_file(const GltfValue& material, const preset::Disper
   const auto colour = volume.numbers<3>("attenuationColor", {1, 1, 1});
   if (!(distance > 0) || volume.number("thicknessFactor", 0) == 0 || colour == std::array<double, 3>{1, 1, 1})
     return {};
-  const bool bends = clear.type == preset::Dispersion::Type::cauchy;
-  const std::string n =
-      bends ? fmt::format("{} {} -2", clear.coefficients[0], clear.coefficients[1]) : fmt::format("{}", clear.n);
-  std::string text = "COMMENTS: |\n    n as KHR_materials_ior and KHR_materials_dispersion say it, k as "
-                     "KHR_materials_volume does\nDATA:\n";
-  text += fmt::format("  - type: formula 5\n    wavelength_range: 0.38 0.78\n    coefficients: {}\n", n);
-  text += "  - type: tabulated k\n    data: |\n";
-  const preset::Reflectance kept = reflectance_of(colour);
   constexpr double least = 1e-4; // black glass has no k
-  for (int nm = optics::first_nm; nm <= optics::last_nm; nm += 10) {
-    const double transmittance =
-        kept.table.empty() ? kept.value : kept.table[static_cast<std::size_t>((nm - optics::first_nm) / 10)][1];
-    const double absorbed =
-        std::log(1 / std::max(transmittance, least)) / distance; // in 1/m: the file's lengths are metres
-    text += fmt::format("        {:.2f} {:.6g}\n", nm * 1e-3, absorbed * nm * 1e-9 / (4 * std::numbers::pi));
-  }
-  return text;
+  optics::Spectrum absorption = scene::make_reflectance(reflectance_of(colour), "attenuationColor");
+  for (double& a : absorption) a = std::log(1 / std::max(a, least)) / distance; // in 1/m: the file's lengths are metres
+  return absorbing_glass_file(clear, absorption,
+                              "n as KHR_materials_ior and KHR_materials_dispersion say it, k as "
+                              "KHR_materials_volume does");
 }
 
 preset::Reflectance reflectance_of(const std::array<double, 3>& rgb) {

@@ -5,7 +5,7 @@
 #include "base/counted.h"
 #include "base/files.h"
 #include "base/lower_case.h"
-#include "formats/import/description.h"
+#include "formats/import/dielectrics.h"
 #include "formats/import/gltf_scene.h"
 #include "preset/read.h"
 #include "scene/scene.h"
@@ -140,33 +140,36 @@ private:
         transform.emplace();
       }
       const scene::Mesh& mesh = from_.meshes.at(key);
-      if (!mesh.normals.empty()) object.normals = preset::Object::Normals::smooth;
+      if (shape.smooth.value_or(!mesh.normals.empty())) object.normals = preset::Object::Normals::smooth;
       for (const glm::vec3& p : mesh.positions) see(to_world * glm::dvec4(glm::dvec3(p), 1));
       object.mesh = folder_ + "/" + key;
       used_.insert(key);
     }
     object.transform = *transform;
+    object.priority = shape.priority;
     made_.scene.objects.push_back(std::move(object));
   }
 
   /// A lamp takes the place of a surface that shines.
   void glow(const DescribedShape& shape, const glm::dmat4& to_world) {
-    const LightColour colour = light_colour(scene::to_vec3(*shape.glow));
-    const double radiance = watts(colour); // W m^-2 sr^-1
+    const LightColour colour = light_colour(*shape.glow);
+    const auto power_of = [&](double area) { // of a radiance in W m^-2 sr^-1
+      return clamped_power(watts(colour) * shape.glow_power.value_or(pi * area));
+    };
     preset::Light light;
     light.spectrum = colour.spectrum;
     if (shape.mesh.empty()) {
       const double radius = std::cbrt(std::abs(glm::determinant(glm::dmat3(to_world))));
       light.position = scene::to_vec3(glm::dvec3(to_world[3]));
-      light.power_w = clamped_power(pi * radiance * 4 * pi * radius * radius);
+      light.power_w = power_of(4 * pi * radius * radius);
       from_.note(shape.where, "a sphere that shines is left out: a point light of its power is in its centre");
     } else {
       const Emitter e = emitter_of(from_.meshes.at(shape.mesh), to_world);
       light.position = scene::to_vec3(e.centre);
-      light.power_w = clamped_power(pi * radiance * e.area);
+      light.power_w = power_of(e.area);
       if (e.flat) {
         light.type = preset::Light::Type::area;
-        light.direction = scene::to_vec3(e.normal);
+        light.direction = scene::to_vec3(shape.inside_out ? -e.normal : e.normal);
         const glm::dvec3 up = glm::cross(e.normal, e.edge);
         light.up = scene::to_vec3(up);
         light.size = e.size;
@@ -176,13 +179,19 @@ private:
       } else
         from_.note(shape.where, "a surface that shines is left out: a point light of its power is in its middle");
     }
-    if (light.power_w > 0) made_.scene.lights.push_back(light);
+    if (!(light.power_w > 0)) return;
+    if (shape.glows_on_both_sides && light.type == preset::Light::Type::area) {
+      if (shape.glow_power) light.power_w /= 2; // that of both
+      made_.scene.lights.push_back(light);
+      for (double& d : light.direction) d = -d;
+    }
+    made_.scene.lights.push_back(light);
   }
 
   double watts(const LightColour& colour) const { return colour.watts_per_lumen * most_lumens * from_.unit; }
 
   void add(const DescribedLight& light) {
-    const LightColour colour = light_colour(scene::to_vec3(light.colour));
+    const LightColour colour = light_colour(light.colour);
     preset::Light made;
     made.type = light.type;
     made.spectrum = colour.spectrum;
@@ -265,18 +274,9 @@ private:
   std::set<std::string> used_; ///< keys of the objects' meshes
 };
 
-} // namespace
-
-std::string Imported::summary() const {
-  std::string text = fmt::format("{}: {}, {}, {}", preset.string(), counted(objects, "object"),
-                                 counted(meshes, "mesh", "meshes"), counted(lights, "light"));
-  for (const std::string& note : notes) text += "; " + note;
-  return text;
-}
-
-Imported import_scene(const fs::path& file, const fs::path& preset) {
-  const std::string kind = lower_case(file.extension().string()), name = preset.stem().string();
-  Description description = (kind == ".xml" ? describe_mitsuba : kind == ".pbrt" ? describe_pbrt : describe_gltf)(file);
+/// Writes what the description says.
+Imported written(Description& description, const fs::path& preset) {
+  const std::string name = preset.stem().string();
   PresetBuilder builder(description, name + "-meshes");
   // What cannot be read again is not written. The other programs follow light from wall to wall, so this one does.
   const preset::Preset made =
@@ -296,6 +296,37 @@ Imported import_scene(const fs::path& file, const fs::path& preset) {
   write_file_whole(preset, preset::to_json(made));
   return {preset, made.scene.objects.size(), description.meshes.size(), made.scene.lights.size(),
           std::move(description.notes)};
+}
+
+/// What was left out, for a line of an error.
+std::string said_before(const std::vector<std::string>& notes) {
+  constexpr std::size_t most = 8;
+  std::string text = "said before: " + notes[0];
+  for (std::size_t i = 1; i < std::min(notes.size(), most); ++i) text += "; " + notes[i];
+  if (notes.size() > most) text += fmt::format("; and {} more", notes.size() - most);
+  return text;
+}
+
+} // namespace
+
+std::string Imported::summary() const {
+  std::string text = fmt::format("{}: {}, {}, {}", preset.string(), counted(objects, "object"),
+                                 counted(meshes, "mesh", "meshes"), counted(lights, "light"));
+  for (const std::string& note : notes) text += "; " + note;
+  return text;
+}
+
+Imported import_scene(const fs::path& file, const fs::path& preset) {
+  const std::string kind = lower_case(file.extension().string());
+  const auto describe = kind == ".xml" ? describe_mitsuba : kind == ".pbrt" ? describe_pbrt : describe_gltf;
+  Description description;
+  try {
+    describe(file, description);
+    settle_dielectrics(description);
+    return written(description, preset);
+  } catch (const Error& error) {
+    throw description.notes.empty() ? error : error.noting(said_before(description.notes));
+  }
 }
 
 } // namespace nephroid::formats

@@ -3,12 +3,10 @@
 // looks along its +z axis with +x to the left.
 #include "base/error.h"
 #include "base/numbers.h"
-#include "formats/import/description.h"
-#include "formats/import/gltf_scene.h"
-#include "formats/import/mitsuba_file.h"
+#include "formats/import/mitsuba_scene.h"
+#include "formats/import/serialized.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "scene/scene.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -20,71 +18,29 @@ namespace nephroid::formats {
 namespace fs = std::filesystem;
 namespace {
 
-/// Mitsuba's own figures of the indices of refraction that it names.
-const std::map<std::string, double> iors{{"vacuum", 1},
-                                         {"air", 1.000277},
-                                         {"water", 1.3330},
-                                         {"water ice", 1.31},
-                                         {"fused quartz", 1.458},
-                                         {"pyrex", 1.470},
-                                         {"acrylic glass", 1.49},
-                                         {"polypropylene", 1.49},
-                                         {"bk7", 1.5046},
-                                         {"sodium chloride", 1.544},
-                                         {"amber", 1.55},
-                                         {"pet", 1.5750},
-                                         {"diamond", 2.419},
-                                         {"acetone", 1.36},
-                                         {"ethanol", 1.361},
-                                         {"benzene", 1.501},
-                                         {"silicone oil", 1.52045},
-                                         {"glycerol", 1.4729},
-                                         {"hydrogen", 1.000132},
-                                         {"helium", 1.000036},
-                                         {"carbon dioxide", 1.00045},
-                                         {"bromine", 1.661},
-                                         {"carbon tetrachloride", 1.461}};
+constexpr int most_instances_in_each_other = 16;
 
 class Mitsuba {
 public:
-  explicit Mitsuba(const fs::path& file) {
+  Mitsuba(const fs::path& file, Description& into) : scene_{MitsubaFile(file), into} {
     d_.source = file;
     d_.unit =
         optics::to_xyz(optics::constant_spectrum(1))[1]; // spectra are per nanometre: a radiance of 1 is this bright
-    read_all(file_.load(file));
-  }
-  Description take() { return std::move(d_); }
-
-private:
-  glm::dvec3 colour(xml_node parent, const std::string& name, const glm::dvec3& standard) {
-    const xml_node node = file_.child(parent, name);
-    if (!node) return standard;
-    const std::string kind = node.name();
-    if (kind == "rgb" || kind == "float") return file_.vector_of(node, 0);
-    if (kind == "spectrum" && node.attribute("value") && file_.attribute(node, "value").find(':') == std::string::npos)
-      return file_.vector_of(node, 0);
-    d_.note(file_.at(node), fmt::format("this {} is left out: {:.3g} {:.3g} {:.3g} takes its place", kind, standard.x,
-                                        standard.y, standard.z));
-    return standard;
-  }
-
-  void read_all(xml_node scene) {
-    for (const xml_node node : scene.children()) {
+    for (const xml_node named : file_.nodes()) {
+      const xml_node node = file_.meant(named);
       const std::string kind = node.name();
-      if (node.attribute("id")) ids_[file_.attribute(node, "id")] = node;
-      if (kind == "default")
-        file_.set_default(node);
-      else if (kind == "include")
-        read_all(file_.load(file_.beside(node, file_.attribute(node, "filename"))));
       if (kind == "sensor")
         add_camera(node);
-      else if (kind == "shape")
-        add_shape(node);
+      else if (kind == "shape" && file_.attribute(node, "type") != "shapegroup")
+        add_shape(node, glm::dmat4(1), 0);
       else if (kind == "emitter")
         add_light(node);
-      else if (kind == "medium" || kind == "volume")
-        d_.note(file_.at(node), "a " + kind + " is left out: there is clear space in its place");
     }
+  }
+
+private:
+  DescribedColour colour(xml_node parent, const std::string& name, double standard) {
+    return mitsuba_colour(scene_, parent, name, standard);
   }
 
   void add_camera(xml_node node) {
@@ -96,11 +52,13 @@ private:
     DescribedCamera& camera = d_.camera.emplace();
     camera.where = file_.at(node);
     camera.to_world = file_.to_world(node) * glm::scale(glm::dmat4(1), {-1, 1, 1});
-    const xml_node film = node.child("film");
+    const xml_node film = file_.object(node, "film");
     const double w = std::clamp(file_.number(film, "width", 768), 1.0, 16384.0),
                  h = std::clamp(file_.number(film, "height", 576), 1.0, 16384.0);
     camera.resolution = {static_cast<int>(w), static_cast<int>(h)};
     if (file_.child(film, "crop_width")) d_.note(file_.at(film), "the crop is left out: the whole picture is taken");
+    for (const char* shift : {"principal_point_offset_x", "principal_point_offset_y", "shift_x", "shift_y"})
+      if (file_.number(node, shift, 0) != 0) d_.note(file_.at(node), "the picture's shift is left out");
     std::string axis = file_.text(node, "fov_axis", "x");
     double fov = file_.number(node, "fov", 0);
     if (!file_.child(node, "fov")) { // by a film of 36 by 24 mm
@@ -127,10 +85,10 @@ private:
     light.direction = glm::dvec3(to_world[2]);
     if (type == "point") {
       light.position = file_.point(node, "position", light.position);
-      light.colour = colour(node, "intensity", glm::dvec3(1));
+      light.colour = colour(node, "intensity", 1);
     } else if (type == "spot") {
       light.type = preset::Light::Type::spot;
-      light.colour = colour(node, "intensity", glm::dvec3(1));
+      light.colour = colour(node, "intensity", 1);
       const double cutoff = std::clamp(file_.number(node, "cutoff_angle", 20), 0.01, 90.0);
       const double beam = std::clamp(file_.number(node, "beam_width", cutoff * 0.75), 0.0, cutoff);
       light.half_angle_deg = same_power_half_angle_deg(cutoff, [&](double a) {
@@ -142,14 +100,14 @@ private:
     } else if (type == "directional") {
       light.type = preset::Light::Type::directional;
       light.direction = file_.point(node, "direction", light.direction);
-      light.colour = colour(node, "irradiance", glm::dvec3(1));
+      light.colour = colour(node, "irradiance", 1);
     } else if (type == "constant" || type == "envmap") {
       DescribedSurroundings s;
       s.where = light.where;
       if (type == "constant")
-        s.colour = colour(node, "radiance", glm::dvec3(1));
+        s.colour = linear_srgb_of(colour(node, "radiance", 1));
       else {
-        s.file = file_.beside(node, file_.text(node, "filename", ""));
+        s.file = file_.find(node, file_.text(node, "filename", ""));
         if (!fs::is_regular_file(s.file))
           throw bad_input(light.where, "the picture " + s.file.string() + " is not there");
         s.scale = file_.number(node, "scale", 1);
@@ -159,116 +117,96 @@ private:
       }
       d_.surroundings = s;
       return;
+    } else if (type == "area" && node.attribute("id")) {
+      return; // shapes refer to it
     } else
       return d_.note(light.where, "the emitter " + type + " is left out");
     d_.lights.push_back(light);
   }
 
-  /// The named or nested material of a shape.
-  xml_node bsdf_of(xml_node node, int depth = 0) const {
-    if (const xml_node own = node.child("bsdf")) return own;
-    for (const xml_node ref : node.children("ref"))
-      if (const auto found = ids_.find(file_.attribute(ref, "id")); found != ids_.end()) {
-        if (std::string(found->second.name()) == "bsdf") return found->second;
-      } else if (depth == 0)
-        throw bad_input(file_.at(ref), "there is no \"" + file_.attribute(ref, "id") + "\" above it");
-    return {};
-  }
-
-  std::string material(xml_node shape) {
-    xml_node node = bsdf_of(shape);
-    for (int depth = 0; node; ++depth) {
-      const std::string type = mitsuba_name(file_.attribute(node, "type"));
-      if (type != "twosided" && type != "bumpmap" && type != "normalmap" && type != "mask" && type != "blendbsdf")
-        break;
-      if (type != "twosided") d_.note(file_.at(node), "the " + type + " is left out: the material in it is taken");
-      if (depth > 16) throw bad_input(file_.at(node), "materials go round in a circle");
-      node = bsdf_of(node, 1);
-    }
-    const std::string id = node ? file_.attribute(node, "id") : std::string();
-    const std::string key = !node ? "plain" : name_of(id, fmt::format("material {}", file_.at(node).line));
-    if (!d_.materials.contains(key)) d_.materials[key] = node ? material_of(node) : matt(glm::dvec3(0.5));
-    return key;
-  }
-
-  static preset::Material matt(const glm::dvec3& colour) {
-    preset::Material made;
-    made.reflectance = reflectance_of(scene::to_vec3(colour));
-    return made;
-  }
-
-  preset::Material material_of(xml_node node) {
-    const std::string type = mitsuba_name(file_.attribute(node, "type"));
-    const Location where = file_.at(node);
-    if (type == "dielectric" || type == "roughdielectric" || type == "thindielectric") {
-      if (type != "dielectric") d_.note(where, "a film or roughness is left out: the glass is solid and polished");
-      return glass_of(ior(node, "int_ior", "bk7") / ior(node, "ext_ior", "air"), where);
-    }
-    if (type == "conductor" || type == "roughconductor") {
-      preset::Material mirror = matt(colour(node, "specular_reflectance", glm::dvec3(1)));
-      mirror.type = preset::Material::Type::mirror;
-      if (file_.child(node, "material") ? file_.text(node, "material", "") != "none" : bool(file_.child(node, "eta")))
-        d_.note(where, "the metal is left out: a mirror of its specular_reflectance takes its place");
-      if (type == "roughconductor") d_.note(where, "roughness is left out: the mirror is polished");
-      return mirror;
-    }
-    const char* const name = type == "diffuse"      ? "reflectance"
-                             : type == "principled" ? "base_color"
-                                                    : "diffuse_reflectance";
-    const preset::Material made = matt(colour(node, name, glm::dvec3(0.5)));
-    if (type != "diffuse")
-      d_.note(where, "the bsdf " + type + " is left out: a matt surface of its colour takes its place");
-    return made;
-  }
-
-  double ior(xml_node node, const char* name, const char* standard) const {
-    const xml_node given = file_.child(node, name);
-    const std::string value = given ? file_.attribute(given, "value") : standard;
-    if (const auto known = iors.find(value); known != iors.end()) return known->second;
-    if (const double n = file_.number_of(given, 1); n > 0) return n;
-    throw bad_input(file_.at(given), "an index of refraction is above 0");
-  }
-
-  void add_shape(xml_node node) {
+  /// around: of the instance that it is in.
+  void add_shape(xml_node node, const glm::dmat4& around, int depth) {
+    if (depth > most_instances_in_each_other) throw bad_input(file_.at(node), "instances go round in a circle");
+    if (d_.shapes.size() >= max_shapes) throw bad_input(file_.at(node), "there are too many shapes");
     const std::string type = file_.attribute(node, "type");
+    const glm::dmat4 to_world = around * file_.to_world(node);
+    if (type == "instance" || type == "merge" || type == "shapegroup") {
+      for (const xml_node part : file_.objects(node, "shape")) add_shape(part, to_world, depth + 1);
+      return;
+    }
     DescribedShape shape;
     shape.where = file_.at(node);
     shape.name = name_of(file_.attribute(node, "id"), type);
-    shape.to_world = file_.to_world(node);
-    if (type == "obj" || type == "ply")
-      shape.mesh = d_.mesh_file(file_.beside(node, file_.text(node, "filename", "")), shape.where);
-    else if (type == "sphere") {
+    shape.to_world = to_world;
+    shape.inside_out = file_.flag(node, "flip_normals");
+    if (!give_form(node, type, shape)) return d_.note(shape.where, "the shape " + type + " is left out");
+    if (const xml_node emitter = file_.object(node, "emitter"))
+      shape.glow = colour(emitter, "radiance", 1);
+    else if ((shape.material = mitsuba_material(scene_, node)).empty())
+      return; // light goes on through it
+    d_.shapes.push_back(std::move(shape));
+  }
+
+  /// False for a type that is not known.
+  bool give_form(xml_node node, const std::string& type, DescribedShape& shape) {
+    if (type == "obj" || type == "ply" || type == "serialized") {
+      const fs::path file = file_.find(node, file_.text(node, "filename", ""));
+      shape.smooth = !file_.flag(node, "face_normals"); // where a file has no normals, Mitsuba makes them
+      if (type == "serialized")
+        take_serialized(file, file_.number(node, "shape_index", 0), shape);
+      else
+        shape.mesh = d_.mesh_file(file, shape.where);
+      if (file_.child(node, "max_smooth_angle"))
+        d_.note(shape.where, "the greatest angle that is smoothed is left out");
+    } else if (type == "sphere") {
       shape.to_world = glm::translate(shape.to_world, file_.point(node, "center", glm::dvec3(0)));
       shape.radius = file_.number(node, "radius", 1);
       if (!(shape.radius > 0)) throw bad_input(shape.where, "its radius is not above 0");
-    } else if (type == "rectangle")
-      shape.mesh = d_.own_mesh(shape.name, polygon({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}));
-    else if (type == "cube")
-      shape.mesh = d_.own_mesh(shape.name, cube());
-    else if (type == "disk")
-      shape.mesh = d_.own_mesh(shape.name, disk(1));
-    else if (type == "cylinder") {
+    } else if (type == "rectangle") {
+      shape.mesh = own(type, [] { return polygon({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}); });
+    } else if (type == "cube") {
+      shape.mesh = own(type, cube);
+    } else if (type == "disk") {
+      shape.mesh = own(type, [] { return disk(1); });
+    } else if (type == "cylinder") {
       const glm::dvec3 from = file_.point(node, "p0", glm::dvec3(0)), to = file_.point(node, "p1", glm::dvec3(0, 0, 1));
       const double radius = file_.number(node, "radius", 1);
       if (from == to || !(radius > 0)) throw bad_input(shape.where, "the cylinder has no size");
       shape.mesh = d_.own_mesh(shape.name, open_cylinder(from, to, radius));
     } else
-      return d_.note(shape.where, "the shape " + type + " is left out");
-    if (node.child("medium")) d_.note(shape.where, "the medium in it is left out: the glass is clear");
-    if (const xml_node emitter = node.child("emitter"))
-      shape.glow = colour(emitter, "radiance", glm::dvec3(1));
-    else
-      shape.material = material(node);
-    d_.shapes.push_back(std::move(shape));
+      return false;
+    return true;
   }
 
-  MitsubaFile file_;
-  Description d_;
-  std::map<std::string, xml_node> ids_;
+  void take_serialized(const fs::path& file, double index, DescribedShape& shape) {
+    const auto [known, is_new] = serialized_.try_emplace({file, index});
+    auto& [key, faceted] = known->second;
+    if (is_new) {
+      SerializedMesh read = read_serialized(file, index, shape.where);
+      key = d_.own_mesh(fmt::format("{}-{}", file.stem().string(), index), std::move(read.mesh));
+      faceted = read.faceted;
+    }
+    shape.mesh = key;
+    if (faceted) shape.smooth = false;
+  }
+
+  /// A mesh that all shapes of this type share.
+  template <class Make>
+  std::string own(const std::string& type, const Make& make) {
+    std::string& key = own_[type];
+    if (key.empty()) key = d_.own_mesh(type, make());
+    return key;
+  }
+
+  MitsubaScene scene_;
+  const MitsubaFile& file_ = scene_.file;
+  Description& d_ = scene_.d;
+  std::map<std::string, std::string> own_;
+  std::map<std::pair<fs::path, double>, std::pair<std::string, bool>> serialized_; ///< keys, and whether faceted
 };
 
 } // namespace
 
-Description describe_mitsuba(const fs::path& file) { return Mitsuba(file).take(); }
+void describe_mitsuba(const fs::path& file, Description& into) { Mitsuba(file, into); }
 
 } // namespace nephroid::formats

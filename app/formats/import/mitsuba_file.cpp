@@ -14,9 +14,10 @@
 #include <sstream>
 
 namespace nephroid::formats {
+namespace fs = std::filesystem;
 namespace {
 
-constexpr int max_files = 100;
+constexpr std::size_t max_files = 1000;
 
 std::size_t line_of(const std::string& text, std::ptrdiff_t offset) {
   const auto end = text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, std::ssize(text));
@@ -35,8 +36,14 @@ std::string mitsuba_name(const std::string& name) {
   return text;
 }
 
-xml_node MitsubaFile::load(const std::filesystem::path& file) {
-  if (documents_.size() >= max_files) throw bad_input(file.string(), "is included too often, perhaps by itself");
+MitsubaFile::MitsubaFile(const fs::path& scene) { load(scene, {}); }
+
+void MitsubaFile::load(const fs::path& file, xml_node by) {
+  const fs::path whole = fs::absolute(file).lexically_normal();
+  if (std::ranges::count(open_, whole) > 0)
+    throw bad_input(at(by), "the file " + file.string() + " includes itself", {}, "take this <include> out");
+  if (documents_.size() >= max_files)
+    throw bad_input(at(by), fmt::format("the scene has more than {} files", max_files));
   Document& document = documents_.emplace_back();
   document.file = file;
   document.text = read_file(file);
@@ -45,9 +52,92 @@ xml_node MitsubaFile::load(const std::filesystem::path& file) {
     throw bad_input(Location(file.string(), line_of(document.text, result.offset)),
                     std::string("its XML is broken: ") + result.description(), "expected a Mitsuba scene",
                     "check that the file is whole");
-  const xml_node scene = document.xml.child("scene");
-  if (!scene) throw bad_input(file.string(), "is no Mitsuba scene: it has no <scene>", "expected a Mitsuba scene");
-  return scene;
+  const xml_node root = document.xml.document_element();
+  open_.push_back(whole);
+  if (std::string_view(root.name()) == "scene")
+    for (const xml_node node : root.children()) take(node);
+  else if (by) // a file that is included may be one object
+    take(root);
+  else
+    throw bad_input(file.string(), "is no Mitsuba scene: it has no <scene>", "expected a Mitsuba scene");
+  open_.pop_back();
+}
+
+void MitsubaFile::take(xml_node node) {
+  if (node.type() != pugi::node_element) return;
+  const std::string_view kind = node.name();
+  take_ids(node);
+  if (kind == "default") {
+    defaults_.try_emplace(node.attribute("name").value(), attribute(node, "value"));
+  } else if (kind == "include") {
+    const fs::path file = find(node, attribute(node, "filename"));
+    if (!is_there(file)) throw bad_input(at(node), "the file " + file.string() + " is not there", {}, "put it there");
+    load(file, node);
+  } else if (kind == "path") {
+    const fs::path folder = find(node, attribute(node, "value"));
+    if (!fs::is_directory(folder)) throw bad_input(at(node), "the folder " + folder.string() + " is not there");
+    folders_.insert(folders_.begin(), folder);
+  } else if (kind == "alias") {
+    aliases_.try_emplace(attribute(node, "as"), attribute(node, "id"));
+  } else
+    nodes_.push_back(node);
+}
+
+void MitsubaFile::take_ids(xml_node node) {
+  // No recursion: a file may nest as deep as it likes.
+  for (xml_node here = node; here;) {
+    const std::string_view kind = here.name();
+    if (here.attribute("id") && kind != "ref" && kind != "alias") {
+      const auto [known, is_new] = ids_.try_emplace(attribute(here, "id"), here);
+      if (!is_new && known->second != here)
+        throw bad_input(at(here), "the id \"" + known->first + "\" is given twice",
+                        "expected another than in line " + std::to_string(at(known->second).line));
+    }
+    if (here.first_child()) {
+      here = here.first_child();
+      continue;
+    }
+    while (here != node && !here.next_sibling()) here = here.parent();
+    here = here == node ? xml_node() : here.next_sibling();
+  }
+}
+
+fs::path MitsubaFile::find(xml_node node, const std::string& name) const {
+  const fs::path beside_scene = documents_.front().file.parent_path(), beside = document_of(node).file.parent_path();
+  std::vector<fs::path> folders = folders_;
+  folders.insert(folders.end(), {beside_scene, beside, fs::path()});
+  for (const fs::path& folder : folders)
+    if (!name.empty() && is_there(folder / name)) return folder / name;
+  return beside_scene / name;
+}
+
+xml_node MitsubaFile::meant(xml_node node) const {
+  for (int step = 0; std::string_view(node.name()) == "ref"; ++step) {
+    std::string id = attribute(node, "id");
+    for (std::size_t i = 0; i < aliases_.size() && aliases_.contains(id); ++i) id = aliases_.at(id);
+    const auto found = ids_.find(id);
+    if (found == ids_.end())
+      throw bad_input(at(node), "nothing has the id \"" + id + "\"", "expected an id of the scene");
+    // What holds the reference cannot be in itself.
+    for (xml_node holder = node.parent(); holder; holder = holder.parent())
+      if (holder == found->second || step > 100) throw bad_input(at(node), "\"" + id + "\" refers to itself");
+    node = found->second;
+  }
+  return node;
+}
+
+std::vector<xml_node> MitsubaFile::objects(xml_node parent, const std::string& tag) const {
+  std::vector<xml_node> all;
+  for (const xml_node node : parent.children())
+    if (const xml_node object = meant(node); object.name() == tag) all.push_back(object);
+  return all;
+}
+
+xml_node MitsubaFile::object(xml_node parent, const std::string& tag, const std::string& name) const {
+  for (const xml_node node : parent.children())
+    if (name.empty() || mitsuba_name(node.attribute("name").value()) == name)
+      if (const xml_node object = meant(node); object.name() == tag) return object;
+  return {};
 }
 
 const MitsubaFile::Document& MitsubaFile::document_of(xml_node node) const {
@@ -58,10 +148,6 @@ const MitsubaFile::Document& MitsubaFile::document_of(xml_node node) const {
 Location MitsubaFile::at(xml_node node) const {
   const Document& document = document_of(node);
   return {document.file.string(), line_of(document.text, node.offset_debug())};
-}
-
-void MitsubaFile::set_default(xml_node node) {
-  defaults_.try_emplace(node.attribute("name").value(), attribute(node, "value"));
 }
 
 std::string MitsubaFile::attribute(xml_node node, const char* key) const {
@@ -107,8 +193,8 @@ glm::dvec3 MitsubaFile::vector_of(xml_node node, double standard, const char* ke
   return {v[0], v[1], v[2]};
 }
 
-xml_node MitsubaFile::child(xml_node parent, const std::string& name) {
-  return parent.find_child([&](xml_node node) { return mitsuba_name(node.attribute("name").value()) == name; });
+xml_node MitsubaFile::child(xml_node parent, const std::string& name) const {
+  return meant(parent.find_child([&](xml_node node) { return mitsuba_name(node.attribute("name").value()) == name; }));
 }
 
 double MitsubaFile::number(xml_node parent, const std::string& name, double standard) const {
@@ -129,6 +215,7 @@ glm::dmat4 MitsubaFile::to_world(xml_node parent) const {
   glm::dmat4 all(1);
   for (const xml_node step : child(parent, "to_world").children())
     if (step.type() == pugi::node_element) all = step_of(step) * all;
+  require_inverse(all, at(child(parent, "to_world") ? child(parent, "to_world") : parent));
   return all;
 }
 

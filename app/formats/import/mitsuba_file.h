@@ -19,26 +19,37 @@ std::string mitsuba_name(const std::string& name);
 
 class MitsubaFile {
 public:
-  /// The <scene> of one more file.
-  xml_node load(const std::filesystem::path& file);
-  Location at(xml_node node) const;
-  std::filesystem::path beside(xml_node node, const std::string& file) const {
-    return document_of(node).file.parent_path() / file;
-  }
+  /// Reads the scene and all that it includes: names are looked up in each <path>, beside the scene, beside the file
+  /// that has the name, in the current folder. Throws bad_input for a file that is not there or includes itself.
+  explicit MitsubaFile(const std::filesystem::path& scene);
 
-  /// Gives a $name its value, unless it has one.
-  void set_default(xml_node node);
+  /// What the scene has, in the order of the files.
+  const std::vector<xml_node>& nodes() const { return nodes_; }
+  Location at(xml_node node) const;
+  /// The file that a node names, or where it is missed.
+  std::filesystem::path find(xml_node node, const std::string& name) const;
+
+  /// Follows a <ref>, whether what it names stands above it or below. Throws bad_input where nothing has its id.
+  xml_node meant(xml_node node) const;
+  /// The first child with this tag, own or by reference; name: its attribute, or anything.
+  xml_node object(xml_node parent, const std::string& tag, const std::string& name = {}) const;
+  /// All children with this tag, own or by reference.
+  std::vector<xml_node> objects(xml_node parent, const std::string& tag) const;
+
   /// An attribute with its $names replaced.
   std::string attribute(xml_node node, const char* key) const;
-  /// "value", or another attribute, as one number or as three; else `standard`.
+  /// "value", or another attribute, as numbers; as one number or as three; else `standard`.
+  std::vector<double> numbers(xml_node node, const char* key = "value") const;
   double number_of(xml_node node, double standard, const char* key = "value") const;
   glm::dvec3 vector_of(xml_node node, double standard, const char* key = "value") const;
 
-  /// The child with this attribute "name", and what it holds.
-  static xml_node child(xml_node parent, const std::string& name);
+  /// The child with this attribute "name", own or by reference, and what it holds.
+  xml_node child(xml_node parent, const std::string& name) const;
   double number(xml_node parent, const std::string& name, double standard) const;
+  bool flag(xml_node parent, const std::string& name) const { return text(parent, name, "false") == "true"; }
   std::string text(xml_node parent, const std::string& name, const std::string& standard) const;
   glm::dvec3 point(xml_node parent, const std::string& name, const glm::dvec3& standard) const;
+  /// Throws bad_input where it has no inverse.
   glm::dmat4 to_world(xml_node parent) const;
 
 private:
@@ -48,11 +59,18 @@ private:
     pugi::xml_document xml;
   };
 
+  void load(const std::filesystem::path& file, xml_node by);
+  void take(xml_node node);
+  void take_ids(xml_node node);
   const Document& document_of(xml_node node) const;
-  std::vector<double> numbers(xml_node node, const char* key) const;
-  glm::dmat4 step_of(xml_node node) const;
+  glm::dmat4 step_of(xml_node step) const;
 
   std::list<Document> documents_;
+  std::vector<std::filesystem::path> open_;    ///< the files that are being read, each included by the one before
+  std::vector<std::filesystem::path> folders_; ///< those of <path>, the last one first
+  std::vector<xml_node> nodes_;
+  std::map<std::string, xml_node> ids_;
+  std::map<std::string, std::string> aliases_; ///< ids by other names
   std::map<std::string, std::string> defaults_;
 };
 

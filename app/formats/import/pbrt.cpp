@@ -15,25 +15,29 @@
 namespace nephroid::formats {
 namespace {
 
-constexpr std::size_t max_shapes = 1000000; ///< instances of instances multiply
+constexpr char parting = '\n';        ///< which no name in a file has
+constexpr const char* unnamed = "\n"; ///< at the end of a name that the file does not give
 
 /// What is done without: it says how to render, not what.
-const std::set<std::string> about_rendering{"Sampler",     "Integrator",  "SurfaceIntegrator", "VolumeIntegrator",
-                                            "PixelFilter", "Accelerator", "Renderer",          "ColorSpace",
-                                            "Option",      "Attribute"};
+const std::set<std::string> about_rendering{"Sampler",          "Integrator",  "SurfaceIntegrator",
+                                            "VolumeIntegrator", "PixelFilter", "Accelerator",
+                                            "Renderer",         "ColorSpace",  "Option"};
 
 struct State {
   glm::dmat4 to_world{1};
-  std::string material = "plain";
-  std::optional<glm::dvec3> glow;
+  std::string material; ///< a key of PbrtScene::materials
+  Location material_where{};
+  std::string inside; ///< the medium in what is described
+  std::optional<PbrtThing> glow;
   bool reversed = false;
+  std::map<std::string, std::vector<PbrtParameter>> attributes; ///< by the directives that they are for
 };
 
 class Pbrt {
 public:
-  explicit Pbrt(const std::filesystem::path& file) : file_(file) {
+  Pbrt(const std::filesystem::path& file, Description& into) : file_(file), scene_{into, file_} {
     d_.source = file;
-    d_.materials["plain"].reflectance.value = 0.5;
+    scene_.materials[""].type = "diffuse";
     while (!file_.ended()) {
       const PbrtToken& head = file_.token({});
       if (head.quoted)
@@ -43,8 +47,8 @@ public:
         add_typed(head.text, head.where);
     }
     if (!stack_.empty()) throw bad_input(file.string(), "an AttributeBegin has no end", "expected AttributeEnd");
+    give_materials();
   }
-  Description take() { return std::move(d_); }
 
 private:
   // Directives by what they do. Each function returns false for a word that is none of its own.
@@ -54,7 +58,8 @@ private:
       stack_.push_back({state_, word});
       if (word != "ObjectBegin") return true;
       if (object_) throw bad_input(where, "an object is within another", "expected ObjectEnd before it");
-      object_ = &objects_[file_.string(where)];
+      object_name_ = file_.string(where);
+      object_ = &objects_[object_name_];
     } else if (word == "AttributeEnd" || word == "TransformEnd" || word == "ObjectEnd") {
       const std::string begin = word.substr(0, word.size() - 3) + "Begin";
       if (stack_.empty() || stack_.back().second != begin)
@@ -74,6 +79,7 @@ private:
     glm::dmat4& m = state_.to_world;
     if (word == "WorldBegin" || word == "Identity") {
       m = glm::dmat4(1);
+      if (word == "WorldBegin") systems_["world"] = m;
     } else if (word == "Translate" || word == "Scale") {
       const auto v = file_.numbers(where, 3);
       const glm::dvec3 by(v[0], v[1], v[2]);
@@ -90,7 +96,9 @@ private:
     } else if (word == "CoordinateSystem") {
       systems_[file_.string(where)] = m;
     } else if (word == "CoordSysTransform") {
-      if (const auto found = systems_.find(file_.string(where)); found != systems_.end()) m = found->second;
+      const std::string name = file_.string(where);
+      if (!systems_.contains(name)) throw bad_input(where, "there is no coordinate system \"" + name + "\" above it");
+      m = systems_[name];
     } else
       return false;
     return true;
@@ -110,15 +118,19 @@ private:
     } else if (word == "ObjectInstance") {
       instance(file_.string(where), where);
     } else if (word == "NamedMaterial") {
-      state_.material = name_of(file_.string(where), "material");
-      if (!d_.materials.contains(state_.material))
-        throw bad_input(where, "there is no material \"" + state_.material + "\" above it");
+      state_.material = file_.string(where);
+      state_.material_where = where;
     } else if (word == "MediumInterface") {
-      while (file_.string_follows()) file_.string(where);
-      note_medium(where);
+      state_.inside = file_.string(where);
+      const std::string outside = file_.string_follows() ? file_.string(where) : state_.inside;
+      if (!outside.empty()) note_medium(where);
+    } else if (word == "Attribute") {
+      const std::string target = file_.string(where);
+      for (const PbrtParameter& parameter : file_.parameters(where).all)
+        state_.attributes[target].insert(state_.attributes[target].begin(), parameter); // the last one counts
     } else if (word == "Texture") {
       const std::string name = file_.string(where), value = file_.string(where), kind = file_.string(where);
-      const PbrtParameters p = file_.parameters(where);
+      const PbrtParameters p = parameters("texture", where);
       if (kind == "constant" && p.find("value")) scene_.textures[name] = *p.find("value");
     } else
       return false;
@@ -131,29 +143,44 @@ private:
                                              "LightSource", "AreaLightSource", "Shape",    "MakeNamedMedium"};
     if (!taken.contains(word) && !about_rendering.contains(word))
       throw bad_input(where, word + " is no directive of PBRT", "expected a word such as Shape");
+    static const std::map<std::string, const char*> targets{
+        {"Shape", "shape"},       {"LightSource", "light"},          {"AreaLightSource", "light"},
+        {"Material", "material"}, {"MakeNamedMaterial", "material"}, {"MakeNamedMedium", "medium"}};
     const std::string type = file_.string(where);
-    const PbrtParameters p = file_.parameters(where);
+    const auto target = targets.find(word);
+    const PbrtParameters p = parameters(target == targets.end() ? "" : target->second, where);
     if (word == "Film") {
+      scene_.is_version_3 = type == "image";
       resolution_ = {static_cast<int>(std::clamp(p.number("xresolution", 1280), 1.0, 16384.0)),
                      static_cast<int>(std::clamp(p.number("yresolution", 720), 1.0, 16384.0))};
+      for (const char* exposure : {"iso", "exposuretime", "sensor"})
+        if (p.find(exposure)) d_.note(where, std::string("the film's ") + exposure + " is left out");
       if (d_.camera) frame();
     } else if (word == "Camera")
       add_camera(type, p);
-    else if (word == "Material")
-      add_material(state_.material = fmt::format("material {}", ++materials_), type, p);
-    else if (word == "MakeNamedMaterial")
-      add_material(name_of(type, "material"), p.text("type", "diffuse"), p);
+    else if (word == "Material") {
+      state_.material = fmt::format("material {}", ++materials_) + unnamed;
+      scene_.materials[state_.material] = {type, p};
+    } else if (word == "MakeNamedMaterial")
+      scene_.materials[type] = {p.text("type", "diffuse"), p};
     else if (word == "LightSource")
       add_pbrt_light(scene_, type, p, state_.to_world);
-    else if (word == "AreaLightSource") {
-      state_.glow = pbrt_colour(scene_, p, "L", glm::dvec3(1)) * p.number("scale", 1);
-      if (p.text("twosided", "false") == "true")
-        d_.note(where, "the back of a light that shines on both sides is left out");
-      if (p.find("power")) d_.note(where, "the light's power is left out: its L counts");
-    } else if (word == "Shape")
+    else if (word == "AreaLightSource")
+      state_.glow = {type, p};
+    else if (word == "Shape")
       add_shape(type, p);
     else if (word == "MakeNamedMedium")
-      note_medium(where);
+      scene_.media[type] = {p.text("type", "homogeneous"), p};
+    else if (word == "ColorSpace" && type != "srgb")
+      d_.note(where, "the colour space " + type + " is left out: colours count as sRGB");
+  }
+
+  /// What follows, and what an Attribute gave before.
+  PbrtParameters parameters(const std::string& target, const Location& where) {
+    PbrtParameters p = file_.parameters(where);
+    if (const auto given = state_.attributes.find(target); given != state_.attributes.end())
+      p.add_missing(given->second);
+    return p;
   }
 
   void note_medium(const Location& where) { d_.note(where, "media are left out: there is clear space in their place"); }
@@ -167,7 +194,8 @@ private:
     camera.to_world = systems_["camera"];
     fov_ = p.number("fov", 90);
     if (p.number("lensradius", 0) > 0) d_.note(p.where, "the lens is left out: everything is sharp");
-    if (p.find("screenwindow")) d_.note(p.where, "the screen window is left out");
+    for (const char* frame : {"screenwindow", "frameaspectratio"})
+      if (p.find(frame)) d_.note(p.where, std::string("its ") + frame + " is left out");
     frame();
   }
   /// The film may come before the camera or after it. fov is that of the shorter edge.
@@ -176,42 +204,79 @@ private:
     d_.camera->fov_deg = vertical_fov_deg(fov_, resolution_[1], std::min(resolution_[0], resolution_[1]));
   }
 
-  void add_material(const std::string& key, const std::string& type, const PbrtParameters& p) {
-    d_.materials[key] = pbrt_material(scene_, type, p);
-  }
-
   void add_shape(const std::string& type, const PbrtParameters& p) {
     std::optional<DescribedShape> shape = pbrt_shape(scene_, type, p, state_.to_world);
     if (!shape) return;
-    shape->material = state_.material;
-    shape->glow = state_.glow;
-    if (state_.reversed && shape->glow && !shape->mesh.empty()) {
-      scene::Mesh turned = d_.meshes.at(shape->mesh);
-      scene::turn_round(turned);
-      shape->mesh = d_.own_mesh(type, std::move(turned));
+    shape->inside_out = state_.reversed;
+    shape->material = state_.material + parting + state_.inside;
+    uses_.try_emplace(shape->material, Use{state_.material, state_.inside, state_.material_where, {}});
+    if (state_.glow) {
+      const PbrtParameters& light = state_.glow->parameters;
+      shape->glow = pbrt_light_colour(scene_, light, "L");
+      shape->glows_on_both_sides = light.text("twosided", "false") == "true";
+      if (const double power = light.number("power", -1); power > 0) shape->glow_power = power;
+      if (light.find("filename")) d_.note(light.where, "the light's picture is left out: it is white");
     }
     (object_ ? *object_ : d_.shapes).push_back(std::move(*shape));
+  }
+
+  /// A material may be named before it is made.
+  void give_materials() {
+    std::set<std::string> taken;
+    std::vector<DescribedShape> shapes;
+    for (DescribedShape& shape : d_.shapes) {
+      Use& use = uses_.at(shape.material);
+      if (!shape.glow) {
+        if (!use.key) use.key = key_of(use, taken);
+        if (use.key->empty()) continue; // no surface
+        shape.material = *use.key;
+      }
+      shapes.push_back(std::move(shape));
+    }
+    d_.shapes = std::move(shapes);
+  }
+
+  struct Use {
+    std::string material, medium;
+    Location where;
+    std::optional<std::string> key; ///< empty: no surface
+  };
+
+  std::string key_of(const Use& use, std::set<std::string>& taken) {
+    const auto material = scene_.materials.find(use.material);
+    if (material == scene_.materials.end()) throw bad_input(use.where, "there is no material \"" + use.material + "\"");
+    const auto medium = scene_.media.find(use.medium);
+    if (!use.medium.empty() && medium == scene_.media.end())
+      throw bad_input(material->second.parameters.where, "there is no medium \"" + use.medium + "\"");
+    const std::string name = use.material.substr(0, use.material.find(unnamed));
+    const std::string key = unique(name_of(name, "plain"), taken);
+    return add_pbrt_material(scene_, key, material->second, use.medium.empty() ? nullptr : &medium->second)
+               ? key
+               : std::string();
   }
 
   void instance(const std::string& name, const Location& where) {
     const auto found = objects_.find(name);
     if (found == objects_.end()) throw bad_input(where, "there is no object \"" + name + "\" above it");
-    if (object_) return d_.note(where, "an instance within an object is left out");
-    if (d_.shapes.size() + found->second.size() > max_shapes) throw bad_input(where, "there are too many shapes");
+    if (object_ && name == object_name_) throw bad_input(where, "the object \"" + name + "\" is in itself");
+    std::vector<DescribedShape>& into = object_ ? *object_ : d_.shapes;
+    if (into.size() + found->second.size() > max_shapes) throw bad_input(where, "there are too many shapes");
     for (DescribedShape shape : found->second) {
       shape.to_world = state_.to_world * shape.to_world;
-      d_.shapes.push_back(std::move(shape));
+      into.push_back(std::move(shape));
     }
   }
 
   PbrtFile file_;
   PbrtScene scene_;
   Description& d_ = scene_.d;
+  std::map<std::string, Use> uses_; ///< by what shapes have until all is read
   State state_;
   std::vector<std::pair<State, std::string>> stack_;
   std::map<std::string, glm::dmat4> systems_;
   std::map<std::string, std::vector<DescribedShape>> objects_;
   std::vector<DescribedShape>* object_ = nullptr; ///< the one that is being described
+  std::string object_name_;
   std::array<int, 2> resolution_{1280, 720};
   double fov_ = 90;
   int materials_ = 0;
@@ -219,6 +284,6 @@ private:
 
 } // namespace
 
-Description describe_pbrt(const std::filesystem::path& file) { return Pbrt(file).take(); }
+void describe_pbrt(const std::filesystem::path& file, Description& into) { Pbrt(file, into); }
 
 } // namespace nephroid::formats

@@ -13,8 +13,6 @@ namespace nephroid::formats {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int max_includes = 16;
-
 Error wrong_count(const PbrtParameter& parameter, std::size_t count, const char* wanted) {
   return bad_input(parameter.where, fmt::format("\"{}\" has {} values", parameter.name, count), wanted);
 }
@@ -57,12 +55,21 @@ glm::dvec3 PbrtParameters::vector(const std::string& name, const glm::dvec3& sta
   return {v[0], v[1], v[2]};
 }
 
-PbrtFile::PbrtFile(const fs::path& file) { read(file, 0); }
+void PbrtParameters::add_missing(const std::vector<PbrtParameter>& more) {
+  for (const PbrtParameter& parameter : more)
+    if (!find(parameter.name)) all.push_back(parameter);
+}
 
-void PbrtFile::read(const fs::path& file, int depth) {
-  if (depth > max_includes)
-    throw bad_input(file.string(), fmt::format("files include each other more than {} deep", max_includes));
-  const std::string text = read_file(file);
+PbrtFile::PbrtFile(const fs::path& file) : scene_(file) { read(file); }
+
+fs::path PbrtFile::find(const std::string& name, const Location& where) const {
+  const fs::path meant = scene_.parent_path() / name, beside = fs::path(where.name).parent_path() / name;
+  return !is_there(meant) && is_there(beside) ? beside : meant;
+}
+
+void PbrtFile::read(const fs::path& file) {
+  const std::string text = read_packed_file(file);
+  open_.push_back(fs::absolute(file).lexically_normal());
   std::size_t line = 1;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
@@ -80,23 +87,27 @@ void PbrtFile::read(const fs::path& file, int depth) {
       if (end == std::string::npos || text[end] == '\n') throw bad_input(where, "a string has no end", "expected \"");
       tokens_.push_back({text.substr(i + 1, end - i - 1), true, where});
       i = end + 1;
-      include_if_asked(file, depth);
+      include_if_asked();
     } else {
       const std::size_t end = std::min(text.find_first_of(" \t\r\n[]\"#", i), text.size());
       tokens_.push_back({text.substr(i, end - i), false, where});
       i = end;
     }
   }
+  open_.pop_back();
 }
 
-void PbrtFile::include_if_asked(const fs::path& file, int depth) {
+void PbrtFile::include_if_asked() {
   if (tokens_.size() < 2) return;
   const PbrtToken &word = *(tokens_.end() - 2), &name = tokens_.back();
   if (word.quoted || (word.text != "Include" && word.text != "Import")) return;
-  const fs::path next = file.parent_path() / name.text;
-  if (!is_there(next)) throw bad_input(name.where, "the file " + next.string() + " is not there");
+  const fs::path next = find(name.text, name.where);
+  if (!is_there(next)) throw bad_input(name.where, "the file " + next.string() + " is not there", {}, "put it there");
+  if (std::ranges::count(open_, fs::absolute(next).lexically_normal()) > 0)
+    throw bad_input(name.where, "the file " + next.string() + " includes itself", {},
+                    "take this " + word.text + " out");
   tokens_.resize(tokens_.size() - 2);
-  read(next, depth + 1);
+  read(next);
 }
 
 const PbrtToken& PbrtFile::token(const Location& where) {

@@ -32,6 +32,8 @@ struct PbrtParameters {
   std::string text(const std::string& name, const std::string& standard) const;
   double number(const std::string& name, double standard) const;
   glm::dvec3 vector(const std::string& name, const glm::dvec3& standard) const;
+  /// Those that are not among these, as values where these say none.
+  void add_missing(const std::vector<PbrtParameter>& more);
 };
 
 /// Reads the tokens in sequence. `where` is the place of the directive that needs one: bad_input names it if the file
@@ -39,7 +41,11 @@ struct PbrtParameters {
 class PbrtFile {
 public:
   /// Throws bad_input at FILE:LINE: a string without an end, a file that is not there or includes itself.
+  /// Files may be packed as .gz.
   explicit PbrtFile(const std::filesystem::path& file);
+
+  /// A file that a token names: beside the scene, as PBRT has it, or beside the file that has the name.
+  std::filesystem::path find(const std::string& name, const Location& where) const;
 
   bool ended() const { return next_ == tokens_.size(); }
   bool string_follows() const { return !ended() && tokens_[next_].quoted; }
@@ -50,9 +56,11 @@ public:
   PbrtParameters parameters(const Location& where);
 
 private:
-  void read(const std::filesystem::path& file, int depth);
-  void include_if_asked(const std::filesystem::path& file, int depth);
+  void read(const std::filesystem::path& file);
+  void include_if_asked();
 
+  std::filesystem::path scene_;
+  std::vector<std::filesystem::path> open_; ///< the files that are being read, each included by the one before
   std::vector<PbrtToken> tokens_;
   std::size_t next_ = 0;
 };

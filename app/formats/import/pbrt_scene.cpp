@@ -2,11 +2,10 @@
 #include "formats/import/pbrt_scene.h"
 
 #include "base/error.h"
-#include "formats/import/gltf_scene.h"
-#include "scene/scene.h"
+#include "optics/colour.h"
+#include "optics/spectrum.h"
 
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,110 +15,187 @@ namespace nephroid::formats {
 namespace {
 
 using std::numbers::pi;
+using Rows = std::vector<std::array<double, 2>>;
 
-/// n at 587.6 nm of the glasses that PBRT names.
-const std::map<std::string, double> named_glasses{
-    {"glass-BK7", 1.5168}, {"glass-BAF10", 1.6700}, {"glass-FK51A", 1.4866}, {"glass-LASF9", 1.8503},
-    {"glass-F5", 1.6034},  {"glass-SF5", 1.6727},   {"glass-SF10", 1.7283},  {"glass-SF11", 1.7847}};
-
-double above_zero(const PbrtParameters& p, const char* name) {
-  const double value = p.number(name, 1);
-  if (!(value > 0)) throw bad_input(p.where, fmt::format("its {} is not above 0", name));
-  return value;
+/// Schott's glasses that PBRT names: Sellmeier's coefficients of Schott's data sheets.
+struct NamedGlass {
+  const char* name;
+  std::vector<double> b, c_um2;
+};
+const std::vector<NamedGlass>& named_glasses() {
+  static const std::vector<NamedGlass> glasses{
+      {"glass-BK7", {1.03961212, 0.231792344, 1.01046945}, {0.00600069867, 0.0200179144, 103.560653}},
+      {"glass-BAF10", {1.5851495, 0.143559385, 1.08521269}, {0.00926681282, 0.0424489805, 105.613573}},
+      {"glass-FK51A", {0.971247817, 0.216901417, 0.904651666}, {0.00472301995, 0.0153575612, 168.68133}},
+      {"glass-LASF9", {2.00029547, 0.298926886, 1.80691843}, {0.0121426017, 0.0538736236, 156.530829}},
+      {"glass-F5", {1.3104463, 0.19603426, 0.96612977}, {0.00958633048, 0.0457627627, 115.011883}},
+      {"glass-SF5", {1.52481889, 0.187085527, 1.42729015}, {0.011254756, 0.0588995392, 129.141675}},
+      {"glass-SF10", {1.62153902, 0.256287842, 1.64447552}, {0.0122241457, 0.0595736775, 147.468793}},
+      {"glass-SF11", {1.73759695, 0.313747346, 1.89878101}, {0.013188707, 0.0623068142, 155.23629}}};
+  return glasses;
 }
 
-double index_of(PbrtScene& scene, const PbrtParameters& p) {
-  const char* const name = p.find("eta") ? "eta" : "index";
-  const PbrtParameter* eta = p.find(name);
-  if (!eta || eta->type != "spectrum" || eta->values.empty()) return p.number(name, 1.5);
-  const auto glass = named_glasses.find(eta->values[0]);
-  const double n = glass == named_glasses.end() ? 1.5 : glass->second;
-  scene.d.note(eta->where, fmt::format("the spectrum of eta is left out: n = {} takes its place", n));
-  return n;
+bool is_name(const PbrtParameter& p) { return p.values.size() == 1 && !scene_number(p.values[0]); }
+
+Rows pairs_of(const PbrtParameter& p) {
+  const std::vector<double> numbers = p.numbers();
+  if (numbers.size() % 2 != 0)
+    throw bad_input(p.where, fmt::format("\"{}\" has {} values", p.name, numbers.size()), "expected pairs");
+  Rows rows;
+  for (std::size_t i = 0; i < numbers.size(); i += 2) rows.push_back({numbers[i], numbers[i + 1]});
+  return rows;
 }
 
-std::vector<std::uint32_t> indices_of(const PbrtParameters& p, std::size_t corners, std::size_t points) {
-  std::vector<double> given{0, 1, 2, 3};
-  given.resize(corners);
-  if (p.find("indices")) given = p.find("indices")->numbers();
-  if (given.empty() || given.size() % corners != 0)
-    throw bad_input(p.where, fmt::format("has {} indices", given.size()));
-  std::vector<std::uint32_t> indices;
-  for (const double i : given) {
-    if (i < 0 || i >= static_cast<double>(points) || i != std::floor(i))
-      throw bad_input(p.where, fmt::format("there is no point {} in it", i),
-                      fmt::format("expected 0 to {}", points - 1));
-    indices.push_back(static_cast<std::uint32_t>(i));
-  }
-  return indices;
+/// A constant texture's value in the texture's place.
+const PbrtParameter* resolved(const PbrtScene& scene, const PbrtParameters& p, const std::string& name) {
+  const PbrtParameter* given = p.find(name);
+  if (given && given->type == "texture" && !given->values.empty())
+    if (const auto found = scene.textures.find(given->values[0]); found != scene.textures.end()) return &found->second;
+  return given;
 }
 
-/// corners: 3, or those of a bilinear patch, which becomes two triangles.
-scene::Mesh listed_mesh(const PbrtParameters& p, std::size_t corners) {
-  const PbrtParameter* points = p.find("P");
-  if (!points) throw bad_input(p.where, "has no points \"P\"");
-  const auto v = points->numbers();
-  if (v.size() % 3 != 0 || v.empty())
-    throw bad_input(points->where, fmt::format("\"P\" has {} numbers", v.size()), "expected threes");
-  scene::Mesh mesh;
-  for (std::size_t i = 0; i < v.size(); i += 3) mesh.positions.emplace_back(v[i], v[i + 1], v[i + 2]);
-  const std::vector<std::uint32_t> index = indices_of(p, corners, mesh.positions.size());
-  for (std::size_t i = 0; i < index.size(); i += corners) {
-    mesh.triangles.emplace_back(index[i], index[i + 1], index[i + corners - 1]);
-    if (corners == 4)
-      mesh.triangles.emplace_back(index[i], index[i + 3], index[i + 2]); // a patch's corners are 00, 10, 01, 11
+/// Nothing for what is no colour.
+std::optional<DescribedColour> colour_of(const PbrtScene& scene, const PbrtParameter& p) {
+  static const double unit = optics::to_xyz(optics::constant_spectrum(1))[1]; // PBRT's own: the integral of y
+  DescribedColour colour;
+  if (p.type == "rgb" || p.type == "color" || p.type == "float" || p.type == "xyz") {
+    const auto v = p.numbers();
+    if (v.size() != 1 && v.size() != 3)
+      throw bad_input(p.where, fmt::format("\"{}\" has {} values", p.name, v.size()), "expected one or three");
+    colour.rgb = v.size() == 1 ? glm::dvec3(v[0]) : glm::dvec3(v[0], v[1], v[2]);
+    if (p.type != "xyz") return colour;
+    const auto rgb = optics::xyz_to_linear_srgb({colour.rgb.x, colour.rgb.y, colour.rgb.z});
+    colour.rgb = {rgb[0], rgb[1], rgb[2]};
+    return colour;
   }
-  const auto n = p.find("N") ? p.find("N")->numbers() : std::vector<double>();
-  if (n.size() != v.size()) return mesh;
-  for (std::size_t i = 0; i < n.size(); i += 3) {
-    const glm::dvec3 normal(n[i], n[i + 1], n[i + 2]);
-    mesh.normals.emplace_back(glm::length(normal) > 0 ? glm::normalize(normal) : glm::dvec3(0, 0, 1));
+  if (p.type == "blackbody") {
+    const auto v = p.numbers();
+    if (v.size() != 1 && v.size() != 2)
+      throw bad_input(p.where, fmt::format("\"{}\" has {} values", p.name, v.size()), "expected a temperature");
+    colour = blackbody_of(v[0], unit, p.where);
+    // The highest value is 1; version 3 has a factor behind it.
+    return colour * ((v.size() == 2 ? v[1] : 1) / *std::ranges::max_element(*colour.spectrum));
   }
-  return mesh;
+  if (p.type != "spectrum" || p.values.empty()) return std::nullopt;
+  if (!is_name(p)) return spectrum_of_rows(pairs_of(p), unit, p.where);
+  const std::string& name = p.values[0];
+  if (const std::string cie = name.starts_with("stdillum-") ? name.substr(9) : std::string();
+      std::ranges::count(optics::illuminant_names(), cie) > 0)
+    return illuminant_of(cie, unit);
+  const std::filesystem::path file = scene.file.find(name, p.where);
+  if (!file.has_extension()) return std::nullopt;
+  return spectrum_of_rows(rows_of_file(file, p.where), unit, p.where);
+}
+
+preset::Dispersion index_of(PbrtScene& scene, const PbrtParameters& p) {
+  preset::Dispersion index;
+  const PbrtParameter* eta = resolved(scene, p, p.find("eta") ? "eta" : "index");
+  if (!eta || eta->values.empty()) return index;
+  if (eta->type == "float") {
+    const auto n = eta->numbers();
+    if (n.size() != 1) throw bad_input(eta->where, "eta has several values", "expected one number");
+    return glass_of(n[0], eta->where).inside;
+  }
+  if (eta->type != "spectrum") {
+    scene.d.note(eta->where, fmt::format("the {} of eta is left out: n = 1.5 takes its place", eta->type));
+    return index;
+  }
+  const auto known = std::ranges::find(named_glasses(), eta->values[0], &NamedGlass::name);
+  if (known != named_glasses().end()) {
+    index.type = preset::Dispersion::Type::sellmeier;
+    index.b = known->b;
+    index.c_um2 = known->c_um2;
+    return index;
+  }
+  const std::filesystem::path file =
+      is_name(*eta) ? scene.file.find(eta->values[0], eta->where) : std::filesystem::path();
+  if (is_name(*eta) && !file.has_extension()) {
+    scene.d.note(eta->where, "the spectrum " + eta->values[0] + " of eta is left out: n = 1.5 takes its place");
+    return index;
+  }
+  index.type = preset::Dispersion::Type::table;
+  index.table = is_name(*eta) ? rows_of_file(file, eta->where) : pairs_of(*eta);
+  for (const auto& row : index.table) glass_of(row[1], eta->where);
+  return index;
+}
+
+/// What the medium takes away a unit of length.
+std::optional<DescribedColour> absorption_of(PbrtScene& scene, const PbrtThing& medium) {
+  const PbrtParameters& p = medium.parameters;
+  if (medium.type != "homogeneous" || p.find("preset")) {
+    scene.d.note(p.where, "the medium is left out: there is clear space in its place");
+    return std::nullopt;
+  }
+  const auto given = [&](const char* name, const glm::dvec3& standard) {
+    DescribedColour colour;
+    colour.rgb = standard;
+    return p.find(name) ? pbrt_colour(scene, p, name, 1) : colour;
+  };
+  if (!given("sigma_s", {2.55, 3.21, 3.77}).is_black())
+    scene.d.note(p.where, "the medium scatters in the file, and only absorbs here");
+  return given("sigma_a", {0.0011, 0.0024, 0.014}) * p.number("scale", 1);
+}
+
+bool is_rough(const PbrtParameters& p) {
+  return std::ranges::any_of(std::array{"roughness", "uroughness", "vroughness"}, [&](const char* name) {
+    return p.find(name) && p.find(name)->type == "float" && p.number(name, 0) > 0;
+  });
 }
 
 } // namespace
 
-glm::dvec3 pbrt_colour(PbrtScene& scene, const PbrtParameters& p, const std::string& name, const glm::dvec3& standard) {
-  const PbrtParameter* given = p.find(name);
-  if (given && given->type == "texture" && !given->values.empty())
-    if (const auto found = scene.textures.find(given->values[0]); found != scene.textures.end()) given = &found->second;
-  if (!given) return standard;
-  if (given->type == "rgb" || given->type == "color" || given->type == "float") {
-    const auto v = given->numbers();
-    if (v.size() == 1) return glm::dvec3(v[0]);
-    if (v.size() == 3) return {v[0], v[1], v[2]};
-    throw bad_input(given->where, fmt::format("\"{}\" has {} values", name, v.size()), "expected one or three");
-  }
-  scene.d.note(given->where, fmt::format("the {} \"{}\" is left out: {:.3g} {:.3g} {:.3g} takes its place", given->type,
-                                         name, standard.x, standard.y, standard.z));
-  return standard;
+DescribedColour pbrt_colour(PbrtScene& scene, const PbrtParameters& p, const std::string& name, double standard) {
+  DescribedColour grey;
+  grey.rgb = glm::dvec3(standard);
+  const PbrtParameter* given = resolved(scene, p, name);
+  if (!given) return grey;
+  if (const auto colour = colour_of(scene, *given)) return *colour;
+  scene.d.note(given->where,
+               fmt::format("the {} \"{}\" is left out: {:.3g} takes its place", given->type, name, standard));
+  return grey;
 }
 
-preset::Material pbrt_material(PbrtScene& scene, const std::string& type, const PbrtParameters& p) {
-  const bool rough = p.find("roughness") && p.find("roughness")->type == "float" && p.number("roughness", 0) > 0;
-  if (type == "dielectric" || type == "thindielectric" || type == "glass") {
-    if (type == "thindielectric") scene.d.note(p.where, "a thin film is solid glass here");
-    if (rough) scene.d.note(p.where, "roughness is left out: the glass is polished");
-    return glass_of(index_of(scene, p), p.where);
+DescribedColour pbrt_light_colour(PbrtScene& scene, const PbrtParameters& p, const std::string& name) {
+  DescribedColour colour = pbrt_colour(scene, p, name, 1);
+  if (colour.spectrum && !scene.is_version_3 && !colour.is_black()) colour = colour * (1 / colour.luminance);
+  return colour * p.number("scale", 1);
+}
+
+bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing& material, const PbrtThing* medium) {
+  const std::string& type = material.type;
+  const PbrtParameters& p = material.parameters;
+  const bool thin = type == "thindielectric", refracts = thin || type == "dielectric" || type == "glass";
+  if (medium && !refracts) scene.d.note(p.where, "the medium in it is left out: there is clear space in its place");
+  if (type == "interface" || type.empty() || type == "none") return false;
+  if (refracts) {
+    DescribedGlass& glass = scene.d.dielectrics[key];
+    glass.inside = index_of(scene, p);
+    glass.is_ratio = true;
+    glass.is_thin = thin;
+    if (is_rough(p)) scene.d.note(p.where, "roughness is left out: the glass is polished");
+    for (const char* tint : {"Kt", "Kr"})
+      if (const PbrtParameter* given = resolved(scene, p, tint))
+        if (const auto colour = colour_of(scene, *given); !colour || values_of(*colour) != optics::constant_spectrum(1))
+          scene.d.note(given->where, std::string("its ") + tint + " is left out: the glass is clear");
+    if (medium && !thin) glass.absorption = absorption_of(scene, *medium);
+    return true;
   }
-  preset::Material made;
+  preset::Material& made = scene.d.materials[key];
   const auto reflect = [&](const char* name, double standard) {
-    made.reflectance = reflectance_of(scene::to_vec3(pbrt_colour(scene, p, name, glm::dvec3(standard))));
+    made.reflectance = reflectance_of(pbrt_colour(scene, p, name, standard));
   };
   if (type == "conductor" || type == "mirror") {
     made.type = preset::Material::Type::mirror;
     reflect(type == "mirror" ? "Kr" : "reflectance", 0.9);
     if (type == "conductor" && !p.find("reflectance"))
       scene.d.note(p.where, "the metal is left out: a mirror of 0.9 takes its place");
-    if (rough) scene.d.note(p.where, "roughness is left out: the mirror is polished");
-    return made;
+    if (is_rough(p)) scene.d.note(p.where, "roughness is left out: the mirror is polished");
+    return true;
   }
   reflect(p.find("Kd") ? "Kd" : "reflectance", 0.5);
   if (type != "diffuse" && type != "matte")
-    scene.d.note(p.where, "the material " + (type.empty() ? "\"\"" : type) +
-                              " is left out: a matt surface of its colour takes its place");
-  return made;
+    scene.d.note(p.where, "the material " + type + " is left out: a matt surface of its colour takes its place");
+  return true;
 }
 
 /// The luminance of a white of 1 is 1 in version 4, which divides a light by the luminance of its spectrum.
@@ -129,11 +205,10 @@ void add_pbrt_light(PbrtScene& scene, const std::string& type, const PbrtParamet
   const glm::dvec3 from = p.vector("from", {0, 0, 0}), to = p.vector("to", {0, 0, 1});
   light.position = glm::dvec3(to_world * glm::dvec4(from, 1));
   light.direction = glm::dmat3(to_world) * (to - from);
-  light.colour =
-      pbrt_colour(scene, p, type == "distant" || type == "infinite" ? "L" : "I", glm::dvec3(1)) * p.number("scale", 1);
+  light.colour = pbrt_light_colour(scene, p, type == "distant" || type == "infinite" ? "L" : "I");
   const double power = p.number("power", -1), lux = p.number("illuminance", -1);
   if (type == "point") {
-    if (power > 0) light.colour *= power / (4 * pi);
+    if (power > 0) light.colour = light.colour * (power / (4 * pi));
   } else if (type == "spot") {
     light.type = preset::Light::Type::spot;
     const double cone = std::clamp(p.number("coneangle", 30), 0.01, 90.0);
@@ -143,45 +218,19 @@ void add_pbrt_light(PbrtScene& scene, const std::string& type, const PbrtParamet
       const double t = high > low ? std::clamp((std::cos(a) - low) / (high - low), 0.0, 1.0) : 1;
       return t * t * (3 - 2 * t);
     });
-    if (power > 0) light.colour *= power / (2 * pi * (1 - std::cos(glm::radians(light.half_angle_deg))));
+    if (power > 0)
+      light.colour = light.colour * (power / (2 * pi * (1 - std::cos(glm::radians(light.half_angle_deg)))));
     if (start < cone) scene.d.note(p.where, "the spot's fading edge is left out: a sharp cone has its power");
   } else if (type == "distant") {
     light.type = preset::Light::Type::directional;
-    if (lux > 0) light.colour *= lux;
+    if (lux > 0) light.colour = light.colour * lux;
   } else if (type == "infinite" && !p.find("filename") && !p.find("mapname")) {
-    scene.d.surroundings = {.where = p.where, .file = {}, .colour = light.colour, .scale = lux > 0 ? lux / pi : 1};
+    scene.d.surroundings = {
+        .where = p.where, .file = {}, .colour = linear_srgb_of(light.colour), .scale = lux > 0 ? lux / pi : 1};
     return;
   } else
     return scene.d.note(p.where, "the light " + type + (type == "infinite" ? " with a picture" : "") + " is left out");
   scene.d.lights.push_back(light);
-}
-
-std::optional<DescribedShape> pbrt_shape(PbrtScene& scene, const std::string& type, const PbrtParameters& p,
-                                         const glm::dmat4& to_world) {
-  Description& d = scene.d;
-  DescribedShape shape;
-  shape.where = p.where;
-  shape.name = type;
-  shape.to_world = to_world;
-  if (type == "sphere") {
-    shape.radius = above_zero(p, "radius");
-    if (p.find("zmin") || p.find("zmax") || p.find("phimax")) d.note(p.where, "a part of a sphere is whole here");
-  } else if (type == "plymesh") {
-    shape.mesh = d.mesh_file(std::filesystem::path(p.where.name).parent_path() / p.text("filename", ""), p.where);
-  } else if (type == "trianglemesh" || type == "bilinearmesh") {
-    shape.mesh = d.own_mesh(type, listed_mesh(p, type == "trianglemesh" ? 3 : 4));
-  } else if (type == "disk") {
-    shape.to_world = glm::translate(to_world, glm::dvec3(0, 0, p.number("height", 0)));
-    shape.mesh = d.own_mesh(type, disk(above_zero(p, "radius")));
-  } else if (type == "cylinder") {
-    const double radius = p.number("radius", 1), low = p.number("zmin", -1), high = p.number("zmax", 1);
-    if (!(radius > 0) || !(low < high)) throw bad_input(p.where, "the cylinder has no size");
-    shape.mesh = d.own_mesh(type, open_cylinder({0, 0, low}, {0, 0, high}, radius));
-  } else {
-    d.note(p.where, "the shape " + type + " is left out");
-    return std::nullopt;
-  }
-  return shape;
 }
 
 } // namespace nephroid::formats

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/import/dielectrics.h"
+
+#include "base/files.h"
+#include "scene/materials.h"
+#include "scene/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace nephroid::formats {
+namespace {
+
+constexpr double thinness = 1e-3;            ///< of a sheet: its thickness over its size
+constexpr std::size_t most_pairs = 1u << 26; ///< of dielectrics that are looked at for nesting
+
+bool alike(double n, double m) { return std::abs(n - m) < 1e-3 * m; }
+bool is_air(double n) { return alike(n, 1); }
+
+optics::DispersionCurve curve_of(const preset::Dispersion& dispersion) {
+  return scene::make_curve(dispersion, FileFinder(), "dispersion");
+}
+
+double middle_index(const preset::Dispersion& dispersion) {
+  return dispersion.type == preset::Dispersion::Type::constant
+             ? dispersion.n
+             : curve_of(dispersion).sample(optics::line_d_nm).n.value_or(1);
+}
+
+/// factor times n, or over it.
+preset::Dispersion changed(const preset::Dispersion& dispersion, double factor, bool inverted) {
+  if (factor == 1 && !inverted) return dispersion;
+  const auto change = [&](double n) { return inverted ? factor / n : factor * n; };
+  preset::Dispersion result;
+  if (dispersion.type == preset::Dispersion::Type::constant) {
+    result.n = change(dispersion.n);
+    return result;
+  }
+  result.type = preset::Dispersion::Type::table;
+  const optics::DispersionCurve curve = curve_of(dispersion);
+  for (int nm = optics::first_nm; nm <= optics::last_nm; nm += 10)
+    result.table.push_back({static_cast<double>(nm), change(curve.sample(nm).n.value_or(1))});
+  return result;
+}
+
+/// A dielectric where it stands.
+class Body {
+public:
+  Body(Description& d, DescribedShape& from) : shape(from), glass(d.dielectrics.at(from.material)) {
+    to_world_ = shape.to_world;
+    if (shape.mesh.empty())
+      to_world_ *= glm::dmat4(glm::dmat3(shape.radius));
+    else
+      mesh_ = &d.meshes.at(shape.mesh);
+    const std::vector<glm::vec3> corners = mesh_ ? mesh_->positions : cube().positions;
+    bounds = {glm::dvec3(1e300), glm::dvec3(-1e300)};
+    for (const glm::vec3& p : corners) {
+      const glm::dvec3 q = to_world_ * glm::dvec4(glm::dvec3(p), 1);
+      bounds.low = glm::min(bounds.low, q);
+      bounds.high = glm::max(bounds.high, q);
+    }
+    const glm::dvec3 size = bounds.high - bounds.low;
+    volume = size.x * size.y * size.z;
+    inside = middle_index(glass.inside);
+    outside = glass.outside;
+    if (shape.inside_out) std::swap(inside, outside);
+  }
+
+  bool meets(const Body& other) const {
+    return glm::all(glm::lessThanEqual(bounds.low, other.bounds.high)) &&
+           glm::all(glm::lessThanEqual(other.bounds.low, bounds.high));
+  }
+  /// Most of the other's surface is in it.
+  bool encloses(const Body& other) const {
+    if (!meets(other) || volume < other.volume) return false;
+    const std::vector<glm::vec3>& points = other.mesh_ ? other.mesh_->positions : cube().positions;
+    constexpr std::size_t samples = 12;
+    const glm::dmat4 to_here = glm::inverse(to_world_) * other.to_world_;
+    const double shrink = other.mesh_ ? 1 : 1 / std::numbers::sqrt3; // a cube's corners on the unit sphere
+    std::size_t within = 0, seen = 0;
+    for (std::size_t i = 0; i < points.size(); i += points.size() / samples + 1, ++seen) {
+      const glm::dvec3 p = to_here * glm::dvec4(shrink * glm::dvec3(points[i]), 1);
+      within += mesh_ ? std::abs(winding_of(p)) > 0.5 : glm::length(p) < 1;
+    }
+    return 4 * within > 3 * seen;
+  }
+
+  DescribedShape& shape;
+  const DescribedGlass& glass;
+  scene::Bounds bounds;
+  double volume = 0;
+  double inside = 1, outside = 1; ///< as the file has them
+  double own = 1;                 ///< as the preset has it
+
+private:
+  double winding_of(const glm::dvec3& p) const {
+    return scene::winding_number(*mesh_, 0, static_cast<std::uint32_t>(mesh_->triangles.size()), p);
+  }
+
+  const scene::Mesh* mesh_ = nullptr;
+  glm::dmat4 to_world_;
+};
+
+class Settlement {
+public:
+  explicit Settlement(Description& d) : d_(d) {}
+
+  void settle() {
+    make_sheets();
+    std::vector<Body> bodies;
+    for (DescribedShape& shape : d_.shapes)
+      if (d_.dielectrics.contains(shape.material) && !shape.glow) bodies.emplace_back(d_, shape);
+    const bool few = bodies.size() * bodies.size() <= most_pairs;
+    if (!few) d_.note("there are too many dielectrics to see which lies in which: each is as if in air");
+    // What is around others is settled before them.
+    std::vector<Body*> order;
+    for (Body& body : bodies) order.push_back(&body);
+    std::ranges::stable_sort(order, std::greater(), &Body::volume);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      Body* around = nullptr;
+      for (std::size_t j = few ? i : 0; j-- > 0 && !around;)
+        if (is_around(*order[j], *order[i])) around = order[j];
+      settle(*order[i], around);
+    }
+  }
+
+private:
+  /// A liquid touches its glass from within and is not enclosed by the solid; the file's index says so.
+  static bool is_around(const Body& outer, const Body& inner) {
+    if (inner.glass.is_thin || outer.glass.is_thin) return false;
+    if (outer.encloses(inner)) return true;
+    if (!outer.meets(inner)) return false;
+    return inner.glass.is_ratio ? inner.inside / inner.outside < 1 && outer.own > 1
+                                : !is_air(inner.outside) && alike(outer.inside, inner.outside);
+  }
+
+  void settle(Body& body, const Body* around) {
+    const DescribedGlass& glass = body.glass;
+    const double ratio = body.inside / body.outside;
+    if (glass.is_ratio) {
+      body.own = around ? around->own * ratio : ratio;
+      if (around && !is_air(around->own))
+        d_.note(body.shape.where,
+                fmt::format("its eta is a ratio, and it lies in n = {:.4g}: n = {:.4g} inside", around->own, body.own));
+    } else if (is_air(body.outside) || (is_air(body.inside) && around)) {
+      body.own = is_air(body.inside) ? 1 : ratio;
+      if (around && is_air(body.outside) && !is_air(body.inside))
+        d_.note(body.shape.where, fmt::format("the file has it in air, and it lies in n = {:.4g}: its own n = {:.4g} "
+                                              "counts",
+                                              around->own, body.own));
+    } else if (around && alike(around->inside, body.outside)) {
+      body.own = body.inside;
+    } else {
+      body.own = ratio;
+      d_.note(body.shape.where, fmt::format("in the file it is in n = {:.4g}, which is nowhere in the scene: the ratio "
+                                            "{:.4g} is its n, in air",
+                                            body.outside, body.own));
+    }
+    if (around) body.shape.priority = around->shape.priority + 1;
+    body.shape.material = material_of(body);
+  }
+
+  /// The key of the material that this body needs; the same for all that need the same.
+  std::string material_of(const Body& body) {
+    const std::string& name = body.shape.material;
+    const auto [known, is_new] = keys_.try_emplace({name, body.own, body.shape.inside_out});
+    if (!is_new) return known->second;
+    std::string key = name;
+    for (int n = 2; d_.materials.contains(key); ++n) key = fmt::format("{} {}", name, n);
+    preset::Material& material = d_.materials[key];
+    material.type = preset::Material::Type::dielectric;
+    material.dispersion = dispersion_of(body);
+    if (const auto& absorption = body.glass.absorption; absorption && !absorption->is_black()) {
+      if (body.shape.inside_out)
+        d_.note(body.shape.where, "the medium around it is left out");
+      else {
+        const std::string file = file_name_of(key, ".yml");
+        d_.glasses[file] = absorbing_glass_file(material.dispersion, values_of(*absorption),
+                                                "n as the scene's dielectric, k as its medium has it");
+        material.dispersion = {};
+        material.dispersion.type = preset::Dispersion::Type::file;
+        material.dispersion.file = file;
+      }
+    }
+    return known->second = key;
+  }
+
+  static preset::Dispersion dispersion_of(const Body& body) {
+    const double n = middle_index(body.glass.inside);
+    return body.shape.inside_out ? changed(body.glass.inside, body.own * n, true)
+                                 : changed(body.glass.inside, body.own / n, false);
+  }
+
+  void make_sheets() {
+    const std::size_t count = d_.shapes.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const DescribedShape shape = d_.shapes[i];
+      const auto glass = d_.dielectrics.find(shape.material);
+      if (glass == d_.dielectrics.end() || !glass->second.is_thin || shape.glow) continue;
+      d_.note(shape.where, "its surface is infinitely thin in the file: a sheet of a thousandth of its size is solid "
+                           "glass here");
+      if (shape.mesh.empty()) { // a shell
+        DescribedShape inner = shape;
+        inner.radius *= 1 - thinness;
+        inner.material = "air in a shell";
+        inner.priority = 1;
+        d_.materials[inner.material].type = preset::Material::Type::dielectric;
+        d_.materials[inner.material].dispersion.n = 1;
+        d_.shapes.push_back(inner);
+        continue;
+      }
+      auto& key = sheets_[shape.mesh];
+      if (key.empty()) {
+        const scene::Mesh& mesh = d_.meshes.at(shape.mesh);
+        glm::vec3 low(1e30f), high(-1e30f);
+        for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+        key = d_.own_mesh(shape.name + " sheet", sheet_about(mesh, thinness * glm::length(high - low)));
+      }
+      d_.shapes[i].mesh = key;
+      d_.shapes[i].inside_out = false;
+    }
+  }
+
+  Description& d_;
+  std::map<std::string, std::string> sheets_; ///< by the keys of the meshes that they are about
+  std::map<std::tuple<std::string, double, bool>, std::string> keys_;
+};
+
+} // namespace
+
+void settle_dielectrics(Description& description) { Settlement(description).settle(); }
+
+std::string absorbing_glass_file(const preset::Dispersion& clear, const optics::Spectrum& absorption,
+                                 const std::string& comments) {
+  using Type = preset::Dispersion::Type;
+  std::string text = fmt::format("COMMENTS: |\n    {}\nDATA:\n", comments);
+  if (clear.type == Type::constant || clear.type == Type::cauchy) {
+    const std::string n = clear.type == Type::cauchy && clear.coefficients.size() == 2
+                              ? fmt::format("{} {} -2", clear.coefficients[0], clear.coefficients[1])
+                              : fmt::format("{}", middle_index(clear));
+    text += fmt::format("  - type: formula 5\n    wavelength_range: 0.38 0.78\n    coefficients: {}\n", n);
+  } else {
+    text += "  - type: tabulated n\n    data: |\n";
+    const optics::DispersionCurve curve = curve_of(clear);
+    for (int nm = optics::first_nm; nm <= optics::last_nm; nm += 10)
+      text += fmt::format("        {:.2f} {:.9g}\n", nm * 1e-3, curve.sample(nm).n.value_or(1));
+  }
+  text += "  - type: tabulated k\n    data: |\n";
+  for (int nm = optics::first_nm; nm <= optics::last_nm; nm += 10)
+    text +=
+        fmt::format("        {:.2f} {:.6g}\n", nm * 1e-3,
+                    absorption[static_cast<std::size_t>(nm - optics::first_nm)] * nm * 1e-9 / (4 * std::numbers::pi));
+  return text;
+}
+
+scene::Mesh sheet_about(const scene::Mesh& mesh, double thickness) {
+  scene::Mesh about = mesh;
+  scene::compute_smooth_normals(about);
+  scene::Mesh sheet;
+  const bool smooth = !mesh.normals.empty();
+  const auto add = [&](std::uint32_t vertex, float side, const glm::vec3& normal) {
+    sheet.positions.push_back(mesh.positions[vertex] +
+                              side * static_cast<float>(thickness / 2) * about.normals[vertex]);
+    if (smooth) sheet.normals.push_back(normal);
+    return static_cast<std::uint32_t>(sheet.positions.size() - 1);
+  };
+  const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const float side : {1.0f, -1.0f})
+    for (std::uint32_t i = 0; i < count; ++i) add(i, side, smooth ? side * mesh.normals[i] : glm::vec3(0));
+  // An edge is on the rim where no triangle has it the other way round. Vertices at one place count as one.
+  using Place = std::array<float, 3>;
+  const auto place = [&](std::uint32_t i) {
+    return Place{mesh.positions[i].x, mesh.positions[i].y, mesh.positions[i].z};
+  };
+  std::set<std::pair<Place, Place>> edges;
+  for (const glm::uvec3& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i) edges.emplace(place(t[i]), place(t[(i + 1) % 3]));
+  for (const glm::uvec3& t : mesh.triangles) {
+    sheet.triangles.push_back(t);
+    sheet.triangles.emplace_back(count + t.x, count + t.z, count + t.y);
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+      if (edges.contains({place(b), place(a)})) continue;
+      const glm::vec3 across = glm::cross(mesh.positions[b] - mesh.positions[a], about.normals[a] + about.normals[b]);
+      const glm::vec3 out = glm::length(across) > 0 ? glm::normalize(across) : about.normals[a];
+      const std::uint32_t top_a = add(a, 1, out), top_b = add(b, 1, out), low_a = add(a, -1, out),
+                          low_b = add(b, -1, out);
+      sheet.triangles.emplace_back(top_b, top_a, low_a);
+      sheet.triangles.emplace_back(top_b, low_a, low_b);
+    }
+  }
+  return sheet;
+}
+
+} // namespace nephroid::formats

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files say of a dielectric's surface what is on either side of it; a preset says what its inside is. Here the one
+// becomes the other.
+#pragma once
+#include "formats/import/description.h"
+
+namespace nephroid::formats {
+
+/// Makes the materials of the description's dielectrics. Where one lies in another, its index is its own, and its
+/// priority is higher. A lone one that the file has in another medium gets the ratio of both. Thin ones become sheets
+/// of a thickness. Notes say what was done.
+void settle_dielectrics(Description& description);
+
+/// A dispersion file in the form of refractiveindex.info, with the n of `clear` and the k of this absorption a metre.
+std::string absorbing_glass_file(const preset::Dispersion& clear, const optics::Spectrum& absorption,
+                                 const std::string& comments);
+
+/// A closed mesh about an open one, half the thickness to either side.
+scene::Mesh sheet_about(const scene::Mesh& mesh, double thickness);
+
+} // namespace nephroid::formats

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/import/mitsuba_scene.h"
+
+#include "base/error.h"
+#include "base/lower_case.h"
+#include "base/numbers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace nephroid::formats {
+namespace {
+
+/// Mitsuba's own figures of the indices of refraction that it names.
+const std::map<std::string, double> iors{{"vacuum", 1},
+                                         {"air", 1.000277},
+                                         {"water", 1.3330},
+                                         {"water ice", 1.31},
+                                         {"fused quartz", 1.458},
+                                         {"pyrex", 1.470},
+                                         {"acrylic glass", 1.49},
+                                         {"polypropylene", 1.49},
+                                         {"bk7", 1.5046},
+                                         {"sodium chloride", 1.544},
+                                         {"amber", 1.55},
+                                         {"pet", 1.5750},
+                                         {"diamond", 2.419},
+                                         {"acetone", 1.36},
+                                         {"ethanol", 1.361},
+                                         {"benzene", 1.501},
+                                         {"silicone oil", 1.52045},
+                                         {"glycerol", 1.4729},
+                                         {"hydrogen", 1.000132},
+                                         {"helium", 1.000036},
+                                         {"carbon dioxide", 1.00045},
+                                         {"bromine", 1.661},
+                                         {"carbon tetrachloride", 1.461}};
+
+using Rows = std::vector<std::array<double, 2>>;
+
+/// "400:0.1, 500:0.2".
+Rows rows_of(const MitsubaFile& file, xml_node node) {
+  std::string text = file.attribute(node, "value");
+  std::ranges::replace(text, ',', ' ');
+  std::istringstream words(text);
+  Rows rows;
+  for (std::string word; words >> word;) {
+    const std::size_t colon = word.find(':');
+    const auto nm = scene_number(std::string_view(word).substr(0, colon)),
+               value =
+                   colon == std::string::npos ? std::nullopt : scene_number(std::string_view(word).substr(colon + 1));
+    if (!nm || !value)
+      throw bad_input(file.at(node), "\"" + word + "\" is no value of a spectrum", "expected WAVELENGTH:VALUE");
+    rows.push_back({*nm, *value});
+  }
+  return rows;
+}
+
+bool is_listed(const MitsubaFile& file, xml_node node) {
+  return std::string_view(node.name()) == "spectrum" && file.attribute(node, "value").find(':') != std::string::npos;
+}
+
+/// "regular" and "irregular".
+Rows sampled_rows(const MitsubaFile& file, xml_node node) {
+  const auto numbers = [&](const char* name) {
+    const xml_node list = file.child(node, name);
+    return list ? file.numbers(list) : std::vector<double>();
+  };
+  const std::vector<double> values = numbers("values");
+  std::vector<double> nm = numbers("wavelengths");
+  if (nm.empty() && values.size() > 1) {
+    const double low = file.number(node, "wavelength_min", 360), high = file.number(node, "wavelength_max", 830);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      nm.push_back(std::lerp(low, high, static_cast<double>(i) / static_cast<double>(values.size() - 1)));
+  }
+  if (nm.size() != values.size())
+    throw bad_input(file.at(node), fmt::format("has {} wavelengths and {} values", nm.size(), values.size()));
+  Rows rows;
+  for (std::size_t i = 0; i < nm.size(); ++i) rows.push_back({nm[i], values[i]});
+  return rows;
+}
+
+/// "5000" or "5000K".
+double kelvin(const MitsubaFile& file, xml_node node, const std::string& text) {
+  const auto value = scene_number(std::string_view(text).substr(0, text.find_last_of("0123456789.") + 1));
+  if (!value) throw bad_input(file.at(node), "\"" + text + "\" is no temperature", "expected kelvins");
+  return *value;
+}
+
+double decoded(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+
+/// Encoded as sRGB: "#ff8000", or three numbers.
+glm::dvec3 srgb_of(const MitsubaFile& file, xml_node node, const std::string& text) {
+  glm::dvec3 rgb(0);
+  if (!text.starts_with('#'))
+    rgb = file.vector_of(node, 0);
+  else if (text.size() != 7 || text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+    throw bad_input(file.at(node), "\"" + text + "\" is no colour", "expected # and six digits");
+  else
+    for (int i = 0; i < 3; ++i)
+      rgb[i] = std::stoi(text.substr(1 + 2 * static_cast<std::size_t>(i), 2), nullptr, 16) / 255.0;
+  for (int i = 0; i < 3; ++i) rgb[i] = decoded(rgb[i]);
+  return rgb;
+}
+
+/// Nothing for what is no colour of its own, as a texture.
+std::optional<DescribedColour> colour_of(MitsubaScene& scene, xml_node node) {
+  const MitsubaFile& file = scene.file;
+  const double unit = scene.d.unit;
+  const Location where = file.at(node);
+  const std::string kind = node.name(), text = file.attribute(node, "value");
+  DescribedColour colour;
+  if (kind == "srgb" || text.starts_with('#')) {
+    colour.rgb = srgb_of(file, node, text);
+  } else if (kind == "rgb" || kind == "color" ||
+             kind == "float") { // a float shines as D65, a <spectrum> of one value as E
+    colour.rgb = file.vector_of(node, 0);
+  } else if (kind == "blackbody") {
+    colour = blackbody_of(kelvin(file, node, file.attribute(node, "temperature")), unit, where) *
+             file.number_of(node, 1, "scale");
+  } else if (kind == "spectrum" && node.attribute("filename")) {
+    colour = spectrum_of_rows(rows_of_file(file.find(node, file.attribute(node, "filename")), where), unit, where);
+  } else if (is_listed(file, node)) {
+    colour = spectrum_of_rows(rows_of(file, node), unit, where);
+  } else if (kind == "spectrum" && !text.empty()) {
+    const std::vector<double> values = file.numbers(node);
+    if (values.size() == 1) return even_spectrum(values[0], unit);
+    colour.rgb = file.vector_of(node, 0);
+  } else if (kind == "spectrum" || kind == "texture") {
+    const std::string type = file.attribute(node, "type");
+    const double scale = file.number(node, "scale", 1);
+    if (type == "uniform" || type == "rawconstant")
+      colour = even_spectrum(file.number(node, "value", 1), unit);
+    else if (type == "d65")
+      colour = mitsuba_colour(scene, node, "color", 1) * scale;
+    else if (type == "srgb")
+      colour = mitsuba_colour(scene, node, "color", 1);
+    else if (type == "blackbody")
+      colour = blackbody_of(kelvin(file, node, file.text(node, "temperature", "5000")), unit, where) * scale;
+    else if (type == "regular" || type == "irregular")
+      colour = spectrum_of_rows(file.child(node, "filename")
+                                    ? rows_of_file(file.find(node, file.text(node, "filename", "")), where)
+                                    : sampled_rows(file, node),
+                                unit, where);
+    else
+      return std::nullopt;
+  } else
+    return std::nullopt;
+  return colour;
+}
+
+DescribedGlass dielectric(MitsubaScene& scene, xml_node node, const char* inside, const char* standard) {
+  const MitsubaFile& file = scene.file;
+  const auto ior = [&](const char* name, const char* otherwise) {
+    const xml_node given = file.child(node, name);
+    const std::string value = given ? lower_case(file.attribute(given, "value")) : otherwise;
+    if (const auto known = iors.find(value); known != iors.end()) return known->second;
+    const auto n = scene_number(value);
+    if (!n) throw bad_input(file.at(given), "no index of refraction is called \"" + value + "\"");
+    if (*n > 0) return *n;
+    throw bad_input(file.at(given), "an index of refraction is above 0");
+  };
+  DescribedGlass glass;
+  if (const xml_node given = file.child(node, inside); is_listed(file, given)) {
+    glass.inside.type = preset::Dispersion::Type::table;
+    glass.inside.table = rows_of(file, given);
+  } else
+    glass.inside.n = glass_of(ior(inside, standard), file.at(node)).inside.n;
+  glass.outside = glass_of(ior("ext_ior", "air"), file.at(node)).inside.n;
+  return glass;
+}
+
+/// What of the bsdf is taken: those that only wrap others are unwrapped.
+xml_node unwrapped(MitsubaScene& scene, xml_node node) {
+  for (int depth = 0; node; ++depth) {
+    const std::string type = mitsuba_name(scene.file.attribute(node, "type"));
+    if (type != "twosided" && type != "bumpmap" && type != "normalmap" && type != "mask" && type != "blendbsdf") break;
+    if (type != "twosided")
+      scene.d.note(scene.file.at(node), "the " + type + " is left out: the material in it is taken");
+    if (depth > 16) throw bad_input(scene.file.at(node), "materials go round in a circle");
+    node = scene.file.object(node, "bsdf");
+  }
+  return node;
+}
+
+preset::Material opaque(MitsubaScene& scene, xml_node node, const std::string& type) {
+  const MitsubaFile& file = scene.file;
+  const Location where = file.at(node);
+  preset::Material made;
+  if (type == "conductor" || type == "roughconductor") {
+    made.type = preset::Material::Type::mirror;
+    made.reflectance = reflectance_of(mitsuba_colour(scene, node, "specular_reflectance", 1));
+    if (file.child(node, "material") ? file.text(node, "material", "") != "none" : bool(file.child(node, "eta")))
+      scene.d.note(where, "the metal is left out: a mirror of its specular_reflectance takes its place");
+    if (type == "roughconductor") scene.d.note(where, "roughness is left out: the mirror is polished");
+    return made;
+  }
+  const char* const name = type == "diffuse"      ? "reflectance"
+                           : type == "principled" ? "base_color"
+                                                  : "diffuse_reflectance";
+  made.reflectance = reflectance_of(mitsuba_colour(scene, node, name, 0.5));
+  if (type != "diffuse")
+    scene.d.note(where, "the bsdf " + type + " is left out: a matt surface of its colour takes its place");
+  return made;
+}
+
+/// What the medium takes away a unit of length.
+std::optional<DescribedColour> absorption_of(MitsubaScene& scene, xml_node medium) {
+  const MitsubaFile& file = scene.file;
+  const Location where = file.at(medium);
+  if (file.attribute(medium, "type") != "homogeneous" || file.child(medium, "material")) {
+    scene.d.note(where, "the medium is left out: there is clear space in its place");
+    return std::nullopt;
+  }
+  const double scale = file.number(medium, "scale", 1);
+  const bool apart = file.child(medium, "sigma_a") || file.child(medium, "sigma_s");
+  const optics::Spectrum scattered =
+      values_of(mitsuba_colour(scene, medium, apart ? "sigma_s" : "albedo", apart ? 1 : 0.75));
+  if (std::ranges::any_of(scattered, [](double value) { return value > 0; }))
+    scene.d.note(where, "the medium scatters in the file, and only absorbs here");
+  if (apart) return mitsuba_colour(scene, medium, "sigma_a", 1) * scale;
+  DescribedColour absorption;
+  absorption.spectrum = values_of(mitsuba_colour(scene, medium, "sigma_t", 1));
+  for (std::size_t i = 0; i < scattered.size(); ++i)
+    (*absorption.spectrum)[i] *= scale * std::max(1 - scattered[i], 0.0);
+  return absorption;
+}
+
+} // namespace
+
+DescribedColour mitsuba_colour(MitsubaScene& scene, xml_node parent, const std::string& name, double standard) {
+  DescribedColour grey;
+  grey.rgb = glm::dvec3(standard);
+  const xml_node node = scene.file.child(parent, name);
+  if (!node) return grey;
+  if (const auto colour = colour_of(scene, node)) return *colour;
+  scene.d.note(scene.file.at(node), fmt::format("this {} is left out: {:.3g} takes its place", node.name(), standard));
+  return grey;
+}
+
+std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
+  const MitsubaFile& file = scene.file;
+  const xml_node node = unwrapped(scene, file.object(shape, "bsdf")), medium = file.object(shape, "medium", "interior");
+  if (file.object(shape, "medium", "exterior"))
+    scene.d.note(file.at(shape), "the medium around it is left out: there is clear space in its place");
+  const std::string type = node ? mitsuba_name(file.attribute(node, "type")) : "diffuse";
+  const double through = type == "principled" ? file.number(node, "spec_trans", 0) : 0;
+  const bool thin = type == "thindielectric", refracts = type.ends_with("dielectric") || through >= 0.5;
+  if (medium && !refracts)
+    scene.d.note(file.at(shape), "the medium in it is left out: there is clear space in its place");
+  if (type == "null") return {};
+  const auto [known, is_new] = scene.keys.try_emplace({node.hash_value(), refracts ? medium.hash_value() : 0});
+  if (!is_new) return known->second;
+  const std::string id = node ? file.attribute(node, "id") : std::string();
+  const std::string key = known->second =
+      unique(node ? name_of(id, fmt::format("material {}", file.at(node).line)) : "plain", scene.taken);
+  if (!refracts) {
+    scene.d.materials[key] = opaque(scene, node, type);
+    return key;
+  }
+  const Location where = file.at(node);
+  DescribedGlass glass =
+      through > 0 ? dielectric(scene, node, "eta", "1.5") : dielectric(scene, node, "int_ior", "bk7");
+  glass.is_thin = thin;
+  if (type.starts_with("rough") || file.number(node, "roughness", 0) > 0.1)
+    scene.d.note(where, "roughness is left out: the glass is polished");
+  for (const char* tint : {"specular_transmittance", "specular_reflectance", "base_color"})
+    if (const xml_node given = file.child(node, tint))
+      if (const auto colour = colour_of(scene, given); !colour || values_of(*colour) != optics::constant_spectrum(1))
+        scene.d.note(where, std::string("its ") + tint + " is left out: the glass is clear");
+  if (medium && !thin) glass.absorption = absorption_of(scene, medium);
+  scene.d.dielectrics[key] = glass;
+  return key;
+}
+
+} // namespace nephroid::formats

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What Mitsuba's spectra, bsdfs and media are here, wherever its scenes put them.
+#pragma once
+#include "formats/import/description.h"
+#include "formats/import/mitsuba_file.h"
+
+namespace nephroid::formats {
+
+struct MitsubaScene {
+  MitsubaFile file;
+  Description& d;
+  std::map<std::pair<std::size_t, std::size_t>, std::string> keys{}; ///< of materials, by bsdf and medium
+  std::set<std::string> taken{};
+};
+
+/// The child of this name; where it is none, a note says that a grey of `standard` takes its place.
+DescribedColour mitsuba_colour(MitsubaScene& scene, xml_node parent, const std::string& name, double standard);
+
+/// The key of the shape's material or dielectric, which may be a new one. Empty: its surface is none.
+std::string mitsuba_material(MitsubaScene& scene, xml_node shape);
+
+} // namespace nephroid::formats

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+// What Mitsuba's scenes mean: names of files and of objects, what is inside of what, flags, media, spectra, meshes of
+// its own. Expected values are worked out in comments.
+#include "formats/import/import.h"
+#include "preset/read.h"
+#include "scene/mesh.h"
+#include "tests/support/test.h"
+
+#include <zlib.h>
+
+namespace nephroid::mitsuba_import_test {
+
+using Type = preset::Material::Type;
+
+/// A tetrahedron, facing outwards.
+const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+
+class MitsubaImport : public testing::Test {
+protected:
+  preset::Preset imported(const std::string& inner, const std::string& name = "in.xml") {
+    made = formats::import_scene(folder.write(name, "<scene version=\"3.0.0\">\n" + inner + "</scene>"),
+                                 folder.path() / "out.json");
+    return preset::read_preset(made.preset.string());
+  }
+  std::string refusal(const std::string& inner) {
+    return test::refusal_of([&] { imported(inner); });
+  }
+  static const preset::Material& material_of(const preset::Preset& p, std::size_t object) {
+    return p.scene.materials.at(p.scene.objects.at(object).material);
+  }
+  /// The indices of the objects, whose dispersion is one number.
+  std::vector<double> indices(const std::string& inner) {
+    const preset::Preset p = imported(inner);
+    std::vector<double> n;
+    for (std::size_t i = 0; i < p.scene.objects.size(); ++i) n.push_back(material_of(p, i).dispersion.n);
+    return n;
+  }
+  test::TemporaryFolder folder;
+  formats::Imported made;
+};
+
+std::string ball(double radius, const std::string& inside, const std::string& outside, const std::string& more = {}) {
+  return fmt::format(R"(<shape type="sphere"><float name="radius" value="{}"/>{}<bsdf type="dielectric">
+    <string name="int_ior" value="{}"/><string name="ext_ior" value="{}"/></bsdf></shape>)",
+                     radius, more, inside, outside);
+}
+
+TEST_F(MitsubaImport, NamesOfAnIncludedFileAreLookedUpFromTheScene) {
+  folder.write("meshes/t.obj", tetrahedron);
+  folder.write("parts/glass.xml", R"(<scene version="3.0.0"><include filename="parts/one.xml"/>
+    <shape type="obj"><string name="filename" value="meshes/t.obj"/><ref id="later"/></shape></scene>)");
+  folder.write("parts/one.xml", R"(<bsdf type="dielectric" id="later"/>)"); // a file may be one object
+  const preset::Preset p = imported(R"(<include filename="parts/glass.xml"/>)");
+  ASSERT_EQ(p.scene.objects.size(), 1u);
+  EXPECT_EQ(material_of(p, 0).type, Type::dielectric);
+}
+
+TEST_F(MitsubaImport, FoldersOfPathAreSearched) {
+  folder.write("common/t.obj", tetrahedron);
+  const preset::Preset p = imported(
+      R"(<path value="../common"/><shape type="obj"><string name="filename" value="t.obj"/></shape>)", "scenes/in.xml");
+  EXPECT_EQ(p.scene.objects.size(), 1u);
+  EXPECT_THAT(refusal(R"(<path value="nowhere"/>)"), HasSubstr("in.xml:2: the folder"));
+}
+
+TEST_F(MitsubaImport, IdsAreResolvedAfterReading) {
+  const preset::Preset p = imported(R"(<shape type="rectangle"><ref id="shine"/></shape>
+    <shape type="sphere"><ref id="wrapped"/><ref name="interior" id="dye"/></shape>
+    <shape type="disk"><bsdf type="diffuse"><ref name="reflectance" id="rouge"/></bsdf></shape>
+    <alias id="red" as="rouge"/><texture type="uniform" id="red"><float name="value" value="0.25"/></texture>
+    <emitter type="area" id="shine"><rgb name="radiance" value="10"/></emitter>
+    <bsdf type="twosided" id="wrapped"><ref id="glass"/></bsdf><bsdf type="dielectric" id="glass"/>
+    <medium type="homogeneous" id="dye"><float name="sigma_t" value="2"/><float name="albedo" value="0"/></medium>)");
+  EXPECT_TRUE(made.notes.size() == 1 && made.notes[0].find("no camera") != std::string::npos) << made.summary();
+  EXPECT_EQ(p.scene.lights.size(), 1u);
+  ASSERT_EQ(p.scene.objects.size(), 2u);
+  EXPECT_EQ(material_of(p, 0).dispersion.type, preset::Dispersion::Type::file); // for its k
+  EXPECT_EQ(material_of(p, 1).reflectance.value, 0.25);
+}
+
+TEST_F(MitsubaImport, WhatRefersToItselfIsRefused) {
+  EXPECT_THAT(refusal(R"(<include filename="in.xml"/>)"), AllOf(HasSubstr("in.xml:2: "), HasSubstr("includes itself")));
+  EXPECT_THAT(refusal(R"(<shape type="sphere"><ref id="a"/></shape><bsdf type="twosided" id="a"><ref id="a"/></bsdf>)"),
+              HasSubstr("\"a\" refers to itself"));
+  EXPECT_THAT(refusal(R"(<shape type="sphere"><ref id="a"/></shape>
+    <bsdf type="twosided" id="a"><ref id="b"/></bsdf><bsdf type="twosided" id="b"><ref id="a"/></bsdf>)"),
+              HasSubstr("materials go round in a circle"));
+  EXPECT_THAT(refusal(R"(<shape type="shapegroup" id="g"><shape type="instance"><ref id="h"/></shape></shape>
+    <shape type="shapegroup" id="h"><shape type="instance"><ref id="g"/></shape></shape>
+    <shape type="instance"><ref id="g"/></shape>)"),
+              HasSubstr("instances go round in a circle"));
+  EXPECT_THAT(refusal(R"(<shape type="sphere"><ref id="nobody"/></shape>)"),
+              HasSubstr("in.xml:2: nothing has the id \"nobody\""));
+  EXPECT_THAT(refusal(R"(<bsdf type="diffuse" id="a"/><bsdf type="null" id="a"/>)"), HasSubstr("given twice"));
+}
+
+TEST_F(MitsubaImport, InstancesOfInstancesStandWhereTheyAreMeant) {
+  const preset::Preset p =
+      imported(R"(<shape type="shapegroup" id="one"><shape type="sphere"><ref id="glass"/></shape></shape>
+    <shape type="shapegroup" id="two"><shape type="instance"><ref id="one"/><transform name="to_world">
+      <translate x="1"/></transform></shape></shape>
+    <shape type="instance"><ref id="two"/><transform name="to_world"><scale value="2"/></transform></shape>
+    <shape type="instance"><ref id="two"/><transform name="to_world"><translate y="5"/></transform></shape>
+    <bsdf type="dielectric" id="glass"/>)");
+  ASSERT_EQ(p.scene.objects.size(), 2u);
+  EXPECT_EQ(p.scene.objects[0].transform.translate, (preset::Vec3{2, 0, 0}));
+  EXPECT_EQ(p.scene.objects[1].transform.translate, (preset::Vec3{1, 5, 0}));
+}
+
+TEST_F(MitsubaImport, TheInsideOfASurfaceHasItsOwnIndex) {
+  EXPECT_THAT(indices(ball(1, "1.5", "vacuum") + ball(0.6, "1", "1.5")), ElementsAre(1.5, 1)); // a bubble
+  // The same bubble by its surface turned round: what is in the bsdf is around it.
+  EXPECT_THAT(indices(ball(1, "1.5", "1") + ball(0.6, "1.5", "1", R"(<boolean name="flip_normals" value="true"/>)")),
+              ElementsAre(1.5, 1));
+  // A liquid says that it is in glass. It wins where it reaches into it.
+  EXPECT_THAT(indices(ball(1, "1.5", "1") + ball(0.6, "1.33", "1.5")), ElementsAre(1.5, 1.33));
+  const preset::Preset p = preset::read_preset(made.preset.string());
+  EXPECT_GT(p.scene.objects[1].priority, p.scene.objects[0].priority);
+  EXPECT_TRUE(made.notes.size() == 2) << made.summary(); // no camera, no lights
+}
+
+TEST_F(MitsubaImport, ALoneObjectInAMediumIsARatioAndANote) {
+  EXPECT_THAT(indices(ball(1, "1.5", "1.25")), ElementsAre(DoubleNear(1.2, 1e-12)));
+  EXPECT_THAT(made.notes, Contains(HasSubstr("in the file it is in n = 1.25, which is nowhere")));
+}
+
+TEST_F(MitsubaImport, WrongIndicesAreRefused) {
+  EXPECT_THAT(refusal(ball(1, "kryptonite", "air")), HasSubstr("no index of refraction is called \"kryptonite\""));
+  EXPECT_THAT(refusal(ball(1, "-1", "air")), HasSubstr("an index of refraction is above 0"));
+}
+
+TEST_F(MitsubaImport, MeshesWithoutNormalsAreSmoothUnlessFacesAreAskedFor) {
+  folder.write("t.obj", tetrahedron);
+  const std::string mesh = R"(<shape type="obj"><string name="filename" value="t.obj"/>)";
+  const preset::Preset p =
+      imported(mesh + "</shape>" + mesh + R"(<boolean name="face_normals" value="true"/></shape><shape type="cube"/>)");
+  EXPECT_EQ(p.scene.objects[0].normals, preset::Object::Normals::smooth);
+  EXPECT_EQ(p.scene.objects[1].normals, preset::Object::Normals::faceted);
+  EXPECT_EQ(p.scene.objects[2].normals, preset::Object::Normals::faceted);
+}
+
+TEST_F(MitsubaImport, FlippedNormalsTurnALamp) {
+  const std::string lamp = R"(<shape type="rectangle"><emitter type="area"/>)";
+  const preset::Preset p = imported(R"(<shape type="sphere"/>)" + lamp + "</shape>" + lamp +
+                                    R"(<boolean name="flipNormals" value="true"/></shape>)");
+  ASSERT_EQ(p.scene.lights.size(), 2u);
+  EXPECT_EQ(p.scene.lights[0].direction, (preset::Vec3{0, 0, 1}));
+  EXPECT_EQ(p.scene.lights[1].direction, (preset::Vec3{-0.0, -0.0, -1}));
+}
+
+TEST_F(MitsubaImport, ANullSurfaceIsNone) {
+  const preset::Preset p = imported(R"(<shape type="cube"><bsdf type="null"/></shape><shape type="sphere"/>)");
+  EXPECT_EQ(p.scene.objects.size(), 1u);
+}
+
+TEST_F(MitsubaImport, AThinPaneIsASheetOfGlass) {
+  const preset::Preset p = imported(R"(<shape type="rectangle"><bsdf type="thindielectric"/></shape>
+    <shape type="sphere"><bsdf type="thindielectric"/></shape>)");
+  ASSERT_EQ(p.scene.objects.size(), 3u); // the sphere is a shell with air in it
+  const scene::Mesh sheet = scene::load_mesh(folder.path() / *p.scene.objects[0].mesh);
+  EXPECT_TRUE(scene::inspect(sheet).closed());
+  // 2 x 2, and a thousandth of the diagonal thick.
+  EXPECT_NEAR(scene::inspect(sheet).signed_volume, 4 * 1e-3 * std::sqrt(8), 1e-5);
+  EXPECT_EQ(material_of(p, 2).dispersion.n, 1);
+  EXPECT_GT(p.scene.objects[2].priority, p.scene.objects[1].priority);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("infinitely thin in the file")));
+}
+
+TEST_F(MitsubaImport, AMediumInGlassAbsorbs) {
+  const preset::Preset p =
+      imported(R"(<shape type="cube"><bsdf type="dielectric"/><medium type="homogeneous" name="interior">
+    <float name="sigma_t" value="3"/><float name="albedo" value="0.5"/><float name="scale" value="2"/></medium></shape>
+    <shape type="cube"><bsdf type="dielectric"/></shape>)");
+  const std::string file = read_file(folder.path() / material_of(p, 0).dispersion.file);
+  // Of 6 a metre half is absorbed: k = 3 l / (4 pi), at 500 nm 1.19366e-07.
+  EXPECT_THAT(file, HasSubstr("0.50 1.19366e-07"));
+  EXPECT_THAT(made.notes, Contains(HasSubstr("the medium scatters in the file, and only absorbs here")));
+  EXPECT_EQ(material_of(p, 1).dispersion.type, preset::Dispersion::Type::constant);
+}
+
+TEST_F(MitsubaImport, TintsAreSaid) {
+  imported(R"(<shape type="cube"><bsdf type="dielectric"><rgb name="specular_transmittance" value="0.2 0.9 0.2"/>
+    <float name="specular_reflectance" value="1"/></bsdf></shape>)");
+  EXPECT_THAT(made.notes, Contains(HasSubstr("in.xml:2: its specular_transmittance is left out")));
+  EXPECT_THAT(made.notes, Not(Contains(HasSubstr("specular_reflectance"))));
+}
+
+TEST_F(MitsubaImport, SpectraStaySpectra) {
+  folder.write("lamp.spd", "# nm, W\n400 1\n500, 3\n\n600 0\n");
+  const std::string at = "<shape type=\"sphere\"/>", light = R"(<emitter type="point">)";
+  const auto spectrum_of = [&](const std::string& intensity) {
+    return imported(at + light + intensity + "</emitter>").scene.lights.at(0);
+  };
+  const preset::Light body =
+      spectrum_of(R"(<spectrum type="blackbody" name="intensity"><float name="temperature" value="3000"/></spectrum>)");
+  EXPECT_EQ(body.spectrum.type, preset::LightSpectrum::Type::blackbody);
+  EXPECT_EQ(body.spectrum.temperature_k, 3000);
+  EXPECT_EQ(spectrum_of(R"(<blackbody name="intensity" temperature="3000K"/>)"), body); // of version 0.6
+  // Triangles of 1 W/nm of each a nanometre, times 4 pi: 400 to 500 nm has (1 + 3) / 2 100, 500 to 600 nm 3 / 2 100.
+  // Added up at every nanometre: 200 + 2 (the mean of both ends) + 150 - 1.5.
+  const preset::Light listed = spectrum_of(R"(<spectrum name="intensity" value="400:1, 500:3, 600:0"/>)");
+  EXPECT_EQ(listed.spectrum.type, preset::LightSpectrum::Type::table);
+  EXPECT_NEAR(listed.power_w, 4 * std::numbers::pi * 350.5, 0.01);
+  EXPECT_EQ(spectrum_of(R"(<spectrum name="intensity" filename="lamp.spd"/>)"), listed);
+  EXPECT_EQ(
+      spectrum_of(R"(<spectrum name="intensity" type="irregular"><string name="wavelengths" value="400, 500, 600"/>
+    <string name="values" value="1, 3, 0"/></spectrum>)"),
+      listed);
+  EXPECT_EQ(spectrum_of(R"(<spectrum name="intensity" type="regular"><float name="wavelength_min" value="400"/>
+    <float name="wavelength_max" value="600"/><string name="values" value="1, 3, 0"/></spectrum>)"),
+            listed);
+  EXPECT_EQ(spectrum_of(R"(<spectrum name="intensity" value="2"/>)").spectrum.illuminant, "E");
+  EXPECT_EQ(spectrum_of(R"(<spectrum name="intensity" type="d65"/>)"),
+            spectrum_of(R"(<rgb name="intensity" value="1"/>)"));
+  const preset::Preset p = imported(R"(<shape type="sphere"><bsdf type="diffuse">
+    <spectrum name="reflectance" value="300:0, 500:1, 900:1"/></bsdf></shape>)");
+  EXPECT_THAT(material_of(p, 0).reflectance.table,
+              ElementsAre(std::array{380., 0.4}, std::array{500., 1.}, std::array{780., 1.}));
+  EXPECT_THAT(refusal(at + light + R"(<spectrum name="intensity" value="400:1, blue"/></emitter>)"),
+              HasSubstr("\"blue\" is no value of a spectrum"));
+}
+
+TEST_F(MitsubaImport, AnIndexMayBeASpectrum) {
+  const preset::Preset p = imported(R"(<shape type="sphere"><bsdf type="dielectric">
+    <spectrum name="int_ior" value="400:1.54, 700:1.51"/><float name="ext_ior" value="1"/></bsdf></shape>)");
+  EXPECT_THAT(material_of(p, 0).dispersion.table, ElementsAre(std::array{400., 1.54}, std::array{700., 1.51}));
+}
+
+TEST_F(MitsubaImport, AFlatTransformIsRefused) {
+  EXPECT_THAT(
+      refusal(R"(<shape type="sphere"><transform name="to_world"><scale x="1" y="0" z="1"/></transform></shape>)"),
+      HasSubstr("in.xml:2: its transform has no inverse"));
+}
+
+TEST_F(MitsubaImport, NotesAreKeptWhereTheImportFails) {
+  EXPECT_THAT(refusal("<shape type=\"hair\"/>"), AllOf(HasSubstr("has no triangles"), HasSubstr("said before: "),
+                                                       HasSubstr("the shape hair is left out")));
+}
+
+/// A .serialized file (the manual of Mitsuba's shape plugin "serialized") of these meshes, with their names.
+class Serialized {
+public:
+  explicit Serialized(std::uint16_t version) : version_(version) {}
+
+  template <class Number>
+  void add(std::uint32_t flags, const std::vector<Number>& numbers, const std::vector<std::uint32_t>& corners,
+           std::uint64_t vertices) {
+    std::string data;
+    put(data, flags);
+    if (version_ == 4) data += std::string("name") + '\0';
+    put(data, vertices);
+    put(data, std::uint64_t{corners.size() / 3});
+    for (const Number n : numbers) put(data, n);
+    for (const std::uint32_t c : corners) put(data, c);
+    starts_.push_back(bytes_.size());
+    put(bytes_, std::uint16_t{0x041C});
+    put(bytes_, version_);
+    uLongf size = compressBound(data.size());
+    std::string packed(size, '\0');
+    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(data.data()), data.size());
+    bytes_ += packed.substr(0, size);
+  }
+  std::string bytes() const {
+    std::string all = bytes_;
+    for (const std::uint64_t start : starts_)
+      if (version_ == 4)
+        put(all, start);
+      else
+        put(all, static_cast<std::uint32_t>(start));
+    put(all, static_cast<std::uint32_t>(starts_.size()));
+    return all;
+  }
+
+private:
+  template <class T>
+  static void put(std::string& to, T value) {
+    to.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+
+  std::uint16_t version_;
+  std::string bytes_;
+  std::vector<std::uint64_t> starts_;
+};
+
+/// Two meshes: one triangle, and a square with normals and texture coordinates in double precision.
+std::string two_meshes(std::uint16_t version) {
+  Serialized file(version);
+  file.add<float>(0x1010, {0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}, 3);
+  file.add<double>(0x2003,
+                   {0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 1, 1, 0, 1},
+                   {0, 1, 2, 0, 2, 3}, 4);
+  return file.bytes();
+}
+
+TEST_F(MitsubaImport, ItsOwnMeshesAreRead) {
+  for (const std::uint16_t version : {3, 4}) {
+    folder.write("two.serialized", two_meshes(version));
+    const std::string shape = R"(<shape type="serialized"><string name="filename" value="two.serialized"/>)";
+    const preset::Preset p = imported(shape + "</shape>" + shape + R"(<integer name="shapeIndex" value="1"/></shape>)");
+    ASSERT_EQ(p.scene.objects.size(), 2u);
+    EXPECT_EQ(scene::load_mesh(folder.path() / *p.scene.objects[0].mesh).triangles.size(), 1u);
+    EXPECT_EQ(p.scene.objects[0].normals, preset::Object::Normals::faceted); // so say its flags
+    const scene::Mesh square = scene::load_mesh(folder.path() / *p.scene.objects[1].mesh);
+    EXPECT_EQ(square.triangles.size(), 2u);
+    EXPECT_EQ(square.normals.size(), 4u);
+    EXPECT_THAT(refusal(shape + R"(<integer name="shape_index" value="2"/></shape>)"), HasSubstr("has no mesh 2"));
+  }
+}
+
+TEST_F(MitsubaImport, ABrokenSerializedMeshIsRefused) {
+  const std::string shape = R"(<shape type="serialized"><string name="filename" value="m.serialized"/></shape>)";
+  const std::string whole = two_meshes(4);
+  folder.write("m.serialized", whole.substr(0, 20));
+  EXPECT_THAT(refusal(shape), HasSubstr("its packed bytes end too early"));
+  folder.write("m.serialized", "obj?" + whole);
+  EXPECT_THAT(refusal(shape), HasSubstr("is no serialized mesh"));
+  Serialized far(4);
+  far.add<float>(0x1000, {0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 3}, 3);
+  folder.write("m.serialized", far.bytes());
+  EXPECT_THAT(refusal(shape), HasSubstr("a vertex that is not there"));
+  Serialized promising(4);
+  promising.add<float>(0x1000, {0, 0, 0}, {0, 0, 0}, std::uint64_t{1} << 40);
+  folder.write("m.serialized", promising.bytes());
+  EXPECT_THAT(refusal(shape), HasSubstr("which is too many"));
+}
+
+} // namespace nephroid::mitsuba_import_test

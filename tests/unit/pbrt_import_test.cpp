@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// What PBRT's scenes mean: names of files and of materials, what is inside of what, attributes, media, spectra, meshes.
+// Expected values are worked out in comments.
+#include "base/inflate.h"
+#include "formats/import/import.h"
+#include "optics/colour.h"
+#include "optics/dispersion.h"
+#include "preset/read.h"
+#include "scene/materials.h"
+#include "scene/mesh.h"
+#include "tests/support/test.h"
+
+#include <numbers>
+#include <zlib.h>
+
+namespace nephroid::pbrt_import_test {
+
+using std::numbers::pi;
+using Type = preset::Material::Type;
+
+std::string gzipped(const std::string& text) {
+  z_stream z{};
+  deflateInit2(&z, Z_DEFAULT_COMPRESSION, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY);
+  std::string packed(deflateBound(&z, text.size()), '\0');
+  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  z.avail_in = static_cast<uInt>(text.size());
+  z.next_out = reinterpret_cast<Bytef*>(packed.data());
+  z.avail_out = static_cast<uInt>(packed.size());
+  deflate(&z, Z_FINISH);
+  packed.resize(z.total_out);
+  deflateEnd(&z);
+  return packed;
+}
+
+const std::string triangle = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                             "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                             "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+class PbrtImport : public testing::Test {
+protected:
+  preset::Preset imported(const std::string& text) {
+    made = formats::import_scene(folder.write("in.pbrt", text), folder.path() / "out.json");
+    return preset::read_preset(made.preset.string());
+  }
+  std::string refusal(const std::string& text) {
+    return test::refusal_of([&] { imported(text); });
+  }
+  static const preset::Material& material_of(const preset::Preset& p, std::size_t object) {
+    return p.scene.materials.at(p.scene.objects.at(object).material);
+  }
+  std::vector<double> indices(const std::string& text) {
+    const preset::Preset p = imported(text);
+    std::vector<double> n;
+    for (std::size_t i = 0; i < p.scene.objects.size(); ++i) n.push_back(material_of(p, i).dispersion.n);
+    return n;
+  }
+  test::TemporaryFolder folder;
+  formats::Imported made;
+};
+
+TEST_F(PbrtImport, NamesOfAnIncludedFileAreLookedUpFromTheScene) {
+  folder.write("geometry/t.ply", triangle);
+  folder.write("geometry/t2.ply.gz", gzipped(triangle) + gzipped("")); // gzip may follow gzip
+  folder.write("parts/shapes.pbrt.gz", gzipped("Shape \"plymesh\" \"string filename\" \"geometry/t.ply\"\n"
+                                               "Shape \"plymesh\" \"string filename\" \"geometry/t2.ply.gz\""));
+  EXPECT_EQ(imported("Include \"parts/shapes.pbrt.gz\"").scene.objects.size(), 2u);
+}
+
+TEST_F(PbrtImport, AMaterialMayBeNamedBeforeItIsMade) {
+  EXPECT_THAT(indices("NamedMaterial \"a/b\" Shape \"sphere\" NamedMaterial \"a-b\" Shape \"sphere\"\n"
+                      "MakeNamedMaterial \"a/b\" \"string type\" \"dielectric\" \"float eta\" 1.4\n"
+                      "MakeNamedMaterial \"a-b\" \"string type\" \"glass\" \"float index\" 1.6\n"),
+              ElementsAre(1.4, 1.6));
+  EXPECT_THAT(refusal("\nNamedMaterial \"nobody\" Shape \"sphere\""),
+              HasSubstr("in.pbrt:2: there is no material \"nobody\""));
+}
+
+TEST_F(PbrtImport, WhatRefersToItselfIsRefused) {
+  EXPECT_THAT(refusal("\nInclude \"in.pbrt\""), AllOf(HasSubstr("in.pbrt:2: "), HasSubstr("includes itself")));
+  EXPECT_THAT(refusal("ObjectBegin \"o\" Shape \"sphere\" ObjectInstance \"o\" ObjectEnd"),
+              HasSubstr("in.pbrt:1: the object \"o\" is in itself"));
+}
+
+TEST_F(PbrtImport, InstancesOfInstancesStandWhereTheyAreMeant) {
+  const preset::Preset p = imported("ObjectBegin \"a\" Shape \"sphere\" ObjectEnd\n"
+                                    "ObjectBegin \"b\" Translate 1 0 0 ObjectInstance \"a\" ObjectEnd\n"
+                                    "Scale 2 2 2 ObjectInstance \"b\" Translate 0 3 0 ObjectInstance \"b\"");
+  ASSERT_EQ(p.scene.objects.size(), 2u);
+  EXPECT_EQ(p.scene.objects[0].transform.translate, (preset::Vec3{2, 0, 0}));
+  EXPECT_EQ(p.scene.objects[1].transform.translate, (preset::Vec3{2, 6, 0}));
+}
+
+TEST_F(PbrtImport, AnIndexIsARatioToWhatIsAround) {
+  const std::string glass = "Material \"dielectric\" \"float eta\" 1.5 Shape \"sphere\"\n";
+  const auto inner = [](const char* eta) {
+    return fmt::format("Material \"dielectric\" \"float eta\" {} Shape \"sphere\" \"float radius\" 0.5", eta);
+  };
+  EXPECT_THAT(indices(glass + inner("0.6666666667")), ElementsAre(1.5, DoubleNear(1, 1e-9))); // a bubble
+  EXPECT_THAT(indices(glass + inner("0.8866666667")), ElementsAre(1.5, DoubleNear(1.33, 1e-9)));
+  EXPECT_THAT(made.notes, Contains(HasSubstr("its eta is a ratio, and it lies in n = 1.5: n = 1.33 inside")));
+  // ReverseOrientation: what is in the material is around the surface.
+  EXPECT_THAT(indices(glass + "ReverseOrientation " + inner("1.5")), ElementsAre(1.5, DoubleNear(1, 1e-9)));
+  EXPECT_THAT(indices(inner("0.75")), ElementsAre(0.75));
+}
+
+TEST_F(PbrtImport, NamedGlassesDisperse) {
+  const preset::Preset p = imported("Material \"dielectric\" \"spectrum eta\" \"glass-SF11\" Shape \"sphere\"");
+  // Schott's data sheet of N-SF11: n_d = 1.78472, V_d = 25.68.
+  const auto curve = scene::make_curve(material_of(p, 0).dispersion, FileFinder(), "test");
+  const auto n = [&](double nm) { return curve.sample(nm).n.value(); };
+  EXPECT_NEAR(n(optics::line_d_nm), 1.78472, 1e-5);
+  EXPECT_NEAR((n(optics::line_d_nm) - 1) / (n(optics::line_f_nm) - n(optics::line_c_nm)), 25.68, 0.01);
+  EXPECT_THAT(
+      material_of(imported("Material \"dielectric\" \"spectrum eta\" [ 400 1.54 700 1.51 ] Shape \"sphere\""), 0)
+          .dispersion.table,
+      ElementsAre(std::array{400., 1.54}, std::array{700., 1.51}));
+}
+
+TEST_F(PbrtImport, AMediumInGlassAbsorbsAndAnInterfaceIsNoSurface) {
+  const preset::Preset p =
+      imported("MakeNamedMedium \"dye\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ 3 3 3 ]\n"
+               "  \"rgb sigma_s\" [ 0 0 0 ] \"float scale\" 2\n"
+               "Material \"dielectric\"\nAttributeBegin MediumInterface \"dye\" \"\"\n"
+               "Shape \"sphere\" AttributeEnd Shape \"sphere\"\n"
+               "Material \"interface\" Shape \"sphere\" Material \"\" Shape \"sphere\"");
+  ASSERT_EQ(p.scene.objects.size(), 2u);
+  // k = 6 l / (4 pi), at 500 nm 2.38732e-07.
+  EXPECT_THAT(read_file(folder.path() / material_of(p, 0).dispersion.file), HasSubstr("0.50 2.38732e-07"));
+  EXPECT_EQ(material_of(p, 1).dispersion.type, preset::Dispersion::Type::constant);
+  EXPECT_EQ(made.notes.size(), 2u) << made.summary(); // no camera, no lights
+}
+
+TEST_F(PbrtImport, TintsAndThinPanesAreSaid) {
+  imported("Material \"glass\" \"rgb Kt\" [ 0.2 0.9 0.2 ] Shape \"sphere\"\n"
+           "Material \"thindielectric\" Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]");
+  EXPECT_THAT(made.notes, AllOf(Contains(HasSubstr("in.pbrt:1: its Kt is left out")),
+                                Contains(HasSubstr("in.pbrt:2: its surface is infinitely thin"))));
+}
+
+TEST_F(PbrtImport, AttributesHoldUntilTheirBlockEnds) {
+  const preset::Preset p = imported("AttributeBegin Attribute \"shape\" \"float radius\" 3 Shape \"sphere\"\n"
+                                    "Shape \"sphere\" \"float radius\" 2 AttributeEnd Shape \"sphere\"");
+  ASSERT_EQ(p.scene.objects.size(), 3u);
+  EXPECT_EQ(p.scene.objects[0].transform.scale[0], 3);
+  EXPECT_EQ(p.scene.objects[1].transform.scale[0], 2);
+  EXPECT_EQ(p.scene.objects[2].transform.scale[0], 1);
+}
+
+TEST_F(PbrtImport, ALampMayHaveTwoSidesAndAPower) {
+  const std::string square = "Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0 2 0 0 0 2 0 2 2 0 ]\n",
+                    ball = "Shape \"sphere\"\n";
+  const auto lights = [&](const std::string& light) {
+    return imported(ball + "AreaLightSource \"diffuse\" " + light + " " + square).scene.lights;
+  };
+  const auto one = lights("\"rgb L\" [ 5 5 5 ]"), two = lights("\"rgb L\" [ 5 5 5 ] \"bool twosided\" true");
+  ASSERT_EQ(one.size(), 1u);
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_EQ(two[0], one[0]);
+  EXPECT_EQ(two[1].power_w, one[0].power_w);
+  EXPECT_EQ(two[1].direction[2], -one[0].direction[2]);
+  // L = 5 sends 5 pi 4 from 2 x 2; a power counts in the same unit, whatever the area.
+  EXPECT_NEAR(lights("\"float power\" 20")[0].power_w, one[0].power_w / pi, 1e-9 * one[0].power_w);
+  EXPECT_NEAR(lights("\"float power\" 20 \"bool twosided\" true")[1].power_w, one[0].power_w / pi / 2,
+              1e-9 * one[0].power_w);
+}
+
+TEST_F(PbrtImport, SpectraStaySpectra) {
+  const auto light = [&](const std::string& intensity) {
+    return imported("Shape \"sphere\" LightSource \"point\" " + intensity).scene.lights.at(0);
+  };
+  const preset::Light body = light("\"blackbody I\" 3000 \"float scale\" 2");
+  EXPECT_EQ(body.spectrum.temperature_k, 3000);
+  EXPECT_EQ(light("\"spectrum I\" \"stdillum-A\"").spectrum.illuminant, "A");
+  const preset::Light listed = light("\"spectrum I\" [ 400 1 500 3 600 0 ]");
+  EXPECT_EQ(listed.spectrum.type, preset::LightSpectrum::Type::table);
+  folder.write("lamp.spd", "400 1\n500 3\n600 0\n");
+  EXPECT_EQ(light("\"spectrum I\" \"lamp.spd\""), listed);
+  // Version 4 gives every spectrum the luminance of white: as large as rgb 1 1 1 has, times the scale.
+  const auto luminous = [](const preset::Light& l) {
+    const auto watts = scene::make_light_spectrum(l.spectrum, "test");
+    return optics::to_xyz(watts)[1] * l.power_w;
+  };
+  const double white = luminous(light("\"rgb I\" [ 1 1 1 ]"));
+  EXPECT_NEAR(luminous(listed), white, 1e-3 * white);
+  EXPECT_NEAR(luminous(body), 2 * white, 1e-3 * white);
+  const preset::Preset p = imported("Material \"matte\" \"spectrum Kd\" [ 300 0 500 1 900 1 ] Shape \"sphere\"");
+  EXPECT_THAT(material_of(p, 0).reflectance.table,
+              ElementsAre(std::array{380., 0.4}, std::array{500., 1.}, std::array{780., 1.}));
+}
+
+/// Loop's limit of an octahedron: a vertex with n = 4 neighbours goes to (1 - n w) v + w sum, w = 1 / (n + 3 / (8 b)),
+/// b = (5/8 - (3/8)^2) / 4. The neighbours' sum is 0 by symmetry, so 1 becomes 1 - 4 w.
+TEST_F(PbrtImport, ASubdivisionSurfaceIsItsLimit) {
+  const preset::Preset p = imported("Material \"dielectric\" Shape \"loopsubdiv\" \"integer levels\" 2\n"
+                                    "\"point3 P\" [ 1 0 0 -1 0 0 0 1 0 0 -1 0 0 0 1 0 0 -1 ] \"integer indices\" [\n"
+                                    "0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5 ]");
+  const scene::Mesh mesh = scene::load_mesh(folder.path() / *p.scene.objects.at(0).mesh);
+  EXPECT_EQ(mesh.triangles.size(), 8u * 16);
+  EXPECT_TRUE(scene::inspect(mesh).closed());
+  EXPECT_GT(scene::inspect(mesh).signed_volume, 0);
+  const double beta = (5.0 / 8 - 9.0 / 64) / 4, limit = 1 - 4 / (4 + 3 / (8 * beta));
+  float highest = 0;
+  for (const glm::vec3& v : mesh.positions) highest = std::max(highest, v.x);
+  EXPECT_NEAR(highest, limit, 1e-5);
+}
+
+TEST_F(PbrtImport, FlatTransformsAndUnknownSystemsAreRefused) {
+  EXPECT_THAT(refusal("Scale 1 0 1\nShape \"sphere\""), HasSubstr("in.pbrt:2: its transform has no inverse"));
+  EXPECT_THAT(refusal("CoordSysTransform \"moon\""), HasSubstr("there is no coordinate system \"moon\""));
+}
+
+TEST_F(PbrtImport, PackedFilesThatAreCutOrTooLargeAreRefused) {
+  const std::string zeros = gzipped(std::string(std::size_t{3} << 20, ' '));
+  folder.write("cut.pbrt.gz", zeros.substr(0, 100));
+  EXPECT_THAT(refusal("Include \"cut.pbrt.gz\""), HasSubstr("its packed bytes end too early"));
+  folder.write("cut.pbrt.gz", triangle);
+  EXPECT_THAT(refusal("Include \"cut.pbrt.gz\""), HasSubstr("its packed bytes are damaged"));
+  EXPECT_THAT(test::refusal_of([&] { inflated(zeros + zeros, "bomb.gz", std::size_t{5} << 20); }),
+              HasSubstr("bomb.gz: holds more than 5 MiB"));
+}
+
+} // namespace nephroid::pbrt_import_test
