@@ -141,13 +141,15 @@ TEST_F(GltfImport, EveryTurnIsSaidByThreeAngles) {
   EXPECT_FALSE(formats::transform_of(glm::dmat4{{1, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}})) << "flat";
 }
 
-TEST_F(GltfImport, AShearedMeshIsWrittenAsItStands) {
+TEST_F(GltfImport, AShearedMeshIsWrittenAsItIsThen) {
   Json json = triangle();
   json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 7, 1}; // (x, y, z) -> (x + y / 2, y, z + 7)
   const preset::Preset p = imported(json);
-  EXPECT_EQ(p.scene.objects[0].transform, preset::Transform());
+  preset::Transform place;
+  place.translate = {0, 0, 7};
+  EXPECT_EQ(p.scene.objects[0].transform, place);
   EXPECT_THAT(scene::load_mesh(folder.path() / *p.scene.objects[0].mesh).positions,
-              UnorderedElementsAre(glm::vec3(0, 0, 7), glm::vec3(1, 0, 7), glm::vec3(0.5f, 1, 7)));
+              UnorderedElementsAre(glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0.5f, 1, 0)));
 }
 
 TEST_F(GltfImport, TheCameraLooksAlongMinusZ) {

@@ -11,6 +11,7 @@
 #include "scene/scene.h"
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -110,7 +111,10 @@ private:
 
   void add(const DescribedShape& shape) {
     glm::dmat4 to_world = mirror_ * shape.to_world;
-    if (shape.mesh.empty()) to_world = to_world * glm::dmat4(glm::dmat3(shape.radius));
+    if (shape.mesh.empty())
+      to_world = to_world * glm::dmat4(glm::dmat3(shape.radius));
+    else
+      to_world = glm::translate(to_world, from_.meshes.at(shape.mesh).middle);
     if (shape.glow) return glow(shape, to_world);
     preset::Object object;
     object.name = unique(name_of(shape.name, "object"), names_);
@@ -125,15 +129,18 @@ private:
           for (const double z : {-1.0, 1.0}) see(to_world * glm::dvec4(x, y, z, 1));
     } else {
       std::string key = shape.mesh;
-      if (!transform) { // a mesh that is sheared or flattened is written as it stands in the world
+      if (!transform) { // a mesh that is sheared or flattened is written as it is then, about its place
         scene::Mesh mesh = from_.meshes.at(key);
         mesh.normals.clear();
-        for (glm::vec3& p : mesh.positions) p = glm::vec3(to_world * glm::dvec4(glm::dvec3(p), 1));
+        for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dmat3(to_world) * glm::dvec3(p));
         if (glm::determinant(glm::dmat3(to_world)) < 0)
           for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
         key = from_.own_mesh(shape.name, std::move(mesh));
-        to_world = glm::dmat4(1);
-        transform.emplace();
+        to_world = glm::translate(glm::dmat4(1), glm::dvec3(to_world[3]));
+        transform = transform_of(to_world);
+        if (!transform)
+          throw bad_input(shape.where, "stands too far from the origin of the scene", "expected at most 1e7 units",
+                          "move the scene to its origin in the program that made it");
       }
       const scene::Mesh& mesh = from_.meshes.at(key);
       if (!mesh.normals.empty()) object.normals = preset::Object::Normals::smooth;
