@@ -17,7 +17,7 @@ namespace nephroid::formats {
 using std::numbers::pi;
 
 void Description::note(const std::string& text) {
-  if (std::ranges::count(notes, text) == 0) notes.push_back(text);
+  if (noted.insert(text).second) notes.push_back(text);
 }
 
 std::string Description::mesh_file(const std::filesystem::path& file, const Location& where) {
@@ -30,7 +30,8 @@ std::string Description::mesh_file(const std::filesystem::path& file, const Loca
 
 std::string Description::own_mesh(const std::string& name, scene::Mesh mesh) {
   std::string key = file_name_of(name, ".ply");
-  for (int n = 2; meshes.contains(key); ++n) key = file_name_of(name, fmt::format("-{}.ply", n).c_str());
+  for (int& n = names_of_meshes[name]; meshes.contains(key);)
+    key = file_name_of(name, fmt::format("-{}.ply", ++n + 1).c_str());
   meshes.emplace(key, std::move(mesh));
   return key;
 }
@@ -48,9 +49,12 @@ std::string file_name_of(const std::string& text, const char* ending) {
   return name + ending;
 }
 
-std::string unique(const std::string& name, std::set<std::string>& taken) {
-  std::string free = name;
-  for (int n = 2; !taken.insert(free).second; ++n) free = fmt::format("{} {}", name, n);
+std::string unique(const std::string& name, std::map<std::string, int>& taken) {
+  int& last = taken[name];
+  if (last == 0) return last = 1, name;
+  std::string free;
+  do free = fmt::format("{} {}", name, ++last);
+  while (!taken.try_emplace(free, 1).second);
   return free;
 }
 

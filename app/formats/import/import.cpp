@@ -263,7 +263,7 @@ private:
   std::string folder_;
   preset::Preset made_;
   glm::dmat4 mirror_{1};
-  std::set<std::string> names_;
+  std::map<std::string, int> names_;
   scene::Bounds bounds_;
   std::set<std::string> used_; ///< keys of the objects' meshes
 };
@@ -277,9 +277,11 @@ std::string Imported::summary() const {
   return text;
 }
 
-Imported import_scene(const fs::path& file, const fs::path& preset) {
+Imported import_scene(const fs::path& file, const fs::path& preset, const Watch& watch) {
+  watch.begin("reading " + file.filename().string());
   const std::string kind = lower_case(file.extension().string()), name = preset.stem().string();
   Description description = (kind == ".xml" ? describe_mitsuba : kind == ".pbrt" ? describe_pbrt : describe_gltf)(file);
+  watch.begin(fmt::format("placing {}", counted(description.shapes.size(), "object")));
   PresetBuilder builder(description, name + "-meshes");
   const preset::Preset made = builder.make(name);
   std::erase_if(description.meshes, [&](const auto& mesh) { return !builder.uses(mesh.first); });
@@ -291,8 +293,11 @@ Imported import_scene(const fs::path& file, const fs::path& preset) {
   fs::create_directories(folder, error);
   if (error) throw failed(folder.string(), "cannot be made: " + error.message(), {}, "choose another folder with -o");
   for (const auto& [key, glass] : description.glasses) write_file_whole(folder / key, glass);
-  for (const auto& [key, mesh] : description.meshes)
+  std::size_t written = 0;
+  for (const auto& [key, mesh] : description.meshes) {
+    watch.begin(fmt::format("writing mesh {} of {}", ++written, description.meshes.size()));
     write_file_whole(folder / key, [&mesh = mesh](ByteSink& to) { scene::write_ply(mesh, to); });
+  }
   write_file_whole(preset, text);
   return {preset, made.scene.objects.size(), description.meshes.size(), made.scene.lights.size(),
           std::move(description.notes)};
