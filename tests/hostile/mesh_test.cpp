@@ -243,7 +243,9 @@ struct Answer {
   std::string script() const {
     std::string bytes = printed(refusal, vertices, 0.0f, 0.0f, 0.0f, coordinate, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, normals);
     for (std::uint64_t i = 0; i < normals; ++i) bytes += printed(0.0f, 0.0f, normal);
-    return "printf '" + bytes + printed(triangles, 0u, 1u, corner, counts, mended, middles, middle, 0.0, 0.0) + "'";
+    if (counts > 0) bytes += printed(triangles, 0u, 1u, corner, counts, mended);
+    if (counts == 0) bytes += printed(triangles, 0u, 1u, corner, counts);
+    return "printf '" + bytes + printed(middles, middle, 0.0, 0.0) + "'";
   }
 };
 
