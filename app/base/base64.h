@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bytes as text, for files inside text (RFC 4648).
 #pragma once
+#include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,6 +21,31 @@ inline std::string base64(std::string_view bytes) {
       text += i + static_cast<std::size_t>(k) > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
   }
   return text;
+}
+
+/// The bytes, with or without padding at the text's end; nothing where it has other characters.
+inline std::optional<std::string> from_base64(std::string_view text) {
+  static constexpr std::array<signed char, 256> values = [] {
+    std::array<signed char, 256> all{};
+    all.fill(-1);
+    signed char value = 0;
+    for (const char digit : std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"))
+      all[static_cast<unsigned char>(digit)] = value++;
+    return all;
+  }();
+  while (text.ends_with('=')) text.remove_suffix(1);
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3 + 2);
+  unsigned group = 0, bits = 0;
+  for (const char digit : text) {
+    const int value = values[static_cast<unsigned char>(digit)];
+    if (value < 0) return std::nullopt;
+    group = group << 6 | static_cast<unsigned>(value);
+    if ((bits += 6) < 8) continue;
+    bits -= 8;
+    bytes += static_cast<char>(group >> bits & 255);
+  }
+  return bytes;
 }
 
 } // namespace nephroid

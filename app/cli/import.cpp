@@ -2,10 +2,12 @@
 // `nephroid import`: a glTF, Mitsuba or PBRT scene as a preset.
 #include "formats/import/import.h"
 #include "base/files.h"
+#include "cli/progress.h"
 #include "cli/verb.h"
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 
 namespace nephroid::cli {
@@ -17,12 +19,31 @@ struct ImportOptions {
   bool replace = false;
 };
 
+/// What is done: a live line on a terminal, else a line every few seconds.
+class ProgressLines {
+public:
+  void tell(const std::string& doing) {
+    if (progress_style(false) == ProgressStyle::live) return line_.show(doing);
+    constexpr auto between = std::chrono::seconds(3);
+    if (std::chrono::steady_clock::now() < last_ + between) return;
+    last_ = std::chrono::steady_clock::now();
+    fmt::print(stderr, "{}\n", doing);
+  }
+
+private:
+  LiveLine line_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
 void import_scene(const ImportOptions& options) {
   const fs::path preset =
       options.output.empty() ? fs::path(options.file.filename()).replace_extension(".json") : options.output;
   if (!options.replace && is_there(preset))
     throw bad_input(preset.string(), "is there already", {}, "choose another file with -o, or --replace it");
-  const formats::Imported imported = formats::import_scene(options.file, preset);
+  const formats::Imported imported = [&] {
+    ProgressLines progress;
+    return formats::import_scene(options.file, preset, {{}, [&](const std::string& doing) { progress.tell(doing); }});
+  }();
   for (const std::string& note : imported.notes) fmt::print(stderr, "note: {}\n", note);
   fmt::print("{}\n", imported.preset.string());
 }

@@ -26,6 +26,7 @@ std::uint64_t hash_of_file(const fs::path& file) {
   }
   const std::shared_ptr<const scene::Mesh> mesh = scene::load_mesh_once(file);
   hash.add(std::as_bytes(std::span(mesh->positions)));
+  hash.add(std::as_bytes(std::span(&mesh->middle, 1)));
   hash.add(std::as_bytes(std::span(mesh->normals)));
   hash.add(std::as_bytes(std::span(mesh->triangles)));
   return hash.value();

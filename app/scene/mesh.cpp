@@ -8,21 +8,23 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
-#include <unordered_map>
 
 namespace nephroid::scene {
 namespace {
 
 using VertexKey = std::array<std::uint32_t, 6>; ///< bits of the position and the normal
 
-struct VertexHash {
-  std::size_t operator()(const VertexKey& key) const {
-    return std::hash<std::string_view>()({reinterpret_cast<const char*>(key.data()), sizeof key});
+/// -0 becomes 0.
+VertexKey vertex_key(const Mesh& mesh, std::uint32_t vertex, bool with_normal) {
+  VertexKey key{};
+  for (int axis = 0; axis < 3; ++axis) {
+    key[axis] = std::bit_cast<std::uint32_t>(mesh.positions[vertex][axis] + 0.0f);
+    if (with_normal) key[3 + axis] = std::bit_cast<std::uint32_t>(mesh.normals[vertex][axis] + 0.0f);
   }
-};
+  return key;
+}
 
 std::array<glm::dvec3, 3> corners(const Mesh& mesh, const glm::uvec3& triangle) {
   return {mesh.positions[triangle.x], mesh.positions[triangle.y], mesh.positions[triangle.z]};
@@ -108,17 +110,23 @@ bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle) {
 }
 
 std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, bool compare_normals) {
-  std::unordered_map<VertexKey, std::uint32_t, VertexHash> first;
-  first.reserve(mesh.positions.size());
+  const bool with_normals = compare_normals && !mesh.normals.empty();
+  // A table with open places: a third of the time of std::unordered_map.
+  constexpr std::uint32_t free = ~0u;
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * mesh.positions.size() + 1), free);
   std::vector<std::uint32_t> result(mesh.positions.size());
   for (std::uint32_t i = 0; i < result.size(); ++i) {
-    VertexKey key{};
-    for (int axis = 0; axis < 3; ++axis) {
-      key[axis] = std::bit_cast<std::uint32_t>(mesh.positions[i][axis] + 0.0f); // -0 becomes 0
-      if (compare_normals && !mesh.normals.empty())
-        key[3 + axis] = std::bit_cast<std::uint32_t>(mesh.normals[i][axis] + 0.0f);
+    const VertexKey key = vertex_key(mesh, i, with_normals);
+    std::uint64_t hash = 0;
+    for (const std::uint32_t word : key) {
+      hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+      hash ^= hash >> 32;
     }
-    result[i] = first.try_emplace(key, i).first->second;
+    std::size_t place = hash & (table.size() - 1);
+    while (table[place] != free && vertex_key(mesh, table[place], with_normals) != key)
+      place = (place + 1) & (table.size() - 1);
+    if (table[place] == free) table[place] = i;
+    result[i] = table[place];
   }
   return result;
 }
@@ -141,6 +149,11 @@ std::vector<glm::vec3> mean_normals(const Mesh& mesh, const std::vector<std::uin
       means[i] = glm::vec3(sums[same[i]] / length); // shorter: triangles back to back, with no mean direction
   }
   return means;
+}
+
+bool has_area(const Mesh& mesh) {
+  return std::ranges::any_of(mesh.triangles,
+                             [&](const glm::uvec3& triangle) { return !is_degenerate(mesh, triangle); });
 }
 
 MeshReport inspect(const Mesh& mesh) {

@@ -29,7 +29,8 @@ struct Ellipsoid {
 };
 
 struct Mesh {
-  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> positions;  ///< from the middle
+  glm::dvec3 middle{0};              ///< in the file's coordinates; the origin itself unless that is far away
   std::vector<glm::vec3> normals;    ///< one a position, unit; or empty
   std::vector<glm::uvec3> triangles; ///< counter-clockwise seen from outside
   std::uint32_t mended_normals = 0;  ///< those that a file had on the wrong side of its triangles, or not at all
@@ -40,11 +41,13 @@ struct Mesh {
 /// it.
 inline constexpr std::uint64_t max_triangles = std::uint64_t{1} << 28;
 
-/// OBJ, PLY, STL, glTF, 3DS and whatever else Assimp reads; all its meshes as one, node transforms applied, polygons
-/// cut into triangles, points and lines left out. Vertices are joined where position and normal are equal, so creases
-/// stay creases; normals are the file's own (not STL's, which are a facet's), mended where they oppose the triangles,
-/// or empty. Degenerate triangles are kept: see drop_useless(). Throws bad_input naming the file: unreadable, no
-/// triangle with an area, a coordinate that is not finite, too many triangles; interrupted where `stop` asks for it.
+/// OBJ, PLY, STL, and what Assimp reads: glTF, 3DS and others; all its meshes as one, node transforms applied, polygons
+/// cut into triangles, points and lines left out. Coordinates are read in double and rounded once, from the mesh's
+/// middle where they are more than four times its size. Vertices of open edges that are four roundings apart or less
+/// become one. Vertices are joined where position and normal are equal, so creases stay creases; normals are the
+/// file's own (not STL's, which are a facet's), mended where they oppose the triangles, or empty. Degenerate triangles
+/// are kept: see drop_useless(). Throws bad_input naming the file: unreadable, no triangle with an area, a coordinate
+/// that is not finite, too many triangles; interrupted where `stop` asks for it.
 Mesh load_mesh(const std::filesystem::path& file, const std::stop_token& stop = {});
 /// The same, but a file with the same bytes as before is not read again, as far as the last meshes take no more than
 /// 256 MiB together: while an object is moved its scene is loaded again and again, and reading a mesh takes longest of
@@ -66,6 +69,9 @@ struct MeshReport {
   bool closed() const { return open_edges == 0 && crowded_edges == 0; }
 };
 MeshReport inspect(const Mesh& mesh);
+
+/// Whether a triangle is left that is not degenerate.
+bool has_area(const Mesh& mesh);
 
 /// Removes the triangles that inspect() counts as degenerate or duplicated; positions stay. Degenerate: no higher than
 /// 2^-24 of the longest edge, which is the spacing of floats, so that its normal would be made of rounding errors.

@@ -139,17 +139,22 @@ std::optional<MeshAnswer> take_answer(std::FILE* from) {
   constexpr std::uint64_t longest_refusal = 1 << 20;
   MeshAnswer answer;
   Mesh& mesh = answer.mesh;
-  const bool whole = take_items(from, answer.refusal, longest_refusal) &&
-                     take_items(from, mesh.positions, 3 * max_triangles) &&
-                     take_items(from, mesh.normals, 3 * max_triangles) &&
-                     take_items(from, mesh.triangles, max_triangles) && take_items(from, answer.mended, 1);
+  const bool whole =
+      take_items(from, answer.refusal, longest_refusal) && take_items(from, mesh.positions, 3 * max_triangles) &&
+      take_items(from, mesh.normals, 3 * max_triangles) && take_items(from, mesh.triangles, max_triangles) &&
+      take_items(from, answer.mended, 1) && take_items(from, answer.middle, 3);
   return whole ? std::optional(std::move(answer)) : std::nullopt;
 }
 
 Mesh mesh_of(MeshAnswer answer) {
   if (!answer.refusal.empty()) throw std::runtime_error(answer.refusal);
   if (answer.mended.empty()) refuse("no count of mended normals");
+  if (answer.middle.size() != 3) refuse("no middle");
   Mesh mesh = std::move(answer.mesh);
+  for (int axis = 0; axis < 3; ++axis) {
+    mesh.middle[axis] = answer.middle[static_cast<std::size_t>(axis)];
+    if (!std::isfinite(mesh.middle[axis])) refuse("a middle that is not finite");
+  }
   mesh.mended_normals = answer.mended[0];
   const std::size_t vertices = mesh.positions.size();
   if (!mesh.normals.empty() && mesh.normals.size() != vertices)
@@ -169,13 +174,8 @@ Mesh mesh_of(MeshAnswer answer) {
 
 Mesh load_mesh(const std::filesystem::path& file, const std::stop_token& stop) {
   const Location where = file.string();
-  std::size_t size = 0;
-  {
-    const std::string bytes = read_file(file);
-    if (bytes.empty()) throw bad_input(where, "the mesh file is empty", formats);
-    check_declared_size(bytes, where);
-    size = bytes.size();
-  }
+  const std::size_t size = read_file(file).size(); // says why, where there is nothing to read
+  if (size == 0) throw bad_input(where, "the mesh file is empty", formats);
   // Good files need some 20 times their size and a second for 50 MB; glTF may keep its data in another file.
   const unsigned cpu_seconds = 5 + static_cast<unsigned>(size >> 20);
   Reader reader(file, cpu_seconds, (std::size_t{2} << 30) + 64 * size);
@@ -188,8 +188,7 @@ Mesh load_mesh(const std::filesystem::path& file, const std::stop_token& stop) {
                       "check the file in another program");
     }
   }();
-  if (std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
-                  [&mesh](const glm::uvec3& triangle) { return is_degenerate(mesh, triangle); }))
+  if (!has_area(mesh))
     throw bad_input(where, mesh.triangles.empty() ? "the mesh has no triangles" : "no triangle of the mesh has an area",
                     formats);
   return mesh;

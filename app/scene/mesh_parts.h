@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What checks of meshes (mesh.cpp), mesh files (mesh_file.cpp) and their reader (reader/main.cpp) share. Private to
-// scene/.
+// What checks of meshes (mesh.cpp), mesh files (mesh_file.cpp, mesh_raw.h) and their reader (reader/main.cpp) share.
+// Private to scene/.
 #pragma once
-#include "base/location.h"
 #include "scene/mesh.h"
 
 #include <cstdio>
+#include <optional>
+#include <string>
 
 namespace nephroid::scene {
 
@@ -23,16 +24,12 @@ bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle);
 /// one mean. (0, 0, 0) where no triangle with an area meets.
 std::vector<glm::vec3> mean_normals(const Mesh& mesh, const std::vector<std::uint32_t>& same);
 
-/// Assimp takes what is missing from a PLY file for zeros, and reserves memory for whatever a PLY or GLB header
-/// promises. Throws bad_input at `where` if bytes open like such a file and end before what their header declares, or
-/// if the header makes no sense. Other files pass.
-void check_declared_size(std::string_view bytes, const Location& where);
-
 /// What the reader's program answers (reader/main.cpp), not yet looked at.
 struct MeshAnswer {
   std::string refusal; ///< why it refuses the file; empty: it does not
-  Mesh mesh;           ///< but for mended_normals
+  Mesh mesh;           ///< but for mended_normals and middle
   std::vector<std::uint32_t> mended;
+  std::vector<double> middle;
 };
 /// Nothing where it is cut. Throws std::runtime_error where it promises more than a mesh may have.
 std::optional<MeshAnswer> take_answer(std::FILE* from);

@@ -152,7 +152,7 @@ glm::dmat3 rotation(const preset::Vec3& rotate_deg) {
   return result;
 }
 
-Placement make_placement(const preset::Transform& transform) {
+Placement make_placement(const preset::Transform& transform, const Mesh& mesh) {
   Placement placement;
   glm::dmat3 scale(1);
   for (int axis = 0; axis < 3; ++axis) {
@@ -161,6 +161,7 @@ Placement make_placement(const preset::Transform& transform) {
     placement.offset[axis] = transform.translate[i];
   }
   placement.linear = rotation(transform.rotate_deg) * scale;
+  placement.offset += placement.linear * mesh.middle;
   return placement;
 }
 

@@ -10,7 +10,7 @@ namespace nephroid::scene {
 /// Beyond this a squared area no longer fits into single precision. In the preset's unit, from Scene::origin.
 inline constexpr double max_coordinate = 1e9;
 
-/// p -> linear p + offset, from the mesh's coordinates to the preset's.
+/// p -> linear p + offset, from the mesh's positions to the preset's coordinates.
 struct Placement {
   glm::dmat3 linear{1};
   glm::dvec3 offset{0};
@@ -30,7 +30,8 @@ struct PlacedMesh {
   std::vector<Damage> damages;
 };
 
-Placement make_placement(const preset::Transform& transform);
+/// mesh: its positions are relative to its middle, which goes into the offset in double.
+Placement make_placement(const preset::Transform& transform, const Mesh& mesh);
 /// In the preset's coordinates. Throws bad_input at where: they leave single precision.
 Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Location& where);
 

@@ -195,8 +195,8 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
     const Location object_where = where / "objects" / i;
     const auto material =
         std::ranges::find(scene.materials, object.material, &Material::name) - scene.materials.begin();
-    const Placement placement = make_placement(object.transform);
-    pending.push_back({mesh_of(object, object_where), placement, static_cast<int>(material), object_where});
+    const std::shared_ptr<const Mesh> mesh = mesh_of(object, object_where);
+    pending.push_back({mesh, make_placement(object.transform, *mesh), static_cast<int>(material), object_where});
   }
   watch.begin("looking at the objects");
   scene.origin = choose_origin(pending, scene, preset.scene.camera);

@@ -24,6 +24,22 @@ constexpr const char* scene = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[
 "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
 "buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}]})";
 
+/// Instances, quantized and sparse numbers, a strip, what is hidden; one buffer has no data URI's usual head.
+constexpr const char* shapes = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],
+"extensionsUsed":["EXT_mesh_gpu_instancing","KHR_mesh_quantization","KHR_node_visibility","KHR_texture_transform"],
+"extensionsRequired":["KHR_mesh_quantization","KHR_materials_variants"],
+"nodes":[{"mesh":0,"scale":[-1,1,1],"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0,"ROTATION":2,"SCALE":0}}}},
+ {"mesh":0,"children":[],"extensions":{"KHR_node_visibility":{"visible":false}}}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":3},"mode":5},{"attributes":{"POSITION":1},"indices":4,"mode":6}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
+ {"bufferView":1,"byteOffset":0,"componentType":5122,"normalized":true,"count":3,"type":"VEC3"},
+ {"bufferView":0,"componentType":5120,"normalized":true,"count":3,"type":"VEC4"},
+ {"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":2,"indices":{"bufferView":2,"componentType":5121},"values":{"bufferView":0}}},
+ {"bufferView":2,"componentType":5121,"count":3,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteLength":36,"byteStride":8},{"buffer":1,"byteLength":3}],
+"buffers":[{"byteLength":42,"uri":"data:application/gltf-buffer;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"},
+ {"byteLength":3,"uri":"data:,%00%01%02"}]})";
+
 std::string glb(std::string json) {
   while (json.size() % 4 != 0) json += ' ';
   const std::uint32_t words[] = {2, static_cast<std::uint32_t>(20 + json.size()),
@@ -45,6 +61,6 @@ void read(std::string_view input) {
   }
 }
 
-std::vector<std::string> seeds() { return {scene, glb(scene)}; }
+std::vector<std::string> seeds() { return {scene, glb(scene), shapes}; }
 
 } // namespace nephroid::fuzz

@@ -6,6 +6,7 @@
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "preset/read.h"
+#include "scene/scene.h"
 #include "tests/support/program_test.h"
 
 #include <glm/glm.hpp>
@@ -116,6 +117,35 @@ TEST_F(Export, WhatIsImportedAgainIsTheSame) {
   std::vector<std::array<double, 2>> table;
   for (const auto& row : back["scene"]["lights"][1]["spectrum"]["table"]) table.push_back({row[0], row[1]});
   EXPECT_NEAR(after.scene.lights[1].power_w * optics::to_xyz(optics::light_table(table))[1], luminous, 0.01 * luminous);
+}
+
+TEST_F(Export, ObjectsOfOneMeshFileAreInstances) {
+  write("wedge.obj", "v 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const std::string object = R"({"mesh": "wedge.obj", "material": "glass", "name": ")";
+  const std::string scene =
+      R"({"engine": "spectral", "unit": "cm", "white": 2, "scene": {"camera": {"position": [3, 4, 25], "target": [0, 0, 0]},
+  "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}}, "objects": [)" +
+      object + R"(first", "transform": {"rotate_deg": [10, 20, 30], "scale": [1, 2, 3]}},)" + object +
+      R"(mirrored", "transform": {"rotate_deg": [0, 90, 0], "scale": [-2, 1, 1], "translate": [0, 3, 40]}}],
+  "lights": [{"type": "directional", "irradiance_w_m2": 10, "direction": [0, -1, 0]}]}})";
+  write("wedges.json", scene);
+  const Ended ended = run({"export", "wedges.json", "-o", "w", "--size", "8", "--seconds", "0.1"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  ASSERT_EQ(run({"import", "w/scene.glb", "-o", "back.json"}).exit_code, 0);
+  const preset::Preset before = preset::read_preset((folder / "wedges.json").string()),
+                       after = preset::read_preset((folder / "back.json").string());
+  ASSERT_EQ(after.scene.objects.size(), 2u);
+  EXPECT_EQ(after.scene.objects[0].mesh, after.scene.objects[1].mesh);
+  const scene::Scene was = scene::load_scene(before), is = scene::load_scene(after);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(after.scene.objects[i].name, before.scene.objects[i].name);
+    const scene::Bounds a = scene::bounds_of(was, was.objects[i]), b = scene::bounds_of(is, is.objects[i]);
+    for (int axis = 0; axis < 3; ++axis) { // centimetres there, metres here
+      EXPECT_NEAR(b.low[axis] + is.origin[axis], 0.01 * (a.low[axis] + was.origin[axis]), 1e-6) << i;
+      EXPECT_NEAR(b.high[axis] + is.origin[axis], 0.01 * (a.high[axis] + was.origin[axis]), 1e-6) << i;
+    }
+  }
+  EXPECT_THAT(is.warnings, Not(Contains(HasSubstr("inside out"))));
 }
 
 TEST_F(Export, SaysWhatIsWrongInOneLineAndWritesNothing) {

@@ -188,7 +188,7 @@ DroppedMesh read_dropped_mesh(const std::filesystem::path& file) {
   const scene::Mesh mesh = scene::load_mesh(dropped.file);
   for (const glm::uvec3& triangle : mesh.triangles)
     for (int corner = 0; corner < 3; ++corner) {
-      const glm::dvec3 p = mesh.positions[triangle[corner]];
+      const glm::dvec3 p = mesh.middle + glm::dvec3(mesh.positions[triangle[corner]]);
       dropped.box = scene::enclosing(dropped.box, {p, p});
     }
   dropped.closed = scene::inspect(mesh).closed();

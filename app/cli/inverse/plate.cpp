@@ -51,6 +51,7 @@ void make_plate(const PlateOptions& options) {
       throw bad_input(options.output.string(), "would overwrite what goes onto the plate",
                       "expected a file beside its runs and meshes");
     meshes.push_back(scene::load_mesh(file));
+    for (glm::vec3& p : meshes.back().positions) p.z += static_cast<float>(meshes.back().middle.z); // x, y: by its row
     bodies.push_back(body_of(run, meshes.back()));
     triangles += meshes.back().triangles.size();
     area += bodies.back().size.x * bodies.back().size.y;

@@ -11,8 +11,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <tuple>
 #include <unordered_map>
 
 namespace nephroid::formats {
@@ -73,6 +76,10 @@ void add(const scene::Ellipsoid& ellipsoid, scene::Mesh& mesh) {
     }
 }
 
+/// What objects have in common that are one mesh of the file.
+using Kind = std::tuple<std::optional<std::string>, std::string, preset::Object::Normals>;
+Kind kind_of(const preset::Object& object) { return {object.mesh, object.material, object.normals}; }
+
 class Writer {
 public:
   Writer(const scene::Scene& scene, const preset::Preset& preset, const std::vector<Caustic>& caustics)
@@ -80,10 +87,15 @@ public:
     glb_.json["asset"] = {{"version", "2.0"}, {"generator", "Nephroid"}};
     glb_.json["scene"] = 0;
     glb_.json["scenes"] = {{{"name", preset.name}, {"nodes", Json::array()}}};
+    for (const preset::Object& object : preset.scene.objects) ++shared_[kind_of(object)].uses;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
       const auto caustic =
           std::ranges::find(caustics, static_cast<int>(i), [](const Caustic& c) { return c.receiver.object; });
-      add_object(scene.objects[i], caustic == caustics.end() ? nullptr : &*caustic);
+      if (const preset::Object& meant = preset.scene.objects[i];
+          caustic == caustics.end() && meant.mesh && shared_[kind_of(meant)].uses > 1)
+        add_instance(scene.objects[i], meant);
+      else
+        add_object(scene.objects[i], caustic == caustics.end() ? nullptr : &*caustic);
     }
     add_camera();
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
@@ -119,12 +131,44 @@ private:
       }
       attributes["TEXCOORD_0"] = glb_.places(places);
     }
-    const std::size_t corners = glb_.corners(mesh.triangles), material = material_of_object(object, caustic);
-    const std::size_t mesh_index = glb_.add(
+    const std::size_t index = add_mesh(object, std::move(attributes), mesh, material_of_object(object, caustic));
+    add_node({{"name", object.name}, {"mesh", index}, {"translation", three_numbers(placed(middle))}});
+  }
+
+  /// A node with the preset's transform; its mesh is written in its own frame, once.
+  void add_instance(const scene::Object& object, const preset::Object& meant) {
+    const glm::dvec3 shift = scene::to_dvec3(meant.transform.translate);
+    const glm::dmat3 rotation = scene::rotation(meant.transform.rotate_deg);
+    glm::dmat3 linear = rotation;
+    for (int axis = 0; axis < 3; ++axis) linear[axis] *= meant.transform.scale[static_cast<std::size_t>(axis)];
+    SharedMesh& shared = shared_.at(kind_of(meant));
+    if (!shared.index) {
+      const glm::dmat3 back = glm::inverse(linear);
+      const glm::dvec3 middle = object.bounds.centre;
+      shared.middle = back * (scene_.origin + middle - shift);
+      scene::Mesh mesh = mesh_of(object);
+      for (glm::vec3& p : mesh.positions) p = metres_ * (back * (glm::dvec3(p) - middle));
+      for (glm::vec3& n : mesh.normals) n = glm::normalize(glm::transpose(linear) * glm::dvec3(n));
+      if (glm::determinant(linear) < 0)
+        for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
+      Json attributes{{"POSITION", glb_.positions(mesh.positions)}};
+      if (object.smooth) attributes["NORMAL"] = glb_.normals(mesh.normals);
+      shared.index = add_mesh(object, std::move(attributes), mesh, material_of_object(object, nullptr));
+    }
+    const glm::dquat q = glm::quat_cast(rotation);
+    add_node({{"name", object.name},
+              {"mesh", *shared.index},
+              {"translation", three_numbers(metres_ * (linear * shared.middle + shift))},
+              {"rotation", {q.x, q.y, q.z, q.w}},
+              {"scale", meant.transform.scale}});
+  }
+
+  std::size_t add_mesh(const scene::Object& object, Json attributes, const scene::Mesh& mesh, std::size_t material) {
+    const std::size_t corners = glb_.corners(mesh.triangles);
+    return glb_.add(
         "meshes",
         {{"name", object.name},
          {"primitives", {{{"attributes", std::move(attributes)}, {"indices", corners}, {"material", material}}}}});
-    add_node({{"name", object.name}, {"mesh", mesh_index}, {"translation", three_numbers(placed(middle))}});
   }
 
   /// With the vertices that it has alone.
@@ -263,10 +307,17 @@ private:
     add_node(std::move(node));
   }
 
+  struct SharedMesh {
+    int uses = 0;
+    std::optional<std::size_t> index; ///< in the file, where it is written
+    glm::dvec3 middle{0};             ///< of the first object that has it, in the mesh's frame
+  };
+
   const scene::Scene& scene_;
   double metres_;
   Glb glb_;
   std::unordered_map<int, std::size_t> materials_;
+  std::map<Kind, SharedMesh> shared_;
 };
 
 } // namespace

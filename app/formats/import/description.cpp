@@ -25,6 +25,15 @@ using std::numbers::pi;
 
 namespace {
 
+/// A new folder among the system's temporary ones; who asks for it removes it.
+fs::path temporary_folder() {
+  std::string name = (fs::temp_directory_path() / "nephroid-import-XXXXXX").string();
+  if (!mkdtemp(name.data()))
+    throw failed(name, std::string("cannot be made: ") + std::strerror(errno), {},
+                 "set TMPDIR to a folder that you may write to");
+  return name;
+}
+
 /// The mesh reader takes a file by its ending, so it gets an unpacked one.
 scene::Mesh packed_mesh(const fs::path& file) {
   const std::string bytes = inflated(read_file(file), file);
@@ -44,21 +53,13 @@ scene::Mesh packed_mesh(const fs::path& file) {
 
 } // namespace
 
-fs::path temporary_folder() {
-  std::string name = (fs::temp_directory_path() / "nephroid-import-XXXXXX").string();
-  if (!mkdtemp(name.data()))
-    throw failed(name, std::string("cannot be made: ") + std::strerror(errno), {},
-                 "set TMPDIR to a folder that you may write to");
-  return name;
-}
-
 std::string read_packed_file(const fs::path& file) {
   const std::string bytes = read_file(file);
   return lower_case(file.extension().string()) == ".gz" ? inflated(bytes, file) : bytes;
 }
 
 void Description::note(const std::string& text) {
-  if (std::ranges::count(notes, text) == 0) notes.push_back(text);
+  if (noted.insert(text).second) notes.push_back(text);
 }
 
 std::string Description::mesh_file(const std::filesystem::path& file, const Location& where) {
@@ -74,7 +75,8 @@ std::string Description::mesh_file(const std::filesystem::path& file, const Loca
 
 std::string Description::own_mesh(const std::string& name, scene::Mesh mesh) {
   std::string key = file_name_of(name, ".ply");
-  for (int n = 2; meshes.contains(key); ++n) key = file_name_of(name, fmt::format("-{}.ply", n).c_str());
+  for (int& n = names_of_meshes[name]; meshes.contains(key);)
+    key = file_name_of(name, fmt::format("-{}.ply", ++n + 1).c_str());
   meshes.emplace(key, std::move(mesh));
   return key;
 }
@@ -92,9 +94,12 @@ std::string file_name_of(const std::string& text, const char* ending) {
   return name + ending;
 }
 
-std::string unique(const std::string& name, std::set<std::string>& taken) {
-  std::string free = name;
-  for (int n = 2; !taken.insert(free).second; ++n) free = fmt::format("{} {}", name, n);
+std::string unique(const std::string& name, std::map<std::string, int>& taken) {
+  int& last = taken[name];
+  if (last == 0) return last = 1, name;
+  std::string free;
+  do free = fmt::format("{} {}", name, ++last);
+  while (!taken.try_emplace(free, 1).second);
   return free;
 }
 

@@ -74,6 +74,8 @@ struct Description {
   std::vector<preset::Light> lamps; ///< lights that are in watts already
   std::optional<DescribedSurroundings> surroundings;
   std::vector<std::string> notes;
+  std::set<std::string> noted;
+  std::map<std::string, int> names_of_meshes; ///< the last number of each, less one
 
   /// A sentence on what is left out, and what is done instead; each once.
   void note(const std::string& text);
@@ -86,8 +88,6 @@ struct Description {
   std::string own_mesh(const std::string& name, scene::Mesh mesh);
 };
 
-/// A new folder among the system's temporary ones; who asks for it removes it.
-std::filesystem::path temporary_folder();
 /// The file's bytes; unpacked where its name ends in .gz.
 std::string read_packed_file(const std::filesystem::path& file);
 
@@ -95,8 +95,8 @@ std::string read_packed_file(const std::filesystem::path& file);
 std::string name_of(const std::string& text, const std::string& otherwise);
 /// The same as a file's name, without blanks.
 std::string file_name_of(const std::string& text, const char* ending);
-/// The name, with a number behind it where it is taken.
-std::string unique(const std::string& name, std::set<std::string>& taken);
+/// The name, with a number behind it where it is taken. taken: the last number of each.
+std::string unique(const std::string& name, std::map<std::string, int>& taken);
 
 /// A number of a file; nothing if the text is none, or one that no scene has.
 std::optional<double> scene_number(std::string_view text);

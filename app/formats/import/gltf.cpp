@@ -6,10 +6,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace nephroid::formats {
 namespace {
+
+/// Extensions, and the note on what is left out with them; empty where all of it is done. Others are named.
+constexpr std::pair<const char*, const char*> extension_notes[] = {
+    {"EXT_mesh_gpu_instancing", ""},
+    {"KHR_lights_punctual", ""},
+    {"KHR_materials_dispersion", ""},
+    {"KHR_materials_emissive_strength", ""}, // what shines has a note
+    {"KHR_materials_ior", ""},
+    {"KHR_materials_transmission", ""},
+    {"KHR_materials_volume", ""},
+    {"KHR_mesh_quantization", ""},
+    {"KHR_node_visibility", ""},
+    {"EXT_lights_image_based", "the file's surroundings (EXT_lights_image_based) are left out"},
+    {"KHR_materials_pbrSpecularGlossiness",
+     "of KHR_materials_pbrSpecularGlossiness the diffuse colour is taken, its gloss is left out"},
+    {"KHR_materials_unlit", "materials that need no light (KHR_materials_unlit) are lit as others are"},
+    {"KHR_materials_variants", "variants (KHR_materials_variants) are left out: meshes have the materials they name"}};
 
 class GltfReader {
 public:
@@ -17,11 +35,14 @@ public:
     d_.source = file.file;
     d_.fits_white = true;
     for (const GltfNode& node : nodes_of(file)) {
+      if (node.value.has("camera")) add_camera(node);
+      if (!node.is_visible) d_.note("what the file hides (KHR_node_visibility) is left out");
+      if (!node.is_visible) continue;
       if (node.value.has("mesh")) add_mesh(node);
       if (node.value.has("skin")) d_.note("skins are left out: meshes are as they rest");
-      if (node.value.has("camera")) add_camera(node);
       if (node.value.object("extensions").has("KHR_lights_punctual")) add_light(node);
     }
+    note_extensions();
     if (!root_.list("animations").empty()) d_.note("animations are left out");
   }
 
@@ -32,21 +53,56 @@ private:
     const std::string name =
         name_of(node.value.text("name"), name_of(mesh.text("name"), fmt::format("mesh {}", index)));
     const std::vector<GltfValue> primitives = mesh.list("primitives");
+    const std::vector<glm::dmat4> places = meshes_.instances(node.value);
     for (std::size_t p = 0; p < primitives.size(); ++p) {
       if (primitives[p].count("mode", 4) < 4) {
         d_.note(fmt::format("points and lines of '{}' are left out", name));
         continue;
       }
-      if (primitives[p].has("targets")) d_.note("morph targets are left out");
-      DescribedShape& shape = d_.shapes.emplace_back();
+      if (primitives[p].has("targets")) d_.note("morph targets are left out: meshes are as they rest");
+      const auto [key, is_new] = keys_.try_emplace({index, p});
+      if (is_new) key->second = own_mesh(primitives[p], name);
+      if (key->second.empty()) continue;
+      DescribedShape shape;
       shape.where = primitives[p].where();
       shape.name = name;
-      shape.to_world = node.to_world;
       shape.material = material(primitives[p]);
-      const auto [key, is_new] = keys_.try_emplace({index, p});
-      if (is_new) key->second = d_.own_mesh(name, meshes_.read(primitives[p]));
       shape.mesh = key->second;
+      for (const glm::dmat4& instance : places) {
+        shape.to_world = node.to_world * instance;
+        d_.shapes.push_back(shape);
+      }
     }
+  }
+
+  /// The mesh's key; empty where nothing of it can be seen.
+  std::string own_mesh(const GltfValue& primitive, const std::string& name) {
+    if (!primitive.object("attributes").has("POSITION")) {
+      d_.note(fmt::format("a part of '{}' has no positions and is left out", name));
+      return {};
+    }
+    scene::Mesh mesh = meshes_.read(primitive);
+    if (!scene::has_area(mesh)) {
+      d_.note(fmt::format("a part of '{}' has no triangle with an area and is left out", name));
+      return {};
+    }
+    return d_.own_mesh(name, std::move(mesh));
+  }
+
+  void note_extensions() {
+    std::set<std::string> named;
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+      for (const std::string& name : root_.texts(list)) named.insert(name);
+    std::string others;
+    for (const std::string& name : named) {
+      const auto* const known =
+          std::ranges::find(extension_notes, name, [](const auto& one) { return std::string_view(one.first); });
+      if (known == std::end(extension_notes))
+        others += (others.empty() ? "" : ", ") + name;
+      else if (*known->second != 0)
+        d_.note(known->second);
+    }
+    if (!others.empty()) d_.note("extensions that are left out: " + others);
   }
 
   std::string material(const GltfValue& primitive) {
@@ -101,7 +157,7 @@ private:
   Description& d_;
   std::map<std::pair<std::size_t, std::size_t>, std::string> keys_; ///< keys of meshes by mesh and primitive
   std::map<std::size_t, std::string> material_names_;
-  std::set<std::string> taken_materials_;
+  std::map<std::string, int> taken_materials_;
 };
 
 } // namespace

@@ -15,28 +15,30 @@ namespace {
 constexpr const char* expected = "a glTF 2.0 file, .gltf or .glb";
 constexpr int max_depth = 64;
 
-/// What changes how the file is read and is understood. All others that the file requires are refused.
-constexpr std::array known_extensions{"KHR_lights_punctual",
-                                      "KHR_materials_ior",
-                                      "KHR_materials_transmission",
-                                      "KHR_materials_volume",
-                                      "KHR_materials_dispersion",
-                                      "KHR_materials_unlit",
-                                      "KHR_materials_specular",
-                                      "KHR_materials_clearcoat",
-                                      "KHR_materials_sheen",
-                                      "KHR_materials_anisotropy",
-                                      "KHR_materials_iridescence",
-                                      "KHR_materials_emissive_strength",
-                                      "KHR_materials_pbrSpecularGlossiness",
-                                      "KHR_texture_transform"};
+/// Without these the file's triangles cannot be read, where it requires them.
+constexpr std::array compressions{"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"};
+
+/// Lists and objects within each other. A callback of the parser would tell as well, and take quadratic time in the
+/// length of a list of objects (nlohmann-json 3.11: end_object).
+int depth_of(std::string_view text) {
+  int depth = 0, deepest = 0;
+  bool is_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') is_string = !is_string;
+    if (is_string && c == '\\') ++i; // and what it escapes
+    if (is_string) continue;
+    if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+    if (c == ']' || c == '}') --depth;
+  }
+  return deepest;
+}
 
 GltfJson parse(const std::string& text, const std::string& name) {
+  if (depth_of(text) > max_depth)
+    throw bad_input(name, fmt::format("is nested deeper than {} levels", max_depth), expected);
   try {
-    return GltfJson::parse(text, [&](int depth, GltfJson::parse_event_t, GltfJson&) {
-      if (depth > max_depth) throw bad_input(name, fmt::format("is nested deeper than {} levels", max_depth), expected);
-      return true;
-    });
+    return GltfJson::parse(text);
   } catch (const GltfJson::parse_error& error) {
     throw bad_input(name, fmt::format("its JSON is broken at byte {}", error.byte), expected,
                     "check that the file is whole");
@@ -95,15 +97,10 @@ GltfFile read_gltf(const std::filesystem::path& file) {
   const std::string version = root.object("asset").text("version");
   if (!version.starts_with("2."))
     throw bad_input(gltf.where() / "asset" / "version", "is \"" + version + "\"", expected);
-  if (!root.has("extensionsRequired")) return gltf;
-  const Location where = gltf.where() / "extensionsRequired";
-  if (!gltf.json["extensionsRequired"].is_array()) throw bad_input(where, "is no list", expected);
-  for (const GltfJson& extension : gltf.json["extensionsRequired"]) {
-    const std::string wanted = extension.is_string() ? extension.get<std::string>() : extension.dump();
-    if (std::find(known_extensions.begin(), known_extensions.end(), wanted) == known_extensions.end())
-      throw bad_input(where, "the file requires " + wanted, "expected none that changes how meshes are stored",
-                      "export it without that extension");
-  }
+  for (const std::string& required : root.texts("extensionsRequired"))
+    if (std::ranges::count(compressions, required) > 0)
+      throw bad_input(gltf.where() / "extensionsRequired", "the file's triangles are compressed by " + required,
+                      "expected triangles that are not", "export it without that compression");
   return gltf;
 }
 
@@ -156,6 +153,18 @@ std::string GltfValue::text(const char* key) const {
   const GltfJson& value = (*json_)[key];
   if (!value.is_string()) refuse(where_ / key, "a text");
   return value.get<std::string>();
+}
+
+std::vector<std::string> GltfValue::texts(const char* key) const {
+  std::vector<std::string> all;
+  if (!has(key)) return all;
+  const GltfJson& value = (*json_)[key];
+  if (!value.is_array()) refuse(where_ / key, "a list of texts");
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (!value[i].is_string()) refuse(where_ / key / i, "a text");
+    all.push_back(value[i].get<std::string>());
+  }
+  return all;
 }
 
 bool GltfValue::truth(const char* key, bool standard) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A glTF 2.0 file as JSON with its binary chunk, and reading that JSON strictly: every wrong type and every index out
-// of range is an error at its place. The mesh reader, a program of its own, reads the buffers.
+// of range is an error at its place.
 #pragma once
 #include "base/location.h"
 
@@ -21,7 +21,7 @@ struct GltfFile {
   Location where() const { return {file.string(), std::string()}; }
 };
 
-/// Throws bad_input where it is no glTF 2.0, is cut, or requires an extension that is not read.
+/// Throws bad_input where it is no glTF 2.0, is cut, or has its triangles compressed.
 GltfFile read_gltf(const std::filesystem::path& file);
 
 /// A value of the file, with its place.
@@ -46,7 +46,8 @@ public:
   double number(const char* key, double standard) const;
   /// Whole and not negative, below 2^32.
   std::uint64_t count(const char* key, std::uint64_t standard) const;
-  std::string text(const char* key) const; ///< empty without it
+  std::string text(const char* key) const;               ///< empty without it
+  std::vector<std::string> texts(const char* key) const; ///< a list; empty without it
   bool truth(const char* key, bool standard) const;
   /// An index into root's list, and a list of such.
   std::size_t index(const char* key, const GltfValue& root, const char* list) const;

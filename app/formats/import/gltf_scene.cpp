@@ -60,7 +60,13 @@ preset::Material glass(const GltfValue& material, const std::string& name, std::
   const GltfValue volume = material.extension("KHR_materials_volume");
   if (volume.number("thicknessFactor", 0) == 0)
     notes.push_back(fmt::format("material '{}' is a thin film in the file and solid glass here", name));
-  if (material.object("pbrMetallicRoughness").number("roughnessFactor", 1) > 0.1)
+  const GltfValue pbr = material.object("pbrMetallicRoughness");
+  if (const auto tint = pbr.numbers<4>("baseColorFactor", {1, 1, 1, 1}); tint[0] < 1 || tint[1] < 1 || tint[2] < 1)
+    notes.push_back(
+        fmt::format("material '{}': its colour ({:.3g}, {:.3g}, {:.3g}) tints what passes its surface in the "
+                    "file and does not here: the glass is as clear as its volume (KHR_materials_volume)",
+                    name, tint[0], tint[1], tint[2]));
+  if (pbr.number("roughnessFactor", 1) > 0.1)
     notes.push_back(fmt::format("material '{}' is rough in the file and polished here", name));
   return glass;
 }
@@ -96,13 +102,14 @@ std::vector<GltfNode> nodes_of(const GltfFile& file) {
   struct Task {
     std::size_t index;
     glm::dmat4 parent;
+    bool is_visible;
   };
   // A list of tasks and no recursion: a file may nest its nodes as deep as it likes.
   std::vector<Task> tasks;
-  const auto add = [&](const std::vector<std::size_t>& indices, const glm::dmat4& parent) {
-    for (auto index = indices.rbegin(); index != indices.rend(); ++index) tasks.push_back({*index, parent});
+  const auto add = [&](const std::vector<std::size_t>& indices, const glm::dmat4& parent, bool is_visible) {
+    for (auto index = indices.rbegin(); index != indices.rend(); ++index) tasks.push_back({*index, parent, is_visible});
   };
-  add(roots_of(root), glm::dmat4(1));
+  add(roots_of(root), glm::dmat4(1), true);
   while (!tasks.empty()) {
     const Task task = tasks.back();
     tasks.pop_back();
@@ -110,8 +117,9 @@ std::vector<GltfNode> nodes_of(const GltfFile& file) {
     if (seen[task.index])
       throw bad_input(node.where(), "the node has two parents, or nodes go round in a circle", "expected a tree");
     seen[task.index] = true;
-    nodes.push_back({node, task.parent * local_matrix(node)});
-    add(node.indices("children", root, "nodes"), nodes.back().to_world);
+    const bool is_visible = task.is_visible && node.extension("KHR_node_visibility").truth("visible", true);
+    nodes.push_back({node, task.parent * local_matrix(node), is_visible});
+    add(node.indices("children", root, "nodes"), nodes.back().to_world, is_visible);
   }
   return nodes;
 }
@@ -193,10 +201,14 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
   if (value.extension("KHR_materials_transmission").number("transmissionFactor", 0) >= 0.5)
     return glass(value, name, notes);
   const GltfValue pbr = value.object("pbrMetallicRoughness");
-  const auto base = pbr.numbers<4>("baseColorFactor", {1, 1, 1, 1});
+  const GltfValue older = value.extension("KHR_materials_pbrSpecularGlossiness"); // takes the other's place
+  const bool is_older = value.object("extensions").has("KHR_materials_pbrSpecularGlossiness");
+  const auto base =
+      is_older ? older.numbers<4>("diffuseFactor", {1, 1, 1, 1}) : pbr.numbers<4>("baseColorFactor", {1, 1, 1, 1});
   preset::Material material;
   material.reflectance = reflectance_of({base[0], base[1], base[2]});
-  const bool metal = pbr.number("metallicFactor", 1) >= 0.5, rough = pbr.number("roughnessFactor", 1) >= 0.5;
+  const bool metal = !is_older && pbr.number("metallicFactor", 1) >= 0.5,
+             rough = pbr.number("roughnessFactor", 1) >= 0.5;
   if (metal && !rough) material.type = preset::Material::Type::mirror;
   if (metal && rough) notes.push_back(fmt::format("material '{}' is rough metal in the file and matt here", name));
   if (std::string advice = advice_on_glass(value, name); !advice.empty())

@@ -10,11 +10,14 @@
 
 #include <glm/glm.hpp>
 
+#include <map>
+
 namespace nephroid::formats {
 
 struct GltfNode {
   GltfValue value;
   glm::dmat4 to_world;
+  bool is_visible = true; ///< by KHR_node_visibility, of it and of all its parents
 };
 
 /// The nodes of the file's scene, parents before children, in the order of the file. Throws bad_input where nodes go
@@ -60,26 +63,32 @@ preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const
 /// What the light gives a surface that faces it at this point, in luminous watts a square metre: lux / 683.
 double luminous_irradiance(const preset::Light& light, const glm::dvec3& at);
 
-/// The triangles of the file's primitives. The mesh reader, a program of its own, gets each as a glTF file that holds
-/// it alone: so what is corrupt harms nobody, and it is clear which of the reader's meshes is which of the file's.
+/// What the file's accessors hold: the triangles of its primitives, the places of instances. file outlives this.
 class GltfMeshes {
 public:
-  /// Throws bad_input where a buffer is missing or shorter than the file says. file outlives this.
   explicit GltfMeshes(const GltfFile& file);
-  ~GltfMeshes();
-  GltfMeshes(const GltfMeshes&) = delete;
-  GltfMeshes& operator=(const GltfMeshes&) = delete;
 
-  /// In the mesh's own frame, with normals where the file has them. primitive: of meshes/I/primitives. Throws
-  /// bad_input, at the primitive or at what it uses.
+  /// In the mesh's own frame, as the file has it, with normals where it has them; (0, 0, 0) where one has no direction.
+  /// primitive: of meshes/I/primitives. Throws bad_input, at the primitive or at what it uses: data that are missing,
+  /// shorter than the file says or no numbers, indices out of range.
   scene::Mesh read(const GltfValue& primitive) const;
 
+  /// From the node's frame to each of its instances, where EXT_mesh_gpu_instancing has them; else one that stays.
+  std::vector<glm::dmat4> instances(const GltfValue& node) const;
+
 private:
-  GltfJson buffer(const GltfValue& value, std::size_t index) const;
+  struct Items {
+    const char* first;
+    std::uint64_t stride; ///< bytes from one to the next
+  };
+  const std::string& buffer(std::size_t index) const;
+  Items items(const GltfValue& value, std::uint64_t count, std::size_t item) const;
+  /// Of the accessor whose index is from[key]; width: how many an item has to have.
+  std::vector<double> numbers(const GltfValue& from, const char* key, std::size_t width) const;
 
   const GltfFile& file_;
-  std::filesystem::path folder_; ///< what the reader reads; gone with this
-  std::vector<GltfJson> buffers_;
+  GltfValue root_;
+  mutable std::map<std::size_t, std::string> buffers_; ///< those that were used
 };
 
 } // namespace nephroid::formats

@@ -11,6 +11,7 @@
 #include "scene/scene.h"
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -114,7 +115,10 @@ private:
 
   void add(const DescribedShape& shape) {
     glm::dmat4 to_world = mirror_ * shape.to_world;
-    if (shape.mesh.empty()) to_world = to_world * glm::dmat4(glm::dmat3(shape.radius));
+    if (shape.mesh.empty())
+      to_world = to_world * glm::dmat4(glm::dmat3(shape.radius));
+    else
+      to_world = glm::translate(to_world, from_.meshes.at(shape.mesh).middle);
     if (shape.glow) return glow(shape, to_world);
     preset::Object object;
     object.name = unique(name_of(shape.name, "object"), names_);
@@ -129,15 +133,18 @@ private:
           for (const double z : {-1.0, 1.0}) see(to_world * glm::dvec4(x, y, z, 1));
     } else {
       std::string key = shape.mesh;
-      if (!transform) { // a mesh that is sheared or flattened is written as it stands in the world
+      if (!transform) { // a mesh that is sheared or flattened is written as it is then, about its place
         scene::Mesh mesh = from_.meshes.at(key);
         mesh.normals.clear();
-        for (glm::vec3& p : mesh.positions) p = glm::vec3(to_world * glm::dvec4(glm::dvec3(p), 1));
+        for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dmat3(to_world) * glm::dvec3(p));
         if (glm::determinant(glm::dmat3(to_world)) < 0)
           for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
         key = from_.own_mesh(shape.name, std::move(mesh));
-        to_world = glm::dmat4(1);
-        transform.emplace();
+        to_world = glm::translate(glm::dmat4(1), glm::dvec3(to_world[3]));
+        transform = transform_of(to_world);
+        if (!transform)
+          throw bad_input(shape.where, "stands too far from the origin of the scene", "expected at most 1e7 units",
+                          "move the scene to its origin in the program that made it");
       }
       const scene::Mesh& mesh = from_.meshes.at(key);
       if (shape.smooth.value_or(!mesh.normals.empty())) object.normals = preset::Object::Normals::smooth;
@@ -269,13 +276,14 @@ private:
   std::string folder_;
   preset::Preset made_;
   glm::dmat4 mirror_{1};
-  std::set<std::string> names_;
+  std::map<std::string, int> names_;
   scene::Bounds bounds_;
   std::set<std::string> used_; ///< keys of the objects' meshes
 };
 
 /// Writes what the description says.
-Imported written(Description& description, const fs::path& preset) {
+Imported written(Description& description, const fs::path& preset, const Watch& watch) {
+  watch.begin(fmt::format("placing {}", counted(description.shapes.size(), "object")));
   const std::string name = preset.stem().string();
   PresetBuilder builder(description, name + "-meshes");
   // What cannot be read again is not written. The other programs follow light from wall to wall, so this one does.
@@ -288,8 +296,11 @@ Imported written(Description& description, const fs::path& preset) {
   fs::create_directories(folder, error);
   if (error) throw failed(folder.string(), "cannot be made: " + error.message(), {}, "choose another folder with -o");
   for (const auto& [key, glass] : description.glasses) write_file_whole(folder / key, glass);
-  for (const auto& [key, mesh] : description.meshes)
+  std::size_t count = 0;
+  for (const auto& [key, mesh] : description.meshes) {
+    watch.begin(fmt::format("writing mesh {} of {}", ++count, description.meshes.size()));
     write_file_whole(folder / key, [&mesh = mesh](ByteSink& to) { scene::write_ply(mesh, to); });
+  }
   if (!made.not_imported.empty())
     write_file_whole(preset.parent_path() / (name + "-not-imported.txt"),
                      fmt::format("{}\n", fmt::join(made.not_imported, "\n")));
@@ -316,14 +327,15 @@ std::string Imported::summary() const {
   return text;
 }
 
-Imported import_scene(const fs::path& file, const fs::path& preset) {
+Imported import_scene(const fs::path& file, const fs::path& preset, const Watch& watch) {
+  watch.begin("reading " + file.filename().string());
   const std::string kind = lower_case(file.extension().string());
   const auto describe = kind == ".xml" ? describe_mitsuba : kind == ".pbrt" ? describe_pbrt : describe_gltf;
   Description description;
   try {
     describe(file, description);
     settle_dielectrics(description);
-    return written(description, preset);
+    return written(description, preset, watch);
   } catch (const Error& error) {
     throw description.notes.empty() ? error : error.noting(said_before(description.notes));
   }

@@ -2,6 +2,8 @@
 // A scene of another program as a preset of engine 1: its meshes, camera, lights and materials. What has no counterpart
 // is left out and said.
 #pragma once
+#include "base/watch.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -22,7 +24,7 @@ struct Imported {
 /// NAME-meshes beside it, its meshes, each once; notes, if there are any, as NAME-not-imported.txt and as the preset's
 /// `not_imported`. Makes folders where needed. Nothing is there where it fails. Throws bad_input naming the file and the
 /// place in it: cut or of another format, an index out of range, nodes in a circle, a buffer that is missing or too
-/// short, no surface at all.
-Imported import_scene(const std::filesystem::path& file, const std::filesystem::path& preset);
+/// short, no surface at all; interrupted where the watch says so.
+Imported import_scene(const std::filesystem::path& file, const std::filesystem::path& preset, const Watch& watch = {});
 
 } // namespace nephroid::formats

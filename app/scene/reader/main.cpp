@@ -2,21 +2,26 @@
 // nephroid_mesh_reader FILE CPU_SECONDS MEMORY_BYTES: the only program that links Assimp. It is one of its own because
 // corrupt files make Assimp crash, loop for ever or ask for all memory: Assimp 5.2's PLY and glTF readers overrun the
 // stack on some. The answer on standard output: why the file is refused (empty: it is not), positions, normals,
-// triangles, and one number, of the mended normals; each as its 64-bit count and then the items, as they lie in memory.
+// triangles, one number, of the mended normals, and the three of the middle; each as its 64-bit count and then the
+// items, as they lie in memory. OBJ, PLY and STL are read by mesh_raw.h, for Assimp has single precision.
+#include "base/lower_case.h"
 #include "scene/mesh_parts.h"
+#include "scene/mesh_raw.h"
 
 #include <assimp/Importer.hpp>
-#include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <new>
 #include <stdexcept>
@@ -47,7 +52,7 @@ void check(const aiScene& scene) {
   }
 }
 
-void append(Mesh& mesh, const aiMesh& part, const glm::dmat4& transform, bool with_normals) {
+void append(RawMesh& mesh, const aiMesh& part, const glm::dmat4& transform, bool with_normals) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   if (std::uint64_t{first} + part.mNumVertices > 3 * max_triangles ||
       mesh.triangles.size() + part.mNumFaces > max_triangles)
@@ -56,12 +61,14 @@ void append(Mesh& mesh, const aiMesh& part, const glm::dmat4& transform, bool wi
   const glm::dmat3 normal_transform = glm::transpose(glm::inverse(linear));
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D& p = part.mVertices[i];
-    mesh.positions.emplace_back(transform * glm::dvec4(p.x, p.y, p.z, 1));
+    const glm::dvec3 place = transform * glm::dvec4(p.x, p.y, p.z, 1);
+    for (int axis = 0; axis < 3; ++axis)
+      if (!std::isfinite(static_cast<float>(place[axis])))
+        throw std::runtime_error("a node's transform makes a coordinate infinite");
+    mesh.positions.push_back(place);
     if (!with_normals) continue;
     const aiVector3D n = part.HasNormals() ? part.mNormals[i] : aiVector3D(0);
-    const glm::dvec3 normal = normal_transform * glm::dvec3(n.x, n.y, n.z);
-    const double length = glm::length(normal);
-    mesh.normals.emplace_back(length > 0 && std::isfinite(length) ? normal / length : glm::dvec3(0));
+    mesh.normals.push_back(direction_of(normal_transform * glm::dvec3(n.x, n.y, n.z)));
   }
   const bool mirrored = glm::determinant(linear) < 0;
   for (unsigned f = 0; f < part.mNumFaces; ++f) {
@@ -72,54 +79,23 @@ void append(Mesh& mesh, const aiMesh& part, const glm::dmat4& transform, bool wi
   }
 }
 
-void append(Mesh& mesh, const aiScene& scene, const aiNode& node, const glm::dmat4& parent, bool with_normals) {
+void append(RawMesh& mesh, const aiScene& scene, const aiNode& node, const glm::dmat4& parent, bool with_normals) {
   const glm::dmat4 transform = parent * to_glm(node.mTransformation);
   for (unsigned i = 0; i < node.mNumMeshes; ++i) append(mesh, *scene.mMeshes[node.mMeshes[i]], transform, with_normals);
   for (unsigned i = 0; i < node.mNumChildren; ++i) append(mesh, scene, *node.mChildren[i], transform, with_normals);
 }
 
-/// Joins equal vertices and removes those that no triangle uses.
-void join_vertices(Mesh& mesh) {
-  const std::vector<std::uint32_t> first = first_equal_vertex(mesh, true);
-  constexpr std::uint32_t unused = ~0u;
-  std::vector<std::uint32_t> new_index(mesh.positions.size(), unused);
-  Mesh joined;
-  for (glm::uvec3 triangle : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t old = first[triangle[i]];
-      if (new_index[old] == unused) {
-        new_index[old] = static_cast<std::uint32_t>(joined.positions.size());
-        joined.positions.push_back(mesh.positions[old]);
-        if (!mesh.normals.empty()) joined.normals.push_back(mesh.normals[old]);
-      }
-      triangle[i] = new_index[old];
-    }
-    joined.triangles.push_back(triangle);
-  }
-  mesh = std::move(joined);
+/// Assimp reserves memory for whatever a GLB header promises (glTF 2.0, section 4.4).
+void check_glb(std::string_view bytes) {
+  if (!bytes.starts_with("glTF")) return;
+  std::uint32_t declared = 12;
+  if (bytes.size() >= declared) std::memcpy(&declared, bytes.data() + 8, sizeof declared);
+  if (declared > bytes.size())
+    throw std::runtime_error(
+        fmt::format("the file has {} bytes of the {} that its header declares; it is cut", bytes.size(), declared));
 }
 
-/// A file's normal that is missing, or lies on the other side of the surface than its triangles say, would bend light
-/// the wrong way: the mean of the triangles at that vertex takes its place.
-void mend_normals(Mesh& mesh) {
-  std::vector<std::uint32_t> itself(mesh.positions.size());
-  for (std::uint32_t i = 0; i < itself.size(); ++i) itself[i] = i;
-  const std::vector<glm::vec3> means = mean_normals(mesh, itself);
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    if (glm::dot(mesh.normals[i], means[i]) > 0) continue;
-    mesh.normals[i] = means[i] == glm::vec3(0) ? glm::vec3(0, 1, 0) : means[i];
-    ++mesh.mended_normals;
-  }
-}
-
-/// STL stores a facet's normal, from which Assimp makes vertex normals that are not meant to be smooth.
-bool is_stl(const Assimp::Importer& importer) {
-  const int index = importer.GetPropertyInteger("importerIndex", -1);
-  const aiImporterDesc* format = index < 0 ? nullptr : importer.GetImporterInfo(static_cast<std::size_t>(index));
-  return format != nullptr && std::string_view(format->mFileExtensions) == "stl";
-}
-
-Mesh read(Assimp::Importer& importer, const char* file) {
+RawMesh read_by_assimp(Assimp::Importer& importer, const char* file) {
   const aiScene* scene = importer.ReadFile(file, 0);
   if (scene == nullptr) {
     const std::string reason = importer.GetErrorString();
@@ -132,15 +108,24 @@ Mesh read(Assimp::Importer& importer, const char* file) {
 
   bool with_normals = false;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) with_normals |= scene->mMeshes[m]->HasNormals();
-  with_normals = with_normals && !is_stl(importer);
-  Mesh mesh;
+  RawMesh mesh;
   append(mesh, *scene, *scene->mRootNode, glm::dmat4(1), with_normals);
-  for (const glm::vec3& p : mesh.positions)
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      throw std::runtime_error("a node's transform makes a coordinate infinite");
-  join_vertices(mesh);
-  if (with_normals) mend_normals(mesh);
   return mesh;
+}
+
+RawMesh read(Assimp::Importer& importer, const char* file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(std::filesystem::file_size(file), '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  const bool is_ply =
+      bytes.starts_with("ply") && (bytes.size() == 3 || std::isalnum(static_cast<unsigned char>(bytes[3])) == 0);
+  if (is_ply) return read_ply(bytes);
+  const std::string kind = lower_case(std::filesystem::path(file).extension().string());
+  if (kind == ".obj") return read_obj(std::move(bytes));
+  if (kind == ".stl") return read_stl(bytes);
+  check_glb(bytes);
+  bytes = {};
+  return read_by_assimp(importer, file);
 }
 
 void lower_limit(__rlimit_resource_t resource, rlim_t value) {
@@ -191,7 +176,7 @@ int main(int count, char** arguments) {
   Mesh mesh;
   std::string refusal;
   try {
-    mesh = read(importer, arguments[1]);
+    mesh = finished(read(importer, arguments[1]));
   } catch (const std::bad_alloc&) {
     refusal = "asked for more memory than its size explains";
   } catch (const std::exception& e) {
@@ -202,6 +187,7 @@ int main(int count, char** arguments) {
   put(answer, mesh.normals);
   put(answer, mesh.triangles);
   put(answer, std::array{mesh.mended_normals});
+  put(answer, std::array{mesh.middle.x, mesh.middle.y, mesh.middle.z});
   _exit(std::fflush(answer) == 0 ? 0
                                  : 1); // nothing is given back: it takes time, and a corrupt file may have damaged it
 }
