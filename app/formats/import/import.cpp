@@ -180,6 +180,9 @@ private:
         const glm::dvec3 up = glm::cross(e.normal, e.edge);
         light.up = scene::to_vec3(up);
         light.size = e.size;
+        from_.note(
+            "a surface that shines is a lamp, which lights the scene and reflects nothing: it is not seen, neither "
+            "itself nor in glass and mirrors");
         if (!e.rectangle)
           from_.note(shape.where,
                      "a flat surface that shines is left out: a rectangle of its area shines in its place");
