@@ -17,17 +17,10 @@ namespace {
 constexpr double thinness = 1e-3;            ///< of a sheet: its thickness over its size
 constexpr std::size_t most_pairs = 1u << 26; ///< of dielectrics that are looked at for nesting
 
-bool alike(double n, double m) { return std::abs(n - m) < 1e-3 * m; }
 bool is_air(double n) { return alike(n, 1); }
 
 optics::DispersionCurve curve_of(const preset::Dispersion& dispersion) {
   return scene::make_curve(dispersion, FileFinder(), "dispersion");
-}
-
-double middle_index(const preset::Dispersion& dispersion) {
-  return dispersion.type == preset::Dispersion::Type::constant
-             ? dispersion.n
-             : curve_of(dispersion).sample(optics::line_d_nm).n.value_or(1);
 }
 
 /// factor times n, or over it.
@@ -231,7 +224,16 @@ private:
 
 } // namespace
 
-void settle_dielectrics(Description& description) { Settlement(description).settle(); }
+double middle_index(const preset::Dispersion& dispersion) {
+  return dispersion.type == preset::Dispersion::Type::constant
+             ? dispersion.n
+             : curve_of(dispersion).sample(optics::line_d_nm).n.value_or(1);
+}
+
+void settle_dielectrics(Description& description) {
+  join_interfaces(description);
+  Settlement(description).settle();
+}
 
 std::string absorbing_glass_file(const preset::Dispersion& clear, const optics::Spectrum& absorption,
                                  const std::string& comments) {

@@ -11,6 +11,15 @@ namespace nephroid::formats {
 /// of a thickness. Notes say what was done.
 void settle_dielectrics(Description& description);
 
+/// Open surfaces between media become bodies, where one of them parts two that are no air. settle_dielectrics() does
+/// this first.
+void join_interfaces(Description& description);
+
+/// Whether both are the same medium for a file's rounded numbers.
+inline bool alike(double n, double m) { return std::abs(n - m) < 1e-3 * m; }
+/// At 587.6 nm.
+double middle_index(const preset::Dispersion& dispersion);
+
 /// A dispersion file in the form of refractiveindex.info, with the n of `clear` and the k of this absorption a metre.
 std::string absorbing_glass_file(const preset::Dispersion& clear, const optics::Spectrum& absorption,
                                  const std::string& comments);
