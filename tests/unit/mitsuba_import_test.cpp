@@ -161,6 +161,23 @@ TEST_F(MitsubaImport, SurfacesBetweenMediaBecomeBodies) {
   }
 }
 
+TEST_F(MitsubaImport, ALiquidThatTouchesItsGlassReachesIntoIt) {
+  const auto block = [](double y, const char* inside, const char* outside) {
+    return fmt::format(R"(<shape type="cube"><transform name="to_world"><translate y="{}"/></transform>
+      <bsdf type="dielectric"><float name="int_ior" value="{}"/><float name="ext_ior" value="{}"/></bsdf></shape>)",
+                       y, inside, outside);
+  };
+  const preset::Preset p = imported(block(-1, "1.5", "1") + block(1, "1.33", "1.5"));
+  EXPECT_EQ(material_of(p, 1).dispersion.n, 1.33);
+  const auto volume = [&](std::size_t i) {
+    return scene::inspect(scene::load_mesh(folder.path() / *p.scene.objects.at(i).mesh)).signed_volume;
+  };
+  EXPECT_NEAR(volume(0), 8, 1e-5);
+  // Every corner of 2 x 2 x 2 goes out by 2e-4 of the diagonal, 2 sqrt(3), along (1, 1, 1) / sqrt(3).
+  EXPECT_NEAR(volume(1), std::pow(2 + 2 * 4e-4, 3), 1e-4);
+  EXPECT_GT(p.scene.objects[1].priority, p.scene.objects[0].priority);
+}
+
 TEST_F(MitsubaImport, WrongIndicesAreRefused) {
   EXPECT_THAT(refusal(ball(1, "kryptonite", "air")), HasSubstr("no index of refraction is called \"kryptonite\""));
   EXPECT_THAT(refusal(ball(1, "-1", "air")), HasSubstr("an index of refraction is above 0"));

@@ -4,6 +4,8 @@
 #pragma once
 #include "formats/import/description.h"
 
+#include <cmath>
+
 namespace nephroid::formats {
 
 /// Makes the materials of the description's dielectrics. Where one lies in another, its index is its own, and its
@@ -17,6 +19,13 @@ void join_interfaces(Description& description);
 
 /// Whether both are the same medium for a file's rounded numbers.
 inline bool alike(double n, double m) { return std::abs(n - m) < 1e-3 * m; }
+using Place = std::array<float, 3>;
+inline Place place_of(const glm::vec3& p) { return {p.x, p.y, p.z}; }
+/// How far a body reaches into another that it touches, over its size: so no path sees air between them.
+inline constexpr double reach = 2e-4;
+/// Moves the vertices that are at one of these places outwards, or all.
+void reach_out(scene::Mesh& body, const std::set<Place>* places = nullptr);
+
 /// At 587.6 nm.
 double middle_index(const preset::Dispersion& dispersion);
 

@@ -12,10 +12,6 @@
 namespace nephroid::formats {
 namespace {
 
-/// How far a body reaches into the denser one beside it, over its size. Of both, the denser wins there, so that no path
-/// sees air between them.
-constexpr double reach = 2e-4;
-
 struct Surface {
   std::size_t shape = 0;
   double inside = 1, outside = 1; ///< inside: where the mesh's normals look away from
@@ -36,9 +32,6 @@ std::vector<Surface> surfaces_of(const Description& d) {
   }
   return surfaces;
 }
-
-using Place = std::array<float, 3>;
-Place place_of(const glm::vec3& p) { return {p.x, p.y, p.z}; }
 
 /// Adds the surface where it stands, its normals away from the medium. reaching: gets the places that it has.
 void add_surface(scene::Mesh& body, const Description& d, const DescribedShape& shape, bool turned, bool& smooth,
@@ -68,16 +61,6 @@ void add_surface(scene::Mesh& body, const Description& d, const DescribedShape& 
       if (reaching) reaching->insert(place_of(mesh.positions[t[i]]));
     }
   }
-}
-
-void reach_out(scene::Mesh& body, const std::set<Place>& places) {
-  scene::Mesh even = body;
-  scene::compute_smooth_normals(even);
-  glm::vec3 low(1e30f), high(-1e30f);
-  for (const glm::vec3& p : body.positions) low = glm::min(low, p), high = glm::max(high, p);
-  const float distance = static_cast<float>(reach) * glm::length(high - low);
-  for (std::size_t i = 0; i < body.positions.size(); ++i)
-    if (places.contains(place_of(body.positions[i]))) body.positions[i] += distance * even.normals[i];
 }
 
 } // namespace
@@ -115,7 +98,7 @@ void join_interfaces(Description& d) {
     d.dielectrics[body.material] = glass;
     if (!scene::inspect(mesh).closed())
       d.note(body.where, fmt::format("the surfaces about what has n = {:.4g} leave a hole", n));
-    reach_out(mesh, reaching);
+    reach_out(mesh, &reaching);
     if (!smooth) mesh.normals.clear();
     body.mesh = d.own_mesh(body.material, std::move(mesh));
     body.name = body.material;
