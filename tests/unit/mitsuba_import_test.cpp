@@ -124,6 +124,60 @@ TEST_F(MitsubaImport, ALoneObjectInAMediumIsARatioAndANote) {
   EXPECT_THAT(made.notes, Contains(HasSubstr("in the file it is in n = 1.25, which is nowhere")));
 }
 
+/// Water on a block of glass, each 1 x 1 x 1: the glass' sides in air, the water's in air, and what parts them.
+TEST_F(MitsubaImport, SurfacesBetweenMediaBecomeBodies) {
+  const auto corners = [](int low) {
+    std::string text;
+    for (int i = 0; i < 8; ++i) text += fmt::format("v {} {} {}\n", i & 1, low + (i >> 1 & 1), i >> 2);
+    return text;
+  };
+  const std::string sides =
+      "f 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\nf 1 3 4 2\nf 5 6 8 7\n"; // -y, +y, -x, +x, -z, +z
+  const std::string bottom = sides.substr(0, 10), top = sides.substr(10, 10), around = sides.substr(20);
+  folder.write("glass.obj", corners(-1) + bottom + around);
+  folder.write("water.obj", corners(0) + top + around);
+  folder.write("between.obj", corners(0) + bottom); // its normal looks down, from the water to the glass
+  const auto surface = [](const char* file, const char* inside, const char* outside) {
+    return fmt::format(R"(<shape type="obj"><string name="filename" value="{}.obj"/>
+      <boolean name="face_normals" value="true"/><bsdf type="dielectric">
+      <float name="int_ior" value="{}"/><float name="ext_ior" value="{}"/></bsdf></shape>)",
+                       file, inside, outside);
+  };
+  const std::string between = surface("between", "1.33", "1.5");
+  std::string turned = surface("between", "1.5", "1.33");
+  turned.insert(turned.find("<bsdf"), R"(<boolean name="flip_normals" value="true"/>)");
+  for (const std::string& parting : {between, turned}) {
+    const preset::Preset p = imported(surface("glass", "1.5", "1") + surface("water", "1.33", "1") + parting);
+    ASSERT_EQ(p.scene.objects.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const scene::MeshReport report = scene::inspect(scene::load_mesh(folder.path() / *p.scene.objects[i].mesh));
+      EXPECT_TRUE(report.closed());
+      EXPECT_NEAR(report.signed_volume, 1, 2e-3); // the water reaches a little into the glass
+    }
+    EXPECT_EQ(material_of(p, 0).dispersion.n, 1.33);
+    EXPECT_EQ(material_of(p, 1).dispersion.n, 1.5);
+    EXPECT_GT(p.scene.objects[1].priority, p.scene.objects[0].priority);
+    EXPECT_THAT(made.notes, Not(Contains(HasSubstr("hole"))));
+  }
+}
+
+TEST_F(MitsubaImport, ALiquidThatTouchesItsGlassReachesIntoIt) {
+  const auto block = [](double y, const char* inside, const char* outside) {
+    return fmt::format(R"(<shape type="cube"><transform name="to_world"><translate y="{}"/></transform>
+      <bsdf type="dielectric"><float name="int_ior" value="{}"/><float name="ext_ior" value="{}"/></bsdf></shape>)",
+                       y, inside, outside);
+  };
+  const preset::Preset p = imported(block(-1, "1.5", "1") + block(1, "1.33", "1.5"));
+  EXPECT_EQ(material_of(p, 1).dispersion.n, 1.33);
+  const auto volume = [&](std::size_t i) {
+    return scene::inspect(scene::load_mesh(folder.path() / *p.scene.objects.at(i).mesh)).signed_volume;
+  };
+  EXPECT_NEAR(volume(0), 8, 1e-5);
+  // Every corner of 2 x 2 x 2 goes out by 2e-4 of the diagonal, 2 sqrt(3), along (1, 1, 1) / sqrt(3).
+  EXPECT_NEAR(volume(1), std::pow(2 + 2 * 4e-4, 3), 1e-4);
+  EXPECT_GT(p.scene.objects[1].priority, p.scene.objects[0].priority);
+}
+
 TEST_F(MitsubaImport, WrongIndicesAreRefused) {
   EXPECT_THAT(refusal(ball(1, "kryptonite", "air")), HasSubstr("no index of refraction is called \"kryptonite\""));
   EXPECT_THAT(refusal(ball(1, "-1", "air")), HasSubstr("an index of refraction is above 0"));

@@ -17,17 +17,10 @@ namespace {
 constexpr double thinness = 1e-3;            ///< of a sheet: its thickness over its size
 constexpr std::size_t most_pairs = 1u << 26; ///< of dielectrics that are looked at for nesting
 
-bool alike(double n, double m) { return std::abs(n - m) < 1e-3 * m; }
 bool is_air(double n) { return alike(n, 1); }
 
 optics::DispersionCurve curve_of(const preset::Dispersion& dispersion) {
   return scene::make_curve(dispersion, FileFinder(), "dispersion");
-}
-
-double middle_index(const preset::Dispersion& dispersion) {
-  return dispersion.type == preset::Dispersion::Type::constant
-             ? dispersion.n
-             : curve_of(dispersion).sample(optics::line_d_nm).n.value_or(1);
 }
 
 /// factor times n, or over it.
@@ -153,6 +146,7 @@ private:
                                               around->own, body.own));
     } else if (around && alike(around->inside, body.outside)) {
       body.own = body.inside;
+      if (!around->encloses(body)) reach_into(body.shape);
     } else {
       body.own = ratio;
       d_.note(body.shape.where, fmt::format("in the file it is in n = {:.4g}, which is nowhere in the scene: the ratio "
@@ -161,6 +155,21 @@ private:
     }
     if (around) body.shape.priority = around->shape.priority + 1;
     body.shape.material = material_of(body);
+  }
+
+  /// A liquid that just touches its glass.
+  void reach_into(DescribedShape& shape) {
+    if (shape.mesh.empty()) {
+      shape.radius *= 1 + reach;
+      return;
+    }
+    std::string& key = reaching_[shape.mesh];
+    if (key.empty()) {
+      scene::Mesh mesh = d_.meshes.at(shape.mesh);
+      reach_out(mesh);
+      key = d_.own_mesh(shape.name, std::move(mesh));
+    }
+    shape.mesh = key;
   }
 
   /// The key of the material that this body needs; the same for all that need the same.
@@ -225,13 +234,23 @@ private:
   }
 
   Description& d_;
-  std::map<std::string, std::string> sheets_; ///< by the keys of the meshes that they are about
+  std::map<std::string, std::string> sheets_;   ///< by the keys of the meshes that they are about
+  std::map<std::string, std::string> reaching_; ///< by the keys of the meshes that they were
   std::map<std::tuple<std::string, double, bool>, std::string> keys_;
 };
 
 } // namespace
 
-void settle_dielectrics(Description& description) { Settlement(description).settle(); }
+double middle_index(const preset::Dispersion& dispersion) {
+  return dispersion.type == preset::Dispersion::Type::constant
+             ? dispersion.n
+             : curve_of(dispersion).sample(optics::line_d_nm).n.value_or(1);
+}
+
+void settle_dielectrics(Description& description) {
+  join_interfaces(description);
+  Settlement(description).settle();
+}
 
 std::string absorbing_glass_file(const preset::Dispersion& clear, const optics::Spectrum& absorption,
                                  const std::string& comments) {
@@ -254,45 +273,6 @@ std::string absorbing_glass_file(const preset::Dispersion& clear, const optics::
         fmt::format("        {:.2f} {:.6g}\n", nm * 1e-3,
                     absorption[static_cast<std::size_t>(nm - optics::first_nm)] * nm * 1e-9 / (4 * std::numbers::pi));
   return text;
-}
-
-scene::Mesh sheet_about(const scene::Mesh& mesh, double thickness) {
-  scene::Mesh about = mesh;
-  scene::compute_smooth_normals(about);
-  scene::Mesh sheet;
-  const bool smooth = !mesh.normals.empty();
-  const auto add = [&](std::uint32_t vertex, float side, const glm::vec3& normal) {
-    sheet.positions.push_back(mesh.positions[vertex] +
-                              side * static_cast<float>(thickness / 2) * about.normals[vertex]);
-    if (smooth) sheet.normals.push_back(normal);
-    return static_cast<std::uint32_t>(sheet.positions.size() - 1);
-  };
-  const auto count = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const float side : {1.0f, -1.0f})
-    for (std::uint32_t i = 0; i < count; ++i) add(i, side, smooth ? side * mesh.normals[i] : glm::vec3(0));
-  // An edge is on the rim where no triangle has it the other way round. Vertices at one place count as one.
-  using Place = std::array<float, 3>;
-  const auto place = [&](std::uint32_t i) {
-    return Place{mesh.positions[i].x, mesh.positions[i].y, mesh.positions[i].z};
-  };
-  std::set<std::pair<Place, Place>> edges;
-  for (const glm::uvec3& t : mesh.triangles)
-    for (int i = 0; i < 3; ++i) edges.emplace(place(t[i]), place(t[(i + 1) % 3]));
-  for (const glm::uvec3& t : mesh.triangles) {
-    sheet.triangles.push_back(t);
-    sheet.triangles.emplace_back(count + t.x, count + t.z, count + t.y);
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-      if (edges.contains({place(b), place(a)})) continue;
-      const glm::vec3 across = glm::cross(mesh.positions[b] - mesh.positions[a], about.normals[a] + about.normals[b]);
-      const glm::vec3 out = glm::length(across) > 0 ? glm::normalize(across) : about.normals[a];
-      const std::uint32_t top_a = add(a, 1, out), top_b = add(b, 1, out), low_a = add(a, -1, out),
-                          low_b = add(b, -1, out);
-      sheet.triangles.emplace_back(top_b, top_a, low_a);
-      sheet.triangles.emplace_back(top_b, low_a, low_b);
-    }
-  }
-  return sheet;
 }
 
 } // namespace nephroid::formats

@@ -4,12 +4,30 @@
 #pragma once
 #include "formats/import/description.h"
 
+#include <cmath>
+
 namespace nephroid::formats {
 
 /// Makes the materials of the description's dielectrics. Where one lies in another, its index is its own, and its
 /// priority is higher. A lone one that the file has in another medium gets the ratio of both. Thin ones become sheets
 /// of a thickness. Notes say what was done.
 void settle_dielectrics(Description& description);
+
+/// Open surfaces between media become bodies, where one of them parts two that are no air. settle_dielectrics() does
+/// this first.
+void join_interfaces(Description& description);
+
+/// Whether both are the same medium for a file's rounded numbers.
+inline bool alike(double n, double m) { return std::abs(n - m) < 1e-3 * m; }
+using Place = std::array<float, 3>;
+inline Place place_of(const glm::vec3& p) { return {p.x, p.y, p.z}; }
+/// How far a body reaches into another that it touches, over its size: so no path sees air between them.
+inline constexpr double reach = 2e-4;
+/// Moves the vertices that are at one of these places outwards, or all.
+void reach_out(scene::Mesh& body, const std::set<Place>* places = nullptr);
+
+/// At 587.6 nm.
+double middle_index(const preset::Dispersion& dispersion);
 
 /// A dispersion file in the form of refractiveindex.info, with the n of `clear` and the k of this absorption a metre.
 std::string absorbing_glass_file(const preset::Dispersion& clear, const optics::Spectrum& absorption,

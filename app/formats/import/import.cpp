@@ -332,7 +332,8 @@ std::string Imported::summary() const {
 
 Imported import_scene(const fs::path& file, const fs::path& preset, const Watch& watch) {
   watch.begin("reading " + file.filename().string());
-  const std::string kind = lower_case(file.extension().string());
+  const fs::path plain = lower_case(file.extension().string()) == ".gz" ? file.stem() : file;
+  const std::string kind = lower_case(plain.extension().string());
   const auto describe = kind == ".xml" ? describe_mitsuba : kind == ".pbrt" ? describe_pbrt : describe_gltf;
   Description description;
   try {
