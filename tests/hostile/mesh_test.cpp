@@ -9,7 +9,7 @@
 
 namespace nephroid::mesh_test {
 
-using namespace nephroid::scene;
+using scene::load_mesh;
 
 constexpr const char* corners = "0 0 0\n1 0 0\n0 1 0\n";
 
