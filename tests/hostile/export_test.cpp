@@ -124,9 +124,10 @@ TEST_F(Export, ObjectsOfOneMeshFileAreInstances) {
   const std::string object = R"({"mesh": "wedge.obj", "material": "glass", "name": ")";
   const std::string scene =
       R"({"engine": "spectral", "unit": "cm", "white": 2, "scene": {"camera": {"position": [3, 4, 25], "target": [0, 0, 0]},
-  "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}}, "objects": [)" +
+  "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}, "grey": {"type": "diffuse"}}, "objects": [)" +
       object + R"(first", "transform": {"rotate_deg": [10, 20, 30], "scale": [1, 2, 3]}},)" + object +
-      R"(mirrored", "transform": {"rotate_deg": [0, 90, 0], "scale": [-2, 1, 1], "translate": [0, 3, 40]}}],
+      R"(mirrored", "transform": {"rotate_deg": [0, 90, 0], "scale": [-2, 1, 1], "translate": [0, 3, 40]}},
+  {"name": "floor", "shape": {"type": "quad", "size": [40, 1, 40]}, "material": "grey", "transform": {"translate": [0, -30, 0]}}],
   "lights": [{"type": "directional", "irradiance_w_m2": 10, "direction": [0, -1, 0]}]}})";
   write("wedges.json", scene);
   const Ended ended = run({"export", "wedges.json", "-o", "w", "--size", "8", "--seconds", "0.1"});
@@ -134,10 +135,10 @@ TEST_F(Export, ObjectsOfOneMeshFileAreInstances) {
   ASSERT_EQ(run({"import", "w/scene.glb", "-o", "back.json"}).exit_code, 0);
   const preset::Preset before = preset::read_preset((folder / "wedges.json").string()),
                        after = preset::read_preset((folder / "back.json").string());
-  ASSERT_EQ(after.scene.objects.size(), 2u);
+  ASSERT_EQ(after.scene.objects.size(), 3u);
   EXPECT_EQ(after.scene.objects[0].mesh, after.scene.objects[1].mesh);
   const scene::Scene was = scene::load_scene(before), is = scene::load_scene(after);
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(after.scene.objects[i].name, before.scene.objects[i].name);
     const scene::Bounds a = scene::bounds_of(was, was.objects[i]), b = scene::bounds_of(is, is.objects[i]);
     for (int axis = 0; axis < 3; ++axis) { // centimetres there, metres here

@@ -9,7 +9,7 @@
 
 namespace nephroid::mesh_test {
 
-using namespace nephroid::scene;
+using scene::load_mesh;
 
 constexpr const char* corners = "0 0 0\n1 0 0\n0 1 0\n";
 
@@ -102,6 +102,8 @@ std::vector<BadFile> bad_files() {
        "recursive reference"},
       {"no_mesh.gltf", gltf(R"({"mesh":0})", R"({"mesh":7})"), "out of bounds"},
       {"deep.gltf", deep_gltf(), "crashed"},
+      {"instances.gltf", gltf(R"({"mesh":0})", R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{}}})"),
+       "it uses EXT_mesh_gpu_instancing, which makes it a scene: nephroid import takes it"},
       {"length.glb", "glTF" + little_endian(2) + little_endian(4000000000u) + "JSON",
        "of the 4000000000 that its header declares"},
       {"stub.glb", "glTF", "header declares"},

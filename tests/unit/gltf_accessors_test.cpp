@@ -88,6 +88,16 @@ TEST_F(GltfAccessors, EveryInstanceIsAnObject) {
   EXPECT_THAT(refusal(file.text()), HasSubstr("/SCALE: has 2 items where others have 3"));
 }
 
+TEST_F(GltfAccessors, ManyObjectsOfOneName) {
+  File file = triangle();
+  const std::vector<float> places(30003, 0);
+  file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"TRANSLATION", file.accessor(places, type_float, "VEC3", 10001)}};
+  EXPECT_THAT(refusal(file.text()), HasSubstr("in.gltf: has 10001 objects; expected at most 10000; join"));
+  file.json["accessors"][1]["count"] = 10000;
+  EXPECT_EQ(imported(file.text()).scene.objects.back().name, "tri 10000");
+}
+
 TEST_F(GltfAccessors, WhatIsHiddenIsLeftOutAndSaid) {
   File file = triangle();
   file.json["nodes"] = Json::parse(R"([{"mesh":0,"name":"seen"},{"name":"hidden","children":[2],

@@ -69,6 +69,8 @@ Emitter emitter_of(const scene::Mesh& mesh, const glm::dmat4& to_world) {
   return e;
 }
 
+constexpr std::size_t most_objects = 10000; ///< of a preset
+
 double clamped_power(double watts) { return std::clamp(watts, 0.0, 1e9); }
 
 class PresetBuilder {
@@ -86,6 +88,10 @@ public:
     made_.scene.materials = from_.materials;
     for (auto& [key, material] : made_.scene.materials)
       if (!material.dispersion.file.empty()) material.dispersion.file = folder_ + "/" + material.dispersion.file;
+    if (from_.shapes.size() > most_objects)
+      throw bad_input(from_.source.string(), fmt::format("has {} objects", from_.shapes.size()),
+                      fmt::format("expected at most {}", most_objects),
+                      "join those of one material in the program that made them");
     for (const DescribedShape& shape : from_.shapes) add(shape);
     if (made_.scene.objects.empty())
       throw bad_input(from_.source.string(), "has no triangles in its scene, and no sphere",

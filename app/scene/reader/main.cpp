@@ -124,6 +124,9 @@ RawMesh read(Assimp::Importer& importer, const char* file) {
   if (kind == ".obj") return read_obj(std::move(bytes));
   if (kind == ".stl") return read_stl(bytes);
   check_glb(bytes);
+  for (const char* extension : {"EXT_mesh_gpu_instancing", "KHR_node_visibility"}) // Assimp does not read them
+    if ((kind == ".gltf" || kind == ".glb") && bytes.find(extension) != std::string::npos)
+      throw std::runtime_error(fmt::format("it uses {}, which makes it a scene: nephroid import takes it", extension));
   bytes = {};
   return read_by_assimp(importer, file);
 }
