@@ -310,6 +310,25 @@ TEST_F(PictureNotes, SayWhatAPhotographComesTo) {
   EXPECT_THAT(notes(R"(, "background": 0.2}}], "scatter_deg": 1)"), Contains(HasSubstr("comes hardly closer than")));
 }
 
+// What is said of a photograph is said of a drawing that has greys, or that a lens makes of little light.
+TEST_F(PictureNotes, SayItOfDrawingsToo) {
+  const auto said = [](const std::string& method, const std::string& picture) {
+    const preset::Preset p = preset::parse_preset(
+        fmt::format(R"({{"engine": "inverse", "scene": {{"camera": {{}}}}, "inverse": {{"method": "{}",
+      "facets": [64, 64], "cells": [32, 32], "index": 1.5, "thickness_mm": 40,
+      "receivers": [{{"distance_mm": 300, "picture": {}}}]}}}})",
+                    method, picture),
+        "p.json");
+    return notes_of(p, Design(p));
+  };
+  const std::string spot = R"({"type": "disc", "radius": 0.1)";
+  EXPECT_THAT(said("assign", spot + "}"), IsEmpty());
+  EXPECT_THAT(said("assign", spot + R"(, "background": 0.3})"), ElementsAre(HasSubstr("which greys show as grain")));
+  EXPECT_THAT(said("assign", R"({"type": "gradient"})"), ElementsAre(HasSubstr("which greys show as grain")));
+  EXPECT_THAT(said("lens", spot + "}"), Contains(HasSubstr("picture 1 is dark")));
+  EXPECT_THAT(said("lens", spot + R"(, "background": 0.3})"), IsEmpty());
+}
+
 // In every light the coarse lens is as deep as the one that is made.
 TEST_F(PictureNotes, ALensIsAsDeepInLightFromTheSide) {
   for (const char* light :
