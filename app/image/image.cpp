@@ -2,6 +2,8 @@
 #include "image/image.h"
 
 #include "base/files.h"
+#include "image/primaries.h"
+#include "image/radiance.h"
 #include "image/seam.h"
 
 #include <fmt/format.h>
@@ -110,6 +112,40 @@ Layout layout_of(const Image& picture, const std::string& name) {
   throw bad_input(name, fmt::format("has the channels {}", fmt::join(channels, ", ")), "expected R, G, B or Y alone");
 }
 
+void turn_upright(Image& image, const PixelOrder& order) {
+  if (order == PixelOrder{}) return;
+  const auto columns = static_cast<std::size_t>(image.width), rows = static_cast<std::size_t>(image.height),
+             stride = image.channels.size();
+  std::vector<float> turned(image.data.size());
+  for (std::size_t v = 0; v < rows; ++v)
+    for (std::size_t u = 0; u < columns; ++u) {
+      const std::size_t along = order.columns_back ? columns - 1 - u : u, down = order.rows_back ? rows - 1 - v : v;
+      const std::size_t pixel = order.transposed ? along * rows + down : down * columns + along;
+      for (std::size_t c = 0; c < stride; ++c) turned[pixel * stride + c] = image.data[(v * columns + u) * stride + c];
+    }
+  image.data.swap(turned);
+  if (order.transposed) std::swap(image.width, image.height);
+}
+
+/// Linear values of 65536 encoded ones: integers have 8 or 16 bits.
+std::vector<float> decoding_table(double gamma) {
+  std::vector<float> table(65536);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double encoded = static_cast<double>(i) / static_cast<double>(table.size() - 1);
+    table[i] = static_cast<float>(gamma == 0 ? decoded_srgb(encoded) : std::pow(encoded, gamma));
+  }
+  return table;
+}
+
+void decode(std::vector<float>& values, double gamma) {
+  static const std::vector<float> of_srgb = decoding_table(0);
+  const std::vector<float> own = gamma == 0 ? std::vector<float>() : decoding_table(gamma);
+  const std::vector<float>& table = gamma == 0 ? of_srgb : own;
+  const auto last = static_cast<float>(table.size() - 1);
+  for (float& value : values)
+    value = table[static_cast<std::size_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * last))];
+}
+
 /// Reading the file says what is wrong with itself, OpenImageIO what is wrong with the picture.
 template <class Read>
 auto read_or_refuse(const fs::path& file, const Read& read) {
@@ -125,12 +161,41 @@ auto read_or_refuse(const fs::path& file, const Read& read) {
 
 } // namespace
 
-Image read_image(const fs::path& file) {
-  return read_or_refuse(file, [&] { return module().read(file); });
+PixelOrder mirrored(PixelOrder order) {
+  bool& along_x = order.transposed ? order.rows_back : order.columns_back;
+  along_x = !along_x;
+  return order;
+}
+
+PixelOrder turned_left(PixelOrder order) {
+  order = mirrored(order);
+  order.transposed = !order.transposed;
+  return order;
 }
 
 void read_bands(const fs::path& file, const std::function<void(const Band&)>& use) {
-  read_or_refuse(file, [&] { module().read_bands(file, use); });
+  read_or_refuse(file, [&] { is_radiance(file) ? read_radiance(file, use) : module().read_bands(file, use); });
+}
+
+Image read_image(const fs::path& file) {
+  constexpr int most_values_log2 = 29; // 2 GiB of floats, such as 16384 x 8192 pixels of four channels
+  Image image;
+  PixelOrder order;
+  read_bands(file, [&](const Band& band) {
+    const Image& rows = band.rows;
+    if (band.first == 0) {
+      require_at_most(most_values_log2, rows.width, band.height, rows.channels.size());
+      image = rows;
+      image.height = band.height;
+      order = band.order;
+      image.data.reserve(rows.data.size() / static_cast<std::size_t>(rows.height) *
+                         static_cast<std::size_t>(band.height));
+    } else {
+      image.data.insert(image.data.end(), rows.data.begin(), rows.data.end());
+    }
+  });
+  turn_upright(image, order);
+  return image;
 }
 
 Image text_picture(const std::string& text, int height, const Location& where) {
@@ -148,9 +213,20 @@ Image text_picture(const std::string& text, int height, const Location& where) {
 Rgb rgb_of(const Image& picture, const std::string& name) {
   const Layout layout = layout_of(picture, name);
   const std::size_t stride = picture.channels.size(), pixels = picture.data.size() / stride;
-  Rgb rgb{std::vector<float>(3 * pixels), layout.grey};
-  for (std::size_t p = 0; p < pixels; ++p)
+  const auto alpha = static_cast<std::size_t>(std::ranges::find(picture.channels, "A") - picture.channels.begin());
+  Rgb rgb{std::vector<float>(3 * pixels), {}, layout.grey};
+  for (std::size_t p = 0; p < pixels; ++p) {
     for (std::size_t c = 0; c < 3; ++c) rgb.values[3 * p + c] = picture.data[p * stride + layout.at[c]];
+    if (alpha < stride) rgb.alpha.push_back(picture.data[p * stride + alpha]);
+  }
+  if (picture.integers) decode(rgb.values, picture.gamma);
+  if (picture.chromaticities && !layout.grey) {
+    const std::optional<glm::dmat3> to_srgb = matrix_to_srgb(*picture.chromaticities);
+    if (!to_srgb)
+      throw bad_input(name, fmt::format("has the chromaticities {}", fmt::join(*picture.chromaticities, ", ")),
+                      "expected x and y of red, green, blue and white, three of which make the fourth");
+    convert(rgb.values, *to_srgb);
+  }
   return rgb;
 }
 

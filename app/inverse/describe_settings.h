@@ -8,7 +8,7 @@ namespace nephroid::preset {
 
 template <>
 inline constexpr Choice<inverse::Picture::Type> choices<inverse::Picture::Type>[] = {
-    {inverse::Picture::Type::file, "file", "A picture file, as large as it fits into the receiver."},
+    {inverse::Picture::Type::file, "file", "A picture file, in the receiver's middle."},
     {inverse::Picture::Type::disc, "disc", "A disc."},
     {inverse::Picture::Type::ring, "ring", "A ring."},
     {inverse::Picture::Type::cross, "cross", "Two bars across each other."},
@@ -18,6 +18,11 @@ inline constexpr Choice<inverse::Picture::Type> choices<inverse::Picture::Type>[
     {inverse::Picture::Type::face, "face", "A shaded ball with eyes and a mouth, in grey levels."},
     {inverse::Picture::Type::text, "text", "Words."},
     {inverse::Picture::Type::qr, "qr", "A QR code, in whole cells, as large as fits."}};
+
+template <>
+inline constexpr Choice<inverse::Picture::Fit> choices<inverse::Picture::Fit>[] = {
+    {inverse::Picture::Fit::contain, "contain", "As large as the receiver holds all of it."},
+    {inverse::Picture::Fit::cover, "cover", "As small as it fills the receiver; what is beyond is cropped."}};
 
 template <>
 inline constexpr Choice<inverse::Light::Type> choices<inverse::Light::Type>[] = {
@@ -76,6 +81,11 @@ inline void describe(preset::Fields& v, Picture& p) {
   const bool straight = p.type == Type::cross || p.type == Type::bars;
   if (p.type == Type::file) {
     v.field("file", "A picture file.", p.file, {.text = preset::Text::file, .required = true});
+    v.field("fit", "How large the file is.", p.fit);
+    v.field("mirror", "Whether left and right are exchanged, before it is turned.", p.mirror);
+    v.field("invert", "Whether dark becomes bright, as in a negative; what is transparent stays so.", p.invert);
+    v.field("ground", "Luminance behind what is transparent.", p.ground,
+            {.unit = "parts of white", .bounds = preset::within(0, 1)});
     v.field("tone",
             "Exponent on the file's luminance, of which the brightest pixel has 1: more than 1 darkens its greys.",
             p.tone, {.bounds = preset::within(0.1, 10)});
@@ -92,8 +102,8 @@ inline void describe(preset::Fields& v, Picture& p) {
   if (straight) part("width", "Width of a bar, and of the gap to the next one.", p.width);
   if (p.type == Type::bars || p.type == Type::star)
     v.field("count", "How many bars, or points of the star.", p.count, {.bounds = preset::within(1, 100)});
-  if (p.type != Type::file && p.type != Type::qr && p.type != Type::disc && p.type != Type::ring)
-    v.field("turn_deg", "How far it is turned, counterclockwise.", p.turn_deg,
+  if (p.type != Type::qr && p.type != Type::disc && p.type != Type::ring)
+    v.field("turn_deg", "How far it is turned, counterclockwise; a file by multiples of 90.", p.turn_deg,
             {.unit = "degrees", .bounds = preset::within(-3600, 3600)});
   v.field("background", "Brightness where nothing is drawn; the drawing has 1.", p.background,
           {.bounds = preset::within(0, 0.99)});

@@ -76,7 +76,7 @@ std::vector<plan::Decision> decisions_of(const Settings& s, const Layout& l) {
 } // namespace
 
 Design::Design(const preset::Preset& preset)
-    : layout(make_layout(preset)), targets(make_targets(preset, layout)), settings_(settings(preset)) {}
+    : layout(make_layout(preset)), targets(make_targets(preset, layout, file_notes)), settings_(settings(preset)) {}
 
 const std::vector<Target>& Design::best() const {
   std::call_once(has_best_, [&] { best_ = best_possible(blurring_layout(settings_, layout), targets); });
@@ -116,14 +116,13 @@ InversePlan make_plan(const preset::Preset& preset) {
 std::vector<std::string> notes_of(const preset::Preset& preset, const Design& design) {
   const Settings& s = settings(preset);
   const Layout& l = design.layout;
-  std::vector<std::string> notes;
-  // A lens gathers a drawing's light.
-  const bool drawn_by_lens = s.method == Settings::Method::lens && s.receivers[0].picture.type != Picture::Type::file;
-  if (!drawn_by_lens && (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001))
+  std::vector<std::string> notes = design.file_notes;
+  if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)
     notes.push_back(fmt::format(
-        "facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
-        "soft; choose more facets or fewer cells",
-        l.facet().x, l.facet().y, l.cell().x, l.cell().y));
+        "facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: {}; choose more facets or "
+        "fewer cells",
+        l.facet().x, l.facet().y, l.cell().x, l.cell().y,
+        s.method == Settings::Method::lens ? "even grey shows them as a pattern" : "the pictures become soft"));
   std::ranges::move(picture_notes(s, l, design.targets, design.best()), std::back_inserter(notes));
   std::ranges::move(workshop_notes(s, l), std::back_inserter(notes));
   const std::int64_t trials = Pipeline::trials_of(s.thesis);

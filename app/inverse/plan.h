@@ -15,7 +15,8 @@ public:
   explicit Design(const preset::Preset& preset);
 
   const Layout layout;
-  const std::vector<Target> targets; ///< the wanted light of each receiver
+  std::vector<std::string> file_notes; ///< what picture files say and is not obeyed
+  const std::vector<Target> targets;   ///< the wanted light of each receiver
 
   /// How close to each target an object can come (pictures/preview.h). The first call computes it, in up to a second.
   const std::vector<Target>& best() const;

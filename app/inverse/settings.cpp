@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace nephroid::inverse {
 namespace {
 
@@ -36,6 +38,10 @@ void check_picture(const Picture& p, const std::string& pointer, const Where& wh
   if (p.levels[0] >= p.levels[1])
     throw bad_input(where(preset::child(pointer, "levels")), fmt::format("is [{}, {}]", p.levels[0], p.levels[1]),
                     "expected the darker one first");
+  if (p.type == Picture::Type::file && std::fmod(p.turn_deg, 90) != 0)
+    throw bad_input(where(preset::child(pointer, "turn_deg")),
+                    fmt::format("is {}, and a file is turned by quarters", p.turn_deg), "expected a multiple of 90",
+                    "turn the file itself by other angles");
   if (p.type == Picture::Type::star && p.count < 2)
     throw bad_input(where(preset::child(pointer, "count")), fmt::format("is {}", p.count),
                     "expected a star of at least 2 points");

@@ -36,8 +36,13 @@ struct Thesis {
 /// middle. JSON: a string (a picture file) or an object with "type".
 struct Picture {
   enum class Type { file, disc, ring, cross, bars, star, gradient, face, text, qr };
+  enum class Fit { contain, cover };
   Type type = Type::disc;
   std::string file;                   ///< file: its luminance, fitted into the receiver
+  Fit fit = Fit::contain;             ///< file: how large it is
+  bool mirror = false;                ///< file: left and right are exchanged, before it is turned
+  bool invert = false;                ///< file: a negative, but for what is transparent
+  double ground = 0;                  ///< file: luminance of what is behind transparent pixels; white is 1
   double tone = 1;                    ///< file: exponent on its luminance, whose maximum is 1
   std::array<double, 2> levels{0, 1}; ///< file: what becomes 0 and what becomes 1, after the tone
   double vignette = 0;                ///< file: width of its soft edge, in parts of half its shorter side
@@ -47,7 +52,7 @@ struct Picture {
   double length = 0.7;                ///< cross and bars; text: its width
   double width = 0.15;                ///< cross and bars; bars are as far apart as they are wide
   int count = 3;                      ///< bars; star: how many points it has
-  double turn_deg = 0;                ///< counterclockwise
+  double turn_deg = 0;                ///< counterclockwise; file: a multiple of 90
   double background = 0;              ///< brightness where nothing is drawn; the drawing has 1
   bool operator==(const Picture&) const = default;
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/read_picture.h"
 
-#include "base/parallel.h"
 #include "image/image.h"
 
 #include <fmt/format.h>
@@ -34,7 +33,14 @@ image::Image layer_of(const image::Image& picture, const std::string& layer, con
                                    : fmt::format("expected one of {}", fmt::join(layers, ", ")),
                     "compare image.exr of a run");
   const std::size_t stride = picture.channels.size();
-  image::Image rgb{picture.width, picture.height, {"R", "G", "B"}, {}, picture.attributes, picture.integers};
+  image::Image rgb{.width = picture.width,
+                   .height = picture.height,
+                   .channels = {"R", "G", "B"},
+                   .data = {},
+                   .attributes = picture.attributes,
+                   .integers = picture.integers,
+                   .gamma = picture.gamma,
+                   .chromaticities = picture.chromaticities};
   for (std::size_t first = 0; first < picture.data.size(); first += stride)
     for (const std::size_t c : at) rgb.data.push_back(picture.data[first + c]);
   return rgb;
@@ -42,11 +48,6 @@ image::Image layer_of(const image::Image& picture, const std::string& layer, con
 
 LinearPicture linear(image::Image picture, const std::filesystem::path& file) {
   image::Rgb rgb = image::rgb_of(picture, file.string());
-  if (picture.integers)
-    for_ranges(rgb.values.size(), std::size_t{1} << 15, [&](std::size_t, Range range) {
-      for (std::size_t i = range.begin; i < range.end; ++i)
-        rgb.values[i] = static_cast<float>(image::decoded_srgb(rgb.values[i]));
-    });
   return {picture.width, picture.height,   std::move(rgb.values),        file.string(),
           rgb.grey,      picture.integers, std::move(picture.attributes)};
 }

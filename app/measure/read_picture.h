@@ -17,8 +17,9 @@ struct LinearPicture {
   Pixels pixels() const { return {width, height, rgb, name}; }
 };
 
-/// Files of floats (EXR, HDR, PFM, float TIFF) are linear; files of integers (PNG, JPEG, TIFF) are decoded from sRGB.
-/// The channels R, G, B or, alone or with alpha, Y; alpha and layers are left out. Values may be NaN or infinite:
+/// Files of floats (EXR, HDR, PFM, float TIFF) are linear; files of integers (PNG, JPEG, TIFF) are decoded from sRGB,
+/// or from the gamma that they say. Other primaries become sRGB's. The channels R, G, B or, alone or with alpha, Y;
+/// alpha and layers are left out. Values may be NaN or infinite:
 /// comparisons refuse them. Throws bad_input naming the file: no picture, or other channels.
 LinearPicture read_linear_rgb(const std::filesystem::path& file);
 /// The same, and in `layers` those that the file has, as read_linear_layer reads them: NAME.R, NAME.G, NAME.B.

@@ -65,26 +65,65 @@ void check_range(const std::vector<float>& rgb, const std::string& name, std::ve
                                  name, double(*middle) / mean));
 }
 
+/// Colours of other primaries than sRGB's that sRGB does not have are mixed with grey of their luminance.
+void mix_colours_beyond_srgb(std::vector<float>& rgb, const std::string& name, std::vector<std::string>& warnings) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
+    const float least = std::min({rgb[i], rgb[i + 1], rgb[i + 2]});
+    const float luminance = 0.2126f * rgb[i] + 0.7152f * rgb[i + 1] + 0.0722f * rgb[i + 2];
+    if (!(least < 0 && luminance > 0 && std::isfinite(luminance))) continue;
+    for (std::size_t c = i; c < i + 3; ++c)
+      rgb[c] = rgb[c] == least ? 0 : luminance + luminance / (luminance - least) * (rgb[c] - luminance);
+    ++count;
+  }
+  if (count > 0)
+    warnings.push_back(fmt::format("environment {}: {} a colour that sRGB does not have, mixed with as much grey as "
+                                   "needed; luminances are kept",
+                                   name, counted(count, "texel has", "texels have")));
+}
+
+void multiply_by_alpha(image::Rgb& colours) {
+  for (std::size_t p = 0; p < colours.alpha.size(); ++p)
+    for (std::size_t c = 3 * p; c < 3 * p + 3; ++c) colours.values[c] *= colours.alpha[p];
+}
+
+/// A preset says how bright white is; a file that says so, too, may mean something else.
+void compare_white(double white_cd_m2, double radiance, const std::string& name, std::vector<std::string>& warnings) {
+  constexpr double lumens_of_watt = 683; // of light at 555 nm, by which luminances in W/(m^2 sr) are weighted
+  const double said = white_cd_m2 / lumens_of_watt;
+  if (said > 0 && std::abs(said / radiance - 1) > 1e-3)
+    warnings.push_back(fmt::format("environment {}: its file says that white has {:g} cd/m^2; a 'radiance' of {:.4g} "
+                                   "makes it so, and the preset has {:g}",
+                                   name, white_cd_m2, said, radiance));
+}
+
 /// The picture alone, without how bright it is and how it is turned.
-Environment read_environment(const std::filesystem::path& file, std::vector<std::string>& warnings) {
+Environment read_environment(const std::filesystem::path& file, double radiance, std::vector<std::string>& warnings) {
   const image::Image picture = image::read_image(file);
+  const std::string name = file.filename().string();
+  if (const auto format = picture.attributes.find("textureformat");
+      format != picture.attributes.end() && format->second.find("Cube") != std::string::npos)
+    throw bad_input(file.string(), "is a cube of six pictures", "expected a latitude-longitude picture", "convert it");
   if (picture.data.size() / picture.channels.size() > most_texels)
     throw bad_input(file.string(), fmt::format("has {} x {} texels", picture.width, picture.height),
                     fmt::format("expected at most {} in all", most_texels), "make it smaller");
   Environment result;
   result.width = picture.width;
   result.height = picture.height;
-  result.rgb = image::rgb_of(picture, file.string()).values;
-  mend_negative_texels(result.rgb, file.filename().string(), warnings);
+  for (const std::string& note : picture.notes) warnings.push_back(fmt::format("environment {}: {}", name, note));
+  compare_white(picture.white_cd_m2, radiance, name, warnings);
+  image::Rgb colours = image::rgb_of(picture, file.string());
+  if (picture.integers) multiply_by_alpha(colours);
+  result.rgb = std::move(colours.values);
+  if (picture.chromaticities) mix_colours_beyond_srgb(result.rgb, name, warnings);
+  mend_negative_texels(result.rgb, name, warnings);
   check_texels(result.rgb, result.width, file);
-  if (picture.integers)
-    for (float& value : result.rgb) value = static_cast<float>(image::decoded_srgb(value));
-  check_range(result.rgb, file.filename().string(), warnings);
+  check_range(result.rgb, name, warnings);
   if (result.width != 2 * result.height)
     warnings.push_back(
         fmt::format("environment {}: has {} x {} texels; a latitude-longitude picture is twice as wide as high, "
                     "so it is stretched to that",
-                    file.filename().string(), result.width, result.height));
+                    name, result.width, result.height));
   return result;
 }
 
@@ -115,7 +154,7 @@ Environment make_environment(const preset::Environment& environment, const FileF
                              std::vector<std::string>& warnings) {
   Environment result;
   if (environment.type == preset::Environment::Type::file) {
-    result = read_environment(finder.find(environment.file, where / "file"), warnings);
+    result = read_environment(finder.find(environment.file, where / "file"), environment.radiance, warnings);
     result.rotate_deg = environment.rotate_deg;
   } else {
     result.width = result.height = 1;

@@ -29,11 +29,12 @@ struct Environment {
   bool is_black() const;
 };
 
-/// Floats of a file are taken as linear, integers as sRGB-encoded; a grey picture is as good as one with colours.
+/// A file is read as image/image.h says, multiplied by its alpha; a grey picture is as good as one with colours. Of
+/// colours that sRGB does not have the luminance is kept.
 /// Throws bad_input at the file for what is no such picture, naming the texel of a value that is NaN, infinite or
 /// negative, and at `where` (FILE#/scene/environment) for a file that is not there. Values below 0 that are at most a
-/// thousandth of all light in sum become 0. Appends to warnings where there are such, and where the picture's shape is
-/// not 2 : 1.
+/// thousandth of all light in sum become 0. Appends to warnings where there are such, where the picture's shape is
+/// not 2 : 1, and what the file says and is not obeyed.
 Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Location& where,
                              std::vector<std::string>& warnings);
 

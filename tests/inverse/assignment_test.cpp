@@ -122,7 +122,7 @@ TEST(Assignment, GoesOnWithTheSameBitsInTheRefinement) {
 TEST(Assignment, HasThePicturesOfAnObjectThatIsNotSquare) {
   Layout layout{.size = {120, 60}, .facets = {64, 32}, .receiver = {80, 80}, .cells = {24, 24}, .distances = {150}};
   const Picture star{.type = Picture::Type::star, .count = 5};
-  const std::vector<Target> targets{make_target(star, layout, FileFinder(), "star")};
+  const std::vector<Target> targets{drawn(star, layout)};
   Assignment a(test::shared_context(), layout, targets, 1);
   sweep(a, 3);
   EXPECT_LT(a.costs()[0].cost, 0.12);

@@ -7,6 +7,7 @@
 #include "inverse/pictures/preview.h"
 #include "inverse/pictures/target.h"
 #include "preset/read.h"
+#include "tests/inverse/drawn.h"
 #include "tests/support/jpeg.h"
 #include "tests/support/render.h"
 #include "tests/support/test.h"
@@ -22,12 +23,15 @@ Layout cells(int across, int down) { return {.receiver = glm::dvec2(across, down
 
 class Photographs : public testing::Test {
 protected:
-  Target made(const Picture& picture, const Layout& layout) { return make_target(picture, layout, FileFinder(), "p"); }
+  Target made(const Picture& picture, const Layout& layout) {
+    return make_target(picture, layout, FileFinder(), "p", file_notes);
+  }
   std::string write(int width, int height, const std::vector<float>& greys) {
-    image::write_exr(folder.path() / "p.exr", {width, height, {"Y"}, greys, {}, false});
+    image::write_exr(folder.path() / "p.exr", {width, height, {"Y"}, greys});
     return (folder.path() / "p.exr").string();
   }
   test::TemporaryFolder folder;
+  std::vector<std::string> file_notes;
 };
 
 TEST_F(Photographs, ToneIsAnExponent) {
@@ -71,8 +75,90 @@ TEST_F(Photographs, AreDarkWhereTheyAreTransparent) {
   Picture picture{.type = Picture::Type::file, .file = (folder.path() / "cut.png").string()};
   EXPECT_THAT(made(picture, cells(2, 1)), ElementsAre(0, 1));
   image::write_png_bytes(folder.path() / "cut.png", 2, 1, {255, 255, 255, 0, 0, 255, 0, 0});
-  EXPECT_THAT(test::refusal_of([&] { made(picture, cells(2, 1)); }),
-              HasSubstr("cut.png: is black all over or transparent"));
+  EXPECT_THAT(
+      test::refusal_of([&] { made(picture, cells(2, 1)); }),
+      AllOf(HasSubstr("cut.png: is black all over or transparent"), HasSubstr("'ground'"), HasSubstr("'invert'")));
+}
+
+// A soft edge: white of alpha .5 is .5 of white, whether integers are multiplied by alpha or floats are.
+TEST_F(Photographs, CountAlphaOnce) {
+  const std::pair<std::string, std::string> files[] = {{"a.tif", test::tiff(2, 1, 1, "\xff\x80\xff\xff", 2)},
+                                                       {"b.tif", test::tiff(2, 1, 1, "\x80\x80\xff\xff", 1)}};
+  for (const auto& [name, bytes] : files) {
+    const Target target = made({.type = Picture::Type::file, .file = folder.write(name, bytes)}, cells(2, 1));
+    EXPECT_NEAR(target[0] / target[1], 128 / 255.0, 1e-6) << name;
+  }
+  image::write_exr(folder.path() / "c.exr", {2, 1, {"A", "Y"}, {0.5f, 0.5f, 1, 1}});
+  Picture picture{.type = Picture::Type::file, .file = (folder.path() / "c.exr").string()};
+  EXPECT_THAT(made(picture, cells(2, 1)), ElementsAre(DoubleNear(1 / 3.0, 1e-9), DoubleNear(2 / 3.0, 1e-9)));
+  picture.ground = 0.5; // behind half of the first pixel
+  EXPECT_THAT(made(picture, cells(2, 1)), ElementsAre(DoubleNear(3 / 7.0, 1e-9), DoubleNear(4 / 7.0, 1e-9)));
+}
+
+// Black beside a transparent pixel: on a ground that is bright, inverted it is. 188 is half of white, and 67 its
+// negative.
+TEST_F(Photographs, HaveAGroundAndANegative) {
+  image::write_png_bytes(folder.path() / "p.png", 2, 1, {0, 0, 0, 255, 0, 0, 0, 0});
+  Picture picture{.type = Picture::Type::file, .file = (folder.path() / "p.png").string(), .ground = 1};
+  EXPECT_THAT(made(picture, cells(2, 1)), ElementsAre(0, 1));
+  picture.invert = true;
+  picture.ground = 0;
+  EXPECT_THAT(made(picture, cells(2, 1)), ElementsAre(1, 0));
+  image::write_png_bytes(folder.path() / "p.png", 2, 1, {188, 188, 188, 255, 0, 0, 0, 255});
+  const Target target = made(picture, cells(2, 1));
+  EXPECT_NEAR(target[0] / target[1], image::decoded_srgb(67 / 255.0), 1e-4);
+}
+
+// Two pixels above two: 0, 1 of 4, 2, 3.
+TEST_F(Photographs, AreMirroredThenTurned) {
+  Picture picture{.type = Picture::Type::file, .file = write(2, 2, {0, 1, 2, 3})};
+  const auto order = [&] {
+    std::vector<long> greys;
+    for (const double light : made(picture, cells(2, 2))) greys.push_back(std::lround(6 * light));
+    return greys;
+  };
+  picture.turn_deg = 90;
+  EXPECT_THAT(order(), ElementsAre(1, 3, 0, 2));
+  picture.turn_deg = -180;
+  EXPECT_THAT(order(), ElementsAre(3, 2, 1, 0));
+  picture.mirror = true;
+  EXPECT_THAT(order(), ElementsAre(2, 3, 0, 1));
+  picture.turn_deg = 450;
+  EXPECT_THAT(order(), ElementsAre(0, 2, 1, 3));
+}
+
+// Of 4 x 1 pixels on 2 x 1 cells the middle two fill them; what is cropped does not count as the brightest either.
+TEST_F(Photographs, FillTheReceiverWhereTheyCoverIt) {
+  Picture picture{.type = Picture::Type::file, .file = write(4, 1, {9, 1, 3, 0}), .fit = Picture::Fit::cover};
+  EXPECT_THAT(made(picture, cells(2, 1)), ElementsAre(DoubleNear(0.25, 1e-9), DoubleNear(0.75, 1e-9)));
+  picture.levels = {0, 0.5}; // of 3
+  EXPECT_THAT(made(picture, cells(2, 1)), ElementsAre(DoubleNear(0.4, 1e-9), DoubleNear(0.6, 1e-9)));
+}
+
+// A radiance picture whose pixels are twice as high as wide.
+TEST_F(Photographs, HaveThePixelsThatTheySay) {
+  const std::string file = folder.write("p.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nPIXASPECT=2\n\n-Y 1 +X 2\n" +
+                                                     std::string("\x80\x80\x80\x80\xff\xff\xff\x80", 8));
+  const Target target = made({.type = Picture::Type::file, .file = file}, cells(2, 2));
+  EXPECT_EQ(target[0], target[2]);
+  EXPECT_NEAR(target[0] / target[1], 128 / 255.0, 1e-6);
+}
+
+TEST_F(Photographs, AreTurnedByQuarters) {
+  EXPECT_THAT(test::refusal_of([&] {
+                preset::parse_preset(
+                    R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"receivers": [{"distance_mm": 100,
+                  "picture": {"type": "file", "file": "p.exr", "turn_deg": 45}}]}})",
+                    "p.json");
+              }),
+              HasSubstr("turn_deg: is 45, and a file is turned by quarters; expected a multiple of 90"));
+}
+
+TEST_F(Photographs, SayWhatOfAFileIsNotObeyed) {
+  const std::string file = folder.write("p.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nGAMMA=2\n\n-Y 1 +X 2\n" +
+                                                     std::string("\x80\x80\x80\x80\xff\xff\xff\x80", 8));
+  made({.type = Picture::Type::file, .file = file}, cells(2, 2));
+  EXPECT_THAT(file_notes, ElementsAre(HasSubstr("picture p.hdr: its header says GAMMA=2, which is not obeyed")));
 }
 
 // 1700 x 1300 pixels of three channels are read in two bands. Row y has the byte y / 6, column x adds nothing: a row of
@@ -158,7 +244,7 @@ Layout layout_with(double scatter) {
 
 TEST(BestPossible, IsThePictureWhereFacetsAreSmall) {
   const Layout layout = layout_with(0);
-  const Target target = make_target({.type = Picture::Type::star}, layout, FileFinder(), "p");
+  const Target target = drawn({.type = Picture::Type::star}, layout);
   EXPECT_EQ(best_possible(layout, target, 0), target);
 }
 
@@ -166,7 +252,7 @@ TEST(BestPossible, IsThePictureWhereFacetsAreSmall) {
 // finer than at cells' middles, and the smear is kept along the axes alone.
 TEST(BestPossible, IsAsSoftAsTheLightOfAFacet) {
   const Layout layout = layout_with(0.02); // 4 mm, cells are 3.1 mm
-  const Target target = make_target({.type = Picture::Type::ring}, layout, FileFinder(), "p");
+  const Target target = drawn({.type = Picture::Type::ring}, layout);
   const Target best = best_possible(layout, target, 0);
   EXPECT_NEAR(std::accumulate(best.begin(), best.end(), 0.0), 1, 1e-12);
   EXPECT_GE(*std::min_element(best.begin(), best.end()), 0);
@@ -224,6 +310,25 @@ TEST_F(PictureNotes, SayWhatAPhotographComesTo) {
   EXPECT_THAT(notes(R"(, "background": 0.2}}], "scatter_deg": 1)"), Contains(HasSubstr("comes hardly closer than")));
 }
 
+// What is said of a photograph is said of a drawing that has greys, or that a lens makes of little light.
+TEST_F(PictureNotes, SayItOfDrawingsToo) {
+  const auto said = [](const std::string& method, const std::string& picture) {
+    const preset::Preset p = preset::parse_preset(
+        fmt::format(R"({{"engine": "inverse", "scene": {{"camera": {{}}}}, "inverse": {{"method": "{}",
+      "facets": [64, 64], "cells": [32, 32], "index": 1.5, "thickness_mm": 40,
+      "receivers": [{{"distance_mm": 300, "picture": {}}}]}}}})",
+                    method, picture),
+        "p.json");
+    return notes_of(p, Design(p));
+  };
+  const std::string spot = R"({"type": "disc", "radius": 0.1)";
+  EXPECT_THAT(said("assign", spot + "}"), IsEmpty());
+  EXPECT_THAT(said("assign", spot + R"(, "background": 0.3})"), ElementsAre(HasSubstr("which greys show as grain")));
+  EXPECT_THAT(said("assign", R"({"type": "gradient"})"), ElementsAre(HasSubstr("which greys show as grain")));
+  EXPECT_THAT(said("lens", spot + "}"), Contains(HasSubstr("picture 1 is dark")));
+  EXPECT_THAT(said("lens", spot + R"(, "background": 0.3})"), IsEmpty());
+}
+
 // In every light the coarse lens is as deep as the one that is made.
 TEST_F(PictureNotes, ALensIsAsDeepInLightFromTheSide) {
   for (const char* light :
@@ -243,18 +348,21 @@ TEST_F(PictureNotes, ALensIsAsDeepInLightFromTheSide) {
     }
 }
 
-// A lens gathers the light of facets that are larger than a cell: nothing may be said to come of their size.
+// A lens gathers the light of its facets: it is not sharper where they are smaller than half a cell.
 TEST_F(PictureNotes, ALensHasNoGrain) {
   preset::Preset p =
       preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"method": "lens",
-    "facets": [16, 16], "cells": [64, 64], "index": 1.5, "thickness_mm": 40, "receivers": [{"distance_mm": 300, "picture": {"type": "ring"}}]}})",
+    "facets": [128, 128], "cells": [64, 64], "index": 1.5, "thickness_mm": 40, "receivers": [{"distance_mm": 300, "picture": {"type": "ring"}}]}})",
                            "p.json");
   EXPECT_THAT(notes_of(p, Design(p)), IsEmpty());
   settings(p).scatter_deg = 1;
   EXPECT_THAT(notes_of(p, Design(p)), ElementsAre(HasSubstr("picture 1 comes hardly closer than")));
-  settings(p).method = Settings::Method::assign;
   settings(p).scatter_deg = 0;
-  EXPECT_THAT(notes_of(p, Design(p)), Contains(HasSubstr("are larger than half a cell")));
+  settings(p).facets = {127, 127};
+  EXPECT_THAT(notes_of(p, Design(p)), ElementsAre(AllOf(HasSubstr("are larger than half a cell"),
+                                                        HasSubstr("even grey shows them as a pattern"))));
+  settings(p).method = Settings::Method::assign;
+  EXPECT_THAT(notes_of(p, Design(p)), Contains(HasSubstr("half a cell of 1.562 x 1.562 mm: the pictures become soft")));
 }
 
 // The coarse lens is as deep as the one that is made.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Words, QR codes and grey levels as light a cell.
 #include "inverse/pictures/target.h"
+#include "tests/inverse/drawn.h"
 #include "tests/support/test.h"
 
 namespace nephroid::pictures_test {
@@ -14,8 +15,6 @@ Picture words(const std::string& text, double length) {
 }
 
 Picture code(const std::string& text) { return {.type = Picture::Type::qr, .text = text}; }
-
-Target made(const Picture& picture, const Layout& layout) { return make_target(picture, layout, FileFinder(), "p"); }
 
 struct Box {
   int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1;
@@ -32,7 +31,7 @@ Box lit(const Target& target, int across) {
 }
 
 TEST(Pictures, WordsAreAsWideAsTheyShouldBeAndUpright) {
-  const Target target = made(words("L", 0.4), cells(100, 80)); // 32 cells of the shorter side's 80
+  const Target target = drawn(words("L", 0.4), cells(100, 80)); // 32 cells of the shorter side's 80
   const Box box = lit(target, 100);
   EXPECT_NEAR(box.right - box.left + 1, 32, 1);
   EXPECT_NEAR(box.left + box.right, 99, 1); // centred
@@ -47,9 +46,9 @@ TEST(Pictures, WordsAreAsWideAsTheyShouldBeAndUpright) {
 
 TEST(Pictures, WordsTurn) {
   Picture picture = words("WIDE", 0.9);
-  const Box before = lit(made(picture, cells(90, 90)), 90);
+  const Box before = lit(drawn(picture, cells(90, 90)), 90);
   picture.turn_deg = 90;
-  const Box after = lit(made(picture, cells(90, 90)), 90);
+  const Box after = lit(drawn(picture, cells(90, 90)), 90);
   EXPECT_NEAR(before.right - before.left, after.bottom - after.top, 1);
   EXPECT_NEAR(before.bottom - before.top, after.right - after.left, 1);
   EXPECT_GT(before.right - before.left, 2 * (before.bottom - before.top));
@@ -58,7 +57,7 @@ TEST(Pictures, WordsTurn) {
 // Version 1 has 21 modules and 4 of quiet zone on each side: 58 cells are 29 modules of 2 cells.
 TEST(Pictures, ACodeIsWholeCellsWithItsQuietZone) {
   for (const auto& [across, module] : {std::pair(58, 2), {64, 2}, {29, 1}, {128, 4}}) {
-    const Target target = made(code("NEPHROID"), cells(across, across));
+    const Target target = drawn(code("NEPHROID"), cells(across, across));
     const double most = *std::max_element(target.begin(), target.end());
     const int corner = (across - 29 * module) / 2;
     // In modules from the code's corner: the finder patterns are 7 wide, with a light ring in them; their middles are 3
@@ -79,26 +78,26 @@ TEST(Pictures, ACodeIsWholeCellsWithItsQuietZone) {
 }
 
 TEST(Pictures, ACodeSaysHowManyCellsWouldDo) {
-  EXPECT_THAT(test::refusal_of([] { made(code("NEPHROID"), cells(28, 64)); }),
+  EXPECT_THAT(test::refusal_of([] { drawn(code("NEPHROID"), cells(28, 64)); }),
               AllOf(HasSubstr("p#/text: needs a QR code of version 1, 29 modules with its quiet zone, and the receiver "
                               "has 28 x 64 cells"),
                     HasSubstr("expected at least 29 cells across and down, better 58")));
-  EXPECT_NO_THROW(made(code("NEPHROID"), cells(29, 64)));
-  EXPECT_THAT(test::refusal_of([] { made(code(std::string(60, 'x')), cells(36, 36)); }),
+  EXPECT_NO_THROW(drawn(code("NEPHROID"), cells(29, 64)));
+  EXPECT_THAT(test::refusal_of([] { drawn(code(std::string(60, 'x')), cells(36, 36)); }),
               HasSubstr("version 4")); // 78 bytes at level L
-  EXPECT_THAT(test::refusal_of([] { made(code(std::string(2954, 'x')), cells(1024, 1024)); }),
+  EXPECT_THAT(test::refusal_of([] { drawn(code(std::string(2954, 'x')), cells(1024, 1024)); }),
               HasSubstr("more than any QR code holds"));
 }
 
 TEST(Pictures, WordsWithoutLetters) {
-  EXPECT_THAT(test::refusal_of([] { made(words("  ", 0.5), cells(32, 32)); }),
+  EXPECT_THAT(test::refusal_of([] { drawn(words("  ", 0.5), cells(32, 32)); }),
               HasSubstr("p: leaves every cell of the receiver dark"));
 }
 
 // A face is lit, has grey levels, and its eyes are darker than its brow.
 TEST(Pictures, AFaceHasGreyLevels) {
   Picture picture{.type = Picture::Type::face, .radius = 0.5};
-  const Target target = made(picture, cells(64, 64));
+  const Target target = drawn(picture, cells(64, 64));
   std::vector<double> values(target);
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());

@@ -4,6 +4,7 @@
 #include "inverse/assign/assignment.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/pictures/target.h"
+#include "tests/inverse/drawn.h"
 #include "tests/support/render.h"
 #include "tests/support/test.h"
 
@@ -23,8 +24,7 @@ inline Spectrum band(double n, double width) {
 }
 
 inline std::vector<Target> ring_and_disc(const Layout& layout) {
-  return {make_target({.type = Picture::Type::ring}, layout, FileFinder(), "ring"),
-          make_target({}, layout, FileFinder(), "disc")};
+  return {drawn({.type = Picture::Type::ring}, layout), drawn({}, layout)};
 }
 
 /// Adds the facet's light, `sign` times, to every receiver's.

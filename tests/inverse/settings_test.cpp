@@ -25,7 +25,7 @@ protected:
   }
   /// Of a picture file of these greys.
   std::string refusal_of_picture(int width, int height, const std::vector<float>& greys) {
-    image::Image picture{width, height, {"Y"}, greys, {}, false};
+    image::Image picture{width, height, {"Y"}, greys};
     image::write_exr(folder.path() / "p.exr", picture);
     return refusal({"inverse.receivers.0.picture=" + (folder.path() / "p.exr").string()});
   }
@@ -237,7 +237,7 @@ TEST_F(InverseSettings, WhatThisEngineHasNot) {
 // A file's pixels fall into cells by their parts, and keep their aspect: 2 x 1 pixels on a square receiver of 4 x 4
 // cells fill its two middle rows.
 TEST_F(InverseSettings, APictureFileFitsTheReceiver) {
-  image::Image picture{2, 1, {"Y"}, {0.5f, 1.5f}, {}, false};
+  image::Image picture{2, 1, {"Y"}, {0.5f, 1.5f}};
   image::write_exr(folder.path() / "p.exr", picture);
   const auto plan = inverse::make_plan(
       read({"inverse.receivers.0.picture=" + (folder.path() / "p.exr").string(), "inverse.cells=[4, 4]"}));

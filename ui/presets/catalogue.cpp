@@ -170,7 +170,7 @@ Thumbnails::Pixels Thumbnails::read(const std::string& file) {
     if (picture.width < 1 || picture.height < 1 || picture.width > most_pixels || picture.height > most_pixels)
       return pixels;
     for (std::size_t i = 0; const float value : image::rgb_of(picture, file).values) {
-      pixels.rgba8.push_back(static_cast<unsigned char>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))));
+      pixels.rgba8.push_back(image::shown(value, 1));
       if (++i % 3 == 0) pixels.rgba8.push_back(255);
     }
     pixels.width = picture.width;

@@ -3,7 +3,9 @@
 #include "inverse/pictures/target.h"
 
 #include "image/image.h"
+#include "optics/colour.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
@@ -32,64 +34,69 @@ std::vector<CellCoverage> covered_by(int pixels, bool backwards, double pixel, i
   return all;
 }
 
-/// Where the pixels of a file lie on the receiver. Exif's orientations 5 to 8 have the file's rows upright.
+/// Where the pixels of a file lie on the receiver.
 struct FileRaster {
-  bool turned = false;
-  glm::dvec2 half{0};                      ///< half the whole picture's size, millimetres
-  std::vector<CellCoverage> columns, rows; ///< what the file's cover; turned: its columns cover rows of cells
+  bool transposed = false;
+  glm::dvec2 half{0};                      ///< half the size of what is seen of the picture, millimetres
+  std::vector<CellCoverage> columns, rows; ///< what the file's cover; transposed: its columns cover rows of cells
 };
 
-FileRaster place_of(const Layout& layout, const glm::ivec2& file, int orientation) {
+FileRaster place_of(const Layout& layout, const Picture& picture, const image::Band& band) {
+  image::PixelOrder order = picture.mirror ? image::mirrored(band.order) : band.order;
+  const int quarters = static_cast<int>(std::lround(picture.turn_deg / 90)) % 4;
+  for (int i = 0; i < (quarters + 4) % 4; ++i) order = image::turned_left(order);
   FileRaster place;
-  place.turned = orientation >= 5;
-  const glm::dvec2 upright = place.turned ? glm::dvec2(file.y, file.x) : glm::dvec2(file);
-  const double millimetres = std::min(layout.receiver.x / upright.x, layout.receiver.y / upright.y);
-  const glm::dvec2 pixel = millimetres / layout.cell();
-  place.half = upright * millimetres / 2.0;
-  const auto is = [&](std::initializer_list<int> list) {
-    return std::find(list.begin(), list.end(), orientation) != list.end();
-  };
-  const bool columns_back = is({2, 3, 7, 8}), rows_back = is({3, 4, 6, 7});
-  place.columns = covered_by(file.x, columns_back, pixel[place.turned ? 1 : 0], layout.cells[place.turned ? 1 : 0]);
-  place.rows = covered_by(file.y, rows_back, pixel[place.turned ? 0 : 1], layout.cells[place.turned ? 0 : 1]);
+  place.transposed = order.transposed;
+  const int across = order.transposed ? 1 : 0, down = 1 - across; // the axes of the receiver along columns and rows
+  const glm::ivec2 file(band.rows.width, band.height);
+  glm::dvec2 pixel(1);                                                                        // on the receiver
+  if (band.pixel_aspect > 0.01 && band.pixel_aspect < 100) pixel[across] = band.pixel_aspect; // else nonsense
+  const glm::dvec2 size = pixel * glm::dvec2(file[across], file[down]);
+  const glm::dvec2 largest = layout.receiver / size;
+  pixel *= picture.fit == Picture::Fit::cover ? std::max(largest.x, largest.y) : std::min(largest.x, largest.y);
+  place.half = glm::min(pixel * glm::dvec2(file[across], file[down]), layout.receiver) / 2.0;
+  pixel /= layout.cell();
+  place.columns = covered_by(file.x, order.columns_back, pixel[across], layout.cells[across]);
+  place.rows = covered_by(file.y, order.rows_back, pixel[down], layout.cells[down]);
   return place;
 }
 
-/// Luminance of linear sRGB. Integers are encoded and hide what is transparent; floats are multiplied by their alpha.
+/// Luminance of linear sRGB, over the ground where it is transparent.
 class Luminance {
 public:
-  Luminance() {
-    for (std::size_t i = 0; i < decoded_.size(); ++i)
-      decoded_[i] =
-          static_cast<float>(image::decoded_srgb(static_cast<double>(i) / static_cast<double>(decoded_.size() - 1)));
+  explicit Luminance(const Picture& picture) : invert_(picture.invert), ground_(picture.ground) {
+    for (std::size_t i = 0; invert_ && i < negatives_.size(); ++i) {
+      const double root = static_cast<double>(i) / static_cast<double>(negatives_.size() - 1);
+      negatives_[i] = image::decoded_srgb(1 - optics::srgb_encode(root * root));
+    }
   }
 
   std::vector<double> of(const image::Image& rows, const std::string& name) const {
     const image::Rgb rgb = image::rgb_of(rows, name);
-    const std::size_t stride = rows.channels.size();
-    const auto alpha =
-        static_cast<std::size_t>(std::find(rows.channels.begin(), rows.channels.end(), "A") - rows.channels.begin());
     std::vector<double> values(rgb.values.size() / 3);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const auto linear = [&](std::size_t channel) {
-        const float value = rgb.values[3 * i + channel];
-        return rows.integers ? decoded(value) : static_cast<double>(value);
-      };
-      values[i] = 0.2126 * linear(0) + 0.7152 * linear(1) + 0.0722 * linear(2);
-      if (rows.integers && alpha < stride) values[i] *= rows.data[i * stride + alpha];
-      if (!std::isfinite(values[i]) || values[i] < 0)
+      const float* const colour = &rgb.values[3 * i];
+      const double alpha = rgb.alpha.empty() ? 1 : double(rgb.alpha[i]);
+      double value = 0.2126 * double(colour[0]) + 0.7152 * double(colour[1]) + 0.0722 * double(colour[2]);
+      if (!std::isfinite(value) || value < 0 || !(alpha >= 0 && alpha <= 1))
         throw bad_input(name, "has a pixel that is negative or not a number", "expected a picture of light");
+      if (invert_) value = negative(rows.integers || alpha == 0 ? value : value / alpha);
+      if (rows.integers || invert_) value *= alpha;
+      values[i] = value + (1 - alpha) * ground_;
     }
     return values;
   }
 
 private:
-  /// Files have 8 or 16 bits; some have more, whose values lie between two of the table.
-  double decoded(float value) const {
-    return decoded_[static_cast<std::size_t>(std::lround(value * static_cast<float>(decoded_.size() - 1)))];
+  /// As picture editors invert: what is left to 1 of the encoded value. What is brighter than white counts as white.
+  double negative(double luminance) const {
+    return negatives_[static_cast<std::size_t>(
+        std::lround(std::sqrt(std::clamp(luminance, 0.0, 1.0)) * static_cast<double>(negatives_.size() - 1)))];
   }
 
-  std::vector<float> decoded_ = std::vector<float>(65536);
+  bool invert_;
+  double ground_;
+  std::vector<double> negatives_ = std::vector<double>(65536); ///< by the root of the luminance
 };
 
 /// From 0 at the edge to 1 at `width` and further from it, as smooth as a cosine.
@@ -99,42 +106,50 @@ double fade(double from_edge, double width) {
 
 } // namespace
 
-Target photograph(const std::filesystem::path& file, const Picture& picture, const Layout& layout) {
-  const Luminance luminance;
+Target photograph(const std::filesystem::path& file, const Picture& picture, const Layout& layout,
+                  std::vector<std::string>& notes) {
+  const Luminance luminance(picture);
   Target target(layout.cell_count());
   std::optional<FileRaster> place;
   double low = std::numeric_limits<double>::infinity(), high = 0;
   std::vector<double> along; // a row of the file, a value a cell
   image::read_bands(file, [&](const image::Band& band) {
     const int width = band.rows.width;
-    if (!place) place = place_of(layout, {width, band.height}, band.orientation);
-    const bool turned = place->turned;
+    if (!place) {
+      place = place_of(layout, picture, band);
+      for (const std::string& note : band.rows.notes)
+        notes.push_back(fmt::format("picture {}: {}", file.filename().string(), note));
+    }
+    const bool transposed = place->transposed;
     const std::vector<double> values = luminance.of(band.rows, file.string());
     for (int v = 0; v < band.rows.height; ++v) {
-      along.assign(static_cast<std::size_t>(turned ? layout.cells.y : layout.cells.x), 0);
+      const CellCoverage& down = place->rows[static_cast<std::size_t>(band.first) + static_cast<std::size_t>(v)];
+      if (down.parts.empty()) continue;
+      along.assign(static_cast<std::size_t>(transposed ? layout.cells.y : layout.cells.x), 0);
       for (int u = 0; u < width; ++u) {
+        const CellCoverage& covered = place->columns[static_cast<std::size_t>(u)];
+        if (covered.parts.empty()) continue;
         const double value = values[index_at(u, v, width)];
         low = std::min(low, value);
         high = std::max(high, value);
         const double toned = picture.tone == 1 ? value : std::pow(value, picture.tone);
-        const CellCoverage& covered = place->columns[static_cast<std::size_t>(u)];
         for (std::size_t i = 0; i < covered.parts.size(); ++i)
           along[static_cast<std::size_t>(covered.first) + i] += covered.parts[i] * toned;
       }
-      const CellCoverage& covered = place->rows[static_cast<std::size_t>(band.first) + static_cast<std::size_t>(v)];
-      for (std::size_t k = 0; k < covered.parts.size(); ++k)
+      for (std::size_t k = 0; k < down.parts.size(); ++k)
         for (std::size_t i = 0; i < along.size(); ++i) {
-          const int across = covered.first + static_cast<int>(k), cell = static_cast<int>(i);
-          target[turned ? index_at(across, cell, layout.cells.x) : index_at(cell, across, layout.cells.x)] +=
-              covered.parts[k] * along[i];
+          const int across = down.first + static_cast<int>(k), cell = static_cast<int>(i);
+          target[transposed ? index_at(across, cell, layout.cells.x) : index_at(cell, across, layout.cells.x)] +=
+              down.parts[k] * along[i];
         }
     }
   });
   if (high == 0)
-    throw bad_input(file.string(), "is black all over or transparent", "expected a picture with some light in it");
+    throw bad_input(file.string(), "is black all over or transparent", "expected a picture with some light in it",
+                    "set the picture's 'ground' to 1 to lay it on white, or 'invert' to have a negative of it");
   if (low == high)
     throw bad_input(file.string(), "is one grey all over", "expected a picture with an outline",
-                    "for a disc of light use a drawing");
+                    "choose another 'ground' where it is transparent; for a disc of light use a drawing");
   const auto [black, white] = picture.levels;
   const double most = std::pow(high, picture.tone), edge = picture.vignette * std::min(place->half.x, place->half.y);
   for (std::size_t c = 0; c < target.size(); ++c) {

@@ -122,6 +122,12 @@ double width(const Smear& smear, double cell) {
   return sum > 0 ? cell * std::sqrt(12 * std::max(0.0, second / sum - first * first / (sum * sum)) + 1) : 0;
 }
 
+bool has_greys(const Picture& picture) {
+  using Type = Picture::Type;
+  return picture.type == Type::file || picture.type == Type::face || picture.type == Type::gradient ||
+         picture.background > 0;
+}
+
 } // namespace
 
 Layout blurring_layout(const Settings& settings, Layout layout) {
@@ -192,7 +198,9 @@ std::vector<std::string> picture_notes(const Settings& settings, const Layout& l
                                        const std::vector<Target>& targets, const std::vector<Target>& best) {
   std::vector<std::string> notes;
   for (std::size_t j = 0; j < targets.size(); ++j) {
-    const bool photograph = settings.receivers[j].picture.type == Picture::Type::file;
+    // Flat facets cast bright lines on black best.
+    const bool wants_even =
+        settings.method == Settings::Method::lens || settings.receivers[j].picture.type == Picture::Type::file;
     if (const double off = cost_of(targets[j], best[j], 1).rel_l2; off > far_off) {
       const AxisBlur smears = smears_of(blurring_layout(settings, layout), j);
       notes.push_back(fmt::format(
@@ -201,16 +209,15 @@ std::vector<std::string> picture_notes(const Settings& settings, const Layout& l
           j + 1, off, width(smears.x, layout.cell().x), width(smears.y, layout.cell().y), layout.cell().x,
           layout.cell().y));
     }
-    if (const double times = brightest(targets[j]); photograph && times > very_bright)
+    if (const double times = brightest(targets[j]); wants_even && times > very_bright)
       notes.push_back(fmt::format(
           "picture {} is dark: all light goes to its bright parts, the brightest gets {:.0f} times that of an even "
           "picture, and the object is steep for it; a 'background' of {:.2f} more makes that {}",
           j + 1, times, (1 / bright - 1 / times) / (1 - 1 / times), bright));
   }
-  const bool one_photograph = targets.size() == 1 && settings.receivers[0].picture.type == Picture::Type::file;
-  if (settings.method == Settings::Method::assign && one_photograph)
-    notes.push_back("flat facets cast patches of their own size, which a photograph shows as grain or rings; for one "
-                    "picture choose the method 'lens'");
+  if (settings.method == Settings::Method::assign && targets.size() == 1 && has_greys(settings.receivers[0].picture))
+    notes.push_back("flat facets cast patches of their own size, which greys show as grain or rings; for one picture "
+                    "choose the method 'lens'");
   if (settings.method == Settings::Method::lens)
     if (const double relief = estimated_relief(layout, targets[0]); relief > deep * layout.thickness)
       notes.push_back(fmt::format(

@@ -14,7 +14,8 @@ Layout blurring_layout(const Settings& settings, Layout layout);
 Target best_possible(const Layout& layout, const Target& target, std::size_t receiver);
 std::vector<Target> best_possible(const Layout& layout, const std::vector<Target>& targets);
 
-/// Sentences on pictures too fine for the facets' light, dark photographs, photographs by flat facets, and a deep lens.
+/// Sentences on pictures too fine for the facets' light, dark files and dark pictures of a lens, greys by flat facets,
+/// and a deep lens.
 std::vector<std::string> picture_notes(const Settings& settings, const Layout& layout,
                                        const std::vector<Target>& targets, const std::vector<Target>& best);
 

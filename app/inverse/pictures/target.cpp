@@ -114,19 +114,21 @@ Target draw_words(const Picture& picture, const Layout& layout, const Location& 
   });
 }
 
-Target brightness_of(const Picture& picture, const Layout& layout, const FileFinder& finder, const Location& where) {
+Target brightness_of(const Picture& picture, const Layout& layout, const FileFinder& finder, const Location& where,
+                     std::vector<std::string>& notes) {
   if (picture.type == Picture::Type::text) return draw_words(picture, layout, where);
   if (picture.type == Picture::Type::qr) return qr_cells(picture.text, layout.cells, where / "text");
   if (picture.type != Picture::Type::file)
     return draw(layout,
                 [&, half = half_receiver(layout)](const glm::dvec2& p) { return brightness(picture, p, half); });
-  return photograph(finder.find(picture.file, where), picture, layout);
+  return photograph(finder.find(picture.file, where), picture, layout, notes);
 }
 
 } // namespace
 
-Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Location& where) {
-  Target target = brightness_of(picture, layout, finder, where);
+Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Location& where,
+                   std::vector<std::string>& notes) {
+  Target target = brightness_of(picture, layout, finder, where, notes);
   if (std::all_of(target.begin(), target.end(), [](double t) { return t == 0; }))
     throw bad_input(where, "leaves every cell of the receiver dark",
                     picture.type == Picture::Type::file ? "expected 'levels' that some of the file is above"
@@ -137,12 +139,12 @@ Target make_target(const Picture& picture, const Layout& layout, const FileFinde
   return target;
 }
 
-std::vector<Target> make_targets(const preset::Preset& preset, const Layout& layout) {
+std::vector<Target> make_targets(const preset::Preset& preset, const Layout& layout, std::vector<std::string>& notes) {
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   const Location where = Location(preset.source) / "inverse" / "receivers";
   std::vector<Target> targets;
   for (const Receiver& r : settings(preset).receivers)
-    targets.push_back(make_target(r.picture, layout, finder, where / targets.size() / "picture"));
+    targets.push_back(make_target(r.picture, layout, finder, where / targets.size() / "picture", notes));
   check_reach(layout, targets, preset);
   return targets;
 }
