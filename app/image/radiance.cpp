@@ -115,6 +115,9 @@ void take_size(Header& header, const std::string& line) {
   const auto found = std::ranges::find(axes, across + along);
   if (!words || found == std::end(axes) || header.rows < 1 || header.columns < 1)
     throw Refused{fmt::format("its size is '{}', and one like '-Y 512 +X 1024' is expected", line)};
+  constexpr int most_columns = 1 << 24; // a row is held in memory
+  if (header.columns > most_columns)
+    throw Refused{fmt::format("its rows have {} pixels, and at most {} are read", header.columns, most_columns)};
   header.band.order = pixel_order(static_cast<int>(found - std::begin(axes)) + 1);
 }
 

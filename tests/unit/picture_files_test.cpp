@@ -191,6 +191,7 @@ TEST_F(PictureFiles, RadianceIsRefusedWhereItsHeaderMakesNoSense) {
   EXPECT_THAT(refusal(rgbe + "PRIMARIES=1 2\n", size, pixel), HasSubstr("8 numbers are expected"));
   EXPECT_THAT(refusal(rgbe, "+X 1 -X 1", pixel), HasSubstr("its size is '+X 1 -X 1'"));
   EXPECT_THAT(refusal(rgbe, "-Y 0 +X 1", pixel), HasSubstr("its size is '-Y 0 +X 1'"));
+  EXPECT_THAT(refusal(rgbe, "-Y 1 +X 1000000000", pixel), HasSubstr("its rows have 1000000000 pixels"));
   EXPECT_THAT(refusal(rgbe, size, "abc"), HasSubstr("its end is missing"));
   EXPECT_THAT(refusal(rgbe, "-Y 1 +X 8", std::string{2, 2, 0, 9} + pixel), HasSubstr("another width"));
   EXPECT_THAT(refusal(rgbe, "-Y 1 +X 8", std::string{2, 2, 0, 8, char(255), 1}), HasSubstr("longer than their row"));
