@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/lower_case.h"
 #include "base/numbers.h"
+#include "optics/spectrum.h"
 
 #include <fmt/format.h>
 
