@@ -29,6 +29,7 @@ public:
   const std::vector<double>& light(std::size_t) const override { return light_; }
   std::vector<Cost> costs() const override { return {cost_of(target_, light_, sent_)}; }
   Solid solid() const override;
+  const Surface& surface() const { return surface_; }
   void show(job::Snapshot& made) const override;
 
   void serialize(Archive& archive) override;
