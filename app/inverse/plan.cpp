@@ -22,7 +22,7 @@ namespace {
 /// Measured: a triangle of the solid with its tree, and of a copy with errors; a facet on the host, with its pictures.
 constexpr std::uint64_t triangle_bytes = 145, copied_triangle_bytes = 21, facet_bytes = 400;
 
-std::vector<plan::Decision> decisions_of(const Settings& s, const Layout& l) {
+std::vector<plan::Decision> decisions_of(const Settings& s, const Layout& l, std::uint64_t triangles) {
   const bool blurred = l.blurs(), straight = !l.light.facets;
   const bool assign = s.method == Settings::Method::assign, thesis = s.method == Settings::Method::thesis,
              lens = s.method == Settings::Method::lens;
@@ -56,6 +56,9 @@ std::vector<plan::Decision> decisions_of(const Settings& s, const Layout& l) {
            straight  ? "parallel light straight on: one direction for all facets"
            : l.round ? "a direction and a power of its own for each facet: none beside the round outline"
                      : "a direction of its own for each facet"},
+          {"mesh", true,
+           fmt::format("some {:.2g} million triangles, an STL of {}", static_cast<double>(triangles) / 1e6,
+                       plan::readable_bytes(stl_bytes(triangles)))},
           {"judge", true,
            l.coloured() ? "in colours, by rays through the finished solid, walls and all"
                         : "rays through the finished solid, walls and all"}};
@@ -84,12 +87,13 @@ InversePlan make_plan(const preset::Preset& preset) {
   constexpr std::uint64_t triangles_a_facet = 14; // with its walls
   const std::uint64_t triangles = plan.triangles =
       s.method == Settings::Method::lens ? plan.design->lens().triangles : triangles_a_facet * l.facet_count();
-  if (stl_bytes(triangles) > most_stl_bytes) refuse_mesh(Location(preset.source) / "inverse", s.mesh_error, triangles);
+  if (stl_bytes(triangles) > most_stl_bytes)
+    refuse_mesh(Location(preset.source) / "inverse", plan.design->lens().mesh_error, triangles);
   plan.engine = "inverse";
   plan.layers = 1;
   plan.defines = facet_defines(l);
   plan.smaller = "choose fewer inverse.facets, inverse.cells or inverse.frames, or a smaller scene.camera.resolution";
-  plan.decisions = decisions_of(s, l);
+  plan.decisions = decisions_of(s, l, triangles);
   const std::uint64_t light_channels = l.coloured() ? 6 : 2; // even and odd rounds
   const int cut = 2 * halvings(l);
   const std::uint64_t with_errors = (cut > 0 ? triangle_bytes : copied_triangle_bytes) * (triangles << cut) +

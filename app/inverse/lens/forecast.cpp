@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/lens/forecast.h"
 
-#include "inverse/facets/smooth_solid.h"
 #include "inverse/lens/lens.h"
 #include "inverse/light.h"
 
@@ -13,15 +12,13 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Facets and cells of the coarse lens, a side.
-constexpr int most = 64;
-
+/// As large as its cells are to its facets, so that it comes as close to its picture.
 Layout coarse(Layout layout) {
-  const auto reduced = [](const glm::ivec2& from) {
-    return glm::max(from * most / std::max({from.x, from.y, most}), 2);
-  };
-  layout.facets = reduced(layout.facets);
-  layout.cells = reduced(layout.cells);
+  constexpr int most_facets = 128, most_cells = 64; // a side
+  const int times = std::max({1, (std::max(layout.facets.x, layout.facets.y) + most_facets - 1) / most_facets,
+                              (std::max(layout.cells.x, layout.cells.y) + most_cells - 1) / most_cells});
+  layout.facets = glm::max(layout.facets / times, 2);
+  layout.cells = glm::max(layout.cells / times, 2);
   layout.steepest = std::numeric_limits<double>::infinity();
   layout.light.facets = light_on_facets(layout);
   return layout;
@@ -38,14 +35,14 @@ double steepest_deg(const Layout& layout, const Surface& surface) {
 
 } // namespace
 
-LensForecast forecast(const Layout& layout, const Target& target, double mesh_error) {
+LensForecast forecast(const Layout& layout, const Target& target, std::optional<double> mesh_error) {
   const Layout reduced = coarse(layout);
   Target wanted(reduced.cell_count());
   for (std::size_t c = 0; c < target.size(); ++c) wanted[*reduced.cell_at(layout.middle_of_cell(c))] += target[c];
   Lens lens(reduced, wanted, mesh_error, {}); // its mesh is not made
-  while (lens.steps() == 0) lens.advance();
-  return {lens.relief(), steepest_deg(reduced, lens.surface()),
-          count_triangles(layout, mesh_parts(layout, lens.surface(), mesh_error))};
+  while (!lens.finished() && lens.steps() < lens.most()) lens.advance();
+  return {lens.relief(), steepest_deg(reduced, lens.surface()), lens.mesh_error(),
+          count_triangles(layout, mesh_parts(layout, lens.surface(), lens.mesh_error()))};
 }
 
 std::vector<std::string> forecast_notes(const Settings& settings, const LensForecast& lens) {
