@@ -6,11 +6,9 @@
 #include "inverse/light.h"
 
 #include <fmt/format.h>
-#include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nephroid::inverse {
 namespace {
