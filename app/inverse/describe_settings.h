@@ -115,7 +115,7 @@ inline void describe(preset::Fields& v, Receiver& r) {
           {.unit = "mm", .bounds = preset::within(0.01, 1e6), .required = true});
   v.field("offset_mm",
           "Of its middle beside that of the object: to the right and up. Pictures that are beside each other fight "
-          "less. With the method 'assign'.",
+          "less. Not with the method 'thesis'.",
           r.offset_mm, {.unit = "mm", .bounds = preset::within(-1e6, 1e6)});
   v.field("picture", "What the object casts there: a file, or an object.", r.picture, {.required = true});
   v.field("weight",
@@ -187,8 +187,10 @@ inline void describe(preset::Fields& v, Settings& s) {
   v.field("method", "How the facets' slopes are found.", s.method);
   v.field("size_mm", "Width and height of the object.", s.size_mm, {.unit = "mm", .bounds = within(0.1, 1e5)});
   v.field("outline", "What the object looks like from the front; light beside it is not there.", s.outline);
-  v.field("thickness_mm", "From the middle of the relief to the flat front.", s.thickness_mm,
-          {.unit = "mm", .bounds = within(0.01, 1e5)});
+  v.field(
+      "thickness_mm",
+      "From the middle of the relief to the flat front; a sheet that holds the object is thicker by half the relief.",
+      s.thickness_mm, {.unit = "mm", .bounds = within(0.01, 1e5)});
   v.field("heights", "Where the middles of the facets are.", s.heights);
   v.field("min_thickness_mm", "No part of the object may be thinner.", s.min_thickness_mm,
           {.unit = "mm", .bounds = within(0.001, 1e5)});
@@ -212,7 +214,8 @@ inline void describe(preset::Fields& v, Settings& s) {
   v.field("facets", "Facets across and down.", s.facets, {.bounds = within(1, 1024)});
   v.field("mesh_error",
           "Of the method \"lens\": how far the mesh's flat triangles may send light from where the smooth surface "
-          "sends it, in the mean of squares. Half of it takes up to four times as many triangles.",
+          "sends it, in the mean of squares, where bright places count more. Half of it takes up to four times as many "
+          "triangles. Without, 0.025, which leaves even grey even, or the picture's own rel_l2 where that is more.",
           s.mesh_error, {.unit = "cells", .bounds = within(0.001, 10)});
   v.field("index", "Index of refraction: a number, a file or an object.", s.index);
   v.field("wavelength_nm", "The wavelength that the index is taken at, where light.spectrum does not say it.",

@@ -2,6 +2,7 @@
 #include "inverse/job.h"
 
 #include "engine/engine.h"
+#include "inverse/diffraction.h"
 #include "inverse/report.h"
 #include "inverse/search.h"
 
@@ -65,6 +66,11 @@ public:
     if (finished()) {
       add_files(snapshot, run);
       add_frames(snapshot, run);
+      for (std::size_t j = 0; j < targets_.size(); ++j)
+        if (const double cells = diffraction_cells(settings(preset_), layout_, j); cells > 1)
+          snapshot.warnings.push_back(
+              fmt::format("picture {} is judged by rays; light is a wave, and spreads each place's over {:.3g} cells",
+                          j + 1, cells));
       if (search_.has_steps_left())
         snapshot.warnings.push_back(
             fmt::format("stop.seconds ended the search after {} {}, to leave time for the judge; with more seconds the "

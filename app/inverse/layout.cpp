@@ -86,7 +86,7 @@ void check_constraints(const Layout& l, const Settings& s, const Location& own) 
   if (usable_slope(l) >= slope || usable_slope(l.n) < slope) return;
   const double needed =
       glm::length(facet_gradient({slope, 0}, l.n)) * glm::length(l.facet()) / 2; // from its middle to its corners
-  const bool too_shallow = l.band < needed;
+  const bool too_shallow = s.method != Settings::Method::lens && l.band < needed;
   const char* const field = !too_shallow                                        ? "max_slope_deg"
                             : s.max_relief_mm && *s.max_relief_mm / 2 <= l.band ? "max_relief_mm"
                             : s.min_thickness_mm                                ? "min_thickness_mm"
@@ -179,7 +179,9 @@ Layout make_layout(const preset::Preset& preset) {
   const glm::dvec2 size(s.size_mm[0], s.size_mm[1]);
   const glm::ivec2 facets(s.facets[0], s.facets[1]);
   const Refraction refraction = make_refraction(preset);
-  const double band = band_of(s, own), steepest = 2 * band / glm::length(size / glm::dvec2(facets));
+  const bool lens = s.method == Settings::Method::lens; // its facets lean on as they rise; forecast.h has its limits
+  const double band = band_of(s, own),
+               steepest = lens ? any_steepness : 2 * band / glm::length(size / glm::dvec2(facets));
   Layout l{.size = size,
            .round = s.outline == Settings::Outline::round,
            .thickness = s.thickness_mm,

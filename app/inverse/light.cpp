@@ -177,6 +177,21 @@ std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout) {
   return facets;
 }
 
+std::size_t facet_at(const Layout& layout, const glm::dvec2& p) {
+  const glm::ivec2 column_row((p.x + layout.size.x / 2) / layout.facet().x,
+                              (layout.size.y / 2 - p.y) / layout.facet().y);
+  const glm::ivec2 inside = glm::clamp(column_row, glm::ivec2(0), layout.facets - 1);
+  return index_at(inside.x, inside.y, layout.facets.x);
+}
+
+Incoming incoming_on(const Layout& layout, const glm::dvec2& p, double height) {
+  if (!layout.light.facets) return {};
+  const std::size_t facet = facet_at(layout, p);
+  Incoming in = layout.incoming()[facet];
+  in.sines += in.spread * (p + slope_inside(in.sines, layout.n) * height - layout.middle(facet));
+  return in;
+}
+
 double part_within(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& size) {
   const glm::dvec2 half = layout.size / 2.0;
   if (!layout.round) {

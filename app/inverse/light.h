@@ -15,6 +15,12 @@ std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout);
 /// The light at a facet's middle. `power`: over that straight on, or in a lamp's intensity over a square millimetre.
 Incoming incoming_at(const Layout& layout, const glm::dvec2& middle);
 
+/// The facet about a point, or the nearest one.
+std::size_t facet_at(const Layout& layout, const glm::dvec2& p);
+
+/// The light on a point of a smooth surface, by the facet about it.
+Incoming incoming_on(const Layout& layout, const glm::dvec2& p, double height);
+
 /// The part of a rectangle that lies within the object's outline.
 double part_within(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& size);
 

@@ -4,6 +4,7 @@
 #include "base/counted.h"
 #include "inverse/assign/assignment.h"
 #include "inverse/describe_settings.h"
+#include "inverse/diffraction.h"
 #include "inverse/facets/smooth_solid.h"
 #include "inverse/lens/lens.h"
 #include "inverse/pictures/preview.h"
@@ -14,7 +15,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace nephroid::inverse {
 namespace {
@@ -22,19 +22,7 @@ namespace {
 /// Measured: a triangle of the solid with its tree, and of a copy with errors; a facet on the host, with its pictures.
 constexpr std::uint64_t triangle_bytes = 145, copied_triangle_bytes = 21, facet_bytes = 400;
 
-/// The solid's triangles, about: 14 a facet with its walls. A lens, whose surface is not known yet, takes as many as
-/// photographs took, or a fifth of that for a drawing: mesh_parts() cuts facets the finer the more they bend light.
-std::uint64_t triangles_of(const Settings& s, const Layout& l) {
-  if (s.method != Settings::Method::lens) return 14 * l.facet_count();
-  const Layout mesh = mesh_layout(l);
-  // How far off light is where it is gathered in a point, in cells.
-  const double miss = std::max(mesh.facet().x, mesh.facet().y) / std::min(l.cell().x, l.cell().y) / 2;
-  const double bends = s.receivers.front().picture.type == Picture::Type::file ? 24 : 4.5;
-  return static_cast<std::uint64_t>((4 + bends * std::pow(miss / s.mesh_error, 2)) *
-                                    static_cast<double>(mesh.facet_count()));
-}
-
-std::vector<plan::Decision> decisions_of(const Settings& s, const Layout& l) {
+std::vector<plan::Decision> decisions_of(const Settings& s, const Layout& l, std::uint64_t triangles) {
   const bool blurred = l.blurs(), straight = !l.light.facets;
   const bool assign = s.method == Settings::Method::assign, thesis = s.method == Settings::Method::thesis,
              lens = s.method == Settings::Method::lens;
@@ -68,6 +56,9 @@ std::vector<plan::Decision> decisions_of(const Settings& s, const Layout& l) {
            straight  ? "parallel light straight on: one direction for all facets"
            : l.round ? "a direction and a power of its own for each facet: none beside the round outline"
                      : "a direction of its own for each facet"},
+          {"mesh", true,
+           fmt::format("some {:.2g} million triangles, an STL of {}", static_cast<double>(triangles) / 1e6,
+                       plan::readable_bytes(stl_bytes(triangles)))},
           {"judge", true,
            l.coloured() ? "in colours, by rays through the finished solid, walls and all"
                         : "rays through the finished solid, walls and all"}};
@@ -83,18 +74,26 @@ const std::vector<Target>& Design::best() const {
   return best_;
 }
 
+const LensForecast& Design::lens() const {
+  std::call_once(has_lens_, [&] { lens_ = forecast(layout, targets.front(), settings_.mesh_error); });
+  return lens_;
+}
+
 InversePlan make_plan(const preset::Preset& preset) {
   const Settings& s = settings(preset);
   InversePlan plan;
   plan.design = std::make_shared<const Design>(preset);
   const Layout& l = plan.design->layout;
-  const std::uint64_t triangles = plan.triangles = triangles_of(s, l);
-  if (stl_bytes(triangles) > most_stl_bytes) refuse_mesh(Location(preset.source) / "inverse", s.mesh_error, triangles);
+  constexpr std::uint64_t triangles_a_facet = 14; // with its walls
+  const std::uint64_t triangles = plan.triangles =
+      s.method == Settings::Method::lens ? plan.design->lens().triangles : triangles_a_facet * l.facet_count();
+  if (stl_bytes(triangles) > most_stl_bytes)
+    refuse_mesh(Location(preset.source) / "inverse", plan.design->lens().mesh_error, triangles);
   plan.engine = "inverse";
   plan.layers = 1;
   plan.defines = facet_defines(l);
   plan.smaller = "choose fewer inverse.facets, inverse.cells or inverse.frames, or a smaller scene.camera.resolution";
-  plan.decisions = decisions_of(s, l);
+  plan.decisions = decisions_of(s, l, triangles);
   const std::uint64_t light_channels = l.coloured() ? 6 : 2; // even and odd rounds
   const int cut = 2 * halvings(l);
   const std::uint64_t with_errors = (cut > 0 ? triangle_bytes : copied_triangle_bytes) * (triangles << cut) +
@@ -125,6 +124,9 @@ std::vector<std::string> notes_of(const preset::Preset& preset, const Design& de
         s.method == Settings::Method::lens ? "even grey shows them as a pattern" : "the pictures become soft"));
   std::ranges::move(picture_notes(s, l, design.targets, design.best()), std::back_inserter(notes));
   std::ranges::move(workshop_notes(s, l), std::back_inserter(notes));
+  if (s.method == Settings::Method::lens)
+    std::ranges::move(forecast_notes(s, design.lens()), std::back_inserter(notes));
+  std::ranges::move(diffraction_notes(s, l), std::back_inserter(notes));
   const std::int64_t trials = Pipeline::trials_of(s.thesis);
   if (s.method == Settings::Method::thesis && preset.stop.passes.value_or(trials) < trials)
     notes.push_back(

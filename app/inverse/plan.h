@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a preset asks an object for, and what a run for it does: method, constraints and blurs, and its memory.
 #pragma once
-#include "inverse/layout.h"
+#include "inverse/lens/forecast.h"
 #include "plan/plan.h"
 
 #include <mutex>
@@ -20,11 +20,14 @@ public:
 
   /// How close to each target an object can come (pictures/preview.h). The first call computes it, in up to a second.
   const std::vector<Target>& best() const;
+  /// What a lens becomes. The first call computes it, in up to a second.
+  const LensForecast& lens() const;
 
 private:
   Settings settings_;
-  mutable std::once_flag has_best_;
+  mutable std::once_flag has_best_, has_lens_;
   mutable std::vector<Target> best_;
+  mutable LensForecast lens_;
 };
 
 struct InversePlan : plan::Plan {

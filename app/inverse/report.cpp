@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/report.h"
 
+#include "inverse/diffraction.h"
 #include "inverse/facets/files.h"
 #include "inverse/glass_view.h"
 #include "inverse/object_view.h"
@@ -32,7 +33,8 @@ void add_costs(job::Snapshot& snapshot, const RunState& run) {
          {"width_mm", run.layout.receiver.x},
          {"height_mm", run.layout.receiver.y},
          {"believed_cost", believed[j].cost},
-         {"believed_rel_l2", believed[j].rel_l2}});
+         {"believed_rel_l2", believed[j].rel_l2},
+         {"diffraction_cells", diffraction_cells(settings(run.preset), run.layout, j)}});
     if (!judged.empty()) add_cost(snapshot, receiver_group(j), judged[j]);
   }
   if (judged.empty()) return;

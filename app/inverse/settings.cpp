@@ -55,10 +55,10 @@ void check_receivers(const Settings& s, const std::string& pointer, const Where&
       throw bad_input(where(preset::child(at, "weight")),
                       fmt::format("is {}, and the method 'thesis' has all pictures alike", s.receivers[j].weight),
                       "expected 1", "or choose the method 'assign'");
-    if (s.method != Settings::Method::assign && s.receivers[j].offset_mm != std::array<double, 2>{0, 0})
+    if (s.method == Settings::Method::thesis && s.receivers[j].offset_mm != std::array<double, 2>{0, 0})
       throw bad_input(where(preset::child(at, "offset_mm")),
-                      "is for the method 'assign'; the others have all pictures before the object", "expected [0, 0]",
-                      "or choose the method 'assign'");
+                      "is not for the method 'thesis', which has all pictures before the object", "expected [0, 0]",
+                      "or choose the method 'assign', or 'lens' for one picture");
     if (j == 0) continue;
     const double before = s.receivers[j - 1].distance_mm, now = s.receivers[j].distance_mm;
     if (now < before)

@@ -59,7 +59,7 @@ struct Picture {
 
 struct Receiver {
   double distance_mm = 100;              ///< from the facets
-  std::array<double, 2> offset_mm{0, 0}; ///< the receiver's middle, from the object's; method assign
+  std::array<double, 2> offset_mm{0, 0}; ///< the receiver's middle, from the object's; not thesis
   Picture picture;
   double weight = 1; ///< weight of its squared differences beside the other receivers'
   bool operator==(const Receiver&) const = default;
@@ -96,10 +96,10 @@ struct Settings {
   double smoothing_normals = 0;             ///< alpha_N of the thesis' (6.1): weight of facets unlike their neighbours
   double smoothing_pictures = 1;            ///< alpha_P: weight of the pictures' error
   std::array<int, 2> facets{128, 128};      ///< across and down
-  double mesh_error = 0.3;    ///< method lens: how far triangles send light from where the surface does, in cells
-  preset::Dispersion index{}; ///< the object's index, in air
-  double wavelength_nm = 550; ///< at which the index is taken, without light.spectrum
-  double band_nm = 0;         ///< width of the light's band about it
+  std::optional<double> mesh_error{}; ///< method lens: how far triangles send light from where the surface does, cells
+  preset::Dispersion index{};         ///< the object's index, in air
+  double wavelength_nm = 550;         ///< at which the index is taken, without light.spectrum
+  double band_nm = 0;                 ///< width of the light's band about it
   Light light;
   double sun_deg = 0;     ///< diameter of the sun's disc
   double scatter_deg = 0; ///< standard deviation of the directions that a rough surface gives one ray

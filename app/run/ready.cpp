@@ -94,7 +94,12 @@ void drive(const ReadyRun& run, job::Observer& observer, const std::stop_token& 
   if (const Communicator communicator(run.ranks); !communicator.is_root()) return job::follow_root(job, communicator);
   observer.begun(job);
   while (!job.finished() && !stop.stop_requested()) {
-    job.advance();
+    try {
+      job.advance();
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::bad_input && !run.ranks) observer.ended(job);
+      throw;
+    }
     observer.advanced(job);
   }
   observer.ended(job);

@@ -50,7 +50,8 @@ struct ReadyOptions {
 void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& options);
 
 /// Steps the run's job until it is finished or `stop` asks for its end. On another rank than 0 the job does what that
-/// of rank 0 does, and there is nothing to observe.
+/// of rank 0 does, and there is nothing to observe. Where the job finds out by its work that the preset asks for what
+/// cannot be, the observer keeps what there is before bad_input is thrown.
 void drive(const ReadyRun& run, job::Observer& observer, const std::stop_token& stop);
 
 /// Prepares the preset as make_ready does, with what the run before lends, but makes no job: for the plan alone.

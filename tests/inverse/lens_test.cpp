@@ -175,6 +175,17 @@ TEST_F(Lens, IsLitFromTheSideAndByALamp) {
   }
 }
 
+// A sun at 30 degrees, and the receiver where its light goes: the lens turns light as little as one straight before it.
+TEST_F(Lens, MayHaveItsReceiverBeside) {
+  inverse::Layout lit = layout;
+  lit.offsets = {{150 * std::tan(glm::radians(30.0)), 0}};
+  lit.light = inverse::make_illumination(lit, inverse::Light{.tilt_deg = 30}, own);
+  const Designed found = designed(lit);
+  EXPECT_LT(found.judged.rel_l2, 0.1);
+  EXPECT_LT(found.judged.missed, 0.05);
+  EXPECT_NEAR(found.judged.rel_l2, found.believed.rel_l2, 0.03);
+}
+
 // A round lens gets the light of a disc alone: what falls on its corners is not there. Receivers are smaller and larger
 // than the object.
 TEST_F(Lens, MayBeRoundAndOfAnotherSizeThanItsReceiver) {

@@ -344,7 +344,7 @@ TEST_F(PictureNotes, ALensIsAsDeepInLightFromTheSide) {
       const auto job = make_job(p, plan, test::shared_context());
       while (!job->finished()) job->advance();
       const double deep = job::scalar(job->snapshot(), "object", "relief_mm");
-      EXPECT_NEAR(estimated_relief(plan.design->layout, plan.design->targets[0]) / deep, 1, 0.1) << light << outline;
+      EXPECT_NEAR(plan.design->lens().relief_mm / deep, 1, 0.1) << light << outline;
     }
 }
 
@@ -373,7 +373,7 @@ TEST_F(PictureNotes, ALensIsAsDeepAsTheySay) {
     "facets": [96, 96], "cells": [48, 48], "index": 1.5, "thickness_mm": 4, "receivers": [{"distance_mm": 300, "picture": {"type": "ring"}}]}})",
                            "p.json");
   const InversePlan plan = make_plan(p);
-  const double estimated = estimated_relief(plan.design->layout, plan.design->targets[0]);
+  const double estimated = plan.design->lens().relief_mm;
   EXPECT_THAT(notes_of(p, *plan.design),
               Contains(HasSubstr(
                   fmt::format("the lens becomes some {:.2g} mm deep, and the object is 4 mm thick", estimated))));

@@ -68,6 +68,26 @@ TEST_F(InverseRun, CastsTheShapes) {
   EXPECT_EQ(static_cast<double>(bytes("out/object.stl").size()), 84 + 50 * triangles);
 }
 
+// What the plan said of a lens comes to be: its triangles within a third, and that it becomes too deep.
+TEST_F(InverseRun, ALensIsAsForetoldAndKeepsItsPicturesWhereItIsTooDeep) {
+  std::vector<std::string> words{"run", "inverse/lens", "-o", "out"};
+  for (const char* set : {"inverse.facets=[48, 48]", "inverse.cells=[24, 24]", "scene.camera.resolution=[200, 200]"})
+    words.insert(words.end(), {"--set", set});
+  ASSERT_EQ(run(words).exit_code, 0);
+  const json plan = of("out/plan.json"), made = of("out/run.json");
+  const auto solid = std::ranges::find_if(
+      plan.at("buffers"), [](const json& buffer) { return buffer.at("name") == "the solid and its tree (host)"; });
+  ASSERT_NE(solid, plan.at("buffers").end());
+  EXPECT_NEAR(solid->at("bytes").get<double>() / 145 / made.at("object").at("triangles").get<double>(), 1, 0.33);
+  words.insert(words.end(), {"--set", "inverse.max_relief_mm=3"});
+  const Ended ended = run(words);
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("and 'max_relief_mm' is 3; the run is refused"),
+                               HasSubstr("#/inverse: the lens's relief is ")));
+  EXPECT_TRUE(fs::exists(folder / "out/receiver_1.png"));
+  EXPECT_FALSE(fs::exists(folder / "out/object.stl")) << "of the run before";
+}
+
 // Three receivers and three frames between each two: the first, the fifth and the last are the receivers.
 TEST_F(InverseRun, ShowsWhatAScreenSeesThatMoves) {
   run_to("out", {"--passes", "1", "--set", "inverse.frames=3"});

@@ -65,6 +65,37 @@ TEST_F(InverseSettings, Distances) {
   EXPECT_THAT(refusal({"inverse.thickness_mm=0.2"}), AllOf(HasSubstr("can reach"), HasSubstr("choose more facets")));
 }
 
+/// What the plan says before any work.
+std::string notes_of(const preset::Preset& preset) {
+  return fmt::format("{}", fmt::join(inverse::notes_of(preset, inverse::Design(preset)), "\n"));
+}
+
+// A ring over 200 mm takes a lens some 11 mm deep.
+TEST_F(InverseSettings, LimitsThatALensWillMissAreSaidBefore) {
+  const auto notes = [&](const std::string& limit) {
+    return notes_of(read({"inverse.method=lens", "inverse.facets=[32, 32]", "inverse.cells=[32, 32]",
+                          "inverse.receivers.0.distance_mm=200", limit}));
+  };
+  EXPECT_THAT(notes("inverse.max_relief_mm=2"), HasSubstr("mm deep, and 'max_relief_mm' is 2; the run is refused"));
+  EXPECT_THAT(notes("inverse.min_thickness_mm=8"), HasSubstr("left at its thinnest, where 'min_thickness_mm' is 8"));
+  EXPECT_THAT(notes("inverse.max_slope_deg=5"), HasSubstr("degrees, and 'max_slope_deg' is 5; the run is refused"));
+  for (const char* wide :
+       {"inverse.max_relief_mm=20", "inverse.min_thickness_mm=1", "inverse.max_slope_deg=60", "inverse.layer_mm=0.01"})
+    EXPECT_THAT(notes(wide), Not(HasSubstr("refused"))) << wide;
+}
+
+// 550 nm over 400 mm behind 10 / 64 mm: 1.408 mm, or 9.01 cells of that width, and so 64 / 9.01 = 7 facets. A lens
+// lights a cell by a 64th of itself: 64 / sqrt(9.01) = 21 cells.
+TEST_F(InverseSettings, LightThatIsAWaveIsSaidBefore) {
+  const preset::Overrides small{"inverse.size_mm=[10, 10]", "inverse.facets=[64, 64]", "inverse.cells=[64, 64]",
+                                "inverse.receivers.0.distance_mm=400"};
+  EXPECT_THAT(notes_of(read(small)), AllOf(HasSubstr("550 nm over 9.01 cells"), HasSubstr("7 x 7 facets")));
+  preset::Overrides lens = small;
+  lens.push_back("inverse.method=lens");
+  EXPECT_THAT(notes_of(read(lens)), AllOf(HasSubstr("550 nm over 9.01 cells"), HasSubstr("21 x 21 cells")));
+  EXPECT_THAT(notes_of(read()), Not(HasSubstr("wave")));
+}
+
 TEST_F(InverseSettings, ALensCastsOnePicture) {
   EXPECT_THAT(
       refusal(
@@ -81,10 +112,10 @@ TEST_F(InverseSettings, ALensCastsOnePicture) {
       inverse::make_plan(read({"inverse.method=lens", R"(inverse.light={"type": "parallel", "tilt_deg": 5})"})));
   EXPECT_NO_THROW(
       inverse::make_plan(read({"inverse.method=lens", R"(inverse.light={"type": "point", "distance_mm": 500})"})));
-  EXPECT_THAT(refusal({"inverse.method=lens", "inverse.facets=[1024, 1024]", "inverse.cells=[512, 512]",
-                       "inverse.mesh_error=0.05"}),
-              AllOf(StartsWith("own.json#/inverse/mesh_error: is 0.05, for which the lens takes some 122 million "
-                               "triangles, an STL of 6.1"),
+  EXPECT_THAT(refusal({"inverse.method=lens", "inverse.facets=[512, 512]", "inverse.cells=[512, 512]",
+                       "inverse.mesh_error=0.001"}),
+              AllOf(StartsWith("own.json#/inverse/mesh_error: is 0.001, for which the lens takes some "),
+                    HasSubstr("million triangles, an STL of "),
                     HasSubstr("choose a larger mesh_error or fewer cells")));
 }
 

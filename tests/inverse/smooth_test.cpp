@@ -72,7 +72,9 @@ TEST(SmoothSolid, IsClosedWhereFinerFacetsMeetCoarserOnes) {
   }
 }
 
-// Every triangle's flat slope against the surface's at its corners, over the distance, in cells.
+// Every triangle's flat slope against the surface's at its corners, over the distance, in cells. Light counts as it is
+// bright where it lands: as much as the surface's map makes the triangle smaller. What is astray where light is
+// gathered is seen as much less.
 TEST(SmoothSolid, SendsLightAsFarAstrayAsItSays) {
   const Layout layout{
       .size = {7, 5}, .thickness = 3, .facets = {28, 20}, .receiver = {7, 5}, .cells = {28, 20}, .distances = {20}};
@@ -85,12 +87,20 @@ TEST(SmoothSolid, SendsLightAsFarAstrayAsItSays) {
       const auto corner = [&](int i) { return glm::dvec3(solid.mesh.positions[solid.mesh.triangles[t][i]]); };
       const glm::dvec3 across = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
       const glm::dvec2 slope = facet_slope(glm::dvec2(across) / -across.z, layout.n);
+      std::array<glm::dvec2, 3> slopes, lands;
       for (int i = 0; i < 3; ++i) {
-        const glm::dvec2 off =
-            (facet_slope(surface.at(glm::dvec2(corner(i))).gradient, layout.n) - slope) * 20.0 / layout.cell();
-        squares += glm::dot(off, off) * std::abs(across.z);
+        const auto k = static_cast<std::size_t>(i);
+        slopes[k] = facet_slope(surface.at(glm::dvec2(corner(i))).gradient, layout.n);
+        lands[k] = glm::dvec2(corner(i)) + slopes[k] * 20.0;
       }
-      area += 3 * std::abs(across.z);
+      const glm::dvec2 u = lands[1] - lands[0], v = lands[2] - lands[0];
+      const double bright = std::abs(across.z) / std::max(std::abs(u.x * v.y - u.y * v.x), std::abs(across.z) / 1000),
+                   light = std::abs(across.z) * bright, seen = std::min(1.0, 1 / bright);
+      for (const glm::dvec2& at_corner : slopes) {
+        const glm::dvec2 off = (at_corner - slope) * 20.0 / layout.cell() * seen;
+        squares += glm::dot(off, off) * light;
+      }
+      area += 3 * light;
     }
     EXPECT_LT(std::sqrt(squares / area), error);
     EXPECT_GT(std::sqrt(squares / area), error / 10) << "no more triangles than it takes";
@@ -205,8 +215,8 @@ TEST(SmoothSolid, ShowsNoRingsInEvenGrey) {
     slopes.push_back(facet_slope(surface.at(layout.middle(i)).gradient, layout.n));
     heights.push_back(surface.at(layout.middle(i)).z);
   }
-  const Waves smooth = waves_in(layout,
-                                make_smooth_solid(layout, surface, mesh_parts(layout, surface, Settings().mesh_error))),
+  const Waves smooth =
+                  waves_in(layout, make_smooth_solid(layout, surface, mesh_parts(layout, surface, even_mesh_error))),
               flat = waves_in(layout, make_solid(layout, slopes, heights));
   EXPECT_LT(smooth.strongest, 0.01) << "the rays' noise is " << smooth.noise;
   EXPECT_GT(flat.strongest, 0.02);

@@ -317,7 +317,7 @@ TEST_F(InverseFiles, TheHeightMapIsSeenFromTheFacets) {
   EXPECT_NEAR(map.data[0], 3 - rise * (3.5 - pixel / 2), 1e-6);
   EXPECT_NEAR(map.data[1023], 3 + rise * (3.5 - pixel / 2), 1e-6);
   EXPECT_THAT(map.attributes.at("ImageDescription"),
-              HasSubstr("thickness in mm; a pixel is 0.00683594 x 0.00488281 mm"));
+              HasSubstr("thickness in mm; a pixel is 0.00683594 x 0.00683995 mm"));
 }
 
 TEST_F(InverseFiles, TheHeightMapsAgree) {
@@ -334,7 +334,8 @@ TEST_F(InverseFiles, TheHeightMapsAgree) {
   // The middle of the second pixel row of the last facet of the first row, which is the first seen from the facets.
   const int across = exr.width / 15;
   const inverse::Facet& f = solid.facets[14];
-  const glm::dvec2 from_middle = layout.facet() * glm::dvec2(0.5 - 0.5 / across, 0.5 - 1.5 / across);
+  const glm::dvec2 from_middle =
+      layout.facet() / 2.0 - glm::dvec2(0.5 * layout.facet().x / across, 1.5 * layout.size.y / exr.height);
   EXPECT_NEAR(exr.data[static_cast<std::size_t>(exr.width)], 3 - f.height - glm::dot(f.gradient, from_middle), 1e-6);
 }
 

@@ -250,6 +250,28 @@ TEST(Tool, FindsTheTightestValleyOfALens) {
   EXPECT_TRUE(std::isinf(tightest_valley(layout, Surface(layout.size, -corners)).radius));
 }
 
+// z = -a cos(x) is tightest at x = 0, where the radius is 1 / a: a facet's corner, between the middles of two facets.
+TEST(Tool, LooksAtFacetsCornersToo) {
+  const Layout layout{.size = {8, 8}, .facets = {8, 8}};
+  Grid corners(9, 9);
+  for (int y = 0; y < 9; ++y)
+    for (int x = 0; x < 9; ++x) corners(y, x) = 0.2 * std::cos(x - 4.0);
+  const Surface surface(layout.size, corners);
+  const Valley valley = tightest_valley(layout, surface);
+  EXPECT_NEAR(valley.at.x, 0, 1e-3);
+  EXPECT_NEAR(valley.radius, -1 / surface.at({0, valley.at.y}).curvature[0][0], 1e-6);
+  EXPECT_LT(valley.radius, -1 / surface.at({0.5, valley.at.y}).curvature[0][0] * 0.95) << "a facet's middle";
+}
+
+TEST(Workshop, SaysHowItsFilesDiffer) {
+  const Layout layout = drafted(test::small(9, 7), 5);
+  const Solid solid = make_solid(layout, test::random_slopes(layout, 0.1, 4));
+  const std::string page = workshop_page(layout, solid, "glass");
+  EXPECT_THAT(page, AllOf(HasSubstr("the mesh has the draft"), HasSubstr("a line a facet, as if walls stood upright"),
+                          HasSubstr("of the sheet that holds it")));
+  EXPECT_THAT(workshop_page(test::small(9, 7), solid, "glass"), Not(HasSubstr("draft")));
+}
+
 TEST(Workshop, SaysWhatToolAndPrinterLeave) {
   const Layout layout = test::small(9, 7);
   const Solid solid = make_solid(layout, test::random_slopes(layout, 0.3, 4));

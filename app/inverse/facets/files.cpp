@@ -2,6 +2,7 @@
 #include "inverse/facets/files.h"
 
 #include "inverse/facets/tool.h"
+#include "inverse/light.h"
 
 #include <fmt/format.h>
 
@@ -15,13 +16,23 @@ namespace {
 
 void write_text(std::string_view text, ByteSink& to) { to.write(std::as_bytes(std::span(text))); }
 
-/// Pixels of the height map across a facet.
-int pixels_across(const Layout& layout) { return std::max(4, 1024 / std::max(layout.facets.x, layout.facets.y)); }
+/// The pixels of a height map: square but for what divides the object's shorter side evenly, four or more across any
+/// facet, whole facets along the longer side, and some 1024 across the object.
+glm::ivec2 pixels_of(const Layout& layout) {
+  constexpr int across = 1024, least_a_facet = 4, most = 8192;
+  const int axis = layout.size.x >= layout.size.y ? 0 : 1;
+  const double facet = layout.facet()[axis], narrower = std::min(layout.facet().x, layout.facet().y);
+  const int least = static_cast<int>(std::ceil(least_a_facet * facet / narrower)),
+            fitting = std::max(1, most / layout.facets[axis]);
+  const double pixel = facet / std::min(fitting, std::max(least, across / layout.facets[axis]));
+  return glm::max(glm::ivec2(glm::round(layout.size / pixel)), 1);
+}
 
 std::string scale_of(const Layout& layout) {
-  const glm::dvec2 pixel = layout.facet() / static_cast<double>(pixels_across(layout));
-  return fmt::format("a pixel is {:.6g} x {:.6g} mm; seen from the facets' side, +x is at the left{}", pixel.x, pixel.y,
-                     layout.round ? "; 0 beside the object" : "");
+  const glm::dvec2 pixel = layout.size / glm::dvec2(pixels_of(layout));
+  return fmt::format("a pixel is {:.6g} x {:.6g} mm; seen from the facets' side, +x is at the left{}{}", pixel.x,
+                     pixel.y, layout.round ? "; 0 beside the object" : "",
+                     layout.draft > 0 ? "; facets reach as far as if walls stood upright: the mesh has the draft" : "");
 }
 
 double step_mm(const Solid& solid) { return solid.relief() / std::numeric_limits<std::uint16_t>::max(); }
@@ -87,7 +98,7 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
   const auto mm = [](double length) { return fmt::format("{:.4g} mm", length); };
   row("width x height", fmt::format("{:.6g} x {:.6g} mm", layout.size.x, layout.size.y));
   if (layout.round) row("outline", layout.size.x == layout.size.y ? "a disc" : "an ellipse");
-  row("greatest thickness", mm(layout.thickness - solid.lowest));
+  row("greatest thickness, of the sheet that holds it", mm(layout.thickness - solid.lowest));
   row("smallest thickness", mm(layout.thickness - solid.highest));
   row("depth of the relief", mm(solid.relief()));
   row("volume",
@@ -112,7 +123,8 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
                                                  : "The facets, with walls between them that stand straight up, are")
                                           : "The relief is");
   page += "- `object.stl`, `object.obj`, `object.ply`: the closed solid in millimetres, the front at the top (+z).\n"
-          "- `facets.json`: a line a facet.\n";
+          "- `facets.json`: a line a facet";
+  page += layout.draft > 0 ? ", as if walls stood upright.\n" : ".\n";
   fmt::format_to(std::back_inserter(page), "- `heights.exr`: thickness in mm; {}.\n- `heights.png`: {}.\n",
                  scale_of(layout), png_scale(layout, solid));
   return page;
@@ -135,22 +147,20 @@ void write_facets(const Layout& layout, const Solid& solid, ByteSink& to) {
 }
 
 image::Image height_map(const Layout& layout, const Solid& solid) {
-  const int across = pixels_across(layout);
-  image::Image map{layout.facets.x * across, layout.facets.y * across, {"Y"}, {}, {}, false};
+  const glm::ivec2 pixels = pixels_of(layout);
+  image::Image map{pixels.x, pixels.y, {"Y"}, {}, {}, false};
   map.data.reserve(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
-  const glm::dvec2 pixel = layout.facet() / static_cast<double>(across);
-  const auto from_middle = [&](int i) { return i % across + 0.5 - across / 2.0; };
   for (int y = 0; y < map.height; ++y)
     for (int x = map.width - 1; x >= 0; --x) {
-      const std::size_t facet = index_at(x / across, y / across, layout.facets.x);
-      const Facet& f = solid.facets[facet];
-      const glm::dvec2 beside = glm::dvec2(from_middle(x), -from_middle(y)) * pixel;
-      const glm::dvec2 p = layout.middle(facet) + beside;
+      const glm::dvec2 p = Layout::middle_of(index_at(x, y, map.width), pixels, layout.size);
       if (layout.is_beside(p)) {
         map.data.push_back(0);
         continue;
       }
-      const double z = solid.surface ? solid.surface->at(p).z : f.height + glm::dot(f.gradient, beside);
+      const std::size_t facet = facet_at(layout, p);
+      const Facet& f = solid.facets[facet];
+      const double z =
+          solid.surface ? solid.surface->at(p).z : f.height + glm::dot(f.gradient, p - layout.middle(facet));
       map.data.push_back(static_cast<float>(layout.thickness - z));
     }
   map.attributes["ImageDescription"] = "thickness in mm; " + scale_of(layout);

@@ -23,8 +23,8 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
 /// JSON: the grid's size, what a facet's numbers are, and a line of them for each facet, row by row from the top.
 void write_facets(const Layout& layout, const Solid& solid, ByteSink& to);
 
-/// The object's thickness in millimetres, seen from the facets' side: +x is at the left, +y at the top. Pixels divide
-/// all facets alike, some 1024 across the object and at least 4 across a facet. They may be oblong, as facets are.
+/// The object's thickness in millimetres, seen from the facets' side: +x is at the left, +y at the top. Pixels are
+/// square, some 1024 across the object and at least 4 across a facet. It knows no draft, and says so.
 image::Image height_map(const Layout& layout, const Solid& solid);
 void write_height_exr(const Layout& layout, const Solid& solid, ByteSink& to); ///< 32 bits
 void write_height_png(const Layout& layout, const Solid& solid, ByteSink& to); ///< 16 bits; 0: the deepest point

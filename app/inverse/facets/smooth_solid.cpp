@@ -6,21 +6,52 @@
 #include "inverse/light.h"
 
 #include <fmt/format.h>
-#include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nephroid::inverse {
 namespace {
 
-constexpr int most_parts = 64;
+constexpr double most_exponent = 6; // 64 parts
 
-/// The larger of the two values by which a symmetric matrix stretches.
+/// The largest factor by which a matrix stretches.
 double largest_stretch(const glm::dmat2& m) {
-  const double half = (m[0][0] + m[1][1]) / 2, off = std::hypot((m[0][0] - m[1][1]) / 2, m[0][1]);
-  return std::abs(half) + off;
+  return (std::hypot(m[0][0] + m[1][1], m[0][1] - m[1][0]) + std::hypot(m[0][0] - m[1][1], m[0][1] + m[1][0])) / 2;
+}
+
+/// What a facet's light does on the receiver: how bright it is there, over what it is where no facet bends it, and by
+/// how many cells flat triangles of the whole facet would miss, as far as that is seen. Triangles cast patches of their
+/// own size. Where light is gathered, so many patches lie over each other that the unevenness of each counts less: a
+/// lattice of patches t wide and s t apart is uneven by s^2 t / pi^2 over a cell, of which s^2 is 1 / density.
+struct Patch {
+  double miss = 0, density = 0;
+};
+
+Patch patch_of(const Layout& light, const Layout& mesh, const Surface& surface, std::size_t i) {
+  constexpr double little = 1e-6, brightest = 1e3;
+  Patch patch;
+  double area = 0;
+  const std::array<glm::dvec2, 5> samples{glm::dvec2(0), {-0.5, -0.5}, {0.5, -0.5}, {-0.5, 0.5}, {0.5, 0.5}};
+  for (const glm::dvec2& sample : samples) {
+    const glm::dvec2 p = mesh.middle(i) + sample * mesh.facet();
+    const Surface::At at = surface.at(p);
+    const Incoming in = incoming_on(light, p, at.z);
+    const double way = light.distances.front() + at.z;
+    const glm::dvec2 slope = facet_slope(at.gradient, light.n, in.sines);
+    glm::dmat2 bent, moved; // how light moves over the surface, by its curvature alone and by all
+    for (int axis = 0; axis < 2; ++axis) {
+      const glm::dvec2 gradient = at.gradient + little * at.curvature[axis];
+      bent[axis] = way / little * (facet_slope(gradient, light.n, in.sines) - slope);
+      moved[axis] = way / little * (facet_slope(gradient, light.n, in.sines + little * in.spread[axis]) - slope);
+    }
+    const double side = std::max(mesh.facet().x, mesh.facet().y) / std::min(light.cell().x, light.cell().y);
+    patch.miss = std::max(patch.miss, largest_stretch(bent) * side / 2);
+    area += std::abs(glm::determinant(glm::dmat2(1) + moved)) / static_cast<double>(samples.size());
+  }
+  patch.density = 1 / std::max(area, 1 / brightest);
+  patch.miss *= std::min(1.0, 1 / patch.density);
+  return patch;
 }
 
 /// Edges of facets have vertices of their own, as many as the finer of both sides.
@@ -216,33 +247,27 @@ Layout mesh_layout(Layout layout) {
 
 std::vector<int> mesh_parts(const Layout& of, const Surface& surface, double mesh_error) {
   const Layout layout = mesh_layout(of);
-  std::vector<double> misses(layout.facet_count()); // by how many cells facets in one part miss
-  const double side = std::max(layout.facet().x, layout.facet().y) / std::min(layout.cell().x, layout.cell().y);
-  for_ranges(misses.size(), 4096, [&](std::size_t, const Range& range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      if (part_within(layout, layout.middle(i), layout.facet()) == 0) continue;
-      for (const glm::dvec2& corner : {glm::dvec2(0, 0), {-0.5, -0.5}, {0.5, -0.5}, {-0.5, 0.5}, {0.5, 0.5}}) {
-        const Surface::At at = surface.at(layout.middle(i) + corner * layout.facet());
-        const double moves =
-            std::abs(layout.n - 1) * (1 + glm::dot(at.gradient, at.gradient)) * (layout.distances.front() + at.z);
-        misses[i] = std::max(misses[i], moves * largest_stretch(at.curvature) * side / 2);
-      }
-    }
+  std::vector<Patch> patches(layout.facet_count());
+  for_ranges(patches.size(), 4096, [&](std::size_t, const Range& range) {
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      if (part_within(layout, layout.middle(i), layout.facet()) > 0) patches[i] = patch_of(of, layout, surface, i);
   });
-  std::vector<int> parts(misses.size());
-  const double within = static_cast<double>(misses.size()) * (layout.round ? glm::pi<double>() / 4 : 1);
-  const auto error_with = [&](double scale) {
+  double weights = 0;
+  std::vector<double> exponents; // of 2, up to a number for all
+  for (const auto& [miss, density] : patches) {
+    weights += density;
+    exponents.push_back(std::log2(std::sqrt(std::sqrt(density) * miss)));
+  }
+  std::vector<int> parts(patches.size());
+  const auto error_with = [&](double more) {
     double squares = 0;
-    for (std::size_t i = 0; i < misses.size(); ++i) {
-      const double exponent = std::round(std::log2(std::max(1.0, scale * std::sqrt(misses[i]))));
-      parts[i] = 1 << static_cast<int>(std::min(exponent, std::log2(most_parts)));
-      squares += misses[i] * misses[i] / (parts[i] * parts[i]);
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      parts[i] = 1 << static_cast<int>(std::clamp(std::round(exponents[i] + more), 0.0, most_exponent));
+      squares += patches[i].density * patches[i].miss * patches[i].miss / (parts[i] * parts[i]);
     }
-    return std::sqrt(squares / within);
+    return std::sqrt(squares / weights);
   };
-  constexpr double finest = 1e9, step = 1.1;
-  double scale = 1e-3;
-  while (error_with(scale) > mesh_error && scale < finest) scale *= step;
+  error_with(last_good(30.0, -10.0, 16, [&](double more) { return error_with(more) <= mesh_error; }));
   return parts;
 }
 

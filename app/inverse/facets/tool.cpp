@@ -81,21 +81,50 @@ double unreached_part(const Layout& layout, const Solid& solid, double radius) {
   return count / (static_cast<double>(sample.size()) * points * points);
 }
 
+namespace {
+
+/// The larger of the surface's principal curvatures, up from -z: eigenvalues of the second fundamental form over the
+/// first.
+double most_curved(const Surface& surface, const glm::dvec2& p) {
+  const Surface::At at = surface.at(p);
+  const double length2 = 1 + glm::dot(at.gradient, at.gradient);
+  const glm::dmat2 first = glm::dmat2(1) + glm::outerProduct(at.gradient, at.gradient),
+                   shape = glm::inverse(first) * (-at.curvature / std::sqrt(length2));
+  const double mean = (shape[0][0] + shape[1][1]) / 2;
+  return mean + std::sqrt(std::max(0.0, mean * mean - glm::determinant(shape)));
+}
+
+} // namespace
+
 Valley tightest_valley(const Layout& layout, const Surface& surface) {
-  constexpr double flat = 1e-6; // 1 / mm
-  Valley tightest;
-  for (std::size_t i = 0; i < layout.facet_count(); ++i) {
-    if (layout.is_beside(layout.middle(i))) continue;
-    const Surface::At at = surface.at(layout.middle(i));
-    // Principal curvatures are the eigenvalues of the second fundamental form over the first; -z is up.
-    const double length2 = 1 + glm::dot(at.gradient, at.gradient);
-    const glm::dmat2 first = glm::dmat2(1) + glm::outerProduct(at.gradient, at.gradient),
-                     shape = glm::inverse(first) * (-at.curvature / std::sqrt(length2));
-    const double mean = (shape[0][0] + shape[1][1]) / 2,
-                 most = mean + std::sqrt(std::max(0.0, mean * mean - glm::determinant(shape)));
-    if (most > flat && 1 / most < tightest.radius) tightest = {1 / most, layout.middle(i)};
-  }
-  return tightest;
+  constexpr double flat = 1e-6;             // 1 / mm
+  constexpr int a_facet = 2, halvings = 12; // samples across a facet, its corners too; steps from the best
+  struct Place {
+    double curvature = flat;
+    glm::dvec2 at{0};
+  };
+  const auto take_tighter = [&](Place& best, const glm::dvec2& p) {
+    if (layout.is_beside(p) || glm::any(glm::greaterThan(glm::abs(p), layout.size / 2.0))) return false;
+    const double curvature = most_curved(surface, p);
+    if (curvature <= best.curvature) return false;
+    best = {curvature, p};
+    return true;
+  };
+  std::vector<Place> rows(static_cast<std::size_t>(a_facet * layout.facets.y) + 1);
+  for_blocks(rows.size(), [&](std::size_t row) {
+    for (int column = 0; column <= a_facet * layout.facets.x; ++column)
+      take_tighter(rows[row], layout.corner(column / (1.0 * a_facet), static_cast<double>(row) / a_facet));
+  });
+  Place best = *std::ranges::max_element(rows, {}, &Place::curvature);
+  if (best.curvature <= flat) return {};
+  glm::dvec2 step = layout.facet() / (2.0 * a_facet);
+  for (int i = 0; i < halvings; ++i, step /= 2.0)
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (const glm::dvec2& side : {glm::dvec2(1, 0), {-1, 0}, {0, 1}, {0, -1}})
+        moved |= take_tighter(best, best.at + side * step);
+    }
+  return {1 / best.curvature, best.at};
 }
 
 } // namespace nephroid::inverse

@@ -13,7 +13,8 @@ namespace nephroid::inverse {
 /// may stand over a facet is known in closed form. Points are sampled, 64 or more on each of up to 64 x 64 facets.
 double unreached_part(const Layout& layout, const Solid& solid, double radius);
 
-/// The smallest radius of curvature in a lens' valleys, in mm, and its place; infinite where it is over a kilometre.
+/// The smallest radius of curvature in a lens' valleys, in mm, and its place; infinite where it is over a kilometre. It
+/// is looked for at four places a facet, its corners among them, and downhill from the best.
 struct Valley {
   double radius = std::numeric_limits<double>::infinity();
   glm::dvec2 at{0};

@@ -4,7 +4,6 @@
 #include "base/parallel.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
-#include "inverse/facets/smooth_solid.h"
 #include "inverse/light.h"
 
 #include <fmt/format.h>
@@ -81,7 +80,7 @@ std::vector<double> flat_powers(const Layout& layout) {
 
 } // namespace
 
-Lens::Lens(const Layout& layout, const Target& target, double mesh_error, Location settings)
+Lens::Lens(const Layout& layout, const Target& target, std::optional<double> mesh_error, Location settings)
     : layout_(layout), target_(target), mesh_error_(mesh_error), settings_(std::move(settings)),
       domain_(domain_of(layout)), fine_(layout),
       transport_(on_grid(layout, transport_cells(layout), layout.size, layout.facets, flat_powers(layout)),
@@ -97,8 +96,8 @@ Lens::Lens(const Layout& layout, const Target& target, double mesh_error, Locati
     fine_.light.facets->clear();
     for (std::size_t i = 0; i < fine_.facet_count(); ++i) {
       const glm::dvec2 p = fine_.middle(i);
-      Incoming& in = fine_.light.facets->emplace_back(incoming_at(p));
-      if (const double facet = part_within(layout, layout.middle(facet_at(p)), layout.facet());
+      Incoming& in = fine_.light.facets->emplace_back(incoming_on(layout_, p, 0));
+      if (const double facet = part_within(layout, layout.middle(facet_at(layout, p)), layout.facet());
           layout.round && facet > 0)
         in.power *= part_within(fine_, p, fine_.facet()) / facet;
     }
@@ -114,35 +113,19 @@ std::uint64_t Lens::bytes(const Layout& layout) {
   return layout.facet_count() * parts * parts * bytes_a_node + grids * sizeof(double) * cells * cells;
 }
 
-/// The facet about a point, or the nearest one.
-std::size_t Lens::facet_at(const glm::dvec2& p) const {
-  const glm::ivec2 column_row((p.x + layout_.size.x / 2) / layout_.facet().x,
-                              (layout_.size.y / 2 - p.y) / layout_.facet().y);
-  const glm::ivec2 inside = glm::clamp(column_row, glm::ivec2(0), layout_.facets - 1);
-  return index_at(inside.x, inside.y, layout_.facets.x);
-}
-
-/// The light on a point of the surface, by the facet about it.
-Incoming Lens::incoming_at(const glm::dvec2& p, double height) const {
-  if (!layout_.light.facets) return {};
-  const std::size_t facet = facet_at(p);
-  Incoming in = layout_.incoming()[facet];
-  in.sines += in.spread * (p + slope_inside(in.sines, layout_.n) * height - layout_.middle(facet));
-  return in;
-}
-
 /// p from the domain's top left corner, y down.
 glm::dvec2 Lens::from_corner(const glm::dvec2& p) const { return {p.x + domain_.x / 2, domain_.y / 2 - p.y}; }
 
 /// Where the transport sends the light that leaves at p, on the receiver.
 glm::dvec2 Lens::goal(const glm::dvec2& p) const {
   const glm::dvec2 cell = domain_ / transport_.cells(), to = cell * transport_.map(from_corner(p) / cell);
-  return {to.x - domain_.x / 2, domain_.y / 2 - to.y};
+  return layout_.offset(0) + glm::dvec2(to.x - domain_.x / 2, domain_.y / 2 - to.y);
 }
 
 /// Where the surface sends the light that leaves at p.
 glm::dvec2 Lens::landing(const glm::dvec2& p, const Surface::At& at) const {
-  return p + facet_slope(at.gradient, layout_.n, incoming_at(p, at.z).sines) * (layout_.distances.front() + at.z);
+  return p +
+         facet_slope(at.gradient, layout_.n, incoming_on(layout_, p, at.z).sines) * (layout_.distances.front() + at.z);
 }
 
 /// The surface's heights, changed so that it is as steep in the middles of the facets' edges as it has to be to send
@@ -153,7 +136,7 @@ Grid Lens::bent(const std::function<glm::dvec2(const glm::dvec2&, const Surface:
   const auto lacks = [&](double column, double row) { // by how much the surface is not steep enough
     const glm::dvec2 p = layout_.corner(column, row);
     const Surface::At at = surface_.at(p);
-    const glm::dvec2 sines = incoming_at(p, at.z).sines,
+    const glm::dvec2 sines = incoming_on(layout_, p, at.z).sines,
                      slope = (goal_of(p, at) - p) / std::max(distance + at.z, 0.01 * distance);
     return facet_gradient(nearest_reachable(slope, layout_.n, sines, layout_.steepest), layout_.n, sines) - at.gradient;
   };
@@ -205,7 +188,7 @@ std::vector<glm::dvec2> Lens::corners_land() const {
     for (std::size_t i = range.begin * columns; i < range.end * columns; ++i) {
       const std::size_t row = i / columns, column = i % columns;
       const glm::dvec2 p = fine_.corner(static_cast<double>(column), static_cast<double>(row));
-      corners[i] = from_corner(landing(p, surface_.at(p))) / cell;
+      corners[i] = from_corner(landing(p, surface_.at(p)) - layout_.offset(0)) / cell;
     }
   });
   return corners;
@@ -221,7 +204,7 @@ void Lens::see() {
   for_blocks(blocks, [&](std::size_t block) {
     for (std::size_t i = block * rows / blocks * columns; i < (block + 1) * rows / blocks * columns; ++i) {
       const Surface::At at = surface_.at(fine_.middle(i));
-      const glm::dvec2 slope = facet_slope(at.gradient, layout_.n, incoming_at(fine_.middle(i), at.z).sines);
+      const glm::dvec2 slope = facet_slope(at.gradient, layout_.n, incoming_on(layout_, fine_.middle(i), at.z).sines);
       sent_by_.data()[i] = part * facet_power(fine_, i, slope);
       for_cells(fine_, footprint(fine_, i, slope, 0, at.z),
                 [&](std::size_t cell, double of) { light[block][cell] += sent_by_.data()[i] * of; });
@@ -233,7 +216,7 @@ void Lens::see() {
   for (std::size_t i = 0; i < slopes_.size(); ++i) {
     const glm::dvec2 p = layout_.middle(i);
     const Surface::At at = surface_.at(p);
-    slopes_[i] = facet_slope(at.gradient, layout_.n, incoming_at(p, at.z).sines);
+    slopes_[i] = facet_slope(at.gradient, layout_.n, incoming_on(layout_, p, at.z).sines);
   }
   sent_ = sent_by_.sum();
 }
@@ -248,7 +231,7 @@ void Lens::correct() {
   set_heights(bent([&](const glm::dvec2& p, const Surface::At& at) {
     const glm::dvec2 to = landing(p, at);
     if (layout_.is_beside(p)) return to; // there is no light to move
-    const glm::dvec2 on_grid = glm::clamp(from_corner(to) / cell - 0.5, glm::dvec2(0), cells - 1.0);
+    const glm::dvec2 on_grid = glm::clamp(from_corner(to - layout_.offset(0)) / cell - 0.5, glm::dvec2(0), cells - 1.0);
     const glm::dvec2 move = flow.at(on_grid).gradient * (share_ / std::max(least, amount.at(on_grid).value));
     return to + move * cell * glm::dvec2(1, -1);
   }));
@@ -301,9 +284,10 @@ Solid Lens::solid() const {
     throw bad_input(settings_, fmt::format("the lens's relief is {:.4g} mm", 2 * reach),
                     fmt::format("'max_relief_mm' and 'min_thickness_mm' leave {:.4g} mm", 2 * layout_.band),
                     "loosen them, choose a larger thickness_mm or a receiver further away");
-  const std::vector<int> parts = mesh_parts(layout_, surface_, mesh_error_);
+  const double mesh_error = this->mesh_error();
+  const std::vector<int> parts = mesh_parts(layout_, surface_, mesh_error);
   if (const std::uint64_t triangles = count_triangles(layout_, parts); stl_bytes(triangles) > most_stl_bytes)
-    refuse_mesh(settings_, mesh_error_, triangles);
+    refuse_mesh(settings_, mesh_error, triangles);
   Solid solid = make_smooth_solid(layout_, surface_, parts);
   if (const double most = glm::degrees(std::atan(layout_.steepest)); solid.steepest_deg > most)
     throw bad_input(settings_ / "max_slope_deg",

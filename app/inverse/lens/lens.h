@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One picture by a smooth surface: where light has to go, heights that send it there, then what these lack put right.
 #pragma once
+#include "inverse/facets/smooth_solid.h"
 #include "inverse/lens/transport.h"
 #include "inverse/method.h"
 
@@ -12,8 +13,9 @@ namespace nephroid::inverse {
 /// further one lets the surface's light flow from where there is too much, by a solution of Poisson's equation.
 class Lens final : public Method {
 public:
-  /// The layout and the target outlive it. `settings` is where the settings stand, for what solid() refuses.
-  Lens(const Layout& layout, const Target& target, double mesh_error, Location settings);
+  /// The layout and the target outlive it. Without a mesh_error it is default_mesh_error(). `settings` is where the
+  /// settings stand, for what solid() refuses.
+  Lens(const Layout& layout, const Target& target, std::optional<double> mesh_error, Location settings);
 
   void advance() override;
   bool finished() const override { return stale_ >= most_stale; }
@@ -29,6 +31,8 @@ public:
   const std::vector<double>& light(std::size_t) const override { return light_; }
   std::vector<Cost> costs() const override { return {cost_of(target_, light_, sent_)}; }
   Solid solid() const override;
+  const Surface& surface() const { return surface_; }
+  double mesh_error() const { return mesh_error_.value_or(default_mesh_error(costs().front().rel_l2)); }
   void show(job::Snapshot& made) const override;
 
   void serialize(Archive& archive) override;
@@ -43,8 +47,6 @@ private:
   glm::dvec2 fine_cell() const { return domain_ / glm::dvec2(wanted_.cols(), wanted_.rows()); }
   glm::dvec2 from_corner(const glm::dvec2& p) const;
   glm::dvec2 goal(const glm::dvec2& p) const;
-  std::size_t facet_at(const glm::dvec2& p) const;
-  Incoming incoming_at(const glm::dvec2& p, double height = 0) const;
   glm::dvec2 landing(const glm::dvec2& p, const Surface::At& at) const;
   Grid bent(const std::function<glm::dvec2(const glm::dvec2&, const Surface::At&)>& goal) const;
   void set_heights(Grid heights);
@@ -55,9 +57,9 @@ private:
 
   const Layout& layout_;
   const Target& target_;
-  double mesh_error_;
+  std::optional<double> mesh_error_;
   Location settings_;
-  glm::dvec2 domain_; ///< size of the grid in millimetres, centred as the object and the receiver are
+  glm::dvec2 domain_; ///< size of the grid in millimetres, about the middle of the object, and of the receiver
   Layout fine_;       ///< the layout with facets in parts, whose light is that of the surface
   Transport transport_;
   Grid wanted_; ///< on the finest grid

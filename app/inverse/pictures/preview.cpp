@@ -5,7 +5,6 @@
 #include "inverse/assign/cost.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
-#include "inverse/lens/lens.h"
 #include "inverse/light.h"
 #include "scene/scene.h"
 
@@ -25,8 +24,6 @@ constexpr std::size_t step_limit = 60, fewest_steps = 8, most_products = 400'000
 constexpr double far_off = 0.1;
 /// A cell of so many times an even picture's light asks for strong lenses; with the advised background it is `bright`.
 constexpr double very_bright = 8, bright = 4;
-/// A lens that takes more of the thickness than this is worth a word.
-constexpr double deep = 0.5;
 
 /// Light that is aimed at a cell, on its neighbours: parts[i] of it on the cell first + i beside it.
 struct Smear {
@@ -178,22 +175,6 @@ std::vector<Target> best_possible(const Layout& layout, const std::vector<Target
   return best;
 }
 
-double estimated_relief(const Layout& layout, const Target& target) {
-  constexpr int most = 32;
-  Layout coarse = layout;
-  const auto reduced = [](const glm::ivec2& from) {
-    return glm::max(from * most / std::max({from.x, from.y, most}), 2);
-  };
-  coarse.facets = reduced(layout.facets);
-  coarse.cells = reduced(layout.cells);
-  coarse.light.facets = light_on_facets(coarse);
-  Target wanted(coarse.cell_count());
-  for (std::size_t c = 0; c < target.size(); ++c) wanted[*coarse.cell_at(layout.middle_of_cell(c))] += target[c];
-  Lens lens(coarse, wanted, 1, {}); // the mesh is not made
-  while (lens.steps() == 0) lens.advance();
-  return lens.relief();
-}
-
 std::vector<std::string> picture_notes(const Settings& settings, const Layout& layout,
                                        const std::vector<Target>& targets, const std::vector<Target>& best) {
   std::vector<std::string> notes;
@@ -218,12 +199,6 @@ std::vector<std::string> picture_notes(const Settings& settings, const Layout& l
   if (settings.method == Settings::Method::assign && targets.size() == 1 && has_greys(settings.receivers[0].picture))
     notes.push_back("flat facets cast patches of their own size, which greys show as grain or rings; for one picture "
                     "choose the method 'lens'");
-  if (settings.method == Settings::Method::lens)
-    if (const double relief = estimated_relief(layout, targets[0]); relief > deep * layout.thickness)
-      notes.push_back(fmt::format(
-          "the lens becomes some {:.2g} mm deep, and the object is {} mm thick: {:.2g} mm are left at its thinnest; "
-          "choose a receiver further away, a brighter 'background' or a larger thickness_mm",
-          relief, layout.thickness, std::max(0.0, layout.thickness - relief / 2)));
   return notes;
 }
 

@@ -14,13 +14,10 @@ Layout blurring_layout(const Settings& settings, Layout layout);
 Target best_possible(const Layout& layout, const Target& target, std::size_t receiver);
 std::vector<Target> best_possible(const Layout& layout, const std::vector<Target>& targets);
 
-/// Sentences on pictures too fine for the facets' light, dark files and dark pictures of a lens, greys by flat facets,
-/// and a deep lens.
+/// Sentences on pictures too fine for the facets' light, dark files and dark pictures of a lens, and greys by flat
+/// facets.
 std::vector<std::string> picture_notes(const Settings& settings, const Layout& layout,
                                        const std::vector<Target>& targets, const std::vector<Target>& best);
-
-/// The depth of a lens for this picture, in millimetres, by that of a coarse one.
-double estimated_relief(const Layout& layout, const Target& target);
 
 /// Sentences on the light that leaning walls take, and on layers that are too thick for the facets.
 std::vector<std::string> workshop_notes(const Settings& settings, const Layout& layout);
