@@ -42,8 +42,12 @@ Json json_of(const Plan& plan) {
   for (const PlannedBuffer& buffer : plan.buffers) buffers.push_back({{"name", buffer.name}, {"bytes", buffer.bytes}});
   for (const auto& [name, value] : plan.defines) defines[name] = value;
   for (const Input& input : plan.inputs) inputs.push_back({{"file", input.file}, {"content", input.content}});
-  return {{"engine", plan.engine}, {"passes", decisions}, {"buffers", buffers},
-          {"defines", defines},    {"inputs", inputs},    {"notes", plan.notes},
+  return {{"engine", plan.engine},
+          {"passes", decisions},
+          {"buffers", buffers},
+          {"defines", defines},
+          {"inputs", inputs},
+          {"notes", plan.notes},
           {"not_imported", plan.not_imported}};
 }
 

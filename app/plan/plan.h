@@ -53,8 +53,8 @@ struct Plan {
 };
 
 /// {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{},
-/// "inputs":[{"file","content"}]}, plus "notes" and "not_imported"; "field" and "run_value" only where a field decides. "passes" are the
-/// decisions, by the name that files have.
+/// "inputs":[{"file","content"}]}, plus "notes" and "not_imported"; "field" and "run_value" only where a field decides.
+/// "passes" are the decisions, by the name that files have.
 std::string to_json(const Plan& plan);
 /// The inputs in a plan.json; none if it is damaged.
 std::vector<Input> inputs_of(const std::string& plan_json);

@@ -47,7 +47,8 @@ def ours(scene, folder, program):
         return None, done.stderr.strip()
     size, unit = [], 1
     if scene["ours"].endswith(".gltf"):  # which has no size of a picture, and candela: 683 lm are a watt at the peak
-        size, unit = ["--set", f"scene.camera.resolution=[{SIZE},{SIZE}]"], 683 * json.loads(preset.read_text())["white"]
+        size = ["--set", f"scene.camera.resolution=[{SIZE},{SIZE}]"]
+        unit = 683 * json.loads(preset.read_text())["white"]
     pictures = []
     for seed in range(1, OUR_SEEDS + 1):
         out = folder / f"ours-{seed}"
@@ -88,7 +89,8 @@ def measure(name, scene, program, out):
     # Half a percent of the light is let pass: a colour is made a spectrum, and a place in a pixel may differ.
     z = np.abs(parts[1].mean(0) - parts[0].mean(0)) / np.sqrt(variance + (.005 * parts[0].mean(0)) ** 2 + 1e-20)
     notes = "; ".join(line.split(": ", 3)[-1] for line in said.splitlines())
-    print(f"| {name} | {compared(*(grey[:, floor] for grey in greys))} | {compared(*greys)} | {100 * (z < 4).mean():.1f} % | {notes} |", flush=True)
+    print(f"| {name} | {compared(*(grey[:, floor] for grey in greys))} | {compared(*greys)} | "
+          f"{100 * (z < 4).mean():.1f} % | {notes} |", flush=True)
     a, b = np.mean(a, 0), np.mean(b, 0)
     level = 2.5 * np.mean(a)
     write_png(folder.with_suffix(".png"), np.concatenate([a, b, .2 * level + 4 * (b - a)], 1) / level)

@@ -24,8 +24,8 @@ def grey(value):
 
 FLOOR = f"""<shape type="rectangle"><transform name="to_world"><scale value="4"/><rotate x="1" angle="-90"/>
 <translate y="-1.5"/></transform>{grey(.6)}</shape>"""
-LAMP = """<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="90"/><translate x="1" y="4"/></transform>
-<bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
+LAMP = """<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="90"/>
+<translate x="1" y="4"/></transform><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
 <emitter type="area"><rgb name="radiance" value="10"/></emitter></shape>"""
 POINT = '<emitter type="point"><point name="position" x="1" y="4" z="0.5"/><rgb name="intensity" value="20"/></emitter>'
 
@@ -54,7 +54,8 @@ def obj_of(points, triangles):
 
 
 def ply_of(points, triangles):
-    return (f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\nproperty float z\n"
+    return (f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n"
+            "property float x\nproperty float y\nproperty float z\n"
             f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n"
             + "".join(f"{x} {y} {z}\n" for x, y, z in points) + "".join(f"3 {a} {b} {c}\n" for a, b, c in triangles))
 
@@ -151,7 +152,8 @@ SCENES = {
     "room": mitsuba(whole(LAMP, f"""<shape type="cube"><boolean name="flip_normals" value="true"/>
 <transform name="to_world"><scale value="12"/><translate y="9"/></transform>{grey(.5)}</shape>""")),
     "glass ball": mitsuba(whole(LAMP, ball())),
-    "mirror": mitsuba(whole(LAMP, ball(material='<bsdf type="conductor"><string name="material" value="none"/></bsdf>'))),
+    "mirror": mitsuba(whole(
+        LAMP, ball(material='<bsdf type="conductor"><string name="material" value="none"/></bsdf>'))),
     "bubble": mitsuba(whole(LAMP, ball(), ball(.6, glass(1, 1.5)))),
     "water in glass": mitsuba(whole(LAMP, ball(), ball(.8, glass(1.33, 1.5)))),
     "grey glass": mitsuba(whole(LAMP, ball(more=ABSORBS)), "volpath"),
@@ -196,8 +198,9 @@ SCENES = {
                                       '<rotate y="1" angle="70"/></transform></emitter>', ball()),
                                 **{"sky.hdr": radiance_of(SKY)}),
     "point": mitsuba(whole(POINT, ball()), "ptracer"),
-    "spot": mitsuba(whole('<emitter type="spot"><rgb name="intensity" value="20"/><float name="cutoff_angle" value="20"/>'
-                          '<float name="beam_width" value="19.9"/><transform name="to_world">'
+    "spot": mitsuba(whole('<emitter type="spot"><rgb name="intensity" value="20"/>'
+                          '<float name="cutoff_angle" value="20"/><float name="beam_width" value="19.9"/>'
+                          '<transform name="to_world">'
                           '<lookat origin="1, 4, 0.5" target="0, 0, 0" up="0, 1, 1"/></transform></emitter>', ball()),
                     "ptracer"),
     "PBRT ball": beside(
