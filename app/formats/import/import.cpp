@@ -265,7 +265,7 @@ private:
   std::string folder_;
   preset::Preset made_;
   glm::dmat4 mirror_{1};
-  std::set<std::string> names_;
+  TakenNames names_;
   scene::Bounds bounds_;
   std::set<std::string> used_; ///< keys of the objects' meshes
 };
