@@ -74,9 +74,10 @@ std::string Description::mesh_file(const std::filesystem::path& file, const Loca
 }
 
 std::string Description::own_mesh(const std::string& name, scene::Mesh mesh) {
-  std::string key = file_name_of(name, ".ply");
-  for (int& n = names_of_meshes[name]; meshes.contains(key);)
-    key = file_name_of(name, fmt::format("-{}.ply", ++n + 1).c_str());
+  int& count = mesh_counts[name];
+  std::string key;
+  do key = file_name_of(name, ++count == 1 ? ".ply" : fmt::format("-{}.ply", count).c_str());
+  while (meshes.contains(key));
   meshes.emplace(key, std::move(mesh));
   return key;
 }
@@ -94,13 +95,11 @@ std::string file_name_of(const std::string& text, const char* ending) {
   return name + ending;
 }
 
-std::string unique(const std::string& name, std::map<std::string, int>& taken) {
-  int& last = taken[name];
-  if (last == 0) return last = 1, name;
-  std::string free;
-  do free = fmt::format("{} {}", name, ++last);
-  while (!taken.try_emplace(free, 1).second);
-  return free;
+std::string unique(const std::string& name, TakenNames& taken) {
+  int& count = taken[name];
+  if (count++ == 0) return name;
+  for (;; ++count)
+    if (std::string free = fmt::format("{} {}", name, count); taken.try_emplace(free, 1).second) return free;
 }
 
 std::optional<double> scene_number(std::string_view text) {

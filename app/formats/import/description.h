@@ -11,6 +11,9 @@
 
 namespace nephroid::formats {
 
+/// Names, with how many asked for each.
+using TakenNames = std::map<std::string, int>;
+
 struct DescribedShape {
   Location where;
   std::string name;
@@ -66,6 +69,7 @@ struct Description {
   bool fits_white = false; ///< the file has no radiance that is white: one is made of its lights
   std::optional<DescribedCamera> camera;
   std::map<std::string, scene::Mesh> meshes;  ///< by the names of their files
+  TakenNames mesh_counts;                     ///< names that own_mesh() got
   std::map<std::string, std::string> glasses; ///< dispersion files by their names, which materials have
   std::map<std::string, preset::Material> materials;
   std::map<std::string, DescribedGlass> dielectrics; ///< by the keys of the materials that settle_dielectrics() makes
@@ -75,7 +79,6 @@ struct Description {
   std::optional<DescribedSurroundings> surroundings;
   std::vector<std::string> notes;
   std::set<std::string> noted;
-  std::map<std::string, int> names_of_meshes; ///< the last number of each, less one
 
   /// A sentence on what is left out, and what is done instead; each once.
   void note(const std::string& text);
@@ -95,8 +98,8 @@ std::string read_packed_file(const std::filesystem::path& file);
 std::string name_of(const std::string& text, const std::string& otherwise);
 /// The same as a file's name, without blanks.
 std::string file_name_of(const std::string& text, const char* ending);
-/// The name, with a number behind it where it is taken. taken: the last number of each.
-std::string unique(const std::string& name, std::map<std::string, int>& taken);
+/// The name, with a number behind it where it is taken. Names that are alike cost no more than others.
+std::string unique(const std::string& name, TakenNames& taken);
 
 /// A number of a file; nothing if the text is none, or one that no scene has.
 std::optional<double> scene_number(std::string_view text);

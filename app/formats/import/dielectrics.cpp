@@ -48,6 +48,12 @@ public:
       to_world_ *= glm::dmat4(glm::dmat3(shape.radius));
     else
       mesh_ = &d.meshes.at(shape.mesh);
+    inside = middle_index(glass.inside);
+    outside = glass.outside;
+    if (shape.inside_out) std::swap(inside, outside);
+  }
+
+  void find_bounds() {
     const std::vector<glm::vec3> corners = mesh_ ? mesh_->positions : cube().positions;
     bounds = {glm::dvec3(1e300), glm::dvec3(-1e300)};
     for (const glm::vec3& p : corners) {
@@ -57,9 +63,6 @@ public:
     }
     const glm::dvec3 size = bounds.high - bounds.low;
     volume = size.x * size.y * size.z;
-    inside = middle_index(glass.inside);
-    outside = glass.outside;
-    if (shape.inside_out) std::swap(inside, outside);
   }
 
   bool meets(const Body& other) const {
@@ -83,7 +86,7 @@ public:
 
   DescribedShape& shape;
   const DescribedGlass& glass;
-  scene::Bounds bounds;
+  scene::Bounds bounds; ///< by find_bounds(), as the volume
   double volume = 0;
   double inside = 1, outside = 1; ///< as the file has them
   double own = 1;                 ///< as the preset has it
@@ -110,7 +113,10 @@ public:
     if (!few) d_.note("there are too many dielectrics to see which lies in which: each is as if in air");
     // What is around others is settled before them.
     std::vector<Body*> order;
-    for (Body& body : bodies) order.push_back(&body);
+    for (Body& body : bodies) {
+      if (few) body.find_bounds();
+      order.push_back(&body);
+    }
     std::ranges::stable_sort(order, std::greater(), &Body::volume);
     for (std::size_t i = 0; i < order.size(); ++i) {
       Body* around = nullptr;

@@ -157,7 +157,7 @@ private:
   Description& d_;
   std::map<std::pair<std::size_t, std::size_t>, std::string> keys_; ///< keys of meshes by mesh and primitive
   std::map<std::size_t, std::string> material_names_;
-  std::map<std::string, int> taken_materials_;
+  TakenNames taken_materials_;
 };
 
 } // namespace

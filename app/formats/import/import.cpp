@@ -285,7 +285,7 @@ private:
   std::string folder_;
   preset::Preset made_;
   glm::dmat4 mirror_{1};
-  std::map<std::string, int> names_;
+  TakenNames names_;
   scene::Bounds bounds_;
   std::set<std::string> used_; ///< keys of the objects' meshes
 };

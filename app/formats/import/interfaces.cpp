@@ -20,12 +20,16 @@ struct Surface {
 /// Open surfaces that say what is on both their sides.
 std::vector<Surface> surfaces_of(const Description& d) {
   std::vector<Surface> surfaces;
+  std::map<std::string, bool> closed; // by meshes, which instances share
   for (std::size_t i = 0; i < d.shapes.size(); ++i) {
     const DescribedShape& shape = d.shapes[i];
     const auto found = d.dielectrics.find(shape.material);
     if (found == d.dielectrics.end() || shape.glow || shape.mesh.empty()) continue;
     const DescribedGlass& glass = found->second;
-    if (glass.is_ratio || glass.is_thin || scene::inspect(d.meshes.at(shape.mesh)).closed()) continue;
+    if (glass.is_ratio || glass.is_thin) continue;
+    const auto [known, is_new] = closed.try_emplace(shape.mesh);
+    if (is_new) known->second = scene::inspect(d.meshes.at(shape.mesh)).closed();
+    if (known->second) continue;
     Surface surface{i, middle_index(glass.inside), glass.outside};
     if (shape.inside_out) std::swap(surface.inside, surface.outside);
     surfaces.push_back(surface);

@@ -10,7 +10,7 @@ struct MitsubaScene {
   MitsubaFile file;
   Description& d;
   std::map<std::pair<std::size_t, std::size_t>, std::string> keys{}; ///< of materials, by bsdf and medium
-  std::map<std::string, int> taken{};
+  TakenNames taken{};
 };
 
 /// The child of this name; where it is none, a note says that a grey of `standard` takes its place.

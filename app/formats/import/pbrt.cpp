@@ -222,7 +222,7 @@ private:
 
   /// A material may be named before it is made.
   void give_materials() {
-    std::map<std::string, int> taken;
+    TakenNames taken;
     std::vector<DescribedShape> shapes;
     for (DescribedShape& shape : d_.shapes) {
       Use& use = uses_.at(shape.material);
@@ -242,7 +242,7 @@ private:
     std::optional<std::string> key; ///< empty: no surface
   };
 
-  std::string key_of(const Use& use, std::map<std::string, int>& taken) {
+  std::string key_of(const Use& use, TakenNames& taken) {
     const auto material = scene_.materials.find(use.material);
     if (material == scene_.materials.end()) throw bad_input(use.where, "there is no material \"" + use.material + "\"");
     const auto medium = scene_.media.find(use.medium);
