@@ -88,7 +88,7 @@ def measure(name, scene, program, out):
     variance = sum(p.var(0, ddof=1) / len(p) for p in parts)
     # Half a percent of the light is let pass: a colour is made a spectrum, and a place in a pixel may differ.
     z = np.abs(parts[1].mean(0) - parts[0].mean(0)) / np.sqrt(variance + (.005 * parts[0].mean(0)) ** 2 + 1e-20)
-    notes = "; ".join(line.split(": ", 3)[-1] for line in said.splitlines())
+    notes = "; ".join(line.removeprefix("note: ").replace(f"{folder}/", "") for line in said.splitlines())
     print(f"| {name} | {compared(*(grey[:, floor] for grey in greys))} | {compared(*greys)} | "
           f"{100 * (z < 4).mean():.1f} % | {notes} |", flush=True)
     a, b = np.mean(a, 0), np.mean(b, 0)

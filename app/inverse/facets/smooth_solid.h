@@ -3,6 +3,8 @@
 #pragma once
 #include "inverse/facets/solid.h"
 
+#include <algorithm>
+
 namespace nephroid::inverse {
 
 /// The layout whose facets the mesh is made of: long facets are cut into nearly square ones.
