@@ -101,7 +101,7 @@ protected:
       all = {owner.starts_with("InversePicture") ? "A \"quoted\" \\ ~/" : "Grüße, \"quoted\" \\ ~/", "other"};
     else {
       const double x = now.is_number() ? now.get<double>() : 1;
-      for (const double to : {x + 1, x - 1, x / 2, x + 0.5})
+      for (const double to : {x + 1, x - 1, x / 2, x + 0.5, x + 90}) // a file turns by quarters
         if (to != x) all.push_back(Json(to).dump());
       if (node["type"] == "integer")
         for (std::string& number : all) number = number.substr(0, number.find('.'));
@@ -148,7 +148,7 @@ protected:
   /// A plain value, or each of the numbers in a list or table, which is given items first.
   void edit_leaf(const Json& node, const std::string& pointer, const std::string& owner) {
     if (node.value("type", "") != "array") return edit_plain(node, pointer, owner);
-    if (pointer == "/environment/objects") { // none is what it has without
+    if (pointer == "/environment/objects" || pointer == "/not_imported") { // none is what it has without
       search(dotted(pointer));
       click(pointer + ":add");
       if (!problems().empty()) enter(child_of(pointer, "0"), "wall");
