@@ -25,10 +25,11 @@ inline std::string base64(std::string_view bytes) {
 
 /// The bytes, with or without padding at the text's end; nothing where it has other characters.
 inline std::optional<std::string> from_base64(std::string_view text) {
-  static constexpr std::array<signed char, 256> values = [] {
-    std::array<signed char, 256> all{};
-    all.fill(-1);
-    signed char value = 0;
+  static constexpr unsigned char none = 64;
+  static constexpr std::array<unsigned char, 256> values = [] {
+    std::array<unsigned char, 256> all{};
+    all.fill(none);
+    unsigned char value = 0;
     for (const char digit : std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"))
       all[static_cast<unsigned char>(digit)] = value++;
     return all;
@@ -38,9 +39,9 @@ inline std::optional<std::string> from_base64(std::string_view text) {
   bytes.reserve(text.size() / 4 * 3 + 2);
   unsigned group = 0, bits = 0;
   for (const char digit : text) {
-    const int value = values[static_cast<unsigned char>(digit)];
-    if (value < 0) return std::nullopt;
-    group = group << 6 | static_cast<unsigned>(value);
+    const unsigned value = values[static_cast<unsigned char>(digit)];
+    if (value == none) return std::nullopt;
+    group = group << 6 | value;
     if ((bits += 6) < 8) continue;
     bits -= 8;
     bytes += static_cast<char>(group >> bits & 255);
