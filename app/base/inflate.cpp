@@ -61,17 +61,17 @@ void Inflater::read(std::span<std::byte> into) {
 std::string inflated(std::string_view packed, const Location& where, std::size_t most) {
   constexpr std::size_t piece = 1 << 20;
   Inflater from(packed, where);
-  std::string all;
+  std::string unpacked;
   for (std::size_t got = piece; got == piece;) {
-    const std::size_t before = all.size();
-    all.resize(before + piece);
-    got = from.read_some(std::as_writable_bytes(std::span(all).subspan(before)));
-    all.resize(before + got);
-    if (all.size() > most)
+    const std::size_t before = unpacked.size();
+    unpacked.resize(before + piece);
+    got = from.read_some(std::as_writable_bytes(std::span(unpacked).subspan(before)));
+    unpacked.resize(before + got);
+    if (unpacked.size() > most)
       throw bad_input(where, "holds more than " + counted(most >> 20, "MiB", "MiB"), {},
                       "unpack it, and name the file that is in it");
   }
-  return all;
+  return unpacked;
 }
 
 } // namespace nephroid

@@ -59,13 +59,13 @@ struct Header {
 /// As many numbers as asked for.
 std::vector<double> numbers(const std::string& key, const std::string& value, std::size_t count) {
   std::istringstream words(value);
-  std::vector<double> all;
+  std::vector<double> parsed;
   for (std::string word; words >> word;)
-    if (const std::optional<double> number = typed_number<double>(word)) all.push_back(*number);
-  if (all.size() != count || !std::ranges::all_of(all, [](double n) { return std::isfinite(n); }))
+    if (const std::optional<double> number = typed_number<double>(word)) parsed.push_back(*number);
+  if (parsed.size() != count || !std::ranges::all_of(parsed, [](double n) { return std::isfinite(n); }))
     throw Refused{fmt::format("its header says {}={}, and {} expected", key, value,
                               count == 1 ? "a number is" : fmt::format("{} numbers are", count))};
-  return all;
+  return parsed;
 }
 
 void divide_by(Header& header, const std::string& key, const std::string& value) {

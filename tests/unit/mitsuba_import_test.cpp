@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What Mitsuba's scenes mean: names of files and of objects, what is inside of what, flags, media, spectra, meshes of
 // its own. Expected values are worked out in comments.
-#include "formats/import/import.h"
-#include "preset/read.h"
 #include "scene/mesh.h"
-#include "tests/support/test.h"
+#include "tests/unit/imports_scenes.h"
 
 #include <zlib.h>
 
@@ -15,28 +13,15 @@ using Type = preset::Material::Type;
 /// A tetrahedron, facing outwards.
 const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
-class MitsubaImport : public testing::Test {
+class MitsubaImport : public test::ImportsScenes {
 protected:
   preset::Preset imported(const std::string& inner, const std::string& name = "in.xml") {
-    made = formats::import_scene(folder.write(name, "<scene version=\"3.0.0\">\n" + inner + "</scene>"),
-                                 folder.path() / "out.json");
-    return preset::read_preset(made.preset.string());
+    return ImportsScenes::imported("<scene version=\"3.0.0\">\n" + inner + "</scene>", name);
   }
   std::string refusal(const std::string& inner) {
     return test::refusal_of([&] { imported(inner); });
   }
-  static const preset::Material& material_of(const preset::Preset& p, std::size_t object) {
-    return p.scene.materials.at(p.scene.objects.at(object).material);
-  }
-  /// The indices of the objects, whose dispersion is one number.
-  std::vector<double> indices(const std::string& inner) {
-    const preset::Preset p = imported(inner);
-    std::vector<double> n;
-    for (std::size_t i = 0; i < p.scene.objects.size(); ++i) n.push_back(material_of(p, i).dispersion.n);
-    return n;
-  }
-  test::TemporaryFolder folder;
-  formats::Imported made;
+  std::vector<double> indices(const std::string& inner) { return ImportsScenes::indices(imported(inner)); }
 };
 
 std::string ball(double radius, const std::string& inside, const std::string& outside, const std::string& more = {}) {
@@ -124,19 +109,38 @@ TEST_F(MitsubaImport, ALoneObjectInAMediumIsARatioAndANote) {
   EXPECT_THAT(made.notes, Contains(HasSubstr("in the file it is in n = 1.25, which is nowhere")));
 }
 
+/// Those of a cube of edge 1 from (x, y, 0), and its sides: -y, +y, -x, +x, -z, +z.
+std::string corners(double x, double y) {
+  std::string text;
+  for (int i = 0; i < 8; ++i) text += fmt::format("v {} {} {}\n", x + (i & 1), y + (i >> 1 & 1), i >> 2);
+  return text;
+}
+const std::string sides = "f 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\nf 1 3 4 2\nf 5 6 8 7\n";
+
+// Such a mesh is read about its own middle. That must not put it into what is elsewhere.
+TEST_F(MitsubaImport, MeshesFarFromTheOriginLieWhereTheyAre) {
+  folder.write("glass.obj", corners(100, 0) + sides);
+  folder.write("other.obj", corners(200, 0) + sides);
+  const auto cube = [](const char* file, const char* inside, const char* outside, double scale) {
+    return fmt::format(R"(<shape type="obj"><string name="filename" value="{}.obj"/><transform name="to_world">
+      <translate x="-100.5" y="-0.5" z="-0.5"/><scale value="{}"/></transform><bsdf type="dielectric">
+      <float name="int_ior" value="{}"/><float name="ext_ior" value="{}"/></bsdf></shape>)",
+                       file, scale, inside, outside);
+  };
+  EXPECT_THAT(indices(cube("glass", "1.5", "1", 1) + cube("other", "1.33", "1.25", 0.5)),
+              ElementsAre(1.5, DoubleNear(1.33 / 1.25, 1e-12)));
+  EXPECT_THAT(made.notes, Contains(HasSubstr("in the file it is in n = 1.25, which is nowhere")));
+  EXPECT_THAT(indices(cube("glass", "1.5", "1", 1) + cube("glass", "1.33", "1.5", 0.5)), ElementsAre(1.5, 1.33));
+  // A sheet, too, is where its pane was.
+  folder.write("pane.obj", corners(100, 0) + sides.substr(0, 10));
+  const preset::Preset p = imported(R"(<shape type="obj"><string name="filename" value="pane.obj"/>
+    <bsdf type="thindielectric"/></shape>)");
+  EXPECT_NEAR(p.scene.objects.at(0).transform.translate[0], 100.5, 1e-9);
+}
+
 /// Water on a block of glass, each 1 x 1 x 1: the glass' sides in air, the water's in air, and what parts them.
 TEST_F(MitsubaImport, SurfacesBetweenMediaBecomeBodies) {
-  const auto corners = [](int low) {
-    std::string text;
-    for (int i = 0; i < 8; ++i) text += fmt::format("v {} {} {}\n", i & 1, low + (i >> 1 & 1), i >> 2);
-    return text;
-  };
-  const std::string sides =
-      "f 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\nf 1 3 4 2\nf 5 6 8 7\n"; // -y, +y, -x, +x, -z, +z
   const std::string bottom = sides.substr(0, 10), top = sides.substr(10, 10), around = sides.substr(20);
-  folder.write("glass.obj", corners(-1) + bottom + around);
-  folder.write("water.obj", corners(0) + top + around);
-  folder.write("between.obj", corners(0) + bottom); // its normal looks down, from the water to the glass
   const auto surface = [](const char* file, const char* inside, const char* outside) {
     return fmt::format(R"(<shape type="obj"><string name="filename" value="{}.obj"/>
       <boolean name="face_normals" value="true"/><bsdf type="dielectric">
@@ -146,13 +150,17 @@ TEST_F(MitsubaImport, SurfacesBetweenMediaBecomeBodies) {
   const std::string between = surface("between", "1.33", "1.5");
   std::string turned = surface("between", "1.5", "1.33");
   turned.insert(turned.find("<bsdf"), R"(<boolean name="flip_normals" value="true"/>)");
-  for (const std::string& parting : {between, turned}) {
+  for (const auto& [parting, x] : {std::pair(between, 0), {turned, 0}, {between, 500000}}) {
+    folder.write("glass.obj", corners(x, -1) + bottom + around);
+    folder.write("water.obj", corners(x, 0) + top + around);
+    folder.write("between.obj", corners(x, 0) + bottom); // its normal looks down, from the water to the glass
     const preset::Preset p = imported(surface("glass", "1.5", "1") + surface("water", "1.33", "1") + parting);
     ASSERT_EQ(p.scene.objects.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
       const scene::MeshReport report = scene::inspect(scene::load_mesh(folder.path() / *p.scene.objects[i].mesh));
       EXPECT_TRUE(report.closed());
       EXPECT_NEAR(report.signed_volume, 1, 2e-3); // the water reaches a little into the glass
+      EXPECT_NEAR(p.scene.objects[i].transform.translate[0], x, 1);
     }
     EXPECT_EQ(material_of(p, 0).dispersion.n, 1.33);
     EXPECT_EQ(material_of(p, 1).dispersion.n, 1.5);

@@ -2,13 +2,11 @@
 // What PBRT's scenes mean: names of files and of materials, what is inside of what, attributes, media, spectra, meshes.
 // Expected values are worked out in comments.
 #include "base/inflate.h"
-#include "formats/import/import.h"
 #include "optics/colour.h"
 #include "optics/dispersion.h"
-#include "preset/read.h"
 #include "scene/materials.h"
 #include "scene/mesh.h"
-#include "tests/support/test.h"
+#include "tests/unit/imports_scenes.h"
 
 #include <numbers>
 #include <zlib.h>
@@ -36,26 +34,13 @@ const std::string triangle = "ply\nformat ascii 1.0\nelement vertex 3\nproperty 
                              "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
                              "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
-class PbrtImport : public testing::Test {
+class PbrtImport : public test::ImportsScenes {
 protected:
-  preset::Preset imported(const std::string& text) {
-    made = formats::import_scene(folder.write("in.pbrt", text), folder.path() / "out.json");
-    return preset::read_preset(made.preset.string());
-  }
+  preset::Preset imported(const std::string& text) { return ImportsScenes::imported(text, "in.pbrt"); }
   std::string refusal(const std::string& text) {
     return test::refusal_of([&] { imported(text); });
   }
-  static const preset::Material& material_of(const preset::Preset& p, std::size_t object) {
-    return p.scene.materials.at(p.scene.objects.at(object).material);
-  }
-  std::vector<double> indices(const std::string& text) {
-    const preset::Preset p = imported(text);
-    std::vector<double> n;
-    for (std::size_t i = 0; i < p.scene.objects.size(); ++i) n.push_back(material_of(p, i).dispersion.n);
-    return n;
-  }
-  test::TemporaryFolder folder;
-  formats::Imported made;
+  std::vector<double> indices(const std::string& text) { return ImportsScenes::indices(imported(text)); }
 };
 
 TEST_F(PbrtImport, NamesOfAnIncludedFileAreLookedUpFromTheScene) {

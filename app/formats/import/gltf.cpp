@@ -95,12 +95,12 @@ private:
       for (const std::string& name : root_.texts(list)) named.insert(name);
     std::string others;
     for (const std::string& name : named) {
-      const auto* const known =
+      const auto* const extension =
           std::ranges::find(extension_notes, name, [](const auto& one) { return std::string_view(one.first); });
-      if (known == std::end(extension_notes))
+      if (extension == std::end(extension_notes))
         others += (others.empty() ? "" : ", ") + name;
-      else if (*known->second != 0)
-        d_.note(known->second);
+      else if (*extension->second != 0)
+        d_.note(extension->second);
     }
     if (!others.empty()) d_.note("extensions that are left out: " + others);
   }

@@ -156,15 +156,15 @@ std::string GltfValue::text(const char* key) const {
 }
 
 std::vector<std::string> GltfValue::texts(const char* key) const {
-  std::vector<std::string> all;
-  if (!has(key)) return all;
+  std::vector<std::string> texts_of_list;
+  if (!has(key)) return texts_of_list;
   const GltfJson& value = (*json_)[key];
   if (!value.is_array()) refuse(where_ / key, "a list of texts");
   for (std::size_t i = 0; i < value.size(); ++i) {
     if (!value[i].is_string()) refuse(where_ / key / i, "a text");
-    all.push_back(value[i].get<std::string>());
+    texts_of_list.push_back(value[i].get<std::string>());
   }
-  return all;
+  return texts_of_list;
 }
 
 bool GltfValue::truth(const char* key, bool standard) const {

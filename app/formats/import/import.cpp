@@ -78,10 +78,7 @@ private:
 
   void add(const DescribedShape& shape) {
     glm::dmat4 to_world = mirror_ * shape.to_world;
-    if (shape.mesh.empty())
-      to_world = to_world * glm::dmat4(glm::dmat3(shape.radius));
-    else
-      to_world = glm::translate(to_world, from_.meshes.at(shape.mesh).middle);
+    if (shape.mesh.empty()) to_world = to_world * glm::dmat4(glm::dmat3(shape.radius));
     if (shape.glow) return glow(shape, to_world);
     preset::Object object;
     object.name = unique(name_of(shape.name, "object"), names_);
@@ -284,6 +281,13 @@ std::string said_before(const std::vector<std::string>& notes) {
   return text;
 }
 
+/// Meshes far from their origin are about a middle of their own: from here on it is in the places of their shapes.
+void place_middles(Description& description) {
+  for (DescribedShape& shape : description.shapes)
+    if (!shape.mesh.empty()) shape.to_world = glm::translate(shape.to_world, description.meshes.at(shape.mesh).middle);
+  for (auto& [key, mesh] : description.meshes) mesh.middle = glm::dvec3(0);
+}
+
 } // namespace
 
 std::string Imported::summary() const {
@@ -301,6 +305,7 @@ Imported import_scene(const fs::path& file, const fs::path& preset, const Watch&
   Description description;
   try {
     describe(file, description);
+    place_middles(description);
     settle_dielectrics(description);
     return written(description, preset, watch);
   } catch (const Error& error) {

@@ -5,6 +5,7 @@
 #include "scene/scene.h"
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -37,16 +38,17 @@ std::vector<Surface> surfaces_of(const Description& d) {
   return surfaces;
 }
 
-/// Adds the surface where it stands, its normals away from the medium. reaching: gets the places that it has.
-void add_surface(scene::Mesh& body, const Description& d, const DescribedShape& shape, bool turned, bool& smooth,
-                 std::set<Place>* reaching) {
+/// Adds the surface where it stands from `origin`, its normals away from the medium. reaching: gets the places that it
+/// has.
+void add_surface(scene::Mesh& body, const Description& d, const DescribedShape& shape, const glm::dvec3& origin,
+                 bool turned, bool& smooth, std::set<Place>* reaching) {
   scene::Mesh mesh = d.meshes.at(shape.mesh);
   const bool has_normals = shape.smooth.value_or(!mesh.normals.empty());
   if (!has_normals) mesh.normals.clear();
   if (has_normals && mesh.normals.empty()) scene::compute_smooth_normals(mesh);
   smooth = smooth || has_normals;
   const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(shape.to_world)));
-  for (glm::vec3& p : mesh.positions) p = glm::vec3(shape.to_world * glm::dvec4(glm::dvec3(p), 1));
+  for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dvec3(shape.to_world * glm::dvec4(glm::dvec3(p), 1)) - origin);
   for (glm::vec3& n : mesh.normals) n = glm::vec3(glm::normalize(turn * glm::dvec3(n)));
   if (glm::determinant(turn) < 0)
     for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
@@ -78,6 +80,7 @@ void join_interfaces(Description& d) {
     for (const double n : {s.inside, s.outside})
       if (!alike(n, 1) && std::ranges::none_of(media, [&](double m) { return alike(n, m); })) media.push_back(n);
   std::ranges::sort(media);
+  const glm::dvec3 origin(d.shapes[surfaces[0].shape].to_world[3]); // near all: single precision is about it
   std::vector<DescribedShape> bodies;
   for (const double n : media) {
     scene::Mesh mesh;
@@ -88,7 +91,7 @@ void join_interfaces(Description& d) {
       if (!alike(s.inside, n) && !alike(s.outside, n)) continue;
       const bool turned = !alike(s.inside, n);
       const bool beside_denser = std::max(s.inside, s.outside) > n && !alike(std::max(s.inside, s.outside), n);
-      add_surface(mesh, d, d.shapes[s.shape], turned, smooth, beside_denser ? &reaching : nullptr);
+      add_surface(mesh, d, d.shapes[s.shape], origin, turned, smooth, beside_denser ? &reaching : nullptr);
       if (!owner || (alike(owner->inside, n) ? 0 : 1) > (turned ? 1 : 0)) owner = &s;
     }
     DescribedShape body = d.shapes[owner->shape];
@@ -106,7 +109,7 @@ void join_interfaces(Description& d) {
     if (!smooth) mesh.normals.clear();
     body.mesh = d.own_mesh(body.material, std::move(mesh));
     body.name = body.material;
-    body.to_world = glm::dmat4(1);
+    body.to_world = glm::translate(glm::dmat4(1), origin);
     body.inside_out = false;
     body.smooth.reset();
     body.priority = static_cast<int>(bodies.size());

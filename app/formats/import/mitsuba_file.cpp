@@ -127,10 +127,10 @@ xml_node MitsubaFile::meant(xml_node node) const {
 }
 
 std::vector<xml_node> MitsubaFile::objects(xml_node parent, const std::string& tag) const {
-  std::vector<xml_node> all;
+  std::vector<xml_node> objects_of_tag;
   for (const xml_node node : parent.children())
-    if (const xml_node object = meant(node); object.name() == tag) all.push_back(object);
-  return all;
+    if (const xml_node object = meant(node); object.name() == tag) objects_of_tag.push_back(object);
+  return objects_of_tag;
 }
 
 xml_node MitsubaFile::object(xml_node parent, const std::string& tag, const std::string& name) const {

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/lower_case.h"
 #include "base/numbers.h"
+#include "image/image.h"
 #include "optics/spectrum.h"
 
 #include <fmt/format.h>
@@ -91,8 +92,6 @@ double kelvin(const MitsubaFile& file, xml_node node, const std::string& text) {
   return *value;
 }
 
-double decoded(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
-
 /// Encoded as sRGB: "#ff8000", or three numbers.
 glm::dvec3 srgb_of(const MitsubaFile& file, xml_node node, const std::string& text) {
   glm::dvec3 rgb(0);
@@ -103,7 +102,7 @@ glm::dvec3 srgb_of(const MitsubaFile& file, xml_node node, const std::string& te
   else
     for (int i = 0; i < 3; ++i)
       rgb[i] = std::stoi(text.substr(1 + 2 * static_cast<std::size_t>(i), 2), nullptr, 16) / 255.0;
-  for (int i = 0; i < 3; ++i) rgb[i] = decoded(rgb[i]);
+  for (int i = 0; i < 3; ++i) rgb[i] = image::decoded_srgb(rgb[i]);
   return rgb;
 }
 
@@ -158,7 +157,7 @@ DescribedGlass dielectric(MitsubaScene& scene, xml_node node, const char* inside
   const auto ior = [&](const char* name, const char* otherwise) {
     const xml_node given = file.child(node, name);
     const std::string value = given ? lower_case(file.attribute(given, "value")) : otherwise;
-    if (const auto known = iors.find(value); known != iors.end()) return known->second;
+    if (const auto named = iors.find(value); named != iors.end()) return named->second;
     const auto n = scene_number(value);
     if (!n) throw bad_input(file.at(given), "no index of refraction is called \"" + value + "\"");
     if (*n > 0) return *n;

@@ -100,11 +100,11 @@ preset::Dispersion index_of(PbrtScene& scene, const PbrtParameters& p) {
     scene.d.note(eta->where, fmt::format("the {} of eta is left out: n = 1.5 takes its place", eta->type));
     return index;
   }
-  const auto known = std::ranges::find(named_glasses(), eta->values[0], &NamedGlass::name);
-  if (known != named_glasses().end()) {
+  const auto named = std::ranges::find(named_glasses(), eta->values[0], &NamedGlass::name);
+  if (named != named_glasses().end()) {
     index.type = preset::Dispersion::Type::sellmeier;
-    index.b = known->b;
-    index.c_um2 = known->c_um2;
+    index.b = named->b;
+    index.c_um2 = named->c_um2;
     return index;
   }
   const std::filesystem::path file =
