@@ -45,6 +45,7 @@ void import_scene(const ImportOptions& options) {
     return formats::import_scene(options.file, preset, {{}, [&](const std::string& doing) { progress.tell(doing); }});
   }();
   for (const std::string& note : imported.notes) fmt::print(stderr, "note: {}\n", note);
+  fmt::print(stderr, "{}\n", imported.counts());
   fmt::print("{}\n", imported.preset.string());
 }
 

@@ -213,7 +213,7 @@ TEST_F(GltfAccessors, WhatCannotBeSeenIsLeftOutAndSaid) {
 TEST_F(GltfAccessors, ATintOfGlassIsNamed) {
   File file = triangle();
   file.json["materials"] = Json::parse(R"([{"name":"pane","pbrMetallicRoughness":{"baseColorFactor":[0.1,0.8,0.1,1],
-    "roughnessFactor":0},"extensions":{"KHR_materials_transmission":{"transmissionFactor":1},
+    "roughnessFactor":0,"metallicFactor":0},"extensions":{"KHR_materials_transmission":{"transmissionFactor":1},
     "KHR_materials_volume":{"thicknessFactor":1}}}])");
   file.json["meshes"][0]["primitives"][0]["material"] = 0;
   imported(file.text());

@@ -295,6 +295,46 @@ TEST_F(GltfImport, MetalIsAMirrorAndColoursAreReflectances) {
   EXPECT_TRUE(imported(json).scene.materials.contains("plain"));
 }
 
+// In glTF no light goes through metal, which a material is by default.
+TEST_F(GltfImport, MetalLetsNoLightThrough) {
+  Json json = triangle();
+  json["materials"][0]["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.8;
+  EXPECT_EQ(imported(json).scene.materials.at("wall").type, Material::Type::dielectric);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("lets 0.8 of the light through")));
+  json["materials"][0]["pbrMetallicRoughness"].erase("metallicFactor");
+  EXPECT_EQ(imported(json).scene.materials.at("wall").type, Material::Type::diffuse);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("no light goes through it in the file either")));
+}
+
+TEST_F(GltfImport, ColoursOfCornersAndGlossAreSaid) {
+  Json json = triangle();
+  json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 0;
+  json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 0.2;
+  imported(json);
+  EXPECT_THAT(made.notes, IsSupersetOf({HasSubstr("the colours of the corners of 'tri' are left out"),
+                                        HasSubstr("'wall' has a gloss in the file and is matt here")}));
+  json["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 1;
+  imported(json);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("rough metal in the file and a polished mirror here")));
+}
+
+// Whose names are alike but for a blank.
+TEST_F(GltfImport, EveryGlassThatAbsorbsIsAFileOfItsOwn) {
+  Json json = triangle();
+  const Json glass = Json::parse(
+      R"({"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0},"extensions":{"KHR_materials_transmission":
+      {"transmissionFactor":1},"KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":1}}})");
+  json["materials"] = {glass, glass};
+  for (std::size_t i : {0u, 1u}) {
+    json["materials"][i]["name"] = i == 0 ? "my glass" : "my-glass";
+    json["materials"][i]["extensions"]["KHR_materials_volume"]["attenuationColor"] = {0.5, 0.5, i == 0 ? 0.5 : 1.0};
+    json["meshes"][0]["primitives"][i] = json["meshes"][0]["primitives"][0];
+    json["meshes"][0]["primitives"][i]["material"] = i;
+  }
+  const preset::Preset p = imported(json);
+  EXPECT_NE(p.scene.materials.at("my glass").dispersion.file, p.scene.materials.at("my-glass").dispersion.file);
+}
+
 TEST_F(GltfImport, WhatIsWrongIsSaidAtItsPlace) {
   const auto with = [&](const char* pointer, const Json& value) {
     Json json = triangle();

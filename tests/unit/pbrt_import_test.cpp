@@ -51,6 +51,54 @@ TEST_F(PbrtImport, NamesOfAnIncludedFileAreLookedUpFromTheScene) {
   EXPECT_EQ(imported("Include \"parts/shapes.pbrt.gz\"").scene.objects.size(), 2u);
 }
 
+// Whose files' names are alike but for a blank, or in their first 60 characters.
+TEST_F(PbrtImport, EveryMeshFileIsAMeshOfItsOwn) {
+  const std::string deep = std::string(70, 'd') + "/",
+                    larger = std::string(triangle).replace(triangle.find("1 0 0"), 1, "2");
+  for (const char* name : {"a b.ply", "c.ply"}) folder.write(deep + name, triangle);
+  for (const char* name : {"a-b.ply", "c/c.ply"}) folder.write(deep + name, larger);
+  std::string scene;
+  for (const char* name : {"a b.ply", "a-b.ply", "c.ply", "c/c.ply", "./c.ply"})
+    scene += "Shape \"plymesh\" \"string filename\" \"" + deep + name + "\"\n";
+  const preset::Preset p = imported(scene);
+  ASSERT_EQ(p.scene.objects.size(), 5u);
+  EXPECT_EQ(made.meshes, 4u);
+  EXPECT_EQ(*p.scene.objects[2].mesh, *p.scene.objects[4].mesh);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(scene::load_mesh(folder.path() / *p.scene.objects[i].mesh).positions[1].x, i % 2 == 0 ? 1 : 2) << i;
+  EXPECT_EQ(p.scene.objects[1].name, "a-b");
+}
+
+// The parameters of a directive that nothing here reads.
+TEST_F(PbrtImport, EveryParameterThatIsLeftOutIsSaid) {
+  imported("Film \"rgb\" \"string filename\" \"x.exr\" \"float cropwindow\" [0 .5 0 1]\nWorldBegin\n"
+           "LightSource \"infinite\"\nLightSource \"infinite\"\n"
+           "Material \"diffuse\" \"texture displacement\" \"bumps\" \"rgb reflectance\" [.1 .2 .3]\n"
+           "Shape \"sphere\" \"float phimax\" 180\nShape \"disk\" \"float innerradius\" .2\n"
+           "Shape \"sphere\" \"float radius\" 1 \"float zmin\" -1 \"float zmax\" 1 \"float phimax\" 360\n");
+  EXPECT_THAT(made.notes,
+              IsSupersetOf({HasSubstr("in.pbrt:1: its \"cropwindow\" is left out"),
+                            HasSubstr("in.pbrt:4: a second light infinite is left out"),
+                            HasSubstr("in.pbrt:5: its \"displacement\" is left out"),
+                            HasSubstr("in.pbrt:6: a part of a sphere"), HasSubstr("in.pbrt:7: a part of a disk")}));
+  EXPECT_THAT(made.notes, Each(Not(AnyOf(HasSubstr("in.pbrt:8"), HasSubstr("filename"), HasSubstr("reflectance")))));
+}
+
+// Version 3 has a metal of its own, and the Kd of its plastic is .25 by default.
+TEST_F(PbrtImport, MaterialsOfVersion3AreWhatTheyAreThere) {
+  const preset::Preset p = imported("Material \"metal\" Shape \"sphere\"\nMaterial \"plastic\" Shape \"sphere\"\n"
+                                    "Material \"mix\" Shape \"sphere\"\n");
+  EXPECT_EQ(material_of(p, 0).type, Type::mirror);
+  EXPECT_EQ(material_of(p, 1).reflectance.value, 0.25);
+  EXPECT_THAT(made.notes, IsSupersetOf({HasSubstr("in.pbrt:1: the metal is left out: a mirror of 0.9"),
+                                        HasSubstr("plastic is left out: a matt surface of 0.25 takes its place"),
+                                        HasSubstr("mix is left out: a matt surface of 0.5 takes its place")}));
+}
+
+TEST_F(PbrtImport, AnIndexMayBeOneOfEachColour) {
+  EXPECT_THAT(indices("Material \"dielectric\" \"rgb eta\" [1.33 1.33 1.33] Shape \"sphere\""), ElementsAre(1.33));
+}
+
 TEST_F(PbrtImport, AMaterialMayBeNamedBeforeItIsMade) {
   EXPECT_THAT(indices("NamedMaterial \"a/b\" Shape \"sphere\" NamedMaterial \"a-b\" Shape \"sphere\"\n"
                       "MakeNamedMaterial \"a/b\" \"string type\" \"dielectric\" \"float eta\" 1.4\n"

@@ -63,23 +63,25 @@ void Description::note(const std::string& text) {
 }
 
 std::string Description::mesh_file(const std::filesystem::path& file, const Location& where) {
-  const std::string key = file_name_of(file.lexically_normal().string(), ".ply");
-  if (meshes.contains(key)) return key;
+  std::string& key = mesh_files[file.lexically_normal()];
+  if (!key.empty()) return key;
   if (!is_there(file)) throw bad_input(where, "the mesh " + file.string() + " is not there", {}, "put it there");
-  if (lower_case(file.extension().string()) != ".gz")
-    meshes.emplace(key, scene::load_mesh(file));
-  else
-    meshes.emplace(key, packed_mesh(file));
-  return key;
+  const bool packed = lower_case(file.extension().string()) == ".gz";
+  return key = own_mesh(file.stem().string(), packed ? packed_mesh(file) : scene::load_mesh(file));
 }
 
 std::string Description::own_mesh(const std::string& name, scene::Mesh mesh) {
-  int& count = mesh_counts[name];
-  std::string key;
-  do key = file_name_of(name, ++count == 1 ? ".ply" : fmt::format("-{}.ply", count).c_str());
-  while (meshes.contains(key));
+  const std::string key = own_file(name, ".ply");
   meshes.emplace(key, std::move(mesh));
   return key;
+}
+
+std::string Description::own_file(const std::string& name, const char* ending) {
+  int& count = file_counts[file_name_of(name, ending)];
+  for (;;) {
+    const std::string file = file_name_of(name, ++count == 1 ? ending : fmt::format("-{}{}", count, ending).c_str());
+    if (!meshes.contains(file) && !glasses.contains(file)) return file;
+  }
 }
 
 std::string name_of(const std::string& text, const std::string& otherwise) {

@@ -68,9 +68,10 @@ struct Description {
   double unit = 1; ///< luminance Y (W m^-2 sr^-1, no factor 683) of a radiance of 1 in the file, which is white there
   bool fits_white = false; ///< the file has no radiance that is white: one is made of its lights
   std::optional<DescribedCamera> camera;
-  std::map<std::string, scene::Mesh> meshes;  ///< by the names of their files
-  TakenNames mesh_counts;                     ///< names that own_mesh() got
-  std::map<std::string, std::string> glasses; ///< dispersion files by their names, which materials have
+  std::map<std::string, scene::Mesh> meshes;               ///< by the names of their files
+  std::map<std::filesystem::path, std::string> mesh_files; ///< keys by the files that they were read from
+  TakenNames file_counts;                                  ///< names that own_file() was asked for
+  std::map<std::string, std::string> glasses;              ///< dispersion files by their names, which materials have
   std::map<std::string, preset::Material> materials;
   std::map<std::string, DescribedGlass> dielectrics; ///< by the keys of the materials that settle_dielectrics() makes
   std::vector<DescribedShape> shapes;
@@ -87,6 +88,8 @@ struct Description {
   /// Reads a mesh, which may be packed as .gz, and returns its key. where: of the shape, for the message where the file
   /// cannot be read.
   std::string mesh_file(const std::filesystem::path& file, const Location& where);
+  /// The name of a new file of the import, made of this one.
+  std::string own_file(const std::string& name, const char* ending);
   /// Adds a mesh and returns its key.
   std::string own_mesh(const std::string& name, scene::Mesh mesh);
 };

@@ -192,7 +192,7 @@ private:
       if (body.shape.inside_out)
         d_.note(body.shape.where, "the medium around it is left out");
       else {
-        const std::string file = file_name_of(key, ".yml");
+        const std::string file = d_.own_file(key, ".yml");
         d_.glasses[file] = absorbing_glass_file(material.dispersion, values_of(*absorption),
                                                 "n as the scene's dielectric, k as its medium has it");
         material.dispersion = {};

@@ -59,6 +59,8 @@ private:
         d_.note(fmt::format("points and lines of '{}' are left out", name));
         continue;
       }
+      if (primitives[p].object("attributes").has("COLOR_0"))
+        d_.note(fmt::format("the colours of the corners of '{}' are left out", name));
       if (primitives[p].has("targets")) d_.note("morph targets are left out: meshes are as they rest");
       const auto [key, is_new] = keys_.try_emplace({index, p});
       if (is_new) key->second = own_mesh(primitives[p], name);
@@ -123,7 +125,7 @@ private:
     if (std::string glass = absorbing_glass_file(value, made.dispersion); !glass.empty()) {
       made.dispersion = {};
       made.dispersion.type = preset::Dispersion::Type::file;
-      made.dispersion.file = file_name_of(name, ".yml");
+      made.dispersion.file = d_.own_file(name, ".yml");
       d_.glasses.emplace(made.dispersion.file, std::move(glass));
     }
     return name;

@@ -47,6 +47,16 @@ bool is_textured(const GltfValue& material) {
          material.extension("KHR_materials_transmission").has("transmissionTexture");
 }
 
+double metal_part(const GltfValue& material) {
+  if (material.object("extensions").has("KHR_materials_pbrSpecularGlossiness")) return 0;
+  return material.object("pbrMetallicRoughness").number("metallicFactor", 1);
+}
+
+/// The part of the light at its surface that goes through; none through metal.
+double transmitted_part(const GltfValue& material) {
+  return material.extension("KHR_materials_transmission").number("transmissionFactor", 0) * (1 - metal_part(material));
+}
+
 preset::Material glass(const GltfValue& material, const std::string& name, std::vector<std::string>& notes) {
   preset::Material glass;
   glass.type = preset::Material::Type::dielectric;
@@ -68,13 +78,17 @@ preset::Material glass(const GltfValue& material, const std::string& name, std::
                     name, tint[0], tint[1], tint[2]));
   if (pbr.number("roughnessFactor", 1) > 0.1)
     notes.push_back(fmt::format("material '{}' is rough in the file and polished here", name));
+  if (const double part = transmitted_part(material); part < 1)
+    notes.push_back(
+        fmt::format("material '{}' lets {:.3g} of the light through in the file and all of it here, but for "
+                    "reflections",
+                    name, part));
   return glass;
 }
 
 /// What in the file speaks for glass, of a material that is not taken as such; empty where nothing does.
 std::string sign_of_glass(const GltfValue& material, const std::string& name) {
-  if (const double part = material.extension("KHR_materials_transmission").number("transmissionFactor", 0); part > 0)
-    return fmt::format("its transmission is {}", part);
+  if (const double part = transmitted_part(material); part > 0) return fmt::format("its transmission is {:.3g}", part);
   if (material.extension("KHR_materials_volume").number("thicknessFactor", 0) > 0) return "it has a volume";
   const double alpha = material.object("pbrMetallicRoughness").numbers<4>("baseColorFactor", {1, 1, 1, 1})[3];
   if (material.text("alphaMode") == "BLEND" && alpha < 0.5) return fmt::format("its alpha is {}", alpha);
@@ -198,8 +212,7 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
   if (is_textured(value)) notes.push_back(fmt::format("material '{}': textures are left out", name));
   if (value.numbers<3>("emissiveFactor", {0, 0, 0}) != std::array<double, 3>{0, 0, 0})
     notes.push_back(fmt::format("material '{}' does not shine here", name));
-  if (value.extension("KHR_materials_transmission").number("transmissionFactor", 0) >= 0.5)
-    return glass(value, name, notes);
+  if (transmitted_part(value) >= 0.5) return glass(value, name, notes);
   const GltfValue pbr = value.object("pbrMetallicRoughness");
   const GltfValue older = value.extension("KHR_materials_pbrSpecularGlossiness"); // takes the other's place
   const bool is_older = value.object("extensions").has("KHR_materials_pbrSpecularGlossiness");
@@ -207,10 +220,16 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
       is_older ? older.numbers<4>("diffuseFactor", {1, 1, 1, 1}) : pbr.numbers<4>("baseColorFactor", {1, 1, 1, 1});
   preset::Material material;
   material.reflectance = reflectance_of({base[0], base[1], base[2]});
-  const bool metal = !is_older && pbr.number("metallicFactor", 1) >= 0.5,
-             rough = pbr.number("roughnessFactor", 1) >= 0.5;
+  const double roughness = pbr.number("roughnessFactor", 1);
+  const bool metal = metal_part(value) >= 0.5, rough = roughness >= 0.5;
   if (metal && !rough) material.type = preset::Material::Type::mirror;
-  if (metal && rough) notes.push_back(fmt::format("material '{}' is rough metal in the file and matt here", name));
+  if (metal && roughness > 0.1)
+    notes.push_back(fmt::format("material '{}' is rough metal in the file and {} here", name,
+                                rough ? "matt" : "a polished mirror"));
+  if (!metal && !is_older && !rough)
+    notes.push_back(fmt::format("material '{}' has a gloss in the file and is matt here", name));
+  if (metal && value.extension("KHR_materials_transmission").number("transmissionFactor", 0) > 0)
+    notes.push_back(fmt::format("material '{}': no light goes through it in the file either, as it is metal", name));
   if (std::string advice = advice_on_glass(value, name); !advice.empty())
     notes.push_back(std::move(advice));
   else if (base[3] < 1 && value.text("alphaMode") == "BLEND")

@@ -290,9 +290,13 @@ void place_middles(Description& description) {
 
 } // namespace
 
+std::string Imported::counts() const {
+  return fmt::format("{}, {}, {}", counted(objects, "object"), counted(meshes, "mesh", "meshes"),
+                     counted(lights, "light"));
+}
+
 std::string Imported::summary() const {
-  std::string text = fmt::format("{}: {}, {}, {}", preset.string(), counted(objects, "object"),
-                                 counted(meshes, "mesh", "meshes"), counted(lights, "light"));
+  std::string text = fmt::format("{}: {}", preset.string(), counts());
   for (const std::string& note : notes) text += "; " + note;
   return text;
 }

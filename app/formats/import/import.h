@@ -16,6 +16,7 @@ struct Imported {
   std::size_t objects = 0, meshes = 0, lights = 0;
   std::vector<std::string> notes; ///< a sentence each: what was left out, what was put in its place
 
+  std::string counts() const; ///< "2 objects, 1 mesh, 1 light"
   /// One line: what was made, and how much was left out.
   std::string summary() const;
 };

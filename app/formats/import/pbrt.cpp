@@ -155,6 +155,7 @@ private:
                      static_cast<int>(std::clamp(p.number("yresolution", 720), 1.0, 16384.0))};
       for (const char* exposure : {"iso", "exposuretime", "sensor"})
         if (p.find(exposure)) d_.note(where, std::string("the film's ") + exposure + " is left out");
+      note_unasked(scene_, p);
       if (d_.camera) frame();
     } else if (word == "Camera")
       add_camera(type, p);
@@ -163,9 +164,10 @@ private:
       scene_.materials[state_.material] = {type, p};
     } else if (word == "MakeNamedMaterial")
       scene_.materials[type] = {p.text("type", "diffuse"), p};
-    else if (word == "LightSource")
+    else if (word == "LightSource") {
       add_pbrt_light(scene_, type, p, state_.to_world);
-    else if (word == "AreaLightSource")
+      note_unasked(scene_, p);
+    } else if (word == "AreaLightSource")
       state_.glow = {type, p};
     else if (word == "Shape")
       add_shape(type, p);
@@ -196,6 +198,7 @@ private:
     if (p.number("lensradius", 0) > 0) d_.note(p.where, "the lens is left out: everything is sharp");
     for (const char* frame : {"screenwindow", "frameaspectratio"})
       if (p.find(frame)) d_.note(p.where, std::string("its ") + frame + " is left out");
+    note_unasked(scene_, p);
     frame();
   }
   /// The film may come before the camera or after it. fov is that of the shorter edge.
@@ -207,6 +210,7 @@ private:
   void add_shape(const std::string& type, const PbrtParameters& p) {
     std::optional<DescribedShape> shape = pbrt_shape(scene_, type, p, state_.to_world);
     if (!shape) return;
+    note_unasked(scene_, p);
     shape->inside_out = state_.reversed;
     shape->material = state_.material + parting + state_.inside;
     uses_.try_emplace(shape->material, Use{state_.material, state_.inside, state_.material_where, {}});
@@ -216,6 +220,7 @@ private:
       shape->glows_on_both_sides = light.text("twosided", "false") == "true";
       if (const double power = light.number("power", -1); power > 0) shape->glow_power = power;
       if (light.find("filename")) d_.note(light.where, "the light's picture is left out: it is white");
+      note_unasked(scene_, light);
     }
     (object_ ? *object_ : d_.shapes).push_back(std::move(*shape));
   }

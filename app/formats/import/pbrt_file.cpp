@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace nephroid::formats {
 namespace fs = std::filesystem;
@@ -31,7 +32,15 @@ std::vector<double> PbrtParameter::numbers() const {
 
 const PbrtParameter* PbrtParameters::find(const std::string& name) const {
   const auto found = std::ranges::find(all, name, &PbrtParameter::name);
-  return found == all.end() ? nullptr : &*found;
+  if (found == all.end()) return nullptr;
+  found->was_asked_for = true;
+  return &*found;
+}
+
+std::vector<PbrtParameter> PbrtParameters::unasked() const {
+  std::vector<PbrtParameter> unasked;
+  std::ranges::remove_copy_if(all, std::back_inserter(unasked), &PbrtParameter::was_asked_for);
+  return unasked;
 }
 
 std::string PbrtParameters::text(const std::string& name, const std::string& standard) const {
@@ -57,7 +66,7 @@ glm::dvec3 PbrtParameters::vector(const std::string& name, const glm::dvec3& sta
 
 void PbrtParameters::add_missing(const std::vector<PbrtParameter>& more) {
   for (const PbrtParameter& parameter : more)
-    if (!find(parameter.name)) all.push_back(parameter);
+    if (std::ranges::find(all, parameter.name, &PbrtParameter::name) == all.end()) all.push_back(parameter);
 }
 
 PbrtFile::PbrtFile(const fs::path& file) : scene_(file) { read(file); }

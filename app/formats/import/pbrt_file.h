@@ -21,6 +21,7 @@ struct PbrtParameter {
   std::string type, name;
   std::vector<std::string> values;
   Location where;
+  mutable bool was_asked_for = false;  ///< by PbrtParameters::find
   std::vector<double> numbers() const; ///< throws bad_input where one is no number
 };
 
@@ -32,6 +33,8 @@ struct PbrtParameters {
   std::string text(const std::string& name, const std::string& standard) const;
   double number(const std::string& name, double standard) const;
   glm::dvec3 vector(const std::string& name, const glm::dvec3& standard) const;
+  /// Those that nothing asked for.
+  std::vector<PbrtParameter> unasked() const;
   /// Those that are not among these, as values where these say none.
   void add_missing(const std::vector<PbrtParameter>& more);
 };

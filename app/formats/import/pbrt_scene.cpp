@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 namespace nephroid::formats {
 namespace {
@@ -96,6 +97,9 @@ preset::Dispersion index_of(PbrtScene& scene, const PbrtParameters& p) {
     if (n.size() != 1) throw bad_input(eta->where, "eta has several values", "expected one number");
     return glass_of(n[0], eta->where).inside;
   }
+  if (const std::vector<std::string>& v = eta->values;
+      eta->type == "rgb" && v.size() == 3 && v[0] == v[1] && v[0] == v[2])
+    return glass_of(eta->numbers()[0], eta->where).inside;
   if (eta->type != "spectrum") {
     scene.d.note(eta->where, fmt::format("the {} of eta is left out: n = 1.5 takes its place", eta->type));
     return index;
@@ -133,7 +137,9 @@ std::optional<DescribedColour> absorption_of(PbrtScene& scene, const PbrtThing& 
   };
   if (!given("sigma_s", {2.55, 3.21, 3.77}).is_black())
     scene.d.note(p.where, "the medium scatters in the file, and only absorbs here");
-  return given("sigma_a", {0.0011, 0.0024, 0.014}) * p.number("scale", 1);
+  const DescribedColour absorption = given("sigma_a", {0.0011, 0.0024, 0.014}) * p.number("scale", 1);
+  note_unasked(scene, p);
+  return absorption;
 }
 
 bool is_rough(const PbrtParameters& p) {
@@ -143,6 +149,36 @@ bool is_rough(const PbrtParameters& p) {
 }
 
 } // namespace
+
+void note_unasked(PbrtScene& scene, const PbrtParameters& p) {
+  // How to render, textures' coordinates, and what only counts where a sensor, a lens or scattering does.
+  static const std::set<std::string> harmless{"type",
+                                              "filename",
+                                              "diagonal",
+                                              "savefp16",
+                                              "maxcomponentvalue",
+                                              "shutteropen",
+                                              "shutterclose",
+                                              "focaldistance",
+                                              "samples",
+                                              "nsamples",
+                                              "from",
+                                              "to",
+                                              "portal",
+                                              "uv",
+                                              "st",
+                                              "S",
+                                              "faceIndices",
+                                              "emissionfilename",
+                                              "remaproughness",
+                                              "uroughness",
+                                              "vroughness",
+                                              "g",
+                                              "maxsampleluminance"};
+  for (const PbrtParameter& parameter : p.unasked())
+    if (!harmless.contains(parameter.name))
+      scene.d.note(parameter.where, fmt::format("its \"{}\" is left out", parameter.name));
+}
 
 DescribedColour pbrt_colour(PbrtScene& scene, const PbrtParameters& p, const std::string& name, double standard) {
   DescribedColour grey;
@@ -178,23 +214,34 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
         if (const auto colour = colour_of(scene, *given); !colour || values_of(*colour) != optics::constant_spectrum(1))
           scene.d.note(given->where, std::string("its ") + tint + " is left out: the glass is clear");
     if (medium && !thin) glass.absorption = absorption_of(scene, *medium);
+    note_unasked(scene, p);
     return true;
   }
   preset::Material& made = scene.d.materials[key];
   const auto reflect = [&](const char* name, double standard) {
     made.reflectance = reflectance_of(pbrt_colour(scene, p, name, standard));
   };
-  if (type == "conductor" || type == "mirror") {
+  const bool is_metal = type == "conductor" || type == "metal"; // as versions 4 and 3 call it
+  if (is_metal || type == "mirror") {
     made.type = preset::Material::Type::mirror;
-    reflect(type == "mirror" ? "Kr" : "reflectance", 0.9);
-    if (type == "conductor" && !p.find("reflectance"))
+    reflect(is_metal ? "reflectance" : "Kr", 0.9);
+    const std::array<const PbrtParameter*, 2> index{p.find("eta"), p.find("k")};
+    if (is_metal && (index[0] || index[1] || !p.find("reflectance")))
       scene.d.note(p.where, "the metal is left out: a mirror of 0.9 takes its place");
     if (is_rough(p)) scene.d.note(p.where, "roughness is left out: the mirror is polished");
+    note_unasked(scene, p);
     return true;
   }
-  reflect(p.find("Kd") ? "Kd" : "reflectance", 0.5);
-  if (type != "diffuse" && type != "matte")
-    scene.d.note(p.where, "the material " + type + " is left out: a matt surface of its colour takes its place");
+  const bool is_older = type == "plastic" || type == "uber"; // whose Kd is .25 by default
+  const char* const colour = p.find("Kd") || is_older ? "Kd" : "reflectance";
+  reflect(colour, is_older ? 0.25 : 0.5);
+  if (type == "diffuse" || type == "matte")
+    note_unasked(scene, p);
+  else
+    scene.d.note(p.where, fmt::format("the material {} is left out: a matt surface of {} takes its place", type,
+                                      p.find(colour) ? std::string("its ") + colour
+                                      : is_older     ? "0.25"
+                                                     : "0.5"));
   return true;
 }
 
@@ -224,6 +271,8 @@ void add_pbrt_light(PbrtScene& scene, const std::string& type, const PbrtParamet
   } else if (type == "distant") {
     light.type = preset::Light::Type::directional;
     if (lux > 0) light.colour = light.colour * lux;
+  } else if (type == "infinite" && scene.d.surroundings) {
+    return scene.d.note(p.where, "a second light infinite is left out");
   } else if (type == "infinite" && !p.find("filename") && !p.find("mapname")) {
     scene.d.surroundings = {
         .where = p.where, .file = {}, .colour = linear_srgb_of(light.colour), .scale = lux > 0 ? lux / pi : 1};

@@ -21,6 +21,9 @@ struct PbrtScene {
   bool is_version_3 = false;
 };
 
+/// A note for each parameter that nothing has asked for and that changes a picture.
+void note_unasked(PbrtScene& scene, const PbrtParameters& p);
+
 /// The parameter of this name; where it is no colour, a note says that a grey of `standard` takes its place.
 DescribedColour pbrt_colour(PbrtScene& scene, const PbrtParameters& p, const std::string& name, double standard);
 /// The same of a light: version 4 gives spectra a luminance of 1.

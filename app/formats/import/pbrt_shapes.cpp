@@ -17,6 +17,9 @@ double above_zero(const PbrtParameters& p, const char* name) {
   return value;
 }
 
+/// Whether a round shape does not go all around.
+bool is_cut(const PbrtParameters& p) { return p.number("phimax", 360) < 360; }
+
 std::vector<std::uint32_t> indices_of(const PbrtParameters& p, std::size_t corners, std::size_t points) {
   std::vector<double> given{0, 1, 2, 3};
   given.resize(corners);
@@ -76,10 +79,12 @@ std::optional<DescribedShape> pbrt_shape(PbrtScene& scene, const std::string& ty
   if (p.find("alpha")) d.note(p.where, "its alpha is left out: the surface is whole");
   if (type == "sphere") {
     shape.radius = above_zero(p, "radius");
-    if (p.find("zmin") || p.find("zmax") || p.find("phimax")) d.note(p.where, "a part of a sphere is whole here");
+    if (p.number("zmin", -shape.radius) > -shape.radius || p.number("zmax", shape.radius) < shape.radius || is_cut(p))
+      d.note(p.where, "a part of a sphere is whole here");
   } else if (type == "plymesh") {
-    shape.mesh = d.mesh_file(scene.file.find(p.text("filename", ""), p.where), p.where);
-    if (p.find("displacement")) d.note(p.where, "its displacement is left out");
+    const std::filesystem::path file = scene.file.find(p.text("filename", ""), p.where);
+    shape.name = name_of(file.stem().string(), type);
+    shape.mesh = d.mesh_file(file, p.where);
   } else if (type == "trianglemesh" || type == "bilinearmesh") {
     shape.mesh = d.own_mesh(type, listed_mesh(p, type == "trianglemesh" ? 3 : 4));
   } else if (type == "loopsubdiv") {
@@ -90,10 +95,12 @@ std::optional<DescribedShape> pbrt_shape(PbrtScene& scene, const std::string& ty
   } else if (type == "disk") {
     shape.to_world = glm::translate(to_world, glm::dvec3(0, 0, p.number("height", 0)));
     shape.mesh = d.own_mesh(type, disk(above_zero(p, "radius")));
+    if (p.number("innerradius", 0) > 0 || is_cut(p)) d.note(p.where, "a part of a disk is whole here");
   } else if (type == "cylinder") {
     const double radius = p.number("radius", 1), low = p.number("zmin", -1), high = p.number("zmax", 1);
     if (!(radius > 0) || !(low < high)) throw bad_input(p.where, "the cylinder has no size");
     shape.mesh = d.own_mesh(type, open_cylinder({0, 0, low}, {0, 0, high}, radius));
+    if (is_cut(p)) d.note(p.where, "a part of a cylinder is whole here");
   } else {
     d.note(p.where, "the shape " + type + " is left out");
     return std::nullopt;
