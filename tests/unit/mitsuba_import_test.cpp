@@ -30,6 +30,16 @@ std::string ball(double radius, const std::string& inside, const std::string& ou
                      radius, more, inside, outside);
 }
 
+TEST_F(MitsubaImport, EveryValueThatIsLeftOutIsSaid) {
+  imported("<shape type='sphere'>\n<float name='glitter' value='1'/>\n"
+           "<bsdf type='diffuse'><rgb name='reflectance' value='.1'/>\n<float name='sheen' value='1'/></bsdf></shape>\n"
+           "<emitter type='point'><float name='sampling_weight' value='2'/>\n<float name='fade' value='1'/></emitter>");
+  EXPECT_THAT(made.notes, IsSupersetOf({HasSubstr("in.xml:3: its \"glitter\" is left out"),
+                                        HasSubstr("in.xml:5: its \"sheen\" is left out"),
+                                        HasSubstr("in.xml:7: its \"fade\" is left out")}));
+  EXPECT_THAT(made.notes, Each(Not(AnyOf(HasSubstr("reflectance"), HasSubstr("sampling_weight")))));
+}
+
 TEST_F(MitsubaImport, NamesOfAnIncludedFileAreLookedUpFromTheScene) {
   folder.write("meshes/t.obj", tetrahedron);
   folder.write("parts/glass.xml", R"(<scene version="3.0.0"><include filename="parts/one.xml"/>

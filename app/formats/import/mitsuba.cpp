@@ -74,6 +74,8 @@ private:
                           : axis == "larger"   ? std::max(w, h)
                                                : w;
     camera.fov_deg = vertical_fov_deg(fov, h, across);
+    note_unasked(scene_, node);
+    note_unasked(scene_, film);
   }
 
   void add_light(xml_node node) {
@@ -116,11 +118,12 @@ private:
           d_.note(light.where, "the surroundings' tilt is left out: they turn about +y alone");
       }
       d_.surroundings = s;
-      return;
+      return note_unasked(scene_, node);
     } else if (type == "area" && node.attribute("id")) {
       return; // shapes refer to it
     } else
       return d_.note(light.where, "the emitter " + type + " is left out");
+    note_unasked(scene_, node);
     d_.lights.push_back(light);
   }
 
@@ -140,6 +143,7 @@ private:
     shape.to_world = to_world;
     shape.inside_out = file_.flag(node, "flip_normals");
     if (!give_form(node, type, shape)) return d_.note(shape.where, "the shape " + type + " is left out");
+    note_unasked(scene_, node);
     if (const xml_node emitter = file_.object(node, "emitter"))
       shape.glow = colour(emitter, "radiance", 1);
     else if ((shape.material = mitsuba_material(scene_, node)).empty())

@@ -194,7 +194,20 @@ glm::dvec3 MitsubaFile::vector_of(xml_node node, double standard, const char* ke
 }
 
 xml_node MitsubaFile::child(xml_node parent, const std::string& name) const {
-  return meant(parent.find_child([&](xml_node node) { return mitsuba_name(node.attribute("name").value()) == name; }));
+  const xml_node found =
+      parent.find_child([&](xml_node node) { return mitsuba_name(node.attribute("name").value()) == name; });
+  if (found) asked_.insert(found.hash_value());
+  return meant(found);
+}
+
+std::vector<xml_node> MitsubaFile::unasked(xml_node parent) const {
+  static const std::set<std::string_view> values{"float", "integer",  "boolean",   "string",  "rgb",   "srgb",
+                                                 "color", "spectrum", "blackbody", "texture", "point", "vector"};
+  std::vector<xml_node> nodes;
+  for (const xml_node node : parent.children())
+    if (node.attribute("name") && values.contains(node.name()) && !asked_.contains(node.hash_value()))
+      nodes.push_back(node);
+  return nodes;
 }
 
 double MitsubaFile::number(xml_node parent, const std::string& name, double standard) const {

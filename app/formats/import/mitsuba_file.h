@@ -9,6 +9,7 @@
 
 #include <list>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace nephroid::formats {
@@ -45,6 +46,8 @@ public:
 
   /// The child with this attribute "name", own or by reference, and what it holds.
   xml_node child(xml_node parent, const std::string& name) const;
+  /// The children that are values and that child() was never asked for.
+  std::vector<xml_node> unasked(xml_node parent) const;
   double number(xml_node parent, const std::string& name, double standard) const;
   bool flag(xml_node parent, const std::string& name) const { return text(parent, name, "false") == "true"; }
   std::string text(xml_node parent, const std::string& name, const std::string& standard) const;
@@ -72,6 +75,7 @@ private:
   std::map<std::string, xml_node> ids_;
   std::map<std::string, std::string> aliases_; ///< ids by other names
   std::map<std::string, std::string> defaults_;
+  mutable std::set<std::size_t> asked_; ///< hashes of what child() found
 };
 
 } // namespace nephroid::formats

@@ -196,13 +196,16 @@ preset::Material opaque(MitsubaScene& scene, xml_node node, const std::string& t
     if (file.child(node, "material") ? file.text(node, "material", "") != "none" : bool(file.child(node, "eta")))
       scene.d.note(where, "the metal is left out: a mirror of its specular_reflectance takes its place");
     if (type == "roughconductor") scene.d.note(where, "roughness is left out: the mirror is polished");
+    note_unasked(scene, node);
     return made;
   }
   const char* const name = type == "diffuse"      ? "reflectance"
                            : type == "principled" ? "base_color"
                                                   : "diffuse_reflectance";
   made.reflectance = reflectance_of(mitsuba_colour(scene, node, name, 0.5));
-  if (type != "diffuse")
+  if (type == "diffuse")
+    note_unasked(scene, node);
+  else
     scene.d.note(where, "the bsdf " + type + " is left out: a matt surface of its colour takes its place");
   return made;
 }
@@ -230,6 +233,43 @@ std::optional<DescribedColour> absorption_of(MitsubaScene& scene, xml_node mediu
 }
 
 } // namespace
+
+void note_unasked(MitsubaScene& scene, xml_node node) {
+  // How to render and to write files, textures' coordinates, and what has a note of its own where it counts.
+  static const std::set<std::string> harmless{"alpha",
+                                              "alpha_u",
+                                              "alpha_v",
+                                              "distribution",
+                                              "sample_visible",
+                                              "eta",
+                                              "k",
+                                              "material",
+                                              "near_clip",
+                                              "far_clip",
+                                              "focus_distance",
+                                              "aperture_radius",
+                                              "file_format",
+                                              "pixel_format",
+                                              "component_format",
+                                              "banner",
+                                              "sampling_weight",
+                                              "flip_tex_coords",
+                                              "crop_offset_x",
+                                              "crop_offset_y",
+                                              "crop_width",
+                                              "crop_height",
+                                              "sample_border",
+                                              "compensate",
+                                              "shutter_open",
+                                              "shutter_close",
+                                              "filename",
+                                              "method",
+                                              "high_quality_edges",
+                                              "nonlinear"};
+  for (const xml_node value : scene.file.unasked(node))
+    if (const std::string name = mitsuba_name(value.attribute("name").value()); !harmless.contains(name))
+      scene.d.note(scene.file.at(value), fmt::format("its \"{}\" is left out", name));
+}
 
 DescribedColour mitsuba_colour(MitsubaScene& scene, xml_node parent, const std::string& name, double standard) {
   DescribedColour grey;
@@ -272,6 +312,7 @@ std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
       if (const auto colour = colour_of(scene, given); !colour || values_of(*colour) != optics::constant_spectrum(1))
         scene.d.note(where, std::string("its ") + tint + " is left out: the glass is clear");
   if (medium && !thin) glass.absorption = absorption_of(scene, medium);
+  if (type != "principled") note_unasked(scene, node);
   scene.d.dielectrics[key] = glass;
   return key;
 }

@@ -16,6 +16,9 @@ struct MitsubaScene {
 /// The child of this name; where it is none, a note says that a grey of `standard` takes its place.
 DescribedColour mitsuba_colour(MitsubaScene& scene, xml_node parent, const std::string& name, double standard);
 
+/// A note for each value of a node that nothing has asked for and that changes a picture.
+void note_unasked(MitsubaScene& scene, xml_node node);
+
 /// The key of the shape's material or dielectric, which may be a new one. Empty: its surface is none.
 std::string mitsuba_material(MitsubaScene& scene, xml_node shape);
 
