@@ -15,11 +15,13 @@ inline constexpr Choice<photons::Settings::Method> choices<photons::Settings::Me
 template <>
 inline constexpr Choice<photons::Settings::Estimator> choices<photons::Settings::Estimator>[] = {
     {photons::Settings::Estimator::automatic, "automatic",
-     "Splats where the camera sees the receiver directly, photon maps elsewhere."},
+     "As tiles where lamps shine on a few smooth or flat faces, as points elsewhere; the plan says why."},
+    {photons::Settings::Estimator::points, "points",
+     "Photons are splatted as points where the camera sees the receiver directly; photon maps elsewhere."},
     {photons::Settings::Estimator::splat, "splat",
-     "Splats only: what is seen through glass or in a mirror has no caustics."},
+     "As points, without maps: what is seen through glass or in a mirror has no caustics."},
     {photons::Settings::Estimator::tiles, "tiles",
-     "As automatic, with photons on lattices, each the piece that it stands for."},
+     "As points, with photons on lattices, each the piece of light that it stands for."},
     {photons::Settings::Estimator::sppm, "sppm",
      "Progressive photon mapping, a run of its own for each cluster, as the thesis has it."}};
 

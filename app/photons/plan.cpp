@@ -97,11 +97,55 @@ plan::Decision stray_photons_decision(const PlanInput& input) {
 
 plan::Decision low_discrepancy_decision(const Settings& settings) {
   if (settings.estimator == Settings::Estimator::tiles)
-    return {"low discrepancy", true, "photons leave the lights on square lattices"};
+    return {"low discrepancy", true, "photons leave the lights on square lattices", "/spectral/low_discrepancy", true};
   return {"low discrepancy", settings.low_discrepancy,
           settings.low_discrepancy ? "photons leave the lights by a scrambled Sobol sequence"
                                    : "spectral.low_discrepancy is false: plain random numbers",
           "/spectral/low_discrepancy", true};
+}
+
+/// Whether two objects of glass meet, or one is in the other, as far as the spheres about them tell.
+bool glass_meets_glass(const scene::Scene& scene) {
+  std::vector<scene::Sphere> bodies;
+  for (const scene::Object& object : scene.objects)
+    if (preset::is_specular(scene.materials[static_cast<std::size_t>(object.material)].type))
+      bodies.push_back(object.bounds);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (glm::distance(bodies[i].centre, bodies[j].centre) < bodies[i].radius + bodies[j].radius) return true;
+  return false;
+}
+
+/// Why photons are points; empty where tiles have less error (docs/notebook/tiles.md).
+std::string why_points(const Settings& wanted, const scene::Scene& scene) {
+  if (wanted.relight) return "spectral.relight is true: layers hold whole clusters";
+  if (wanted.method == Settings::Method::brute_force || wanted.effort != Settings::Effort::automatic ||
+      !wanted.jitter || !wanted.low_discrepancy)
+    return "spectral.method, effort, jitter or low_discrepancy ask for points";
+  if (scene.environment && scene.environment->lights && !scene.environment->is_black())
+    return "an environment has too many directions: a lattice for each would be coarse";
+  if (std::ranges::count(scene.lights, preset::Light::Type::area, &scene::Light::type) > 0)
+    return "a lamp of a size has too many places: a lattice for each would be coarse";
+  if (tracing::count_objects(scene).mirrors > 0) return "mirrors spread a cell too far";
+  if (tracing::may_see_glass_or_mirror(scene)) return "the camera sees glass: photon maps have more noise than splats";
+  if (glass_meets_glass(scene)) return "glass meets glass: photons would have too many branches";
+  constexpr std::uint32_t most_facets = 40, most_smooth = 4096;
+  std::uint32_t facets = 0, smooth = 0; // triangles of glass
+  for (const scene::Object& object : scene.objects)
+    if (preset::is_specular(scene.materials[static_cast<std::size_t>(object.material)].type))
+      (object.smooth ? smooth : facets) += object.triangle_count;
+  if (facets > most_facets || smooth > most_smooth)
+    return fmt::format("glass has {}: a cell would meet several at once", counted(facets + smooth, "triangle"));
+  return "";
+}
+
+plan::Decision tiles_decision(const Settings& wanted, const scene::Scene& scene) {
+  if (wanted.estimator != Settings::Estimator::automatic)
+    return {"tiles", wanted.estimator == Settings::Estimator::tiles,
+            fmt::format("spectral.estimator is {}", preset::word(wanted.estimator))};
+  const std::string why = why_points(wanted, scene);
+  return {"tiles", why.empty(),
+          why.empty() ? "each photon lights the piece that its cell of a lattice stands for" : why};
 }
 
 plan::Decision differentials_decision(const PlanInput& input) {
@@ -126,8 +170,12 @@ PlanPart plan_caustics(const PlanInput& input) {
                        differentials = differentials_decision(input);
   PlanPart part;
   if (input.caustics.runs)
-    part.decisions = {effort_decision(input.settings, input.tables.importance), stray_photons_decision(input), jitter,
-                      low_discrepancy, differentials};
+    part.decisions = {input.tiles,
+                      effort_decision(input.settings, input.tables.importance),
+                      stray_photons_decision(input),
+                      jitter,
+                      low_discrepancy,
+                      differentials};
   part.defines = {{"NEPHROID_JITTER", std::to_string(int(jitter.runs))},
                   {"NEPHROID_LOW_DISCREPANCY", std::to_string(int(low_discrepancy.runs))},
                   {"NEPHROID_DIFFERENTIALS", std::to_string(int(differentials.runs))},
@@ -214,9 +262,13 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const sc
   RunPlan plan;
   plan.settings = wanted;
   if (!plan.settings.pixel_samples) plan.settings.pixel_samples = enough_samples(scene);
+  const plan::Decision tiles = tiles_decision(wanted, scene);
+  if (wanted.estimator == Settings::Estimator::automatic)
+    plan.settings.estimator = tiles.runs ? Settings::Estimator::tiles : Settings::Estimator::points;
   const Settings& settings = plan.settings;
   plan.tables = make_run_tables(preset, settings, scene, bvh, leave_out);
   PlanInput input{preset, settings, scene, bvh, leave_out, plan.tables, tracing::count_objects(scene)};
+  input.tiles = tiles;
   input.caustics = caustics_decision(input);
   input.estimate = estimate_decision(preset, settings, input.caustics);
   std::set<std::string_view> layers;

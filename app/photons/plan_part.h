@@ -31,6 +31,7 @@ struct PlanInput {
   const tracing::LeaveOut& leave_out;
   const RunTables& tables;
   tracing::ObjectCounts objects;
+  plan::Decision tiles = {};    ///< whether photons are tiles, and why
   plan::Decision caustics = {}; ///< whether there are any of photons, splatted or gathered, and why
   plan::Decision estimate = {}; ///< whether films have two halves, and why
 

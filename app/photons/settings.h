@@ -22,7 +22,7 @@ struct Sppm {
 
 struct Settings {
   enum class Method { optimal, thesis, brute_force };
-  enum class Estimator { automatic, splat, tiles, sppm };
+  enum class Estimator { automatic, points, splat, tiles, sppm }; ///< RunPlan never has automatic
   enum class Effort { automatic, power, equal, importance, radziszewski, variance, random };
   enum class Smoothing { automatic, on, off };
   Method method = Method::optimal;

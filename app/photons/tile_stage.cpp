@@ -19,14 +19,13 @@
 namespace nephroid::photons {
 namespace {
 
-/// The part of a pass's photons that tiles have beside photon maps, which have more noise and photons of their own.
-constexpr double share_beside_maps = 0.25;
+/// The part of a pass's photons that tiles have: each takes longer than a point, and the other layers need passes.
+constexpr double share = 0.25;
 
 class TileStage final : public Stage {
 public:
   TileStage(StageContext& world, const scene::Scene&, const Settings&)
-      : world_(world), share_(world.map ? share_beside_maps : 1),
-        film_(world.zeroed("film caustic", world.film_size())), sums_(world.film_size(), 0.0),
+      : world_(world), film_(world.zeroed("film caustic", world.film_size())), sums_(world.film_size(), 0.0),
         bias_(world.film_size() / world.halves, 0.0), energy_(world.zeroed("energy of tiles", OUTCOME_COUNT)),
         kernel_(compute::Program(world.context, "photons/tiles.cl", world.photon_defines()).kernel("tiles")) {
     begin_round();
@@ -40,7 +39,7 @@ public:
     return (static_cast<double>(batch_) + part) / world_.tables.batches;
   }
   std::uint64_t photons_per_pass() const override {
-    return static_cast<std::uint64_t>(share_ * static_cast<double>(world_.tables.photons_per_pass()));
+    return static_cast<std::uint64_t>(share * static_cast<double>(world_.tables.photons_per_pass()));
   }
 
   bool advance(std::int64_t) override {
@@ -125,7 +124,7 @@ private:
   double growth() const { return static_cast<double>(round_batches()) / world_.halves; }
 
   void begin_round() {
-    lattices_ = make_lattices(world_.tables, world_.halves, share_ * growth(), world_.seed, batches_);
+    lattices_ = make_lattices(world_.tables, world_.halves, share * growth(), world_.seed, batches_);
     on_device_ = compute::Buffer<shared::DeviceLattice>(world_.context, "lattices", lattices_.lattices);
   }
 
@@ -190,7 +189,6 @@ private:
   }
 
   StageContext& world_;
-  double share_;                       ///< of a batch's photons
   compute::Buffer<std::int64_t> film_; ///< of the round in hand
   std::vector<double> sums_;           ///< of the rounds before, as Film::sums
   /// An estimate of the error that the halves share. It is added to one and taken from the other, so that the estimated

@@ -13,8 +13,9 @@ namespace {
 
 using preset::Where;
 
-/// A cluster drawn at random needs sppm's pass of its own; a variance is measured where all share a film.
-void check_effort(const photons::Settings& s, const std::string& pointer, const Where& where) {
+/// A cluster drawn at random needs sppm's pass of its own; a variance is measured where all share a film; a tile is a
+/// piece of a lattice, swept along its wavelengths.
+void check_estimator(const photons::Settings& s, const std::string& pointer, const Where& where) {
   const bool sppm = s.estimator == photons::Settings::Estimator::sppm,
              tiles = s.estimator == photons::Settings::Estimator::tiles;
   if (s.effort == photons::Settings::Effort::random && !sppm)
@@ -24,6 +25,10 @@ void check_effort(const photons::Settings& s, const std::string& pointer, const 
     throw bad_input(where(preset::child(pointer, "effort")),
                     fmt::format("variance is not measured by the estimator {}", sppm ? "sppm" : "tiles"),
                     "expected another effort or estimator", "choose effort importance, or estimator automatic");
+  for (const auto& [key, is_set] : {std::pair{"jitter", s.jitter}, {"low_discrepancy", s.low_discrepancy}})
+    if (tiles && !is_set)
+      throw bad_input(where(preset::child(pointer, key)), "the estimator tiles cannot do without",
+                      "expected true, or another 'spectral.estimator'", "choose estimator points");
 }
 
 /// Layers hold the sums of splats of whole clusters.
@@ -50,9 +55,9 @@ void check_relight(const preset::Preset& preset, const photons::Settings& spectr
 
 void check(const preset::Preset& preset, const Where& where) {
   const photons::Settings& own = settings(preset);
-  check_effort(own, "/spectral", where);
+  check_estimator(own, "/spectral", where);
   if (preset.reference && preset.reference->settings)
-    check_effort(preset.reference->settings->as<photons::Settings>(), "/reference/spectral", where);
+    check_estimator(preset.reference->settings->as<photons::Settings>(), "/reference/spectral", where);
   if (preset.stop.error && !preset.reference && own.estimator == photons::Settings::Estimator::sppm)
     throw bad_input(where("/stop/error"),
                     "nothing measures the error of this run: the estimator sppm makes no estimate of its own error",

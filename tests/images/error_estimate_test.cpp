@@ -20,6 +20,7 @@ preset::Preset small(const std::string& name, int photons_per_pass, std::uint64_
   // The light of the prism is a narrow strip: a smaller picture has a dozen pixels of it, too few for a mean.
   const int size = name == "spectral/prism" ? 96 : 40;
   p.scene.camera.resolution = {size, size};
+  spectral::settings(p).estimator = photons::Settings::Estimator::points; // of tiles: physics/tiles_test.cpp
   spectral::settings(p).photons_per_pass = photons_per_pass;
   spectral::settings(p).pixel_samples = 16;
   p.seed = seed;

@@ -241,7 +241,7 @@ preset::Preset whole(const TemporaryFolder& folder) {
   p.scene.camera.position = {0, 1, 4};
   spectral::settings(p).background = true;
   spectral::settings(p).indirect = true;
-  spectral::settings(p).estimator = photons::Settings::Estimator::automatic;
+  spectral::settings(p).estimator = photons::Settings::Estimator::points;
   spectral::settings(p).effort = photons::Settings::Effort::automatic;
   spectral::settings(p).smoothing = photons::Settings::Smoothing::automatic;
   spectral::settings(p).low_discrepancy = true;

@@ -126,9 +126,9 @@ TEST_P(MapBands, AStripeHasOneImageForEachLine) {
 
 INSTANTIATE_TEST_SUITE_P(
     , MapBands,
-    testing::Values(Way{"automatic", photons::Settings::Estimator::automatic, photons::Settings::Method::optimal},
+    testing::Values(Way{"points", photons::Settings::Estimator::points, photons::Settings::Method::optimal},
                     Way{"sppm", photons::Settings::Estimator::sppm, photons::Settings::Method::optimal},
-                    Way{"clusters", photons::Settings::Estimator::automatic, photons::Settings::Method::brute_force}),
+                    Way{"clusters", photons::Settings::Estimator::points, photons::Settings::Method::brute_force}),
     [](const auto& way) { return std::string(way.param.name); });
 
 // Runs with photon maps: the same bits however they are cut or resumed, iterations by importance, energy, and what the
@@ -219,8 +219,8 @@ TEST_P(MapRuns, SendTheLampsPower) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Estimators, MapRuns,
-                         testing::Values(Case{"automatic", Estimator::automatic, Effort::power, false},
-                                         Case{"jittered", Estimator::automatic, Effort::power, true},
+                         testing::Values(Case{"points", Estimator::points, Effort::power, false},
+                                         Case{"jittered", Estimator::points, Effort::power, true},
                                          Case{"sppm", Estimator::sppm, Effort::importance, false},
                                          Case{"tiles", Estimator::tiles, Effort::power, true},
                                          Case{"random", Estimator::sppm, Effort::random, false}),
@@ -239,15 +239,15 @@ std::uint64_t bytes_of(const plan::Plan& plan, const std::string& name) {
 }
 
 TEST(MapPlan, SaysWhichEstimatorRunsAndWhy) {
-  const plan::Plan automatic = plan_of(glass_in_view(Estimator::automatic)),
+  const plan::Plan points = plan_of(glass_in_view(Estimator::points)),
                    splat = plan_of(glass_in_view(Estimator::splat)), sppm = plan_of(glass_in_view(Estimator::sppm));
-  EXPECT_TRUE(pass_of(automatic, "photons").runs && pass_of(automatic, "photon maps").runs &&
-              pass_of(automatic, "error estimate").runs);
+  EXPECT_TRUE(pass_of(points, "photons").runs && pass_of(points, "photon maps").runs &&
+              pass_of(points, "error estimate").runs);
   EXPECT_TRUE(pass_of(splat, "photons").runs && !pass_of(splat, "photon maps").runs);
   EXPECT_THAT(pass_of(splat, "photon maps").reason, testing::HasSubstr("left out"));
   EXPECT_TRUE(!pass_of(sppm, "photons").runs && pass_of(sppm, "photon maps").runs &&
               !pass_of(sppm, "error estimate").runs);
-  preset::Preset away = glass_in_view(Estimator::automatic);
+  preset::Preset away = glass_in_view(Estimator::points);
   away.scene.camera.target = {0, 1.5, 8};
   EXPECT_FALSE(pass_of(plan_of(away), "photon maps").runs);
   away.scene.camera.position = {0, 0.7, 0}; // inside the ball
@@ -264,7 +264,7 @@ TEST(MapPlan, SaysWhereARadiusLosesTheCaustics) {
                   [](const std::string& note) { return !note.starts_with("spectral."); }); // N-SF66 starts at 390 nm
     return all;
   };
-  for (const Estimator estimator : {Estimator::automatic, Estimator::sppm}) {
+  for (const Estimator estimator : {Estimator::points, Estimator::sppm}) {
     EXPECT_THAT(notes(1e7, estimator),
                 testing::ElementsAre(testing::AllOf(testing::StartsWith("spectral.sppm.radius: 10000000 units are "),
                                                     testing::HasSubstr("blurred away"))));

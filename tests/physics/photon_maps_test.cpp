@@ -30,7 +30,7 @@ preset::Preset lit_floor(double n) {
   p.scene.camera.target = {0, -1, 0};
   p.scene.camera.up = {0, 0, -1};
   p.scene.camera.fov_deg = 6; // R as at normal incidence, to 1e-5
-  spectral::settings(p).estimator = Estimator::automatic;
+  spectral::settings(p).estimator = Estimator::points;
   spectral::settings(p).sppm.radius = 0.05;
   spectral::settings(p).photons_per_pass = 1 << 15;
   p.stop.passes = 32;
@@ -84,8 +84,8 @@ TEST_P(MapEstimators, ASheetIsDarkOnItsOtherSide) {
   EXPECT_EQ(mean_luminance(render(p))[0], 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Estimators, MapEstimators, testing::Values(Estimator::automatic, Estimator::sppm),
-                         [](const auto& e) { return e.param == Estimator::sppm ? "sppm" : "automatic"; });
+INSTANTIATE_TEST_SUITE_P(Estimators, MapEstimators, testing::Values(Estimator::points, Estimator::sppm),
+                         [](const auto& e) { return e.param == Estimator::sppm ? "sppm" : "points"; });
 
 // What the splats leave out is what maps are for.
 TEST(PhotonMaps, SplatsAloneShowNothingBehindGlass) {
@@ -202,7 +202,7 @@ TEST(PhotonMaps, SppmIsWhatSplatsAre) {
 TEST(PhotonMaps, AWindowChangesNothing) {
   preset::Preset splat = ball_caustic(), maps = splat;
   maps.seed = 78;
-  spectral::settings(maps).estimator = Estimator::automatic;
+  spectral::settings(maps).estimator = Estimator::points;
   maps.scene.materials["air"] = glass(1.00001);
   maps.scene.objects.push_back(object("window", box(0.6, 0.01, 0.6), "air", at({1.2, 2.2, 0})));
   set_radius(maps, 0.4);
@@ -234,7 +234,7 @@ TEST(PhotonMaps, AMirrorShowsWhatTheMirroredCameraSees) {
   splat.scene.camera.fov_deg = 16;
   preset::Preset maps = splat;
   maps.seed = 79;
-  spectral::settings(maps).estimator = Estimator::automatic;
+  spectral::settings(maps).estimator = Estimator::points;
   maps.scene.materials["mirror"] = check::mirror(1);
   maps.scene.objects.push_back(object("mirror", quad(4, 2), "mirror", at({0, 1.02, -1.5}, {90, 0, 0})));
   maps.scene.camera.position[2] = 1; // mirrored about z = -1.5

@@ -176,7 +176,7 @@ TEST(ThroughGlass, RunsGoOnConverging) {
 preset::Preset whole(int passes) {
   preset::Preset p = ball(passes);
   spectral::settings(p).caustic = true;
-  spectral::settings(p).estimator = photons::Settings::Estimator::automatic;
+  spectral::settings(p).estimator = photons::Settings::Estimator::points;
   spectral::settings(p).effort = photons::Settings::Effort::automatic;
   spectral::settings(p).smoothing = photons::Settings::Smoothing::automatic;
   spectral::settings(p).photons_per_pass = 1 << 12;

@@ -217,7 +217,7 @@ TEST(SpectralDifferentials, SweepTilesOverARainbow) {
   Newton newton;
   spectral::settings(newton.preset()).method = photons::Settings::Method::optimal;
   spectral::settings(newton.preset()).threshold_deg = 0.05;
-  spectral::settings(newton.preset()).photons_per_pass = 1 << 17;
+  spectral::settings(newton.preset()).photons_per_pass = 1 << 19;
   spectral::settings(newton.preset()).estimator = photons::Settings::Estimator::tiles;
   const Columns band = newton.rendered(render_as_it_is(newton.preset())), truth = newton.truth();
   record("mean error of a column: tiles", mean_error(band, truth), 0, 0.05);

@@ -180,7 +180,7 @@ TEST_P(TilesAndPoints, SendTheSameLight) {
   preset::Preset p = GetParam().preset();
   const job::Snapshot tiles = render(by_tiles(p));
   spectral::settings(p).photons_per_pass *= 16;
-  spectral::settings(p).estimator = Settings::Estimator::automatic;
+  spectral::settings(p).estimator = Settings::Estimator::points;
   const job::Snapshot points = render(p);
   const photons::EnergyBalance energy = photons::energy_of(tiles), truth = photons::energy_of(points);
   EXPECT_EQ(energy.refused_contributions, 0u);

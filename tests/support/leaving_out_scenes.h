@@ -108,7 +108,7 @@ inline std::vector<Omission> omissions() {
   straight.scene.materials["glass"] = glass(1);
   straight.scene.objects[0].shape = box(1, 0.4, 1);
   preset::Preset no_glass_seen = floor_scene();
-  spectral::settings(no_glass_seen).estimator = photons::Settings::Estimator::automatic;
+  spectral::settings(no_glass_seen).estimator = photons::Settings::Estimator::points;
   spectral::settings(no_glass_seen).jitter = false; // with maps, all photons of a cluster have one wavelength a pass
   preset::Preset lines = line_light_scene();
   spectral::settings(lines).jitter = false; // a streak ends with its cluster's wavelengths

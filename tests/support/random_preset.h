@@ -101,6 +101,7 @@ inline preset::Preset random_preset(std::uint64_t seed) {
     auto& s = settings.as<photons::Settings>();
     if (s.effort == photons::Settings::Effort::random) s.estimator = photons::Settings::Estimator::sppm;
     if (s.effort == photons::Settings::Effort::variance) s.estimator = photons::Settings::Estimator::automatic;
+    if (s.estimator == photons::Settings::Estimator::tiles) s.jitter = s.low_discrepancy = true;
   };
   agree(p.settings);
   if (p.reference && p.reference->settings) agree(*p.reference->settings);

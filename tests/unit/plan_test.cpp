@@ -6,6 +6,7 @@
 #include "run/folder.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
+#include "tests/support/plans.h"
 #include "tests/support/test.h"
 
 #include <nlohmann/json.hpp>
@@ -167,7 +168,7 @@ TEST_P(PlanFields, AreTrueWhateverIsSwitched) {
     spectral::settings(p).estimator = estimator;
     expect_true_fields_whatever_is_switched(p, "another estimator");
   }
-  spectral::settings(p).estimator = Estimator::automatic;
+  spectral::settings(p).estimator = Estimator::points;
   p.stop.error = 1;
   expect_true_fields(p, "an error to stop at");
   for (const char* field : {"/spectral/direct", "/spectral/background", "/spectral/jitter", "/spectral/low_discrepancy",
@@ -185,6 +186,53 @@ TEST_P(PlanFields, TurnTheirPassesOnAndOff) {
     EXPECT_TRUE(pass_of(with_field(preset_, pass.field, pass.run_value).value(), name).runs);
     EXPECT_FALSE(pass_of(with_field(preset_, pass.field, !pass.run_value).value(), name).runs);
   }
+}
+
+// A prism that the camera does not see is the simplest scene with dispersion. Each change has its reason in the plan.
+TEST(AutomaticEstimator, IsTilesWhereTheyGain) {
+  const auto why = [](const auto& change) {
+    preset::Preset p = preset::read_preset("spectral/prism");
+    change(p);
+    const std::vector<plan::Decision> decisions = test::plan_of(p).decisions;
+    const auto tiles = std::ranges::find(decisions, "tiles", &plan::Decision::name);
+    return tiles == decisions.end() ? std::string("no row") : tiles->runs ? std::string("tiles") : tiles->reason;
+  };
+  const auto settings_with = [](const auto& change) {
+    return [change](preset::Preset& p) { change(spectral::settings(p)); };
+  };
+  EXPECT_EQ(why([](auto&) {}), "tiles");
+  EXPECT_EQ(why(settings_with([](auto& s) { s.estimator = Estimator::points; })), "spectral.estimator is points");
+  EXPECT_THAT(why(settings_with([](auto& s) { s.relight = true; })), HasSubstr("relight"));
+  EXPECT_THAT(why(settings_with([](auto& s) { s.jitter = false; })), HasSubstr("ask for points"));
+  EXPECT_THAT(why([](auto& p) { p.scene.objects[0].normals = preset::Object::Normals::smooth; }), HasSubstr("tiles"));
+  EXPECT_THAT(why([](auto& p) { p.scene.objects[0].shape->type = preset::Shape::Type::brilliant; }),
+              HasSubstr("glass has 110 triangles"));
+  EXPECT_THAT(why([](auto& p) { p.scene.camera.target = p.scene.objects[0].transform.translate; }),
+              HasSubstr("the camera sees glass"));
+  EXPECT_THAT(why([](auto& p) {
+                p.scene.objects.push_back(p.scene.objects[0]);
+                p.scene.objects.back().name = "inside";
+                p.scene.objects.back().transform.scale = {0.5, 0.5, 0.5};
+              }),
+              HasSubstr("glass meets glass"));
+  EXPECT_THAT(why([](auto& p) {
+                p.scene.lights[0].type = preset::Light::Type::area;
+                p.scene.lights[0].size = {0.1, 0.1};
+              }),
+              HasSubstr("a lamp of a size"));
+  EXPECT_THAT(why([](auto& p) {
+                p.scene.environment.emplace().type = preset::Environment::Type::constant;
+                p.scene.environment->lights = true;
+              }),
+              HasSubstr("an environment"));
+  EXPECT_THAT(why([](auto& p) {
+                p.scene.materials["gold"].type = preset::Material::Type::mirror;
+                p.scene.objects.push_back(p.scene.objects[0]);
+                p.scene.objects.back().name = "mirror";
+                p.scene.objects.back().material = "gold";
+                p.scene.objects.back().transform.translate[1] += 100;
+              }),
+              HasSubstr("mirrors"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PlanFields,
