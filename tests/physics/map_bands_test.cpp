@@ -239,8 +239,8 @@ std::uint64_t bytes_of(const plan::Plan& plan, const std::string& name) {
 }
 
 TEST(MapPlan, SaysWhichEstimatorRunsAndWhy) {
-  const plan::Plan points = plan_of(glass_in_view(Estimator::points)),
-                   splat = plan_of(glass_in_view(Estimator::splat)), sppm = plan_of(glass_in_view(Estimator::sppm));
+  const plan::Plan points = plan_of(glass_in_view(Estimator::points)), splat = plan_of(glass_in_view(Estimator::splat)),
+                   sppm = plan_of(glass_in_view(Estimator::sppm));
   EXPECT_TRUE(pass_of(points, "photons").runs && pass_of(points, "photon maps").runs &&
               pass_of(points, "error estimate").runs);
   EXPECT_TRUE(pass_of(splat, "photons").runs && !pass_of(splat, "photon maps").runs);
