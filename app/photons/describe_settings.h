@@ -15,7 +15,8 @@ inline constexpr Choice<photons::Settings::Method> choices<photons::Settings::Me
 template <>
 inline constexpr Choice<photons::Settings::Estimator> choices<photons::Settings::Estimator>[] = {
     {photons::Settings::Estimator::automatic, "automatic",
-     "As tiles where lamps shine on a few smooth or flat faces, as points elsewhere; the plan says why."},
+     "As tiles where small lamps shine on smooth or flat glass that the camera does not see, as points elsewhere; the "
+     "plan says why."},
     {photons::Settings::Estimator::points, "points",
      "Photons are splatted as points where the camera sees the receiver directly; photon maps elsewhere."},
     {photons::Settings::Estimator::splat, "splat",

@@ -236,38 +236,14 @@ std::optional<DescribedColour> absorption_of(MitsubaScene& scene, xml_node mediu
 
 void note_unasked(MitsubaScene& scene, xml_node node) {
   // How to render and to write files, textures' coordinates, and what has a note of its own where it counts.
-  static const std::set<std::string> harmless{"alpha",
-                                              "alpha_u",
-                                              "alpha_v",
-                                              "distribution",
-                                              "sample_visible",
-                                              "eta",
-                                              "k",
-                                              "material",
-                                              "near_clip",
-                                              "far_clip",
-                                              "focus_distance",
-                                              "aperture_radius",
-                                              "file_format",
-                                              "pixel_format",
-                                              "component_format",
-                                              "banner",
-                                              "sampling_weight",
-                                              "flip_tex_coords",
-                                              "crop_offset_x",
-                                              "crop_offset_y",
-                                              "crop_width",
-                                              "crop_height",
-                                              "sample_border",
-                                              "compensate",
-                                              "shutter_open",
-                                              "shutter_close",
-                                              "filename",
-                                              "method",
-                                              "high_quality_edges",
-                                              "nonlinear"};
+  static const std::string_view harmless =
+      " alpha alpha_u alpha_v distribution sample_visible eta k material near_clip far_clip focus_distance "
+      "aperture_radius file_format pixel_format component_format banner sampling_weight flip_tex_coords "
+      "crop_offset_x crop_offset_y crop_width crop_height sample_border compensate shutter_open shutter_close "
+      "filename method high_quality_edges nonlinear ";
   for (const xml_node value : scene.file.unasked(node))
-    if (const std::string name = mitsuba_name(value.attribute("name").value()); !harmless.contains(name))
+    if (const std::string name = mitsuba_name(value.attribute("name").value());
+        harmless.find(" " + name + " ") == std::string_view::npos)
       scene.d.note(scene.file.at(value), fmt::format("its \"{}\" is left out", name));
 }
 

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
+#include <string_view>
 
 namespace nephroid::formats {
 namespace {
@@ -151,32 +151,14 @@ bool is_rough(const PbrtParameters& p) {
 } // namespace
 
 void note_unasked(PbrtScene& scene, const PbrtParameters& p) {
-  // How to render, textures' coordinates, and what only counts where a sensor, a lens or scattering does.
-  static const std::set<std::string> harmless{"type",
-                                              "filename",
-                                              "diagonal",
-                                              "savefp16",
-                                              "maxcomponentvalue",
-                                              "shutteropen",
-                                              "shutterclose",
-                                              "focaldistance",
-                                              "samples",
-                                              "nsamples",
-                                              "from",
-                                              "to",
-                                              "portal",
-                                              "uv",
-                                              "st",
-                                              "S",
-                                              "faceIndices",
-                                              "emissionfilename",
-                                              "remaproughness",
-                                              "uroughness",
-                                              "vroughness",
-                                              "g",
-                                              "maxsampleluminance"};
+  // How to render, textures' coordinates, what has a note of its own, and what only counts where a sensor, a lens or
+  // scattering does.
+  static const std::string_view harmless =
+      " type filename diagonal savefp16 maxcomponentvalue maxsampleluminance shutteropen shutterclose focaldistance "
+      "samples nsamples from to portal uv st S faceIndices emissionfilename remaproughness uroughness vroughness eta k "
+      "g ";
   for (const PbrtParameter& parameter : p.unasked())
-    if (!harmless.contains(parameter.name))
+    if (harmless.find(" " + parameter.name + " ") == std::string_view::npos)
       scene.d.note(parameter.where, fmt::format("its \"{}\" is left out", parameter.name));
 }
 
@@ -225,8 +207,7 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
   if (is_metal || type == "mirror") {
     made.type = preset::Material::Type::mirror;
     reflect(is_metal ? "reflectance" : "Kr", 0.9);
-    const std::array<const PbrtParameter*, 2> index{p.find("eta"), p.find("k")};
-    if (is_metal && (index[0] || index[1] || !p.find("reflectance")))
+    if (is_metal && !p.find("reflectance"))
       scene.d.note(p.where, "the metal is left out: a mirror of 0.9 takes its place");
     if (is_rough(p)) scene.d.note(p.where, "roughness is left out: the mirror is polished");
     note_unasked(scene, p);
