@@ -56,6 +56,54 @@ Result reflectance(const compute::Context& context, std::uint64_t) {
                             in.size()));
 }
 
+/// Metals from n + i k = 0.05 + 2 i to 4 + 8 i, and glass. The square root of what is far smaller than its terms costs
+/// digits where k is small.
+Result metal_reflectance(const compute::Context& context, std::uint64_t) {
+  std::vector<float4> in;
+  for (const float n : {0.05f, 0.3f, 1.0f, 1.5f, 4.0f})
+    for (const float k : {0.0f, 0.5f, 2.0f, 8.0f})
+      for (int angle = 0; angle < 900; ++angle) {
+        const float cosine = static_cast<float>(std::cos(angle * pi / 1800));
+        if (k > 0 || n * n > 1 - cosine * cosine) in.push_back({cosine, n, k, 0}); // no total reflection
+      }
+  const std::vector<float4> out = through(context, "conductors", in, 1);
+  double worst = 0;
+  for (std::size_t i = 0; i < in.size(); ++i)
+    worst = worse(worst, out[i].x - optics::conductor_reflectance(in[i].x, 1, {in[i].y, in[i].z}));
+  return judged(worst, 2e-5, "", fmt::format("R of {} metals and angles, against complex arithmetic", in.size()));
+}
+
+/// Errors are over the condition of Fresnel's R, and over the layer's thickness, by which its phase rounds.
+Result coated_interfaces(const compute::Context& context, std::uint64_t) {
+  std::vector<float4> in;
+  for (const float near : indices)
+    for (const float far : indices)
+      for (const float layer : {1.0f, 1.38f, 2.35f})
+        for (const float thickness : {0.0f, 0.18f, 0.25f, 3.7f})
+          for (int k = 0; k < 90; ++k) {
+            in.push_back({static_cast<float>(std::cos(k * pi / 180)), near, far, layer});
+            in.push_back({thickness, 0, 0, 0});
+          }
+  // Two items go in for each that comes out.
+  const compute::Buffer<float4> result(context, "out", in.size() / 2);
+  run_kernel(context, "coatings", in.size() / 2, {{"in", compute::Buffer(context, "in", in)}, {"out", result}});
+  const std::vector<float4> out = result.read();
+  double worst = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double cos_i = in[2 * i].x, n_i = in[2 * i].y, n_t = in[2 * i].z, layer = in[2 * i].w,
+                 thickness = in[2 * i + 1].x, sine = n_i * std::sqrt(1 - cos_i * cos_i) / layer;
+    const auto cos_t = optics::refracted_cosine(cos_i, n_i, n_t);
+    const double cos_layer = std::sqrt(std::abs(1 - sine * sine));
+    if (!cos_t || *cos_t < 0.01 || cos_layer < 0.01) continue; // critical angles
+    const double condition =
+        (n_i / n_t + n_t / n_i + n_i / layer + layer / n_i) / std::min(*cos_t, cos_layer) * (1 + 10 * thickness);
+    worst = worse(worst, (out[i].x - optics::coated_reflectance(cos_i, n_i, layer, n_t, thickness)) / condition);
+  }
+  return judged(
+      worst, 4e-6, "",
+      fmt::format("R of {} interfaces with a layer, over its condition, against complex arithmetic", out.size()));
+}
+
 /// Checks n_i sin(theta_i) = n_t sin(theta_t) and unit length. The reflected direction has the opposite normal part.
 Result refraction(const compute::Context& context, std::uint64_t) {
   std::vector<float4> in;
@@ -176,6 +224,8 @@ Result nested_media(const compute::Context& context, std::uint64_t seed) {
 
 Checks interface_checks() {
   return {{"interface: Fresnel's reflectance", reflectance},
+          {"interface: a metal's reflectance", metal_reflectance},
+          {"interface: a coating's reflectance", coated_interfaces},
           {"interface: Snell's directions", refraction},
           {"interface: critical angle", critical_angle},
           {"interface: Brewster's angle", brewster},

@@ -174,7 +174,7 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
         "{:.4g}, as the surface is {:.4g} from there",
         task.caster.name, task.radii.front(), task.caster.extent.nearest));
   for (const scene::Object& object : task.caster.scene.objects)
-    if (!object.closed && material_of(task.caster.scene, object).type == scene::Material::Type::dielectric)
+    if (!object.closed && is_body(material_of(task.caster.scene, object)))
       plan.notes.push_back(
           fmt::format("object '{}': its mesh is open: light that comes in by its surface and leaves by a hole marks "
                       "spheres only on its last way",

@@ -25,6 +25,47 @@ double fresnel_reflectance(double cos_i, double n_i, double n_t) {
   return std::min(1.0, (s * s + p * p) / 2);
 }
 
+namespace {
+
+/// Amplitudes of reflection at a face between two media; normal: n cos(theta) / n_i, which may be complex, of each.
+struct Amplitudes {
+  std::complex<double> s, p;
+};
+
+using Complex = std::complex<double>;
+
+Complex cosine(double sine_i, double n_i, Complex n) {
+  const Complex sine = n_i * sine_i / n;
+  return std::sqrt(1.0 - sine * sine);
+}
+
+Amplitudes amplitudes(Complex near, Complex cos_near, Complex far, Complex cos_far) {
+  return {(near * cos_near - far * cos_far) / (near * cos_near + far * cos_far),
+          (near * cos_far - far * cos_near) / (near * cos_far + far * cos_near)};
+}
+
+double mean_power(Complex s, Complex p) { return (std::norm(s) + std::norm(p)) / 2; }
+
+double sine_of(double cosine) { return std::sqrt((1 - cosine) * (1 + cosine)); }
+
+} // namespace
+
+double conductor_reflectance(double cos_i, double n_i, Complex metal) {
+  const Amplitudes r = amplitudes(n_i, cos_i, metal, cosine(sine_of(cos_i), n_i, metal));
+  return mean_power(r.s, r.p);
+}
+
+double coated_reflectance(double cos_i, double n_i, double n_layer, double n_t, double thickness) {
+  const std::optional<double> cos_t = refracted_cosine(cos_i, n_i, n_t);
+  if (!cos_t) return 1;
+  const Complex cos_layer = cosine(sine_of(cos_i), n_i, n_layer);
+  const Complex phase = std::exp(Complex(0, 4 * std::numbers::pi * thickness * n_layer) * cos_layer);
+  const Amplitudes first = amplitudes(n_i, cos_i, n_layer, cos_layer),
+                   second = amplitudes(n_layer, cos_layer, n_t, *cos_t);
+  const auto together = [&](Complex a, Complex b) { return (a + b * phase) / (1.0 + a * b * phase); };
+  return mean_power(together(first.s, second.s), together(first.p, second.p));
+}
+
 BallRay ball_ray(double h, double n, int inner) {
   const double i = std::asin(h), t = std::asin(h / n), f = fresnel_reflectance(std::cos(i), 1, n);
   if (inner < 0) return {-std::cos(i), h, std::numbers::pi - 2 * i, f, 0};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Snell's law, Fresnel's equations and a glass ball by them, in double precision: the truth for the kernels.
 #pragma once
+#include <complex>
 #include <optional>
 
 namespace nephroid::optics {
@@ -9,6 +10,12 @@ namespace nephroid::optics {
 std::optional<double> refracted_cosine(double cos_i, double n_i, double n_t);
 /// Unpolarised reflectance 0..1; 1 at total internal reflection.
 double fresnel_reflectance(double cos_i, double n_i, double n_t);
+
+/// Unpolarised reflectance of a metal of complex index n + i k, from a medium of index n_i. cos_i in 0..1.
+double conductor_reflectance(double cos_i, double n_i, std::complex<double> metal);
+/// Unpolarised reflectance of an interface with one layer on it, whose thickness is in wavelengths of the vacuum; 1 at
+/// total internal reflection.
+double coated_reflectance(double cos_i, double n_i, double n_layer, double n_t, double thickness);
 
 /// A ray through a glass ball of radius 1 about the origin, in parallel light along +x, in the plane of the ray.
 ///

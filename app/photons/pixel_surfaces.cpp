@@ -228,10 +228,11 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
     const std::optional<SurfaceHit> hit = ray.next();
     if (!hit) break;
     const scene::Object& object = scene.objects[static_cast<std::size_t>(hit->object)];
-    const Type type = material_of(scene, object).type;
+    const scene::Material& material = material_of(scene, object);
+    const Type type = material.type;
     const glm::dvec3 arrives = ray.way();
     if (is_refractive(type)) {
-      if (!ray.cross(*hit)) continue;
+      if (material.thin || !ray.cross(*hit)) continue; // most of the light passes a pane
     } else if (is_specular(type))
       ray.reflect(*hit);
     const bool is_first = surfaces.first.object < 0;

@@ -116,9 +116,28 @@ bool glass_meets_glass(const scene::Scene& scene) {
   return false;
 }
 
+bool has_coatings(const scene::Scene& scene) {
+  return std::ranges::any_of(scene.objects,
+                             [&](const scene::Object& object) { return scene::is_coated(material_of(scene, object)); });
+}
+
+/// What a coating reflects is worked out for one wavelength, and neighbours in a cluster are reflected otherwise.
+void refuse_whole_clusters(const Settings& wanted, const scene::Scene& scene, const Location& spectral) {
+  if (!has_coatings(scene)) return;
+  const auto refuse = [&](bool is_set, const char* field, const char* expected) {
+    if (is_set)
+      throw bad_input(spectral / field, "sends wavelengths of a cluster together, which a coating parts", expected,
+                      "or take the coating away");
+  };
+  refuse(!wanted.jitter, "jitter", "expected true");
+  refuse(wanted.relight, "relight", "expected false");
+  refuse(wanted.estimator == Settings::Estimator::tiles, "estimator", "expected points, splat, maps or sppm");
+}
+
 /// Why photons are points; empty where tiles have less error (docs/notebook/tiles.md).
 std::string why_points(const Settings& wanted, const scene::Scene& scene) {
   if (wanted.relight) return "spectral.relight is true: layers hold whole clusters";
+  if (has_coatings(scene)) return "a coating reflects each wavelength otherwise";
   if (wanted.method == Settings::Method::brute_force || wanted.effort != Settings::Effort::automatic ||
       !wanted.jitter || !wanted.low_discrepancy)
     return "spectral.method, effort, jitter or low_discrepancy ask for points";
@@ -154,6 +173,7 @@ plan::Decision differentials_decision(const PlanInput& input) {
   const bool tiles = input.settings.estimator == Settings::Estimator::tiles;
   if (!input.caustics.runs || input.is_sppm()) return {name, false, "nothing is splatted"};
   const tracing::StretchParameter along = tracing::stretch_parameter(input.scene);
+  if (has_coatings(input.scene)) return {name, false, "a coating reflects each wavelength otherwise"};
   if (along == tracing::StretchParameter::none)
     return {name, false, "no glass bends one wavelength otherwise than another"};
   if (!input.settings.jitter && !tiles)
@@ -259,6 +279,7 @@ bool RunPlan::runs(const RunPart& part) const { return std::ranges::count(parts,
 
 RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const scene::Scene& scene,
                   const scene::Bvh& bvh, const tracing::LeaveOut& leave_out) {
+  refuse_whole_clusters(wanted, scene, Location(preset.source) / "spectral");
   RunPlan plan;
   plan.settings = wanted;
   if (!plan.settings.pixel_samples) plan.settings.pixel_samples = enough_samples(scene);

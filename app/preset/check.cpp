@@ -59,10 +59,15 @@ void check_dispersion(const Dispersion& d, const std::string& pointer, const Whe
 }
 
 void check_material(const Material& m, const std::string& pointer, const Where& where) {
-  if (m.type == Material::Type::dielectric)
-    check_dispersion(m.dispersion, child(pointer, "dispersion"), where);
-  else if (m.reflectance.type == Reflectance::Type::table)
-    check_rows(m.reflectance.table, child(child(pointer, "reflectance"), "table"), where);
+  const auto check_reflectance = [&](const Reflectance& reflectance, const char* field) {
+    if (reflectance.type == Reflectance::Type::table)
+      check_rows(reflectance.table, child(child(pointer, field), "table"), where);
+  };
+  if (m.type == Material::Type::diffuse || m.type == Material::Type::mirror)
+    return check_reflectance(m.reflectance, "reflectance");
+  check_dispersion(m.dispersion, child(pointer, "dispersion"), where);
+  check_reflectance(m.tint, "tint");
+  if (m.coating) check_dispersion(m.coating->dispersion, child(child(pointer, "coating"), "dispersion"), where);
 }
 
 void check_spectrum(const LightSpectrum& s, const std::string& pointer, const Where& where) {

@@ -74,13 +74,30 @@ void describe(Fields& v, Reflectance& r) {
              .required = true});
 }
 
+void describe(Fields& v, Coating& c) {
+  v.about("Coating", "One thin layer on a surface of glass, with the interference of light in it.");
+  v.field("dispersion", "The layer's index of refraction: a number, a file or an object.", c.dispersion,
+          {.required = true});
+  v.field("thickness_nm", "The layer's thickness.", c.thickness_nm,
+          {.unit = "nm", .bounds = within(0, 20000), .required = true});
+}
+
 void describe(Fields& v, Material& m) {
   v.about("Material", "What a surface does with light.");
   v.type("type", "What kind of surface.", m.type);
   if (m.type == Material::Type::dielectric) {
     v.field("dispersion", "Index of refraction: a number, a file or an object.", m.dispersion, {.required = true});
     v.field("absorption", "Absorb light inside where the dispersion file has k.", m.absorption);
-  } else
+    v.field("tint",
+            "Part of the light that passes the surface, each time: a number, a ColorChecker patch or an object.",
+            m.tint);
+    v.field("thin", "A pane without thickness: light goes straight on, or is reflected by both faces together.",
+            m.thin);
+    v.field("coating", "A thin layer on the surface, such as an anti-reflection coat or a soap film.", m.coating);
+  } else if (m.type == Material::Type::conductor)
+    v.field("dispersion", "A file with n and k, or a shipped metal: gold, silver, copper, aluminium, brass.",
+            m.dispersion, {.required = true});
+  else
     v.field("reflectance", "Part of the light that is reflected: a number, a ColorChecker patch or an object.",
             m.reflectance);
 }

@@ -51,12 +51,23 @@ struct Reflectance {
   bool operator==(const Reflectance&) const = default;
 };
 
+/// One thin layer on a dielectric's surface, with its interference.
+struct Coating {
+  Dispersion dispersion;
+  double thickness_nm = 100;
+  bool operator==(const Coating&) const = default;
+};
+
 struct Material {
-  enum class Type { diffuse, dielectric, mirror };
+  enum class Type { diffuse, dielectric, mirror, conductor };
   Type type = Type::diffuse;
   Reflectance reflectance; ///< diffuse, mirror
-  Dispersion dispersion;   ///< dielectric
+  Dispersion dispersion;   ///< dielectric; conductor: a file with n and k
   bool absorption = true;  ///< dielectric: use k where the dispersion file has it
+  /// dielectric: the part of the light that passes its surface, each time
+  Reflectance tint{Reflectance::Type::constant, 1, {}, {}};
+  bool thin = false;              ///< dielectric: a pane without thickness, not a body
+  std::optional<Coating> coating; ///< dielectric, not thin
   bool operator==(const Material&) const = default;
 };
 
@@ -66,17 +77,19 @@ constexpr bool is_specular(Material::Type type) {
   switch (type) {
   case Material::Type::diffuse: return false;
   case Material::Type::dielectric:
-  case Material::Type::mirror: break;
+  case Material::Type::mirror:
+  case Material::Type::conductor: break;
   }
   return true;
 }
 
-/// Whether light passes the surface: a body with an index of refraction.
+/// Whether light passes the surface.
 constexpr bool is_refractive(Material::Type type) {
   switch (type) {
   case Material::Type::dielectric: return true;
   case Material::Type::diffuse:
-  case Material::Type::mirror: break;
+  case Material::Type::mirror:
+  case Material::Type::conductor: break;
   }
   return false;
 }

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "optics/dispersion_file.h"
+#include "optics/fresnel.h"
 #include "optics/spectrum.h"
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ auto at(const Location& where, const Make& make) {
   }
 }
 
-/// presets/materials/NAME or NAME.yml, where there is one.
+/// presets/materials/NAME or NAME.yml, or the only NAME-*.yml, where there is one.
 std::optional<std::filesystem::path> shipped_material(const std::string& name) {
   const std::filesystem::path presets = presets_folder_if_any();
   if (presets.empty() || name.empty() || std::filesystem::path(name).is_absolute()) return std::nullopt;
@@ -35,6 +36,10 @@ std::optional<std::filesystem::path> shipped_material(const std::string& name) {
   for (const std::string& file : {name, name + ".yml"})
     if (const auto material = presets / "materials" / file; std::filesystem::is_regular_file(material, ignored))
       return material;
+  const std::set<std::string> all = shipped_materials();
+  const auto first = all.lower_bound(name + "-");
+  const auto is_of_name = [&](auto entry) { return entry != all.end() && entry->starts_with(name + "-"); };
+  if (is_of_name(first) && !is_of_name(std::next(first))) return presets / "materials" / (*first + ".yml");
   return std::nullopt;
 }
 
@@ -122,21 +127,54 @@ Material make_material(const std::string& name, const preset::Material& material
   Material result;
   result.name = name;
   result.type = material.type;
-  if (material.type != Material::Type::dielectric) {
+  const auto sampled = [&](const preset::Dispersion& dispersion, const Location& field, const auto& sample) {
+    const optics::DispersionCurve curve = make_curve(dispersion, finder, field);
+    const optics::Extrapolation outside = outside_policy(dispersion.outside);
+    at(field, [&] { return sample(curve, outside), 0; });
+    if (const std::string note = optics::outside_note(curve, outside); !note.empty())
+      warnings.push_back(fmt::format("material '{}': {}", name, note));
+  };
+  const Location dispersion = where / "dispersion";
+  switch (material.type) {
+  case Material::Type::diffuse:
+  case Material::Type::mirror:
     result.reflectance = make_reflectance(material.reflectance, where / "reflectance");
-    return result;
+    break;
+  case Material::Type::conductor:
+    sampled(material.dispersion, dispersion, [&](const optics::DispersionCurve& curve, optics::Extrapolation outside) {
+      if (!curve.k)
+        throw bad_input(dispersion, fmt::format("{} has no k", curve.name), "expected a metal's n and k",
+                        "take gold, silver, copper, aluminium, brass, or a file of refractiveindex.info");
+      result.n = optics::sample_n(curve, outside);
+      result.k = optics::sample_k(curve, outside);
+    });
+    result.conductor = optics::conductor_terms(result.n, result.k);
+    if (const double error = result.conductor.error; error > 0.01)
+      throw bad_input(dispersion, fmt::format("has a reflectance that is off by up to {:.2g} here", error),
+                      "expected n and k of a metal", "what light passes is a dielectric, with k as its absorption");
+    else if (error > 0.001)
+      warnings.push_back(fmt::format("material '{}': its reflectance is off by up to {:.2g}", name, error));
+    for (std::size_t w = 0; w < result.n.size(); ++w)
+      result.reflectance[w] = optics::conductor_reflectance(1, 1, {result.n[w], result.k[w]});
+    break;
+  case Material::Type::dielectric:
+    sampled(material.dispersion, dispersion, [&](const optics::DispersionCurve& curve, optics::Extrapolation outside) {
+      result.n = optics::sample_n(curve, outside);
+      if (material.absorption && curve.k && !material.thin) result.k = optics::sample_k(curve, outside);
+    });
+    result.absorbs = std::any_of(result.k.begin(), result.k.end(), [](double k) { return k > 0; });
+    result.tint = make_reflectance(material.tint, where / "tint");
+    result.thin = material.thin;
+    if (!material.coating) break;
+    if (material.thin)
+      throw bad_input(where / "coating", "is on a thin pane", "expected a body: a pane has no coating",
+                      "for a film such as soap's, give a body the index 1 and the film as its coating");
+    result.coating_nm = material.coating->thickness_nm;
+    sampled(material.coating->dispersion, where / "coating" / "dispersion",
+            [&](const optics::DispersionCurve& curve, optics::Extrapolation outside) {
+              result.coating_n = optics::sample_n(curve, outside);
+            });
   }
-  const Location field = where / "dispersion";
-  const optics::DispersionCurve curve = make_curve(material.dispersion, finder, field);
-  const optics::Extrapolation outside = outside_policy(material.dispersion.outside);
-  at(field, [&] {
-    result.n = optics::sample_n(curve, outside);
-    if (material.absorption && curve.k) result.k = optics::sample_k(curve, outside);
-    return 0;
-  });
-  result.absorbs = std::any_of(result.k.begin(), result.k.end(), [](double k) { return k > 0; });
-  if (const std::string note = optics::outside_note(curve, outside); !note.empty())
-    warnings.push_back(fmt::format("material '{}': {}", name, note));
   return result;
 }
 

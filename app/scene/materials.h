@@ -35,7 +35,8 @@ optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const F
 optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Location& where);
 /// Each value in 0..1.
 optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Location& where);
-/// where: the material's. Adds a warning where n is wanted outside the data's range.
+/// where: the material's. Throws bad_input for a pane with a coating, for a conductor without k, or whose reflectance
+/// three terms cannot hold (optics/conductor.h). Adds a warning where n is wanted outside the data's range.
 Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder,
                        const Location& where, std::vector<std::string>& warnings);
 

@@ -120,7 +120,7 @@ void part_touching(Scene& scene) {
   std::vector<Bounds> bounds;
   for (const Object& object : scene.objects) bounds.push_back(bounds_of(scene, object));
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    if (material_of(scene, scene.objects[i]).type != Material::Type::dielectric) continue;
+    if (!is_body(material_of(scene, scene.objects[i]))) continue;
     for (std::size_t j = 0; j < scene.objects.size(); ++j) {
       if (i == j) continue;
       const double largest = largest_coordinate(enclosing(bounds[i], bounds[j])), tolerance = touching_share * largest;

@@ -74,8 +74,7 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
                 preset::Scene::DamagedMeshes damaged) {
   const std::string label =
       object.name.empty() ? fmt::format("object {}", scene.objects.size()) : fmt::format("object '{}'", object.name);
-  const bool dielectric =
-      scene.materials[static_cast<std::size_t>(pending.material)].type == Material::Type::dielectric;
+  const bool dielectric = is_body(scene.materials[static_cast<std::size_t>(pending.material)]);
   PlacedMesh placed = place(*pending.mesh, pending.placement, scene.origin, dielectric, pending.where);
   for (const std::string& warning : placed.warnings) scene.warnings.push_back(fmt::format("{}: {}", label, warning));
   tell_damages(scene, placed.damages, damaged, label, pending.where);
@@ -155,7 +154,7 @@ std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p) {
   std::vector<std::pair<double, int>> found;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    if (material_of(scene, object).type != Material::Type::dielectric) continue;
+    if (!is_body(material_of(scene, object))) continue;
     if (glm::distance(p, glm::dvec3(object.bounds.centre)) > object.bounds.radius) continue;
     double volume = signed_volume(scene.geometry, object.first_triangle, object.triangle_count);
     bool inside = winding_number(scene.geometry, object.first_triangle, object.triangle_count, p) > 0.5;

@@ -4,7 +4,7 @@
 // which keeps single precision good far from the preset's own origin.
 #pragma once
 #include "base/location.h"
-#include "optics/wavelength.h"
+#include "optics/conductor.h"
 #include "preset/preset.h"
 #include "scene/environment.h"
 #include "scene/mesh.h"
@@ -28,11 +28,22 @@ struct Material {
   using Type = preset::Material::Type;
   std::string name;
   Type type = Type::diffuse;
-  optics::Spectrum n{}; ///< dielectric
-  optics::Spectrum k{}; ///< dielectric; all zero where it does not absorb
-  bool absorbs = false;
-  optics::Spectrum reflectance{}; ///< diffuse, mirror
+  optics::Spectrum n{};             ///< dielectric, conductor
+  optics::Spectrum k{};             ///< conductor; dielectric: all zero where it does not absorb
+  bool absorbs = false;             ///< dielectric
+  optics::Spectrum reflectance{};   ///< diffuse, mirror; conductor: at normal incidence in air
+  optics::ConductorTerms conductor; ///< conductor
+  optics::Spectrum tint{};          ///< dielectric: the part that passes its surface
+  bool thin = false;                ///< dielectric: a pane without thickness
+  double coating_nm = 0;            ///< dielectric: thickness of its coating; 0: none
+  optics::Spectrum coating_n{};
 };
+
+/// Whether an object of it is a body that fills space, which light is inside or outside of.
+inline bool is_body(const Material& material) { return is_refractive(material.type) && !material.thin; }
+
+/// Whether its surface sends wavelengths different ways, where other materials of the same n send all the same way.
+inline bool is_coated(const Material& material) { return material.coating_nm > 0; }
 
 struct Object {
   std::string name;

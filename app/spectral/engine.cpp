@@ -38,7 +38,8 @@ preset::Settings reference(const preset::Preset& preset, int passes) {
 
 std::vector<check::Check> closed_forms() {
   std::vector<check::Check> checks;
-  for (const auto subject : {check::table_checks, check::radiometry_checks, check::refraction_checks})
+  for (const auto subject :
+       {check::table_checks, check::radiometry_checks, check::refraction_checks, check::material_checks})
     for (check::Check& check : subject()) checks.push_back(std::move(check));
   return checks;
 }

@@ -5,6 +5,7 @@
 #include "preset/choices.h"
 #include "scene/scene.h"
 #include "tracing/targets.h"
+#include "tracing/wavelength_tables.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,15 +23,12 @@ using optics::wavelength_count;
 
 constexpr unsigned all_light_types = (1u << LIGHT_TYPE_COUNT) - 1;
 
-bool is_dielectric(const scene::Scene& scene, const scene::Object& object) {
-  return material_of(scene, object).type == scene::Material::Type::dielectric;
-}
-
 /// Whether the glass of any object has an index other than 1.
 bool anything_bends(const scene::Scene& scene) {
   return std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
-    const optics::Spectrum& n = material_of(scene, object).n;
-    return is_dielectric(scene, object) && std::ranges::any_of(n, [](double value) { return value != 1; });
+    const scene::Material& material = material_of(scene, object);
+    return is_coated(material) ||
+           (is_refractive(material.type) && std::ranges::any_of(material.n, [](double value) { return value != 1; }));
   });
 }
 
@@ -117,7 +115,7 @@ bool goes_one_way(const scene::Scene& scene) {
   return std::ranges::none_of(scene.objects, [&](const scene::Object& object) {
     const scene::Material& material = material_of(scene, object);
     const auto same = [&](double n) { return n == material.n.front(); };
-    return material.type == scene::Material::Type::dielectric && !std::ranges::all_of(material.n, same);
+    return is_coated(material) || (is_refractive(material.type) && !std::ranges::all_of(material.n, same));
   });
 }
 
@@ -181,18 +179,30 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
   const bool bending = has(bends ? needed("bending", "glass has another n than its surroundings")
                                  : not_needed("bending", leave_out.bending, "no glass has another n than 1"));
   const bool attenuation = has(
-      attenuators > 0 ? needed("attenuation",
-                               counted(attenuators, "material takes", "materials take") + " light away by wavelength")
-                      : not_needed("attenuation", leave_out.attenuation, "no glass absorbs and no mirror is coloured"));
+      attenuators > 0
+          ? needed("attenuation", counted(attenuators, "loss", "losses") + " by wavelength, in glass and at surfaces")
+          : not_needed("attenuation", leave_out.attenuation, "no glass absorbs and no surface is coloured"));
   const bool smooth =
       has(counts.smooth > 0 ? needed("smooth normals", counted(counts.smooth, "smooth object"))
                             : not_needed("smooth normals", leave_out.smooth_normals, "no mesh has smooth normals"));
   const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
+  const auto any = [&](const auto& has_it) {
+    return std::ranges::any_of(scene.objects,
+                               [&](const scene::Object& object) { return has_it(material_of(scene, object)); });
+  };
+  using Material = scene::Material;
+  const bool conductors = any([](const Material&m) { return m.type == Material::Type::conductor; }),
+             panes = any([](const Material&m) { return m.thin; }), coatings = any(scene::is_coated),
+             tints = any([](const Material&m) { return is_refractive(m.type) && !loss_at_surface(m).empty(); });
   omissions.defines = {
       {"NEPHROID_OCCLUSION", flag(occlusion)},
       {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types)},
       {"NEPHROID_MIRRORS", flag(mirrors)},
+      {"NEPHROID_CONDUCTORS", flag(conductors || !leave_out.mirrors)},
       {"NEPHROID_BENDING", flag(bending)},
+      {"NEPHROID_PANES", flag(panes || !leave_out.bending)},
+      {"NEPHROID_COATINGS", flag(coatings || !leave_out.bending)},
+      {"NEPHROID_TINTS", flag(tints || !leave_out.attenuation)},
       // Without materials that attenuate there is one place all the same: the code is compiled and does nothing.
       {"NEPHROID_ATTENUATORS", std::to_string(attenuation ? std::max(attenuators, 1) : 0)},
       {"NEPHROID_SMOOTH", flag(smooth)}};

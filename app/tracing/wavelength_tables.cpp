@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <span>
 
 namespace nephroid::tracing {
 namespace {
@@ -22,7 +23,8 @@ using MaterialType = scene::Material::Type;
 int device_type(MaterialType type) {
   switch (type) {
   case MaterialType::dielectric: return MATERIAL_DIELECTRIC;
-  case MaterialType::mirror: return MATERIAL_MIRROR;
+  case MaterialType::mirror:
+  case MaterialType::conductor: return MATERIAL_MIRROR;
   case MaterialType::diffuse: break;
   }
   return MATERIAL_DIFFUSE;
@@ -39,22 +41,54 @@ std::vector<bool> used_materials(const scene::Scene& scene) {
 /// The coefficient of a mirror that reflects nothing: exp(-200) is 0 in single precision.
 constexpr double blackest = 200;
 
-/// Rows of the reflectance and attenuation tables, one for each material that needs one.
+/// Adds a row of losses and returns its number; -1 for none.
+int add_loss(WavelengthTables& tables, std::span<const double> coefficients) {
+  if (coefficients.empty()) return -1;
+  for (const double a : coefficients) tables.coefficient.push_back(static_cast<float>(a));
+  return tables.attenuator_count++;
+}
+
+/// Adds the rows of a metal's terms and returns the first one's number.
+int add_conductor(WavelengthTables& tables, const scene::Material& metal) {
+  static_assert(CONDUCTOR_TERMS == optics::conductor_term_count);
+  const int first = tables.attenuator_count;
+  for (std::size_t j = 0; j < CONDUCTOR_TERMS; ++j) {
+    const std::size_t w = metal.conductor.wavelengths[j];
+    for (const double value : {metal.n[w], metal.k[w]}) tables.surface_data.push_back(static_cast<float>(value));
+    add_loss(tables, metal.conductor.coefficients[j]);
+  }
+  return first;
+}
+
+/// The rows of each material that an object uses.
 void add_material_rows(const scene::Scene& scene, WavelengthTables& tables,
                        std::vector<shared::DeviceMaterial>& materials) {
   const std::vector<bool> used = used_materials(scene);
-  materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, 0});
+  materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, -1, -1, 0, 0, 0});
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const scene::Material& material = scene.materials[i];
     shared::DeviceMaterial& row = materials[i];
     row.type = device_type(material.type);
     if (!used[i]) continue;
-    if (!is_specular(material.type)) {
+    const int surface_first = static_cast<int>(tables.surface_data.size());
+    switch (material.type) {
+    case MaterialType::diffuse:
       row.reflector = tables.reflector_count++;
       tables.reflectance.insert(tables.reflectance.end(), material.reflectance.begin(), material.reflectance.end());
-    } else if (const std::vector<double> coefficients = loss_coefficients(material); !coefficients.empty()) {
-      row.attenuator = tables.attenuator_count++;
-      for (const double a : coefficients) tables.coefficient.push_back(static_cast<float>(a));
+      break;
+    case MaterialType::mirror: row.attenuator = add_loss(tables, loss_at_surface(material)); break;
+    case MaterialType::conductor:
+      row.surface_first = surface_first;
+      row.attenuator = add_conductor(tables, material);
+      break;
+    case MaterialType::dielectric:
+      row.attenuator = add_loss(tables, loss_inside(material));
+      row.tint = add_loss(tables, loss_at_surface(material));
+      row.is_thin = material.thin;
+      if (!is_coated(material)) break;
+      row.surface_first = surface_first;
+      row.coating_nm = static_cast<float>(material.coating_nm);
+      for (const double n : material.coating_n) tables.surface_data.push_back(static_cast<float>(n));
     }
   }
 }
@@ -89,6 +123,7 @@ void add_wavelength_rows(const scene::Scene& scene, WavelengthTables& tables) {
   const std::vector<bool> used = used_materials(scene);
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     if (!used[m] || !bends(scene.materials[m])) continue;
+    tables.clusters_spread = tables.clusters_spread || is_coated(scene.materials[m]);
     const Spectrum& n = scene.materials[m].n;
     for (const std::vector<int>& cluster : tables.clusters)
       for (const int w : cluster)
@@ -233,20 +268,20 @@ double slope(const Spectrum& n, const Spectrum& s, const std::vector<int>& clust
 
 } // namespace
 
-std::vector<double> loss_coefficients(const scene::Material& material) {
+std::vector<double> loss_inside(const scene::Material& material) {
   std::vector<double> a;
-  switch (material.type) {
-  case MaterialType::dielectric:
-    if (!material.absorbs) break;
-    for (int w = 0; w < optics::wavelength_count; ++w)
-      a.push_back(4 * std::numbers::pi * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9));
-    break;
-  case MaterialType::mirror:
-    if (std::ranges::all_of(material.reflectance, [](double r) { return r == 1; })) break;
-    for (const double r : material.reflectance) a.push_back(r > 0 ? std::min(-std::log(r), blackest) : blackest);
-    break;
-  case MaterialType::diffuse: break;
-  }
+  if (!material.absorbs) return a;
+  for (int w = 0; w < optics::wavelength_count; ++w)
+    a.push_back(4 * std::numbers::pi * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9));
+  return a;
+}
+
+std::vector<double> loss_at_surface(const scene::Material& material) {
+  std::vector<double> a;
+  if (!is_specular(material.type)) return a;
+  const Spectrum& left = is_refractive(material.type) ? material.tint : material.reflectance;
+  if (std::ranges::all_of(left, [](double part) { return part == 1; })) return a;
+  for (const double part : left) a.push_back(part > 0 ? std::min(-std::log(part), blackest) : blackest);
   return a;
 }
 

@@ -17,17 +17,19 @@ struct WavelengthTables {
   std::vector<std::vector<int>> clusters; ///< [cluster]: wavelength indices, without those left out
   WAVELENGTH_TABLES(TABLE_VECTOR)
   COLOUR_TABLES(TABLE_VECTOR)
-  bool clusters_spread = false;           ///< whether n differs inside any cluster
+  bool clusters_spread = false;           ///< whether n, or what a coating reflects, differs inside any cluster
   std::vector<std::vector<double>> share; ///< [light][cluster]: part of the light's power
   std::vector<std::vector<double>> seen;  ///< [light][cluster]: what the eye makes of that: worth() in scales.h
   int attenuator_count = 0, reflector_count = 0;
 };
 
-/// [401]: the coefficient a by which exp(-a s) of a wavelength's light is left. In glass (Beer and Lambert) a = 4 pi k
-/// / lambda in 1/m, and s is in metres; on a mirror a = -ln(reflectance), and s counts reflections.
-std::vector<double> loss_coefficients(const scene::Material& material);
+/// [401]: the coefficient a >= 0 by which exp(-a s) of a wavelength's light is left; empty where nothing is lost.
+/// In glass (Beer and Lambert) a = 4 pi k / lambda in 1/m, and s is in metres.
+std::vector<double> loss_inside(const scene::Material& material);
+/// At a surface a = -ln of what is left at normal incidence, and s counts reflections, or ways through tinted glass.
+std::vector<double> loss_at_surface(const scene::Material& material);
 
-/// Fills every table, and materials[i].type, reflector and attenuator. Only materials that an object uses get rows.
+/// Fills every table, and materials. Only materials that an object uses get rows.
 /// lights: the environment is last. lit: which wavelengths stay in the clusters, whose n is the mean over all.
 WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::vector<const scene::Light*>& lights,
                                         const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,

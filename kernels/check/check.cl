@@ -2,7 +2,8 @@
 // Runs the functions of kernels/*.h over arrays, one item each, so that `nephroid check` (app/check) and tests hold
 // them against the host. Only built_ins computes something else: it runs the device's own functions.
 #include "kernels/tracing/random.h"
-#include "kernels/tracing/fresnel.h"
+#include "kernels/materials/coating.h"
+#include "kernels/materials/conductor.h"
 #include "kernels/tracing/media.h"
 #include "kernels/tracing/attenuation.h"
 #include "kernels/tracing/emission.h"
@@ -63,6 +64,23 @@ kernel void interfaces(global const float4* in, global float4* out, uint count) 
   const float cos_t = refracted_cosine(in[i].x, in[i].y / in[i].z);
   const float r = cos_t < 0.0f ? 1.0f : fresnel_reflectance(in[i].x, cos_t, in[i].y, in[i].z);
   out[i] = (float4)(cos_t, r, 0.0f, 0.0f);
+}
+
+// in: cos_i, then n and k of a metal, over the index before it. out: x: its reflectance.
+kernel void conductors(global const float4* in, global float4* out, uint count) {
+  const uint i = work_item();
+  if (i < count) out[i] = (float4)(conductor_reflectance(in[i].x, in[i].y, in[i].z), 0.0f, 0.0f, 0.0f);
+}
+
+// in: cos_i, n before and beyond, then n of a layer; its thickness in wavelengths. out: x: the interface's reflectance.
+kernel void coatings(global const float4* in, global float4* out, uint count) {
+  const uint i = work_item();
+  if (i >= count) return;
+  const float4 at = in[2 * i];
+  const Layer layer = {at.w, in[2 * i + 1].x};
+  const float cos_t = refracted_cosine(at.x, at.y / at.z);
+  const float r = cos_t < 0.0f ? 1.0f : coated_reflectance(at.x, cos_t, at.y, at.z, layer);
+  out[i] = (float4)(r, cos_t, 0.0f, 0.0f);
 }
 
 // in: a direction that meets the plane z = 0, and n_i / n_t. out: the reflected one; the refracted one, its cosine.

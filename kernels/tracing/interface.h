@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A path at a dielectric's surface: which media meet there, and whether it is reflected or goes through.
+#include "kernels/materials/pane.h"
 #include "kernels/tracing/media.h"
-#include "kernels/tracing/surface.h"
 
 // 0: every dielectric has n = 1, so nothing is bent or reflected.
 #ifndef NEPHROID_BENDING
@@ -9,14 +9,25 @@
 #endif
 
 // media: those that enclose the path; updated where it goes through. n_of: index of refraction by material, for the
-// path's cluster. choice: uniform in [0, 1), picks reflection with Fresnel's probability. *n_ratio: n on the near side
-// over n on the far side, 1 for a reflected path. False: more than MEDIA_DEPTH media.
+// path's cluster. layer: the surface's coating. choice: uniform in [0, 1), picks reflection with the reflectance as its
+// probability. *n_ratio: n on the near side over n on the far side, 1 for a reflected path. False: more than
+// MEDIA_DEPTH media.
 static inline bool cross_interface(Media* media, const Surface* surface, __global const DeviceObject* objects,
-                                   __global const float* n_of, float3 direction, float choice, Bend* bend,
-                                   float* n_ratio) {
+                                   __global const float* n_of, const DeviceMaterial* material, Layer layer,
+                                   float3 direction, float choice, Bend* bend, float* n_ratio) {
   const bool enters = dot(direction, surface->geometric) < 0.0f;
   Media beyond = *media;
   int near_object = medium_object(media, objects);
+  *n_ratio = 1.0f;
+#if NEPHROID_PANES
+  if (material->is_thin) {
+    const int around = near_object < 0 ? -1 : objects[near_object].material;
+    const float n = around < 0 ? 1.0f : n_of[around];
+    *bend = bend_at_pane(direction, surface, n, n_of[objects[surface->object].material], choice);
+    bend->near_material = bend->far_material = around;
+    return true;
+  }
+#endif
   if (enters) {
     if (!enter_medium(&beyond, surface->object)) return false;
   } else if (is_inside(media, surface->object))
@@ -28,9 +39,9 @@ static inline bool cross_interface(Media* media, const Surface* surface, __globa
   const int far_material = far_object < 0 ? -1 : objects[far_object].material;
   const float n_i = near_material < 0 ? 1.0f : n_of[near_material];
   const float n_t = far_material < 0 ? 1.0f : n_of[far_material];
-  *n_ratio = 1.0f;
 #if NEPHROID_BENDING
-  const bool bends = n_i != n_t;
+  const bool coated = NEPHROID_COATINGS && layer.thickness > 0.0f && near_object != far_object;
+  const bool bends = n_i != n_t || coated;
 #else
   const bool bends = false;
 #endif
@@ -39,7 +50,7 @@ static inline bool cross_interface(Media* media, const Surface* surface, __globa
     bend->transmitted = bend->straight = true;
     bend->reflectance = 0.0f;
   } else
-    *bend = bend_at_surface(direction, surface, n_i, n_t, choice);
+    *bend = bend_at_surface(direction, surface, n_i, n_t, layer, choice);
   bend->near_material = near_material;
   bend->far_material = far_material;
   if (bend->transmitted) {

@@ -56,10 +56,17 @@ struct alignas(8) uint2 {
 #define OUTCOME_SEGMENTS 7  // a plain count: rays that the photons' paths are made of
 #define OUTCOME_COUNT 8
 
+// The rows of losses that a metal has: materials/conductor.h.
+#define CONDUCTOR_TERMS 3
+
 typedef struct {
-  int type;       // MATERIAL_*
-  int reflector;  // diffuse: row of the reflectance tables
-  int attenuator; // absorbing dielectric, mirror: row of the attenuation table; -1: none
+  int type;            // MATERIAL_*
+  int reflector;       // diffuse: row of the reflectance tables
+  int attenuator;      // absorbing dielectric, mirror, metal: (first) row of the attenuation table; -1: none
+  int tint;            // dielectric: row of the attenuation table for what passes its surface; -1: none
+  int surface_first;   // metal, coated dielectric: its first item in the table surface_data; -1: none
+  float coating_nm;    // dielectric: thickness of its coating
+  int is_thin;         // dielectric: a pane without thickness
   int padding;
 } DeviceMaterial;
 
@@ -159,7 +166,7 @@ typedef struct {
 } DeviceScene;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 8 && sizeof(Media) == 16);
+static_assert(sizeof(DeviceMaterial) == 32 && sizeof(DeviceObject) == 8 && sizeof(Media) == 16);
 static_assert(sizeof(DeviceLight) == 112 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
 static_assert(sizeof(DeviceCamera) == 112 && sizeof(DeviceScene) == 52 && sizeof(DeviceBackground) == 16);
 static_assert(sizeof(DevicePrimitive) == 64);

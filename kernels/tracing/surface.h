@@ -2,6 +2,7 @@
 // From a hit of the tree to a point on a surface: exact position, geometric and shading normal, object.
 #include "kernels/tracing/bvh.h"
 #include "kernels/tracing/fresnel.h"
+#include "kernels/materials/coating.h"
 #include "kernels/tracing/scene_table_types.h"
 
 #ifndef NEPHROID_SMOOTH
@@ -145,7 +146,7 @@ typedef struct {
 } Bend;
 
 // normal: unit, on the ray's side. choice: uniform in [0, 1); the ray is reflected if it is below the reflectance.
-static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t, float choice) {
+static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t, Layer layer, float choice) {
   Bend bend;
   bend.normal = normal;
   bend.near_material = bend.far_material = -1;
@@ -153,7 +154,7 @@ static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t
   const float cos_i = clamp(-dot(direction, normal), 0.0f, 1.0f);
   const float eta = n_i / n_t;
   const float cos_t = refracted_cosine(cos_i, eta);
-  bend.reflectance = cos_t >= 0.0f ? fresnel_reflectance(cos_i, cos_t, n_i, n_t) : 1.0f;
+  bend.reflectance = cos_t >= 0.0f ? layered_reflectance(cos_i, cos_t, n_i, n_t, layer) : 1.0f;
   bend.transmitted = cos_t >= 0.0f && !(choice < bend.reflectance);
   bend.direction = bend.transmitted ? refract_through(direction, normal, cos_i, cos_t, eta)
                                     : reflect_about(direction, normal, cos_i);
@@ -161,11 +162,12 @@ static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t
 }
 
 // Bends about the shading normal, or where that sends the ray to the wrong side, about the triangle's own.
-static inline Bend bend_at_surface(float3 direction, const Surface* surface, float n_i, float n_t, float choice) {
+static inline Bend bend_at_surface(float3 direction, const Surface* surface, float n_i, float n_t, Layer layer,
+                                   float choice) {
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   const float3 geometric = side * surface->geometric, shading = side * surface->shading;
-  Bend bend = bend_at(direction, dot(direction, shading) < 0.0f ? shading : geometric, n_i, n_t, choice);
+  Bend bend = bend_at(direction, dot(direction, shading) < 0.0f ? shading : geometric, n_i, n_t, layer, choice);
   const float leaves = dot(bend.direction, geometric);
-  if (bend.transmitted ? leaves >= 0.0f : leaves <= 0.0f) bend = bend_at(direction, geometric, n_i, n_t, choice);
+  if (bend.transmitted ? leaves >= 0.0f : leaves <= 0.0f) bend = bend_at(direction, geometric, n_i, n_t, layer, choice);
   return bend;
 }

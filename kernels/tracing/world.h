@@ -4,11 +4,17 @@
 #include "kernels/tracing/band.h"
 #include "kernels/tracing/differential.h"
 #include "kernels/tracing/interface.h"
+#include "kernels/materials/conductor.h"
 #include "kernels/tracing/registers.h"
 #include "kernels/tracing/sky.h"
 
 #ifndef NEPHROID_MIRRORS
 #define NEPHROID_MIRRORS 1
+#endif
+
+// 0: no surface of glass has a tint.
+#ifndef NEPHROID_TINTS
+#define NEPHROID_TINTS 1
 #endif
 
 // 1: paths from the eye find the even light of the environment where glass sends it (sky.h), and photons only its
@@ -139,6 +145,32 @@ static inline void bend_differential(const World* world, Path* path, uint triang
 #endif
 }
 
+// The coating of a dielectric for the wavelength of a band.
+static inline Layer layer_of(const World* world, const DeviceMaterial* material, const Band* band) {
+  Layer layer = no_layer();
+#if NEPHROID_COATINGS
+  if (material->surface_first >= 0) {
+    const int wavelength = max(band->wavelength, 0); // the plan gives every path one
+    layer.n = world->tables.surface_data[material->surface_first + wavelength];
+    layer.thickness = material->coating_nm / (float)(380 + wavelength);
+  }
+#endif
+  return layer;
+}
+
+static inline void lose_at_mirror(const World* world, Path* path, const DeviceMaterial* material, const Band* band,
+                                  float cos_i) {
+#if NEPHROID_CONDUCTORS
+  if (material->surface_first >= 0) {
+    const int around = medium_object(&path->media, world->objects);
+    lose_in_conductor(&path->losses, material->attenuator, world->tables.surface_data + material->surface_first, cos_i,
+                      around < 0 ? 1.0f : index_of_band(world, band)[world->objects[around].material]);
+    return;
+  }
+#endif
+  lose(&path->losses, material->attenuator, 1.0f);
+}
+
 // Continues the path at a mirror or dielectric. choice: uniform in [0, 1); -1 reflects, 2 goes through where anything
 // does. *n_ratio, false: as in cross_interface. *bend: what happened there.
 IN_PLACE bool bend_path_as(const World* world, Path* path, uint triangle, const Surface* surface,
@@ -147,15 +179,19 @@ IN_PLACE bool bend_path_as(const World* world, Path* path, uint triangle, const 
   *n_ratio = 1.0f;
 #if NEPHROID_MIRRORS
   if (material->type == MATERIAL_MIRROR) {
-    *bend = bend_at_surface(path->direction, surface, 1.0f, 1.0f, -1.0f);
+    *bend = bend_at_surface(path->direction, surface, 1.0f, 1.0f, no_layer(), -1.0f);
     bend->reflectance = 1.0f;
-    lose(&path->losses, material->attenuator, 1.0f);
+    lose_at_mirror(world, path, material, band, -dot(path->direction, bend->normal));
   } else
 #endif
   {
-    if (!cross_interface(&path->media, surface, world->objects, index_of_band(world, band), path->direction, choice,
-                         bend, n_ratio))
+    if (!cross_interface(&path->media, surface, world->objects, index_of_band(world, band), material,
+                         layer_of(world, material, band), path->direction, choice, bend, n_ratio))
       return false;
+#if NEPHROID_TINTS
+    if (bend->transmitted && (material->is_thin || bend->near_material != bend->far_material))
+      lose(&path->losses, material->tint, 1.0f);
+#endif
   }
   bend_differential(world, path, triangle, surface, band, bend);
   path->direction = bend->direction;

@@ -81,9 +81,9 @@ inline preset::Preset random_preset(std::uint64_t seed) {
   randomizer.fill_object(Value(p));
   p.source = "random.json";
   for (auto& [name, m] : p.scene.materials) {
-    Dispersion& d = m.dispersion;
-    d.c_um2.resize(d.b.size(), 0.01);
-    for (auto* table : {&d.table, &m.reflectance.table})
+    Coating none, &coating = m.coating ? *m.coating : none;
+    for (Dispersion* d : {&m.dispersion, &coating.dispersion}) d->c_um2.resize(d->b.size(), 0.01);
+    for (auto* table : {&m.dispersion.table, &coating.dispersion.table, &m.reflectance.table, &m.tint.table})
       for (std::size_t i = 0; i < table->size(); ++i) (*table)[i][0] = 400.0 + static_cast<double>(i) / 3;
   }
   for (Object& o : p.scene.objects) {

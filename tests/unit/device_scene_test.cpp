@@ -296,7 +296,8 @@ TEST(Losses, PartsKeepTheBoundAndAreTheFewest) {
     const scene::Scene scene = dyed_scene(folder.path(), mirror);
     // The box about a ball of 0.1 m has a diagonal of 0.1 sqrt(3) m.
     const double longest = mirror ? 8 : 0.2 * std::sqrt(3.0), most = 0.1;
-    const std::vector<double> a = tracing::loss_coefficients(scene.materials[0]);
+    const std::vector<double> a =
+        mirror ? tracing::loss_at_surface(scene.materials[0]) : tracing::loss_inside(scene.materials[0]);
     ASSERT_EQ(a.size(), static_cast<std::size_t>(optics::wavelength_count));
     std::vector<int> all(a.size());
     std::iota(all.begin(), all.end(), 0);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Snell and Fresnel against closed forms.
+#include "optics/conductor.h"
+#include "optics/dispersion.h"
 #include "optics/fresnel.h"
+#include "optics/spectrum.h"
+#include "scene/materials.h"
 #include "tests/support/test.h"
 
 namespace nephroid::fresnel_test {
@@ -65,6 +69,71 @@ TEST(Fresnel, StaysBetweenNothingAndEverything) {
       EXPECT_GE(r, 0) << ratio << " " << cosine;
       EXPECT_LE(r, 1) << ratio << " " << cosine;
     }
+}
+
+// At normal incidence R = ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2); without k a metal is glass that nothing passes.
+TEST(Conductor, HasItsClosedForms) {
+  for (const double n : {0.2, 1.0, 2.5})
+    for (const double k : {0.5, 3.0, 7.0})
+      EXPECT_NEAR(conductor_reflectance(1, 1, {n, k}), ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k),
+                  1e-14);
+  for (double degrees = 0; degrees < 90; degrees += 7.5)
+    EXPECT_NEAR(conductor_reflectance(std::cos(degrees * radian), 1, {1.5, 0}),
+                fresnel_reflectance(std::cos(degrees * radian), 1, 1.5), 1e-14);
+  EXPECT_NEAR(conductor_reflectance(0.3, 1.5, {0.3, 4.5}), conductor_reflectance(0.3, 1, {0.2, 3}), 1e-14);
+}
+
+TEST(Conductor, ThreeTermsHoldShippedMetals) {
+  for (const char* name : {"gold", "silver", "copper", "aluminium", "brass"}) {
+    const DispersionCurve curve = scene::load_dispersion(name);
+    const Spectrum n = sample_n(curve, Extrapolation::refuse), k = sample_k(curve, Extrapolation::refuse);
+    const ConductorTerms terms = conductor_terms(n, k);
+    EXPECT_LT(terms.error, 0.001) << name;
+    EXPECT_GT(terms.error, 0) << name;
+    for (const std::size_t w : {std::size_t{0}, std::size_t{150}, std::size_t{400}})
+      for (const double cosine : {1.0, 0.6, 0.1}) {
+        double loss = 0;
+        for (std::size_t j = 0; j < conductor_term_count; ++j) {
+          const std::size_t own = terms.wavelengths[j];
+          loss -= terms.coefficients[j][w] * std::log(conductor_reflectance(cosine, 1, {n[own], k[own]}));
+        }
+        EXPECT_NEAR(std::exp(-loss), conductor_reflectance(cosine, 1, {n[w], k[w]}), 0.001) << name;
+      }
+  }
+}
+
+TEST(Conductor, OneTermHoldsAMetalWithoutColour) {
+  const ConductorTerms terms = conductor_terms(constant_spectrum(2), constant_spectrum(3));
+  EXPECT_LT(terms.error, 1e-12);
+  EXPECT_NEAR(terms.coefficients[0][123], 1, 1e-12);
+  EXPECT_EQ(terms.coefficients[1], Spectrum{});
+}
+
+// A layer of a quarter of its wavelength turns light round: with n_layer^2 = n_t nothing is reflected. Half a
+// wavelength does nothing, and so does no layer, before and beyond the critical angle of the layer.
+TEST(Coating, QuarterAndHalfOfAWavelength) {
+  EXPECT_NEAR(coated_reflectance(1, 1, std::sqrt(1.5), 1.5, 0.25 / std::sqrt(1.5)), 0, 1e-15);
+  const double quarter = coated_reflectance(1, 1, 1.38, 1.52, 0.25 / 1.38), n2 = 1.38 * 1.38;
+  EXPECT_NEAR(quarter, std::pow((1.52 - n2) / (1.52 + n2), 2), 1e-15);
+  EXPECT_NEAR(coated_reflectance(1, 1, 1.38, 1.52, 0.5 / 1.38), fresnel_reflectance(1, 1, 1.52), 1e-15);
+  for (const double cosine : {1.0, 0.7, 0.2})
+    for (const double layer : {1.0, 1.38, 2.4}) {
+      EXPECT_NEAR(coated_reflectance(cosine, 1.6, layer, 1.9, 0), fresnel_reflectance(cosine, 1.6, 1.9), 1e-14);
+      EXPECT_NEAR(coated_reflectance(cosine, 1.9, layer, 1.9, 0), 0, 1e-14);
+    }
+}
+
+// A gap of air in glass reflects all light beyond its critical angle, unless it is narrow: then light tunnels.
+TEST(Coating, LightTunnelsThroughANarrowGap) {
+  const double cosine = std::cos(60 * radian);
+  double before = 0;
+  for (const double gap : {0.05, 0.1, 0.3, 1.0}) {
+    const double reflectance = coated_reflectance(cosine, 1.5, 1, 1.5, gap);
+    EXPECT_GT(reflectance, before) << gap;
+    before = reflectance;
+  }
+  EXPECT_GT(before, 0.9999);
+  EXPECT_LT(coated_reflectance(cosine, 1.5, 1, 1.5, 0.05), 0.2);
 }
 
 } // namespace nephroid::fresnel_test

@@ -3,6 +3,7 @@
 // kind, extensions that change no triangle; and files that say more than they hold.
 #include "formats/import/import.h"
 #include "preset/read.h"
+#include "scene/materials.h"
 #include "scene/mesh.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test.h"
@@ -210,14 +211,18 @@ TEST_F(GltfAccessors, WhatCannotBeSeenIsLeftOutAndSaid) {
   EXPECT_THAT(made.notes, Contains("a part of 'line' has no positions and is left out"));
 }
 
-TEST_F(GltfAccessors, ATintOfGlassIsNamed) {
+TEST_F(GltfAccessors, AColourOfGlassIsItsTint) {
   File file = triangle();
   file.json["materials"] = Json::parse(R"([{"name":"pane","pbrMetallicRoughness":{"baseColorFactor":[0.1,0.8,0.1,1],
     "roughnessFactor":0,"metallicFactor":0},"extensions":{"KHR_materials_transmission":{"transmissionFactor":1},
     "KHR_materials_volume":{"thicknessFactor":1}}}])");
   file.json["meshes"][0]["primitives"][0]["material"] = 0;
-  imported(file.text());
-  EXPECT_THAT(made.notes, Contains(HasSubstr("material 'pane': its colour (0.1, 0.8, 0.1) tints what passes")));
+  const preset::Material tinted = imported(file.text()).scene.materials.at("pane");
+  const auto at_nm = [&](double nm) {
+    return scene::make_reflectance(tinted.tint, "tint")[static_cast<std::size_t>(nm - 380)];
+  };
+  EXPECT_GT(at_nm(540), 4 * at_nm(640));
+  EXPECT_FALSE(tinted.thin);
   file.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 1};
   imported(file.text());
   EXPECT_THAT(made.notes, Not(Contains(HasSubstr("tints"))));

@@ -65,7 +65,7 @@ const std::vector<LibraryRule> library_rules{{"CL/", "compute"},
                                              {"implot", "ui"},
                                              {"imcmd_", "ui"},
                                              {"FLIP.h", "measure"},
-                                             {"Eigen/", "measure, inverse"},
+                                             {"Eigen/", "optics, measure, inverse"},
                                              {"qrencode", "inverse"},
                                              {"ImGuizmo", "ui"}};
 

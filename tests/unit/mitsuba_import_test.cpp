@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What Mitsuba's scenes mean: names of files and of objects, what is inside of what, flags, media, spectra, meshes of
 // its own. Expected values are worked out in comments.
+#include "scene/materials.h"
 #include "scene/mesh.h"
 #include "tests/unit/imports_scenes.h"
 
@@ -141,11 +142,6 @@ TEST_F(MitsubaImport, MeshesFarFromTheOriginLieWhereTheyAre) {
               ElementsAre(1.5, DoubleNear(1.33 / 1.25, 1e-12)));
   EXPECT_THAT(made.notes, Contains(HasSubstr("in the file it is in n = 1.25, which is nowhere")));
   EXPECT_THAT(indices(cube("glass", "1.5", "1", 1) + cube("glass", "1.33", "1.5", 0.5)), ElementsAre(1.5, 1.33));
-  // A sheet, too, is where its pane was.
-  folder.write("pane.obj", corners(100, 0) + sides.substr(0, 10));
-  const preset::Preset p = imported(R"(<shape type="obj"><string name="filename" value="pane.obj"/>
-    <bsdf type="thindielectric"/></shape>)");
-  EXPECT_NEAR(p.scene.objects.at(0).transform.translate[0], 100.5, 1e-9);
 }
 
 /// Water on a block of glass, each 1 x 1 x 1: the glass' sides in air, the water's in air, and what parts them.
@@ -225,17 +221,16 @@ TEST_F(MitsubaImport, ANullSurfaceIsNone) {
   EXPECT_EQ(p.scene.objects.size(), 1u);
 }
 
-TEST_F(MitsubaImport, AThinPaneIsASheetOfGlass) {
+TEST_F(MitsubaImport, AThinPaneIsThinGlass) {
   const preset::Preset p = imported(R"(<shape type="rectangle"><bsdf type="thindielectric"/></shape>
-    <shape type="sphere"><bsdf type="thindielectric"/></shape>)");
-  ASSERT_EQ(p.scene.objects.size(), 3u); // the sphere is a shell with air in it
-  const scene::Mesh sheet = scene::load_mesh(folder.path() / *p.scene.objects[0].mesh);
-  EXPECT_TRUE(scene::inspect(sheet).closed());
-  // 2 x 2, and a thousandth of the diagonal thick.
-  EXPECT_NEAR(scene::inspect(sheet).signed_volume, 4 * 1e-3 * std::sqrt(8), 1e-5);
-  EXPECT_EQ(material_of(p, 2).dispersion.n, 1);
-  EXPECT_GT(p.scene.objects[2].priority, p.scene.objects[1].priority);
-  EXPECT_THAT(made.notes, Contains(HasSubstr("infinitely thin in the file")));
+    <shape type="sphere"><bsdf type="thindielectric"/><boolean name="flip_normals" value="true"/></shape>)");
+  ASSERT_EQ(p.scene.objects.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(material_of(p, i).thin);
+    EXPECT_NEAR(scene::make_curve(material_of(p, i).dispersion, FileFinder(folder.path()), "n").sample(589.3).n.value(),
+                1.5046 / 1.000277, 1e-5);
+  }
+  EXPECT_THAT(made.notes, Each(Not(HasSubstr("infinitely"))));
 }
 
 TEST_F(MitsubaImport, AMediumInGlassAbsorbs) {
@@ -250,11 +245,30 @@ TEST_F(MitsubaImport, AMediumInGlassAbsorbs) {
   EXPECT_EQ(material_of(p, 1).dispersion.type, preset::Dispersion::Type::constant);
 }
 
-TEST_F(MitsubaImport, TintsAreSaid) {
-  imported(R"(<shape type="cube"><bsdf type="dielectric"><rgb name="specular_transmittance" value="0.2 0.9 0.2"/>
-    <float name="specular_reflectance" value="1"/></bsdf></shape>)");
-  EXPECT_THAT(made.notes, Contains(HasSubstr("in.xml:2: its specular_transmittance is left out")));
-  EXPECT_THAT(made.notes, Not(Contains(HasSubstr("specular_reflectance"))));
+TEST_F(MitsubaImport, GlassMayHaveATint) {
+  const preset::Preset p = imported(R"(<shape type="cube"><bsdf type="dielectric">
+    <float name="specular_transmittance" value="0.7"/><float name="specular_reflectance" value="0.5"/></bsdf></shape>
+    <shape type="cube"><bsdf type="principled"><rgb name="base_color" value="0.36 0.36 0.36"/>
+    <float name="spec_trans" value="1"/><float name="roughness" value="0"/></bsdf></shape>)");
+  EXPECT_NEAR(material_of(p, 0).tint.value, 0.7, 1e-12);
+  EXPECT_NEAR(material_of(p, 1).tint.value, 0.6, 1e-12) << "each surface takes the root";
+  EXPECT_THAT(made.notes, Contains(HasSubstr("in.xml:2: its specular_reflectance is left out")));
+}
+
+TEST_F(MitsubaImport, MetalsAreConductors) {
+  const preset::Preset p = imported(R"(<shape type="cube"><bsdf type="conductor"><string name="material" value="Au"/>
+    </bsdf></shape><shape type="cube"><bsdf type="roughconductor" id="own"><spectrum name="eta" value="400:0.5, 700:0.2"/>
+    <spectrum name="k" value="3"/></bsdf></shape><shape type="cube"><bsdf type="conductor">
+    <string name="material" value="none"/></bsdf></shape><shape type="cube"><bsdf type="conductor">
+    <string name="material" value="Cr"/></bsdf></shape>)");
+  EXPECT_EQ(material_of(p, 0).type, Type::conductor);
+  EXPECT_EQ(material_of(p, 0).dispersion.file, "gold");
+  EXPECT_EQ(material_of(p, 1).type, Type::conductor);
+  EXPECT_THAT(read_file(folder.path() / material_of(p, 1).dispersion.file), HasSubstr("0.55 0.35 3"));
+  EXPECT_EQ(material_of(p, 2).type, Type::mirror);
+  EXPECT_EQ(material_of(p, 3).type, Type::mirror);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("the metal is left out: a mirror of its specular_reflectance")));
+  EXPECT_THAT(made.notes, Contains(HasSubstr("roughness is left out")));
 }
 
 TEST_F(MitsubaImport, SpectraStaySpectra) {

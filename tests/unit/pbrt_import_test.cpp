@@ -88,10 +88,10 @@ TEST_F(PbrtImport, EveryParameterThatIsLeftOutIsSaid) {
 TEST_F(PbrtImport, MaterialsOfVersion3AreWhatTheyAreThere) {
   const preset::Preset p = imported("Material \"metal\" Shape \"sphere\"\nMaterial \"plastic\" Shape \"sphere\"\n"
                                     "Material \"mix\" Shape \"sphere\"\n");
-  EXPECT_EQ(material_of(p, 0).type, Type::mirror);
+  EXPECT_EQ(material_of(p, 0).type, Type::conductor);
+  EXPECT_EQ(material_of(p, 0).dispersion.file, "copper");
   EXPECT_EQ(material_of(p, 1).reflectance.value, 0.25);
-  EXPECT_THAT(made.notes, IsSupersetOf({HasSubstr("in.pbrt:1: the metal is left out: a mirror of 0.9"),
-                                        HasSubstr("plastic is left out: a matt surface of 0.25 takes its place"),
+  EXPECT_THAT(made.notes, IsSupersetOf({HasSubstr("plastic is left out: a matt surface of 0.25 takes its place"),
                                         HasSubstr("mix is left out: a matt surface of 0.5 takes its place")}));
 }
 
@@ -163,11 +163,28 @@ TEST_F(PbrtImport, AMediumInGlassAbsorbsAndAnInterfaceIsNoSurface) {
   EXPECT_EQ(made.notes.size(), 2u) << made.summary(); // no camera, no lights
 }
 
-TEST_F(PbrtImport, TintsAndThinPanesAreSaid) {
-  imported("Material \"glass\" \"rgb Kt\" [ 0.2 0.9 0.2 ] Shape \"sphere\"\n"
-           "Material \"thindielectric\" Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]");
-  EXPECT_THAT(made.notes, AllOf(Contains(HasSubstr("in.pbrt:1: its Kt is left out")),
-                                Contains(HasSubstr("in.pbrt:2: its surface is infinitely thin"))));
+TEST_F(PbrtImport, TintsAndThinPanes) {
+  const preset::Preset p =
+      imported("Material \"glass\" \"rgb Kt\" [ 0.2 0.9 0.2 ] Shape \"sphere\"\n"
+               "Material \"thindielectric\" Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]");
+  EXPECT_EQ(material_of(p, 0).tint.type, preset::Reflectance::Type::table);
+  EXPECT_FALSE(material_of(p, 0).thin);
+  EXPECT_TRUE(material_of(p, 1).thin);
+  EXPECT_EQ(made.notes.size(), 2u) << made.summary(); // no camera, no lights
+}
+
+TEST_F(PbrtImport, MetalsAreConductors) {
+  const preset::Preset p =
+      imported("Material \"conductor\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\"\n"
+               "Shape \"sphere\" Material \"conductor\" \"spectrum eta\" [ 400 1 700 2 ]\n"
+               "\"spectrum k\" [ 400 3 700 3 ] Shape \"sphere\"\n"
+               "Material \"conductor\" \"spectrum eta\" \"metal-MgO-eta\" Shape \"sphere\"\n"
+               "Material \"conductor\" \"rgb reflectance\" [ .5 .5 .5 ] Shape \"sphere\"");
+  EXPECT_EQ(material_of(p, 0).dispersion.file, "silver");
+  EXPECT_EQ(material_of(p, 1).type, Type::conductor);
+  EXPECT_EQ(material_of(p, 2).type, Type::mirror);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("the metal is left out: a mirror of 0.9")));
+  EXPECT_EQ(material_of(p, 3).reflectance.value, 0.5);
 }
 
 TEST_F(PbrtImport, AttributesHoldUntilTheirBlockEnds) {

@@ -195,8 +195,7 @@ double nearest_outside(const scene::Scene& scene, std::vector<Piece> pieces) {
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   const auto is_buried = [&](const glm::dvec3& p, std::size_t object) {
     for (std::size_t other = 0; other < scene.objects.size(); ++other)
-      if (other != object && scene.objects[other].closed &&
-          material_of(scene, scene.objects[other]).type == scene::Material::Type::dielectric &&
+      if (other != object && scene.objects[other].closed && is_body(material_of(scene, scene.objects[other])) &&
           encloses(scene, bvh, other, p))
         return true;
     return false;
@@ -295,10 +294,12 @@ std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster) {
     // Only the order of priorities matters.
     const auto rank = std::ranges::count_if(caster.scene.objects,
                                             [&](const scene::Object& o) { return o.priority < object.priority; });
-    hash = hash_of(fmt::format("{} {} {} {} {} {}", object.triangle_count, object.ellipsoid_count,
-                               static_cast<int>(material.type), object.smooth, material.absorbs, rank),
+    hash = hash_of(fmt::format("{} {} {} {} {} {} {} {}", object.triangle_count, object.ellipsoid_count,
+                               static_cast<int>(material.type), object.smooth, material.absorbs, rank, material.thin,
+                               material.coating_nm),
                    hash);
-    for (const optics::Spectrum* spectrum : {&material.n, &material.k, &material.reflectance})
+    for (const optics::Spectrum* spectrum :
+         {&material.n, &material.k, &material.reflectance, &material.tint, &material.coating_n})
       hash = hash_items(*spectrum, hash);
   }
   return hash;

@@ -34,7 +34,8 @@ struct DescribedGlass {
   preset::Dispersion inside;                 ///< on the side that normals look away from
   double outside = 1;                        ///< the index on their other side, as the file has it
   bool is_ratio = false;                     ///< inside is over what is on the other side, whatever that is
-  bool is_thin = false;                      ///< a sheet whose surfaces are one in the file
+  bool is_thin = false;                      ///< a pane whose surfaces are one
+  std::optional<DescribedColour> tint;       ///< the part that passes its surface
   std::optional<DescribedColour> absorption; ///< a unit of length
 };
 

@@ -14,7 +14,6 @@
 namespace nephroid::formats {
 namespace {
 
-constexpr double thinness = 1e-3;            ///< of a sheet: its thickness over its size
 constexpr std::size_t most_pairs = 1u << 26; ///< of dielectrics that are looked at for nesting
 
 bool is_air(double n) { return alike(n, 1); }
@@ -105,7 +104,10 @@ public:
   explicit Settlement(Description& d) : d_(d) {}
 
   void settle() {
-    make_sheets();
+    for (DescribedShape& shape : d_.shapes) // a pane has no inside
+      if (const auto glass = d_.dielectrics.find(shape.material);
+          glass != d_.dielectrics.end() && glass->second.is_thin)
+        shape.inside_out = false;
     std::vector<Body> bodies;
     for (DescribedShape& shape : d_.shapes)
       if (d_.dielectrics.contains(shape.material) && !shape.glow) bodies.emplace_back(d_, shape);
@@ -188,6 +190,8 @@ private:
     preset::Material& material = d_.materials[key];
     material.type = preset::Material::Type::dielectric;
     material.dispersion = dispersion_of(body);
+    material.thin = body.glass.is_thin;
+    if (body.glass.tint) material.tint = reflectance_of(*body.glass.tint);
     if (const auto& absorption = body.glass.absorption; absorption && !absorption->is_black()) {
       if (body.shape.inside_out)
         d_.note(body.shape.where, "the medium around it is left out");
@@ -209,38 +213,7 @@ private:
                                  : changed(body.glass.inside, body.own / n, false);
   }
 
-  void make_sheets() {
-    const std::size_t count = d_.shapes.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const DescribedShape shape = d_.shapes[i];
-      const auto glass = d_.dielectrics.find(shape.material);
-      if (glass == d_.dielectrics.end() || !glass->second.is_thin || shape.glow) continue;
-      d_.note(shape.where, "its surface is infinitely thin in the file: a sheet of a thousandth of its size is solid "
-                           "glass here");
-      if (shape.mesh.empty()) { // a shell
-        DescribedShape inner = shape;
-        inner.radius *= 1 - thinness;
-        inner.material = "air in a shell";
-        inner.priority = 1;
-        d_.materials[inner.material].type = preset::Material::Type::dielectric;
-        d_.materials[inner.material].dispersion.n = 1;
-        d_.shapes.push_back(inner);
-        continue;
-      }
-      auto& key = sheets_[shape.mesh];
-      if (key.empty()) {
-        const scene::Mesh& mesh = d_.meshes.at(shape.mesh);
-        glm::vec3 low(1e30f), high(-1e30f);
-        for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
-        key = d_.own_mesh(shape.name + " sheet", sheet_about(mesh, thinness * glm::length(high - low)));
-      }
-      d_.shapes[i].mesh = key;
-      d_.shapes[i].inside_out = false;
-    }
-  }
-
   Description& d_;
-  std::map<std::string, std::string> sheets_;   ///< by the keys of the meshes that they are about
   std::map<std::string, std::string> reaching_; ///< by the keys of the meshes that they were
   std::map<std::tuple<std::string, double, bool>, std::string> keys_;
 };
@@ -279,6 +252,35 @@ std::string absorbing_glass_file(const preset::Dispersion& clear, const optics::
         fmt::format("        {:.2f} {:.6g}\n", nm * 1e-3,
                     absorption[static_cast<std::size_t>(nm - optics::first_nm)] * nm * 1e-9 / (4 * std::numbers::pi));
   return text;
+}
+
+preset::Material metal_of(Description& description, const std::string& name, const optics::Spectrum& n,
+                          const optics::Spectrum& k) {
+  std::string text =
+      "COMMENTS: |\n    n and k as the scene's metal has them\nDATA:\n  - type: tabulated nk\n    data: |\n";
+  for (int nm = optics::first_nm; nm <= optics::last_nm; nm += 10) {
+    const auto w = static_cast<std::size_t>(nm - optics::first_nm);
+    text += fmt::format("        {:.2f} {:.9g} {:.9g}\n", nm * 1e-3, n[w], k[w]);
+  }
+  const std::string file = description.own_file(name, ".yml");
+  description.glasses[file] = text;
+  return metal_of(file);
+}
+
+preset::Material metal_of(const std::string& file) {
+  preset::Material metal;
+  metal.type = preset::Material::Type::conductor;
+  metal.dispersion.type = preset::Dispersion::Type::file;
+  metal.dispersion.file = file;
+  return metal;
+}
+
+std::optional<preset::Material> metal_of_element(std::string_view element) {
+  static const std::map<std::string_view, const char*> shipped{
+      {"Au", "gold"}, {"Ag", "silver"}, {"Cu", "copper"}, {"Al", "aluminium"}, {"CuZn", "brass"}};
+  const auto found = shipped.find(element);
+  if (found == shipped.end()) return std::nullopt;
+  return metal_of(found->second);
 }
 
 } // namespace nephroid::formats

@@ -33,7 +33,12 @@ double middle_index(const preset::Dispersion& dispersion);
 std::string absorbing_glass_file(const preset::Dispersion& clear, const optics::Spectrum& absorption,
                                  const std::string& comments);
 
-/// A closed mesh about an open one, half the thickness to either side.
-scene::Mesh sheet_about(const scene::Mesh& mesh, double thickness);
+/// A conductor with these n and k, of which a file of the import, named like the material, has every tenth.
+preset::Material metal_of(Description& description, const std::string& name, const optics::Spectrum& n,
+                          const optics::Spectrum& k);
+/// A conductor by a dispersion file or a shipped metal.
+preset::Material metal_of(const std::string& file);
+/// The shipped metal of that chemical formula: Au, Ag, Cu, Al, CuZn.
+std::optional<preset::Material> metal_of_element(std::string_view element);
 
 } // namespace nephroid::formats

@@ -68,14 +68,14 @@ preset::Material glass(const GltfValue& material, const std::string& name, std::
   }
   glass.dispersion = dispersion_of(ior, material.extension("KHR_materials_dispersion").number("dispersion", 0));
   const GltfValue volume = material.extension("KHR_materials_volume");
-  if (volume.number("thicknessFactor", 0) == 0)
-    notes.push_back(fmt::format("material '{}' is a thin film in the file and solid glass here", name));
+  glass.thin = volume.number("thicknessFactor", 0) == 0;
+  if (glass.thin)
+    notes.push_back(fmt::format("material '{}' has no thickness, so light passes it straight on; if it is meant as "
+                                "solid glass: --set 'scene.materials.{}.thin=false'",
+                                name, name));
   const GltfValue pbr = material.object("pbrMetallicRoughness");
-  if (const auto tint = pbr.numbers<4>("baseColorFactor", {1, 1, 1, 1}); tint[0] < 1 || tint[1] < 1 || tint[2] < 1)
-    notes.push_back(
-        fmt::format("material '{}': its colour ({:.3g}, {:.3g}, {:.3g}) tints what passes its surface in the "
-                    "file and does not here: the glass is as clear as its volume (KHR_materials_volume)",
-                    name, tint[0], tint[1], tint[2]));
+  const auto tint = pbr.numbers<4>("baseColorFactor", {1, 1, 1, 1});
+  glass.tint = reflectance_of({tint[0], tint[1], tint[2]});
   if (pbr.number("roughnessFactor", 1) > 0.1)
     notes.push_back(fmt::format("material '{}' is rough in the file and polished here", name));
   if (const double part = transmitted_part(material); part < 1)

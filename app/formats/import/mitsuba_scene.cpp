@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/lower_case.h"
 #include "base/numbers.h"
+#include "formats/import/dielectrics.h"
 #include "image/image.h"
 #include "optics/spectrum.h"
 
@@ -186,15 +187,33 @@ xml_node unwrapped(MitsubaScene& scene, xml_node node) {
   return node;
 }
 
-preset::Material opaque(MitsubaScene& scene, xml_node node, const std::string& type) {
+/// By n and k, or by name; nothing for a perfect mirror, and with a note where it is not to be had.
+std::optional<preset::Material> metal(MitsubaScene& scene, xml_node node, const std::string& key) {
+  const MitsubaFile& file = scene.file;
+  const Location where = file.at(node);
+  const std::string name = file.text(node, "material", "");
+  const xml_node eta = file.child(node, "eta"), k = file.child(node, "k");
+  std::optional<preset::Material> made = metal_of_element(name);
+  if (!made && eta && k)
+    if (const auto n = colour_of(scene, eta), extinction = colour_of(scene, k); n && extinction)
+      made = metal_of(scene.d, key, values_of(*n), values_of(*extinction));
+  if (made && file.child(node, "specular_reflectance"))
+    scene.d.note(where, "its specular_reflectance is left out: the metal's own counts");
+  if (!made && (eta || (!name.empty() && name != "none")))
+    scene.d.note(where, "the metal is left out: a mirror of its specular_reflectance takes its place");
+  return made;
+}
+
+preset::Material opaque(MitsubaScene& scene, xml_node node, const std::string& type, const std::string& key) {
   const MitsubaFile& file = scene.file;
   const Location where = file.at(node);
   preset::Material made;
   if (type == "conductor" || type == "roughconductor") {
     made.type = preset::Material::Type::mirror;
-    made.reflectance = reflectance_of(mitsuba_colour(scene, node, "specular_reflectance", 1));
-    if (file.child(node, "material") ? file.text(node, "material", "") != "none" : bool(file.child(node, "eta")))
-      scene.d.note(where, "the metal is left out: a mirror of its specular_reflectance takes its place");
+    if (const auto own = metal(scene, node, key))
+      made = *own;
+    else
+      made.reflectance = reflectance_of(mitsuba_colour(scene, node, "specular_reflectance", 1));
     if (type == "roughconductor") scene.d.note(where, "roughness is left out: the mirror is polished");
     note_unasked(scene, node);
     return made;
@@ -274,7 +293,7 @@ std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
   const std::string key = known->second =
       unique(node ? name_of(id, fmt::format("material {}", file.at(node).line)) : "plain", scene.taken);
   if (!refracts) {
-    scene.d.materials[key] = opaque(scene, node, type);
+    scene.d.materials[key] = opaque(scene, node, type, key);
     return key;
   }
   const Location where = file.at(node);
@@ -283,10 +302,15 @@ std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
   glass.is_thin = thin;
   if (type.starts_with("rough") || file.number(node, "roughness", 0) > 0.1)
     scene.d.note(where, "roughness is left out: the glass is polished");
-  for (const char* tint : {"specular_transmittance", "specular_reflectance", "base_color"})
-    if (const xml_node given = file.child(node, tint))
-      if (const auto colour = colour_of(scene, given); !colour || values_of(*colour) != optics::constant_spectrum(1))
-        scene.d.note(where, std::string("its ") + tint + " is left out: the glass is clear");
+  if (const char* tint = through > 0 ? "base_color" : "specular_transmittance"; file.child(node, tint))
+    glass.tint = mitsuba_colour(scene, node, tint, 1);
+  if (through > 0 && glass.tint) { // whose root each surface of a principled body takes
+    glass.tint->spectrum = values_of(*glass.tint);
+    for (double& part : *glass.tint->spectrum) part = std::sqrt(std::max(part, 0.0));
+  }
+  if (const xml_node given = file.child(node, "specular_reflectance"))
+    if (const auto colour = colour_of(scene, given); !colour || values_of(*colour) != optics::constant_spectrum(1))
+      scene.d.note(where, "its specular_reflectance is left out: it reflects as clear glass does");
   if (medium && !thin) glass.absorption = absorption_of(scene, medium);
   if (type != "principled") note_unasked(scene, node);
   scene.d.dielectrics[key] = glass;

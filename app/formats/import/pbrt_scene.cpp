@@ -2,6 +2,7 @@
 #include "formats/import/pbrt_scene.h"
 
 #include "base/error.h"
+#include "formats/import/dielectrics.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 
@@ -179,6 +180,29 @@ DescribedColour pbrt_light_colour(PbrtScene& scene, const PbrtParameters& p, con
   return colour * p.number("scale", 1);
 }
 
+namespace {
+
+/// Copper where nothing is said.
+preset::Material metal(PbrtScene& scene, const std::string& key, const PbrtParameters& p) {
+  const PbrtParameter *const eta = resolved(scene, p, "eta"), *const k = resolved(scene, p, "k");
+  const auto is_named = [](const PbrtParameter* given) {
+    return given && given->type == "spectrum" && is_name(*given);
+  };
+  const std::string name = !eta && !k ? "metal-Cu-eta" : is_named(eta) ? eta->values[0] : std::string();
+  if (name.starts_with("metal-") && name.ends_with("-eta")) // as version 4 names them
+    if (const auto metal = metal_of_element(name.substr(6, name.size() - 10))) return *metal;
+  if (eta && k)
+    if (const auto n = colour_of(scene, *eta), extinction = colour_of(scene, *k); n && extinction)
+      return metal_of(scene.d, key, values_of(*n), values_of(*extinction));
+  scene.d.note(p.where, "the metal is left out: a mirror of 0.9 takes its place");
+  preset::Material mirror;
+  mirror.type = preset::Material::Type::mirror;
+  mirror.reflectance.value = 0.9;
+  return mirror;
+}
+
+} // namespace
+
 bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing& material, const PbrtThing* medium) {
   const std::string& type = material.type;
   const PbrtParameters& p = material.parameters;
@@ -191,10 +215,10 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
     glass.is_ratio = true;
     glass.is_thin = thin;
     if (is_rough(p)) scene.d.note(p.where, "roughness is left out: the glass is polished");
-    for (const char* tint : {"Kt", "Kr"})
-      if (const PbrtParameter* given = resolved(scene, p, tint))
-        if (const auto colour = colour_of(scene, *given); !colour || values_of(*colour) != optics::constant_spectrum(1))
-          scene.d.note(given->where, std::string("its ") + tint + " is left out: the glass is clear");
+    if (p.find("Kt")) glass.tint = pbrt_colour(scene, p, "Kt", 1);
+    if (const PbrtParameter* given = resolved(scene, p, "Kr"))
+      if (const auto colour = colour_of(scene, *given); !colour || values_of(*colour) != optics::constant_spectrum(1))
+        scene.d.note(given->where, "its Kr is left out: it reflects as clear glass does");
     if (medium && !thin) glass.absorption = absorption_of(scene, *medium);
     note_unasked(scene, p);
     return true;
@@ -206,9 +230,10 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
   const bool is_metal = type == "conductor" || type == "metal"; // as versions 4 and 3 call it
   if (is_metal || type == "mirror") {
     made.type = preset::Material::Type::mirror;
-    reflect(is_metal ? "reflectance" : "Kr", 0.9);
     if (is_metal && !p.find("reflectance"))
-      scene.d.note(p.where, "the metal is left out: a mirror of 0.9 takes its place");
+      made = metal(scene, key, p);
+    else
+      reflect(is_metal ? "reflectance" : "Kr", 0.9);
     if (is_rough(p)) scene.d.note(p.where, "roughness is left out: the mirror is polished");
     note_unasked(scene, p);
     return true;

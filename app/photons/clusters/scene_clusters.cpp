@@ -86,13 +86,15 @@ std::vector<std::vector<int>> split_by_losses(std::vector<std::vector<int>> clus
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const bool used = std::ranges::any_of(
         scene.objects, [&](const scene::Object& object) { return static_cast<std::size_t>(object.material) == m; });
-    const std::vector<double> coefficients =
-        used ? tracing::loss_coefficients(scene.materials[m]) : std::vector<double>{};
-    if (coefficients.empty()) continue;
-    const double longest = is_refractive(scene.materials[m].type) ? 2 * diagonal_m(scene, m) : reflections;
-    std::vector<std::vector<int>> parts;
-    for (std::vector<int>& cluster : clusters) split(std::move(cluster), coefficients, longest, most, parts);
-    clusters = std::move(parts);
+    if (!used) continue;
+    for (const auto& [coefficients, longest] :
+         {std::pair(tracing::loss_inside(scene.materials[m]), 2 * diagonal_m(scene, m)),
+          std::pair(tracing::loss_at_surface(scene.materials[m]), double(reflections))}) {
+      if (coefficients.empty()) continue;
+      std::vector<std::vector<int>> parts;
+      for (std::vector<int>& cluster : clusters) split(std::move(cluster), coefficients, longest, most, parts);
+      clusters = std::move(parts);
+    }
   }
   return clusters;
 }

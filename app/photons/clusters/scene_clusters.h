@@ -23,8 +23,8 @@ std::vector<std::vector<int>> scene_clusters(const Settings& settings, const sce
 double largest_difference(double a, double b, double longest);
 
 /// Splits clusters so that the fractions which one material leaves of two wavelengths of a cluster differ by at most
-/// `most`: in glass over any length up to twice the diagonal of the box about all objects of it, at a mirror for up to
-/// `reflections` reflections. Each material splits a cluster into the fewest parts; the result is their common
+/// `most`: in glass over any length up to twice the diagonal of the box about all objects of it, at a surface that it
+/// meets up to `reflections` times. Each loss splits a cluster into the fewest parts; the result is their common
 /// refinement, in no particular order. Where nothing absorbs, the clusters are returned as they are.
 std::vector<std::vector<int>> split_by_losses(std::vector<std::vector<int>> clusters, const scene::Scene& scene,
                                               int reflections, double most);

@@ -7,26 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace nephroid::check {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
-/// How far the fraction of a pencil that reaches the floor below `p`'s objects is from `truth`, in sigma of the count.
-double z_of_transmitted(const compute::Context& context, preset::Preset p, double truth) {
-  constexpr int photons = 1 << 17;
-  p.scene.materials["white"] = white();
-  p.scene.objects.push_back(object("floor", quad(400, 400), "white", at({0, -1, 0})));
-  p.scene.camera.position = {0, 5, 0};
-  p.scene.camera.up = {0, 0, -1};
-  spectral::settings(p).photons_per_pass = photons;
-  const photons::EnergyBalance e = photons::energy_of(render(p, context));
-  return (e.deposited_w / e.emitted_w - truth) / std::sqrt(truth * (1 - truth) / photons);
-}
-
-/// A pencil of 0.01 degrees from 0.1 m before crosses a plate of 40 m x 1 mm x 40 m: narrow at grazing angles, too.
+/// An inclined pencil crosses a plate of 40 m x 1 mm x 40 m.
 Result plate(const compute::Context& context, std::uint64_t seed) {
   constexpr double n = 1.5;
   double worst = 0;
@@ -35,8 +20,7 @@ Result plate(const compute::Context& context, std::uint64_t seed) {
     p.seed = seed;
     p.scene.materials["glass"] = glass(n);
     p.scene.objects = {object("plate", box(40, 1e-3, 40), "glass")};
-    const double s = std::sin(theta_deg * degree), c = std::cos(theta_deg * degree);
-    p.scene.lights = {pencil({-0.1 * s, 0.5e-3 + 0.1 * c, 0}, {s, -c, 0}, 0.01)};
+    p.scene.lights = {inclined_pencil(theta_deg * degree)};
     worst = worse(worst, z_of_transmitted(context, std::move(p), plate_transmittance(theta_deg * degree, n)));
   }
   return judged(

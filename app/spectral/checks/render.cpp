@@ -46,6 +46,17 @@ double plate_transmittance(double theta, double n) {
   return (1 - r) / (1 + r);
 }
 
+double z_of_transmitted(const compute::Context& context, preset::Preset p, double truth, double left) {
+  constexpr int photons = 1 << 17;
+  p.scene.materials["white"] = white();
+  p.scene.objects.push_back(object("floor", quad(400, 400), "white", at({0, -1, 0})));
+  p.scene.camera.position = {0, 5, 0};
+  p.scene.camera.up = {0, 0, -1};
+  spectral::settings(p).photons_per_pass = photons;
+  const photons::EnergyBalance e = photons::energy_of(render(p, context));
+  return (e.deposited_w / e.emitted_w / left - truth) / std::sqrt(truth * (1 - truth) / photons);
+}
+
 PrismPath prism_path(double side, double incidence, double n, double screen_z) {
   const double c = std::cos(std::numbers::pi / 6), s = 0.5;
   const Point apex{0, side * c / 2}, left{-side / 2, -side * c / 2}, right{side / 2, -side * c / 2};

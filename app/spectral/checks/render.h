@@ -13,10 +13,13 @@
 
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <string_view>
 
 namespace nephroid::check {
+
+inline constexpr double degree = std::numbers::pi / 180;
 
 /// A run of engine 1 with the general kernels rather than those made for the scene: so all checks together build two
 /// programs, which is most of their time on a device whose compiler has not seen them. Tests compare the two kinds.
@@ -49,6 +52,10 @@ inline double luminance(const job::Layer& layer, int width, int row, int column)
 /// R go back, and so on: T = (1 - R)^2 (1 + R^2 + R^4 + ...) = (1 - R) / (1 + R).
 double plate_transmittance(double theta, double n);
 
+/// How far the fraction of the power of a pencil of one wavelength that reaches the floor below `p`'s objects is from
+/// `truth` times `left`, the part that a photon keeps, in sigma of the count.
+double z_of_transmitted(const compute::Context& context, preset::Preset p, double truth, double left = 1);
+
 /// Light through a prism of apex angle 60 degrees, apex at +z, its cross section in (x, z) about the origin, n inside,
 /// 1 outside. It comes from the left, `incidence` radians from the entry face's normal, towards that face's middle.
 struct PrismPath {
@@ -71,5 +78,6 @@ double ball_lens_landing(double radius, double height, double n, double screen_z
 Checks table_checks();      ///< tables.cpp: sums over wavelengths, absorption, what lights send
 Checks radiometry_checks(); ///< radiometry.cpp: small pictures against closed forms of irradiance and power
 Checks refraction_checks(); ///< refraction.cpp: plates, a prism and a ball lens
+Checks material_checks();   ///< materials.cpp: metals, tinted glass, panes, coatings
 
 } // namespace nephroid::check

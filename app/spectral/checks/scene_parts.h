@@ -4,6 +4,7 @@
 #include "preset/preset.h"
 #include "spectral/settings.h"
 
+#include <cmath>
 #include <string>
 
 namespace nephroid::check {
@@ -38,6 +39,14 @@ inline preset::Material glass(double n) {
   m.type = preset::Material::Type::dielectric;
   m.dispersion.type = preset::Dispersion::Type::constant;
   m.dispersion.n = n;
+  return m;
+}
+
+inline preset::Material conductor(const std::string& metal) {
+  preset::Material m;
+  m.type = preset::Material::Type::conductor;
+  m.dispersion.type = preset::Dispersion::Type::file;
+  m.dispersion.file = metal;
   return m;
 }
 
@@ -89,6 +98,13 @@ inline preset::Light pencil(const preset::Vec3& from, const preset::Vec3& direct
   light.half_angle_deg = half_angle_deg;
   light.spectrum = line(nm);
   return light;
+}
+
+/// A pencil of 0.01 degrees from 0.1 m before the origin, narrow at grazing angles too, `theta` radians from the plane
+/// y = 0's normal.
+inline preset::Light inclined_pencil(double theta, double nm = 550) {
+  const double s = std::sin(theta), c = std::cos(theta);
+  return pencil({-0.1 * s, 0.1 * c, 0}, {s, -c, 0}, 0.01, nm);
 }
 
 } // namespace nephroid::check

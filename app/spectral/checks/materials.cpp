@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pencils of light on metals, tinted glass, panes and coatings by the real engine, against Fresnel and Airy.
+#include "scene/materials.h"
+#include "optics/fresnel.h"
+#include "optics/spectrum.h"
+#include "spectral/checks/render.h"
+#include "spectral/checks/scene_parts.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace nephroid::check {
+namespace {
+
+/// What is left of daylight after one reflection, without chance: every photon loses its part of each wavelength.
+Result metals(const compute::Context& context, std::uint64_t seed) {
+  double worst = 0;
+  for (const char* metal : {"gold", "silver", "copper", "aluminium", "brass"}) {
+    const optics::DispersionCurve curve = scene::load_dispersion(metal);
+    const optics::Spectrum light = optics::illuminant("D65"),
+                           n = optics::sample_n(curve, optics::Extrapolation::automatic),
+                           k = optics::sample_k(curve, optics::Extrapolation::automatic);
+    for (const double theta_deg : {0.0, 60.0, 85.0}) {
+      preset::Preset p = empty_preset(16);
+      p.seed = seed;
+      p.scene.materials["metal"] = conductor(metal);
+      p.scene.materials["white"] = white();
+      preset::Shape room = box(100, 100, 100);
+      room.inwards = true;
+      p.scene.objects = {object("mirror", quad(40, 40), "metal"), object("room", room, "white")};
+      p.scene.lights = {inclined_pencil(theta_deg * degree)};
+      p.scene.lights[0].spectrum = {};
+      spectral::settings(p).photons_per_pass = 1 << 12;
+      const photons::EnergyBalance e = photons::energy_of(render(p, context));
+      double truth = 0;
+      for (std::size_t w = 0; w < light.size(); ++w)
+        truth += light[w] * optics::conductor_reflectance(std::cos(theta_deg * degree), 1, {n[w], k[w]});
+      worst = worse(worst, e.deposited_w / e.emitted_w - truth);
+    }
+  }
+  return judged(worst, 1e-3, "",
+                "daylight on gold, silver, copper, aluminium and brass at 0, 60 and 85 degrees: the part that is left, "
+                "against Fresnel's equations at 401 wavelengths");
+}
+
+/// `material` in a preset that an inclined pencil crosses, as `shape`.
+double z_through(const compute::Context& context, std::uint64_t seed, const preset::Material& material,
+                 const preset::Shape& shape, const preset::Light& light, double truth, double left = 1) {
+  preset::Preset p = empty_preset(16);
+  p.seed = seed;
+  p.scene.materials["glass"] = material;
+  p.scene.objects = {object("plate", shape, "glass")};
+  p.scene.lights = {light};
+  return z_of_transmitted(context, std::move(p), truth, left);
+}
+
+Result tinted_plate(const compute::Context& context, std::uint64_t seed) {
+  preset::Material tinted = glass(1.5);
+  tinted.tint.value = 0.7;
+  const double z = z_through(context, seed, tinted, box(40, 1e-3, 40), inclined_pencil(0.7),
+                             plate_transmittance(0.7, 1.5), 0.7 * 0.7);
+  return judged(z, 6, "sigma",
+                "transmittance of a plate at 40 degrees whose faces each pass 0.7, against 0.49 of glass'");
+}
+
+Result pane(const compute::Context& context, std::uint64_t seed) {
+  preset::Material thin = glass(1.5);
+  thin.thin = true;
+  thin.tint.value = 0.6;
+  double worst = 0;
+  for (const double theta_deg : {0.0, 40.0, 70.0, 86.0})
+    worst = worse(worst, z_through(context, seed, thin, quad(40, 40), inclined_pencil(theta_deg * degree),
+                                   plate_transmittance(theta_deg * degree, 1.5), 0.6));
+  return judged(worst, 6, "sigma",
+                "transmittance of a thin pane that passes 0.6, at 0, 40, 70 and 86 degrees, the farthest from 0.6 (1 - "
+                "R) / (1 + R) with Fresnel's R");
+}
+
+/// The plate's faces are far apart for interference, so their reflectances add up as those of a bare plate do.
+Result coated_plate(const compute::Context& context, std::uint64_t seed) {
+  double worst = 0;
+  for (const auto& [n_layer, thickness_nm] : {std::pair{1.38, 100.0}, {2.35, 180.0}, {1.0, 60.0}}) {
+    preset::Material coated = glass(1.5);
+    coated.coating.emplace().dispersion.n = n_layer;
+    coated.coating->thickness_nm = thickness_nm;
+    for (const double nm : {420.0, 550.0, 700.0})
+      for (const double theta_deg : {0.0, 60.0}) {
+        const double r = optics::coated_reflectance(std::cos(theta_deg * degree), 1, n_layer, 1.5, thickness_nm / nm);
+        worst = worse(worst, z_through(context, seed, coated, box(40, 1e-3, 40),
+                                       inclined_pencil(theta_deg * degree, nm), (1 - r) / (1 + r)));
+      }
+  }
+  return judged(worst, 6, "sigma",
+                "transmittance of plates with layers of n = 1.38, 2.35 and 1 at 420, 550 and 700 nm, 0 and 60 degrees, "
+                "the farthest from (1 - R) / (1 + R) with Airy's R");
+}
+
+} // namespace
+
+Checks material_checks() {
+  return {{"material: metals", metals},
+          {"material: tinted glass", tinted_plate},
+          {"material: a thin pane", pane},
+          {"material: coatings", coated_plate}};
+}
+
+} // namespace nephroid::check
