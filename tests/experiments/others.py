@@ -29,7 +29,7 @@ def theirs(scene, folder):
     import mitsuba
     import numpy as np
     from others_scenes import FLOOR_HEIGHT
-    mitsuba.set_variant("llvm_ad_rgb")
+    mitsuba.set_variant(scene.get("variant", "llvm_ad_rgb"))
     loaded = mitsuba.load_file(str(folder / scene["theirs"]))
     integrator = mitsuba.load_dict({"type": scene["integrator"], "max_depth": 32, "rr_depth": 32})
     at = np.array(mitsuba.render(loaded, integrator=mitsuba.load_dict({"type": "aov", "aovs": "at:position"}), spp=64))

@@ -135,14 +135,29 @@ def gltf(lamp):
         "buffers": [{"byteLength": len(data), "uri": "scene.bin"}]}), "scene.bin": data}
 
 
-def mitsuba(text, integrator="path", **files):
-    return {"files": {"scene.xml": text} | files, "ours": "scene.xml", "theirs": "scene.xml", "integrator": integrator}
+def mitsuba(text, integrator="path", variant="llvm_ad_rgb", **files):
+    return {"files": {"scene.xml": text} | files, "ours": "scene.xml", "theirs": "scene.xml", "integrator": integrator,
+            "variant": variant}
 
 
 def beside(files, ours, theirs, integrator="path"):
     """A file of another program, and the same scene in Mitsuba's words."""
     return {"files": files | {"theirs.xml": theirs}, "ours": ours, "theirs": "theirs.xml", "integrator": integrator}
 
+
+# Johnson and Christy 1972.
+GOLD = ('<bsdf type="conductor">'
+        '<spectrum name="eta" value="367.9:1.48, 381.5:1.46, 397.4:1.47, 413.3:1.46, 430.5:1.45, '
+        '450.9:1.38, 471.4:1.31, 495.9:1.04, 520.9:0.62, 548.6:0.43, 582.1:0.29, 616.8:0.21, 659.5:0.14, '
+        '704.5:0.13, 756.0:0.14, 821.1:0.16"/>'
+        '<spectrum name="k" value="367.9:1.895, 381.5:1.933, 397.4:1.952, 413.3:1.958, 430.5:1.948, '
+        '450.9:1.914, 471.4:1.849, 495.9:1.833, 520.9:2.081, 548.6:2.455, 582.1:2.863, 616.8:3.272, '
+        '659.5:3.697, 704.5:4.103, 756.0:4.542, 821.1:5.083"/>'
+        '</bsdf>')
+SKY_LIGHT = '<emitter type="constant"><rgb name="radiance" value="1"/></emitter>'
+PANE = """<shape type="rectangle"><transform name="to_world"><scale value="2"/><rotate x="1" angle="-60"/>
+<translate y="0.5"/></transform><bsdf type="thindielectric"><float name="int_ior" value="1.7"/>
+<float name="specular_transmittance" value="0.8"/></bsdf></shape>"""
 
 ABSORBS = ('<medium name="interior" type="homogeneous"><rgb name="sigma_t" value="0.5"/><rgb name="albedo" value="0"/>'
            '</medium>')
@@ -192,7 +207,11 @@ SCENES = {
                                          '<matrix value="1 0 0 .3  0 .7 0 0  0 0 .5 0  0 0 0 1"/><scale value="1.2"/>',
                                          glass(), '<boolean name="face_normals" value="true"/>')),
                       **{"cube.obj": obj_of(*CUBE)}),
-    "even sky": mitsuba(whole('<emitter type="constant"><rgb name="radiance" value="1"/></emitter>', ball())),
+    "even sky": mitsuba(whole(SKY_LIGHT, ball())),
+    "gold ball": mitsuba(whole(SKY_LIGHT, ball(material=GOLD)), variant="llvm_ad_spectral"),
+    "tinted ball": mitsuba(whole(SKY_LIGHT, ball(material=glass().replace(
+        "</bsdf>", '<float name="specular_transmittance" value="0.7"/></bsdf>')))),
+    "thin pane": mitsuba(whole(SKY_LIGHT, PANE)),
     "sky of a picture": mitsuba(whole('<emitter type="envmap"><string name="filename" value="sky.hdr"/>'
                                       '<float name="scale" value="2"/><transform name="to_world">'
                                       '<rotate y="1" angle="70"/></transform></emitter>', ball()),
