@@ -7,7 +7,7 @@ namespace nephroid::check {
 
 std::vector<Check> checks() {
   std::vector<Check> list;
-  for (const auto subject : {arithmetic_checks, exactness_checks, geometry_checks, interface_checks})
+  for (const auto subject : {arithmetic_checks, exactness_checks, geometry_checks, interface_checks, roughness_checks})
     for (Check& check : subject()) list.push_back(std::move(check));
   return list;
 }

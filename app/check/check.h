@@ -52,6 +52,7 @@ using Checks = std::vector<Check>;
 Checks arithmetic_checks(); ///< arithmetic.cpp: the device's own functions, in units in the last place
 Checks exactness_checks();  ///< exactness.cpp: random numbers and sums, bit for bit
 Checks geometry_checks();   ///< geometry.cpp: rays and triangles
-Checks interface_checks();  ///< interfaces.cpp: Snell, Fresnel, nested media
+Checks interface_checks();  ///< interfaces.cpp: Snell, Fresnel, metals, coatings, nested media
+Checks roughness_checks();  ///< roughness.cpp: microfacets
 
 } // namespace nephroid::check

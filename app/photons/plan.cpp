@@ -116,13 +116,18 @@ bool glass_meets_glass(const scene::Scene& scene) {
   return false;
 }
 
-bool has_coatings(const scene::Scene& scene) {
+bool any_material(const scene::Scene& scene, bool (*is)(const scene::Material&)) {
   return std::ranges::any_of(scene.objects,
-                             [&](const scene::Object& object) { return scene::is_coated(material_of(scene, object)); });
+                             [&](const scene::Object& object) { return is(material_of(scene, object)); });
 }
 
+bool has_coatings(const scene::Scene& scene) { return any_material(scene, scene::is_coated); }
+
 /// What a coating reflects is worked out for one wavelength, and neighbours in a cluster are reflected otherwise.
-void refuse_whole_clusters(const Settings& wanted, const scene::Scene& scene, const Location& spectral) {
+void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& scene, const Location& spectral) {
+  if (wanted.estimator == Settings::Estimator::tiles && any_material(scene, scene::is_rough))
+    throw bad_input(spectral / "estimator", "is tiles, which a rough surface tears", "expected points, splat or sppm",
+                    "or set its roughness to 0");
   if (!has_coatings(scene)) return;
   const auto refuse = [&](bool is_set, const char* field, const char* expected) {
     if (is_set)
@@ -131,13 +136,14 @@ void refuse_whole_clusters(const Settings& wanted, const scene::Scene& scene, co
   };
   refuse(!wanted.jitter, "jitter", "expected true");
   refuse(wanted.relight, "relight", "expected false");
-  refuse(wanted.estimator == Settings::Estimator::tiles, "estimator", "expected points, splat, maps or sppm");
+  refuse(wanted.estimator == Settings::Estimator::tiles, "estimator", "expected points, splat or sppm");
 }
 
 /// Why photons are points; empty where tiles have less error (docs/notebook/tiles.md).
 std::string why_points(const Settings& wanted, const scene::Scene& scene) {
   if (wanted.relight) return "spectral.relight is true: layers hold whole clusters";
   if (has_coatings(scene)) return "a coating reflects each wavelength otherwise";
+  if (any_material(scene, scene::is_rough)) return "a rough surface tears the pieces of light";
   if (wanted.method == Settings::Method::brute_force || wanted.effort != Settings::Effort::automatic ||
       !wanted.jitter || !wanted.low_discrepancy)
     return "spectral.method, effort, jitter or low_discrepancy ask for points";
@@ -279,7 +285,7 @@ bool RunPlan::runs(const RunPart& part) const { return std::ranges::count(parts,
 
 RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const scene::Scene& scene,
                   const scene::Bvh& bvh, const tracing::LeaveOut& leave_out) {
-  refuse_whole_clusters(wanted, scene, Location(preset.source) / "spectral");
+  refuse_what_materials_cannot(wanted, scene, Location(preset.source) / "spectral");
   RunPlan plan;
   plan.settings = wanted;
   if (!plan.settings.pixel_samples) plan.settings.pixel_samples = enough_samples(scene);

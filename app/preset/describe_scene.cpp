@@ -84,22 +84,24 @@ void describe(Fields& v, Coating& c) {
 
 void describe(Fields& v, Material& m) {
   v.about("Material", "What a surface does with light.");
+  using Type = Material::Type;
   v.type("type", "What kind of surface.", m.type);
-  if (m.type == Material::Type::dielectric) {
+  if (m.type == Type::dielectric)
     v.field("dispersion", "Index of refraction: a number, a file or an object.", m.dispersion, {.required = true});
-    v.field("absorption", "Absorb light inside where the dispersion file has k.", m.absorption);
-    v.field("tint",
-            "Part of the light that passes the surface, each time: a number, a ColorChecker patch or an object.",
-            m.tint);
-    v.field("thin", "A pane without thickness: light goes straight on, or is reflected by both faces together.",
-            m.thin);
-    v.field("coating", "A thin layer on the surface, such as an anti-reflection coat or a soap film.", m.coating);
-  } else if (m.type == Material::Type::conductor)
+  if (m.type == Type::conductor)
     v.field("dispersion", "A file with n and k, or a shipped metal: gold, silver, copper, aluminium, brass.",
             m.dispersion, {.required = true});
-  else
+  if (m.type == Type::diffuse || m.type == Type::mirror)
     v.field("reflectance", "Part of the light that is reflected: a number, a ColorChecker patch or an object.",
             m.reflectance);
+  if (m.type != Type::diffuse)
+    v.field("roughness", "0 is polished; GGX with alpha = roughness^2.", m.roughness, {.bounds = within(0, 1)});
+  if (m.type != Type::dielectric) return;
+  v.field("absorption", "Absorb light inside where the dispersion file has k.", m.absorption);
+  v.field("tint", "Part of the light that passes the surface, each time: a number, a ColorChecker patch or an object.",
+          m.tint);
+  v.field("thin", "A pane without thickness: light goes straight on, or is reflected by both faces together.", m.thin);
+  v.field("coating", "A thin layer on the surface, such as an anti-reflection coat or a soap film.", m.coating);
 }
 
 void describe(Fields& v, Transform& t) {

@@ -127,6 +127,7 @@ Material make_material(const std::string& name, const preset::Material& material
   Material result;
   result.name = name;
   result.type = material.type;
+  if (is_specular(material.type)) result.alpha = material.roughness * material.roughness;
   const auto sampled = [&](const preset::Dispersion& dispersion, const Location& field, const auto& sample) {
     const optics::DispersionCurve curve = make_curve(dispersion, finder, field);
     const optics::Extrapolation outside = outside_policy(dispersion.outside);
@@ -165,6 +166,9 @@ Material make_material(const std::string& name, const preset::Material& material
     result.absorbs = std::any_of(result.k.begin(), result.k.end(), [](double k) { return k > 0; });
     result.tint = make_reflectance(material.tint, where / "tint");
     result.thin = material.thin;
+    if (material.thin && is_rough(result))
+      throw bad_input(where / "roughness", "is of a thin pane", "expected 0, or a body: a pane is polished",
+                      "for a frosted pane take a plate");
     if (!material.coating) break;
     if (material.thin)
       throw bad_input(where / "coating", "is on a thin pane", "expected a body: a pane has no coating",

@@ -35,12 +35,15 @@ struct Material {
   optics::ConductorTerms conductor; ///< conductor
   optics::Spectrum tint{};          ///< dielectric: the part that passes its surface
   bool thin = false;                ///< dielectric: a pane without thickness
+  double alpha = 0;                 ///< of GGX; 0: polished
   double coating_nm = 0;            ///< dielectric: thickness of its coating; 0: none
   optics::Spectrum coating_n{};
 };
 
 /// Whether an object of it is a body that fills space, which light is inside or outside of.
 inline bool is_body(const Material& material) { return is_refractive(material.type) && !material.thin; }
+
+inline bool is_rough(const Material& material) { return material.alpha > 0; }
 
 /// Whether its surface sends wavelengths different ways, where other materials of the same n send all the same way.
 inline bool is_coated(const Material& material) { return material.coating_nm > 0; }

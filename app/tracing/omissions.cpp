@@ -23,6 +23,12 @@ using optics::wavelength_count;
 
 constexpr unsigned all_light_types = (1u << LIGHT_TYPE_COUNT) - 1;
 
+bool is_conductor(const scene::Material& material) { return material.type == scene::Material::Type::conductor; }
+bool is_pane(const scene::Material& material) { return material.thin; }
+bool is_tinted(const scene::Material& material) {
+  return is_refractive(material.type) && !loss_at_surface(material).empty();
+}
+
 /// Whether the glass of any object has an index other than 1.
 bool anything_bends(const scene::Scene& scene) {
   return std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
@@ -186,23 +192,20 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       has(counts.smooth > 0 ? needed("smooth normals", counted(counts.smooth, "smooth object"))
                             : not_needed("smooth normals", leave_out.smooth_normals, "no mesh has smooth normals"));
   const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
-  const auto any = [&](const auto& has_it) {
+  const auto any = [&](bool (*has_it)(const scene::Material&)) {
     return std::ranges::any_of(scene.objects,
                                [&](const scene::Object& object) { return has_it(material_of(scene, object)); });
   };
-  using Material = scene::Material;
-  const bool conductors = any([](const Material&m) { return m.type == Material::Type::conductor; }),
-             panes = any([](const Material&m) { return m.thin; }), coatings = any(scene::is_coated),
-             tints = any([](const Material&m) { return is_refractive(m.type) && !loss_at_surface(m).empty(); });
   omissions.defines = {
       {"NEPHROID_OCCLUSION", flag(occlusion)},
       {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types)},
       {"NEPHROID_MIRRORS", flag(mirrors)},
-      {"NEPHROID_CONDUCTORS", flag(conductors || !leave_out.mirrors)},
+      {"NEPHROID_CONDUCTORS", flag(any(is_conductor) || !leave_out.mirrors)},
       {"NEPHROID_BENDING", flag(bending)},
-      {"NEPHROID_PANES", flag(panes || !leave_out.bending)},
-      {"NEPHROID_COATINGS", flag(coatings || !leave_out.bending)},
-      {"NEPHROID_TINTS", flag(tints || !leave_out.attenuation)},
+      {"NEPHROID_PANES", flag(any(is_pane) || !leave_out.bending)},
+      {"NEPHROID_COATINGS", flag(any(scene::is_coated) || !leave_out.bending)},
+      {"NEPHROID_ROUGH", flag(any(scene::is_rough) || !leave_out.bending)},
+      {"NEPHROID_TINTS", flag(any(is_tinted) || !leave_out.attenuation)},
       // Without materials that attenuate there is one place all the same: the code is compiled and does nothing.
       {"NEPHROID_ATTENUATORS", std::to_string(attenuation ? std::max(attenuators, 1) : 0)},
       {"NEPHROID_SMOOTH", flag(smooth)}};

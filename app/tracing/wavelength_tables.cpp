@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/wavelength_tables.h"
 
+#include "optics/spectrum.h"
 #include "tracing/scales.h"
 #include "tracing/scene_tables.h"
 
@@ -60,16 +61,25 @@ int add_conductor(WavelengthTables& tables, const scene::Material& metal) {
   return first;
 }
 
+/// The row of what roughness takes, which all materials share.
+int masking_row(WavelengthTables& tables, std::span<const shared::DeviceMaterial> before) {
+  for (const shared::DeviceMaterial& material : before)
+    if (material.masking >= 0) return material.masking;
+  return add_loss(tables, optics::constant_spectrum(1));
+}
+
 /// The rows of each material that an object uses.
 void add_material_rows(const scene::Scene& scene, WavelengthTables& tables,
                        std::vector<shared::DeviceMaterial>& materials) {
   const std::vector<bool> used = used_materials(scene);
-  materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, -1, -1, 0, 0, 0});
+  materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, -1, -1, 0, 0, 0, -1});
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const scene::Material& material = scene.materials[i];
     shared::DeviceMaterial& row = materials[i];
     row.type = device_type(material.type);
     if (!used[i]) continue;
+    row.alpha = static_cast<float>(material.alpha);
+    if (is_rough(material)) row.masking = masking_row(tables, {materials.data(), i});
     const int surface_first = static_cast<int>(tables.surface_data.size());
     switch (material.type) {
     case MaterialType::diffuse:

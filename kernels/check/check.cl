@@ -4,6 +4,7 @@
 #include "kernels/tracing/random.h"
 #include "kernels/materials/coating.h"
 #include "kernels/materials/conductor.h"
+#include "kernels/materials/rough.h"
 #include "kernels/tracing/media.h"
 #include "kernels/tracing/attenuation.h"
 #include "kernels/tracing/emission.h"
@@ -81,6 +82,14 @@ kernel void coatings(global const float4* in, global float4* out, uint count) {
   const float cos_t = refracted_cosine(at.x, at.y / at.z);
   const float r = cos_t < 0.0f ? 1.0f : coated_reflectance(at.x, cos_t, at.y, at.z, layer);
   out[i] = (float4)(r, cos_t, 0.0f, 0.0f);
+}
+
+// view: the direction that the facets about z are seen from; w: alpha.
+kernel void visible_facets(global const float4* view, uint2 seed, global float4* out, uint count) {
+  const uint i = work_item();
+  const float3 up = (float3)(0.0f, 0.0f, 1.0f);
+  if (i < count)
+    out[i] = (float4)(visible_facet(view->xyz, up, view->w, facet_numbers(seed, 0u, i, 0u, STREAM_PHOTONS)), 0.0f);
 }
 
 // in: a direction that meets the plane z = 0, and n_i / n_t. out: the reflected one; the refracted one, its cosine.

@@ -125,8 +125,9 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
       const DeviceMaterial material = material_of(&world, surface.object);
       lose_in_medium(&world, &path, hit.t);
       if ((surface_number & 3) == 0) choices = random4(seed, number, photon, (uint)surface_number / 4u, STREAM_BAKE);
+      const float2 facet = facet_numbers(seed, number, photon, (uint)surface_number, STREAM_BAKE);
       float n_ratio;
-      if (!bend_path(&world, &path, hit.primitive, &surface, &material, &band, choices.x, &n_ratio)) break;
+      if (!bend_path(&world, &path, hit.primitive, &surface, &material, &band, choices.x, facet, &n_ratio)) break;
       choices = choices.yzwx;
     }
     const long quanta = convert_long_rte(power), left = convert_long_rte(power * left_of(&world, &path, &band));

@@ -96,10 +96,12 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
     if (bent) {
       band = band_of_channel(channel_cdf, channel, u);
       const bool reflected = i == ENDS_OF_PIXEL - 1;
+      const float2 facet =
+          facet_numbers(seed, ENDS_OF_PIXEL * pass + (uint)i, pixel, BEFORE_THE_PATH, STREAM_SEE);
       float share;
       Bend bend;
-      goes_on =
-          first_bend(&world, &way, &hit, &band, reflected, &share, &bend) && !(reflected && leaves_one_way(&bend));
+      goes_on = first_bend(&world, &way, &hit, &band, reflected, facet, &share, &bend) &&
+                !(reflected && leaves_one_way(&bend));
       weight = share *
                (reflected || ENDS_OF_PIXEL == 2 ? (float3)(1.0f) : (float3)(channel == 0, channel == 1, channel == 2));
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an interface with one thin layer reflects: both faces of the layer, with the interference of all reflections in
 // it (Airy's sum; Born and Wolf, Principles of Optics, 7.6). It depends on the wavelength, so a path must have one.
+#include "kernels/tracing/frame.h"
 #include "kernels/tracing/fresnel.h"
 
 // 0: no object has a coating.
@@ -40,7 +41,7 @@ static inline float layer_reflectance(float2 front, float2 back, float phase, bo
 static inline float coated_reflectance(float cos_i, float cos_t, float n_i, float n_t, Layer layer) {
   const float sine = n_i * sqrt((1.0f - cos_i) * (1.0f + cos_i)) / layer.n;
   const float cos2 = (1.0f - sine) * (1.0f + sine), cosine = fmax(sqrt(fabs(cos2)), 1e-6f);
-  const float phase = 4.0f * M_PI_F * layer.n * layer.thickness * cosine;
+  const float phase = 4.0f * PI_F * layer.n * layer.thickness * cosine;
   const bool evanescent = cos2 < 0.0f;
   const float2 across_front = {n_i * cos_i, layer.n * cosine}, across_back = {layer.n * cosine, n_t * cos_t};
   const float2 in_front = {n_i * cosine, layer.n * cos_i}, in_back = {layer.n * cos_t, n_t * cosine};

@@ -51,7 +51,8 @@ IN_PLACE float3 seen_through(const World* world, const Background* background, P
   const uint sample = frame * PATHS_THROUGH_GLASS + i;
   float share;
   Bend bend;
-  if (!first_bend(world, &path, &first, band, reflected, &share, &bend)) return (float3)(0.0f);
+  const float2 facet = facet_numbers(seed, sample, pixel, BEFORE_THE_PATH, STREAM_BACKGROUND);
+  if (!first_bend(world, &path, &first, band, reflected, facet, &share, &bend)) return (float3)(0.0f);
   const bool one_way = leaves_one_way(&bend);
   const float part = 1.0f / (one_way ? PATHS_THROUGH_GLASS : reflected ? 1.0f : PATHS_THROUGH_GLASS - 1.0f);
   Surface surface;

@@ -116,9 +116,10 @@ IN_PLACE float3 follow(const World* world, Walk* walk, Hit hit, bool narrow, uin
       is_bent = false;
       continue;
     }
+    const float2 facet = facet_numbers(seed, sample, pixel, (uint)surface_number, STREAM_INDIRECT);
     float n_ratio;
     divide(walk);
-    if (!bend_path(world, &walk->path, hit.primitive, &surface, &material, &walk->bands[0], random.x, &n_ratio))
+    if (!bend_path(world, &walk->path, hit.primitive, &surface, &material, &walk->bands[0], random.x, facet, &n_ratio))
       return xyz;
     for (int i = 0; i < BANDS; ++i) walk->throughput[i] *= n_ratio * n_ratio;
     is_bent = true;

@@ -75,9 +75,10 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
     }
     if (surface_number == world->scene.max_surfaces) return OUTCOME_LOST;
     counts = true;
+    const float2 facet = facet_numbers(seed, iteration, number, (uint)surface_number, STREAM_INDIRECT_PHOTONS);
     float n_ratio;
     if (material.type != MATERIAL_DIFFUSE &&
-        !bend_path(world, path, hit.primitive, &surface, &material, &band, random.x, &n_ratio))
+        !bend_path(world, path, hit.primitive, &surface, &material, &band, random.x, facet, &n_ratio))
       return OUTCOME_LOST;
   }
 }

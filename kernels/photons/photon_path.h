@@ -139,8 +139,9 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
     met_caustic_object = true;
     if ((surface_number & 3) == 0)
       choices = random4(seed, iteration, photon, 2u + (uint)surface_number / 4u, STREAM_PHOTONS);
+    const float2 facet = facet_numbers(seed, iteration, photon, (uint)surface_number, STREAM_PHOTONS);
     float n_ratio;
-    if (!bend_path(world, path, hit.primitive, &surface, &material, band, choices.x, &n_ratio)) break;
+    if (!bend_path(world, path, hit.primitive, &surface, &material, band, choices.x, facet, &n_ratio)) break;
     choices = choices.yzwx;
   }
   return end;

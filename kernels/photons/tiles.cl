@@ -217,7 +217,7 @@ static inline int split_branch(const World* world, const DeviceMaterial* materia
   float n_ratio;
   Bend back;
   goes_back = goes_back && bend_path_as(world, &reflected->path, end->triangle, &end->surface, material, band, -1.0f,
-                                        &n_ratio, &back);
+                                        (float2)(0.0f), &n_ratio, &back);
   if (goes_through && goes_back) {
     const bool more_through = branch->weight > reflected->weight;
     pending[(*waiting)++] = more_through ? *branch : *reflected;
@@ -250,7 +250,8 @@ COMPILED_ONCE int next_surface(const World* world, const Band* band, float cell,
   Branch reflected = *branch;
   Bend bend;
   float n_ratio;
-  if (!bend_path_as(world, &branch->path, hit.primitive, &end->surface, &material, band, 2.0f, &n_ratio, &bend))
+  if (!bend_path_as(world, &branch->path, hit.primitive, &end->surface, &material, band, 2.0f, (float2)(0.0f),
+                    &n_ratio, &bend))
     return BRANCH_ENDS;
   branch->is_coarse = branch->is_coarse || spans_triangles(&world->geometry, hit.primitive, branch->path.by_place,
                                                            cell * sqrt(branch->stands));

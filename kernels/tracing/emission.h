@@ -3,6 +3,7 @@
 // in proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly
 // inside it. Where `count` targets overlap, each could have made a photon: its density is count / (sum of all).
 #include "kernels/tracing/differential.h"
+#include "kernels/tracing/frame.h"
 #include "kernels/tracing/light.h"
 #include "kernels/tracing/registers.h"
 
@@ -11,14 +12,6 @@ typedef struct {
   float behind;             // the light is this far behind the origin, which may lie at a small target: see aim
   float watts; // power of the whole spectrum that this photon carries, times the number of photons; 0: not emitted
 } Emission;
-
-// Two vectors that make an orthonormal frame with the unit vector n (Duff et al. 2017).
-static inline void make_frame(float3 n, float3* x, float3* y) {
-  const float sign = copysign(1.0f, n.z);
-  const float a = -1.0f / (sign + n.z), b = n.x * n.y * a;
-  *x = (float3)(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
-  *y = (float3)(b, sign + n.y * n.y * a, -n.y);
-}
 
 // A direction about the unit vector n with the density cos(theta) / pi: uniform on the disc below (Malley).
 static inline float3 cosine_direction(float3 n, float u, float v) {

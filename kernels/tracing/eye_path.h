@@ -128,13 +128,14 @@ static inline bool leaves_one_way(const Bend* bend) { return bend->reflectance =
 
 // Continues a path at the glass or mirror that it meets first. reflected: whether it is reflected there or goes on
 // through, where there are both ways. *share: the factor of the radiance there. False: the path is lost.
-IN_PLACE bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, bool reflected, float* share,
-                         Bend* bend) {
+IN_PLACE bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, bool reflected,
+                         float2 facet_choice, float* share, Bend* bend) {
   const Surface surface = surface_at(&world->geometry, *hit);
   const DeviceMaterial material = material_of(world, surface.object);
   lose_in_medium(world, path, hit->t);
   float n_ratio;
-  if (!bend_path_as(world, path, hit->primitive, &surface, &material, band, reflected ? 0.0f : 1.0f, &n_ratio, bend))
+  if (!bend_path_as(world, path, hit->primitive, &surface, &material, band, reflected ? 0.0f : 1.0f, facet_choice,
+                    &n_ratio, bend))
     return false;
   const float part = bend->transmitted ? 1.0f - bend->reflectance : bend->reflectance;
   *share = part * n_ratio * n_ratio;
@@ -160,8 +161,9 @@ IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool k
       choices = likelier ? (float4)(0.5f)
                          : eye_numbers(seed, sample, surface_number == 0 ? paths : 0u, pixel,
                                        1u + (uint)surface_number / 4u, stream);
+    const float2 facet = facet_numbers(seed, sample, pixel, (uint)surface_number, stream);
     float n_ratio;
-    if (!bend_path(world, path, hit->primitive, surface, &material, band, choices.x, &n_ratio)) return 0.0f;
+    if (!bend_path(world, path, hit->primitive, surface, &material, band, choices.x, facet, &n_ratio)) return 0.0f;
     radiance_scale *= n_ratio * n_ratio;
     choices = choices.yzwx;
   }

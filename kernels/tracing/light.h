@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Properties of a light that both emission and direct light need.
+#include "kernels/tracing/frame.h"
 #include "kernels/tracing/shared_types.h"
-
-#define PI_F 3.14159265358979f
 
 // Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing.
 #ifndef NEPHROID_LIGHT_TYPES

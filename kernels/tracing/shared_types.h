@@ -67,7 +67,8 @@ typedef struct {
   int surface_first;   // metal, coated dielectric: its first item in the table surface_data; -1: none
   float coating_nm;    // dielectric: thickness of its coating
   int is_thin;         // dielectric: a pane without thickness
-  int padding;
+  float alpha;         // of GGX (materials/rough.h); 0: polished
+  int masking;         // rough: row of the attenuation table, 1 at all wavelengths
 } DeviceMaterial;
 
 typedef struct {
@@ -166,7 +167,7 @@ typedef struct {
 } DeviceScene;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DeviceMaterial) == 32 && sizeof(DeviceObject) == 8 && sizeof(Media) == 16);
+static_assert(sizeof(DeviceMaterial) == 36 && sizeof(DeviceObject) == 8 && sizeof(Media) == 16);
 static_assert(sizeof(DeviceLight) == 112 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
 static_assert(sizeof(DeviceCamera) == 112 && sizeof(DeviceScene) == 52 && sizeof(DeviceBackground) == 16);
 static_assert(sizeof(DevicePrimitive) == 64);

@@ -5,6 +5,7 @@
 #include "kernels/tracing/differential.h"
 #include "kernels/tracing/interface.h"
 #include "kernels/materials/conductor.h"
+#include "kernels/materials/rough.h"
 #include "kernels/tracing/registers.h"
 #include "kernels/tracing/sky.h"
 
@@ -171,21 +172,43 @@ static inline void lose_at_mirror(const World* world, Path* path, const DeviceMa
   lose(&path->losses, material->attenuator, 1.0f);
 }
 
+// Takes away what a rough surface masks of a path that it has bent, before the path goes on. facet: unit, where it was
+// bent; n: the surface's own normal on that side.
+static inline void lose_by_masking(Path* path, const DeviceMaterial* material, const Bend* bend, float3 facet,
+                                   float3 n) {
+  if (bend->straight) return;
+  // bend_at_surface takes the triangle's own normal where the facet sends the path to the wrong side.
+  const float left = any(bend->normal != facet) ? 0.0f : unmasked(path->direction, bend, n, material->alpha);
+  lose(&path->losses, material->masking, left > 0.0f ? -log(left) : 200.0f);
+}
+
 // Continues the path at a mirror or dielectric. choice: uniform in [0, 1); -1 reflects, 2 goes through where anything
-// does. *n_ratio, false: as in cross_interface. *bend: what happened there.
+// does. facet_choice: facet_numbers. *n_ratio, false: as in cross_interface. *bend: what happened there.
 IN_PLACE bool bend_path_as(const World* world, Path* path, uint triangle, const Surface* surface,
-                           const DeviceMaterial* material, const Band* band, float choice, float* n_ratio, Bend* bend) {
+                           const DeviceMaterial* material, const Band* band, float choice, float2 facet_choice,
+                           float* n_ratio, Bend* bend) {
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
   *n_ratio = 1.0f;
+#if NEPHROID_ROUGH
+  // A facet is bent at as a smooth surface with its normal is.
+  const float side = from_outside ? 1.0f : -1.0f;
+  const bool faces = side * dot(path->direction, surface->shading) < 0.0f;
+  const float3 n = side * (faces ? surface->shading : surface->geometric);
+  Surface facet = *surface;
+  if (material->alpha > 0.0f) facet.shading = side * visible_facet(-path->direction, n, material->alpha, facet_choice);
+  const Surface* const bent_at = &facet;
+#else
+  const Surface* const bent_at = surface;
+#endif
 #if NEPHROID_MIRRORS
   if (material->type == MATERIAL_MIRROR) {
-    *bend = bend_at_surface(path->direction, surface, 1.0f, 1.0f, no_layer(), -1.0f);
+    *bend = bend_at_surface(path->direction, bent_at, 1.0f, 1.0f, no_layer(), -1.0f);
     bend->reflectance = 1.0f;
     lose_at_mirror(world, path, material, band, -dot(path->direction, bend->normal));
   } else
 #endif
   {
-    if (!cross_interface(&path->media, surface, world->objects, index_of_band(world, band), material,
+    if (!cross_interface(&path->media, bent_at, world->objects, index_of_band(world, band), material,
                          layer_of(world, material, band), path->direction, choice, bend, n_ratio))
       return false;
 #if NEPHROID_TINTS
@@ -193,6 +216,9 @@ IN_PLACE bool bend_path_as(const World* world, Path* path, uint triangle, const 
       lose(&path->losses, material->tint, 1.0f);
 #endif
   }
+#if NEPHROID_ROUGH
+  if (material->alpha > 0.0f) lose_by_masking(path, material, bend, side * facet.shading, n);
+#endif
   bend_differential(world, path, triangle, surface, band, bend);
   path->direction = bend->direction;
   path->origin = start_on_side(surface, from_outside == bend->transmitted ? -1.0f : 1.0f);
@@ -202,9 +228,10 @@ IN_PLACE bool bend_path_as(const World* world, Path* path, uint triangle, const 
 }
 
 static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface,
-                             const DeviceMaterial* material, const Band* band, float choice, float* n_ratio) {
+                             const DeviceMaterial* material, const Band* band, float choice, float2 facet_choice,
+                             float* n_ratio) {
   Bend bend;
-  return bend_path_as(world, path, triangle, surface, material, band, choice, n_ratio, &bend);
+  return bend_path_as(world, path, triangle, surface, material, band, choice, facet_choice, n_ratio, &bend);
 }
 
 // A light for one photon. The environment becomes, in *light, directional light from one place, drawn by `place`.

@@ -40,7 +40,7 @@ __kernel void follow(WORLD_ARGUMENTS, __global const float* rays, __global const
     else {
       const float4 choice = random4(seed, 0u, i, (uint)step, 0u);
       float n_ratio;
-      if (!bend_path(&world, &path, hit.primitive, &surface, &material, &band, choice.x, &n_ratio)) return;
+      if (!bend_path(&world, &path, hit.primitive, &surface, &material, &band, choice.x, (float2)(0.0f), &n_ratio)) return;
       event = dot(arriving, surface.geometric) * dot(path.direction, surface.geometric) > 0.0f ? 2u : 1u;
     }
     const uint at = i * STEPS + (uint)step;

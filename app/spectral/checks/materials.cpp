@@ -13,6 +13,20 @@
 namespace nephroid::check {
 namespace {
 
+/// An inclined pencil on a mirror in a room.
+preset::Preset onto_mirror(const preset::Material& mirror, double theta, std::uint64_t seed) {
+  preset::Preset p = empty_preset(16);
+  p.seed = seed;
+  p.scene.materials["mirror"] = mirror;
+  p.scene.materials["white"] = white();
+  preset::Shape room = box(100, 100, 100);
+  room.inwards = true;
+  p.scene.objects = {object("mirror", quad(40, 40), "mirror"), object("room", room, "white")};
+  p.scene.lights = {inclined_pencil(theta)};
+  spectral::settings(p).photons_per_pass = 1 << 12;
+  return p;
+}
+
 /// What is left of daylight after one reflection, without chance: every photon loses its part of each wavelength.
 Result metals(const compute::Context& context, std::uint64_t seed) {
   double worst = 0;
@@ -22,16 +36,8 @@ Result metals(const compute::Context& context, std::uint64_t seed) {
                            n = optics::sample_n(curve, optics::Extrapolation::automatic),
                            k = optics::sample_k(curve, optics::Extrapolation::automatic);
     for (const double theta_deg : {0.0, 60.0, 85.0}) {
-      preset::Preset p = empty_preset(16);
-      p.seed = seed;
-      p.scene.materials["metal"] = conductor(metal);
-      p.scene.materials["white"] = white();
-      preset::Shape room = box(100, 100, 100);
-      room.inwards = true;
-      p.scene.objects = {object("mirror", quad(40, 40), "metal"), object("room", room, "white")};
-      p.scene.lights = {inclined_pencil(theta_deg * degree)};
+      preset::Preset p = onto_mirror(conductor(metal), theta_deg * degree, seed);
       p.scene.lights[0].spectrum = {};
-      spectral::settings(p).photons_per_pass = 1 << 12;
       const photons::EnergyBalance e = photons::energy_of(render(p, context));
       double truth = 0;
       for (std::size_t w = 0; w < light.size(); ++w)
@@ -42,6 +48,47 @@ Result metals(const compute::Context& context, std::uint64_t seed) {
   return judged(worst, 1e-3, "",
                 "daylight on gold, silver, copper, aluminium and brass at 0, 60 and 85 degrees: the part that is left, "
                 "against Fresnel's equations at 401 wavelengths");
+}
+
+double smith_lambda(double cosine, double alpha) {
+  return (std::sqrt(1 + alpha * alpha * (1 / (cosine * cosine) - 1)) - 1) / 2;
+}
+
+/// The part of the light that leaves a mirror of GGX without meeting a second facet: the integral over facets h of D(h)
+/// (view.h) / view.n over 1 + Lambda(view) + Lambda(out), where `out` is above the surface. Facets are taken by t and
+/// azimuth, as in app/check/roughness.cpp, in steps of s = sqrt(1 - t).
+double unmasked_part(double cos_view, double alpha) {
+  constexpr int steps = 1200;
+  const double sin_view = std::sqrt(1 - cos_view * cos_view);
+  double sum = 0;
+  for (int i = 0; i < steps; ++i)
+    for (int j = 0; j < steps; ++j) {
+      const double s = (i + 0.5) / steps, t = 1 - s * s,
+                   phi = std::numbers::pi * (j + 0.5) / steps; // both halves are alike
+      const double cosine = std::sqrt((1 - t) / (1 - t + alpha * alpha * t)), sine = std::sqrt(1 - cosine * cosine);
+      const double seen = sin_view * sine * std::cos(phi) + cos_view * cosine, out = 2 * seen * cosine - cos_view;
+      if (seen > 0 && out > 0)
+        sum += 2 * s * seen / (cosine * cos_view) / (1 + smith_lambda(cos_view, alpha) + smith_lambda(out, alpha));
+    }
+  return sum / steps / steps;
+}
+
+/// In the room's light all that misses here was masked. Photons that are sent down by a facet are lost, too.
+Result rough_mirror(const compute::Context& context, std::uint64_t seed) {
+  double worst = 0;
+  for (const double roughness : {0.3, 0.7, 1.0})
+    for (const double theta_deg : {0.0, 60.0, 80.0}) {
+      preset::Material rough = mirror(1);
+      rough.roughness = roughness;
+      preset::Preset p = onto_mirror(rough, theta_deg * degree, seed);
+      spectral::settings(p).photons_per_pass = 1 << 20;
+      const photons::EnergyBalance e = photons::energy_of(render(p, context));
+      worst = worse(worst,
+                    e.deposited_w / e.emitted_w - unmasked_part(std::cos(theta_deg * degree), roughness * roughness));
+    }
+  return judged(worst, 2e-3, "",
+                "light that leaves a perfect mirror of roughness .3, .7 and 1 at 0, 60 and 80 degrees, against the "
+                "integral over its facets");
 }
 
 /// `material` in a preset that an inclined pencil crosses, as `shape`.
@@ -100,6 +147,7 @@ Result coated_plate(const compute::Context& context, std::uint64_t seed) {
 
 Checks material_checks() {
   return {{"material: metals", metals},
+          {"material: a rough mirror", rough_mirror},
           {"material: tinted glass", tinted_plate},
           {"material: a thin pane", pane},
           {"material: coatings", coated_plate}};
