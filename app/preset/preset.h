@@ -66,7 +66,7 @@ struct Material {
   bool absorption = true;  ///< dielectric: use k where the dispersion file has it
   /// dielectric: the part of the light that passes its surface, each time
   Reflectance tint{Reflectance::Type::constant, 1, {}, {}};
-  double roughness = 0;           ///< dielectric that is not thin, mirror, conductor: the root of GGX' alpha
+  double roughness = 0;           ///< dielectric that is not thin, mirror, conductor: the root of the alpha of GGX
   bool thin = false;              ///< dielectric: a pane without thickness, not a body
   std::optional<Coating> coating; ///< dielectric, not thin
   bool operator==(const Material&) const = default;

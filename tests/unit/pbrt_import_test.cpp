@@ -185,6 +185,13 @@ TEST_F(PbrtImport, MetalsAreConductors) {
   EXPECT_EQ(material_of(p, 2).type, Type::mirror);
   EXPECT_THAT(made.notes, Contains(HasSubstr("the metal is left out: a mirror of 0.9")));
   EXPECT_EQ(material_of(p, 3).reflectance.value, 0.5);
+  const preset::Preset rough = imported("Material \"dielectric\" \"float roughness\" 0.25 Shape \"sphere\"\n"
+                                        "Material \"dielectric\" \"float roughness\" 0.25\n"
+                                        "\"bool remaproughness\" false Shape \"sphere\"\n"
+                                        "Material \"dielectric\" \"float uroughness\" 0.2 Shape \"sphere\"");
+  EXPECT_NEAR(material_of(rough, 0).roughness, std::sqrt(0.5), 1e-12) << "alpha is the root of PBRT's roughness";
+  EXPECT_NEAR(material_of(rough, 1).roughness, 0.5, 1e-12);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("its two roughnesses 0.2 and 0 are one")));
 }
 
 TEST_F(PbrtImport, AttributesHoldUntilTheirBlockEnds) {

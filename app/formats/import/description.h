@@ -36,6 +36,7 @@ struct DescribedGlass {
   bool is_ratio = false;                     ///< inside is over what is on the other side, whatever that is
   bool is_thin = false;                      ///< a pane whose surfaces are one
   std::optional<DescribedColour> tint;       ///< the part that passes its surface
+  double roughness = 0;                      ///< as a preset's material has it; not of a pane
   std::optional<DescribedColour> absorption; ///< a unit of length
 };
 

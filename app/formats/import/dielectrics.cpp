@@ -191,6 +191,7 @@ private:
     material.type = preset::Material::Type::dielectric;
     material.dispersion = dispersion_of(body);
     material.thin = body.glass.is_thin;
+    material.roughness = body.glass.roughness;
     if (body.glass.tint) material.tint = reflectance_of(*body.glass.tint);
     if (const auto& absorption = body.glass.absorption; absorption && !absorption->is_black()) {
       if (body.shape.inside_out)

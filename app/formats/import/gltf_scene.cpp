@@ -76,8 +76,10 @@ preset::Material glass(const GltfValue& material, const std::string& name, std::
   const GltfValue pbr = material.object("pbrMetallicRoughness");
   const auto tint = pbr.numbers<4>("baseColorFactor", {1, 1, 1, 1});
   glass.tint = reflectance_of({tint[0], tint[1], tint[2]});
-  if (pbr.number("roughnessFactor", 1) > 0.1)
-    notes.push_back(fmt::format("material '{}' is rough in the file and polished here", name));
+  if (const double roughness = std::clamp(pbr.number("roughnessFactor", 1), 0.0, 1.0); !glass.thin)
+    glass.roughness = roughness;
+  else if (roughness > 0.1)
+    notes.push_back(fmt::format("material '{}' is a rough pane in the file and a polished one here", name));
   if (const double part = transmitted_part(material); part < 1)
     notes.push_back(
         fmt::format("material '{}' lets {:.3g} of the light through in the file and all of it here, but for "
@@ -221,12 +223,14 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
   preset::Material material;
   material.reflectance = reflectance_of({base[0], base[1], base[2]});
   const double roughness = pbr.number("roughnessFactor", 1);
-  const bool metal = metal_part(value) >= 0.5, rough = roughness >= 0.5;
-  if (metal && !rough) material.type = preset::Material::Type::mirror;
-  if (metal && roughness > 0.1)
-    notes.push_back(fmt::format("material '{}' is rough metal in the file and {} here", name,
-                                rough ? "matt" : "a polished mirror"));
-  if (!metal && !is_older && !rough)
+  // Lamps make no highlights on rough mirrors here, so that the roughest would be black.
+  const bool metal = metal_part(value) >= 0.5, matt = roughness >= 0.5;
+  if (metal && !matt) {
+    material.type = preset::Material::Type::mirror;
+    material.roughness = std::max(roughness, 0.0);
+  } else if (metal)
+    notes.push_back(fmt::format("material '{}' is rough metal in the file and matt here", name));
+  if (!metal && !is_older && !matt)
     notes.push_back(fmt::format("material '{}' has a gloss in the file and is matt here", name));
   if (metal && value.extension("KHR_materials_transmission").number("transmissionFactor", 0) > 0)
     notes.push_back(fmt::format("material '{}': no light goes through it in the file either, as it is metal", name));

@@ -187,6 +187,18 @@ xml_node unwrapped(MitsubaScene& scene, xml_node node) {
   return node;
 }
 
+/// As a preset has it, whose square is the alpha of GGX.
+double roughness_of(MitsubaScene& scene, xml_node node) {
+  const MitsubaFile& file = scene.file;
+  const double both = file.number(node, "alpha", 0.1), u = file.number(node, "alpha_u", both),
+               v = file.number(node, "alpha_v", both);
+  if (u != v)
+    scene.d.note(file.at(node), fmt::format("its alpha_u {:.3g} and alpha_v {:.3g} are one: their mean", u, v));
+  if (file.text(node, "distribution", "beckmann") != "ggx")
+    scene.d.note(file.at(node), "its facets have the distribution GGX here, not Beckmann's");
+  return std::sqrt(std::clamp((u + v) / 2, 0.0, 1.0));
+}
+
 /// By n and k, or by name; nothing for a perfect mirror, and with a note where it is not to be had.
 std::optional<preset::Material> metal(MitsubaScene& scene, xml_node node, const std::string& key) {
   const MitsubaFile& file = scene.file;
@@ -214,7 +226,7 @@ preset::Material opaque(MitsubaScene& scene, xml_node node, const std::string& t
       made = *own;
     else
       made.reflectance = reflectance_of(mitsuba_colour(scene, node, "specular_reflectance", 1));
-    if (type == "roughconductor") scene.d.note(where, "roughness is left out: the mirror is polished");
+    if (type == "roughconductor") made.roughness = roughness_of(scene, node);
     note_unasked(scene, node);
     return made;
   }
@@ -300,8 +312,8 @@ std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
   DescribedGlass glass =
       through > 0 ? dielectric(scene, node, "eta", "1.5") : dielectric(scene, node, "int_ior", "bk7");
   glass.is_thin = thin;
-  if (type.starts_with("rough") || file.number(node, "roughness", 0) > 0.1)
-    scene.d.note(where, "roughness is left out: the glass is polished");
+  if (type == "roughdielectric") glass.roughness = roughness_of(scene, node);
+  if (type == "principled") glass.roughness = std::clamp(file.number(node, "roughness", 0.5), 0.0, 1.0);
   if (const char* tint = through > 0 ? "base_color" : "specular_transmittance"; file.child(node, tint))
     glass.tint = mitsuba_colour(scene, node, tint, 1);
   if (through > 0 && glass.tint) { // whose root each surface of a principled body takes

@@ -143,10 +143,22 @@ std::optional<DescribedColour> absorption_of(PbrtScene& scene, const PbrtThing& 
   return absorption;
 }
 
-bool is_rough(const PbrtParameters& p) {
-  return std::ranges::any_of(std::array{"roughness", "uroughness", "vroughness"}, [&](const char* name) {
-    return p.find(name) && p.find(name)->type == "float" && p.number(name, 0) > 0;
-  });
+/// As a preset has it, whose square is the alpha of GGX. PBRT's alpha is the root of its roughness, in version 3 a
+/// polynomial of its logarithm. standard: where the file has none.
+double roughness_of(PbrtScene& scene, const PbrtParameters& p, double standard) {
+  const double both = p.number("roughness", standard), u = p.number("uroughness", both),
+               v = p.number("vroughness", both);
+  if (u != v) scene.d.note(p.where, fmt::format("its two roughnesses {:.3g} and {:.3g} are one: their mean", u, v));
+  const double mean = std::max((u + v) / 2, 0.0);
+  if (mean == 0) return 0;
+  double alpha = mean;
+  if (p.text("remaproughness", "true") != "false") {
+    const double x = std::log(std::max(mean, 1e-3));
+    alpha = scene.is_version_3
+                ? 1.62142 + 0.819955 * x + 0.1734 * x * x + 0.0171201 * x * x * x + 0.000640711 * x * x * x * x
+                : std::sqrt(mean);
+  }
+  return std::sqrt(std::clamp(alpha, 0.0, 1.0));
 }
 
 } // namespace
@@ -214,7 +226,7 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
     glass.inside = index_of(scene, p);
     glass.is_ratio = true;
     glass.is_thin = thin;
-    if (is_rough(p)) scene.d.note(p.where, "roughness is left out: the glass is polished");
+    glass.roughness = thin ? 0 : roughness_of(scene, p, 0);
     if (p.find("Kt")) glass.tint = pbrt_colour(scene, p, "Kt", 1);
     if (const PbrtParameter* given = resolved(scene, p, "Kr"))
       if (const auto colour = colour_of(scene, *given); !colour || values_of(*colour) != optics::constant_spectrum(1))
@@ -234,7 +246,7 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
       made = metal(scene, key, p);
     else
       reflect(is_metal ? "reflectance" : "Kr", 0.9);
-    if (is_rough(p)) scene.d.note(p.where, "roughness is left out: the mirror is polished");
+    made.roughness = roughness_of(scene, p, type == "metal" ? 0.01 : 0);
     note_unasked(scene, p);
     return true;
   }
