@@ -18,7 +18,7 @@ constexpr int rows = 12, columns = 16; // of cells; [row][column] below
 
 /// The chance of each cell. A cell is a range of t = tan^2 / (alpha^2 + tan^2) of the facet's angle to the normal, and
 /// one of azimuth: D(h) cos(h) dh = dt dphi / (2 pi), so the density of facets h that `view` sees is
-/// max(view.h, 0) / (cos(h) view.n (1 + Lambda)).
+/// max(view . h, 0) / (cos(h) view . n (1 + Lambda)).
 std::vector<double> chances(double cos_view, double alpha) {
   const double sin_view = std::sqrt(1 - cos_view * cos_view), tangent = sin_view / cos_view,
                lambda = (std::sqrt(1 + alpha * alpha * tangent * tangent) - 1) / 2;

@@ -2,7 +2,7 @@
 // What a metal reflects: Fresnel's equations with a complex index n + i k (Born and Wolf, Principles of Optics, 14.2).
 // It depends on angle and wavelength, and a path may stand for many wavelengths. So a metal has CONDUCTOR_TERMS rows of
 // losses (attenuation.h): -ln R(angle, wavelength) is nearly the sum over j of a_j(wavelength) times -ln R_j(angle),
-// the exact loss at one wavelength each. app/tracing/losses.h chooses these wavelengths and a_j, and says the error.
+// the exact loss at one wavelength each. app/optics/conductor.h chooses these wavelengths and a_j, and says the error.
 #include "kernels/tracing/attenuation.h"
 
 // 0: no object is a metal.

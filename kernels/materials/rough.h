@@ -31,7 +31,7 @@ static inline float smith_lambda(float cosine, float alpha) {
   return 0.5f * (sqrt(1.0f + alpha * alpha * tangent2) - 1.0f);
 }
 
-// The normal of a facet, by the share that each has of what is seen from `view`: D(h) max(view.h, 0) / (view.n
+// The normal of a facet, by the share that each has of what is seen from `view`: D(h) max(view . h, 0) / (view . n
 // (1 + Lambda(view))). view: unit, on the side of n. alpha: the slopes' root mean square, but for a factor.
 static inline float3 visible_facet(float3 view, float3 n, float alpha, float2 choice) {
   float3 x, y;

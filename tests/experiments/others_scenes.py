@@ -145,6 +145,11 @@ def beside(files, ours, theirs, integrator="path"):
     return {"files": files | {"theirs.xml": theirs}, "ours": ours, "theirs": "theirs.xml", "integrator": integrator}
 
 
+def rough(kind, alpha, more):
+    return (f'<bsdf type="{kind}"><string name="distribution" value="ggx"/><float name="alpha" value="{alpha}"/>'
+            f'{more}</bsdf>')
+
+
 # Johnson and Christy 1972.
 GOLD = ('<bsdf type="conductor">'
         '<spectrum name="eta" value="367.9:1.48, 381.5:1.46, 397.4:1.47, 413.3:1.46, 430.5:1.45, '
@@ -212,6 +217,11 @@ SCENES = {
     "tinted ball": mitsuba(whole(SKY_LIGHT, ball(material=glass().replace(
         "</bsdf>", '<float name="specular_transmittance" value="0.7"/></bsdf>')))),
     "thin pane": mitsuba(whole(SKY_LIGHT, PANE)),
+    "rough glass": mitsuba(whole(SKY_LIGHT, ball(material=rough("roughdielectric", .1,
+                                                                '<float name="int_ior" value="1.5"/>'
+                                                                '<float name="ext_ior" value="1"/>')))),
+    "rough mirror": mitsuba(whole(SKY_LIGHT, ball(material=rough("roughconductor", .1,
+                                                                 '<string name="material" value="none"/>')))),
     "sky of a picture": mitsuba(whole('<emitter type="envmap"><string name="filename" value="sky.hdr"/>'
                                       '<float name="scale" value="2"/><transform name="to_world">'
                                       '<rotate y="1" angle="70"/></transform></emitter>', ball()),

@@ -55,8 +55,8 @@ double smith_lambda(double cosine, double alpha) {
 }
 
 /// The part of the light that leaves a mirror of GGX without meeting a second facet: the integral over facets h of D(h)
-/// (view.h) / view.n over 1 + Lambda(view) + Lambda(out), where `out` is above the surface. Facets are taken by t and
-/// azimuth, as in app/check/roughness.cpp, in steps of s = sqrt(1 - t).
+/// (view . h) / (view . n) over 1 + Lambda(view) + Lambda(out), where `out` is above the surface. Facets are taken by t
+/// and azimuth, as in app/check/roughness.cpp, in steps of s = sqrt(1 - t).
 double unmasked_part(double cos_view, double alpha) {
   constexpr int steps = 1200;
   const double sin_view = std::sqrt(1 - cos_view * cos_view);
