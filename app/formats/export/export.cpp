@@ -82,6 +82,7 @@ std::vector<std::string> left_out(const scene::Scene& scene) {
   if (scene.environment)
     notes.push_back(
         fmt::format("glTF has no surroundings: those are in {}, and blender.py takes them", surroundings_file));
+  if (std::ranges::any_of(scene.materials, scene::is_coated)) notes.push_back("coatings are left out");
   if (std::ranges::any_of(scene.lights, [](const scene::Light& light) { return !light.inside.empty(); }))
     notes.push_back("a light is inside glass: another renderer may keep its light there");
   if (std::ranges::any_of(scene.lights, [](const scene::Light& light) {

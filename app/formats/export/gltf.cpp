@@ -202,7 +202,8 @@ private:
     if (is_refractive(material.type)) return glass(material);
     Json made = matt(material);
     if (is_specular(material.type))
-      made["pbrMetallicRoughness"]["metallicFactor"] = 1, made["pbrMetallicRoughness"]["roughnessFactor"] = 0;
+      made["pbrMetallicRoughness"]["metallicFactor"] = 1,
+      made["pbrMetallicRoughness"]["roughnessFactor"] = std::sqrt(material.alpha);
     return made;
   }
 
@@ -239,13 +240,17 @@ private:
         thickness = std::max(thickness, 2 * static_cast<double>(object.bounds.radius) * metres_);
     const double n = at(material.n, optics::line_d_nm),
                  spread = at(material.n, optics::line_f_nm) - at(material.n, optics::line_c_nm);
-    Json made{
-        {"name", material.name},
-        {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0}}}};
+    Json tint = Json(colour_of_reflectance(material.tint));
+    tint.push_back(1);
+    Json made{{"name", material.name},
+              {"pbrMetallicRoughness",
+               {{"baseColorFactor", std::move(tint)},
+                {"metallicFactor", 0},
+                {"roughnessFactor", std::sqrt(material.alpha)}}}};
     Json& extensions = made["extensions"];
     extensions["KHR_materials_transmission"] = {{"transmissionFactor", 1}};
     extensions["KHR_materials_ior"] = {{"ior", n}};
-    extensions["KHR_materials_volume"] = {{"thicknessFactor", thickness}};
+    if (!material.thin) extensions["KHR_materials_volume"] = {{"thicknessFactor", thickness}};
     if (material.absorbs) {
       optics::Spectrum kept{};
       for (std::size_t w = 0; w < kept.size(); ++w)
