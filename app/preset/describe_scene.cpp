@@ -89,8 +89,8 @@ void describe(Fields& v, Material& m) {
   if (m.type == Type::dielectric)
     v.field("dispersion", "Index of refraction: a number, a file or an object.", m.dispersion, {.required = true});
   if (m.type == Type::conductor)
-    v.field("dispersion", "A file with n and k, or a shipped metal: gold, silver, copper, aluminium, brass.",
-            m.dispersion, {.required = true});
+    v.field("metal", "gold, silver, copper, aluminium, brass, or a YAML file of refractiveindex.info with n and k.",
+            m.metal, {.text = Text::file});
   if (m.type == Type::diffuse || m.type == Type::mirror)
     v.field("reflectance", "Part of the light that is reflected: a number, a ColorChecker patch or an object.",
             m.reflectance);

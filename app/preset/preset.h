@@ -61,9 +61,10 @@ struct Coating {
 struct Material {
   enum class Type { diffuse, dielectric, mirror, conductor };
   Type type = Type::diffuse;
-  Reflectance reflectance; ///< diffuse, mirror
-  Dispersion dispersion;   ///< dielectric; conductor: a file with n and k
-  bool absorption = true;  ///< dielectric: use k where the dispersion file has it
+  Reflectance reflectance;    ///< diffuse, mirror
+  Dispersion dispersion;      ///< dielectric
+  std::string metal = "gold"; ///< conductor: a file with n and k, or a shipped metal
+  bool absorption = true;     ///< dielectric: use k where the dispersion file has it
   /// dielectric: the part of the light that passes its surface, each time
   Reflectance tint{Reflectance::Type::constant, 1, {}, {}};
   double roughness = 0;           ///< dielectric that is not thin, mirror, conductor: the root of the alpha of GGX

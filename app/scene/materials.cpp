@@ -135,6 +135,9 @@ Material make_material(const std::string& name, const preset::Material& material
     if (const std::string note = optics::outside_note(curve, outside); !note.empty())
       warnings.push_back(fmt::format("material '{}': {}", name, note));
   };
+  preset::Dispersion metal;
+  metal.type = preset::Dispersion::Type::file;
+  metal.file = material.metal;
   const Location dispersion = where / "dispersion";
   switch (material.type) {
   case Material::Type::diffuse:
@@ -142,16 +145,16 @@ Material make_material(const std::string& name, const preset::Material& material
     result.reflectance = make_reflectance(material.reflectance, where / "reflectance");
     break;
   case Material::Type::conductor:
-    sampled(material.dispersion, dispersion, [&](const optics::DispersionCurve& curve, optics::Extrapolation outside) {
+    sampled(metal, where / "metal", [&](const optics::DispersionCurve& curve, optics::Extrapolation outside) {
       if (!curve.k)
-        throw bad_input(dispersion, fmt::format("{} has no k", curve.name), "expected a metal's n and k",
+        throw bad_input(where / "metal", fmt::format("{} has no k", curve.name), "expected a metal's n and k",
                         "take gold, silver, copper, aluminium, brass, or a file of refractiveindex.info");
       result.n = optics::sample_n(curve, outside);
       result.k = optics::sample_k(curve, outside);
     });
     result.conductor = optics::conductor_terms(result.n, result.k);
     if (const double error = result.conductor.error; error > 0.01)
-      throw bad_input(dispersion, fmt::format("has a reflectance that is off by up to {:.2g} here", error),
+      throw bad_input(where / "metal", fmt::format("has a reflectance that is off by up to {:.2g} here", error),
                       "expected n and k of a metal", "what light passes is a dielectric, with k as its absorption");
     else if (error > 0.001)
       warnings.push_back(fmt::format("material '{}': its reflectance is off by up to {:.2g}", name, error));

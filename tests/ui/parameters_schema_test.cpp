@@ -92,6 +92,7 @@ protected:
       all = named->second;
     else if (node.value("minLength", 0) > 0)
       all = owner.starts_with("Dispersion") ? std::vector<std::string>{"N-BK7", "N-SF66"}
+            : owner.starts_with("Material") ? std::vector<std::string>{"silver", "brass"}
                                             : std::vector<std::string>{"a.exr", "b.exr"};
     else if (pointer == "/environment/directions")
       all = {"98", "386"};

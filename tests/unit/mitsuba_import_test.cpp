@@ -262,9 +262,9 @@ TEST_F(MitsubaImport, MetalsAreConductors) {
     <string name="material" value="none"/></bsdf></shape><shape type="cube"><bsdf type="conductor">
     <string name="material" value="Cr"/></bsdf></shape>)");
   EXPECT_EQ(material_of(p, 0).type, Type::conductor);
-  EXPECT_EQ(material_of(p, 0).dispersion.file, "gold");
+  EXPECT_EQ(material_of(p, 0).metal, "gold");
   EXPECT_EQ(material_of(p, 1).type, Type::conductor);
-  EXPECT_THAT(read_file(folder.path() / material_of(p, 1).dispersion.file), HasSubstr("0.55 0.35 3"));
+  EXPECT_THAT(read_file(folder.path() / material_of(p, 1).metal), HasSubstr("0.55 0.35 3"));
   EXPECT_EQ(material_of(p, 2).type, Type::mirror);
   EXPECT_EQ(material_of(p, 3).type, Type::mirror);
   EXPECT_THAT(made.notes, Contains(HasSubstr("the metal is left out: a mirror of its specular_reflectance")));

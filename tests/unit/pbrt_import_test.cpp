@@ -89,7 +89,7 @@ TEST_F(PbrtImport, MaterialsOfVersion3AreWhatTheyAreThere) {
   const preset::Preset p = imported("Material \"metal\" Shape \"sphere\"\nMaterial \"plastic\" Shape \"sphere\"\n"
                                     "Material \"mix\" Shape \"sphere\"\n");
   EXPECT_EQ(material_of(p, 0).type, Type::conductor);
-  EXPECT_EQ(material_of(p, 0).dispersion.file, "copper");
+  EXPECT_EQ(material_of(p, 0).metal, "copper");
   EXPECT_EQ(material_of(p, 1).reflectance.value, 0.25);
   EXPECT_THAT(made.notes, IsSupersetOf({HasSubstr("plastic is left out: a matt surface of 0.25 takes its place"),
                                         HasSubstr("mix is left out: a matt surface of 0.5 takes its place")}));
@@ -180,7 +180,7 @@ TEST_F(PbrtImport, MetalsAreConductors) {
                "\"spectrum k\" [ 400 3 700 3 ] Shape \"sphere\"\n"
                "Material \"conductor\" \"spectrum eta\" \"metal-MgO-eta\" Shape \"sphere\"\n"
                "Material \"conductor\" \"rgb reflectance\" [ .5 .5 .5 ] Shape \"sphere\"");
-  EXPECT_EQ(material_of(p, 0).dispersion.file, "silver");
+  EXPECT_EQ(material_of(p, 0).metal, "silver");
   EXPECT_EQ(material_of(p, 1).type, Type::conductor);
   EXPECT_EQ(material_of(p, 2).type, Type::mirror);
   EXPECT_THAT(made.notes, Contains(HasSubstr("the metal is left out: a mirror of 0.9")));

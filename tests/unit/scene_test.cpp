@@ -297,13 +297,8 @@ TEST(SceneRefusals, PointAtTheRightPlace) {
        [](S& s) { s.lights[0].type = L::Type::area, s.lights[0].up = s.camera.up; }},
       {"materials/a~1b~0c/dispersion: ",
        [](S& s) { s.materials["a/b~c"] = {.type = preset::Material::Type::dielectric, .dispersion = {.n = -1}}; }},
-      {"materials/m/dispersion: constant has no k",
-       [](S& s) { s.materials["m"] = {.type = preset::Material::Type::conductor}; }},
-      {"materials/m/dispersion: water-20C-Daimon has no k",
-       [](S& s) {
-         s.materials["m"] = {.type = preset::Material::Type::conductor,
-                             .dispersion = {.type = preset::Dispersion::Type::file, .file = "water"}};
-       }},
+      {"materials/m/metal: water-20C-Daimon has no k",
+       [](S& s) { s.materials["m"] = {.type = preset::Material::Type::conductor, .metal = "water"}; }},
       {"materials/m/coating: is on a thin pane",
        [](S& s) {
          s.materials["m"] = {.type = preset::Material::Type::dielectric, .thin = true, .coating = preset::Coating()};

@@ -271,8 +271,7 @@ preset::Material metal_of(Description& description, const std::string& name, con
 preset::Material metal_of(const std::string& file) {
   preset::Material metal;
   metal.type = preset::Material::Type::conductor;
-  metal.dispersion.type = preset::Dispersion::Type::file;
-  metal.dispersion.file = file;
+  metal.metal = file;
   return metal;
 }
 

@@ -44,8 +44,8 @@ public:
     made_.description = "Imported from " + name_of(from_.source.filename().string(), "a scene");
     made_.scene.materials = from_.materials;
     for (auto& [key, material] : made_.scene.materials)
-      if (from_.glasses.contains(material.dispersion.file))
-        material.dispersion.file = folder_ + "/" + material.dispersion.file;
+      for (std::string* file : {&material.dispersion.file, &material.metal})
+        if (from_.glasses.contains(*file)) *file = folder_ + "/" + *file;
     if (from_.shapes.size() > most_objects)
       throw bad_input(from_.source.string(), fmt::format("has {} objects", from_.shapes.size()),
                       fmt::format("expected at most {}", most_objects),

@@ -45,8 +45,7 @@ inline preset::Material glass(double n) {
 inline preset::Material conductor(const std::string& metal) {
   preset::Material m;
   m.type = preset::Material::Type::conductor;
-  m.dispersion.type = preset::Dispersion::Type::file;
-  m.dispersion.file = metal;
+  m.metal = metal;
   return m;
 }
 
