@@ -312,12 +312,8 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const sc
   plan.picture_bytes_a_pixel = plan.runs(smoothing_part) ? 120 : 48; // what is smoothed; a film of two halves read back
   if (layers.empty())
     plan.notes.insert(plan.notes.begin(), fmt::format("there is nothing to render: {}", plan.decisions[0].reason));
-  if (any_material(scene, scene::is_rough) && std::ranges::any_of(scene.lights, [](const scene::Light& light) {
-        return !scene::is_environment(light) && tracing::has_power(light);
-      }))
-    plan.notes.push_back(
-        "lamps make no highlights on rough surfaces, as they are not seen in polished ones: what these "
-        "reflect and throw is there");
+  if (settings.relight && any_material(scene, scene::is_rough))
+    plan.notes.push_back("layers have no highlights of lamps on rough surfaces: what these throw is there");
   plan.notes.insert(plan.notes.begin(), scene.warnings.begin(), scene.warnings.end());
   return plan;
 }

@@ -45,6 +45,37 @@ static inline float3 visible_facet(float3 view, float3 n, float alpha, float2 ch
   return normalize(alpha * half_way.x * x + alpha * half_way.y * y + half_way.z * n);
 }
 
+// D(h) over 1 + Lambda of both ways, h: unit, on the side of n; its cosine and those of both ways to the normal.
+static inline float facets_between(float cos_facet, float cos_view, float cos_light, float alpha) {
+  const float narrow = alpha * alpha - 1.0f, denominator = 1.0f + narrow * cos_facet * cos_facet;
+  const float density = alpha * alpha / (PI_F * denominator * denominator);
+  return density / (1.0f + smith_lambda(cos_view, alpha) + smith_lambda(cos_light, alpha));
+}
+
+// The radiance that facets reflect to `view` over the irradiance on the surface from the direction `light`, but for
+// Fresnel's factor (Walter et al., equation 20). All unit and on the side of n.
+static inline float reflected_by_facets(float3 view, float3 light, float3 n, float3 facet, float alpha) {
+  const float cos_view = dot(view, n), cos_light = dot(light, n);
+  return facets_between(dot(facet, n), cos_view, cos_light, alpha) / (4.0f * cos_view * cos_light);
+}
+
+// The same of what goes through, from a light beyond (equation 21). facet: that of facet_between.
+static inline float transmitted_by_facets(float3 view, float3 light, float3 n, float3 facet, float n_view,
+                                          float n_light, float alpha) {
+  const float cos_view = dot(view, n), cos_light = -dot(light, n);
+  const float view_facet = dot(view, facet), light_facet = dot(light, facet);
+  const float along = n_light * light_facet + n_view * view_facet;
+  return facets_between(dot(facet, n), cos_view, cos_light, alpha) * view_facet * fabs(light_facet) * n_view * n_view /
+         (cos_view * cos_light * along * along);
+}
+
+// The normal, on the side of n, of the facet that refracts light to the view. There is none where both lie on one side
+// of what this gives.
+static inline float3 facet_between(float3 view, float3 light, float3 n, float n_view, float n_light) {
+  const float3 facet = normalize(n_light * light + n_view * view);
+  return dot(facet, n) > 0.0f ? facet : -facet;
+}
+
 // What is left of light that came along `arriving` and was bent at a facet. n: unit, on the side that it came from.
 static inline float unmasked(float3 arriving, const Bend* bend, float3 n, float alpha) {
   const float out = bend->transmitted ? -dot(bend->direction, n) : dot(bend->direction, n);

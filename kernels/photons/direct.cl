@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The direct layer: paths from the eye, through glass and mirrors, to the first diffuse surface, which each light
 // reaches unbent. Glass and mirrors block those shadow rays: light that passes them belongs to the caustic layer.
+#define NEPHROID_HIGHLIGHTS
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 #include "kernels/tracing/work_item.h"
@@ -34,12 +35,13 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
 IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band,
                        __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel) {
   Surface surface;
+  float3 shine = (float3)(0.0f);
   const float radiance_scale =
       reach_diffuse(world, &path, &first, band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel,
-                    STREAM_CAMERA, &surface);
-  if (radiance_scale == 0.0f) return (float3)(0.0f);
+                    STREAM_CAMERA, &surface, &shine);
+  if (radiance_scale == 0.0f) return shine;
   const int reflector = material_of(world, surface.object).reflector;
-  return radiance_scale *
+  return shine + radiance_scale *
          shade(world, &path, &surface, first.primitive, reflector, band, reflected_xyz_all, seed, sample, pixel);
 }
 

@@ -142,12 +142,75 @@ IN_PLACE bool first_bend(const World* world, Path* path, const Hit* hit, const B
   return true;
 }
 
+#if NEPHROID_ROUGH
+// The XYZ radiance of a lamp that a rough surface sends to the path which arrives there: reflected, or through the
+// surface from beyond. paths: as in irradiance_of.
+static inline float3 highlight(const World* world, int light_index, bool beyond, const Path* path,
+                               const Surface* surface, uint triangle, const DeviceMaterial* material, const Band* band,
+                               uint2 seed, uint sample, uint paths, uint pixel) {
+  const DeviceLight light = world->lights[light_index];
+  const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f, light_side = beyond ? -side : side;
+  const float3 n = normal_before(path, surface), view = -path->direction;
+  const float4 place =
+      is_light(&light, LIGHT_AREA) ? light_numbers(&light, seed, sample, paths, pixel) : (float4)(0.0f);
+  const Arrival arrival =
+      arrive_from(&light, surface->position, beyond ? -n : n, world->scene.metres_per_unit, place.xy);
+  if (!(arrival.irradiance > 0.0f) || !(light_side * dot(arrival.direction, surface->geometric) > 0.0f))
+    return (float3)(0.0f);
+  Path bent = *path;
+  float3 normal = normalize(view + arrival.direction);
+  float part;
+  if (beyond) {
+    Sides sides;
+    if (!find_sides(&path->media, surface, world->objects, index_of_band(world, band), path->direction, &sides))
+      return (float3)(0.0f);
+    normal = facet_between(view, arrival.direction, n, sides.n_near, sides.n_far);
+    if (!(dot(view, normal) > 0.0f) || !(dot(arrival.direction, normal) < 0.0f)) return (float3)(0.0f);
+    part = transmitted_by_facets(view, arrival.direction, n, normal, sides.n_near, sides.n_far, material->alpha);
+  } else
+    part = reflected_by_facets(view, arrival.direction, n, normal, material->alpha);
+  Surface facet = *surface;
+  facet.shading = side * normal;
+  Bend bend;
+  float n_ratio;
+  if (!bend_about(world, &bent, &facet, material, band, beyond ? 2.0f : -1.0f, &n_ratio, &bend) || bend.straight ||
+      bend.transmitted != beyond)
+    return (float3)(0.0f);
+  if (is_blocked(world, start_on_side(surface, light_side), arrival.direction, arrival.distance, triangle))
+    return (float3)(0.0f);
+  const Source lamp = {light_index, (float3)(1.0f)};
+  return carried_light(world, &bent.losses, lamp, band, -1).xyz *
+         (arrival.irradiance * part * (beyond ? 1.0f - bend.reflectance : bend.reflectance));
+}
+
+// The same of all lamps on both sides.
+static inline float3 highlights(const World* world, const Path* path, const Surface* surface, uint triangle,
+                                const DeviceMaterial* material, const Band* band, uint2 seed, uint sample, uint paths,
+                                uint pixel) {
+  SET_ASIDE float3 xyz = (float3)(0.0f);
+  for (int l = 0; l < world->scene.light_count; ++l)
+    for (int beyond = 0; beyond < (material->type == MATERIAL_DIELECTRIC ? 2 : 1); ++beyond)
+      if (!is_of_environment(world, l)) // which paths find
+        xyz += highlight(world, l, beyond, path, surface, triangle, material, band, seed, sample, paths, pixel);
+  return xyz;
+}
+#endif
+
 // Continues a path through glass and mirrors in one band to a diffuse surface or out of the scene. known: `hit` is its
 // next hit. `hit` and, at a diffuse surface, `surface` become those of its end. Returns the factor of the radiance
 // there, 0 where the path is lost: a path keeps radiance over n^2 (Nicodemus 1963, "Radiance"). stream: for the numbers
 // that choose between reflection and refraction. likelier: takes the likelier of both, for a preview.
+// shine: gets the light of lamps that rough surfaces reflect on the way (NEPHROID_HIGHLIGHTS).
+#ifdef NEPHROID_HIGHLIGHTS
+#define SHINE_PARAMETER , float3* shine
+#define SHINE , shine
+#else
+#define SHINE_PARAMETER
+#define SHINE
+#endif
 IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool known, const Band* band, uint2 seed,
-                                uint sample, uint paths, uint pixel, uint stream, bool likelier, Surface* surface) {
+                                uint sample, uint paths, uint pixel, uint stream, bool likelier, Surface* surface
+                                SHINE_PARAMETER) {
   float radiance_scale = 1.0f;
   SET_ASIDE float4 choices = (float4)(0.0f);
   for (int surface_number = 0; surface_number <= world->scene.max_surfaces; ++surface_number) {
@@ -161,6 +224,11 @@ IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool k
       choices = likelier ? (float4)(0.5f)
                          : eye_numbers(seed, sample, surface_number == 0 ? paths : 0u, pixel,
                                        1u + (uint)surface_number / 4u, stream);
+#if NEPHROID_ROUGH && defined(NEPHROID_HIGHLIGHTS)
+    if (material.alpha > 0.0f)
+      *shine += radiance_scale * highlights(world, path, surface, hit->primitive, &material, band, seed, sample,
+                                            max(paths, 1u), pixel + 0x9e3779b9u * (1u + (uint)surface_number));
+#endif
     const float2 facet = facet_numbers(seed, sample, pixel, (uint)surface_number, stream);
     float n_ratio;
     if (!bend_path(world, path, hit->primitive, surface, &material, band, choices.x, facet, &n_ratio)) return 0.0f;
@@ -172,8 +240,8 @@ IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool k
 
 // trace_to_diffuse to a diffuse surface only: 0 where the path leaves the scene.
 IN_PLACE float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample,
-                             uint paths, uint pixel, uint stream, Surface* surface) {
+                             uint paths, uint pixel, uint stream, Surface* surface SHINE_PARAMETER) {
   const float radiance_scale =
-      trace_to_diffuse(world, path, hit, true, band, seed, sample, paths, pixel, stream, false, surface);
+      trace_to_diffuse(world, path, hit, true, band, seed, sample, paths, pixel, stream, false, surface SHINE);
   return hit->primitive == NEPHROID_NO_PRIMITIVE ? 0.0f : radiance_scale;
 }

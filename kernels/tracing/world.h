@@ -182,42 +182,49 @@ static inline void lose_by_masking(Path* path, const DeviceMaterial* material, c
   lose(&path->losses, material->masking, left > 0.0f ? -log(left) : 200.0f);
 }
 
+// The normal on the path's side about which it is bent: the shading normal, or where that looks away the triangle's.
+static inline float3 normal_before(const Path* path, const Surface* surface) {
+  const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
+  return side * (side * dot(path->direction, surface->shading) < 0.0f ? surface->shading : surface->geometric);
+}
+
+// bend_path_as about the shading normal of `bent_at`, without what roughness takes.
+static inline bool bend_about(const World* world, Path* path, const Surface* bent_at, const DeviceMaterial* material,
+                              const Band* band, float choice, float* n_ratio, Bend* bend) {
+  *n_ratio = 1.0f;
+#if NEPHROID_MIRRORS
+  if (material->type == MATERIAL_MIRROR) {
+    *bend = bend_at_surface(path->direction, bent_at, 1.0f, 1.0f, no_layer(), -1.0f);
+    bend->reflectance = 1.0f;
+    lose_at_mirror(world, path, material, band, -dot(path->direction, bend->normal));
+    return true;
+  }
+#endif
+  if (!cross_interface(&path->media, bent_at, world->objects, index_of_band(world, band), material,
+                       layer_of(world, material, band), path->direction, choice, bend, n_ratio))
+    return false;
+#if NEPHROID_TINTS
+  if (bend->transmitted && (material->is_thin || bend->near_material != bend->far_material))
+    lose(&path->losses, material->tint, 1.0f);
+#endif
+  return true;
+}
+
 // Continues the path at a mirror or dielectric. choice: uniform in [0, 1); -1 reflects, 2 goes through where anything
 // does. facet_choice: facet_numbers. *n_ratio, false: as in cross_interface. *bend: what happened there.
 IN_PLACE bool bend_path_as(const World* world, Path* path, uint triangle, const Surface* surface,
                            const DeviceMaterial* material, const Band* band, float choice, float2 facet_choice,
                            float* n_ratio, Bend* bend) {
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
-  *n_ratio = 1.0f;
 #if NEPHROID_ROUGH
-  // A facet is bent at as a smooth surface with its normal is.
   const float side = from_outside ? 1.0f : -1.0f;
-  const bool faces = side * dot(path->direction, surface->shading) < 0.0f;
-  const float3 n = side * (faces ? surface->shading : surface->geometric);
+  const float3 n = normal_before(path, surface);
   Surface facet = *surface;
   if (material->alpha > 0.0f) facet.shading = side * visible_facet(-path->direction, n, material->alpha, facet_choice);
-  const Surface* const bent_at = &facet;
-#else
-  const Surface* const bent_at = surface;
-#endif
-#if NEPHROID_MIRRORS
-  if (material->type == MATERIAL_MIRROR) {
-    *bend = bend_at_surface(path->direction, bent_at, 1.0f, 1.0f, no_layer(), -1.0f);
-    bend->reflectance = 1.0f;
-    lose_at_mirror(world, path, material, band, -dot(path->direction, bend->normal));
-  } else
-#endif
-  {
-    if (!cross_interface(&path->media, bent_at, world->objects, index_of_band(world, band), material,
-                         layer_of(world, material, band), path->direction, choice, bend, n_ratio))
-      return false;
-#if NEPHROID_TINTS
-    if (bend->transmitted && (material->is_thin || bend->near_material != bend->far_material))
-      lose(&path->losses, material->tint, 1.0f);
-#endif
-  }
-#if NEPHROID_ROUGH
+  if (!bend_about(world, path, &facet, material, band, choice, n_ratio, bend)) return false;
   if (material->alpha > 0.0f) lose_by_masking(path, material, bend, side * facet.shading, n);
+#else
+  if (!bend_about(world, path, surface, material, band, choice, n_ratio, bend)) return false;
 #endif
   bend_differential(world, path, triangle, surface, band, bend);
   path->direction = bend->direction;

@@ -223,14 +223,12 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
   preset::Material material;
   material.reflectance = reflectance_of({base[0], base[1], base[2]});
   const double roughness = pbr.number("roughnessFactor", 1);
-  // Lamps make no highlights on rough mirrors here, so that the roughest would be black.
-  const bool metal = metal_part(value) >= 0.5, matt = roughness >= 0.5;
-  if (metal && !matt) {
+  const bool metal = metal_part(value) >= 0.5;
+  if (metal) {
     material.type = preset::Material::Type::mirror;
-    material.roughness = std::max(roughness, 0.0);
-  } else if (metal)
-    notes.push_back(fmt::format("material '{}' is rough metal in the file and matt here", name));
-  if (!metal && !is_older && !matt)
+    material.roughness = std::clamp(roughness, 0.0, 1.0);
+  }
+  if (!metal && !is_older && roughness < 0.5)
     notes.push_back(fmt::format("material '{}' has a gloss in the file and is matt here", name));
   if (metal && value.extension("KHR_materials_transmission").number("transmissionFactor", 0) > 0)
     notes.push_back(fmt::format("material '{}': no light goes through it in the file either, as it is metal", name));

@@ -91,6 +91,49 @@ Result rough_mirror(const compute::Context& context, std::uint64_t seed) {
                 "integral over its facets");
 }
 
+/// The luminance of a plane that the sun shines on from `light` radians to one side, seen from `view` radians to the
+/// other.
+double shine(const compute::Context& context, const preset::Material& material, double light, double view) {
+  preset::Preset p = empty_preset(8);
+  p.scene.materials["plane"] = material;
+  p.scene.objects = {object("plane", quad(1, 1), "plane")};
+  p.scene.lights.resize(1);
+  p.scene.lights[0].type = preset::Light::Type::directional;
+  p.scene.lights[0].spectrum = line(550);
+  p.scene.lights[0].direction = {std::sin(light), -std::cos(light), 0};
+  p.scene.camera.position = {1000 * std::sin(view), 1000 * std::cos(view), 0};
+  p.scene.camera.up = {0, 0, 1};
+  p.scene.camera.fov_deg = 0.005;
+  spectral::settings(p).direct = true;
+  spectral::settings(p).caustic = false;
+  spectral::settings(p).pixel_samples = p.stop.passes.emplace(4);
+  const job::Snapshot snapshot = render(p, context);
+  const job::Layer& direct = layer(snapshot, "direct");
+  double sum = 0;
+  for (int pixel = 0; pixel < 64; ++pixel) sum += luminance(direct, 8, pixel / 8, pixel % 8) / 64;
+  return sum;
+}
+
+/// A matt white plane has the radiance E / pi, so pi times the value of the microfacets' reflection is what is more.
+Result highlights(const compute::Context& context, std::uint64_t) {
+  double worst = 0;
+  for (const double roughness : {0.3, 0.6, 1.0})
+    for (const auto& [light_deg, view_deg] : {std::pair{0.0, 20.0}, {45.0, 45.0}, {60.0, 20.0}, {30.0, -50.0}}) {
+      const double light = light_deg * degree, view = view_deg * degree, alpha = roughness * roughness;
+      const double half = std::cos((view - light) / 2), narrow = 1 + (alpha * alpha - 1) * half * half;
+      const double seen = 1 + smith_lambda(std::cos(light), alpha) + smith_lambda(std::cos(view), alpha);
+      const double value =
+          alpha * alpha / (std::numbers::pi * narrow * narrow * 4 * seen * std::cos(light) * std::cos(view));
+      preset::Material rough = mirror(1);
+      rough.roughness = roughness;
+      const double truth = std::numbers::pi * value * shine(context, white(), light, view);
+      worst = worse(worst, shine(context, rough, light, view) / truth - 1);
+    }
+  return judged(worst, 1e-3, "",
+                "sunlight on mirrors of roughness .3, .6 and 1, seen from four sides, over that on a white plane: "
+                "against the value of GGX' reflection");
+}
+
 /// `material` in a preset that an inclined pencil crosses, as `shape`.
 double z_through(const compute::Context& context, std::uint64_t seed, const preset::Material& material,
                  const preset::Shape& shape, const preset::Light& light, double truth, double left = 1) {
@@ -146,11 +189,9 @@ Result coated_plate(const compute::Context& context, std::uint64_t seed) {
 } // namespace
 
 Checks material_checks() {
-  return {{"material: metals", metals},
-          {"material: a rough mirror", rough_mirror},
-          {"material: tinted glass", tinted_plate},
-          {"material: a thin pane", pane},
-          {"material: coatings", coated_plate}};
+  return {{"material: metals", metals},         {"material: a rough mirror", rough_mirror},
+          {"material: highlights", highlights}, {"material: tinted glass", tinted_plate},
+          {"material: a thin pane", pane},      {"material: coatings", coated_plate}};
 }
 
 } // namespace nephroid::check
