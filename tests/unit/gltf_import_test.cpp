@@ -301,7 +301,7 @@ TEST_F(GltfImport, MetalLetsNoLightThrough) {
   EXPECT_EQ(imported(json).scene.materials.at("wall").type, Material::Type::dielectric);
   EXPECT_THAT(made.notes, Contains(HasSubstr("lets 0.8 of the light through")));
   json["materials"][0]["pbrMetallicRoughness"].erase("metallicFactor");
-  EXPECT_EQ(imported(json).scene.materials.at("wall").type, Material::Type::diffuse);
+  EXPECT_EQ(imported(json).scene.materials.at("wall").type, Material::Type::mirror);
   EXPECT_THAT(made.notes, Contains(HasSubstr("no light goes through it in the file either")));
 }
 
