@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int rows = 12, columns = 16; // of cells; [row][column] below
+constexpr std::size_t rows = 12, columns = 16; // of cells; [row][column] below
 
 /// The chance of each cell. A cell is a range of t = tan^2 / (alpha^2 + tan^2) of the facet's angle to the normal, and
 /// one of azimuth: D(h) cos(h) dh = dt dphi / (2 pi), so the density of facets h that `view` sees is
@@ -22,17 +22,19 @@ constexpr int rows = 12, columns = 16; // of cells; [row][column] below
 std::vector<double> chances(double cos_view, double alpha) {
   const double sin_view = std::sqrt(1 - cos_view * cos_view), tangent = sin_view / cos_view,
                lambda = (std::sqrt(1 + alpha * alpha * tangent * tangent) - 1) / 2;
-  constexpr int steps = 48; // a cell and side
+  constexpr std::size_t steps = 48; // a cell and side
   std::vector<double> chance(rows * columns, 0);
-  for (int i = 0; i < rows * steps; ++i)
-    for (int j = 0; j < columns * steps; ++j) {
+  for (std::size_t i = 0; i < rows * steps; ++i)
+    for (std::size_t j = 0; j < columns * steps; ++j) {
       // By s = sqrt(1 - t), as 1 / cos(h) goes with 1 / s.
-      const double from = std::sqrt(1 - double(i / steps) / rows), to = std::sqrt(1 - double(i / steps + 1) / rows);
-      const double s = std::lerp(from, to, (i % steps + 0.5) / steps), t = 1 - s * s;
-      const double phi = 2 * pi * (j + 0.5) / (columns * steps);
+      const std::size_t row = i / steps;
+      const double from = std::sqrt(1 - static_cast<double>(row) / rows),
+                   to = std::sqrt(1 - static_cast<double>(row + 1) / rows);
+      const double s = std::lerp(from, to, (static_cast<double>(i % steps) + 0.5) / steps), t = 1 - s * s;
+      const double phi = 2 * pi * (static_cast<double>(j) + 0.5) / (columns * steps);
       const double cosine = std::sqrt((1 - t) / (1 - t + alpha * alpha * t)), sine = std::sqrt(1 - cosine * cosine);
       const double seen = std::max(sin_view * sine * std::cos(phi) + cos_view * cosine, 0.0);
-      chance[static_cast<std::size_t>(i / steps * columns + j / steps)] +=
+      chance[row * columns + j / steps] +=
           seen / (cosine * cos_view * (1 + lambda)) * 2 * s * (from - to) / (columns * steps * steps);
     }
   return chance;
@@ -51,9 +53,10 @@ double z_of_facets(const compute::Context& context, double cos_view, double alph
   std::vector<double> counts(rows * columns, 0);
   for (const float4& facet : out.read()) {
     const double tangent2 = (double(facet.x) * facet.x + double(facet.y) * facet.y) / (double(facet.z) * facet.z);
-    const int row = std::min(static_cast<int>(rows * tangent2 / (alpha * alpha + tangent2)), rows - 1),
-              column = static_cast<int>(std::floor(std::atan2(facet.y, facet.x) / (2 * pi) * columns)) + columns;
-    ++counts[static_cast<std::size_t>(row * columns + column % columns)];
+    const double turn = std::atan2(facet.y, facet.x) / (2 * pi) + 1; // above .5
+    const auto row = std::min(static_cast<std::size_t>(rows * tangent2 / (alpha * alpha + tangent2)), rows - 1),
+               column = static_cast<std::size_t>(columns * turn) % columns;
+    ++counts[row * columns + column];
   }
   const std::vector<double> chance = chances(cos_view, alpha);
   double chi_square = 0, freedom = -1, rare = 0, rare_counts = 0; // cells with few facets count as one
