@@ -153,7 +153,7 @@ Material make_material(const std::string& name, const preset::Material& material
       result.k = optics::sample_k(curve, outside);
     });
     result.conductor = optics::conductor_terms(result.n, result.k);
-    if (const double error = result.conductor.error; error > 0.01)
+    if (const double error = result.conductor.error; error > most_conductor_error)
       throw bad_input(where / "metal", fmt::format("has a reflectance that is off by up to {:.2g} here", error),
                       "expected n and k of a metal", "what light passes is a dielectric, with k as its absorption");
     else if (error > 0.001)

@@ -35,8 +35,12 @@ optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const F
 optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Location& where);
 /// Each value in 0..1.
 optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Location& where);
-/// where: the material's. Throws bad_input for a pane with a coating, for a conductor without k, or whose reflectance
-/// three terms cannot hold (optics/conductor.h). Adds a warning where n is wanted outside the data's range.
+/// The most by which a conductor's reflectance may be off (optics/conductor.h).
+inline constexpr double most_conductor_error = 0.01;
+
+/// where: the material's. Throws bad_input for a pane with a coating or a roughness, for a conductor without k, or
+/// whose reflectance three terms cannot hold (optics/conductor.h). Adds a warning where n is wanted outside the data's
+/// range.
 Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder,
                        const Location& where, std::vector<std::string>& warnings);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rough glass and rough mirrors: microfacets with the distribution GGX (Walter et al. 2007, "Microfacet Models for
 // Refraction through Rough Surfaces") and Smith's masking, which is correlated with height where light comes in and
-// leaves (Heitz 2014). A path meets one of the facets that it can see, drawn as Dupuy and Benyoub 2023 do, and is bent
-// there as at a smooth surface. What is left of it is the masking of both its ways over that of the first. Light that
-// would meet several facets is lost.
+// leaves (Heitz 2014; through the surface by the same formula, as pbrt-v4 has it). A path meets one of the facets that
+// it can see, drawn as Dupuy and Benyoub 2023 do, and is bent there as at a smooth surface. What is left of it is the
+// masking of both its ways over that of the first. Light that would meet several facets is lost.
 #include "kernels/tracing/frame.h"
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/surface.h"
@@ -45,9 +45,12 @@ static inline float3 visible_facet(float3 view, float3 n, float alpha, float2 ch
   return normalize(alpha * half_way.x * x + alpha * half_way.y * y + half_way.z * n);
 }
 
-// D(h) over 1 + Lambda of both ways, h: unit, on the side of n; its cosine and those of both ways to the normal.
-static inline float facets_between(float cos_facet, float cos_view, float cos_light, float alpha) {
-  const float narrow = alpha * alpha - 1.0f, denominator = 1.0f + narrow * cos_facet * cos_facet;
+// D(h) over 1 + Lambda of both ways. facet: h, unit, on the side of n. Its 1 + (alpha^2 - 1) cos^2 is written as sin^2
+// + alpha^2 cos^2, which stays exact for small alpha.
+static inline float facets_between(float3 facet, float3 n, float cos_view, float cos_light, float alpha) {
+  const float cosine = dot(facet, n);
+  const float3 aside = facet - cosine * n;
+  const float denominator = dot(aside, aside) + alpha * alpha * cosine * cosine;
   const float density = alpha * alpha / (PI_F * denominator * denominator);
   return density / (1.0f + smith_lambda(cos_view, alpha) + smith_lambda(cos_light, alpha));
 }
@@ -56,7 +59,7 @@ static inline float facets_between(float cos_facet, float cos_view, float cos_li
 // Fresnel's factor (Walter et al., equation 20). All unit and on the side of n.
 static inline float reflected_by_facets(float3 view, float3 light, float3 n, float3 facet, float alpha) {
   const float cos_view = dot(view, n), cos_light = dot(light, n);
-  return facets_between(dot(facet, n), cos_view, cos_light, alpha) / (4.0f * cos_view * cos_light);
+  return facets_between(facet, n, cos_view, cos_light, alpha) / (4.0f * cos_view * cos_light);
 }
 
 // The same of what goes through, from a light beyond (equation 21). facet: that of facet_between.
@@ -65,7 +68,7 @@ static inline float transmitted_by_facets(float3 view, float3 light, float3 n, f
   const float cos_view = dot(view, n), cos_light = -dot(light, n);
   const float view_facet = dot(view, facet), light_facet = dot(light, facet);
   const float along = n_light * light_facet + n_view * view_facet;
-  return facets_between(dot(facet, n), cos_view, cos_light, alpha) * view_facet * fabs(light_facet) * n_view * n_view /
+  return facets_between(facet, n, cos_view, cos_light, alpha) * view_facet * fabs(light_facet) * n_view * n_view /
          (cos_view * cos_light * along * along);
 }
 

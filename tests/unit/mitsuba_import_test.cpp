@@ -265,6 +265,7 @@ TEST_F(MitsubaImport, MetalsAreConductors) {
   EXPECT_EQ(material_of(p, 0).metal, "gold");
   EXPECT_EQ(material_of(p, 1).type, Type::conductor);
   EXPECT_THAT(read_file(folder.path() / material_of(p, 1).metal), HasSubstr("0.55 0.35 3"));
+  EXPECT_EQ(scene::load_scene(p).materials.size(), p.scene.materials.size()) << "beyond 400 and 700 nm n is held";
   EXPECT_EQ(material_of(p, 2).type, Type::mirror);
   EXPECT_EQ(material_of(p, 3).type, Type::mirror);
   EXPECT_THAT(made.notes, Contains(HasSubstr("the metal is left out: a mirror of its specular_reflectance")));

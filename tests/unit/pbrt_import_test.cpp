@@ -192,6 +192,9 @@ TEST_F(PbrtImport, MetalsAreConductors) {
   EXPECT_NEAR(material_of(rough, 0).roughness, std::sqrt(0.5), 1e-12) << "alpha is the root of PBRT's roughness";
   EXPECT_NEAR(material_of(rough, 1).roughness, 0.5, 1e-12);
   EXPECT_THAT(made.notes, Contains(HasSubstr("its two roughnesses 0.2 and 0 are one")));
+  imported("Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"a.png\"\n"
+           "Material \"dielectric\" \"texture roughness\" \"t\" Shape \"sphere\"");
+  EXPECT_THAT(made.notes, Contains(HasSubstr("the texture \"roughness\" is left out: 0 takes its place")));
 }
 
 TEST_F(PbrtImport, AttributesHoldUntilTheirBlockEnds) {

@@ -8,6 +8,7 @@
 #include "preset/choices.h"
 #include "preset/differences.h"
 #include "preset/read.h"
+#include "scene/materials.h"
 #include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ std::vector<RequiredFile> needs_of(const preset::Preset& preset) {
     if (std::ranges::count(needs, name, &RequiredFile::name) > 0) continue;
     needs.push_back({name});
     try {
-      finder.find(name, preset.source);
+      scene::find_dispersion(name, finder, preset.source);
     } catch (const Error&) {
       needs.back().there = false;
     }

@@ -203,7 +203,8 @@ WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh) {
   });
   object.mesh = mesh.file.string();
   object.material = material_for(scene);
-  const bool dielectric = scene.materials.at(object.material).type == preset::Material::Type::dielectric;
+  const preset::Material& material = scene.materials.at(object.material);
+  const bool dielectric = material.type == preset::Material::Type::dielectric && !material.thin;
   if (dielectric && !mesh.closed && scene.damaged_meshes == preset::Scene::DamagedMeshes::refuse)
     throw bad_input(mesh.file.string(), "is not closed, so it cannot be of '" + object.material + "', a dielectric",
                     "a closed mesh, as the preset's damaged_meshes is \"refuse\"",

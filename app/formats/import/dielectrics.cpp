@@ -131,7 +131,7 @@ public:
 private:
   /// A liquid touches its glass from within and is not enclosed by the solid; the file's index says so.
   static bool is_around(const Body& outer, const Body& inner) {
-    if (inner.glass.is_thin || outer.glass.is_thin) return false;
+    if (outer.glass.is_thin) return false;
     if (outer.encloses(inner)) return true;
     if (!outer.meets(inner)) return false;
     return inner.glass.is_ratio ? inner.inside / inner.outside < 1 && outer.own > 1
@@ -154,7 +154,7 @@ private:
                                               around->own, body.own));
     } else if (around && alike(around->inside, body.outside)) {
       body.own = body.inside;
-      if (!around->encloses(body)) reach_into(body.shape);
+      if (!body.glass.is_thin && !around->encloses(body)) reach_into(body.shape);
     } else {
       body.own = ratio;
       d_.note(body.shape.where, fmt::format("in the file it is in n = {:.4g}, which is nowhere in the scene: the ratio "
@@ -255,8 +255,26 @@ std::string absorbing_glass_file(const preset::Dispersion& clear, const optics::
   return text;
 }
 
-preset::Material metal_of(Description& description, const std::string& name, const optics::Spectrum& n,
-                          const optics::Spectrum& k) {
+namespace {
+
+/// Beyond the ends of a file's rows a spectrum is 0; an index goes on as it ends.
+optics::Spectrum with_held_ends(optics::Spectrum values) {
+  const auto is_given = [](double value) { return value > 0; };
+  const auto first = std::ranges::find_if(values, is_given);
+  if (first == values.end()) return values;
+  std::fill(values.begin(), first, *first);
+  const auto last = std::find_if(values.rbegin(), values.rend(), is_given);
+  std::fill(values.rbegin(), last, *last);
+  return values;
+}
+
+} // namespace
+
+std::optional<preset::Material> metal_of(Description& description, const std::string& name,
+                                         const optics::Spectrum& file_n, const optics::Spectrum& file_k) {
+  const optics::Spectrum n = with_held_ends(file_n), k = with_held_ends(file_k);
+  if (*std::ranges::min_element(n) <= 0 || optics::conductor_terms(n, k).error > scene::most_conductor_error)
+    return std::nullopt;
   std::string text =
       "COMMENTS: |\n    n and k as the scene's metal has them\nDATA:\n  - type: tabulated nk\n    data: |\n";
   for (int nm = optics::first_nm; nm <= optics::last_nm; nm += 10) {

@@ -33,9 +33,10 @@ double middle_index(const preset::Dispersion& dispersion);
 std::string absorbing_glass_file(const preset::Dispersion& clear, const optics::Spectrum& absorption,
                                  const std::string& comments);
 
-/// A conductor with these n and k, of which a file of the import, named like the material, has every tenth.
-preset::Material metal_of(Description& description, const std::string& name, const optics::Spectrum& n,
-                          const optics::Spectrum& k);
+/// A conductor with these n and k, held where they are 0 at the ends. A file of the import, named like the material,
+/// has every tenth. Nothing where n is 0 between, or where they are none that a run takes.
+std::optional<preset::Material> metal_of(Description& description, const std::string& name,
+                                         const optics::Spectrum& file_n, const optics::Spectrum& file_k);
 /// A conductor by a dispersion file or a shipped metal.
 preset::Material metal_of(const std::string& file);
 /// The shipped metal of that chemical formula: Au, Ag, Cu, Al, CuZn.

@@ -187,11 +187,19 @@ xml_node unwrapped(MitsubaScene& scene, xml_node node) {
   return node;
 }
 
+/// A number, or with a note the standard in a texture's place.
+double plain_number(MitsubaScene& scene, xml_node node, const char* name, double standard) {
+  if (const xml_node given = scene.file.child(node, name); given && !given.attribute("value"))
+    scene.d.note(scene.file.at(given),
+                 fmt::format("the texture of {} is left out: {:.3g} takes its place", name, standard));
+  return scene.file.number(node, name, standard);
+}
+
 /// As a preset has it, whose square is the alpha of GGX.
 double roughness_of(MitsubaScene& scene, xml_node node) {
   const MitsubaFile& file = scene.file;
-  const double both = file.number(node, "alpha", 0.1), u = file.number(node, "alpha_u", both),
-               v = file.number(node, "alpha_v", both);
+  const double both = plain_number(scene, node, "alpha", 0.1), u = plain_number(scene, node, "alpha_u", both),
+               v = plain_number(scene, node, "alpha_v", both);
   if (u != v)
     scene.d.note(file.at(node), fmt::format("its alpha_u {:.3g} and alpha_v {:.3g} are one: their mean", u, v));
   if (file.text(node, "distribution", "beckmann") != "ggx")
@@ -313,7 +321,7 @@ std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
       through > 0 ? dielectric(scene, node, "eta", "1.5") : dielectric(scene, node, "int_ior", "bk7");
   glass.is_thin = thin;
   if (type == "roughdielectric") glass.roughness = roughness_of(scene, node);
-  if (type == "principled") glass.roughness = std::clamp(file.number(node, "roughness", 0.5), 0.0, 1.0);
+  if (type == "principled") glass.roughness = std::clamp(plain_number(scene, node, "roughness", 0.5), 0.0, 1.0);
   if (const char* tint = through > 0 ? "base_color" : "specular_transmittance"; file.child(node, tint))
     glass.tint = mitsuba_colour(scene, node, tint, 1);
   if (through > 0 && glass.tint) { // whose root each surface of a principled body takes

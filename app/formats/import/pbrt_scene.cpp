@@ -146,8 +146,16 @@ std::optional<DescribedColour> absorption_of(PbrtScene& scene, const PbrtThing& 
 /// As a preset has it, whose square is the alpha of GGX. PBRT's alpha is the root of its roughness, in version 3 a
 /// polynomial of its logarithm. standard: where the file has none.
 double roughness_of(PbrtScene& scene, const PbrtParameters& p, double standard) {
-  const double both = p.number("roughness", standard), u = p.number("uroughness", both),
-               v = p.number("vroughness", both);
+  const auto number_of = [&](const char* name, double otherwise) {
+    const PbrtParameter* given = resolved(scene, p, name);
+    if (!given) return otherwise;
+    if (given->type == "float" && given->values.size() == 1) return given->numbers()[0];
+    scene.d.note(given->where,
+                 fmt::format("the {} \"{}\" is left out: {:.3g} takes its place", given->type, name, otherwise));
+    return otherwise;
+  };
+  const double both = number_of("roughness", standard), u = number_of("uroughness", both),
+               v = number_of("vroughness", both);
   if (u != v) scene.d.note(p.where, fmt::format("its two roughnesses {:.3g} and {:.3g} are one: their mean", u, v));
   const double mean = std::max((u + v) / 2, 0.0);
   if (mean == 0) return 0;
@@ -205,7 +213,7 @@ preset::Material metal(PbrtScene& scene, const std::string& key, const PbrtParam
     if (const auto metal = metal_of_element(name.substr(6, name.size() - 10))) return *metal;
   if (eta && k)
     if (const auto n = colour_of(scene, *eta), extinction = colour_of(scene, *k); n && extinction)
-      return metal_of(scene.d, key, values_of(*n), values_of(*extinction));
+      if (auto own = metal_of(scene.d, key, values_of(*n), values_of(*extinction))) return *own;
   scene.d.note(p.where, "the metal is left out: a mirror of 0.9 takes its place");
   preset::Material mirror;
   mirror.type = preset::Material::Type::mirror;
