@@ -103,7 +103,7 @@ double shine(const compute::Context& context, const preset::Material& material, 
   p.scene.lights[0].direction = {std::sin(light), -std::cos(light), 0};
   p.scene.camera.position = {1000 * std::sin(view), 1000 * std::cos(view), 0};
   p.scene.camera.up = {0, 0, 1};
-  p.scene.camera.fov_deg = 0.005;
+  p.scene.camera.fov_deg = 0.001;
   spectral::settings(p).direct = true;
   spectral::settings(p).caustic = false;
   spectral::settings(p).pixel_samples = p.stop.passes.emplace(4);
@@ -124,6 +124,7 @@ Result highlights(const compute::Context& context, std::uint64_t) {
       const double seen = 1 + smith_lambda(std::cos(light), alpha) + smith_lambda(std::cos(view), alpha);
       const double value =
           alpha * alpha / (std::numbers::pi * narrow * narrow * 4 * seen * std::cos(light) * std::cos(view));
+      if (value < 1e-3) continue; // a few quanta of the film
       preset::Material rough = mirror(1);
       rough.roughness = roughness;
       const double truth = std::numbers::pi * value * shine(context, white(), light, view);
