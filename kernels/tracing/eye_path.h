@@ -150,7 +150,7 @@ static inline float3 highlight(const World* world, int light_index, bool beyond,
                                uint2 seed, uint sample, uint paths, uint pixel) {
   const DeviceLight light = world->lights[light_index];
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f, light_side = beyond ? -side : side;
-  const float3 n = normal_before(path, surface), view = -path->direction;
+  const float3 n = normal_before(path->direction, surface), view = -path->direction;
   const float4 place =
       is_light(&light, LIGHT_AREA) ? light_numbers(&light, seed, sample, paths, pixel) : (float4)(0.0f);
   const Arrival arrival =

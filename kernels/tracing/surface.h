@@ -140,9 +140,9 @@ typedef struct {
   float3 normal;    // the normal of the bend: unit, on the side that the ray came from
   int near_material; // materials before and beyond an interface; -1: air
   int far_material;
-  float reflectance; // Fresnel's; 1 at a mirror and where all is reflected
+  float reflectance; // the part that is reflected; 1 at a mirror and where all is
   bool transmitted;
-  bool straight; // nothing bent it: the normal is not set
+  bool straight; // nothing bent it; the normal is set at a pane only
 } Bend;
 
 // normal: unit, on the ray's side. choice: uniform in [0, 1); the ray is reflected if it is below the reflectance.
@@ -161,12 +161,19 @@ static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t
   return bend;
 }
 
+// The normal on a ray's side: the shading normal, or where that looks away the triangle's own.
+static inline float3 normal_before(float3 direction, const Surface* surface) {
+  const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
+  const float3 shading = side * surface->shading;
+  return dot(direction, shading) < 0.0f ? shading : side * surface->geometric;
+}
+
 // Bends about the shading normal, or where that sends the ray to the wrong side, about the triangle's own.
 static inline Bend bend_at_surface(float3 direction, const Surface* surface, float n_i, float n_t, Layer layer,
                                    float choice) {
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
-  const float3 geometric = side * surface->geometric, shading = side * surface->shading;
-  Bend bend = bend_at(direction, dot(direction, shading) < 0.0f ? shading : geometric, n_i, n_t, layer, choice);
+  const float3 geometric = side * surface->geometric;
+  Bend bend = bend_at(direction, normal_before(direction, surface), n_i, n_t, layer, choice);
   const float leaves = dot(bend.direction, geometric);
   if (bend.transmitted ? leaves >= 0.0f : leaves <= 0.0f) bend = bend_at(direction, geometric, n_i, n_t, layer, choice);
   return bend;

@@ -182,12 +182,6 @@ static inline void lose_by_masking(Path* path, const DeviceMaterial* material, c
   lose(&path->losses, material->masking, left > 0.0f ? -log(left) : 200.0f);
 }
 
-// The normal on the path's side about which it is bent: the shading normal, or where that looks away the triangle's.
-static inline float3 normal_before(const Path* path, const Surface* surface) {
-  const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
-  return side * (side * dot(path->direction, surface->shading) < 0.0f ? surface->shading : surface->geometric);
-}
-
 // bend_path_as about the shading normal of `bent_at`, without what roughness takes.
 static inline bool bend_about(const World* world, Path* path, const Surface* bent_at, const DeviceMaterial* material,
                               const Band* band, float choice, float* n_ratio, Bend* bend) {
@@ -218,7 +212,7 @@ IN_PLACE bool bend_path_as(const World* world, Path* path, uint triangle, const 
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
 #if NEPHROID_ROUGH
   const float side = from_outside ? 1.0f : -1.0f;
-  const float3 n = normal_before(path, surface);
+  const float3 n = normal_before(path->direction, surface);
   Surface facet = *surface;
   if (material->alpha > 0.0f) facet.shading = side * visible_facet(-path->direction, n, material->alpha, facet_choice);
   if (!bend_about(world, path, &facet, material, band, choice, n_ratio, bend)) return false;
