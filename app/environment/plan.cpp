@@ -174,13 +174,9 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
         "{}: its middle, about which the spheres stand, is outside of it; the smallest sphere has the radius "
         "{:.4g}, as the surface is {:.4g} from there",
         task.caster.name, task.radii.front(), task.caster.extent.nearest));
-  const auto any_is = [&](bool (*is)(const scene::Material&)) {
-    return std::ranges::any_of(scene.objects,
-                               [&](const scene::Object& object) { return is(material_of(scene, object)); });
-  };
-  if (any_is(scene::is_rough) && std::ranges::any_of(scene.lights, std::not_fn(scene::is_environment)))
+  if (any_material(scene, scene::is_rough) && std::ranges::any_of(scene.lights, std::not_fn(scene::is_environment)))
     plan.notes.push_back("lamps make no highlights on rough surfaces in this engine");
-  if (any_is(scene::is_coated))
+  if (any_material(scene, scene::is_coated))
     plan.notes.push_back("what a coating reflects to the camera has one colour in this engine, that of green light");
   for (const scene::Object& object : task.caster.scene.objects)
     if (!object.closed && is_body(material_of(task.caster.scene, object)))

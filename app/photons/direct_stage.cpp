@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace nephroid::photons {
 namespace {
 
@@ -31,10 +29,8 @@ private:
 plan::Decision direct_decision(const PlanInput& input) {
   const char* const name = "direct";
   if (!input.settings.direct) return not_asked_for(name, name);
-  const bool shines = std::ranges::any_of(
-      input.scene.objects, [&](const scene::Object& object) { return is_rough(material_of(input.scene, object)); });
-  const std::string missing =
-      input.objects.diffuse == 0 && !shines ? "the scene has no diffuse or rough surface" : no_light(input);
+  const bool shines = input.objects.diffuse > 0 || any_material(input.scene, scene::is_rough);
+  const std::string missing = shines ? no_light(input) : "the scene has no diffuse or rough surface";
   if (!missing.empty()) return tracing::not_needed(name, input.leave_out.direct, missing);
   return tracing::needed(
       name, fmt::format("{} lit by {}, {} a pixel{}", counted(input.objects.diffuse, "diffuse object"),

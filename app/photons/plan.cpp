@@ -116,18 +116,14 @@ bool glass_meets_glass(const scene::Scene& scene) {
   return false;
 }
 
-bool any_material(const scene::Scene& scene, bool (*is)(const scene::Material&)) {
-  return std::ranges::any_of(scene.objects,
-                             [&](const scene::Object& object) { return is(material_of(scene, object)); });
-}
-
 bool has_coatings(const scene::Scene& scene) { return any_material(scene, scene::is_coated); }
 
-/// What a coating reflects is worked out for one wavelength, and neighbours in a cluster are reflected otherwise.
+/// A rough surface sends neighbouring photons to different places, so no piece of light joins them. What a coating
+/// reflects is worked out for one wavelength, and the others of its cluster are reflected otherwise.
 void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& scene, const Location& spectral) {
   if (wanted.estimator == Settings::Estimator::tiles && any_material(scene, scene::is_rough))
-    throw bad_input(spectral / "estimator", "is tiles, which a rough surface tears", "expected points, splat or sppm",
-                    "or set its roughness to 0");
+    throw bad_input(spectral / "estimator", "is tiles, and a rough surface scatters the corners of each",
+                    "expected points, splat or sppm", "or set its roughness to 0");
   if (!has_coatings(scene)) return;
   const auto refuse = [&](bool is_set, const char* field, const char* expected) {
     if (is_set)
@@ -143,7 +139,7 @@ void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& sc
 std::string why_points(const Settings& wanted, const scene::Scene& scene) {
   if (wanted.relight) return "spectral.relight is true: layers hold whole clusters";
   if (has_coatings(scene)) return "a coating reflects each wavelength otherwise";
-  if (any_material(scene, scene::is_rough)) return "a rough surface tears the pieces of light";
+  if (any_material(scene, scene::is_rough)) return "a rough surface scatters the corners of a tile";
   if (wanted.method == Settings::Method::brute_force || wanted.effort != Settings::Effort::automatic ||
       !wanted.jitter || !wanted.low_discrepancy)
     return "spectral.method, effort, jitter or low_discrepancy ask for points";

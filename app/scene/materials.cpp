@@ -36,10 +36,10 @@ std::optional<std::filesystem::path> shipped_material(const std::string& name) {
   for (const std::string& file : {name, name + ".yml"})
     if (const auto material = presets / "materials" / file; std::filesystem::is_regular_file(material, ignored))
       return material;
-  const std::set<std::string> all = shipped_materials();
-  const auto first = all.lower_bound(name + "-");
-  const auto is_of_name = [&](auto entry) { return entry != all.end() && entry->starts_with(name + "-"); };
-  if (is_of_name(first) && !is_of_name(std::next(first))) return presets / "materials" / (*first + ".yml");
+  const std::set<std::string> names = shipped_materials();
+  const auto first = names.lower_bound(name + "-");
+  const auto begins_so = [&](auto entry) { return entry != names.end() && entry->starts_with(name + "-"); };
+  if (begins_so(first) && !begins_so(std::next(first))) return presets / "materials" / (*first + ".yml");
   return std::nullopt;
 }
 

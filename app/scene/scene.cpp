@@ -150,6 +150,10 @@ double scene_radius(const Scene& scene) {
   return radius;
 }
 
+bool any_material(const Scene& scene, bool (*is)(const Material&)) {
+  return std::ranges::any_of(scene.objects, [&](const Object& object) { return is(material_of(scene, object)); });
+}
+
 std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p) {
   std::vector<std::pair<double, int>> found;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {

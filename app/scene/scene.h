@@ -45,7 +45,7 @@ inline bool is_body(const Material& material) { return is_refractive(material.ty
 
 inline bool is_rough(const Material& material) { return material.alpha > 0; }
 
-/// Whether its surface sends wavelengths different ways, where other materials of the same n send all the same way.
+/// Whether what its surface reflects depends on the wavelength even where n does not.
 inline bool is_coated(const Material& material) { return material.coating_nm > 0; }
 
 struct Object {
@@ -113,6 +113,9 @@ inline bool is_empty(const Object& object) { return object.triangle_count + obje
 inline const Material& material_of(const Scene& scene, const Object& object) {
   return scene.materials[static_cast<std::size_t>(object.material)];
 }
+
+/// Whether the material of any object is so.
+bool any_material(const Scene& scene, bool (*is)(const Material&));
 
 /// Reads every file and checks every reference. A scene without lights or objects is legal: the plan says what is left
 /// out then. Triangles are turned so that a mirroring transform (a negative scale) keeps them outwards; triangles

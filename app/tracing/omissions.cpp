@@ -182,8 +182,9 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
                                                        : not_needed("light types", leave_out.light_types, seen_types));
   const bool mirrors = has(counts.mirrors > 0 ? needed("mirrors", counted(counts.mirrors, "mirror object"))
                                               : not_needed("mirrors", leave_out.mirrors, "no object is a mirror"));
-  const bool bending = has(bends ? needed("bending", "glass has another n than its surroundings")
-                                 : not_needed("bending", leave_out.bending, "no glass has another n than 1"));
+  const bool bending =
+      has(bends ? needed("bending", "glass has another n than its surroundings, or a coating")
+                : not_needed("bending", leave_out.bending, "no glass has another n than 1, and none a coating"));
   const bool attenuation = has(
       attenuators > 0
           ? needed("attenuation", counted(attenuators, "loss", "losses") + " by wavelength, in glass and at surfaces")
@@ -192,10 +193,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       has(counts.smooth > 0 ? needed("smooth normals", counted(counts.smooth, "smooth object"))
                             : not_needed("smooth normals", leave_out.smooth_normals, "no mesh has smooth normals"));
   const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
-  const auto any = [&](bool (*has_it)(const scene::Material&)) {
-    return std::ranges::any_of(scene.objects,
-                               [&](const scene::Object& object) { return has_it(material_of(scene, object)); });
-  };
+  const auto any = [&](bool (*is)(const scene::Material&)) { return any_material(scene, is); };
   omissions.defines = {
       {"NEPHROID_OCCLUSION", flag(occlusion)},
       {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types)},
