@@ -83,6 +83,10 @@ std::vector<std::string> left_out(const scene::Scene& scene) {
     notes.push_back(
         fmt::format("glTF has no surroundings: those are in {}, and blender.py takes them", surroundings_file));
   if (std::ranges::any_of(scene.materials, scene::is_coated)) notes.push_back("coatings are left out");
+  if (std::ranges::any_of(scene.materials, [](const scene::Material& material) {
+        return material.type == scene::Material::Type::conductor;
+      }))
+    notes.push_back("metals have the colour that they have straight on");
   if (std::ranges::any_of(scene.lights, [](const scene::Light& light) { return !light.inside.empty(); }))
     notes.push_back("a light is inside glass: another renderer may keep its light there");
   if (std::ranges::any_of(scene.lights, [](const scene::Light& light) {

@@ -296,9 +296,9 @@ preset::Material metal_of(const std::string& file) {
 std::optional<preset::Material> metal_of_element(std::string_view element) {
   static const std::map<std::string_view, const char*> shipped{
       {"Au", "gold"}, {"Ag", "silver"}, {"Cu", "copper"}, {"Al", "aluminium"}, {"CuZn", "brass"}};
-  const auto found = shipped.find(element);
-  if (found == shipped.end()) return std::nullopt;
-  return metal_of(found->second);
+  const auto metal = shipped.find(element);
+  if (metal == shipped.end()) return std::nullopt;
+  return metal_of(metal->second);
 }
 
 } // namespace nephroid::formats

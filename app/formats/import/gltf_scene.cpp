@@ -71,7 +71,7 @@ preset::Material glass(const GltfValue& material, const std::string& name, std::
   glass.thin = volume.number("thicknessFactor", 0) == 0;
   if (glass.thin)
     notes.push_back(fmt::format("material '{}' has no thickness, so light passes it straight on; if it is meant as "
-                                "solid glass: --set 'scene.materials.{}.thin=false'",
+                                "solid glass, and its meshes are closed: --set 'scene.materials.{}.thin=false'",
                                 name, name));
   const GltfValue pbr = material.object("pbrMetallicRoughness");
   const auto tint = pbr.numbers<4>("baseColorFactor", {1, 1, 1, 1});

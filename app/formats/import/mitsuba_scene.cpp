@@ -332,7 +332,7 @@ std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
     if (const auto colour = colour_of(scene, given); !colour || values_of(*colour) != optics::constant_spectrum(1))
       scene.d.note(where, "its specular_reflectance is left out: it reflects as clear glass does");
   if (medium && !thin) glass.absorption = absorption_of(scene, medium);
-  if (type != "principled") note_unasked(scene, node);
+  note_unasked(scene, node);
   scene.d.dielectrics[key] = glass;
   return key;
 }
