@@ -27,7 +27,7 @@ double fresnel_reflectance(double cos_i, double n_i, double n_t) {
 
 namespace {
 
-/// Amplitudes of reflection at a face between two media; normal: n cos(theta) / n_i, which may be complex, of each.
+/// Amplitudes of reflection at a face, of light polarised across and in the plane of incidence.
 struct Amplitudes {
   std::complex<double> s, p;
 };

@@ -22,7 +22,7 @@ ObjectCounts count_objects(const scene::Scene& scene);
 /// False only where no glass object or mirror is in the camera's view or encloses the camera.
 bool may_see_glass_or_mirror(const scene::Scene& scene);
 
-/// Whether no object's glass disperses light.
+/// Whether no object's glass disperses light or is coated.
 bool goes_one_way(const scene::Scene& scene);
 
 /// Rows of the plan for what may be left out. What the scene does not need runs where nothing is left out.
@@ -37,7 +37,7 @@ struct CodeOmissions {
   std::vector<plan::Decision> decisions;
   std::map<std::string, std::string> defines; ///< -D flags
 };
-/// attenuators: the number of materials with losses.
+/// attenuators: WavelengthTables::attenuator_count.
 CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scene, int attenuators);
 
 } // namespace nephroid::tracing

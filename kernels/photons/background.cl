@@ -9,7 +9,7 @@
 #include "kernels/tracing/piece.h"
 #include "kernels/tracing/work_item.h"
 
-// 1: no glass disperses light.
+// 1: no glass disperses light or is coated.
 #ifndef NEPHROID_ONE_WAY
 #define NEPHROID_ONE_WAY 0
 #endif
@@ -29,9 +29,9 @@ static inline float3 shown_after(const World* world, const Background* backgroun
 #endif
 }
 
-// What glass that a path leaves at once reflects of a colour, in all wavelengths. All go the same way, by nearly the
-// same share: the share at the mean index counts for all of them, and what this wavelength's differs from it for
-// itself.
+// What glass that a path leaves at once reflects of a colour, in all wavelengths. All go the same way. The share of
+// bare glass at the mean index counts for all of them, and what this wavelength's differs from it for itself: little
+// where there is no coating.
 static inline float3 reflected_after(const World* world, const Background* background, float3 rgb, const Band* band,
                                      float scale, const Bend* bend) {
   __global const float* n_of = world->tables.index_of_cluster;

@@ -49,7 +49,7 @@ struct alignas(8) uint2 {
 #define OUTCOME_EMITTED 0   // sum of the next five
 #define OUTCOME_DEPOSITED 1 // on a diffuse surface after glass or a mirror
 #define OUTCOME_MISSED 2    // met no glass and no mirror: direct light
-#define OUTCOME_ABSORBED 3  // in glass or by a mirror
+#define OUTCOME_ABSORBED 3  // in glass or at its surface, by a mirror or metal, by roughness
 #define OUTCOME_ESCAPED 4   // left the scene after glass or a mirror
 #define OUTCOME_LOST 5      // met max_surfaces interfaces, or more than MEDIA_DEPTH nested media
 #define OUTCOME_REFUSED 6   // a plain count: film contributions too large for the film's fixed point
