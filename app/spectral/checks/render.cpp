@@ -2,6 +2,7 @@
 #include "spectral/checks/render.h"
 
 #include "optics/fresnel.h"
+#include "spectral/checks/scene_parts.h"
 #include "spectral/engine.h"
 
 #include <glm/glm.hpp>
