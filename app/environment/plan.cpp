@@ -178,6 +178,8 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
     plan.notes.push_back("lamps make no highlights on rough surfaces in this engine");
   if (any_material(scene, scene::is_coated))
     plan.notes.push_back("what a coating reflects to the camera has one colour in this engine, that of green light");
+  if (any_material(scene, scene::is_textured))
+    plan.notes.push_back("textures multiply red, green and blue of this engine's own light; its photons have spectra");
   for (const scene::Object& object : task.caster.scene.objects)
     if (!object.closed && is_body(material_of(task.caster.scene, object)))
       plan.notes.push_back(

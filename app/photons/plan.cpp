@@ -28,7 +28,7 @@ PlanPart plan_scene(const PlanInput& input) {
   part.buffers = tracing::planned_buffers(input.scene, input.bvh, input.tables);
   part.buffers.push_back({"scene (host)",
                           tracing::tree_bytes(input.bvh) + tracing::mesh_bytes(input.scene) + environment +
-                              tracing::sky_bytes(input.tables),
+                              tracing::sky_bytes(input.tables) + 2 * tracing::texture_bytes(input.tables),
                           true});
   part.buffers.push_back({"pixels", 2 * sizeof(std::uint32_t) * input.pixels()}); // all pixels, and those of glass
   part.defines = scene::tree_defines(input.bvh);
@@ -118,12 +118,21 @@ bool glass_meets_glass(const scene::Scene& scene) {
 
 bool has_coatings(const scene::Scene& scene) { return any_material(scene, scene::is_coated); }
 
-/// A rough surface sends neighbouring photons to different places, so no piece of light joins them. What a coating
-/// reflects is worked out for one wavelength, and the others of its cluster are reflected otherwise.
+/// A rough surface sends neighbouring photons to different places, so no piece of light joins them. A tile has one
+/// colour, and a texture many. What a coating reflects is worked out for one wavelength, and the others of its cluster
+/// are reflected otherwise.
 void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& scene, const Location& spectral) {
   if (wanted.estimator == Settings::Estimator::tiles && any_material(scene, scene::is_rough))
     throw bad_input(spectral / "estimator", "is tiles, and a rough surface scatters the corners of each",
                     "expected points, splat or sppm", "or set its roughness to 0");
+  if (any_material(scene, scene::is_textured)) {
+    if (wanted.estimator == Settings::Estimator::tiles)
+      throw bad_input(spectral / "estimator", "is tiles, each of one colour, and a surface has a texture",
+                      "expected points, splat or sppm", "or take the texture away");
+    if (wanted.relight)
+      throw bad_input(spectral / "relight", "keeps layers for surfaces of one colour, and one has a texture",
+                      "expected false", "or take the texture away");
+  }
   if (!has_coatings(scene)) return;
   const auto refuse = [&](bool is_set, const char* field, const char* expected) {
     if (is_set)
@@ -140,6 +149,7 @@ std::string why_points(const Settings& wanted, const scene::Scene& scene) {
   if (wanted.relight) return "spectral.relight is true: layers hold whole clusters";
   if (has_coatings(scene)) return "a coating reflects each wavelength otherwise";
   if (any_material(scene, scene::is_rough)) return "a rough surface scatters the corners of a tile";
+  if (any_material(scene, scene::is_textured)) return "a tile has one colour, and a texture many";
   if (wanted.method == Settings::Method::brute_force || wanted.effort != Settings::Effort::automatic ||
       !wanted.jitter || !wanted.low_discrepancy)
     return "spectral.method, effort, jitter or low_discrepancy ask for points";

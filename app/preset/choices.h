@@ -36,6 +36,17 @@ inline constexpr Choice<Reflectance::Type> choices<Reflectance::Type>[] = {
     {Reflectance::Type::table, "table", "Measured points, straight lines between them, the ends held outside."}};
 
 template <>
+inline constexpr Choice<Texture::Type> choices<Texture::Type>[] = {
+    {Texture::Type::file, "file", "A picture file."},
+    {Texture::Type::checkerboard, "checkerboard", "Two colours, four quarters."}};
+
+template <>
+inline constexpr Choice<Texture::Wrap> choices<Texture::Wrap>[] = {
+    {Texture::Wrap::repeat, "repeat", "The picture again."},
+    {Texture::Wrap::mirror, "mirror", "The picture again, every second one mirrored."},
+    {Texture::Wrap::clamp, "clamp", "The colour at the edge."}};
+
+template <>
 inline constexpr Choice<Material::Type> choices<Material::Type>[] = {
     {Material::Type::diffuse, "diffuse", "Scatters light equally to all sides (Lambert): what caustics fall on."},
     {Material::Type::dielectric, "dielectric", "Glass, water, diamond: refracts and reflects."},

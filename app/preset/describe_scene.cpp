@@ -74,6 +74,25 @@ void describe(Fields& v, Reflectance& r) {
              .required = true});
 }
 
+void describe(Fields& v, Texture& t) {
+  v.about("Texture", "A picture on a surface, by the mesh's own u, v.");
+  v.shorthand(BareValue::text, Texture::Type::file, "file");
+  using Type = Texture::Type;
+  v.type("type", "Where the colours come from.", t.type);
+  if (t.type == Type::file) {
+    v.field("file", "A picture; integers are taken as sRGB.", t.file, {.text = Text::file, .required = true});
+    v.field("wrap", "What is beyond the picture's edges.", t.wrap);
+  } else {
+    v.field("colour0", "Linear sRGB of the lower left and the upper right quarter.", t.colour0,
+            {.bounds = within(0, 1)});
+    v.field("colour1", "Linear sRGB of the other two quarters.", t.colour1, {.bounds = within(0, 1)});
+  }
+  v.field("scale", "How often it repeats while u and v go from 0 to 1.", t.scale, {.bounds = within(-1e6, 1e6)});
+  v.field("rotate_deg", "Turns u and v counterclockwise, after the scale.", t.rotate_deg,
+          {.unit = "degrees", .bounds = within(-3600, 3600)});
+  v.field("offset", "Is added to u and v in the end.", t.offset, {.bounds = within(-1e6, 1e6)});
+}
+
 void describe(Fields& v, Coating& c) {
   v.about("Coating", "One thin layer on a surface of glass, with the interference of light in it.");
   v.field("dispersion", "The layer's index of refraction: a number, a file or an object.", c.dispersion,
@@ -94,6 +113,8 @@ void describe(Fields& v, Material& m) {
   if (m.type == Type::diffuse || m.type == Type::mirror)
     v.field("reflectance", "Part of the light that is reflected: a number, a ColorChecker patch or an object.",
             m.reflectance);
+  if (m.type == Type::diffuse)
+    v.field("texture", "What the reflectance is multiplied by: a picture file or an object.", m.texture);
   if (m.type != Type::diffuse)
     v.field("roughness", "0 is polished; GGX with alpha = roughness^2.", m.roughness, {.bounds = within(0, 1)});
   if (m.type != Type::dielectric) return;

@@ -51,6 +51,23 @@ struct Reflectance {
   bool operator==(const Reflectance&) const = default;
 };
 
+/// A picture on a surface, by the surface's own u, v. JSON: a string (a picture file) or an object with "type".
+/// (0, 0) is its lower left and (1, 1) its upper right corner; where it looks is offset + rotate(scale * (u, v)).
+struct Texture {
+  enum class Type { file, checkerboard };
+  /// What is beyond the picture's edges.
+  enum class Wrap { repeat, mirror, clamp };
+  Type type = Type::file;
+  std::string file;            ///< file
+  Wrap wrap = Wrap::repeat;    ///< file
+  Vec3 colour0{0.4, 0.4, 0.4}; ///< checkerboard: linear sRGB of the lower left and upper right quarter
+  Vec3 colour1{0.2, 0.2, 0.2}; ///< checkerboard: of the other two
+  std::array<double, 2> scale{1, 1};
+  double rotate_deg = 0; ///< counterclockwise, of u, v
+  std::array<double, 2> offset{0, 0};
+  bool operator==(const Texture&) const = default;
+};
+
 /// One thin layer on a dielectric's surface, with its interference.
 struct Coating {
   Dispersion dispersion;
@@ -61,10 +78,11 @@ struct Coating {
 struct Material {
   enum class Type { diffuse, dielectric, mirror, conductor };
   Type type = Type::diffuse;
-  Reflectance reflectance;    ///< diffuse, mirror
-  Dispersion dispersion;      ///< dielectric
-  std::string metal = "gold"; ///< conductor: a file with n and k, or a shipped metal
-  bool absorption = true;     ///< dielectric: use k where the dispersion file has it
+  Reflectance reflectance;        ///< diffuse, mirror
+  std::optional<Texture> texture; ///< diffuse: what the reflectance is multiplied by
+  Dispersion dispersion;          ///< dielectric
+  std::string metal = "gold";     ///< conductor: a file with n and k, or a shipped metal
+  bool absorption = true;         ///< dielectric: use k where the dispersion file has it
   /// dielectric: the part of the light that passes its surface, each time
   Reflectance tint{Reflectance::Type::constant, 1, {}, {}};
   double roughness = 0;           ///< dielectric that is not thin, mirror, conductor: the root of the alpha of GGX

@@ -141,6 +141,10 @@ Material make_material(const std::string& name, const preset::Material& material
   const Location dispersion = where / "dispersion";
   switch (material.type) {
   case Material::Type::diffuse:
+    if (material.texture)
+      result.texture =
+          std::make_shared<const Texture>(make_texture(*material.texture, finder, where / "texture", name, warnings));
+    [[fallthrough]];
   case Material::Type::mirror:
     result.reflectance = make_reflectance(material.reflectance, where / "reflectance");
     break;

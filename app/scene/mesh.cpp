@@ -177,13 +177,22 @@ MeshReport inspect(const Mesh& mesh) {
 void drop_useless(Mesh& mesh) {
   const std::vector<char> duplicate = find_duplicates(mesh, first_equal_vertex(mesh, false));
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (!duplicate[i] && !is_degenerate(mesh, mesh.triangles[i])) mesh.triangles[kept++] = mesh.triangles[i];
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (duplicate[i] || is_degenerate(mesh, mesh.triangles[i])) continue;
+    if (!mesh.texcoords.empty()) mesh.texcoords[kept] = mesh.texcoords[i];
+    mesh.triangles[kept++] = mesh.triangles[i];
+  }
   mesh.triangles.resize(kept);
+  if (!mesh.texcoords.empty()) mesh.texcoords.resize(kept);
+}
+
+void turn_triangles(Mesh& mesh) {
+  for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
+  for (Texcoords& texcoords : mesh.texcoords) std::swap(texcoords[1], texcoords[2]);
 }
 
 void turn_round(Mesh& mesh) {
-  for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
+  turn_triangles(mesh);
   for (glm::vec3& normal : mesh.normals) normal = -normal;
   for (Ellipsoid& ellipsoid : mesh.ellipsoids) ellipsoid.inwards = !ellipsoid.inwards;
 }

@@ -28,11 +28,15 @@ struct Ellipsoid {
   bool inwards = false;                 ///< the normals look towards the centre
 };
 
+/// The places u, v of a triangle's corners in a texture. (0, 0) is its lower left, (1, 1) its upper right.
+using Texcoords = std::array<glm::vec2, 3>;
+
 struct Mesh {
   std::vector<glm::vec3> positions;  ///< from the middle
   glm::dvec3 middle{0};              ///< in the file's coordinates; the origin itself unless that is far away
   std::vector<glm::vec3> normals;    ///< one a position, unit; or empty
   std::vector<glm::uvec3> triangles; ///< counter-clockwise seen from outside
+  std::vector<Texcoords> texcoords;  ///< one a triangle; or empty
   std::uint32_t mended_normals = 0;  ///< those that a file had on the wrong side of its triangles, or not at all
   std::vector<Ellipsoid> ellipsoids; ///< primitives of the tree, numbered after the triangles
 };
@@ -45,7 +49,8 @@ inline constexpr std::uint64_t max_triangles = std::uint64_t{1} << 28;
 /// cut into triangles, points and lines left out. Coordinates are read in double and rounded once, from the mesh's
 /// middle where they are more than four times its size. Vertices of open edges that are four roundings apart or less
 /// become one. Vertices are joined where position and normal are equal, so creases stay creases; normals are the
-/// file's own (not STL's, which are a facet's), mended where they oppose the triangles, or empty. Degenerate triangles
+/// file's own (not STL's, which are a facet's), mended where they oppose the triangles, or empty; so are texcoords, of
+/// the first set. Degenerate triangles
 /// are kept: see drop_useless(). Throws bad_input naming the file: unreadable, no triangle with an area, a coordinate
 /// that is not finite, too many triangles; interrupted where `stop` asks for it.
 Mesh load_mesh(const std::filesystem::path& file, const std::stop_token& stop = {});
@@ -56,7 +61,7 @@ std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file, co
 /// Whether the mesh's data may be in other files, which this one names: a .gltf's.
 bool has_further_files(const std::filesystem::path& file);
 
-/// Binary PLY, little-endian, with normals where the mesh has them. comment: one line, or empty.
+/// Binary PLY, little-endian, with normals and texcoords where the mesh has them. comment: one line, or empty.
 void write_ply(const Mesh& mesh, ByteSink& to, std::string_view comment = {});
 
 /// What is wrong with a mesh. Vertices at equal positions count as one here, whatever their normals.
@@ -76,6 +81,9 @@ bool has_area(const Mesh& mesh);
 /// Removes the triangles that inspect() counts as degenerate or duplicated; positions stay. Degenerate: no higher than
 /// 2^-24 of the longest edge, which is the spacing of floats, so that its normal would be made of rounding errors.
 void drop_useless(Mesh& mesh);
+
+/// Exchanges two corners of every triangle: it faces the other way.
+void turn_triangles(Mesh& mesh);
 
 /// Reverses every triangle, normal and ellipsoid.
 void turn_round(Mesh& mesh);

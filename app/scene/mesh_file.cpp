@@ -130,7 +130,7 @@ struct CachedMesh {
 
 std::uint64_t bytes_of(const Mesh& mesh) {
   return mesh.positions.size() * sizeof(glm::vec3) + mesh.normals.size() * sizeof(glm::vec3) +
-         mesh.triangles.size() * sizeof(glm::uvec3);
+         mesh.triangles.size() * sizeof(glm::uvec3) + mesh.texcoords.size() * sizeof(Texcoords);
 }
 
 } // namespace
@@ -142,7 +142,8 @@ std::optional<MeshAnswer> take_answer(std::FILE* from) {
   const bool whole =
       take_items(from, answer.refusal, longest_refusal) && take_items(from, mesh.positions, 3 * max_triangles) &&
       take_items(from, mesh.normals, 3 * max_triangles) && take_items(from, mesh.triangles, max_triangles) &&
-      take_items(from, answer.mended, 1) && take_items(from, answer.middle, 3);
+      take_items(from, mesh.texcoords, max_triangles) && take_items(from, answer.mended, 1) &&
+      take_items(from, answer.middle, 3);
   return whole ? std::optional(std::move(answer)) : std::nullopt;
 }
 
@@ -159,12 +160,17 @@ Mesh mesh_of(MeshAnswer answer) {
   const std::size_t vertices = mesh.positions.size();
   if (!mesh.normals.empty() && mesh.normals.size() != vertices)
     refuse(fmt::format("{} normals of {} vertices", mesh.normals.size(), vertices));
+  if (!mesh.texcoords.empty() && mesh.texcoords.size() != mesh.triangles.size())
+    refuse(fmt::format("texcoords for {} of {} triangles", mesh.texcoords.size(), mesh.triangles.size()));
   if (mesh.mended_normals > mesh.normals.size())
     refuse(fmt::format("{} mended normals of {}", mesh.mended_normals, mesh.normals.size()));
   for (const glm::vec3& p : mesh.positions)
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) refuse("a coordinate that is not finite");
   for (const glm::vec3& normal : mesh.normals)
     if (!(std::abs(glm::dot(normal, normal) - 1) < 1e-3f)) refuse("a normal that is no unit vector");
+  for (const Texcoords& texcoords : mesh.texcoords)
+    for (const glm::vec2& corner : texcoords)
+      if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) refuse("a texcoord that is not finite");
   for (const glm::uvec3& triangle : mesh.triangles)
     for (int corner = 0; corner < 3; ++corner)
       if (triangle[corner] >= vertices)
@@ -222,20 +228,24 @@ std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file, co
 }
 
 void write_ply(const Mesh& mesh, ByteSink& to, std::string_view comment) {
-  const bool with_normals = !mesh.normals.empty();
-  const std::string head = fmt::format(
-      "ply\nformat binary_little_endian 1.0\n{}element vertex {}\nproperty float x\nproperty float y\n"
-      "property float z\n{}element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      comment.empty() ? std::string() : fmt::format("comment {}\n", comment), mesh.positions.size(),
-      with_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "", mesh.triangles.size());
+  const bool with_normals = !mesh.normals.empty(), with_texcoords = !mesh.texcoords.empty();
+  const std::string head =
+      fmt::format("ply\nformat binary_little_endian 1.0\n{}element vertex {}\nproperty float x\nproperty float y\n"
+                  "property float z\n{}element face {}\nproperty list uchar int vertex_indices\n{}end_header\n",
+                  comment.empty() ? std::string() : fmt::format("comment {}\n", comment), mesh.positions.size(),
+                  with_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
+                  mesh.triangles.size(), with_texcoords ? "property list uchar float texcoord\n" : "");
   to.write(std::as_bytes(std::span(head)));
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     to.write(std::as_bytes(std::span(&mesh.positions[i], 1)));
     if (with_normals) to.write(std::as_bytes(std::span(&mesh.normals[i], 1)));
   }
-  for (const glm::uvec3& triangle : mesh.triangles) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     to.value(std::uint8_t{3});
-    to.write(std::as_bytes(std::span(&triangle, 1)));
+    to.write(std::as_bytes(std::span(&mesh.triangles[i], 1)));
+    if (!with_texcoords) continue;
+    to.value(std::uint8_t{6});
+    to.write(std::as_bytes(std::span(&mesh.texcoords[i], 1)));
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront OBJ, all groups as one: v, vn and f; what else a file has moves no triangle.
+// Wavefront OBJ, all groups as one: v, vn, vt and f; what else a file has moves no triangle.
 #include "base/numbers.h"
 #include "scene/mesh_parts.h"
 #include "scene/mesh_raw.h"
@@ -48,6 +48,8 @@ private:
       add_vertex(line);
     else if (word == "vn")
       normals_.push_back(direction_of(three(line)));
+    else if (word == "vt")
+      add_texcoord(line);
     else if (word == "f")
       add_face(line);
     else if (word == "surf")
@@ -76,6 +78,12 @@ private:
     places_.push_back(static_cast<std::uint32_t>(mesh_.positions.size() - 1));
   }
 
+  void add_texcoord(std::string_view line) {
+    const double u = coordinate_of(next_word(line), line_);
+    const std::string_view word = next_word(line); // a texture of one dimension has no v
+    texcoords_.emplace_back(u, word.empty() || word.starts_with('#') ? 0 : coordinate_of(word, line_));
+  }
+
   /// From 1, or from the last one backwards.
   std::size_t index(std::string_view word, std::size_t count, const char* what) const {
     const auto number = typed_number<std::int64_t>(word);
@@ -90,6 +98,7 @@ private:
 
   void add_face(std::string_view line) {
     corners_.clear();
+    corner_texcoords_.clear();
     for (std::string_view word = next_word(line); !word.empty() && !word.starts_with('#'); word = next_word(line)) {
       const std::size_t first = std::min(word.find('/'), word.size()), last = word.rfind('/');
       const std::size_t vertex = index(word.substr(0, first), places_.size(), "vertex");
@@ -98,8 +107,15 @@ private:
           has_normal ? with_normal(places_[vertex],
                                    static_cast<std::uint32_t>(index(word.substr(last + 1), normals_.size(), "normal")))
                      : places_[vertex]);
+      const std::size_t end = last == first ? word.size() : last;
+      const bool has_texcoord = first < word.size() && end > first + 1;
+      corner_texcoords_.push_back(
+          has_texcoord ? texcoords_[index(word.substr(first + 1, end - first - 1), texcoords_.size(), "texcoord")]
+                       : glm::vec2(0));
     }
-    add_polygon(mesh_, corners_);
+    if (texcoords_.empty()) return add_polygon(mesh_, corners_);
+    mesh_.texcoords.resize(mesh_.triangles.size()); // those before the first vt have none
+    add_polygon(mesh_, corners_, corner_texcoords_);
   }
 
   /// The vertex itself for its first normal; one at the same place for each other.
@@ -128,8 +144,10 @@ private:
   RawMesh mesh_;
   std::vector<std::uint32_t> places_; ///< the file's vertices among mesh_'s
   std::vector<glm::vec3> normals_;    ///< the file's
+  std::vector<glm::vec2> texcoords_;  ///< the file's
   std::vector<Use> uses_;             ///< of each vertex of mesh_
   std::vector<std::uint32_t> corners_;
+  std::vector<glm::vec2> corner_texcoords_;
   std::size_t line_ = 0;
   bool has_normals_ = false, has_surfaces_ = false;
 };

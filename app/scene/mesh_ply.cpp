@@ -38,7 +38,9 @@ constexpr Type types[] = {{"char", "int8", 1, read_as<std::int8_t>},    {"uchar"
 struct Property {
   const Type* count = nullptr; ///< of a list: the type of its length
   const Type* type = nullptr;
-  int place = -1; ///< of a vertex: 0 to 2 its position, 3 to 5 its normal; of a face or strip: 0, its corners
+  /// Of a vertex: 0 to 2 its position, 3 to 5 its normal, 6 and 7 its u, v. Of a face or strip: 0, its corners, and 1,
+  /// u, v of each.
+  int place = -1;
 };
 
 enum class Kind { vertex, face, strip, other };
@@ -127,15 +129,22 @@ private:
     }
     property.type = type_of(type);
     const std::string_view name = next_word(line);
-    constexpr std::array<std::string_view, 6> numbers{"x", "y", "z", "nx", "ny", "nz"};
+    constexpr std::array<std::string_view, 12> numbers{"x", "y", "z", "nx", "ny",        "nz",
+                                                       "u", "v", "s", "t",  "texture_u", "texture_v"};
     if (element.kind == Kind::vertex && property.count == nullptr)
       if (const auto found = std::ranges::find(numbers, name); found != numbers.end()) {
-        property.place = static_cast<int>(found - numbers.begin());
-        has_normals_ |= property.place > 2;
+        const auto place = static_cast<int>(found - numbers.begin());
+        property.place = place < 8 ? place : 6 + place % 2;
+        has_normals_ |= property.place > 2 && property.place < 6;
+        has_texcoords_ |= property.place >= 6;
       }
     if ((element.kind == Kind::face || element.kind == Kind::strip) && property.count != nullptr &&
         (name == "vertex_indices" || name == "vertex_index"))
       property.place = 0;
+    if (element.kind == Kind::face && property.count != nullptr && name == "texcoord") {
+      property.place = 1;
+      has_texcoords_ = true;
+    }
     element.properties.push_back(property);
   }
 
@@ -175,7 +184,7 @@ private:
         if (element.kind == Kind::vertex)
           vertex_[static_cast<std::size_t>(property.place)] = number;
         else
-          corners_.push_back(number);
+          (property.place == 0 ? corners_ : corner_texcoords_).push_back(number);
       }
     }
     return true;
@@ -189,10 +198,30 @@ private:
       if (mesh_.positions.size() >= 3 * max_triangles) throw std::runtime_error("too many vertices");
       mesh_.positions.emplace_back(vertex_[0], vertex_[1], vertex_[2]);
       if (has_normals_) mesh_.normals.push_back(direction_of({vertex_[3], vertex_[4], vertex_[5]}));
+      if (has_texcoords_) vertex_texcoords_.push_back(texcoord_of(vertex_[6], vertex_[7]));
     } else if (element.kind != Kind::other) {
       ends_.push_back(corners_.size());
+      texcoord_ends_.push_back(corner_texcoords_.size());
       is_strip_.push_back(element.kind == Kind::strip);
     }
+  }
+
+  /// What is no number, or too large for one, is 0: a texture must not spoil a mesh.
+  static glm::vec2 texcoord_of(double u, double v) {
+    const glm::vec2 place(u, v);
+    return std::isfinite(place.x) && std::isfinite(place.y) ? place : glm::vec2(0);
+  }
+
+  void add(std::span<const std::uint32_t> polygon, std::size_t index) {
+    if (!has_texcoords_) return add_polygon(mesh_, polygon);
+    const std::size_t first = index > 0 ? texcoord_ends_[index - 1] : 0;
+    const bool by_corner = texcoord_ends_[index] - first == 2 * polygon.size();
+    polygon_texcoords_.clear();
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      polygon_texcoords_.push_back(
+          by_corner ? texcoord_of(corner_texcoords_[first + 2 * i], corner_texcoords_[first + 2 * i + 1])
+                    : vertex_texcoords_[polygon[i]]);
+    add_polygon(mesh_, polygon, polygon_texcoords_);
   }
 
   void add_list(std::size_t begin, std::size_t end, std::size_t index) {
@@ -207,22 +236,27 @@ private:
       }
       polygon_.push_back(vertex_of(corners_[i], mesh_, what));
       if (!is_strip_[index] || polygon_.size() < 3) continue;
-      add_polygon(mesh_, turned ? std::array{polygon_[1], polygon_[0], polygon_[2]}
-                                : std::array{polygon_[0], polygon_[1], polygon_[2]});
+      add(turned ? std::array{polygon_[1], polygon_[0], polygon_[2]}
+                 : std::array{polygon_[0], polygon_[1], polygon_[2]},
+          index);
       turned = !turned;
       polygon_.erase(polygon_.begin());
     }
-    if (!is_strip_[index]) add_polygon(mesh_, polygon_);
+    if (!is_strip_[index]) add(polygon_, index);
   }
 
   std::string_view rest_;
   std::vector<Element> elements_;
-  bool is_text_ = true, is_reversed_ = false, has_normals_ = false;
-  std::array<double, 6> vertex_{};
-  std::vector<double> corners_;   ///< of all faces and strips
-  std::vector<std::size_t> ends_; ///< of each in corners_
+  bool is_text_ = true, is_reversed_ = false, has_normals_ = false, has_texcoords_ = false;
+  std::array<double, 8> vertex_{};
+  std::vector<glm::vec2> vertex_texcoords_;
+  std::vector<double> corners_;            ///< of all faces and strips
+  std::vector<std::size_t> ends_;          ///< of each in corners_
+  std::vector<double> corner_texcoords_;   ///< of all faces that have them
+  std::vector<std::size_t> texcoord_ends_; ///< of each face and strip in corner_texcoords_
   std::vector<bool> is_strip_;
   std::vector<std::uint32_t> polygon_;
+  std::vector<glm::vec2> polygon_texcoords_;
   RawMesh mesh_;
 };
 

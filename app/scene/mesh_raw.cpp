@@ -43,6 +43,7 @@ void join_vertices(Mesh& mesh) {
   std::vector<std::uint32_t> new_index(mesh.positions.size(), unused);
   Mesh joined;
   joined.middle = mesh.middle;
+  joined.texcoords = std::move(mesh.texcoords);
   for (glm::uvec3 triangle : mesh.triangles) {
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t old = first[triangle[i]];
@@ -198,11 +199,15 @@ std::uint32_t vertex_of(double index, const RawMesh& mesh, const std::string& wh
 }
 
 // Ears are cut off, one after the other (Meisters 1975), from the corner after the last one.
-void add_polygon(RawMesh& mesh, std::span<const std::uint32_t> corners) {
+void add_polygon(RawMesh& mesh, std::span<const std::uint32_t> corners, std::span<const glm::vec2> texcoords) {
   if (corners.size() < 3) return; // a point or a line
   if (mesh.triangles.size() + corners.size() > max_triangles)
     throw std::runtime_error(fmt::format("more than {} triangles", max_triangles));
-  if (corners.size() == 3) return void(mesh.triangles.emplace_back(corners[0], corners[1], corners[2]));
+  const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+    mesh.triangles.emplace_back(corners[a], corners[b], corners[c]);
+    if (!texcoords.empty()) mesh.texcoords.push_back({texcoords[a], texcoords[b], texcoords[c]});
+  };
+  if (corners.size() == 3) return add(0, 1, 2);
   const std::vector<glm::dvec2> flat = flattened(mesh, corners);
   std::vector<std::size_t> left(corners.size()), reflex; // these alone can lie within an ear
   for (std::size_t i = 0, n = left.size(); i < n; ++i) {
@@ -226,7 +231,7 @@ void add_polygon(RawMesh& mesh, std::span<const std::uint32_t> corners) {
       ++misses;
       continue;
     }
-    mesh.triangles.emplace_back(corners[left[at]], corners[left[b]], corners[left[c]]);
+    add(left[at], left[b], left[c]);
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(b));
     if (b < at) --at;
     if (misses < left.size() + 1) misses = 0;
@@ -240,6 +245,7 @@ Mesh finished(RawMesh raw) {
   raw.positions = {};
   mesh.normals = std::move(raw.normals);
   mesh.triangles = std::move(raw.triangles);
+  mesh.texcoords = std::move(raw.texcoords);
   join_vertices(mesh);
   if (close_seams(mesh)) join_vertices(mesh);
   if (!mesh.normals.empty()) mend_normals(mesh);

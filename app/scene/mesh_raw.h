@@ -16,6 +16,7 @@ struct RawMesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::vec3> normals; ///< one a position, unit or (0, 0, 0); or empty
   std::vector<glm::uvec3> triangles;
+  std::vector<Texcoords> texcoords; ///< one a triangle; or empty
 };
 
 RawMesh read_obj(std::string text);
@@ -33,7 +34,8 @@ double coordinate_of(std::string_view word, std::size_t line);
 /// A unit vector; (0, 0, 0) where there is no direction.
 glm::vec3 direction_of(const glm::dvec3& vector);
 /// Cuts a flat polygon, which may be concave, into triangles. corners: indices of mesh.positions, which there are.
-void add_polygon(RawMesh& mesh, std::span<const std::uint32_t> corners);
+/// texcoords: of the corners; none where no triangle of the mesh has any.
+void add_polygon(RawMesh& mesh, std::span<const std::uint32_t> corners, std::span<const glm::vec2> texcoords = {});
 /// Throws where there is no such vertex. what: "face 3", or "line 3".
 std::uint32_t vertex_of(double index, const RawMesh& mesh, const std::string& what);
 

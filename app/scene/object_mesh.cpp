@@ -38,11 +38,11 @@ Mesh transformed(const Mesh& mesh, const Placement& placement, const glm::dvec3&
   for (const glm::vec3& p : mesh.positions) result.positions.emplace_back(placement.linear * glm::dvec3(p) + offset);
   for (const glm::vec3& n : mesh.normals) result.normals.emplace_back(glm::normalize(normal_transform * glm::dvec3(n)));
   result.triangles = mesh.triangles;
+  result.texcoords = mesh.texcoords;
   result.mended_normals = mesh.mended_normals;
   for (const Ellipsoid& ellipsoid : mesh.ellipsoids)
     result.ellipsoids.push_back(transformed(ellipsoid, placement, offset));
-  if (glm::determinant(placement.linear) < 0)
-    for (glm::uvec3& triangle : result.triangles) std::swap(triangle.y, triangle.z);
+  if (glm::determinant(placement.linear) < 0) turn_triangles(result);
   return result;
 }
 

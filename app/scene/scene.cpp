@@ -56,6 +56,7 @@ void append(Scene& scene, const Mesh& mesh) {
   all.normals.insert(all.normals.end(), mesh.normals.begin(), mesh.normals.end());
   for (const glm::uvec3& triangle : mesh.triangles) all.triangles.push_back(triangle + first);
   all.ellipsoids.insert(all.ellipsoids.end(), mesh.ellipsoids.begin(), mesh.ellipsoids.end());
+  all.texcoords.insert(all.texcoords.end(), mesh.texcoords.begin(), mesh.texcoords.end());
 }
 
 /// damaged: what the preset wants done about it. Throws bad_input at the object where that is `refuse`.
@@ -74,12 +75,19 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
                 preset::Scene::DamagedMeshes damaged) {
   const std::string label =
       object.name.empty() ? fmt::format("object {}", scene.objects.size()) : fmt::format("object '{}'", object.name);
-  const bool dielectric = is_body(scene.materials[static_cast<std::size_t>(pending.material)]);
+  const Material& material = scene.materials[static_cast<std::size_t>(pending.material)];
+  const bool dielectric = is_body(material);
   PlacedMesh placed = place(*pending.mesh, pending.placement, scene.origin, dielectric, pending.where);
   for (const std::string& warning : placed.warnings) scene.warnings.push_back(fmt::format("{}: {}", label, warning));
   tell_damages(scene, placed.damages, damaged, label, pending.where);
   if (scene.geometry.triangles.size() + placed.mesh.triangles.size() > max_triangles)
     throw bad_input(pending.where, fmt::format("the scene has more than {} triangles", max_triangles));
+  if (!is_textured(material))
+    placed.mesh.texcoords.clear();
+  else if (placed.mesh.texcoords.size() != placed.mesh.triangles.size() || placed.mesh.triangles.empty())
+    throw bad_input(pending.where, fmt::format("{} has a texture, but no u, v", label),
+                    "expected a mesh with texture coordinates, or a shape that is no sphere",
+                    "unwrap it in another program, or take the texture away");
 
   Object result;
   result.name = object.name;
@@ -92,6 +100,7 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
   result.ellipsoid_count = static_cast<std::uint32_t>(placed.mesh.ellipsoids.size());
   result.bounds = placed.bounds;
   result.closed = placed.closed;
+  result.first_texcoords = static_cast<std::uint32_t>(scene.geometry.texcoords.size());
   append(scene, placed.mesh);
   scene.objects.push_back(result);
 }

@@ -8,8 +8,10 @@
 #include "preset/preset.h"
 #include "scene/environment.h"
 #include "scene/mesh.h"
+#include "scene/texture.h"
 
 #include <limits>
+#include <memory>
 
 namespace nephroid::scene {
 
@@ -28,15 +30,16 @@ struct Material {
   using Type = preset::Material::Type;
   std::string name;
   Type type = Type::diffuse;
-  optics::Spectrum n{};             ///< dielectric, conductor
-  optics::Spectrum k{};             ///< conductor; dielectric: all zero where it does not absorb
-  bool absorbs = false;             ///< dielectric
-  optics::Spectrum reflectance{};   ///< diffuse, mirror; conductor: at normal incidence in air
-  optics::ConductorTerms conductor; ///< conductor
-  optics::Spectrum tint{};          ///< dielectric: the part that passes its surface
-  bool thin = false;                ///< dielectric: a pane without thickness
-  double alpha = 0;                 ///< of GGX; 0: polished
-  double coating_nm = 0;            ///< dielectric: thickness of its coating; 0: none
+  optics::Spectrum n{};                   ///< dielectric, conductor
+  optics::Spectrum k{};                   ///< conductor; dielectric: all zero where it does not absorb
+  bool absorbs = false;                   ///< dielectric
+  optics::Spectrum reflectance{};         ///< diffuse, mirror; conductor: at normal incidence in air
+  std::shared_ptr<const Texture> texture; ///< diffuse: what its reflectance is multiplied by; null: 1
+  optics::ConductorTerms conductor;       ///< conductor
+  optics::Spectrum tint{};                ///< dielectric: the part that passes its surface
+  bool thin = false;                      ///< dielectric: a pane without thickness
+  double alpha = 0;                       ///< of GGX; 0: polished
+  double coating_nm = 0;                  ///< dielectric: thickness of its coating; 0: none
   optics::Spectrum coating_n{};
 };
 
@@ -44,6 +47,8 @@ struct Material {
 inline bool is_body(const Material& material) { return is_refractive(material.type) && !material.thin; }
 
 inline bool is_rough(const Material& material) { return material.alpha > 0; }
+
+inline bool is_textured(const Material& material) { return material.texture != nullptr; }
 
 /// Whether what its surface reflects depends on the wavelength even where n does not.
 inline bool is_coated(const Material& material) { return material.coating_nm > 0; }
@@ -55,8 +60,9 @@ struct Object {
   bool smooth = false; ///< interpolate vertex normals
   std::uint32_t first_triangle = 0, triangle_count = 0;
   std::uint32_t first_ellipsoid = 0, ellipsoid_count = 0;
-  Sphere bounds;      ///< encloses all of it
-  bool closed = true; ///< every edge is shared by exactly two triangles of opposite direction
+  Sphere bounds;                     ///< encloses all of it
+  bool closed = true;                ///< every edge is shared by exactly two triangles of opposite direction
+  std::uint32_t first_texcoords = 0; ///< textured: its first triangle's in Mesh::texcoords
 };
 
 struct Light {
@@ -103,7 +109,8 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<Light> lights; ///< the preset's; after them the environment, where it is one
   std::optional<Environment> environment;
-  Mesh geometry; ///< every object's triangles, one after the other; normals for every vertex
+  Mesh geometry; ///< every object's triangles, one after the other; normals for every vertex; texcoords of textured
+                 ///< objects alone
   std::vector<std::uint32_t> object_of_primitive; ///< the triangles', then the ellipsoids'
   std::vector<std::string> warnings; ///< one line each: open meshes, dropped triangles, extrapolated dispersion
 };

@@ -5,22 +5,35 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace nephroid::scene {
 namespace {
 
 /// Adds a flat convex polygon, counter-clockwise seen from outside, as a fan with vertices and one normal of its own.
+/// A texture fills the rectangle about it. Its up is +y; on a facet that looks up or down its right is +x.
 void add_facet(Mesh& mesh, std::span<const glm::dvec3> corners) {
   // Newell's sum: the polygon's area vector, whichever corners lie close together.
   glm::dvec3 area(0);
   for (std::size_t i = 0; i < corners.size(); ++i) area += glm::cross(corners[i], corners[(i + 1) % corners.size()]);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const glm::dvec3 normal = glm::normalize(area);
+  const glm::dvec3 right =
+      std::abs(normal.y) > 0.999 ? glm::dvec3(1, 0, 0) : glm::normalize(glm::cross({0, 1, 0}, normal));
+  const glm::dmat2x3 axes(right, glm::cross(normal, right));
+  glm::dvec2 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const glm::dvec3& corner : corners) {
     mesh.positions.emplace_back(corner);
-    mesh.normals.emplace_back(glm::normalize(area));
+    mesh.normals.emplace_back(normal);
+    low = glm::min(low, corner * axes);
+    high = glm::max(high, corner * axes);
   }
-  for (std::uint32_t i = 2; i < corners.size(); ++i) mesh.triangles.emplace_back(first, first + i - 1, first + i);
+  const auto texcoord = [&](std::uint32_t i) { return glm::vec2((corners[i] * axes - low) / (high - low)); };
+  for (std::uint32_t i = 2; i < corners.size(); ++i) {
+    mesh.triangles.emplace_back(first, first + i - 1, first + i);
+    mesh.texcoords.push_back({texcoord(0), texcoord(i - 1), texcoord(i)});
+  }
 }
 
 using Quad = std::array<glm::dvec3, 4>;
@@ -84,8 +97,12 @@ Mesh make_cylinder(double radius, double height, int segments) {
   }
   for (int i = 0; i < segments; ++i) {
     const std::uint32_t a = first + 2 * i, b = first + 2 * ((i + 1) % segments);
+    const float u = static_cast<float>(i) / static_cast<float>(segments),
+                next_u = static_cast<float>(i + 1) / static_cast<float>(segments);
     mesh.triangles.emplace_back(a, a + 1, b + 1);
     mesh.triangles.emplace_back(a, b + 1, b);
+    mesh.texcoords.push_back({{{u, 1}, {u, 0}, {next_u, 0}}});
+    mesh.texcoords.push_back({{{u, 1}, {next_u, 0}, {next_u, 1}}});
   }
   return mesh;
 }

@@ -203,6 +203,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       {"NEPHROID_PANES", flag(any(is_pane) || !leave_out.bending)},
       {"NEPHROID_COATINGS", flag(any(scene::is_coated) || !leave_out.bending)},
       {"NEPHROID_ROUGH", flag(any(scene::is_rough) || !leave_out.bending)},
+      {"NEPHROID_TEXTURES", flag(any(scene::is_textured))},
       {"NEPHROID_TINTS", flag(any(is_tinted) || !leave_out.attenuation)},
       // Without materials that attenuate there is one place all the same: the code is compiled and does nothing.
       {"NEPHROID_ATTENUATORS", std::to_string(attenuation ? std::max(attenuators, 1) : 0)},

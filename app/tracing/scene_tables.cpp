@@ -124,6 +124,36 @@ Flux flux_by_rows(const scene::Environment& environment, double floor) {
   return flux;
 }
 
+/// Throws bad_input where they have more texels together than a kernel can number.
+TextureTables make_texture_tables(const scene::Scene& scene, const std::vector<DeviceMaterial>& materials) {
+  constexpr std::size_t most_texels = std::size_t{1} << 30;
+  TextureTables tables;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (materials[i].texture < 0) continue;
+    const scene::Texture& from = *scene.materials[i].texture;
+    const auto place = [&](int axis) {
+      return std::array{static_cast<float>(from.linear[0][axis]), static_cast<float>(from.linear[1][axis]),
+                        static_cast<float>(from.offset[axis])};
+    };
+    const auto u = place(0), v = place(1);
+    tables.textures.push_back({static_cast<std::uint32_t>(tables.texels.size() / 3),
+                               from.width,
+                               from.height,
+                               int(from.wrap),
+                               from.nearest,
+                               {u[0], u[1], u[2]},
+                               {v[0], v[1], v[2]}});
+    tables.texels.insert(tables.texels.end(), from.rgb.begin(), from.rgb.end());
+    if (tables.texels.size() / 3 > most_texels)
+      throw bad_input("scene.materials", fmt::format("have textures of more than {} texels", most_texels), {},
+                      "make them smaller");
+  }
+  for (const scene::Texcoords& corners : scene.geometry.texcoords)
+    for (const glm::vec2& corner : corners)
+      for (int axis = 0; axis < 2; ++axis) tables.texcoords.push_back(corner[axis]);
+  return tables;
+}
+
 /// The object's number and the primitive's kind, as a kernel reads them from a w.
 float tag(int object, int kind) { return std::bit_cast<float>(object << 2 | kind); }
 
@@ -267,7 +297,11 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
       leave_out.unlit_wavelengths ? lit_wavelengths(scene) : std::vector<bool>(optics::wavelength_count, true);
   tables.wavelengths = make_wavelength_tables(scene, lights, clusters, lit, tables.materials);
   tables.stretch = make_stretch_tables(scene, clusters, lit);
-  for (const scene::Object& object : scene.objects) tables.objects.push_back({object.material, object.priority});
+  for (const scene::Object& object : scene.objects)
+    tables.objects.push_back({object.material, object.priority,
+                              static_cast<int>(std::int64_t{object.first_triangle} - object.first_texcoords)});
+  if (!scene.geometry.texcoords.empty())
+    tables.textures = std::make_shared<const TextureTables>(make_texture_tables(scene, tables.materials));
   tables.spheres = scene_targets(leave_out, scene);
   for (const scene::Light* light : lights) {
     add_light(*light, tables.spheres, scene, leave_out, tables);

@@ -39,13 +39,19 @@ struct SkyTables {
   shared::float4 peak_colour{}; ///< mean_colour of that part, less by as much
 };
 
+/// Pictures on surfaces, as kernels/materials/texture.h reads them.
+struct TextureTables {
+  TEXTURE_TABLES(TABLE_VECTOR)
+};
+
 struct SceneTables {
   shared::DeviceScene scene{}; ///< complete but for `root`, which is the tree's
   shared::DeviceCamera camera{};
   OBJECT_TABLES(TABLE_VECTOR)
   TARGET_TABLES(TABLE_VECTOR)
-  std::vector<scene::Sphere> spheres;   ///< the targets of all lights together
-  std::shared_ptr<const SkyTables> sky; ///< null where the environment is no light; large, so copies share it
+  std::vector<scene::Sphere> spheres;            ///< the targets of all lights together
+  std::shared_ptr<const SkyTables> sky;          ///< null where the environment is no light; large, so copies share it
+  std::shared_ptr<const TextureTables> textures; ///< null where there are none; large, so copies share it
   WavelengthTables wavelengths;
   StretchTables stretch;                 ///< for the clusters of `wavelengths`
   std::vector<double> towards_targets_w; ///< [light]: power that it sends towards its targets, all wavelengths

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/wavelength_tables.h"
 
+#include "optics/primary_reflectances.h"
 #include "optics/spectrum.h"
 #include "tracing/scales.h"
 #include "tracing/scene_tables.h"
@@ -61,6 +62,12 @@ int add_conductor(WavelengthTables& tables, const scene::Material& metal) {
   return first;
 }
 
+/// Adds a row of reflectances and returns its number.
+int add_reflector(WavelengthTables& tables, const Spectrum& reflectance) {
+  tables.reflectance.insert(tables.reflectance.end(), reflectance.begin(), reflectance.end());
+  return tables.reflector_count++;
+}
+
 /// The row of what roughness takes, which all materials share.
 int masking_row(WavelengthTables& tables, std::span<const shared::DeviceMaterial> before) {
   for (const shared::DeviceMaterial& material : before)
@@ -72,7 +79,8 @@ int masking_row(WavelengthTables& tables, std::span<const shared::DeviceMaterial
 void add_material_rows(const scene::Scene& scene, WavelengthTables& tables,
                        std::vector<shared::DeviceMaterial>& materials) {
   const std::vector<bool> used = used_materials(scene);
-  materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, -1, -1, 0, 0, 0, -1});
+  materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, -1, -1, 0, 0, 0, -1, -1});
+  int textures = 0;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const scene::Material& material = scene.materials[i];
     shared::DeviceMaterial& row = materials[i];
@@ -83,8 +91,13 @@ void add_material_rows(const scene::Scene& scene, WavelengthTables& tables,
     const int surface_first = static_cast<int>(tables.surface_data.size());
     switch (material.type) {
     case MaterialType::diffuse:
-      row.reflector = tables.reflector_count++;
-      tables.reflectance.insert(tables.reflectance.end(), material.reflectance.begin(), material.reflectance.end());
+      row.reflector = add_reflector(tables, material.reflectance);
+      if (!is_textured(material)) break;
+      row.texture = textures++;
+      for (Spectrum primary : optics::primary_reflectances()) {
+        for (std::size_t w = 0; w < primary.size(); ++w) primary[w] *= material.reflectance[w];
+        add_reflector(tables, primary);
+      }
       break;
     case MaterialType::mirror: row.attenuator = add_loss(tables, loss_at_surface(material)); break;
     case MaterialType::conductor:

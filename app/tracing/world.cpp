@@ -33,6 +33,14 @@ std::uint64_t sky_bytes(const SceneTables& tables) {
   return bytes;
 }
 
+std::uint64_t texture_bytes(const SceneTables& tables) {
+  if (!tables.textures) return 0;
+  const TextureTables& from = *tables.textures;
+  std::uint64_t bytes = 0;
+  TEXTURE_TABLES(ADD_BYTES)
+  return bytes;
+}
+
 std::uint64_t tree_bytes(const scene::Bvh& bvh) { return bytes_of(bvh.nodes) + bytes_of(bvh.blocks); }
 
 std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh,
@@ -42,6 +50,7 @@ std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, cons
                                         {"objects and lights", object_bytes(tables)},
                                         {"wavelength tables", wavelength_bytes(tables)}};
   if (tables.sky) rows.push_back({"environment as a light", sky_bytes(tables)});
+  if (tables.textures) rows.push_back({"textures", texture_bytes(tables)});
   return rows;
 }
 
@@ -59,6 +68,7 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   SceneBuffers buffers;
   upload_surfaces(context, scene, bvh, buffers);
   static const SkyTables no_sky;
+  static const TextureTables no_textures;
   const auto upload_objects = [&](const SceneTables& from) { OBJECT_TABLES(UPLOAD) TARGET_TABLES(UPLOAD) };
   const auto upload_wavelengths = [&](const WavelengthTables& from) { WAVELENGTH_TABLES(UPLOAD) COLOUR_TABLES(UPLOAD) };
   const auto upload_stretch = [&](const StretchTables& from) { STRETCH_TABLES(UPLOAD) };
@@ -67,6 +77,8 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   upload_wavelengths(tables.wavelengths);
   upload_stretch(tables.stretch);
   upload_sky(tables.sky ? *tables.sky : no_sky);
+  const auto upload_textures = [&](const TextureTables& from) { TEXTURE_TABLES(UPLOAD) };
+  upload_textures(tables.textures ? *tables.textures : no_textures);
   return buffers;
 }
 

@@ -22,9 +22,10 @@ struct SceneBuffers {
 #undef TABLE_BUFFER
 };
 
-/// Bytes of a scene's tree, and of its environment as a light.
+/// Bytes of a scene's tree, of its environment as a light, and of its textures.
 std::uint64_t tree_bytes(const scene::Bvh& bvh);
 std::uint64_t sky_bytes(const SceneTables& tables);
+std::uint64_t texture_bytes(const SceneTables& tables);
 
 /// The plan's rows of what `upload` allocates.
 std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh,

@@ -133,7 +133,7 @@ kernel void attenuated(global const int* first, global const int* wavelengths, g
                                  .reflectance = reflectance};
   Losses losses = no_losses();
   lose(&losses, in[i].w, lengths[i]);
-  out[i] = attenuated_sum(&tables, &losses, in[i].x, in[i].y, in[i].z);
+  out[i] = attenuated_sum(&tables, &losses, in[i].x, in[i].y, reflector_of_row(in[i].z));
 }
 
 // out: for photon i of a light origin and watts, then direction.

@@ -26,7 +26,7 @@ static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, 
   const float scale =
       trace_to_diffuse(world, &path, &hit, known, band, seed, sample, 0u, pixel, STREAM_SEE, likelier, &surface);
   if (scale == 0.0f) return end;
-  const float3 throughput = scale * wavelength_left(&world->tables, &path.losses, max(band->wavelength, 0)) * weight;
+  float3 throughput = scale * wavelength_left(&world->tables, &path.losses, max(band->wavelength, 0)) * weight;
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
     end.throughput = (float4)(throughput, (float)END_SKY);
     end.place = (float4)(path.direction, 0.0f);
@@ -37,6 +37,10 @@ static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, 
     return end;
   }
   const float side = dot(path.direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
+#if NEPHROID_TEXTURES // in the three colours of engine 2; the photons have its spectra
+  const Reflector reflector = reflector_at(world, &surface, hit.primitive);
+  if (reflector.is_textured) throughput *= reflector.rgb;
+#endif
   end.throughput = (float4)(throughput, (float)END_SURFACE);
   end.place = (float4)(surface.position, surface.offset);
   end.geometric = (float4)(side * surface.geometric, as_float(hit.primitive));

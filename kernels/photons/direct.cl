@@ -7,7 +7,7 @@
 #include "kernels/tracing/work_item.h"
 
 // The XYZ radiance that a diffuse surface sends back along the path.
-IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, int reflector,
+IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, Reflector reflector,
                       const Band* band, __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   const uint paths = band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS;
@@ -15,16 +15,17 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
     if (is_of_environment(world, l)) {
       const float3 rgb = sky_irradiance(world, l, path, surface, triangle, seed, sample, paths, pixel);
       const Source sky = {l, rgb / PI_F};
-      __global const float4* all = reflected_xyz_all + l * world->scene.reflector_count + reflector;
-      xyz += band->cluster < 0 ? sky.rgb.x * all[0].xyz + sky.rgb.y * all[world->scene.reflector_count].xyz +
-                                     sky.rgb.z * all[2 * world->scene.reflector_count].xyz
+      __global const float4* all = reflected_xyz_all + l * world->scene.reflector_count;
+      xyz += band->cluster < 0 ? sky.rgb.x * mixed_reflected(all, reflector).xyz +
+                                     sky.rgb.y * mixed_reflected(all + world->scene.reflector_count, reflector).xyz +
+                                     sky.rgb.z * mixed_reflected(all + 2 * world->scene.reflector_count, reflector).xyz
                                : carried_light(world, &path->losses, sky, band, reflector).xyz;
       continue;
     }
     const float irradiance = irradiance_of(world, l, path, surface, triangle, seed, sample, paths, pixel);
     if (irradiance == 0.0f) continue;
     const Source lamp = {l, (float3)(1.0f)};
-    const float3 reflected = band->cluster < 0 ? reflected_xyz_all[l * world->scene.reflector_count + reflector].xyz
+    const float3 reflected = band->cluster < 0 ? mixed_reflected(reflected_xyz_all + l * world->scene.reflector_count, reflector).xyz
                                                : carried_light(world, &path->losses, lamp, band, reflector).xyz;
     xyz += reflected * (irradiance / PI_F);
   }
@@ -40,7 +41,7 @@ IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* ban
       reach_diffuse(world, &path, &first, band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel,
                     STREAM_CAMERA, &surface, &shine);
   if (radiance_scale == 0.0f) return shine;
-  const int reflector = material_of(world, surface.object).reflector;
+  const Reflector reflector = reflector_at(world, &surface, first.primitive);
   return shine + radiance_scale *
          shade(world, &path, &surface, first.primitive, reflector, band, reflected_xyz_all, seed, sample, pixel);
 }

@@ -80,7 +80,7 @@ __kernel void even_sky(WORLD_ARGUMENTS, __global const DeviceTarget* targets, in
     const float3 irradiance =
         even_irradiance(&world, &light, targets, &way, &surface, end.primitive, &band, seed, sample, pixel);
     const Source sky = {light_index, irradiance};
-    xyz += carried_light(&world, &way.losses, sky, &band, material_of(&world, surface.object).reflector).xyz *
+    xyz += carried_light(&world, &way.losses, sky, &band, reflector_at(&world, &surface, end.primitive)).xyz *
            (radiance_scale / (PI_F * (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)BOUNCES));
   }
   add_sample(film, energy, &camera, pixel, frame, xyz, film_scale, limit_of_sample(frame, enough, film_limit),

@@ -30,8 +30,8 @@ static inline void divide(Walk* walk) {
   for (int i = 1; i < BANDS; ++i) walk->throughput[i] = 0.0f;
 }
 
-// The XYZ that a path brings of light, as a reflector (-1: white) sends it.
-static inline float3 brought(const World* world, const Walk* walk, Source source, int reflector) {
+// The XYZ that a path brings of light, as a reflector sends it.
+static inline float3 brought(const World* world, const Walk* walk, Source source, Reflector reflector) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   ROLLED
   for (int i = 0; i < BANDS; ++i)
@@ -41,8 +41,8 @@ static inline float3 brought(const World* world, const Walk* walk, Source source
 }
 
 // Of the unbent light at a diffuse surface. narrow: of narrow spots, too. numbers: the pixel in random numbers.
-IN_PLACE float3 unbent_light(const World* world, const Walk* walk, const Surface* surface, uint triangle, int reflector,
-                             bool narrow, uint2 seed, uint sample, uint paths, uint numbers) {
+IN_PLACE float3 unbent_light(const World* world, const Walk* walk, const Surface* surface, uint triangle,
+                             Reflector reflector, bool narrow, uint2 seed, uint sample, uint paths, uint numbers) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {
     if (is_of_environment(world, l)) {
@@ -66,18 +66,18 @@ static inline float3 even_light(const World* world, const Walk* walk) {
   for (int l = 0; l < world->scene.light_count; ++l) {
     if (!is_of_environment(world, l)) continue;
     const Source sky = {l, world->lights[l].radiometric * even_radiance(&world->sky, walk->path.direction)};
-    return brought(world, walk, sky, -1);
+    return brought(world, walk, sky, white_reflector());
   }
   return (float3)(0.0f);
 }
 
 // Scatters a path at a diffuse surface. False: it ends there. random.z: decides that by what is left of its light.
-static inline bool scatter(const World* world, Walk* walk, const Surface* surface, uint triangle, int reflector,
+static inline bool scatter(const World* world, Walk* walk, const Surface* surface, uint triangle, Reflector reflector,
                            bool may_end, float4 random) {
   const float side = dot(walk->path.direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   float most = 0.0f;
   for (int i = 0; i < BANDS; ++i) {
-    walk->throughput[i] *= world->tables.reflectance[reflector * WAVELENGTH_COUNT + walk->bands[i].wavelength];
+    walk->throughput[i] *= reflectance_of(&world->tables, reflector, walk->bands[i].wavelength);
     most = fmax(most, walk->throughput[i]);
   }
   const float chance = may_end ? fmin(most, 1.0f) : 1.0f;
@@ -104,14 +104,15 @@ IN_PLACE float3 follow(const World* world, Walk* walk, Hit hit, bool narrow, uin
     const DeviceMaterial material = material_of(world, surface.object);
     lose_in_medium(world, &walk->path, hit.t);
     const bool is_diffuse = material.type == MATERIAL_DIFFUSE;
+    const Reflector reflector = is_diffuse ? reflector_at(world, &surface, hit.primitive) : white_reflector();
     if (is_diffuse && scatterings > 0u)
-      xyz += unbent_light(world, walk, &surface, hit.primitive, material.reflector, narrow, seed, sample, paths,
+      xyz += unbent_light(world, walk, &surface, hit.primitive, reflector, narrow, seed, sample, paths,
                           pixel + 0x9e3779b9u * scatterings);
     if (surface_number == world->scene.max_surfaces) return xyz;
     const float4 random =
         eye_numbers(seed, sample, surface_number < 2 ? paths : 0u, pixel, 1u + (uint)surface_number, STREAM_INDIRECT);
     if (is_diffuse) {
-      if (!scatter(world, walk, &surface, hit.primitive, material.reflector, scatterings > 0u, random)) return xyz;
+      if (!scatter(world, walk, &surface, hit.primitive, reflector, scatterings > 0u, random)) return xyz;
       ++scatterings;
       is_bent = false;
       continue;

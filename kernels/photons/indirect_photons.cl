@@ -35,7 +35,7 @@ static inline Source light_of(const Photon* photon) {
 
 // Adds a photon's light, reflected by a diffuse surface, to the pixel that sees it. False where the film refused it.
 static inline bool show(const World* world, const Receiver* receiver, const Photon* photon, const Surface* surface,
-                        uint triangle, int reflector, float dither) {
+                        uint triangle, Reflector reflector, float dither) {
   const Splat splat = splat_at(world, &receiver->camera, surface, triangle, photon->path.direction);
   if (splat.pixel < 0) return true;
   const Band band = band_of(photon);
@@ -61,11 +61,12 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
     const Band band = band_of(photon);
     if (material.type == MATERIAL_DIFFUSE) {
       if (!counts) return OUTCOME_MISSED;
-      if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, material.reflector, random.w))
+      const Reflector reflector = reflector_at(world, &surface, hit.primitive);
+      if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, reflector, random.w))
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
       met_diffuse = true;
       photon->shading *= shading_ratio(&surface, path->direction);
-      if (random.x >= world->tables.reflectance[material.reflector * WAVELENGTH_COUNT + band.wavelength])
+      if (random.x >= reflectance_of(&world->tables, reflector, band.wavelength))
         return OUTCOME_ABSORBED;
       const float side = dot(path->direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
       path->direction = cosine_direction(side * surface.geometric, random.y, random.z);

@@ -153,7 +153,7 @@ COMPILED_ONCE PhotonEnd trace_photon(const World* world, Source source, const Ba
   PhotonEnd end = trace_way(world, band, path, seed, iteration, photon);
   const bool deposited = end.outcome == OUTCOME_DEPOSITED;
   if (deposited || path->losses.any) {
-    const int reflector = deposited ? material_of(world, end.surface.object).reflector : -1;
+    const Reflector reflector = deposited ? reflector_at(world, &end.surface, end.triangle) : white_reflector();
     const float4 carried = carried_light(world, &path->losses, source, band, reflector);
     end.xyz = carried.xyz;
     if (path->losses.any)

@@ -150,19 +150,24 @@ COMPILED_ONCE bool strand_of(const World* world, const PhotonEnd* end, const Pat
   float turned = u + (float)i / (float)stretch->count;
   turned = turned < 1.0f ? turned : turned - 1.0f;
   float x;
-  if (stretch->whole) {
-    const Band wavelength = stretched_band(world, source.light, band, turned, &x);
-    const int reflector = material_of(world, end->surface.object).reflector;
-    strand->xyz = carried_light(world, &path->losses, source, &wavelength, reflector).xyz;
-  } else
+  Band wavelength = *band;
+  if (stretch->whole)
+    wavelength = stretched_band(world, source.light, band, turned, &x);
+  else
     x = place_in_tent(world, band->wavelength, turned, stretch_origin(world, band));
-  strand->xyz /= (float)stretch->count;
   float3 place;
   if (!stretched_place(path, &end->surface, x, &place)) return false;
   strand->surface.position = place;
-  if (!stretch->beside || is_in_triangle(&world->geometry, end->triangle, place)) return true;
-  const float side = dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f;
-  return surface_beside(world, end, side, place, &strand->surface, &strand->triangle);
+  if (stretch->beside && !is_in_triangle(&world->geometry, end->triangle, place)) {
+    const float side = dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f;
+    if (!surface_beside(world, end, side, place, &strand->surface, &strand->triangle)) return false;
+  }
+  if (NEPHROID_TEXTURES || stretch->whole) {
+    const Reflector reflector = reflector_at(world, &strand->surface, strand->triangle);
+    strand->xyz = carried_light(world, &path->losses, source, &wavelength, reflector).xyz;
+  }
+  strand->xyz /= (float)stretch->count;
+  return true;
 #else
   return true;
 #endif

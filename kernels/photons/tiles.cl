@@ -48,19 +48,20 @@ static inline bool is_followed(float weight, uint2 point, float u, int* level, f
 #if NEPHROID_DIFFERENTIALS
 // The light of the part 0 .. u of a cluster's distribution of wavelengths, in a row of the tables of lights.
 static inline float3 light_before(const World* world, __global const float4* reflected_before,
-                                  __global const float* cdf, int row, int reflector, int first, int count, float u) {
+                                  __global const float* cdf, int row, Reflector reflector, int first, int count,
+                                  float u) {
   u = fmin(u, 0x1.fffffep-1f);
   const int member = choose(cdf, count, u), members = world->tables.cluster_first[world->scene.cluster_count];
   const int wavelength = world->tables.cluster_wavelengths[first + member];
   const float before = chance_before(cdf, member), part = (u - before) / (cdf[member] - before);
-  return reflected_before[(row * world->scene.reflector_count + reflector) * members + first + member].xyz +
-         part * world->tables.reflectance[reflector * WAVELENGTH_COUNT + wavelength] *
+  return reflected_before[(row * world->scene.reflector_count + reflector.row) * members + first + member].xyz +
+         part * reflectance_of(&world->tables, reflector, wavelength) *
              world->tables.light_xyz[row * WAVELENGTH_COUNT + wavelength].xyz;
 }
 
 // The light of the part low .. high of a cluster's distribution of wavelengths, as PhotonEnd's xyz.
 static inline float3 light_of_part(const World* world, __global const float4* reflected_before, const Losses* losses,
-                                   Source source, int cluster, int reflector, float low, float high) {
+                                   Source source, int cluster, Reflector reflector, float low, float high) {
   const int first = world->tables.cluster_first[cluster], count = world->tables.cluster_first[cluster + 1] - first;
   __global const float* cdf =
       world->tables.wavelength_cdf + source.light * world->tables.cluster_first[world->scene.cluster_count] + first;
@@ -145,7 +146,7 @@ COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, 
   Strand strand = {end->surface, end->triangle, end->xyz};
   Stretch sweep = {1, true, false};
 #if NEPHROID_DIFFERENTIALS
-  const int reflector = material_of(world, end->surface.object).reflector;
+  const Reflector reflector = reflector_at(world, &end->surface, end->triangle);
   float from_x, to_x;
   stretched_band(world, source.light, band, lattice->low, &from_x);
   stretched_band(world, source.light, band, fmin(lattice->high, 0x1.fffffep-1f), &to_x);
@@ -322,7 +323,8 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
         const bool deposited = end.outcome == OUTCOME_DEPOSITED;
         end.left = 1.0f;
         if (deposited || branch.path.losses.any) {
-          const int reflector = deposited ? material_of(&world, end.surface.object).reflector : -1;
+          const Reflector reflector =
+              deposited ? reflector_at(&world, &end.surface, end.triangle) : white_reflector();
           const float4 carried = carried_light(&world, &branch.path.losses, source, &whole, reflector);
           end.xyz = carried.xyz;
           if (branch.path.losses.any && power_share != 0.0f) end.left = carried.w / power_share;

@@ -9,7 +9,7 @@
 // has its own. Photons of a whole cluster carry a sum over its wavelengths, to which losses can no longer be applied
 // one by one. They get the mean over the cluster, weighted by the lights as the surface reflects them; that is exact
 // where no photon has had losses of its own.
-static inline float3 transmittance(const World* world, const Losses* losses, const Band* band, int reflector) {
+static inline float3 transmittance(const World* world, const Losses* losses, const Band* band, Reflector reflector) {
   float3 part = (float3)(1.0f);
 #if NEPHROID_ATTENUATORS > 0
   if (!losses->any) return part;
@@ -43,7 +43,7 @@ COMPILED_ONCE VisiblePoint see(const World* world, Path path, Hit hit, const Ban
   Surface surface;
   const float radiance_scale = reach_diffuse(world, &path, &hit, band, seed, sample, 0u, pixel, STREAM_VIEW, &surface);
   if (radiance_scale == 0.0f) return point;
-  const int reflector = material_of(world, surface.object).reflector;
+  const Reflector reflector = reflector_at(world, &surface, hit.primitive);
   point.position = (float4)(surface.position, 0.0f);
   point.normal = (float4)(surface.geometric, 0.0f);
   point.throughput = (float4)(weight * radiance_scale * transmittance(world, &path.losses, band, reflector), 0.0f);

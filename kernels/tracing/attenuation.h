@@ -5,14 +5,11 @@
 // Without losses NEPHROID_ATTENUATORS is 0 and this compiles to nothing.
 #include "kernels/tracing/registers.h"
 #include "kernels/tracing/scene_table_types.h"
+#include "kernels/tracing/reflector.h"
 
 #ifndef NEPHROID_ATTENUATORS
 #define NEPHROID_ATTENUATORS 1
 #endif
-
-typedef struct {
-  WAVELENGTH_TABLES(TABLE_MEMBER)
-} SpectralTables;
 
 typedef struct {
 #if NEPHROID_ATTENUATORS > 0
@@ -56,16 +53,15 @@ static inline float wavelength_left(const SpectralTables* tables, const Losses* 
 #endif
 }
 
-// xyz: the sum over the cluster's wavelengths of light * part left * reflectance (1 for reflector -1) * (xbar, ybar,
-// zbar). w: the sum of light * part left, which is the share of the light's power that is left.
+// xyz: the sum over the cluster's wavelengths of light * part left * reflectance * (xbar, ybar, zbar). w: the sum of light * part left, which is the share of the light's power that is left.
 static inline float4 attenuated_sum(const SpectralTables* tables, const Losses* losses, int light, int cluster,
-                                    int reflector) {
+                                    Reflector reflector) {
   float4 sum = (float4)(0.0f);
   cluster = made_late(cluster);
   for (int i = tables->cluster_first[cluster]; i < tables->cluster_first[cluster + 1]; ++i) {
     const int wavelength = tables->cluster_wavelengths[i];
     const float4 light_xyz = tables->light_xyz[light * WAVELENGTH_COUNT + wavelength];
-    const float reflectance = reflector < 0 ? 1.0f : tables->reflectance[reflector * WAVELENGTH_COUNT + wavelength];
+    const float reflectance = reflectance_of(tables, reflector, wavelength);
     sum += wavelength_left(tables, losses, wavelength) * (float4)(light_xyz.xyz * reflectance, light_xyz.w);
   }
   return sum;

@@ -48,6 +48,12 @@
   TABLE(float, texel_cdf, "environment as a light, choice of a texel") \
   TABLE(float, texel_colour, "environment as a light") /* [row][column][3]: linear sRGB of a texel over grey */
 
+// Pictures on surfaces: materials/texture.h. Empty where there are none.
+#define TEXTURE_TABLES(TABLE) \
+  TABLE(DeviceTexture, textures, "textures") \
+  TABLE(ushort, texels, "texels of textures") /* [texel][3]: half floats, linear sRGB */ \
+  TABLE(float, texcoords, "texture coordinates") /* [triangle of textured objects][corner][2] */
+
 // Tables that only some kernels read, as arguments of their own.
 #define TARGET_TABLES(TABLE) \
   TABLE(DeviceTarget, targets, "targets") /* lists: DeviceLight::first_target */
@@ -59,7 +65,8 @@
 
 // Tables that every kernel of the scene reads: WORLD_ARGUMENTS.
 #define WORLD_TABLES(TABLE) \
-  GEOMETRY_TABLES(TABLE) OBJECT_TABLES(TABLE) WAVELENGTH_TABLES(TABLE) STRETCH_TABLES(TABLE) SKY_TABLES(TABLE)
+  GEOMETRY_TABLES(TABLE) OBJECT_TABLES(TABLE) WAVELENGTH_TABLES(TABLE) STRETCH_TABLES(TABLE) SKY_TABLES(TABLE) \
+  TEXTURE_TABLES(TABLE)
 #define SCENE_TABLES(TABLE) WORLD_TABLES(TABLE) TARGET_TABLES(TABLE) COLOUR_TABLES(TABLE)
 
 // clang-format on

@@ -9,6 +9,7 @@
 namespace nephroid::shared {
 using uint = std::uint32_t;
 using ulong = std::uint64_t;
+using ushort = std::uint16_t;
 struct alignas(16) float4 {
   float x, y, z, w;
 };
@@ -61,7 +62,7 @@ struct alignas(8) uint2 {
 
 typedef struct {
   int type;            // MATERIAL_*
-  int reflector;       // diffuse: row of the reflectance tables
+  int reflector;       // diffuse: row of the reflectance tables; with a texture its red, green and blue rows follow
   int attenuator;      // absorbing dielectric, mirror, metal: (first) row of the attenuation table; -1: none
   int tint;            // dielectric: row of the attenuation table for what passes its surface; -1: none
   int surface_first;   // metal, coated dielectric: its first item in the table surface_data; -1: none
@@ -69,12 +70,28 @@ typedef struct {
   int is_thin;         // dielectric: a pane without thickness
   float alpha;         // of GGX (materials/rough.h); 0: polished
   int masking;         // rough: row of the attenuation table, 1 at all wavelengths
+  int texture;         // diffuse: number of its texture (materials/texture.h); -1: none
 } DeviceMaterial;
 
 typedef struct {
   int material;
   int priority;
+  int texcoords; // textured: its triangles' numbers less those of their texcoords
 } DeviceObject;
+
+// The preset's words for what is beyond a texture's edges.
+#define WRAP_REPEAT 0
+#define WRAP_MIRROR 1
+#define WRAP_CLAMP 2
+
+// A picture on a surface: materials/texture.h.
+typedef struct {
+  uint first;        // of its texels in the table
+  int width, height;
+  int wrap;          // WRAP_*
+  int nearest;       // 1: texels have edges; 0: bilinear
+  float u[3], v[3];  // a place in it: u[0] * u + u[1] * v + u[2] of a triangle's u and v
+} DeviceTexture;
 
 // The dielectric objects that enclose a point, each as its number + 1 in MEDIUM_BITS: media.h.
 typedef struct {
@@ -167,10 +184,10 @@ typedef struct {
 } DeviceScene;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DeviceMaterial) == 36 && sizeof(DeviceObject) == 8 && sizeof(Media) == 16);
+static_assert(sizeof(DeviceMaterial) == 40 && sizeof(DeviceObject) == 12 && sizeof(Media) == 16);
 static_assert(sizeof(DeviceLight) == 112 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
 static_assert(sizeof(DeviceCamera) == 112 && sizeof(DeviceScene) == 52 && sizeof(DeviceBackground) == 16);
-static_assert(sizeof(DevicePrimitive) == 64);
+static_assert(sizeof(DevicePrimitive) == 64 && sizeof(DeviceTexture) == 44);
 } // namespace nephroid::shared
 #endif
 

@@ -30,13 +30,15 @@ typedef struct {
   SpectralTables tables;
   STRETCH_TABLES(TABLE_MEMBER)
   Sky sky; // empty where no environment is a light
+  TEXTURE_TABLES(TABLE_MEMBER)
   DeviceScene scene;
 } World;
 
 #define WORLD_ARGUMENTS WORLD_TABLES(TABLE_ARGUMENT) DeviceScene scene
 #define WORLD \
   {{GEOMETRY_TABLES(TABLE_VALUE) scene.root}, OBJECT_TABLES(TABLE_VALUE) {WAVELENGTH_TABLES(TABLE_VALUE)}, \
-   STRETCH_TABLES(TABLE_VALUE) {SKY_TABLES(TABLE_VALUE) scene.sky_size}, scene}
+   STRETCH_TABLES(TABLE_VALUE) {SKY_TABLES(TABLE_VALUE) scene.sky_size}, \
+   TEXTURE_TABLES(TABLE_VALUE) scene}
 
 // 1: paths carry how they move with the place in the lattice or in the pixel that they start from.
 #ifndef NEPHROID_PLACE_DIFFERENTIALS
@@ -88,6 +90,8 @@ static inline bool is_blocked(const World* world, float3 from, float3 direction,
 static inline DeviceMaterial material_of(const World* world, int object) {
   return world->materials[world->objects[object].material];
 }
+
+#include "kernels/materials/texture.h"
 
 // Adds the absorption of the medium that the path crosses up to its next hit, `distance` from its origin.
 static inline void lose_in_medium(const World* world, Path* path, float distance) {
@@ -266,27 +270,28 @@ static inline bool is_of_environment(const World* world, int light) {
 }
 
 // carried_light of one row of the tables of lights.
-static inline float4 carried_row(const World* world, const Losses* losses, int light, const Band* band, int reflector) {
+static inline float4 carried_row(const World* world, const Losses* losses, int light, const Band* band,
+                                 Reflector reflector) {
 #if NEPHROID_JITTER || NEPHROID_DIFFERENTIALS
   if (band->wavelength >= 0) {
     const int wavelength = made_late(band->wavelength);
     const float left = wavelength_left(&world->tables, losses, wavelength) * band->weight;
-    const float reflectance =
-        reflector < 0 ? 1.0f : world->tables.reflectance[reflector * WAVELENGTH_COUNT + wavelength];
+    const float reflectance = reflectance_of(&world->tables, reflector, wavelength);
     const float4 light_xyz = world->tables.light_xyz[light * WAVELENGTH_COUNT + wavelength];
     return left * (float4)(reflectance * light_xyz.xyz, light_xyz.w);
   }
 #endif
 #if NEPHROID_ATTENUATORS > 0
-  if (losses->any || reflector < 0) return attenuated_sum(&world->tables, losses, light, band->cluster, reflector);
+  if (losses->any || is_white(reflector)) return attenuated_sum(&world->tables, losses, light, band->cluster, reflector);
 #endif
-  return world->tables
-      .reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->scene.reflector_count + reflector];
+  return mixed_reflected(world->tables.reflected_xyz + (light * world->scene.cluster_count + band->cluster) *
+                                                           world->scene.reflector_count,
+                         reflector);
 }
 
-// What a path carries of a light of power 1 after its losses. w: the power. xyz: as a reflector (-1: white) sends it.
-IN_PLACE float4 carried_light(const World* world, const Losses* losses, Source source, const Band* band, int reflector)
-{
+// What a path carries of a light of power 1 after its losses. w: the power. xyz: as a reflector sends it.
+IN_PLACE float4 carried_light(const World* world, const Losses* losses, Source source, const Band* band,
+                              Reflector reflector) {
   if (is_of_environment(world, source.light))
     return source.rgb.x * carried_row(world, losses, source.light, band, reflector) +
            source.rgb.y * carried_row(world, losses, source.light + 1, band, reflector) +
@@ -301,7 +306,7 @@ static inline float row_share(const World* world, int light, const Band* band) {
     return band->weight * world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength].w;
 #endif
   const Losses none = no_losses();
-  return attenuated_sum(&world->tables, &none, light, band->cluster, -1).w;
+  return attenuated_sum(&world->tables, &none, light, band->cluster, white_reflector()).w;
 }
 
 // The share of a light's power that a band begins with. cluster_share: a lamp's share in the whole cluster.

@@ -2,8 +2,8 @@
 // nephroid_mesh_reader FILE CPU_SECONDS MEMORY_BYTES: the only program that links Assimp. It is one of its own because
 // corrupt files make Assimp crash, loop for ever or ask for all memory: Assimp 5.2's PLY and glTF readers overrun the
 // stack on some. The answer on standard output: why the file is refused (empty: it is not), positions, normals,
-// triangles, one number, of the mended normals, and the three of the middle; each as its 64-bit count and then the
-// items, as they lie in memory. OBJ, PLY and STL are read by mesh_raw.h, for Assimp has single precision.
+// triangles, texcoords, one number, of the mended normals, and the three of the middle; each as its 64-bit count and
+// then the items, as they lie in memory. OBJ, PLY and STL are read by mesh_raw.h, for Assimp has single precision.
 #include "base/lower_case.h"
 #include "scene/mesh_parts.h"
 #include "scene/mesh_raw.h"
@@ -52,7 +52,7 @@ void check(const aiScene& scene) {
   }
 }
 
-void append(RawMesh& mesh, const aiMesh& part, const glm::dmat4& transform, bool with_normals) {
+void append(RawMesh& mesh, const aiMesh& part, const glm::dmat4& transform, bool with_normals, bool with_texcoords) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   if (std::uint64_t{first} + part.mNumVertices > 3 * max_triangles ||
       mesh.triangles.size() + part.mNumFaces > max_triangles)
@@ -74,15 +74,26 @@ void append(RawMesh& mesh, const aiMesh& part, const glm::dmat4& transform, bool
   for (unsigned f = 0; f < part.mNumFaces; ++f) {
     const aiFace& face = part.mFaces[f];
     if (face.mNumIndices != 3) continue; // a point or a line
-    const glm::uvec3 triangle{face.mIndices[0], face.mIndices[1], face.mIndices[2]};
-    mesh.triangles.push_back(first + (mirrored ? glm::uvec3(triangle.x, triangle.z, triangle.y) : triangle));
+    glm::uvec3 triangle{face.mIndices[0], face.mIndices[1], face.mIndices[2]};
+    if (mirrored) std::swap(triangle.y, triangle.z);
+    mesh.triangles.push_back(first + triangle);
+    if (!with_texcoords) continue;
+    Texcoords& texcoords = mesh.texcoords.emplace_back();
+    for (int corner = 0; part.HasTextureCoords(0) && corner < 3; ++corner) {
+      const aiVector3D& place = part.mTextureCoords[0][triangle[corner]];
+      if (std::isfinite(place.x) && std::isfinite(place.y))
+        texcoords[static_cast<std::size_t>(corner)] = {place.x, place.y};
+    }
   }
 }
 
-void append(RawMesh& mesh, const aiScene& scene, const aiNode& node, const glm::dmat4& parent, bool with_normals) {
+void append(RawMesh& mesh, const aiScene& scene, const aiNode& node, const glm::dmat4& parent, bool with_normals,
+            bool with_texcoords) {
   const glm::dmat4 transform = parent * to_glm(node.mTransformation);
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) append(mesh, *scene.mMeshes[node.mMeshes[i]], transform, with_normals);
-  for (unsigned i = 0; i < node.mNumChildren; ++i) append(mesh, scene, *node.mChildren[i], transform, with_normals);
+  for (unsigned i = 0; i < node.mNumMeshes; ++i)
+    append(mesh, *scene.mMeshes[node.mMeshes[i]], transform, with_normals, with_texcoords);
+  for (unsigned i = 0; i < node.mNumChildren; ++i)
+    append(mesh, scene, *node.mChildren[i], transform, with_normals, with_texcoords);
 }
 
 /// Assimp reserves memory for whatever a GLB header promises (glTF 2.0, section 4.4).
@@ -106,10 +117,13 @@ RawMesh read_by_assimp(Assimp::Importer& importer, const char* file) {
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
 
-  bool with_normals = false;
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) with_normals |= scene->mMeshes[m]->HasNormals();
+  bool with_normals = false, with_texcoords = false;
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    with_normals |= scene->mMeshes[m]->HasNormals();
+    with_texcoords |= scene->mMeshes[m]->HasTextureCoords(0);
+  }
   RawMesh mesh;
-  append(mesh, *scene, *scene->mRootNode, glm::dmat4(1), with_normals);
+  append(mesh, *scene, *scene->mRootNode, glm::dmat4(1), with_normals, with_texcoords);
   return mesh;
 }
 
@@ -189,6 +203,7 @@ int main(int count, char** arguments) {
   put(answer, mesh.positions);
   put(answer, mesh.normals);
   put(answer, mesh.triangles);
+  put(answer, mesh.texcoords);
   put(answer, std::array{mesh.mended_normals});
   put(answer, std::array{mesh.middle.x, mesh.middle.y, mesh.middle.z});
   _exit(std::fflush(answer) == 0 ? 0

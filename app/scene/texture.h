@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture on a surface, as kernels look it up (kernels/materials/texture.h).
+#pragma once
+#include "base/files.h"
+#include "preset/preset.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nephroid::scene {
+
+struct Texture {
+  int width = 0, height = 0;
+  std::vector<std::uint16_t> rgb; ///< half floats, linear sRGB within 0..1, 3 a texel, row 0 at the top
+  preset::Texture::Wrap wrap = preset::Texture::Wrap::repeat;
+  bool nearest = false; ///< texels have edges; else bilinear between their middles
+  glm::dmat2 linear{1}; ///< (u, v) -> linear (u, v) + offset, from the mesh's to the picture's
+  glm::dvec2 offset{0, 0};
+};
+
+/// The most texels that one may have.
+inline constexpr std::size_t most_texture_texels = std::size_t{1} << 26;
+
+/// Integers are decoded as image/image.h says. Values outside of 0..1 are clipped, and alpha is left out; warnings say
+/// so, after `name`, the material's. where: FILE#/scene/materials/NAME/texture. Throws bad_input there for a file that
+/// is not there, and at the file for what is no picture, too large, or has a value that is not finite.
+Texture make_texture(const preset::Texture& texture, const FileFinder& finder, const Location& where,
+                     const std::string& name, std::vector<std::string>& warnings);
+
+} // namespace nephroid::scene
