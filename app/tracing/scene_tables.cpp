@@ -136,15 +136,15 @@ TextureTables make_texture_tables(const scene::Scene& scene, const std::vector<D
                         static_cast<float>(from.offset[axis])};
     };
     const auto u = place(0), v = place(1);
-    tables.textures.push_back({static_cast<std::uint32_t>(tables.texels.size() / 3),
+    tables.textures.push_back({static_cast<std::uint32_t>(tables.texture_texels.size() / 3),
                                from.width,
                                from.height,
                                int(from.wrap),
                                from.nearest,
                                {u[0], u[1], u[2]},
                                {v[0], v[1], v[2]}});
-    tables.texels.insert(tables.texels.end(), from.rgb.begin(), from.rgb.end());
-    if (tables.texels.size() / 3 > most_texels)
+    tables.texture_texels.insert(tables.texture_texels.end(), from.rgb.begin(), from.rgb.end());
+    if (tables.texture_texels.size() / 3 > most_texels)
       throw bad_input("scene.materials", fmt::format("have textures of more than {} texels", most_texels), {},
                       "make them smaller");
   }

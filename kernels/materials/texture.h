@@ -23,7 +23,7 @@ static inline float3 texel_of(const World* world, const DeviceTexture* texture, 
   column = wrapped_texel(column, texture->width, texture->wrap);
   row = wrapped_texel(row, texture->height, texture->wrap);
   return vload_half3(texture->first + (uint)row * (uint)texture->width + (uint)column,
-                     (__global const half*)world->texels);
+                     (__global const half*)world->texture_texels);
 }
 
 // The colour at a place in the picture: (0, 0) is its lower left, (1, 1) its upper right.

@@ -80,7 +80,7 @@ std::string Description::own_file(const std::string& name, const char* ending) {
   int& count = file_counts[file_name_of(name, ending)];
   for (;;) {
     const std::string file = file_name_of(name, ++count == 1 ? ending : fmt::format("-{}{}", count, ending).c_str());
-    if (!meshes.contains(file) && !glasses.contains(file)) return file;
+    if (!meshes.contains(file) && !files.contains(file)) return file;
   }
 }
 
@@ -140,10 +140,13 @@ double vertical_fov_deg(double degrees, double height, double extent) {
   return glm::degrees(2 * std::atan(std::tan(half) * height / extent));
 }
 
-scene::Mesh polygon(const std::vector<glm::vec3>& corners) {
+scene::Mesh polygon(const std::vector<glm::vec3>& corners, const std::vector<glm::vec2>& texcoords) {
   scene::Mesh mesh;
   mesh.positions = corners;
-  for (std::uint32_t i = 2; i < corners.size(); ++i) mesh.triangles.emplace_back(0, i - 1, i);
+  for (std::uint32_t i = 2; i < corners.size(); ++i) {
+    mesh.triangles.emplace_back(0, i - 1, i);
+    if (!texcoords.empty()) mesh.texcoords.push_back({texcoords[0], texcoords[i - 1], texcoords[i]});
+  }
   return mesh;
 }
 

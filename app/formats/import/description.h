@@ -73,7 +73,7 @@ struct Description {
   std::map<std::string, scene::Mesh> meshes;               ///< by the names of their files
   std::map<std::filesystem::path, std::string> mesh_files; ///< keys by the files that they were read from
   TakenNames file_counts;                                  ///< names that own_file() was asked for
-  std::map<std::string, std::string> glasses;              ///< dispersion files by their names, which materials have
+  std::map<std::string, std::string> files; ///< dispersion files and pictures by their names, which materials have
   std::map<std::string, preset::Material> materials;
   std::map<std::string, DescribedGlass> dielectrics; ///< by the keys of the materials that settle_dielectrics() makes
   std::vector<DescribedShape> shapes;
@@ -121,7 +121,7 @@ glm::dmat4 rotated(const glm::dmat4& matrix, double degrees, const glm::dvec3& a
 double vertical_fov_deg(double degrees, double height, double extent);
 
 /// A flat polygon with its corners in this order, seen from outside.
-scene::Mesh polygon(const std::vector<glm::vec3>& corners);
+scene::Mesh polygon(const std::vector<glm::vec3>& corners, const std::vector<glm::vec2>& texcoords = {});
 scene::Mesh cube();              ///< from -1 to 1
 scene::Mesh disk(double radius); ///< faces +z
 scene::Mesh open_cylinder(const glm::dvec3& from, const glm::dvec3& to, double radius);

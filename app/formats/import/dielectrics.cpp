@@ -198,8 +198,8 @@ private:
         d_.note(body.shape.where, "the medium around it is left out");
       else {
         const std::string file = d_.own_file(key, ".yml");
-        d_.glasses[file] = absorbing_glass_file(material.dispersion, values_of(*absorption),
-                                                "n as the scene's dielectric, k as its medium has it");
+        d_.files[file] = absorbing_glass_file(material.dispersion, values_of(*absorption),
+                                              "n as the scene's dielectric, k as its medium has it");
         material.dispersion = {};
         material.dispersion.type = preset::Dispersion::Type::file;
         material.dispersion.file = file;
@@ -282,7 +282,7 @@ std::optional<preset::Material> metal_of(Description& description, const std::st
     text += fmt::format("        {:.2f} {:.9g} {:.9g}\n", nm * 1e-3, n[w], k[w]);
   }
   const std::string file = description.own_file(name, ".yml");
-  description.glasses[file] = text;
+  description.files[file] = text;
   return metal_of(file);
 }
 

@@ -2,10 +2,12 @@
 // A glTF 2.0 scene: in metres, +y up, cameras and lights look along -z, as here.
 #include "formats/import/description.h"
 #include "formats/import/gltf_scene.h"
+#include "formats/import/textures.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -23,6 +25,7 @@ constexpr std::pair<const char*, const char*> extension_notes[] = {
     {"KHR_materials_volume", ""},
     {"KHR_mesh_quantization", ""},
     {"KHR_node_visibility", ""},
+    {"KHR_texture_transform", ""},
     {"EXT_lights_image_based", "the file's surroundings (EXT_lights_image_based) are left out"},
     {"KHR_materials_pbrSpecularGlossiness",
      "of KHR_materials_pbrSpecularGlossiness the diffuse colour is taken, its gloss is left out"},
@@ -88,6 +91,7 @@ private:
       d_.note(fmt::format("a part of '{}' has no triangle with an area and is left out", name));
       return {};
     }
+    turn_upside_down(mesh);
     return d_.own_mesh(name, std::move(mesh));
   }
 
@@ -121,14 +125,55 @@ private:
     const GltfValue value = root_.item("materials", index);
     name = unique(name_of(value.text("name"), fmt::format("material {}", index)), taken_materials_);
     preset::Material& made = d_.materials[name] = material_of(value, name, d_.notes);
+    if (made.type == preset::Material::Type::diffuse) made.texture = base_texture(value, name);
     if (made.type != preset::Material::Type::dielectric) return name;
     if (std::string glass = absorbing_glass_file(value, made.dispersion); !glass.empty()) {
       made.dispersion = {};
       made.dispersion.type = preset::Dispersion::Type::file;
       made.dispersion.file = d_.own_file(name, ".yml");
-      d_.glasses.emplace(made.dispersion.file, std::move(glass));
+      d_.files.emplace(made.dispersion.file, std::move(glass));
     }
     return name;
+  }
+
+  /// Of a matt surface; nothing where it has none that is taken over.
+  std::optional<preset::Texture> base_texture(const GltfValue& material, const std::string& name) {
+    const GltfValue older = material.extension("KHR_materials_pbrSpecularGlossiness"),
+                    info = older.has("diffuseTexture")
+                               ? older.object("diffuseTexture")
+                               : material.object("pbrMetallicRoughness").object("baseColorTexture");
+    if (!info.has("index")) return std::nullopt;
+    const auto leave_out = [&](const char* why) {
+      d_.note(fmt::format("material '{}': its texture is left out: {}", name, why));
+      return std::nullopt;
+    };
+    const GltfValue transform = info.extension("KHR_texture_transform");
+    if ((transform.has("texCoord") ? transform : info).count("texCoord", 0) != 0)
+      return leave_out("its mesh has several sets of u, v, and the first is not meant");
+    const GltfValue texture = info.item("index", root_, "textures");
+    if (!texture.has("source")) return leave_out("it has no picture that is read here");
+    const auto scale = transform.numbers<2>("scale", {1, 1}), offset = transform.numbers<2>("offset", {0, 0});
+    const double angle = transform.number("rotation", 0);
+    const glm::dmat2 turn(std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle));
+    const TextureMap map = upside_down({turn * glm::dmat2(scale[0], 0, 0, scale[1]), glm::dvec2(offset[0], offset[1])});
+    constexpr std::uint64_t clamp = 33071, mirror = 33648, repeat = 10497; // of OpenGL
+    std::uint64_t wrap = repeat;
+    if (texture.has("sampler")) {
+      const GltfValue sampler = texture.item("sampler", root_, "samplers");
+      wrap = sampler.count("wrapS", repeat);
+      if (sampler.count("wrapT", repeat) != wrap)
+        d_.note(fmt::format("material '{}': its texture goes on beyond its edges across as it does along", name));
+    }
+    const GltfMeshes::Picture found = meshes_.picture(texture.item("source", root_, "images"));
+    const auto way = wrap == clamp    ? preset::Texture::Wrap::clamp
+                     : wrap == mirror ? preset::Texture::Wrap::mirror
+                                      : preset::Texture::Wrap::repeat;
+    if (found.bytes.empty()) return picture(found.file, way, map, info.where(), d_);
+    preset::Texture made;
+    made.wrap = way;
+    made.file = d_.own_file(name, found.bytes.starts_with("\x89PNG") ? ".png" : ".jpg");
+    d_.files.emplace(made.file, found.bytes);
+    return placed(made, map, info.where(), d_);
   }
 
   void add_camera(const GltfNode& node) {

@@ -74,7 +74,7 @@ const ComponentType& component_type(const GltfValue& value) {
   return component_types[type];
 }
 
-constexpr std::array<const char*, 5> type_of_width{"", "SCALAR", "", "VEC3", "VEC4"};
+constexpr std::array<const char*, 5> type_of_width{"", "SCALAR", "VEC2", "VEC3", "VEC4"};
 
 /// Each corner of a strip or a fan has a triangle with the two before it, or with the one before it and the first.
 std::vector<glm::uvec3> triangles_of(const std::vector<std::uint32_t>& corners, std::uint64_t mode) {
@@ -122,6 +122,17 @@ const std::string& GltfMeshes::buffer(std::size_t index) const {
     throw bad_input(value.where() / "byteLength", fmt::format("is {}, and there are {} bytes", length, bytes.size()),
                     {}, "copy the files again, or export the scene again");
   return bytes;
+}
+
+GltfMeshes::Picture GltfMeshes::picture(const GltfValue& image) const {
+  if (!image.has("uri")) {
+    const std::uint64_t length = image.item("bufferView", root_, "bufferViews").count("byteLength", 0);
+    if (length == 0) throw bad_input(image.where(), "is a picture of 0 bytes");
+    return {std::string(items(image, 1, length).first, length), {}};
+  }
+  const std::string uri = image.text("uri");
+  if (uri.starts_with("data:")) return {bytes_of_data(uri, image.where() / "uri"), {}};
+  return {{}, fs::absolute(file_.file).parent_path() / decoded(uri)};
 }
 
 /// The bytes of `count` items of `item` bytes each, with their distance. value: what has the items, and the view's
@@ -220,6 +231,21 @@ scene::Mesh GltfMeshes::read(const GltfValue& primitive) const {
     }
   }
   mesh.triangles = triangles_of(corners, primitive.count("mode", 4));
+  if (!attributes.has("TEXCOORD_0")) return mesh;
+  const std::vector<double> texcoords = numbers(attributes, "TEXCOORD_0", 2);
+  if (texcoords.size() != 2 * mesh.positions.size())
+    throw bad_input(primitive.where(),
+                    fmt::format("has {} texcoords of {} vertices", texcoords.size() / 2, mesh.positions.size()));
+  const auto texcoord = [&](std::uint32_t vertex) {
+    return glm::vec2(texcoords[2 * vertex], texcoords[2 * vertex + 1]);
+  };
+  for (const glm::uvec3& t : mesh.triangles) {
+    const scene::Texcoords& made =
+        mesh.texcoords.emplace_back(scene::Texcoords{texcoord(t.x), texcoord(t.y), texcoord(t.z)});
+    for (const glm::vec2& corner : made)
+      if (!std::isfinite(corner.x) || !std::isfinite(corner.y))
+        throw bad_input(primitive.where(), "has a texcoord that is not a finite number");
+  }
   return mesh;
 }
 

@@ -41,10 +41,18 @@ std::vector<std::size_t> roots_of(const GltfValue& root) {
 constexpr double line_f = optics::line_f_nm / 1000, line_d = optics::line_d_nm / 1000,
                  line_c = optics::line_c_nm / 1000;
 
-bool is_textured(const GltfValue& material) {
+/// The names of those textures that are left out.
+std::string textures_left_out(const GltfValue& material, bool is_matt) {
   const GltfValue pbr = material.object("pbrMetallicRoughness");
-  return pbr.has("baseColorTexture") || pbr.has("metallicRoughnessTexture") || material.has("normalTexture") ||
-         material.extension("KHR_materials_transmission").has("transmissionTexture");
+  std::string names;
+  const auto add = [&](const GltfValue& from, const char* key) {
+    if (from.has(key)) names += (names.empty() ? "" : ", ") + std::string(key);
+  };
+  if (!is_matt) add(pbr, "baseColorTexture");
+  add(pbr, "metallicRoughnessTexture");
+  add(material, "normalTexture");
+  add(material.extension("KHR_materials_transmission"), "transmissionTexture");
+  return names;
 }
 
 double metal_part(const GltfValue& material) {
@@ -211,10 +219,12 @@ preset::Reflectance reflectance_of(const std::array<double, 3>& rgb) {
 }
 
 preset::Material material_of(const GltfValue& value, const std::string& name, std::vector<std::string>& notes) {
-  if (is_textured(value)) notes.push_back(fmt::format("material '{}': textures are left out", name));
+  const bool is_glass = transmitted_part(value) >= 0.5, is_metal = metal_part(value) >= 0.5;
+  if (const std::string textures = textures_left_out(value, !is_glass && !is_metal); !textures.empty())
+    notes.push_back(fmt::format("material '{}': {} left out", name, textures));
   if (value.numbers<3>("emissiveFactor", {0, 0, 0}) != std::array<double, 3>{0, 0, 0})
     notes.push_back(fmt::format("material '{}' does not shine here", name));
-  if (transmitted_part(value) >= 0.5) return glass(value, name, notes);
+  if (is_glass) return glass(value, name, notes);
   const GltfValue pbr = value.object("pbrMetallicRoughness");
   const GltfValue older = value.extension("KHR_materials_pbrSpecularGlossiness"); // takes the other's place
   const bool is_older = value.object("extensions").has("KHR_materials_pbrSpecularGlossiness");
@@ -223,14 +233,13 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
   preset::Material material;
   material.reflectance = reflectance_of({base[0], base[1], base[2]});
   const double roughness = pbr.number("roughnessFactor", 1);
-  const bool metal = metal_part(value) >= 0.5;
-  if (metal) {
+  if (is_metal) {
     material.type = preset::Material::Type::mirror;
     material.roughness = std::clamp(roughness, 0.0, 1.0);
   }
-  if (!metal && !is_older && roughness < 0.5)
+  if (!is_metal && !is_older && roughness < 0.5)
     notes.push_back(fmt::format("material '{}' has a gloss in the file and is matt here", name));
-  if (metal && value.extension("KHR_materials_transmission").number("transmissionFactor", 0) > 0)
+  if (is_metal && value.extension("KHR_materials_transmission").number("transmissionFactor", 0) > 0)
     notes.push_back(fmt::format("material '{}': no light goes through it in the file either, as it is metal", name));
   if (std::string advice = advice_on_glass(value, name); !advice.empty())
     notes.push_back(std::move(advice));

@@ -68,10 +68,17 @@ class GltfMeshes {
 public:
   explicit GltfMeshes(const GltfFile& file);
 
-  /// In the mesh's own frame, as the file has it, with normals where it has them; (0, 0, 0) where one has no direction.
-  /// primitive: of meshes/I/primitives. Throws bad_input, at the primitive or at what it uses: data that are missing,
-  /// shorter than the file says or no numbers, indices out of range.
+  /// In the mesh's own frame, as the file has it, with normals and texcoords (the first set) where it has them; a
+  /// normal without direction is (0, 0, 0). primitive: of meshes/I/primitives. Throws bad_input, at the primitive or at
+  /// what it uses: data that are missing, shorter than the file says or no numbers, indices out of range.
   scene::Mesh read(const GltfValue& primitive) const;
+
+  /// The file's own bytes of a picture, in a buffer or in its URI; else where the file is that it names.
+  struct Picture {
+    std::string bytes;
+    std::filesystem::path file;
+  };
+  Picture picture(const GltfValue& image) const;
 
   /// From the node's frame to each of its instances, where EXT_mesh_gpu_instancing has them; else one that stays.
   std::vector<glm::dmat4> instances(const GltfValue& node) const;

@@ -43,9 +43,12 @@ public:
     made_.name = name;
     made_.description = "Imported from " + name_of(from_.source.filename().string(), "a scene");
     made_.scene.materials = from_.materials;
-    for (auto& [key, material] : made_.scene.materials)
-      for (std::string* file : {&material.dispersion.file, &material.metal})
-        if (from_.glasses.contains(*file)) *file = folder_ + "/" + *file;
+    for (auto& [key, material] : made_.scene.materials) {
+      std::vector<std::string*> files{&material.dispersion.file, &material.metal};
+      if (material.texture) files.push_back(&material.texture->file);
+      for (std::string* file : files)
+        if (from_.files.contains(*file)) *file = folder_ + "/" + *file;
+    }
     if (from_.shapes.size() > most_objects)
       throw bad_input(from_.source.string(), fmt::format("has {} objects", from_.shapes.size()),
                       fmt::format("expected at most {}", most_objects),
@@ -69,8 +72,9 @@ public:
     return made_;
   }
 
-  /// Whether an object has the mesh with this key.
+  /// Whether an object has the mesh with this key, and whether one with a texture has.
   bool uses(const std::string& mesh) const { return used_.contains(mesh); }
+  bool is_textured(const std::string& mesh) const { return textured_.contains(mesh); }
 
 private:
   void see(const glm::dvec3& p) { bounds_ = scene::enclosing(bounds_, {p, p}); }
@@ -83,7 +87,7 @@ private:
     if (shape.glow) return glow(shape, to_world);
     preset::Object object;
     object.name = unique(name_of(shape.name, "object"), names_);
-    object.material = shape.material;
+    object.material = material_of(shape);
     auto transform = transform_of(to_world);
     if (shape.mesh.empty()) {
       if (!transform) return from_.note(shape.where, "a sphere that is sheared is left out");
@@ -98,9 +102,9 @@ private:
         scene::Mesh mesh = from_.meshes.at(key);
         mesh.normals.clear();
         for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dmat3(to_world) * glm::dvec3(p));
-        if (glm::determinant(glm::dmat3(to_world)) < 0)
-          for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+        if (glm::determinant(glm::dmat3(to_world)) < 0) scene::turn_triangles(mesh);
         key = from_.own_mesh(shape.name, std::move(mesh));
+        if (textured_.contains(shape.mesh)) textured_.insert(key);
         to_world = glm::translate(glm::dmat4(1), glm::dvec3(to_world[3]));
         transform = transform_of(to_world);
         if (!transform)
@@ -116,6 +120,18 @@ private:
     object.transform = *transform;
     object.priority = shape.priority;
     made_.scene.objects.push_back(std::move(object));
+  }
+
+  /// A texture is of no use where the surface does not say where it is.
+  std::string material_of(const DescribedShape& shape) {
+    const preset::Material& material = made_.scene.materials.at(shape.material);
+    const bool has_texcoords = !shape.mesh.empty() && !from_.meshes.at(shape.mesh).texcoords.empty();
+    if (material.texture && has_texcoords) textured_.insert(shape.mesh);
+    if (!material.texture || has_texcoords) return shape.material;
+    from_.note(shape.where, "its texture is left out, as the surface has no u, v: grey of 0.5 takes its place");
+    const std::string plain = shape.material + " without texture";
+    made_.scene.materials[plain].reflectance.value = 0.5;
+    return plain;
   }
 
   /// A lamp takes the place of a surface that shines.
@@ -242,7 +258,7 @@ private:
   glm::dmat4 mirror_{1};
   TakenNames names_;
   scene::Bounds bounds_;
-  std::set<std::string> used_; ///< keys of the objects' meshes
+  std::set<std::string> used_, textured_; ///< keys of the objects' meshes
 };
 
 /// Writes what the description says.
@@ -254,12 +270,14 @@ Imported written(Description& description, const fs::path& preset, const Watch& 
   const preset::Preset made =
       preset::parse_preset(preset::to_json(builder.make(name)), preset.string(), {"spectral.indirect=true"});
   std::erase_if(description.meshes, [&](const auto& mesh) { return !builder.uses(mesh.first); });
+  for (auto& [key, mesh] : description.meshes)
+    if (!builder.is_textured(key)) mesh.texcoords.clear();
 
   const fs::path folder = preset.parent_path() / (name + "-meshes");
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw failed(folder.string(), "cannot be made: " + error.message(), {}, "choose another folder with -o");
-  for (const auto& [key, glass] : description.glasses) write_file_whole(folder / key, glass);
+  for (const auto& [key, bytes] : description.files) write_file_whole(folder / key, bytes);
   std::size_t count = 0;
   for (const auto& [key, mesh] : description.meshes) {
     watch.begin(fmt::format("writing mesh {} of {}", ++count, description.meshes.size()));

@@ -5,6 +5,7 @@
 #include "base/numbers.h"
 #include "formats/import/mitsuba_scene.h"
 #include "formats/import/serialized.h"
+#include "formats/import/textures.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 
@@ -160,6 +161,9 @@ private:
         take_serialized(file, file_.number(node, "shape_index", 0), shape);
       else
         shape.mesh = d_.mesh_file(file, shape.where);
+      // Mitsuba counts v from the top, and turns that of OBJ files round unless they say otherwise.
+      const bool is_turned = file_.text(node, "flip_tex_coords", type == "obj" ? "true" : "false") == "true";
+      if (!is_turned && turned_.insert(shape.mesh).second) turn_upside_down(d_.meshes.at(shape.mesh));
       if (file_.child(node, "max_smooth_angle"))
         d_.note(shape.where, "the greatest angle that is smoothed is left out");
     } else if (type == "sphere") {
@@ -167,7 +171,9 @@ private:
       shape.radius = file_.number(node, "radius", 1);
       if (!(shape.radius > 0)) throw bad_input(shape.where, "its radius is not above 0");
     } else if (type == "rectangle") {
-      shape.mesh = own(type, [] { return polygon({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}); });
+      shape.mesh = own(type, [] {
+        return polygon({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1}, {1, 1}, {1, 0}, {0, 0}});
+      });
     } else if (type == "cube") {
       shape.mesh = own(type, cube);
     } else if (type == "disk") {
@@ -206,6 +212,7 @@ private:
   const MitsubaFile& file_ = scene_.file;
   Description& d_ = scene_.d;
   std::map<std::string, std::string> own_;
+  std::set<std::string> turned_; ///< meshes whose v counts from the lower edge by now
   std::map<std::pair<fs::path, double>, std::pair<std::string, bool>> serialized_; ///< keys, and whether faceted
 };
 

@@ -224,11 +224,11 @@ glm::dvec3 MitsubaFile::point(xml_node parent, const std::string& name, const gl
   return node ? vector_of(node, 0) : standard;
 }
 
-glm::dmat4 MitsubaFile::to_world(xml_node parent) const {
+glm::dmat4 MitsubaFile::to_world(xml_node parent, const char* name) const {
   glm::dmat4 all(1);
-  for (const xml_node step : child(parent, "to_world").children())
+  for (const xml_node step : child(parent, name).children())
     if (step.type() == pugi::node_element) all = step_of(step) * all;
-  require_inverse(all, at(child(parent, "to_world") ? child(parent, "to_world") : parent));
+  require_inverse(all, at(child(parent, name) ? child(parent, name) : parent));
   return all;
 }
 

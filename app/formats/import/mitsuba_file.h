@@ -53,7 +53,7 @@ public:
   std::string text(xml_node parent, const std::string& name, const std::string& standard) const;
   glm::dvec3 point(xml_node parent, const std::string& name, const glm::dvec3& standard) const;
   /// Throws bad_input where it has no inverse.
-  glm::dmat4 to_world(xml_node parent) const;
+  glm::dmat4 to_world(xml_node parent, const char* name = "to_world") const;
 
 private:
   struct Document {

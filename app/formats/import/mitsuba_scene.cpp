@@ -5,8 +5,10 @@
 #include "base/lower_case.h"
 #include "base/numbers.h"
 #include "formats/import/dielectrics.h"
+#include "formats/import/textures.h"
 #include "image/image.h"
 #include "optics/spectrum.h"
+#include "scene/scene.h"
 
 #include <fmt/format.h>
 
@@ -224,6 +226,39 @@ std::optional<preset::Material> metal(MitsubaScene& scene, xml_node node, const 
   return made;
 }
 
+/// A picture or a checkerboard in a colour's place; nothing where there is none.
+std::optional<preset::Texture> texture_of(MitsubaScene& scene, xml_node parent, const std::string& name) {
+  const MitsubaFile& file = scene.file;
+  const xml_node node = file.child(parent, name);
+  const std::string type = node ? file.attribute(node, "type") : std::string();
+  if (std::string_view(node.name()) != "texture" || (type != "bitmap" && type != "checkerboard")) return std::nullopt;
+  const Location where = file.at(node);
+  const glm::dmat4 to_uv = file.to_world(node, "to_uv");
+  // A matrix of 3 x 3 has its shift in the third column, one of 4 x 4 in the fourth.
+  const glm::dvec2 offset(glm::dvec3(to_uv[2]).x + to_uv[3].x, glm::dvec3(to_uv[2]).y + to_uv[3].y);
+  const TextureMap map = upside_down({glm::dmat2(to_uv), offset});
+  if (type == "checkerboard") {
+    preset::Texture board;
+    board.type = preset::Texture::Type::checkerboard;
+    const auto colour_of_part = [&](const char* part, double standard) {
+      return scene::to_vec3(glm::clamp(linear_srgb_of(mitsuba_colour(scene, node, part, standard)), 0.0, 1.0));
+    };
+    board.colour1 = colour_of_part("color0", 0.4); // of the upper left quarter there
+    board.colour0 = colour_of_part("color1", 0.2);
+    return placed(board, map, where, scene.d);
+  }
+  const std::string wrap = file.text(node, "wrap_mode", "repeat");
+  if (file.text(node, "filter_type", "bilinear") != "bilinear")
+    scene.d.note(where, "the texels of the texture have no edges here");
+  if (file.flag(node, "raw")) scene.d.note(where, "the texture is raw in the file, and taken as sRGB here");
+  note_unasked(scene, node);
+  return picture(file.find(node, file.text(node, "filename", "")),
+                 wrap == "mirror"  ? preset::Texture::Wrap::mirror
+                 : wrap == "clamp" ? preset::Texture::Wrap::clamp
+                                   : preset::Texture::Wrap::repeat,
+                 map, where, scene.d);
+}
+
 preset::Material opaque(MitsubaScene& scene, xml_node node, const std::string& type, const std::string& key) {
   const MitsubaFile& file = scene.file;
   const Location where = file.at(node);
@@ -241,7 +276,10 @@ preset::Material opaque(MitsubaScene& scene, xml_node node, const std::string& t
   const char* const name = type == "diffuse"      ? "reflectance"
                            : type == "principled" ? "base_color"
                                                   : "diffuse_reflectance";
-  made.reflectance = reflectance_of(mitsuba_colour(scene, node, name, 0.5));
+  if ((made.texture = texture_of(scene, node, name)))
+    made.reflectance.value = 1;
+  else
+    made.reflectance = reflectance_of(mitsuba_colour(scene, node, name, 0.5));
   if (type == "diffuse")
     note_unasked(scene, node);
   else

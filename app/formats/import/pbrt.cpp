@@ -131,7 +131,10 @@ private:
     } else if (word == "Texture") {
       const std::string name = file_.string(where), value = file_.string(where), kind = file_.string(where);
       const PbrtParameters p = parameters("texture", where);
-      if (kind == "constant" && p.find("value")) scene_.textures[name] = *p.find("value");
+      if (kind == "constant" && p.find("value"))
+        scene_.textures[name] = *p.find("value");
+      else
+        scene_.pictures[name] = {kind, p};
     } else
       return false;
     return true;

@@ -3,8 +3,10 @@
 
 #include "base/error.h"
 #include "formats/import/dielectrics.h"
+#include "formats/import/textures.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
+#include "scene/scene.h"
 
 #include <fmt/format.h>
 
@@ -223,6 +225,63 @@ preset::Material metal(PbrtScene& scene, const std::string& key, const PbrtParam
 
 } // namespace
 
+namespace {
+
+/// A picture or a checkerboard, and what it is multiplied by.
+struct ScaledTexture {
+  preset::Texture texture;
+  DescribedColour factor;
+};
+
+/// Of the texture that a parameter names; nothing where it is none that is taken over.
+std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& from, const std::string& name) {
+  const PbrtParameter* given = from.find(name);
+  if (!given || given->type != "texture" || given->values.empty()) return std::nullopt;
+  const auto found = scene.pictures.find(given->values[0]);
+  if (found == scene.pictures.end()) return std::nullopt;
+  const auto& [kind, p] = found->second;
+  if (kind == "scale") { // "tex" by "scale" in version 4, "tex1" by "tex2" in 3; one of them a colour
+    for (const auto& [texture, colour] : {std::pair("tex", "scale"), {"tex1", "tex2"}, {"tex2", "tex1"}})
+      if (auto scaled = texture_of(scene, p, texture)) {
+        scaled->factor = pbrt_colour(scene, p, colour, 1) * linear_srgb_of(scaled->factor).x;
+        return scaled;
+      }
+    return std::nullopt;
+  }
+  if ((kind != "imagemap" && kind != "checkerboard") || p.number("dimension", 2) != 2) return std::nullopt;
+  if (p.text("mapping", "uv") != "uv") {
+    scene.d.note(p.where, "the texture's mapping is left out: the surface's u, v count");
+    return std::nullopt;
+  }
+  TextureMap map{glm::dmat2(p.number("uscale", 1), 0, 0, p.number("vscale", 1)),
+                 {p.number("udelta", 0), p.number("vdelta", 0)}};
+  ScaledTexture made;
+  if (kind == "checkerboard") {
+    made.texture.type = preset::Texture::Type::checkerboard;
+    const auto colour_of_part = [&](const char* part, double standard) {
+      return scene::to_vec3(glm::clamp(linear_srgb_of(pbrt_colour(scene, p, part, standard)), 0.0, 1.0));
+    };
+    made.texture.colour0 = colour_of_part("tex1", 1);
+    made.texture.colour1 = colour_of_part("tex2", 0);
+    made.texture = placed(made.texture, {0.5 * map.linear, 0.5 * map.offset}, p.where, scene.d); // a field is one unit
+    return made;
+  }
+  const std::string wrap = p.text("wrap", "repeat");
+  if (wrap != "repeat" && wrap != "clamp")
+    scene.d.note(p.where, "the texture is not " + wrap + " beyond its edges here");
+  if (p.text("invert", "false") == "true") scene.d.note(p.where, "the texture is not inverted here");
+  if (p.text("encoding", "sRGB") != "sRGB") scene.d.note(p.where, "the texture's integers are taken as sRGB here");
+  made.factor = made.factor * p.number("scale", 1);
+  auto file =
+      picture(scene.file.find(p.text("filename", ""), p.where),
+              wrap == "repeat" ? preset::Texture::Wrap::repeat : preset::Texture::Wrap::clamp, map, p.where, scene.d);
+  if (!file) return std::nullopt;
+  made.texture = *file;
+  return made;
+}
+
+} // namespace
+
 bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing& material, const PbrtThing* medium) {
   const std::string& type = material.type;
   const PbrtParameters& p = material.parameters;
@@ -245,6 +304,12 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
   }
   preset::Material& made = scene.d.materials[key];
   const auto reflect = [&](const char* name, double standard) {
+    if (made.type == preset::Material::Type::diffuse)
+      if (const auto scaled = texture_of(scene, p, name)) {
+        made.texture = scaled->texture;
+        made.reflectance = reflectance_of(scaled->factor);
+        return;
+      }
     made.reflectance = reflectance_of(pbrt_colour(scene, p, name, standard));
   };
   const bool is_metal = type == "conductor" || type == "metal"; // as versions 4 and 3 call it

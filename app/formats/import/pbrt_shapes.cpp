@@ -36,6 +36,27 @@ std::vector<std::uint32_t> indices_of(const PbrtParameters& p, std::size_t corne
   return indices;
 }
 
+/// The shape's own, "uv" or in version 3 "st"; without them those that PBRT gives each triangle or patch.
+void give_texcoords(const PbrtParameters& p, std::size_t corners, scene::Mesh& mesh) {
+  const PbrtParameter* given = p.find("uv") ? p.find("uv") : p.find("st");
+  const std::vector<double> numbers = given ? given->numbers() : std::vector<double>();
+  const bool by_vertex = numbers.size() == 2 * mesh.positions.size();
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    scene::Texcoords& texcoords = mesh.texcoords.emplace_back();
+    for (int corner = 0; corner < 3; ++corner) {
+      const std::size_t vertex = mesh.triangles[i][corner];
+      const bool is_second = corners == 4 && i % 2 == 1;
+      constexpr std::array<glm::vec2, 3> of_triangle{{{0, 0}, {1, 0}, {1, 1}}}, of_patch{{{0, 0}, {1, 0}, {1, 1}}},
+          of_second{{{0, 0}, {1, 1}, {0, 1}}};
+      texcoords[static_cast<std::size_t>(corner)] =
+          by_vertex ? glm::vec2(numbers[2 * vertex], numbers[2 * vertex + 1])
+                    : (is_second      ? of_second
+                       : corners == 4 ? of_patch
+                                      : of_triangle)[static_cast<std::size_t>(corner)];
+    }
+  }
+}
+
 /// corners: 3, or those of a bilinear patch, which becomes two triangles.
 scene::Mesh listed_mesh(const PbrtParameters& p, std::size_t corners) {
   const PbrtParameter* points = p.find("P");
@@ -51,6 +72,7 @@ scene::Mesh listed_mesh(const PbrtParameters& p, std::size_t corners) {
     if (corners == 4)
       mesh.triangles.emplace_back(index[i], index[i + 3], index[i + 2]); // a patch's corners are 00, 10, 01, 11
   }
+  give_texcoords(p, corners, mesh);
   const auto n = p.find("N") ? p.find("N")->numbers() : std::vector<double>();
   if (n.size() != v.size()) return mesh;
   for (std::size_t i = 0; i < n.size(); i += 3) {
@@ -61,7 +83,10 @@ scene::Mesh listed_mesh(const PbrtParameters& p, std::size_t corners) {
   for (glm::uvec3& t : mesh.triangles) {
     const glm::vec3 face =
         glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
-    if (glm::dot(face, mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z]) < 0) std::swap(t.y, t.z);
+    if (glm::dot(face, mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z]) >= 0) continue;
+    std::swap(t.y, t.z);
+    scene::Texcoords& texcoords = mesh.texcoords[static_cast<std::size_t>(&t - mesh.triangles.data())];
+    std::swap(texcoords[1], texcoords[2]);
   }
   return mesh;
 }

@@ -78,6 +78,9 @@ SerializedMesh read_mesh(Inflater& from, std::uint32_t flags, const Location& fi
   if (flags & has_normals) read_items<glm::vec3, Number>(from, vertices, mesh.normals);
   std::vector<glm::vec2> coordinates;
   if (flags & has_texture_coordinates) read_items<glm::vec2, Number>(from, vertices, coordinates);
+  for (const glm::vec2& place : coordinates)
+    if (!std::isfinite(place.x) || !std::isfinite(place.y))
+      throw bad_input(file, "has a texture coordinate at no place");
   std::vector<glm::vec3> colours;
   if (flags & has_colours) read_items<glm::vec3, Number>(from, vertices, colours);
   read_items<glm::uvec3, std::uint32_t>(from, triangles, mesh.triangles);
@@ -86,6 +89,9 @@ SerializedMesh read_mesh(Inflater& from, std::uint32_t flags, const Location& fi
   for (const glm::uvec3& t : mesh.triangles)
     if (std::max({t.x, t.y, t.z}) >= vertices) throw bad_input(file, "has a triangle with a vertex that is not there");
   if (mesh.triangles.empty()) throw bad_input(file, "has no triangles");
+  if (!coordinates.empty())
+    for (const glm::uvec3& t : mesh.triangles)
+      mesh.texcoords.push_back({coordinates[t.x], coordinates[t.y], coordinates[t.z]});
   for (glm::vec3& n : mesh.normals) n = glm::normalize(n);
   if (std::ranges::any_of(mesh.normals, [](const glm::vec3& n) { return !(glm::length(n) > 0.5f); }))
     mesh.normals.clear();

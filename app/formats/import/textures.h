@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures on surfaces, as files of other programs place them. v counts from a picture's lower edge here and in PBRT,
+// and from its upper one in Mitsuba and glTF.
+#pragma once
+#include "formats/import/description.h"
+
+#include <glm/glm.hpp>
+
+namespace nephroid::formats {
+
+/// From u, v of a surface to those of a picture: linear (u, v) + offset.
+struct TextureMap {
+  glm::dmat2 linear{1};
+  glm::dvec2 offset{0};
+};
+
+/// The same map with v counted from the other edge, of the surface and of the picture.
+TextureMap upside_down(const TextureMap& map);
+void turn_upside_down(scene::Mesh& mesh);
+
+/// The texture, placed so. A map that shears is left out, with a note.
+preset::Texture placed(preset::Texture texture, const TextureMap& map, const Location& where, Description& into);
+
+/// A picture file so placed; nothing, with a note, where it is not there.
+std::optional<preset::Texture> picture(const std::filesystem::path& file, preset::Texture::Wrap wrap,
+                                       const TextureMap& map, const Location& where, Description& into);
+
+} // namespace nephroid::formats
