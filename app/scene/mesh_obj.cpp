@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -78,10 +79,12 @@ private:
     places_.push_back(static_cast<std::uint32_t>(mesh_.positions.size() - 1));
   }
 
+  /// What is missing or no number is 0: a texture must not spoil a mesh.
   void add_texcoord(std::string_view line) {
-    const double u = coordinate_of(next_word(line), line_);
-    const std::string_view word = next_word(line); // a texture of one dimension has no v
-    texcoords_.emplace_back(u, word.empty() || word.starts_with('#') ? 0 : coordinate_of(word, line_));
+    glm::vec2& texcoord = texcoords_.emplace_back(0);
+    for (int axis = 0; axis < 2; ++axis)
+      if (const auto number = typed_number<float>(next_word(line)); number && std::isfinite(*number))
+        texcoord[axis] = *number;
   }
 
   /// From 1, or from the last one backwards.
@@ -107,11 +110,11 @@ private:
           has_normal ? with_normal(places_[vertex],
                                    static_cast<std::uint32_t>(index(word.substr(last + 1), normals_.size(), "normal")))
                      : places_[vertex]);
-      const std::size_t end = last == first ? word.size() : last;
-      const bool has_texcoord = first < word.size() && end > first + 1;
-      corner_texcoords_.push_back(
-          has_texcoord ? texcoords_[index(word.substr(first + 1, end - first - 1), texcoords_.size(), "texcoord")]
-                       : glm::vec2(0));
+      const std::string_view rest = word.substr(std::min(first + 1, word.size())),
+                             texcoord = rest.substr(0, rest.find('/'));
+      corner_texcoords_.push_back(texcoord.empty() || texcoords_.empty()
+                                      ? glm::vec2(0)
+                                      : texcoords_[index(texcoord, texcoords_.size(), "texcoord")]);
     }
     if (texcoords_.empty()) return add_polygon(mesh_, corners_);
     mesh_.texcoords.resize(mesh_.triangles.size()); // those before the first vt have none

@@ -148,12 +148,12 @@ private:
     element.properties.push_back(property);
   }
 
-  /// The next number of this type; false where there is none.
-  bool read_number(const Type& type, double& number) {
+  /// The next number of this type; false where there is none. is_texcoord: what is no number is none of a surface.
+  bool read_number(const Type& type, double& number, bool is_texcoord = false) {
     if (is_text_) {
       const std::string_view word = next_word(rest_);
       if (word.empty()) return false;
-      number = coordinate_of(word, 0);
+      number = is_texcoord ? typed_number<double>(word).value_or(0) : coordinate_of(word, 0);
       return true;
     }
     if (rest_.size() < type.bytes) return false;
@@ -179,7 +179,9 @@ private:
         return false;
       for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(length); ++i) {
         double number = 0;
-        if (property.place < 0 ? !skip_number(*property.type) : !read_number(*property.type, number)) return false;
+        const bool is_texcoord = property.place == (element.kind == Kind::vertex ? std::max(property.place, 6) : 1);
+        if (property.place < 0 ? !skip_number(*property.type) : !read_number(*property.type, number, is_texcoord))
+          return false;
         if (property.place < 0) continue;
         if (element.kind == Kind::vertex)
           vertex_[static_cast<std::size_t>(property.place)] = number;

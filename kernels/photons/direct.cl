@@ -25,8 +25,9 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
     const float irradiance = irradiance_of(world, l, path, surface, triangle, seed, sample, paths, pixel);
     if (irradiance == 0.0f) continue;
     const Source lamp = {l, (float3)(1.0f)};
-    const float3 reflected = band->cluster < 0 ? mixed_reflected(reflected_xyz_all + l * world->scene.reflector_count, reflector).xyz
-                                               : carried_light(world, &path->losses, lamp, band, reflector).xyz;
+    const float3 reflected =
+        band->cluster < 0 ? mixed_reflected(reflected_xyz_all + l * world->scene.reflector_count, reflector).xyz
+                          : carried_light(world, &path->losses, lamp, band, reflector).xyz;
     xyz += reflected * (irradiance / PI_F);
   }
   return xyz;

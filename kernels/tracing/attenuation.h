@@ -53,7 +53,8 @@ static inline float wavelength_left(const SpectralTables* tables, const Losses* 
 #endif
 }
 
-// xyz: the sum over the cluster's wavelengths of light * part left * reflectance * (xbar, ybar, zbar). w: the sum of light * part left, which is the share of the light's power that is left.
+// xyz: the sum over the cluster's wavelengths of light * part left * reflectance * (xbar, ybar, zbar). w: the
+// sum of light * part left, which is the share of the light's power that is left.
 static inline float4 attenuated_sum(const SpectralTables* tables, const Losses* losses, int light, int cluster,
                                     Reflector reflector) {
   float4 sum = (float4)(0.0f);

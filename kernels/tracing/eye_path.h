@@ -179,7 +179,7 @@ static inline float3 highlight(const World* world, int light_index, bool beyond,
   if (is_blocked(world, start_on_side(surface, light_side), arrival.direction, arrival.distance, triangle))
     return (float3)(0.0f);
   const Source lamp = {light_index, (float3)(1.0f)};
-  return carried_light(world, &bent.losses, lamp, band, -1).xyz *
+  return carried_light(world, &bent.losses, lamp, band, white_reflector()).xyz *
          (arrival.irradiance * part * (beyond ? 1.0f - bend.reflectance : bend.reflectance));
 }
 

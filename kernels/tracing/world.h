@@ -282,7 +282,8 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
   }
 #endif
 #if NEPHROID_ATTENUATORS > 0
-  if (losses->any || is_white(reflector)) return attenuated_sum(&world->tables, losses, light, band->cluster, reflector);
+  if (losses->any || is_white(reflector))
+    return attenuated_sum(&world->tables, losses, light, band->cluster, reflector);
 #endif
   return mixed_reflected(world->tables.reflected_xyz + (light * world->scene.cluster_count + band->cluster) *
                                                            world->scene.reflector_count,

@@ -3,6 +3,7 @@
 // that are cut, missing their data, or lie about it.
 #include "formats/import/gltf_scene.h"
 #include "formats/import/import.h"
+#include "image/image.h"
 #include "optics/dispersion.h"
 #include "optics/dispersion_file.h"
 #include "optics/spectrum.h"
@@ -10,6 +11,8 @@
 #include "scene/scene.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test.h"
+
+#include <numbers>
 
 namespace nephroid::gltf_import_test {
 
@@ -295,6 +298,59 @@ TEST_F(GltfImport, MetalIsAMirrorAndColoursAreReflectances) {
 }
 
 // In glTF no light goes through metal, which a material is by default.
+// glTF counts v from the top. Turned by 90 degrees there, and shifted: (u, v) -> (-v + .25, u). From the bottom, with w
+// = 1 - v: (w - .75, 1 - u).
+TEST_F(GltfImport, MattSurfacesHaveTexturesOfTheFileOrBesideIt) {
+  Json json = triangle();
+  const float places[] = {0, 0, 1, 0, 0, 1};
+  const std::string bytes(reinterpret_cast<const char*>(places), sizeof places),
+      png = image::png(1, 1, {0.5f, 0.25f, 1});
+  json["buffers"].push_back(
+      {{"byteLength", sizeof places}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}});
+  json["buffers"].push_back(
+      {{"byteLength", png.size()}, {"uri", "data:application/octet-stream;base64," + base64(png)}});
+  json["bufferViews"].push_back({{"buffer", 1}, {"byteLength", sizeof places}});
+  json["bufferViews"].push_back({{"buffer", 2}, {"byteLength", png.size()}});
+  json["accessors"].push_back({{"bufferView", 2}, {"componentType", 5126}, {"count", 3}, {"type", "VEC2"}});
+  json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2;
+  json["images"] = {{{"bufferView", 3}, {"mimeType", "image/png"}}, {{"uri", "b%20c.png"}}};
+  json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33071}}};
+  json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}}};
+  Json& pbr = json["materials"][0]["pbrMetallicRoughness"];
+  pbr["baseColorTexture"] = {{"index", 0}};
+  pbr["baseColorTexture"]["extensions"]["KHR_texture_transform"] = {{"rotation", std::numbers::pi / 2},
+                                                                    {"offset", {0.25, 0}}};
+  preset::Preset p = imported(json);
+  const auto texture = [&] { return p.scene.materials.begin()->second.texture; };
+  ASSERT_TRUE(texture());
+  EXPECT_EQ(texture()->file, "out-meshes/wall.png");
+  EXPECT_EQ(texture()->wrap, preset::Texture::Wrap::clamp);
+  const scene::Scene scene = scene::load_scene(p);
+  const scene::Texture& made_texture = *scene.materials[0].texture;
+  for (const glm::dvec2& at : {glm::dvec2(0, 0), {1, 0}, {0.5, 0.25}}) {
+    const glm::dvec2 place = made_texture.linear * at + made_texture.offset;
+    EXPECT_NEAR(place.x, at.y - 0.75, 1e-9);
+    EXPECT_NEAR(place.y, 1 - at.x, 1e-9);
+  }
+  EXPECT_EQ(scene.geometry.texcoords.at(0), (scene::Texcoords{{{0, 1}, {1, 1}, {0, 0}}}));
+  EXPECT_THAT(made.notes, Each(Not(HasSubstr("left out"))));
+
+  pbr["baseColorTexture"] = {{"index", 1}};
+  p = imported(json);
+  EXPECT_FALSE(texture());
+  EXPECT_THAT(made.notes, Contains(HasSubstr("b c.png is not there and left out")));
+  image::write_png(folder.path() / "b c.png", 1, 1, {0.5f, 0.25f, 1});
+  p = imported(json);
+  ASSERT_TRUE(texture());
+  EXPECT_EQ(fs::path(texture()->file).filename(), "b c.png");
+  pbr["baseColorTexture"]["texCoord"] = 1;
+  json["materials"][0]["normalTexture"] = {{"index", 0}};
+  p = imported(json);
+  EXPECT_FALSE(texture());
+  EXPECT_THAT(made.notes, IsSupersetOf({HasSubstr("its texture is left out: its mesh has several sets"),
+                                        HasSubstr("material 'wall': normalTexture left out")}));
+}
+
 TEST_F(GltfImport, MetalLetsNoLightThrough) {
   Json json = triangle();
   json["materials"][0]["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.8;

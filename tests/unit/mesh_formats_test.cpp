@@ -7,6 +7,7 @@
 #include "tests/support/test.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numbers>
 
 namespace nephroid::scene::mesh_formats_test {
@@ -118,6 +119,49 @@ TEST_F(MeshFormats, PlyInEveryForm) {
   }
   EXPECT_THAT(refusal("c.ply", ply_head("ascii", "float", faces) + "0,5 0 0 255\n"), HasSubstr("decimal comma"));
   EXPECT_THAT(refusal("p.ply", ply_head("ascii", "float", "") + corners), HasSubstr("the mesh has no triangles"));
+}
+
+/// Of a square's two triangles, whose corner (1, 1) has u, v of its own in each.
+void expect_texcoords(const Mesh& mesh, const std::string& what) {
+  ASSERT_EQ(mesh.texcoords.size(), 2u) << what;
+  EXPECT_EQ(mesh.positions.size(), 4u) << what; // a seam of the texture is none of the surface
+  EXPECT_EQ(mesh.texcoords[0], (Texcoords{{{0, 0}, {0.5, 0}, {0.5, 1}}})) << what;
+  EXPECT_EQ(mesh.texcoords[1], (Texcoords{{{0, 0}, {1, 1}, {0, 1}}})) << what;
+}
+
+TEST_F(MeshFormats, TexcoordsBelongToCorners) {
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n",
+                    places = "vt 0 0\nvt .5\nvt .5 1 0\nvt 1 1 # end\nvt 0 1\n";
+  const Mesh mesh = read("s.obj", square + places + "f 1/1 2/2 3/-3\nf 1/1/ 3/4 4/5\n");
+  expect_texcoords(mesh, "OBJ");
+  test::TemporaryFolder folder;
+  write_file_whole(folder.path() / "s.ply", [&](ByteSink& to) { write_ply(mesh, to); });
+  expect_texcoords(load_mesh(folder.path() / "s.ply"), "PLY that we write");
+  EXPECT_THAT(read("n.obj", square + "f 1/1 2/2 3/3\n").texcoords, IsEmpty()); // no vt
+  EXPECT_THAT(refusal("o.obj", square + places + "f 1/1 2/2 3/6\n"), HasSubstr("index 6 of a texcoord"));
+  const Mesh late = read("l.obj", square + "f 1 2 3\n" + places + "f 1/1 3/4 4/5\n");
+  EXPECT_EQ(late.texcoords.at(0)[1], glm::vec2(0));
+  EXPECT_EQ(late.texcoords.at(1)[1], glm::vec2(1));
+  for (const char* names : {"u v", "s t", "texture_u texture_v"}) {
+    const std::string u(names, std::strchr(names, ' ')), v = std::strchr(names, ' ') + 1;
+    const Mesh by_vertex = read("v.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                                         "property float z\nproperty float " +
+                                             u + "\nproperty float " + v +
+                                             "\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
+                                             "0 0 0 0 1\n1 0 0 .25 nan\n0 1 0 .5 .75\n3 0 1 2\n");
+    ASSERT_EQ(by_vertex.texcoords.size(), 1u) << names;
+    EXPECT_EQ(by_vertex.texcoords[0], (Texcoords{{{0, 1}, {0, 0}, {0.5, 0.75}}})) << names;
+  }
+}
+
+TEST_F(MeshFormats, TexcoordsStayWithTheirTriangles) {
+  Mesh mesh = read("d.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\n"
+                            "f 1/1 2/2 2/2\nf 2/2 4/4 3/3\n");
+  drop_useless(mesh);
+  ASSERT_EQ(mesh.texcoords.size(), 1u);
+  EXPECT_EQ(mesh.texcoords[0], (Texcoords{{{1, 0}, {1, 1}, {0, 1}}}));
+  turn_round(mesh);
+  EXPECT_EQ(mesh.texcoords[0], (Texcoords{{{1, 0}, {0, 1}, {1, 1}}}));
 }
 
 TEST_F(MeshFormats, StlOfManySolids) {

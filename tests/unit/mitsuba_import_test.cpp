@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What Mitsuba's scenes mean: names of files and of objects, what is inside of what, flags, media, spectra, meshes of
 // its own. Expected values are worked out in comments.
+#include "image/image.h"
 #include "scene/materials.h"
 #include "scene/mesh.h"
 #include "tests/unit/imports_scenes.h"
@@ -253,6 +254,40 @@ TEST_F(MitsubaImport, GlassMayHaveATint) {
   EXPECT_NEAR(material_of(p, 0).tint.value, 0.7, 1e-12);
   EXPECT_NEAR(material_of(p, 1).tint.value, 0.6, 1e-12) << "each surface takes the root";
   EXPECT_THAT(made.notes, Contains(HasSubstr("in.xml:2: its specular_reflectance is left out")));
+}
+
+// Mitsuba counts v from a picture's top, and turns that of OBJ files round. Its map is v' = 3 v + .25 there, so from
+// the bottom 1 - v' = 3 (1 - v) - 2.25.
+TEST_F(MitsubaImport, MattSurfacesHaveTextures) {
+  image::write_png(folder.path() / "p.png", 1, 1, {0.5f, 0.25f, 1});
+  folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 .25\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+  const std::string bsdf = R"(<bsdf type="diffuse" id="card"><texture type="bitmap" name="reflectance">
+    <string name="filename" value="p.png"/><string name="wrap_mode" value="mirror"/><transform name="to_uv">
+    <scale x="2" y="3"/><translate x=".5" y=".25"/></transform></texture></bsdf>)";
+  const std::string file = R"(<string name="filename" value="t.obj"/>)", card = R"(<ref id="card"/>)";
+  const preset::Preset p = imported(bsdf + "<shape type='rectangle'>" + card + "</shape><shape type='obj'>" + file +
+                                    card + "</shape><shape type='sphere'>" + card + "</shape>" +
+                                    R"(<shape type="rectangle"><bsdf type="plastic"><texture type="checkerboard"
+    name="diffuse_reflectance"><rgb name="color0" value=".5 .25 1"/></texture></bsdf></shape>)");
+  ASSERT_TRUE(material_of(p, 0).texture);
+  const preset::Texture& texture = *material_of(p, 0).texture;
+  EXPECT_EQ(texture.wrap, preset::Texture::Wrap::mirror);
+  EXPECT_EQ(texture.file, fs::absolute(folder.path() / "p.png").string());
+  EXPECT_EQ(material_of(p, 0).reflectance.value, 1);
+  EXPECT_NEAR(texture.scale[0], 2, 1e-12);
+  EXPECT_NEAR(texture.scale[1], 3, 1e-12);
+  EXPECT_NEAR(texture.offset[0], 0.5, 1e-12);
+  EXPECT_NEAR(texture.offset[1], -2.25, 1e-12);
+  const scene::Scene scene = scene::load_scene(p);
+  const std::vector<scene::Texcoords>& texcoords = scene.geometry.texcoords;
+  ASSERT_EQ(texcoords.size(), 2u + 1 + 2);
+  EXPECT_EQ(texcoords[0][0], glm::vec2(0, 1)); // at (-1, -1), where v is 0 there
+  EXPECT_EQ(texcoords[2][0], glm::vec2(0, 0.25));
+  EXPECT_FALSE(material_of(p, 2).texture);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("its texture is left out, as the surface has no u, v")));
+  ASSERT_TRUE(material_of(p, 3).texture);
+  EXPECT_EQ(material_of(p, 3).texture->colour1, (preset::Vec3{0.5, 0.25, 1}));
+  EXPECT_NEAR(material_of(p, 3).texture->colour0[0], 0.2, 1e-12);
 }
 
 TEST_F(MitsubaImport, MetalsAreConductors) {

@@ -2,6 +2,7 @@
 // Colour against CIE 015, IEC 61966-2-1 and CIELAB; light spectra and reflectances against published figures; the
 // spectra of the sRGB primaries: the right colour, and nothing smoother has it.
 #include "optics/colour.h"
+#include "optics/primary_reflectances.h"
 #include "optics/spectrum.h"
 #include "tests/support/test.h"
 
@@ -281,6 +282,27 @@ TEST(PrimarySpectra, GreyHasPowerEverywhere) {
     for (const Spectrum& s : primary_spectra()) grey += s[w] * sum_of_y;
     EXPECT_GT(grey, 0.3) << w;
     EXPECT_LT(grey, 1.2) << w;
+  }
+}
+
+// Of every colour in 0..1 they make a reflectance in 0..1 that has the colour under daylight.
+TEST(PrimaryReflectances, HaveTheirColoursAndAddUpToWhite) {
+  const std::array<Spectrum, 3>& primaries = primary_reflectances();
+  const Spectrum d65 = illuminant("D65");
+  const Colour white = xyz_to_linear_srgb(to_xyz(d65));
+  for (std::size_t primary = 0; primary < 3; ++primary) {
+    Spectrum left = d65;
+    for (std::size_t w = 0; w < left.size(); ++w) left[w] *= primaries[primary][w];
+    const Colour rgb = xyz_to_linear_srgb(to_xyz(left));
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(rgb[c] / white[c], primary == c ? 1 : 0, 1e-9) << primary << c;
+  }
+  for (std::size_t w = 0; w < d65.size(); ++w) {
+    double sum = 0;
+    for (const Spectrum& primary : primaries) {
+      EXPECT_GE(primary[w], 0);
+      sum += primary[w];
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
   }
 }
 

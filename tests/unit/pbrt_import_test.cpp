@@ -2,10 +2,12 @@
 // What PBRT's scenes mean: names of files and of materials, what is inside of what, attributes, media, spectra, meshes.
 // Expected values are worked out in comments.
 #include "base/inflate.h"
+#include "image/image.h"
 #include "optics/colour.h"
 #include "optics/dispersion.h"
 #include "scene/materials.h"
 #include "scene/mesh.h"
+#include "scene/scene.h"
 #include "tests/unit/imports_scenes.h"
 
 #include <numbers>
@@ -277,6 +279,38 @@ TEST_F(PbrtImport, PackedFilesThatAreCutOrTooLargeAreRefused) {
   EXPECT_THAT(refusal("Include \"cut.pbrt.gz\""), HasSubstr("its packed bytes are damaged"));
   EXPECT_THAT(test::refusal_of([&] { inflated(zeros + zeros, "bomb.gz", std::size_t{5} << 20); }),
               HasSubstr("bomb.gz: holds more than 5 MiB"));
+}
+
+TEST_F(PbrtImport, MattSurfacesHaveTextures) {
+  image::write_png(folder.path() / "p.png", 1, 1, {0.5f, 0.25f, 1});
+  const std::string patch = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0]\n";
+  const preset::Preset p =
+      imported("Texture \"wood\" \"spectrum\" \"imagemap\" \"string filename\" \"p.png\" \"float uscale\" 2 \"float "
+               "vdelta\" .5\n"
+               "Texture \"half\" \"spectrum\" \"scale\" \"texture tex\" \"wood\" \"float scale\" .5\n"
+               "Texture \"board\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [1 .5 .25] \"float uscale\" 4\n"
+               "Texture \"lost\" \"spectrum\" \"imagemap\" \"string filename\" \"no.png\"\n"
+               "Material \"diffuse\" \"texture reflectance\" \"half\"\n" +
+               patch + "Material \"diffuse\" \"texture reflectance\" \"board\"\n" + patch +
+               "Material \"diffuse\" \"texture reflectance\" \"lost\"\n" + patch);
+  ASSERT_TRUE(material_of(p, 0).texture);
+  EXPECT_EQ(material_of(p, 0).texture->scale, (std::array<double, 2>{2, 1}));
+  EXPECT_EQ(material_of(p, 0).texture->offset, (std::array<double, 2>{0, 0.5}));
+  EXPECT_NEAR(material_of(p, 0).reflectance.value, 0.5, 1e-12);
+  ASSERT_TRUE(material_of(p, 1).texture);
+  EXPECT_EQ(material_of(p, 1).texture->colour0, (preset::Vec3{1, 0.5, 0.25}));
+  EXPECT_EQ(material_of(p, 1).texture->colour1, (preset::Vec3{0, 0, 0}));
+  EXPECT_EQ(material_of(p, 1).texture->scale, (std::array<double, 2>{2, 0.5})) << "a field is one unit there";
+  EXPECT_FALSE(material_of(p, 2).texture);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("no.png is not there and left out")));
+  const scene::Scene scene = scene::load_scene(p);
+  for (std::size_t t = 0; t < 2; ++t) // of a patch whose u, v are its x, y
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const glm::vec3 at = scene.geometry.positions[scene.geometry.triangles[t][static_cast<int>(corner)]];
+      const glm::vec2 uv = scene.geometry.texcoords[t][corner];
+      EXPECT_NEAR(at.x + scene.origin.x, uv.x, 1e-6);
+      EXPECT_NEAR(at.y + scene.origin.y, uv.y, 1e-6);
+    }
 }
 
 } // namespace nephroid::pbrt_import_test

@@ -303,6 +303,13 @@ TEST(SceneRefusals, PointAtTheRightPlace) {
        [](S& s) {
          s.materials["m"] = {.type = preset::Material::Type::dielectric, .thin = true, .coating = preset::Coating()};
        }},
+      {"objects/0: object 'ball' has a texture, but no u, v",
+       [](S& s) {
+         preset::Material& m = s.materials[s.objects[0].material] = {};
+         m.texture.emplace().type = preset::Texture::Type::checkerboard;
+       }},
+      {"materials/m/texture/file: 'no.png' not found",
+       [](S& s) { s.materials["m"].texture.emplace().file = "no.png"; }},
       {"camera/target: (0, 0, 0) has no direction", [](S& s) { s.camera.target = s.camera.position; }}};
   for (const auto& [says, change] : wrongs) {
     preset::Preset preset = ball_over_floor();

@@ -2,13 +2,16 @@
 // Pencils of light on metals, tinted glass, panes and coatings by the real engine, against Fresnel and Airy.
 #include "scene/materials.h"
 #include "optics/fresnel.h"
+#include "optics/primary_reflectances.h"
 #include "optics/spectrum.h"
 #include "spectral/checks/render.h"
 #include "spectral/checks/scene_parts.h"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <optional>
 
 namespace nephroid::check {
 namespace {
@@ -187,12 +190,73 @@ Result coated_plate(const compute::Context& context, std::uint64_t seed) {
                 "the farthest from (1 - R) / (1 + R) with Airy's R");
 }
 
+/// A board of four colours that lies below the camera, x to the right and -z up in the picture, lit by daylight: the
+/// sun's alone, or what a lamp sends through a plate of glass.
+job::Snapshot on_a_board(const compute::Context& context, bool through_glass, const std::optional<double>& nm,
+                         const std::optional<preset::Texture>& texture) {
+  preset::Preset p = empty_preset(16);
+  p.scene.materials["board"] = white();
+  p.scene.materials["board"].texture = texture;
+  p.scene.materials["glass"] = glass(1.5);
+  p.scene.objects = {object("board", quad(2, 2), "board")};
+  if (through_glass) p.scene.objects.push_back(object("plate", box(0.4, 0.01, 0.4), "glass", at({0, 8, 0})));
+  p.scene.lights.resize(1);
+  p.scene.lights[0].type = through_glass ? preset::Light::Type::point : preset::Light::Type::directional;
+  p.scene.lights[0].position = {0, 9, 0};
+  if (nm) p.scene.lights[0].spectrum = line(*nm);
+  p.scene.camera.position = {0, 5, 0};
+  p.scene.camera.up = {0, 0, -1};
+  p.scene.camera.fov_deg = 2 * std::atan(0.2) / degree;
+  spectral::settings(p).direct = !through_glass;
+  spectral::settings(p).caustic = through_glass;
+  spectral::settings(p).jitter = nm.has_value(); // clusters as a whole have no noise of colours
+  return render(p, context);
+}
+
+/// A checkerboard's colours on a white card are those of its fields. Of light of one wavelength, a mixture of the three
+/// reflectances of which colours are made is left.
+Result textures(const compute::Context& context, std::uint64_t) {
+  preset::Texture board;
+  board.type = preset::Texture::Type::checkerboard;
+  board.colour0 = {0.75, 0.5, 0.125}; // exact as half floats
+  board.colour1 = {0.25, 0.0, 1.0};
+  double worst = 0;
+  for (const bool through_glass : {false, true})
+    for (const std::optional<double>& nm : {std::optional<double>(), std::optional(500.0), std::optional(620.0)}) {
+      const job::Snapshot plain = on_a_board(context, through_glass, nm, std::nullopt),
+                          coloured = on_a_board(context, through_glass, nm, board);
+      const char* name = through_glass ? "caustic" : "direct";
+      const job::Layer &white = layer(plain, name), &seen = layer(coloured, name);
+      std::array<std::array<double, 3>, 2> light{}, left{}; // of the fields of each colour
+      for (std::size_t i = 0; i < white.rgb.size(); ++i) {
+        const std::size_t colour = (i / 3 % 16 < 8) == (i / 48 < 8) ? 1 : 0;
+        light[colour][i % 3] += white.rgb[i];
+        left[colour][i % 3] += seen.rgb[i];
+      }
+      for (std::size_t colour = 0; colour < 2; ++colour)
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+          const preset::Vec3& rgb = colour == 0 ? board.colour0 : board.colour1;
+          double truth = rgb[channel];
+          if (nm) {
+            truth = 0;
+            for (std::size_t c = 0; c < 3; ++c)
+              truth += rgb[c] * optics::primary_reflectances()[c][static_cast<std::size_t>(*nm - optics::first_nm)];
+          }
+          worst = worse(worst, left[colour][channel] / light[colour][channel] - truth);
+        }
+    }
+  return judged(worst, 1e-3, "",
+                "daylight, 500 and 620 nm on a checkerboard, from the sun and through glass, over that on white: "
+                "against the colours of its fields");
+}
+
 } // namespace
 
 Checks material_checks() {
   return {{"material: metals", metals},         {"material: a rough mirror", rough_mirror},
           {"material: highlights", highlights}, {"material: tinted glass", tinted_plate},
-          {"material: a thin pane", pane},      {"material: coatings", coated_plate}};
+          {"material: a thin pane", pane},      {"material: coatings", coated_plate},
+          {"material: textures", textures}};
 }
 
 } // namespace nephroid::check
