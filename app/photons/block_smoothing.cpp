@@ -46,7 +46,8 @@ LayerEstimate between(const Blocks& blocks, const LayerEstimate& layer) {
 
 BlockSmoothing::BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread,
                                int first_preview_edge)
-    : first_{scene.camera.width, scene.camera.height, first_preview_edge} {
+    : first_{scene.camera.width, scene.camera.height, first_preview_edge},
+      in_pixels_(any_material(scene, scene::is_textured)) {
   const std::shared_ptr<const Smoothing::View> view = Smoothing::view_of(scene, bvh);
   for (Blocks blocks{first_.width, first_.height, first_preview_edge > 1 ? 2 * first_preview_edge : 1}; blocks.edge > 0;
        blocks.edge /= 2)
@@ -61,6 +62,7 @@ LayerEstimate BlockSmoothing::pixels_of(const Blocks& blocks, LayerEstimate laye
 }
 
 void BlockSmoothing::spread(LayerEstimate& caustics) {
+  if (in_pixels_) return pixels().spread(caustics.rgb, caustics.draw);
   std::size_t chosen = levels_.size() - 1;
   if (first_.edge > 1) {
     const double needed = pixels_needed(first_, means(first_, caustics));

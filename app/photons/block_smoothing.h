@@ -26,7 +26,7 @@ public:
   /// Returns a preview's layer, smoothed, by pixel. blocks are the preview's; `layer` has a value for each.
   LayerEstimate pixels_of(const Blocks& blocks, LayerEstimate layer);
   /// Spreads caustics in blocks so large that their noise needs no wide kernels. Then mixes in the results of smaller
-  /// and larger blocks where the halves show a gain (mixture.h).
+  /// and larger blocks where the halves show a gain (mixture.h). In a scene with textures only pixels are spread.
   void spread(LayerEstimate& caustics);
 
 private:
@@ -38,6 +38,7 @@ private:
 
   std::vector<Level> levels_; ///< edges from twice first_preview_edge down to 1, each half of the one before
   Blocks first_;
+  bool in_pixels_; ///< blocks would blur textures
 };
 
 } // namespace nephroid::photons

@@ -172,7 +172,7 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
 /// What a pixel shows, as far as it matters for spreading light over it.
 struct PixelSight {
   PixelSurfaces::Surface surface; ///< the diffuse one at the end of a ray, or the first of glass or a mirror
-  int first = -1;                 ///< object that the ray meets first; -1: none
+  int first = -1;                 ///< object that the ray meets first; -1: none, or a texture is seen
   bool at_edge = false;           ///< whether a neighbour shows something else, whose light the pixel may hold
 };
 
@@ -325,8 +325,15 @@ void Smoothing::find_surfaces() {
           surfaces_of_pixel(view->scene, view->bvh, camera, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
   });
   const std::vector<bool> pulled = are_near_pulled(pixels, width_, height_);
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    seen[i] = {pulled[i] ? pixels[i].first : pixels[i].last, pixels[i].first.object};
+  const auto is_so = [&](int object, bool (*is)(const scene::Material&)) {
+    return object >= 0 && is(material_of(view->scene, view->scene.objects[static_cast<std::size_t>(object)]));
+  };
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const auto& [first, last, way, spacing] = pixels[i];
+    // What a rough surface shows of a texture has no detail left.
+    const bool has_detail = is_so(last.object, scene::is_textured) && !is_so(first.object, scene::is_rough);
+    seen[i] = {pulled[i] ? first : last, has_detail ? -1 : first.object};
+  }
   for_neighbours(width_, height_, true, [&](std::size_t i, std::size_t j) {
     if (seen[i].first == seen[j].first && seen[i].surface.object == seen[j].surface.object) return;
     seen[i].at_edge = seen[j].at_edge = true;

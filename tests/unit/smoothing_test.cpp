@@ -74,6 +74,14 @@ protected:
   photons::Smoothing smoothing = smoothing_of(scene, bvh, photons::Smoothing::Spread::everywhere);
 };
 
+TEST_F(Smoothing, leaves_what_shows_a_texture_as_it_is) {
+  scene.materials[0].texture = std::make_shared<scene::Texture>();
+  Photons photons = scatter([](int, int) { return 2.0; }, 1);
+  const std::vector<float> before = photons.rgb;
+  smoothing_of(scene, bvh, photons::Smoothing::Spread::everywhere).spread(photons.rgb, photons.error_draw);
+  EXPECT_EQ(photons.rgb, before);
+}
+
 TEST_F(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less) {
   Photons photons = scatter([](int, int) { return 2.0; }, 1);
   const double power = sum(photons.rgb);
