@@ -5,7 +5,6 @@
 #include "image/image.h"
 
 #include <fmt/format.h>
-#include <glm/gtc/packing.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +13,9 @@
 namespace nephroid::scene {
 namespace {
 
-std::uint16_t half(float value) { return glm::packHalf1x16(value); }
+std::uint16_t texel(double value) {
+  return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(value, 0.0, 1.0)));
+}
 
 void read_texels(const std::filesystem::path& file, const std::string& name, Texture& texture,
                  std::vector<std::string>& warnings) {
@@ -39,7 +40,7 @@ void read_texels(const std::filesystem::path& file, const std::string& name, Tex
     if (!std::isfinite(value))
       throw bad_input(file.string(), fmt::format("texel {} has a value that is not finite", i / 3));
     clipped += value < 0 || value > 1;
-    texture.rgb.push_back(half(std::clamp(value, 0.0f, 1.0f)));
+    texture.rgb.push_back(texel(value));
   }
   if (clipped > 0) warn(counted(clipped, "value is", "values are") + " outside of 0 to 1, and clipped");
 }
@@ -61,7 +62,7 @@ Texture make_texture(const preset::Texture& texture, const FileFinder& finder, c
   result.width = result.height = 2;
   result.nearest = true;
   for (const preset::Vec3* colour : {&texture.colour1, &texture.colour0, &texture.colour0, &texture.colour1})
-    for (const double value : *colour) result.rgb.push_back(half(static_cast<float>(value)));
+    for (const double value : *colour) result.rgb.push_back(texel(value));
   return result;
 }
 

@@ -22,8 +22,8 @@ static inline float wrapped_place(float x, int wrap) {
 static inline float3 texel_of(const World* world, const DeviceTexture* texture, int column, int row) {
   column = wrapped_texel(column, texture->width, texture->wrap);
   row = wrapped_texel(row, texture->height, texture->wrap);
-  return vload_half3(texture->first + (uint)row * (uint)texture->width + (uint)column,
-                     (__global const half*)world->texture_texels);
+  const ushort3 rgb = vload3(texture->first + (uint)row * (uint)texture->width + (uint)column, world->texture_texels);
+  return convert_float3(rgb) / 65535.0f;
 }
 
 // The colour at a place in the picture: (0, 0) is its lower left, (1, 1) its upper right.

@@ -15,18 +15,19 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
     if (is_of_environment(world, l)) {
       const float3 rgb = sky_irradiance(world, l, path, surface, triangle, seed, sample, paths, pixel);
       const Source sky = {l, rgb / PI_F};
-      __global const float4* all = reflected_xyz_all + l * world->scene.reflector_count;
-      xyz += band->cluster < 0 ? sky.rgb.x * mixed_reflected(all, reflector).xyz +
-                                     sky.rgb.y * mixed_reflected(all + world->scene.reflector_count, reflector).xyz +
-                                     sky.rgb.z * mixed_reflected(all + 2 * world->scene.reflector_count, reflector).xyz
-                               : carried_light(world, &path->losses, sky, band, reflector).xyz;
+      const int first = l * world->scene.reflector_count, next = world->scene.reflector_count;
+      xyz += band->cluster < 0
+                 ? sky.rgb.x * reflected_colour_of(reflected_xyz_all, first, reflector).xyz +
+                       sky.rgb.y * reflected_colour_of(reflected_xyz_all, first + next, reflector).xyz +
+                       sky.rgb.z * reflected_colour_of(reflected_xyz_all, first + 2 * next, reflector).xyz
+                 : carried_light(world, &path->losses, sky, band, reflector).xyz;
       continue;
     }
     const float irradiance = irradiance_of(world, l, path, surface, triangle, seed, sample, paths, pixel);
     if (irradiance == 0.0f) continue;
     const Source lamp = {l, (float3)(1.0f)};
     const float3 reflected =
-        band->cluster < 0 ? mixed_reflected(reflected_xyz_all + l * world->scene.reflector_count, reflector).xyz
+        band->cluster < 0 ? reflected_colour_of(reflected_xyz_all, l * world->scene.reflector_count, reflector).xyz
                           : carried_light(world, &path->losses, lamp, band, reflector).xyz;
     xyz += reflected * (irradiance / PI_F);
   }

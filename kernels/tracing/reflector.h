@@ -35,23 +35,25 @@ static inline bool is_white(Reflector reflector) { return reflector.row < 0; }
 
 static inline float reflectance_of(const SpectralTables* tables, Reflector reflector, int wavelength) {
   if (is_white(reflector)) return 1.0f;
-  __global const float* row = tables->reflectance + reflector.row * WAVELENGTH_COUNT + wavelength;
+  const int place = reflector.row * WAVELENGTH_COUNT + wavelength;
 #if NEPHROID_TEXTURES
   if (reflector.is_textured)
-    return reflector.rgb.x * row[WAVELENGTH_COUNT] + reflector.rgb.y * row[2 * WAVELENGTH_COUNT] +
-           reflector.rgb.z * row[3 * WAVELENGTH_COUNT];
+    return reflector.rgb.x * tables->reflectance[place + WAVELENGTH_COUNT] +
+           reflector.rgb.y * tables->reflectance[place + 2 * WAVELENGTH_COUNT] +
+           reflector.rgb.z * tables->reflectance[place + 3 * WAVELENGTH_COUNT];
 #endif
-  return row[0];
+  return tables->reflectance[place];
 }
 
-// The colour that a reflector makes of light. of: [reflector], one row of reflected_xyz or reflected_xyz_all.
-static inline float4 mixed_reflected(__global const float4* of, Reflector reflector) {
-  of += reflector.row;
+// The colour that a reflector makes of light. first: of the light's row in a table [row][reflector].
+static inline float4 reflected_colour_of(__global const float4* table, int first, Reflector reflector) {
+  const int place = first + reflector.row;
 #if NEPHROID_TEXTURES
   if (reflector.is_textured) {
-    const float3 xyz = reflector.rgb.x * of[1].xyz + reflector.rgb.y * of[2].xyz + reflector.rgb.z * of[3].xyz;
-    return (float4)(xyz, of[0].w);
+    const float3 xyz = reflector.rgb.x * table[place + 1].xyz + reflector.rgb.y * table[place + 2].xyz +
+                       reflector.rgb.z * table[place + 3].xyz;
+    return (float4)(xyz, table[place].w);
   }
 #endif
-  return of[0];
+  return table[place];
 }

@@ -51,7 +51,7 @@
 // Pictures on surfaces: materials/texture.h. Empty where there are none.
 #define TEXTURE_TABLES(TABLE) \
   TABLE(DeviceTexture, textures, "textures") \
-  TABLE(ushort, texture_texels, "texels of textures") /* [texel][3]: half floats, linear sRGB */ \
+  TABLE(ushort, texture_texels, "texels of textures") /* [texel][3]: linear sRGB, 65535 is 1 */ \
   TABLE(float, texcoords, "texture coordinates") /* [triangle of textured objects][corner][2] */
 
 // Tables that only some kernels read, as arguments of their own.

@@ -285,9 +285,8 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
   if (losses->any || is_white(reflector))
     return attenuated_sum(&world->tables, losses, light, band->cluster, reflector);
 #endif
-  return mixed_reflected(world->tables.reflected_xyz + (light * world->scene.cluster_count + band->cluster) *
-                                                           world->scene.reflector_count,
-                         reflector);
+  const int row = light * world->scene.cluster_count + band->cluster;
+  return reflected_colour_of(world->tables.reflected_xyz, row * world->scene.reflector_count, reflector);
 }
 
 // What a path carries of a light of power 1 after its losses. w: the power. xyz: as a reflector sends it.

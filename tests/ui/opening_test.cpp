@@ -197,6 +197,22 @@ TEST_F(DroppedPicture, IsOpenedToBeLookedAtElsewhere) {
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
+TEST_F(DroppedPicture, IsTheTextureOfASelectedMattObject) {
+  ASSERT_TRUE(workbench.open("spectral/brilliant"));
+  const auto texture = [&] { return workbench.preset()->scene.materials.at("ground").texture; };
+  workbench.apply({command::Select{{Selection::Kind::object, 1}}, command::Open{picture}});
+  ASSERT_TRUE(texture());
+  EXPECT_EQ(texture()->file, picture);
+  EXPECT_THAT(last_message(workbench), HasSubstr("face.png is the texture of the material 'ground'"));
+  workbench.apply({command::Undo{}});
+  EXPECT_FALSE(texture());
+  workbench.apply({command::Open{(folder.path() / "gone.png").string()}});
+  EXPECT_THAT(last_message(workbench), HasSubstr("there is no such picture"));
+  workbench.apply({command::Select{{Selection::Kind::object, 0}}, command::Open{picture}});
+  EXPECT_FALSE(workbench.preset()->scene.materials.at("diamond").texture);
+  EXPECT_FALSE(workbench.edits()->modified());
+}
+
 /// A closed tetrahedron with edges of 10 along the axes, its corner at (100, 0, 0).
 constexpr const char* tetrahedron =
     "v 100 0 0\nv 110 0 0\nv 100 10 0\nv 100 0 10\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";

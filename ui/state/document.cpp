@@ -64,6 +64,25 @@ void Document::take_picture(const std::string& file) {
   services_.messages.note(std::move(taken.note));
 }
 
+bool Document::take_texture(const std::string& file) {
+  if (view_state_.selection.kind != Selection::Kind::object) return false;
+  preset::Preset edited = edits_->current();
+  if (view_state_.selection.index >= edited.scene.objects.size()) return false;
+  const std::string name = edited.scene.objects[view_state_.selection.index].material;
+  const auto material = edited.scene.materials.find(name);
+  if (material == edited.scene.materials.end() || material->second.type != preset::Material::Type::diffuse)
+    return false;
+  if (!is_there(file)) throw bad_input(file, "there is no such picture");
+  preset::Texture texture = material->second.texture.value_or(preset::Texture());
+  texture.type = preset::Texture::Type::file;
+  texture.file = std::filesystem::absolute(file).string();
+  material->second.texture = texture;
+  const std::string picture = std::filesystem::path(file).filename().string();
+  edit({"texture " + picture, std::move(edited)});
+  services_.messages.note(fmt::format("{} is the texture of the material '{}'", picture, name));
+  return true;
+}
+
 void Document::read_mesh(const std::filesystem::path& file) {
   services_.tasks.start(
       meshes_, {"reading " + file.string(), TaskKind::request}, [file] { return read_dropped_mesh(file); },

@@ -28,6 +28,8 @@ public:
   bool take_over(preset::WithSweep read);
   /// Gives a picture's file to the preset's engine. Throws bad_input where the engine has no use for it.
   void take_picture(const std::string& file);
+  /// Makes it the texture of the selected object's material. False where no matt object is selected.
+  bool take_texture(const std::string& file);
   void read_mesh(const std::filesystem::path& file);
   /// Called once a frame, after RunInHand::update: the fitted white replaces "auto".
   void update();

@@ -100,6 +100,7 @@ void Workbench::carry_out(const command::Open& c) {
   if (preset() && kind == FileKind::map) return document_.carry_out(command::OpenMap{file});
   if (preset() && kind == FileKind::picture) {
     if (engine::engine_of(*preset()).take_picture) return document_.take_picture(file);
+    if (document_.take_texture(file)) return;
     return comparing_.carry_out(command::PinFile{file, true});
   }
   if (kind == FileKind::scene) return files_.import_scene(file);

@@ -83,6 +83,8 @@ std::vector<std::string> left_out(const scene::Scene& scene) {
     notes.push_back(
         fmt::format("glTF has no surroundings: those are in {}, and blender.py takes them", surroundings_file));
   if (std::ranges::any_of(scene.materials, scene::is_coated)) notes.push_back("coatings are left out");
+  if (std::ranges::any_of(scene.materials, scene::is_textured))
+    notes.push_back("textures are left out: their surfaces have the colour of their reflectance");
   if (std::ranges::any_of(scene.materials, [](const scene::Material& material) {
         return material.type == scene::Material::Type::conductor;
       }))

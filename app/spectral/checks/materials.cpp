@@ -218,7 +218,7 @@ job::Snapshot on_a_board(const compute::Context& context, bool through_glass, co
 Result textures(const compute::Context& context, std::uint64_t) {
   preset::Texture board;
   board.type = preset::Texture::Type::checkerboard;
-  board.colour0 = {0.75, 0.5, 0.125}; // exact as half floats
+  board.colour0 = {0.75, 0.5, 0.125};
   board.colour1 = {0.25, 0.0, 1.0};
   double worst = 0;
   for (const bool through_glass : {false, true})
