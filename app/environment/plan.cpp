@@ -141,6 +141,8 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   plan.decisions = {bake_decision(plan, s, fault), colours_decision(task)};
   const auto append = [](auto more, auto& list) { std::ranges::move(more, std::back_inserter(list)); };
   append(view_decisions(preset, plan.render.get()), plan.decisions);
+  if (plan.render && scene.environment && !scene.environment->about.empty())
+    plan.decisions.push_back({"sky", true, scene.environment->about, "/scene/environment", true});
   if (plan.render) append(photon_decisions(s, plan.photons ? &*plan.photons : nullptr), plan.decisions);
   append(code_decisions(preset, task), plan.decisions);
   plan.buffers = buffers_of(task, scene, plan.bakes);

@@ -21,6 +21,8 @@
 namespace nephroid::photons {
 namespace {
 
+bool has_size(const scene::Light& light) { return light.type == preset::Light::Type::area || scene::has_disc(light); }
+
 /// The part that every run has.
 PlanPart plan_scene(const PlanInput& input) {
   const std::uint64_t environment = input.scene.environment ? tracing::bytes_of(input.scene.environment->rgb) : 0;
@@ -67,6 +69,8 @@ plan::Decision environment_light_decision(const PlanInput& input) {
 PlanPart plan_environment_light(const PlanInput& input) {
   PlanPart part;
   if (input.scene.environment) part.decisions = {environment_light_decision(input)};
+  if (input.scene.environment && !input.scene.environment->about.empty())
+    part.decisions.push_back({"sky", true, input.scene.environment->about, "/scene/environment", true});
   return part;
 }
 
@@ -155,7 +159,7 @@ std::string why_points(const Settings& wanted, const scene::Scene& scene) {
     return "spectral.method, effort, jitter or low_discrepancy ask for points";
   if (scene.environment && scene.environment->lights && !scene.environment->is_black())
     return "an environment has too many directions: a lattice for each would be coarse";
-  if (std::ranges::count(scene.lights, preset::Light::Type::area, &scene::Light::type) > 0)
+  if (std::ranges::any_of(scene.lights, has_size))
     return "a lamp of a size has too many places: a lattice for each would be coarse";
   if (tracing::count_objects(scene).mirrors > 0) return "mirrors spread a cell too far";
   if (tracing::may_see_glass_or_mirror(scene)) return "the camera sees glass: photon maps have more noise than splats";
@@ -256,9 +260,8 @@ void add(PlanPart part, plan::Plan& plan) {
 
 /// The default of Settings::pixel_samples. Where all lamps are points, only edges within pixels need samples.
 int enough_samples(const scene::Scene& scene) {
-  const bool all_points = std::ranges::all_of(scene.lights, [](const scene::Light& light) {
-    return !scene::is_environment(light) && light.type != preset::Light::Type::area;
-  });
+  const bool all_points = std::ranges::all_of(
+      scene.lights, [](const scene::Light& light) { return !scene::is_environment(light) && !has_size(light); });
   return all_points ? 64 : 4096;
 }
 

@@ -4,12 +4,14 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/nearest.h"
+#include "base/numbers.h"
 #include "preset/settings_type.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace nephroid::preset {
@@ -102,6 +104,18 @@ void check_object(const Object& o, const Scene& scene, const std::string& pointe
                   found.empty() ? "" : fmt::format("did you mean '{}'?", found));
 }
 
+void check_environment(const Environment& e, const std::string& pointer, const Where& where) {
+  if (e.type != Environment::Type::sky) return;
+  if (e.place.has_value() == e.sun_direction.has_value())
+    throw bad_input(where(pointer),
+                    e.place ? "has both 'place' and 'sun_direction'" : "has neither 'place' nor 'sun_direction'",
+                    "expected exactly one of them");
+  if (e.sun_direction) check_direction(*e.sun_direction, child(pointer, "sun_direction"), where);
+  if (e.place && !days_since_2000(e.place->date))
+    throw bad_input(where(child(child(pointer, "place"), "date")), "is " + in_quotes(e.place->date),
+                    "expected a day from 1950-01-01 to 2050-12-31 as YYYY-MM-DD");
+}
+
 void check_light(const Light& l, const std::string& pointer, const Where& where) {
   check_spectrum(l.spectrum, child(pointer, "spectrum"), where);
   if (l.type != Light::Type::point) check_direction(l.direction, child(pointer, "direction"), where);
@@ -146,6 +160,18 @@ void check_reference(const Preset& preset, const Where& where) {
 
 } // namespace
 
+std::optional<int> days_since_2000(const std::string& date) {
+  if (date.size() != 10 || date[4] != '-' || date[7] != '-') return std::nullopt;
+  const auto year = number_in<int>(date.substr(0, 4)), month = number_in<int>(date.substr(5, 2)),
+             day = number_in<int>(date.substr(8));
+  if (!year || !month || !day || *year < 1950 || *year > 2050 || *month < 1 || *day < 1) return std::nullopt;
+  const std::chrono::year_month_day there{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
+                                          std::chrono::day(static_cast<unsigned>(*day))};
+  if (!there.ok()) return std::nullopt;
+  using namespace std::chrono_literals;
+  return static_cast<int>((std::chrono::sys_days(there) - std::chrono::sys_days(2000y / 1 / 1)).count());
+}
+
 void check(const Preset& preset, const Where& where) {
   const Scene& scene = preset.scene;
   check_camera(scene.camera, where);
@@ -153,6 +179,7 @@ void check(const Preset& preset, const Where& where) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     check_object(scene.objects[i], scene, child("/scene/objects", i), where);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], child("/scene/lights", i), where);
+  if (scene.environment) check_environment(*scene.environment, "/scene/environment", where);
   check_stop(preset, where);
   check_reference(preset, where);
   check_animation(preset, where);

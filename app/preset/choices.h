@@ -78,7 +78,8 @@ inline constexpr Choice<Light::Type> choices<Light::Type>[] = {
 template <>
 inline constexpr Choice<Environment::Type> choices<Environment::Type>[] = {
     {Environment::Type::file, "file", "A latitude-longitude picture."},
-    {Environment::Type::constant, "constant", "One colour."}};
+    {Environment::Type::constant, "constant", "One colour."},
+    {Environment::Type::sky, "sky", "The clear sky and the sun of a place and time (Preetham et al. 1999)."}};
 
 template <>
 inline constexpr Choice<Scene::DamagedMeshes> choices<Scene::DamagedMeshes>[] = {

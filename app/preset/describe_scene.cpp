@@ -174,6 +174,9 @@ void describe(Fields& v, Light& l) {
   if (l.type == Type::directional)
     v.field("irradiance_w_m2", "Irradiance of 380 to 780 nm on a plane that faces the light.", l.irradiance_w_m2,
             {.unit = "W/m^2", .bounds = power_bounds});
+  if (l.type == Type::directional)
+    v.field("angular_diameter_deg", "Of the disc that the light comes from: 0.53 for the sun, 0 for a point.",
+            l.angular_diameter_deg, {.unit = "degrees", .bounds = within(0, 90)});
   else {
     v.field("power_w", "Radiant power of 380 to 780 nm.", l.power_w, {.unit = "W", .bounds = power_bounds});
     v.field("position", "Where it is; of an area light its centre.", l.position,
@@ -200,17 +203,42 @@ void describe(Fields& v, Camera& c) {
           {.unit = "pixels", .bounds = within(1, 16384)});
 }
 
+void describe(Fields& v, PlaceAndTime& p) {
+  v.about("PlaceAndTime", "Where and when the sun is seen.");
+  v.field("latitude_deg", "Latitude, north of the equator positive.", p.latitude_deg,
+          {.unit = "degrees", .bounds = within(-90, 90), .required = true});
+  v.field("longitude_deg", "Longitude, east of Greenwich positive.", p.longitude_deg,
+          {.unit = "degrees", .bounds = within(-180, 180), .required = true});
+  v.field("date", "YYYY-MM-DD, of the years 1950 to 2050.", p.date, {.text = Text::line, .required = true});
+  v.field("hour", "Hour by the clock, with its fraction: 14.5 is half past two.", p.hour,
+          {.unit = "h", .bounds = within(0, 24), .required = true});
+  v.field("utc_offset_h", "What the clock is ahead of UTC, summer time included: 2 in Berlin in June.", p.utc_offset_h,
+          {.unit = "h", .bounds = within(-14, 14)});
+}
+
 void describe(Fields& v, Environment& e) {
   v.about("Environment", "What is behind everything, infinitely far.");
   v.shorthand(BareValue::text, Environment::Type::file, "file");
+  using Type = Environment::Type;
   v.type("type", "Where the surroundings come from.", e.type);
-  if (e.type == Environment::Type::file)
+  if (e.type == Type::file)
     v.field("file", "A latitude-longitude picture.", e.file, {.text = Text::file, .required = true});
-  else
+  if (e.type == Type::constant)
     v.field("colour", "Linear sRGB.", e.colour, {.bounds = within(0, 1e6), .required = true});
-  v.field("radiance", "Luminance Y of the colour (1, 1, 1).", e.radiance,
+  if (e.type == Type::sky) {
+    v.field("place", "Where and when the sun is seen; give either this or sun_direction.", e.place);
+    v.field("sun_direction", "The way to the sun: north is -z, east is +x.", e.sun_direction,
+            {.bounds = position_bounds});
+    v.field("turbidity", "How hazy the air is: 2 is very clear, 3 clear, 6 light haze.", e.turbidity,
+            {.bounds = within(2, 10)});
+    v.field("albedo", "Part of the light that the ground below the horizon reflects.", e.albedo,
+            {.bounds = within(0, 1)});
+    v.field("sun_scale", "Factor of the sun's own light; 0 leaves the sun out.", e.sun_scale,
+            {.bounds = within(0, 1e6)});
+  }
+  v.field("radiance", "Luminance Y of the colour (1, 1, 1); of a sky a factor of it.", e.radiance,
           {.unit = "W/(m^2 sr)", .bounds = within(0, 1e9)});
-  if (e.type == Environment::Type::file)
+  if (e.type != Type::constant)
     v.field("rotate_deg", "Turns the surroundings about +y, counterclockwise as seen from above.", e.rotate_deg,
             {.unit = "degrees", .bounds = within(-3600, 3600)});
   v.field("lights", "Whether it lights the scene, where the engine leaves that open; if not, it is only seen.",

@@ -159,6 +159,7 @@ struct Light {
   double half_angle_deg = 30;       ///< spot: constant intensity inside, 0 outside
   std::array<double, 2> size{1, 1}; ///< area: a rectangle's edge lengths
   Vec3 up{0, 0, 1};                 ///< area: along the rectangle's second edge (projected)
+  double angular_diameter_deg = 0;  ///< directional: of the even disc that it comes from; 0: a point
   bool operator==(const Light&) const = default;
 };
 
@@ -171,16 +172,34 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
+/// Where and when the sun is seen: scene/sky.h says where that is.
+struct PlaceAndTime {
+  double latitude_deg = 0;  ///< north is positive
+  double longitude_deg = 0; ///< east is positive
+  std::string date = {};    ///< YYYY-MM-DD, 1950 to 2050
+  double hour = 12;         ///< by the clock of utc_offset_h: 14.5 is half past two
+  double utc_offset_h = 0;  ///< what that clock is ahead of UTC, summer time included
+  bool operator==(const PlaceAndTime&) const = default;
+};
+
+/// Days from 2000-01-01 to a date as PlaceAndTime has it. Nothing where that is no day of 1950 to 2050.
+std::optional<int> days_since_2000(const std::string& date);
+
 /// What is behind everything, infinitely far: the camera sees it, directly and through glass.
 /// JSON: a string (a picture file) or an object with "type".
 struct Environment {
-  enum class Type { file, constant };
+  enum class Type { file, constant, sky };
   Type type = Type::file;
   std::string file;      ///< file: its centre column looks along -z, its top row along +y
   Vec3 colour{1, 1, 1};  ///< constant: linear sRGB
   double radiance = 1;   ///< the luminance Y (W m^-2 sr^-1, no factor 683) of the colour (1, 1, 1)
-  double rotate_deg = 0; ///< file: about +y, counterclockwise as seen from above
+  double rotate_deg = 0; ///< file, sky: about +y, counterclockwise as seen from above
   bool lights = false;   ///< engine 1: false: a backdrop, as where lamps light a scene before a picture
+  double turbidity = 3;  ///< sky: 2 is very clear, 10 is haze
+  std::optional<PlaceAndTime> place = {}; ///< sky: exactly one of place and sun_direction is given
+  std::optional<Vec3> sun_direction = {}; ///< sky: to the sun, before rotate_deg; north is -z, east is +x
+  double sun_scale = 1;                   ///< sky: factor of the sun's light, which is a directional light; 0: none
+  double albedo = 0.2;                    ///< sky: of the ground below the horizon
   bool operator==(const Environment&) const = default;
 };
 

@@ -86,6 +86,7 @@ Light make_light(const preset::Light& light, const Scene& scene, const Location&
   if (light.type == Type::spot) result.cos_half_angle = std::cos(light.half_angle_deg * std::numbers::pi / 180);
   if (light.type == Type::directional) {
     result.irradiance_w_m2 = light.irradiance_w_m2;
+    result.one_minus_cos = 2 * std::pow(std::sin(light.angular_diameter_deg / 4 * std::numbers::pi / 180), 2);
     return result; // comes from far away: inside nothing
   }
   result.power_w = light.power_w;

@@ -4,6 +4,7 @@
 #include "base/counted.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "scene/sky.h"
 
 #include <fmt/format.h>
 
@@ -155,6 +156,10 @@ Environment make_environment(const preset::Environment& environment, const FileF
   Environment result;
   if (environment.type == preset::Environment::Type::file) {
     result = read_environment(finder.find(environment.file, where / "file"), environment.radiance, warnings);
+    result.rotate_deg = environment.rotate_deg;
+  } else if (environment.type == preset::Environment::Type::sky) {
+    result = make_sky(environment, where);
+    mix_colours_beyond_srgb(result.rgb, "sky", warnings);
     result.rotate_deg = environment.rotate_deg;
   } else {
     result.width = result.height = 1;

@@ -23,7 +23,8 @@ struct Environment {
   std::vector<float> rgb; ///< linear sRGB, finite, not negative, 3 a texel
   double radiance = 1;    ///< Y in W m^-2 sr^-1 of the colour (1, 1, 1)
   double rotate_deg = 0;
-  bool lights = false; ///< whether it is a light too; never where it is black
+  bool lights = false;    ///< whether it is a light too; never where it is black
+  std::string about = {}; ///< of a sky: where its sun is and the irradiances, for a plan
 
   /// Whether nothing of it can be seen.
   bool is_black() const;

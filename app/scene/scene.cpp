@@ -226,6 +226,8 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
     warn_if_wide(scene, scene.lights.back(), i);
   }
   if (preset.scene.environment) {
+    if (std::optional<Light> sun = make_sun(*preset.scene.environment, where / "environment"))
+      scene.lights.push_back(std::move(*sun));
     scene.environment = make_environment(*preset.scene.environment, finder, where / "environment", scene.warnings);
     if (scene.environment->lights) scene.lights.push_back(make_environment_light(*scene.environment));
   }

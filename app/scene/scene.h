@@ -73,6 +73,7 @@ struct Light {
   double cos_half_angle = -1;     ///< spot
   double power_w = 0;             ///< point, spot, area
   double irradiance_w_m2 = 0;     ///< directional
+  double one_minus_cos = 0;       ///< directional: of half its disc's angle; 0: a point
   optics::Spectrum spectrum{};    ///< sums to 1
   std::vector<int> inside;        ///< dielectric objects that contain it, outermost first
   /// The environment's three parts. It is directional light of many directions and colours (environment.h): what a
@@ -85,6 +86,9 @@ struct Light {
 
 /// W, or of directional light W m^-2: what its type does not have is 0.
 inline double radiometric(const Light& light) { return light.power_w + light.irradiance_w_m2; }
+
+/// Whether directional light comes from more than a point.
+inline bool has_disc(const Light& light) { return light.one_minus_cos > 0; }
 
 inline bool is_environment(const Light& light) { return !light.primaries.empty(); }
 
@@ -107,7 +111,7 @@ struct Scene {
   Camera camera;
   std::vector<Material> materials;
   std::vector<Object> objects;
-  std::vector<Light> lights; ///< the preset's; after them the environment, where it is one
+  std::vector<Light> lights; ///< the preset's; after them the sun of a sky, then the environment, where they are
   std::optional<Environment> environment;
   Mesh geometry; ///< every object's triangles, one after the other; normals for every vertex; texcoords of textured
                  ///< objects alone
@@ -130,6 +134,10 @@ bool any_material(const Scene& scene, bool (*is)(const Material&));
 /// a warning (the former is turned round) or refused, as Scene::damaged_meshes of the preset says. Throws bad_input at
 /// FILE#/pointer or at the mesh file, interrupted where `watch` asks for it.
 Scene load_scene(const preset::Preset& preset, const Watch& watch = {});
+
+/// The sun of a sky (sky.h): a disc of `sun_angular_diameter_deg`. Nothing where the environment has none.
+/// where: FILE#/scene/environment. Throws bad_input there where the sun is below the horizon.
+std::optional<Light> make_sun(const preset::Environment& environment, const Location& where);
 
 /// Directional light of all directions together: its irradiance is that on a sphere, over the area of the sphere's
 /// shadow.

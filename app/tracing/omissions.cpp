@@ -197,6 +197,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
   omissions.defines = {
       {"NEPHROID_OCCLUSION", flag(occlusion)},
       {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types)},
+      {"NEPHROID_DISCS", flag(std::ranges::any_of(scene.lights, scene::has_disc) || !leave_out.light_types)},
       {"NEPHROID_MIRRORS", flag(mirrors)},
       {"NEPHROID_CONDUCTORS", flag(any(is_conductor) || !leave_out.mirrors)},
       {"NEPHROID_BENDING", flag(bending)},

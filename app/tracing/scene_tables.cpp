@@ -40,7 +40,8 @@ shared::DeviceLight device_light(const scene::Light& light, double power_unit, c
   out.edge_u = to_float4(light.edge_u);
   out.edge_v = to_float4(light.edge_v);
   out.type = device_light_type(light);
-  out.one_minus_cos = static_cast<float>(1 - light.cos_half_angle);
+  const bool spot = light.type == preset::Light::Type::spot;
+  out.one_minus_cos = static_cast<float>(spot ? 1 - light.cos_half_angle : light.one_minus_cos);
   out.solid_angle = static_cast<float>(2 * pi * (1 - light.cos_half_angle));
   out.radiometric = static_cast<float>(scene::radiometric(light) / power_unit);
   out.inside = to_media(light.inside, where / "position");

@@ -22,7 +22,8 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const PhotonStart start =
         photon_start(emitters, scene.emitter_count, lights, seed, iteration, first_iteration, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
-    const DeviceLight light = lights[emitter.light];
+    DeviceLight light = lights[emitter.light];
+    choose_in_disc(&light, start.place);
     const Emission emission = emit(&light, targets, &scene, start.emission, start.place);
     if (emission.watts == 0.0f) continue;
     const Band band = whole_cluster(emitter.cluster);

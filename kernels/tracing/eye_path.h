@@ -40,8 +40,8 @@ static inline Arrival arrive_from(const DeviceLight* light, float3 position, flo
   return arrival;
 }
 
-// The four numbers of sample `sample` of an area light or the environment at a pixel. A pass takes `paths` samples. The
-// samples of each half of the film follow a sequence, whose sets 0 and 1 belong to photons.
+// The four numbers of sample `sample` of a light that has places (light.h) at a pixel. A pass takes `paths` samples.
+// The samples of each half of the film follow a sequence, whose sets 0 and 1 belong to photons.
 static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sample, uint paths, uint pixel) {
 #if NEPHROID_LOW_DISCREPANCY
   const uint frame = sample / paths, index = frame / NEPHROID_FILM_HALVES * paths + sample % paths;
@@ -54,10 +54,10 @@ static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sa
 // The irradiance of a light's unbent light on the side of a surface that a path arrives at; 0 where something hides it.
 static inline float irradiance_of(const World* world, int light_index, const Path* path, const Surface* surface,
                                   uint triangle, uint2 seed, uint sample, uint paths, uint pixel) {
-  const DeviceLight light = world->lights[light_index];
+  DeviceLight light = world->lights[light_index];
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
-  const float4 place =
-      is_light(&light, LIGHT_AREA) ? light_numbers(&light, seed, sample, paths, pixel) : (float4)(0.0f);
+  const float4 place = has_lamp_places(&light) ? light_numbers(&light, seed, sample, paths, pixel) : (float4)(0.0f);
+  choose_in_disc(&light, place.xy);
   const Arrival arrival =
       arrive_from(&light, surface->position, side * surface->shading, world->scene.metres_per_unit, place.xy);
   if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) return 0.0f;
@@ -148,11 +148,11 @@ IN_PLACE bool first_bend(const World* world, Path* path, const Hit* hit, const B
 static inline float3 highlight(const World* world, int light_index, bool beyond, const Path* path,
                                const Surface* surface, uint triangle, const DeviceMaterial* material, const Band* band,
                                uint2 seed, uint sample, uint paths, uint pixel) {
-  const DeviceLight light = world->lights[light_index];
+  DeviceLight light = world->lights[light_index];
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f, light_side = beyond ? -side : side;
   const float3 n = normal_before(path->direction, surface), view = -path->direction;
-  const float4 place =
-      is_light(&light, LIGHT_AREA) ? light_numbers(&light, seed, sample, paths, pixel) : (float4)(0.0f);
+  const float4 place = has_lamp_places(&light) ? light_numbers(&light, seed, sample, paths, pixel) : (float4)(0.0f);
+  choose_in_disc(&light, place.xy);
   const Arrival arrival =
       arrive_from(&light, surface->position, beyond ? -n : n, world->scene.metres_per_unit, place.xy);
   if (!(arrival.irradiance > 0.0f) || !(light_side * dot(arrival.direction, surface->geometric) > 0.0f))

@@ -8,6 +8,11 @@
 #define NEPHROID_LIGHT_TYPES ((1 << LIGHT_TYPE_COUNT) - 1)
 #endif
 
+// Whether any directional light is a disc (DeviceLight::one_minus_cos), as the sun is.
+#ifndef NEPHROID_DISCS
+#define NEPHROID_DISCS 1
+#endif
+
 static inline bool is_light(const DeviceLight* light, int type) {
   return (NEPHROID_LIGHT_TYPES >> type & 1) != 0 && (NEPHROID_LIGHT_TYPES == 1 << type || light->type == type);
 }
@@ -29,9 +34,31 @@ static inline bool is_narrow(const DeviceLight* light) {
   return is_light(light, LIGHT_SPOT) && light->one_minus_cos < NARROW_SPOT;
 }
 
-// Whether photons begin at different places: on a rectangle, or in the environment.
+// Whether a lamp's light comes from different places: of a rectangle, or of a disc far away.
+static inline bool has_lamp_places(const DeviceLight* light) {
+#if NEPHROID_DISCS
+  if (is_light(light, LIGHT_DIRECTIONAL) && light->one_minus_cos > 0.0f) return true;
+#endif
+  return is_light(light, LIGHT_AREA);
+}
+
+// Whether photons begin at different places: of such a lamp, or in the environment.
 static inline bool has_places(const DeviceLight* light) {
-  return is_light(light, LIGHT_AREA) || is_light(light, LIGHT_ENVIRONMENT);
+  return has_lamp_places(light) || is_light(light, LIGHT_ENVIRONMENT);
+}
+
+// Light of a disc becomes, in *light, directional light from one place, even over the disc's solid angle.
+static inline void choose_in_disc(DeviceLight* light, float2 place) {
+#if NEPHROID_DISCS
+  if (!is_light(light, LIGHT_DIRECTIONAL) || !(light->one_minus_cos > 0.0f)) return;
+  float3 x, y;
+  make_frame(light->direction.xyz, &x, &y);
+  const float below = place.x * light->one_minus_cos, sine = sqrt(below * (2.0f - below));
+  float cosine_phi;
+  const float sine_phi = sincos(2.0f * PI_F * place.y, &cosine_phi);
+  light->direction.xyz =
+      normalize(sine * (cosine_phi * x + sine_phi * y) + (1.0f - below) * light->direction.xyz);
+#endif
 }
 
 static inline float3 area_point(const DeviceLight* light, float2 place) {

@@ -106,7 +106,8 @@ typedef struct {
   float4 edge_u;    // area: the full edges; environment: the mean colour of its photons
   float4 edge_v;
   int type;            // LIGHT_*
-  float one_minus_cos; // spot: 1 - cos of its half angle; less than NARROW_SPOT: see is_narrow (light.h)
+  float one_minus_cos; // spot: 1 - cos of its half angle; less than NARROW_SPOT: see is_narrow (light.h); directional:
+                       // of half its disc's angle, 0 for a point
   float solid_angle;   // spot: its cone's, in steradians
   float radiometric; // point, spot, area: power in W; directional: irradiance in W m^-2; environment: of all directions
                      // together

@@ -239,9 +239,11 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   return bend_path_as(world, path, triangle, surface, material, band, choice, facet_choice, n_ratio, &bend);
 }
 
-// A light for one photon. The environment becomes, in *light, directional light from one place, drawn by `place`.
+// A light for one photon. The environment and a disc become, in *light, directional light from one place, drawn by
+// `place`.
 static inline Source source_of(const World* world, int index, float2 place, DeviceLight* light) {
   Source source = {index, (float3)(1.0f)};
+  choose_in_disc(light, place);
   if (is_light(light, LIGHT_ENVIRONMENT)) {
 #if NEPHROID_EVEN_SKY
     const SkyPlace from = sample_sky(&world->sky, cdf_of_peaks(&world->sky), place);

@@ -16,6 +16,7 @@ std::string object(const std::string& json) {
   return scene(R"("materials":{"m":{"type":"diffuse"}},"objects":[)" + json + "]");
 }
 std::string light(const std::string& json) { return scene(R"("lights":[)" + json + "]"); }
+std::string sky(const std::string& fields) { return scene(R"("environment":{"type":"sky",)" + fields + "}"); }
 std::string camera(const std::string& fields) { return scene(R"("camera":{)" + fields + "}"); }
 std::string material(const std::string& name, const std::string& json) {
   return scene(R"("materials":{")" + name + R"(":)" + json + "}");
@@ -217,6 +218,21 @@ TEST_F(BadPresets, AreRefusedInOneLine) {
        R"(#/scene/environment/lights: cannot be kept in layers: every texel has a spectrum of its own; expected 'spectral.relight' false, or an environment that is only seen)"},
       {scene(R"("environment":{"type":"constant","colour":[1,1,1],"lights":1})"),
        R"(#/scene/environment/lights: is 1; expected true or false)"},
+      {sky(R"("sun_direction":[0,1,0],"turbidity":0)"),
+       R"(#/scene/environment/turbidity: is 0; expected a number from 2 to 10)"},
+      {sky(R"("sun_direction":[0,1,0],"turbidity":100)"),
+       R"(#/scene/environment/turbidity: is 100; expected a number from 2 to 10)"},
+      {sky(R"("turbidity":3)"),
+       R"(#/scene/environment: has neither 'place' nor 'sun_direction'; expected exactly one of them)"},
+      {sky(R"("sun_direction":[0,0,0])"), R"(#/scene/environment/sun_direction: has no length; expected a direction)"},
+      {sky(R"("sun_direction":[0,1,0],"place":{"latitude_deg":50,"longitude_deg":7,"date":"2026-06-21","hour":12})"),
+       R"(#/scene/environment: has both 'place' and 'sun_direction'; expected exactly one of them)"},
+      {sky(R"("place":{"latitude_deg":95,"longitude_deg":7,"date":"2026-06-21","hour":12})"),
+       R"(#/scene/environment/place/latitude_deg: is 95; expected a number from -90 to 90 degrees)"},
+      {sky(R"("place":{"latitude_deg":50,"longitude_deg":7,"date":"2026-02-31","hour":12})"),
+       R"(#/scene/environment/place/date: is '2026-02-31'; expected a day from 1950-01-01 to 2050-12-31 as YYYY-MM-DD)"},
+      {light(R"({"type":"point","angular_diameter_deg":1})"),
+       R"(#/scene/lights/0/angular_diameter_deg: 'angular_diameter_deg' has no meaning for the type 'point'; it belongs to 'directional'; remove it or change the type)"},
       {top(R"("parent":"nobody.json")"),
        R"(#/parent: there is no preset 'nobody.json'; expected a file or the name of a shipped preset; see `nephroid presets`)"},
       {top(R"("parent":["first-light"])"),

@@ -159,6 +159,46 @@ INSTANTIATE_TEST_SUITE_P(Lights, Photons,
                                          preset::Light::Type::directional, preset::Light::Type::area),
                          light_name);
 
+/// The part of a disc's light that passes an edge, `t` of its radius beyond the edge's shadow by the middle.
+double part_of_disc(double t) {
+  if (std::abs(t) >= 1) return t > 0 ? 1 : 0;
+  return 0.5 + (t * std::sqrt(1 - t * t) + std::asin(t)) / M_PI;
+}
+
+// Light of a disc of 10 degrees straight down past an edge that is .8 m above the floor: its shadow fades over 2 * .8
+// tan(5 degrees) = .14 m. Direct light, and photons through a sheet of n = 1 above the edge.
+TEST(Radiometry, ADiscHasItsPenumbra) {
+  for (const bool photons : {false, true}) {
+    SCOPED_TRACE(photons);
+    preset::Preset p = floor_preset(photons ? 64 : 256);
+    p.scene.camera.position = {0, 0.5, 0};
+    p.scene.camera.fov_deg = 90;
+    p.scene.objects.push_back(object("edge", quad(4, 8), "white", at({2, 0.8, 0})));
+    if (photons) p.scene.objects.push_back(object("sheet", box(3, 0.01, 3), "nothing", at({0, 0.9, 0})));
+    preset::Light& light = p.scene.lights[0];
+    light.type = preset::Light::Type::directional;
+    light.direction = {0, -1, 0};
+    light.angular_diameter_deg = 10;
+    spectral::settings(p).direct = !photons;
+    spectral::settings(p).caustic = photons;
+    spectral::settings(p).photons_per_pass = 1 << 18;
+    const job::Layer& picture = layer(render(p), photons ? "caustic" : "direct");
+    const double full = optics::to_xyz(optics::illuminant("E"))[1] / M_PI, radius = 0.8 * std::tan(5 * M_PI / 180);
+    double worst = 0, mean = 0;
+    for (int column = 0; column < 32; ++column) {
+      double y = 0, truth = 0; // means over the column
+      for (int row = 0; row < 32; ++row) y += check::luminance(picture, 32, row, column) / (32 * full);
+      for (int i = 0; i < 16; ++i) truth += part_of_disc(-((column + (i + 0.5) / 16) / 32 - 0.5) / radius) / 16;
+      worst = std::max(worst, std::abs(y - truth));
+      mean += (y - truth) / 32;
+    }
+    // 2^24 photons on the 14 m^2 of the sheet's disc are 37000 a column, which is .5 % of it.
+    expect_truth(photons ? "disc: photons' penumbra, worst column" : "disc: direct penumbra, worst column", worst, 0,
+                 photons ? 0.03 : 0.01);
+    expect_truth(photons ? "disc: photons' light" : "disc: direct light", mean, 0, 0.004);
+  }
+}
+
 /// A floor below a panel of 1.6 m by 1.6 m at height 1, seen from half that height; with or without a sheet of n = 1
 /// under the panel.
 preset::Preset floor_under_a_panel(bool sheet) {

@@ -96,6 +96,8 @@ protected:
                                             : std::vector<std::string>{"a.exr", "b.exr"};
     else if (pointer == "/environment/directions")
       all = {"98", "386"};
+    else if (pointer.ends_with("/place/date"))
+      all = {"2026-06-21", "2000-02-29"};
     else if (pointer == "/animation/tracks/0/path")
       all = {"white"};
     else if (node["type"] == "string")
@@ -204,9 +206,14 @@ protected:
           search("scene.objects.0.shape");
           click("/scene/objects/0/shape:given");
         }
+        if (pointer.ends_with("/sun_direction")) { // one of both
+          search("scene.environment.place");
+          click("/scene/environment/place:given");
+        }
         search(dotted(pointer));
         click(pointer + ":given");
         EXPECT_FALSE(drafted(pointer).is_null());
+        if (pointer.ends_with("/sun_direction")) enter(pointer + "/1", "1");
         if (type.empty() && drafted(pointer) == "")
           set(given(property), pointer, candidates(given(property), pointer, owner).front());
       }
@@ -234,6 +241,11 @@ protected:
       if (drafted(pointer).is_null()) click(pointer + ":given");
       if (HasFatalFailure()) return;
       if (drafted(pointer).value("type", "") != word) choose(pointer + "/type", word);
+      if (owner == "Environment.sky") { // which takes a place or a direction
+        search(dotted(pointer) + ".place");
+        click(pointer + "/place:given");
+        enter(pointer + "/place/date", "2026-06-21");
+      }
       if (!problems().empty()) fill(type["properties"], pointer, owner);
       if (HasFatalFailure()) return;
       EXPECT_EQ(at(pointer + "/type"), word);

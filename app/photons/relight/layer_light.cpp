@@ -78,6 +78,12 @@ LayerLight layer_light(const preset::Preset& preset) {
         scene::make_light_spectrum(l.spectrum, Location(preset.source) / "scene" / "lights" / i / "spectrum"));
     light.power.push_back(l.type == preset::Light::Type::directional ? l.irradiance_w_m2 : l.power_w);
   }
+  if (preset.scene.environment)
+    if (const auto sun =
+            scene::make_sun(*preset.scene.environment, Location(preset.source) / "scene" / "environment")) {
+      light.spectra.push_back(sun->spectrum);
+      light.power.push_back(sun->irradiance_w_m2);
+    }
   light.white = preset.white.value();
   return light;
 }

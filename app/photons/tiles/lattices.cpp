@@ -68,7 +68,8 @@ std::vector<Disc> discs_of(const RunTables& tables, const shared::DeviceLight& l
 /// How many places of a lamp of a size, or directions of a sky, have a lattice: few show copies of the caustic, with
 /// many a lattice is coarse.
 double places_of(const shared::DeviceLight& light, double photons) {
-  if (light.type != LIGHT_AREA && light.type != LIGHT_ENVIRONMENT) return 1;
+  const bool has_disc = light.type == LIGHT_DIRECTIONAL && light.one_minus_cos > 0;
+  if (light.type != LIGHT_AREA && light.type != LIGHT_ENVIRONMENT && !has_disc) return 1;
   return std::max(1.0, std::round(std::pow(photons, 0.4)));
 }
 
