@@ -349,6 +349,42 @@ TEST_F(MitsubaImport, AnIndexMayBeASpectrum) {
   EXPECT_THAT(material_of(p, 0).dispersion.table, ElementsAre(std::array{400., 1.54}, std::array{700., 1.51}));
 }
 
+// Mitsuba's sky has -x to the north and -y to the east; turned about x by -90 degrees, its up, z, is +y, so that -y is
+// +z. Of 2026-06-21, 11 h at UTC+2 in Berlin Mitsuba 3.9.1 has the sun at (.3751, -.4869, .7888).
+TEST_F(MitsubaImport, ASunAndSkyIsASky) {
+  const std::string place = R"(<float name="latitude" value="52.52"/><float name="longitude" value="13.405"/>
+<float name="timezone" value="2"/><integer name="year" value="2026"/><integer name="month" value="6"/>
+<integer name="day" value="21"/><float name="hour" value="11"/>)";
+  const auto scene = [](const std::string& emitter) { return "<shape type=\"sphere\"/>" + emitter; };
+  const std::string turned =
+      R"(<transform name="to_world"><rotate x="1" angle="-90"/></transform><float name="turbidity" value="4"/>)";
+  const preset::Environment sky =
+      imported(scene("<emitter type=\"sunsky\">" + turned + place +
+                     R"(<float name="sun_scale" value="0.5"/><float name="sky_scale" value="2"/></emitter>)"),
+               "in.xml")
+          .scene.environment.value();
+  EXPECT_EQ(sky.type, preset::Environment::Type::sky);
+  EXPECT_TRUE(sky.lights);
+  EXPECT_EQ(sky.turbidity, 4);
+  EXPECT_EQ(sky.radiance, 2);
+  EXPECT_EQ(sky.sun_scale, 0.5);
+  const preset::Vec3 truth{0.3751, 0.7888, 0.4869};
+  for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(sky.sun_direction.value()[axis], truth[axis], 3e-4);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("Preetham's model in place of Hosek's")));
+
+  const auto environment = [&](const std::string& emitter) {
+    fs::remove(folder.path() / "out.json");
+    return imported(scene(emitter), "in.xml").scene.environment;
+  };
+  const std::string up = R"(<vector name="sun_direction" x="0" y="0" z="1"/>)";
+  EXPECT_EQ(environment("<emitter type=\"sun\">" + turned + up + "</emitter>")->radiance, 0);
+  EXPECT_EQ(environment("<emitter type=\"sky\">" + turned + up + "</emitter>")->sun_scale, 0);
+  EXPECT_EQ(
+      environment("<emitter type=\"sky\">" + turned + R"(<vector name="sun_direction" x="0" y="0" z="-1"/></emitter>)"),
+      std::nullopt);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("the sun is below the horizon: the emitter is left out")));
+}
+
 TEST_F(MitsubaImport, AFlatTransformIsRefused) {
   EXPECT_THAT(
       refusal(R"(<shape type="sphere"><transform name="to_world"><scale x="1" y="0" z="1"/></transform></shape>)"),

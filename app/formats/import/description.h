@@ -60,7 +60,8 @@ struct DescribedSurroundings {
   std::filesystem::path file; ///< latitude and longitude; empty: one colour
   glm::dvec3 colour{1};
   double scale = 1;
-  glm::dvec3 centre{0, 0, 1}; ///< where the map's centre column looks, y up
+  glm::dvec3 centre{0, 0, 1};                  ///< where the map's centre column looks, y up
+  std::optional<preset::Environment> sky = {}; ///< a clear sky in place of a map, with its sun_direction
 };
 
 inline constexpr std::size_t max_shapes = 1000000; ///< of a file: instances of instances multiply

@@ -199,6 +199,11 @@ private:
     preset::Environment& e = made_.scene.environment.emplace();
     e.lights = true;
     e.radiance = s.scale * from_.unit;
+    if (s.sky) {
+      e = *s.sky;
+      e.sun_direction = scene::to_vec3(glm::dmat3(mirror_) * scene::to_dvec3(*e.sun_direction));
+      return;
+    }
     if (s.file.empty()) {
       e.type = preset::Environment::Type::constant;
       e.colour = scene::to_vec3(s.colour);

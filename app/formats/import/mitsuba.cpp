@@ -8,6 +8,7 @@
 #include "formats/import/textures.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
+#include "scene/sky.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -120,12 +121,62 @@ private:
       }
       d_.surroundings = s;
       return note_unasked(scene_, node);
+    } else if (type == "sky" || type == "sun" || type == "sunsky") {
+      return add_sky(node, type, glm::dmat3(to_world));
     } else if (type == "area" && node.attribute("id")) {
       return; // shapes refer to it
     } else
       return d_.note(light.where, "the emitter " + type + " is left out");
     note_unasked(scene_, node);
     d_.lights.push_back(light);
+  }
+
+  /// The plugins of Mitsuba 3.7 and later. Theirs is the sky of Hosek and Wilkie (2012, 2013) over a z axis that is
+  /// up, with -x to the north and -y to the east, turned by to_world.
+  void add_sky(xml_node node, const std::string& type, const glm::dmat3& to_world) {
+    const auto whole = [&](const char* name, int standard) {
+      return static_cast<int>(std::clamp(file_.number(node, name, standard), 0.0, 9999.0));
+    };
+    preset::Environment sky;
+    sky.type = preset::Environment::Type::sky;
+    sky.lights = true;
+    const double turbidity = file_.number(node, "turbidity", 3);
+    sky.turbidity = std::clamp(turbidity, 2.0, 10.0);
+    if (sky.turbidity != turbidity)
+      d_.note(file_.at(node), fmt::format("a turbidity of {:g} is taken as {:g}", turbidity, sky.turbidity));
+    sky.albedo = std::clamp(file_.number(node, "albedo", 0.3), 0.0, 1.0);
+    sky.radiance = type == "sun" ? 0 : std::clamp(file_.number(node, "sky_scale", 1), 0.0, 1e6);
+    sky.sun_scale = type == "sky" ? 0 : std::clamp(file_.number(node, "sun_scale", 1), 0.0, 1e6);
+    glm::dvec3 to_sun;
+    if (file_.child(node, "sun_direction"))
+      to_sun = to_world * file_.point(node, "sun_direction", glm::dvec3(0));
+    else {
+      const preset::PlaceAndTime place{
+          .latitude_deg = std::clamp(file_.number(node, "latitude", 35.6894), -90.0, 90.0),
+          .longitude_deg = std::clamp(file_.number(node, "longitude", 139.6917), -180.0, 180.0),
+          .date = fmt::format("{:04}-{:02}-{:02}", whole("year", 2010), whole("month", 7), whole("day", 10)),
+          .hour = file_.number(node, "hour", 15) + file_.number(node, "minute", 0) / 60 +
+                  file_.number(node, "second", 0) / 3600,
+          .utc_offset_h = file_.number(node, "timezone", 9)};
+      if (!preset::days_since_2000(place.date))
+        throw bad_input(file_.at(node), "its date is " + place.date, "expected a day of 1950 to 2050");
+      const glm::dvec3 enu = scene::to_sky(scene::sun_place(place)); // east, up, south
+      to_sun = to_world * glm::dvec3(enu.z, -enu.x, enu.y);
+    }
+    const glm::dvec3 up = to_world[2];
+    if (!(glm::length(to_sun) > 0) || !(glm::length(up) > 0))
+      throw bad_input(file_.at(node), "its sun has no direction");
+    if (glm::normalize(up).y < 1 - 1e-6) d_.note(file_.at(node), "the sky's horizon is made level: up is +y here");
+    if (!(to_sun.y > 0)) return d_.note(file_.at(node), "the sun is below the horizon: the emitter is left out");
+    sky.sun_direction = scene::to_vec3(glm::normalize(to_sun));
+    file_.child(node, "sun_aperture"); // Mitsuba's keeps its irradiance, and so is the sun's own here
+    d_.note(file_.at(node), "the sky is Preetham's model in place of Hosek's, with the ground below the horizon; the "
+                            "sun has its own width, and its disc is not seen");
+    DescribedSurroundings surroundings;
+    surroundings.where = file_.at(node);
+    surroundings.sky = sky;
+    d_.surroundings = surroundings;
+    note_unasked(scene_, node);
   }
 
   /// around: of the instance that it is in.
