@@ -170,7 +170,7 @@ double part_of_disc(double t) {
 TEST(Radiometry, ADiscHasItsPenumbra) {
   for (const bool photons : {false, true}) {
     SCOPED_TRACE(photons);
-    preset::Preset p = floor_preset(photons ? 64 : 256);
+    preset::Preset p = floor_preset(photons ? 64 : 2048);
     p.scene.camera.position = {0, 0.5, 0};
     p.scene.camera.fov_deg = 90;
     p.scene.objects.push_back(object("edge", quad(4, 8), "white", at({2, 0.8, 0})));
@@ -182,7 +182,8 @@ TEST(Radiometry, ADiscHasItsPenumbra) {
     spectral::settings(p).direct = !photons;
     spectral::settings(p).caustic = photons;
     spectral::settings(p).photons_per_pass = 1 << 18;
-    const job::Layer& picture = layer(render(p), photons ? "caustic" : "direct");
+    const job::Snapshot snapshot = render(p);
+    const job::Layer& picture = layer(snapshot, photons ? "caustic" : "direct");
     const double full = optics::to_xyz(optics::illuminant("E"))[1] / M_PI, radius = 0.8 * std::tan(5 * M_PI / 180);
     double worst = 0, mean = 0;
     for (int column = 0; column < 32; ++column) {
