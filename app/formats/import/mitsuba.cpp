@@ -15,6 +15,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace nephroid::formats {
 namespace fs = std::filesystem;
@@ -144,7 +146,14 @@ private:
     sky.turbidity = std::clamp(turbidity, 2.0, 10.0);
     if (sky.turbidity != turbidity)
       d_.note(file_.at(node), fmt::format("a turbidity of {:g} is taken as {:g}", turbidity, sky.turbidity));
-    sky.albedo = std::clamp(file_.number(node, "albedo", 0.3), 0.0, 1.0);
+    sky.albedo = 0.3;
+    if (const xml_node given = file_.child(node, "albedo")) {
+      const std::vector<double> albedo = file_.numbers(given);
+      if (albedo.size() == 1 || albedo.size() == 3)
+        sky.albedo = std::clamp(std::accumulate(albedo.begin(), albedo.end(), 0.0) / double(albedo.size()), 0.0, 1.0);
+      else
+        d_.note(file_.at(node), "the ground's albedo is taken as 0.3");
+    }
     sky.radiance = type == "sun" ? 0 : std::clamp(file_.number(node, "sky_scale", 1), 0.0, 1e6);
     sky.sun_scale = type == "sky" ? 0 : std::clamp(file_.number(node, "sun_scale", 1), 0.0, 1e6);
     glm::dvec3 to_sun;
