@@ -82,6 +82,9 @@ void check_scene(const preset::Preset& preset, const Where& where) {
   if (!preset.scene.objects.empty()) refuse("objects");
   if (!preset.scene.lights.empty()) refuse("lights");
   if (preset.scene.environment) refuse("environment");
+  if (!is_plain(preset.scene.camera))
+    throw bad_input(where("/scene/camera"), "has an aperture, a shift or an orthographic projection",
+                    "expected a pinhole for engine inverse", "remove them");
 }
 
 void check(const preset::Preset& preset, const Where& where) {

@@ -24,8 +24,8 @@ struct SurfaceHit {
 
 class CameraRay {
 public:
-  CameraRay(const scene::Scene& scene, const scene::Bvh& bvh, const glm::dvec3& way)
-      : scene_(scene), bvh_(bvh), from_(scene.camera.position), way_(way), inside_(scene.camera.inside) {}
+  CameraRay(const scene::Scene& scene, const scene::Bvh& bvh, const glm::dvec3& from, const glm::dvec3& way)
+      : scene_(scene), bvh_(bvh), from_(from), way_(way), inside_(scene.camera.inside) {}
 
   /// Moves on to the next surface; empty where there is none.
   std::optional<SurfaceHit> next() {
@@ -209,21 +209,19 @@ private:
 PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera,
                                 int column, int row, int most_surfaces) {
   const double x = 2 * (column + 0.5) / camera.width - 1, y = 1 - 2 * (row + 0.5) / camera.height;
-  const glm::dvec3 way = glm::dvec3(camera.forward) + x * camera.tan_x * glm::dvec3(camera.right) +
-                         y * camera.tan_y * glm::dvec3(camera.up);
+  const auto [eye, way] = camera.ray(x, y);
   const double spacing = 2 * std::max(camera.tan_x / camera.width, camera.tan_y / camera.height) / glm::length(way);
   PixelSurfaces surfaces;
   if (camera.receiver >= 0) {
     const scene::Object& receiver = scene.objects[static_cast<std::size_t>(camera.receiver)];
-    const glm::dvec3 eye = camera.position,
-                     corner = scene.geometry.positions[scene::triangles_of(scene, receiver).front().x];
+    const glm::dvec3 corner = scene.geometry.positions[scene::triangles_of(scene, receiver).front().x];
     const double distance = glm::dot(corner - eye, glm::dvec3(camera.forward));
     surfaces.first = surfaces.last = {glm::vec3(eye + distance * way), -camera.forward, camera.receiver};
     surfaces.way = glm::vec3(glm::normalize(way));
     surfaces.spacing = static_cast<float>(spacing * glm::length(way) * distance);
     return surfaces;
   }
-  CameraRay ray(scene, bvh, glm::normalize(way));
+  CameraRay ray(scene, bvh, eye, glm::normalize(way));
   for (int surface = 0; surface < most_surfaces; ++surface) {
     const std::optional<SurfaceHit> hit = ray.next();
     if (!hit) break;
@@ -239,7 +237,7 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
     if (is_first || !is_specular(type)) {
       surfaces.last = {glm::vec3(hit->position), glm::vec3(hit->geometric), hit->object};
       surfaces.way = glm::vec3(arrives);
-      surfaces.spacing = static_cast<float>(spacing * ray.length());
+      surfaces.spacing = static_cast<float>(spacing * (camera.orthographic ? 1 : ray.length()));
     }
     if (is_first) surfaces.first = surfaces.last;
     if (!is_specular(type)) break;
@@ -262,7 +260,8 @@ std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene) {
   }
   std::vector<std::uint32_t> pixels;
   for (std::size_t i = 0; i < marks.marked().size(); ++i)
-    if (marks.marked()[i] || !scene.camera.inside.empty()) pixels.push_back(static_cast<std::uint32_t>(i));
+    if (marks.marked()[i] || !scene.camera.inside.empty() || !scene.camera.is_plain())
+      pixels.push_back(static_cast<std::uint32_t>(i));
   return pixels;
 }
 

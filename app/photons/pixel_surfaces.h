@@ -30,7 +30,7 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
                                 int column, int row, int most_surfaces = 32);
 
 /// The pixels, row after row, whose square the outline of a triangle or ellipsoid of glass or of a mirror may touch,
-/// whatever stands before it. For a camera inside glass, all pixels.
+/// whatever stands before it. For a camera inside glass, or with a lens, a shift or parallel rays, all pixels.
 std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene);
 
 } // namespace nephroid::photons

@@ -148,10 +148,23 @@ void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& sc
   refuse(wanted.estimator == Settings::Estimator::tiles, "estimator", "expected points, splat or sppm");
 }
 
+/// Tiles and layers look up what a pixel shows from one point.
+void refuse_what_cameras_cannot(const Settings& wanted, const scene::Scene& scene, const Location& spectral) {
+  if (scene.camera.is_plain()) return;
+  const auto refuse = [&](bool is_set, const char* field, const char* expected) {
+    if (is_set)
+      throw bad_input(spectral / field, "needs a camera without aperture, shift and orthographic projection", expected,
+                      "or set scene.camera.aperture and shift to 0, and projection to perspective");
+  };
+  refuse(wanted.relight, "relight", "expected false");
+  refuse(wanted.estimator == Settings::Estimator::tiles, "estimator", "expected points, splat or sppm");
+}
+
 /// Why photons are points; empty where tiles have less error (docs/notebook/tiles.md).
 std::string why_points(const Settings& wanted, const scene::Scene& scene) {
   if (wanted.relight) return "spectral.relight is true: layers hold whole clusters";
   if (has_coatings(scene)) return "a coating reflects each wavelength otherwise";
+  if (!scene.camera.is_plain()) return "a camera with a lens, a shift or parallel rays sees points only";
   if (any_material(scene, scene::is_rough)) return "a rough surface scatters the corners of a tile";
   if (any_material(scene, scene::is_textured)) return "a tile has one colour, and a texture many";
   if (wanted.method == Settings::Method::brute_force || wanted.effort != Settings::Effort::automatic ||
@@ -295,6 +308,7 @@ bool RunPlan::runs(const RunPart& part) const { return std::ranges::count(parts,
 RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const scene::Scene& scene,
                   const scene::Bvh& bvh, const tracing::LeaveOut& leave_out) {
   refuse_what_materials_cannot(wanted, scene, Location(preset.source) / "spectral");
+  refuse_what_cameras_cannot(wanted, scene, Location(preset.source) / "spectral");
   RunPlan plan;
   plan.settings = wanted;
   if (!plan.settings.pixel_samples) plan.settings.pixel_samples = enough_samples(scene);

@@ -413,6 +413,8 @@ plan::Decision smoothing_decision(const PlanInput& input) {
   if (choice == Choice::off) return {name, false, "spectral.smoothing is off"};
   if (!is_of_use(input)) return {name, false, "there are no caustics and no light of walls"};
   if (input.is_sppm()) return {name, false, "spectral.estimator is sppm, which has radii of its own"};
+  if (input.scene.camera.lens_radius > 0)
+    return {name, false, "scene.camera.aperture: a pixel shows several surfaces at once"};
   if (!input.estimate.runs)
     return {name, false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
   if (input.preset.stop.passes == 1)

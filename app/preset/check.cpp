@@ -127,6 +127,13 @@ void check_camera(const Camera& c, const Where& where) {
   if (no_direction(forward))
     throw bad_input(where("/scene/camera/target"), "is where the camera stands", "expected another point");
   check_up(c.up, forward, "/scene/camera/up", where);
+  if (c.height && c.projection != Camera::Projection::orthographic)
+    throw bad_input(where("/scene/camera/height"), "is of an orthographic camera only",
+                    "expected 'scene.camera.projection' orthographic, or null", "use fov_deg");
+  if (const double focus = c.focus_distance.value_or(target_distance(c)); c.aperture > 2 * focus)
+    throw bad_input(where("/scene/camera/aperture"),
+                    fmt::format("is {:g}, and the lens is focused at {:g}", c.aperture, focus),
+                    "expected at most twice the focus distance", "is it in the scene's unit?");
 }
 
 /// What nothing can measure is refused before anything runs.

@@ -76,6 +76,12 @@ inline constexpr Choice<Light::Type> choices<Light::Type>[] = {
     {Light::Type::area, "area", "A rectangle that shines to one side by the cosine law."}};
 
 template <>
+inline constexpr Choice<Camera::Projection> choices<Camera::Projection>[] = {
+    {Camera::Projection::perspective, "perspective", "All rays meet in the camera."},
+    {Camera::Projection::orthographic, "orthographic",
+     "All rays are parallel: what is far is as large as what is near."}};
+
+template <>
 inline constexpr Choice<Environment::Type> choices<Environment::Type>[] = {
     {Environment::Type::file, "file", "A latitude-longitude picture."},
     {Environment::Type::constant, "constant", "One colour."},

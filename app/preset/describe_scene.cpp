@@ -194,11 +194,21 @@ void describe(Fields& v, Light& l) {
 }
 
 void describe(Fields& v, Camera& c) {
-  v.about("Camera", "A pinhole camera.");
+  v.about("Camera", "A pinhole camera, or one with a thin lens.");
   v.field("position", "Where it stands.", c.position, {.unit = length_unit, .bounds = position_bounds});
   v.field("target", "What it looks at.", c.target, {.unit = length_unit, .bounds = position_bounds});
   v.field("up", "What is up in the picture.", c.up, {.bounds = position_bounds});
-  v.field("fov_deg", "Vertical field of view.", c.fov_deg, {.unit = "degrees", .bounds = within(0.001, 179.9)});
+  v.field("projection", "How the picture is taken.", c.projection);
+  v.field("fov_deg", "Vertical field of view; orthographic: what it would show at the target, if height is null.",
+          c.fov_deg, {.unit = "degrees", .bounds = within(0.001, 179.9)});
+  v.field("height", "Height of what an orthographic picture shows; null: by fov_deg.", c.height,
+          {.unit = length_unit, .bounds = length_bounds});
+  v.field("shift", "How far the picture moves to the right and up, in its widths and heights, as a shift lens does.",
+          c.shift, {.bounds = within(-10, 10)});
+  v.field("aperture", "Diameter of the lens; 0: a pinhole, and all is sharp.", c.aperture,
+          {.unit = length_unit, .bounds = within(0, 1e7)});
+  v.field("focus_distance", "How far along the view the lens is focused; null: at the target.", c.focus_distance,
+          {.unit = length_unit, .bounds = length_bounds});
   v.field("resolution", "Width and height of the picture.", c.resolution,
           {.unit = "pixels", .bounds = within(1, 16384)});
 }

@@ -5,9 +5,11 @@
 #include "preset/settings.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -164,13 +166,35 @@ struct Light {
 };
 
 struct Camera {
+  enum class Projection { perspective, orthographic };
   Vec3 position{0, 1, 4};
   Vec3 target{0, 0, 0};
   Vec3 up{0, 1, 0};
-  double fov_deg = 40; ///< vertical
+  Projection projection = Projection::perspective;
+  double fov_deg = 40;                  ///< vertical
+  std::optional<double> height;         ///< orthographic only: what the picture shows; else height_at_target
+  std::array<double, 2> shift{0, 0};    ///< to the right and up, in widths and heights of the picture
+  double aperture = 0;                  ///< the lens's diameter; 0: a pinhole
+  std::optional<double> focus_distance; ///< along the view; else the target's
   std::array<int, 2> resolution{512, 512};
   bool operator==(const Camera&) const = default;
 };
+
+/// Whether it is a pinhole with its axis in the middle of the picture.
+inline bool is_plain(const Camera& c) {
+  return c.projection == Camera::Projection::perspective && c.aperture == 0 && c.shift == std::array<double, 2>{0, 0};
+}
+
+/// From the camera to its target, units.
+inline double target_distance(const Camera& c) {
+  return std::hypot(c.target[0] - c.position[0], c.target[1] - c.position[1], c.target[2] - c.position[2]);
+}
+
+/// The height of what the picture shows in the plane of the target, units.
+inline double height_at_target(const Camera& c) {
+  if (c.projection == Camera::Projection::orthographic && c.height) return *c.height;
+  return 2 * target_distance(c) * std::tan(c.fov_deg / 2 * std::numbers::pi / 180);
+}
 
 /// Where and when the sun is seen: scene/sky.h says where that is.
 struct PlaceAndTime {

@@ -92,15 +92,30 @@ inline bool has_disc(const Light& light) { return light.one_minus_cos > 0; }
 
 inline bool is_environment(const Light& light) { return !light.primaries.empty(); }
 
-/// Pinhole. right, up, forward: orthonormal; a pixel centre (x, y) looks along
-/// forward + (2 (x + .5) / width - 1) tan_x right + (1 - 2 (y + .5) / height) tan_y up.
+/// right, up, forward: orthonormal. With a = (2 (x + .5) / width - 1) tan_x, b = (1 - 2 (y + .5) / height) tan_y a
+/// pixel centre (x, y) looks along forward + (a + shift.x) right + (b + shift.y) up. An orthographic one looks along
+/// forward, from position + a right + b up. A lens is the disc of lens_radius about that, across forward; the whole
+/// disc sees the same place at the depth `focus`.
 struct Camera {
   glm::vec3 position{0}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
-  double tan_x = 1, tan_y = 1;
+  double tan_x = 1, tan_y = 1;       ///< orthographic: half the picture's width and height, units
+  glm::dvec2 shift{0};               ///< 0 where it is orthographic: position has it
+  double lens_radius = 0, focus = 1; ///< units
+  bool orthographic = false;
   int width = 0, height = 0;
   std::vector<int> inside; ///< dielectric objects that contain it, outermost first
   int receiver = -1;       ///< an object whose light alone is seen, through whatever is before it (formats/export)
 
+  /// Whether its rays meet in one point, and its axis is in the middle of the picture.
+  bool is_plain() const { return !orthographic && lens_radius == 0 && shift == glm::dvec2(0); }
+  /// Where the ray of a place of the picture begins, and its way, of any length: through the middle of the lens. x, y:
+  /// from -1 to 1, to the right and up.
+  std::array<glm::dvec3, 2> ray(double x, double y) const {
+    const glm::dvec3 to_right(right), upwards(up), from = orthographic ? glm::dvec3(position) : glm::dvec3(forward),
+                                                   to = from + x * tan_x * to_right + y * tan_y * upwards;
+    if (orthographic) return {to, glm::dvec3(forward)};
+    return {glm::dvec3(position), to + shift.x * to_right + shift.y * upwards};
+  }
   std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 

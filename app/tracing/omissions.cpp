@@ -38,8 +38,9 @@ bool anything_bends(const scene::Scene& scene) {
   });
 }
 
-/// False only where all of the object is beyond one side of the camera's pyramid, or behind the camera.
+/// False only where all of the object is beyond one side of a plain camera's pyramid, or behind the camera.
 bool may_be_in_view(const scene::Scene& scene, const scene::Object& object) {
+  if (!scene.camera.is_plain()) return true;
   const scene::Camera& c = scene.camera;
   const glm::dvec3 eye = c.position, right = c.right, up = c.up, forward = c.forward;
   std::array<bool, 5> beyond;
@@ -57,6 +58,7 @@ bool may_be_in_view(const scene::Scene& scene, const scene::Object& object) {
 
 /// Whether the camera sees all in its view: objects are flat, with the camera and the others on one side of each.
 bool nothing_blocks_the_view(const scene::Scene& scene) {
+  if (!scene.camera.is_plain()) return false;
   const glm::dvec3 eye = scene.camera.position;
   std::vector<std::size_t> seen;
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
@@ -208,7 +210,8 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       {"NEPHROID_TINTS", flag(any(is_tinted) || !leave_out.attenuation)},
       // Without materials that attenuate there is one place all the same: the code is compiled and does nothing.
       {"NEPHROID_ATTENUATORS", std::to_string(attenuation ? std::max(attenuators, 1) : 0)},
-      {"NEPHROID_SMOOTH", flag(smooth)}};
+      {"NEPHROID_SMOOTH", flag(smooth)},
+      {"NEPHROID_LENS", flag(!scene.camera.is_plain())}};
   return omissions;
 }
 

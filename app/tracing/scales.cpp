@@ -30,7 +30,8 @@ double splat_scale(const scene::Scene& scene, unsigned photons, double watts) {
   const scene::Camera& camera = scene.camera;
   const scene::Sphere bounds = scene_bounds(scene);
   const double distance =
-      std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius) * scene.metres_per_unit;
+      (camera.orthographic ? 1 : std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius)) *
+      scene.metres_per_unit;
   const double pixel_area = 4 * camera.tan_x * camera.tan_y / (double(camera.width) * camera.height);
   return power_of_two_below(std::exp2(16) * photons * std::numbers::pi * distance * distance * pixel_area / watts);
 }

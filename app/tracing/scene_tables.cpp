@@ -266,6 +266,11 @@ shared::DeviceCamera device_camera(const scene::Camera& camera, const Location& 
   out.height = camera.height;
   out.inside = to_media(camera.inside, where / "position");
   out.receiver = camera.receiver;
+  out.orthographic = int(camera.orthographic);
+  out.shift_x = static_cast<float>(camera.shift.x);
+  out.shift_y = static_cast<float>(camera.shift.y);
+  out.lens_radius = static_cast<float>(camera.lens_radius);
+  out.focus = static_cast<float>(camera.focus);
   return out;
 }
 

@@ -84,7 +84,9 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
   const bool coarse = block > 1;
   const float2 jitter = coarse ? (float2)(0.5f * (float)block) : eye_numbers(seed, pass, 1u, pixel, 0u, STREAM_SEE).xy;
   const float2 edges = piece_edges(pass / NEPHROID_FILM_HALVES);
-  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter));
+  EYE_OF(camera);
+  begin_on_lens(eye, pixel, jitter, seed, pass, 1u, STREAM_SEE);
+  Path path = path_from_eye(eye, primary_direction(eye, column, row, jitter));
   const Hit hit = next_hit(&world, &path);
   const bool bent = hit.primitive != NEPHROID_NO_PRIMITIVE &&
                     material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type != MATERIAL_DIFFUSE;
@@ -94,7 +96,7 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
     // All colours are reflected the same way and nearly as much, so one of them is followed. It has the last end.
     const int channel = i < ENDS_OF_PIXEL - 1 ? i : (ENDS_OF_PIXEL - 1) / 2;
     Band band = whole_cluster(0);
-    Path way = path_from_eye(&camera, outwards);
+    Path way = path_from_eye(eye, outwards);
     float3 weight = (float3)(1.0f);
     bool goes_on = i == 0;
     if (bent) {

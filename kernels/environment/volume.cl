@@ -33,7 +33,11 @@ __kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const 
   const uint pixel = (uint)(row * camera.width + column);
   const float4 random = random4(seed, pass, pixel, 0u, STREAM_SEE);
   const float2 jitter = block > 1 ? (float2)(0.5f * (float)block) : random.xy;
-  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter));
+  EYE_OF(camera);
+#if NEPHROID_LENS
+  stand_on_lens(eye, pixel, jitter, random4(seed, pass, pixel, LENS_BLOCK, STREAM_SEE).xy);
+#endif
+  Path path = path_from_eye(eye, primary_direction(eye, column, row, jitter));
   const Hit hit = next_hit(&world, &path);
 
   // The part of the path within the largest sphere.

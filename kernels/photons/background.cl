@@ -92,7 +92,8 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
   SET_ASIDE uint frame = samples[index].y;
   SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_BACKGROUND);
   float3 direction;
-  const Hit hit = first_hit(&world, &camera, pixel, jitter.xy, &direction);
+  EYE_OF(camera);
+  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, seed, frame, STREAM_BACKGROUND, &direction);
 
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
@@ -104,7 +105,7 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
     for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {
       const float place = golden_place(seed, frame, i, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND_WAVELENGTH);
       const Band band = wavelength_of_cluster(0, wavelengths, spectrum_cdf, WAVELENGTH_COUNT, place);
-      xyz += seen_through(&world, &background, path_from_eye(&camera, outwards), first, &band, jitter.xy, seed, frame,
+      xyz += seen_through(&world, &background, path_from_eye(eye, outwards), first, &band, jitter.xy, seed, frame,
                           i, pixel);
     }
   add_sample(film, energy, &camera, pixel, frame, xyz, film_scale, limit_of_sample(frame, enough, film_limit),

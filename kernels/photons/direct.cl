@@ -63,7 +63,8 @@ __kernel void direct(WORLD_ARGUMENTS,
   SET_ASIDE uint frame = samples[index].y;
   SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_CAMERA);
   float3 direction;
-  const Hit hit = first_hit(&world, &camera, pixel, jitter.xy, &direction);
+  EYE_OF(camera);
+  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, seed, frame, STREAM_CAMERA, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
   // One call of follow() for both cases: Intel's vectoriser gets two of them wrong (docs/checking.md).
@@ -72,7 +73,7 @@ __kernel void direct(WORLD_ARGUMENTS,
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
   for (uint i = 0; i < paths; ++i) {
-    const Path way = path_from_eye(&camera, outwards);
+    const Path way = path_from_eye(eye, outwards);
     const uint sample = frame * paths + i;
     Band band = whole_cluster(-1);
     SET_ASIDE float probability = 1.0f;

@@ -59,7 +59,8 @@ __kernel void even_sky(WORLD_ARGUMENTS, __global const DeviceTarget* targets, in
   SET_ASIDE uint frame = samples[index].y;
   SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_EVEN_SKY);
   float3 direction;
-  const Hit hit = first_hit(&world, &camera, pixel, jitter.xy, &direction);
+  EYE_OF(camera);
+  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, seed, frame, STREAM_EVEN_SKY, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
   const DeviceLight light = lights[light_index];
@@ -71,7 +72,7 @@ __kernel void even_sky(WORLD_ARGUMENTS, __global const DeviceTarget* targets, in
         choose_cluster(cluster_cdf, scene.cluster_count, seed, frame, i, BOUNCES, pixel, STREAM_EVEN_SKY_CLUSTER);
     const Band band =
         choose_band(&world, light_index, cluster, random4(seed, sample, pixel, 0u, STREAM_EVEN_SKY_WAVELENGTH).x);
-    Path way = path_from_eye(&camera, outwards);
+    Path way = path_from_eye(eye, outwards);
     Hit end = first;
     Surface surface;
     const float radiance_scale =

@@ -143,7 +143,8 @@ __kernel void indirect(WORLD_ARGUMENTS,
   SET_ASIDE uint frame = samples[index].y;
   SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_INDIRECT);
   float3 direction;
-  const Hit hit = first_hit(&world, &camera, pixel, jitter.xy, &direction);
+  EYE_OF(camera);
+  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, seed, frame, STREAM_INDIRECT, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
   const bool unbent = is_unbent(&world, &camera, &hit);
@@ -153,7 +154,7 @@ __kernel void indirect(WORLD_ARGUMENTS,
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
   for (uint p = 0; p < paths; ++p) {
-    Walk walk = {path_from_eye(&camera, outwards), false};
+    Walk walk = {path_from_eye(eye, outwards), false};
     for (uint i = 0; i < BANDS; ++i) {
       // The bands of each path begin with another one.
       const float place = golden_place(seed, frame, (i + p) % BANDS, BANDS, pixel, STREAM_INDIRECT_BAND);

@@ -35,8 +35,13 @@ static inline Source light_of(const Photon* photon) {
 
 // Adds a photon's light, reflected by a diffuse surface, to the pixel that sees it. False where the film refused it.
 static inline bool show(const World* world, const Receiver* receiver, const Photon* photon, const Surface* surface,
-                        uint triangle, Reflector reflector, float dither) {
+                        uint triangle, Reflector reflector, float dither, float2 lens) {
+#if NEPHROID_LENS
+  const DeviceCamera camera = through_lens(&receiver->camera, lens);
+  const Splat splat = splat_at(world, &camera, surface, triangle, photon->path.direction);
+#else
   const Splat splat = splat_at(world, &receiver->camera, surface, triangle, photon->path.direction);
+#endif
   if (splat.pixel < 0) return true;
   const Band band = band_of(photon);
   const float3 xyz = carried_light(world, &photon->path.losses, light_of(photon), &band, reflector).xyz;
@@ -61,8 +66,13 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
     const Band band = band_of(photon);
     if (material.type == MATERIAL_DIFFUSE) {
       if (!counts) return OUTCOME_MISSED;
+#if NEPHROID_LENS
+      const float2 lens = random4(seed, iteration, number, 128u + (uint)surface_number, STREAM_LENS).xy;
+#else
+      const float2 lens = (float2)(0.0f);
+#endif
       const Reflector reflector = reflector_at(world, &surface, hit.primitive);
-      if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, reflector, random.w))
+      if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, reflector, random.w, lens))
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
       met_diffuse = true;
       photon->shading *= shading_ratio(&surface, path->direction);

@@ -109,10 +109,15 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
 #endif
     if (NEPHROID_SPLAT && end.outcome == OUTCOME_DEPOSITED) {
       const Stretch stretch = stretch_of(&world, &camera, &end, &path, &band);
+#if NEPHROID_LENS
+      const DeviceCamera seen_from = through_lens(&camera, random4(seed, iteration, photon, 0u, STREAM_LENS).xy);
+#else
+#define seen_from camera
+#endif
       for (int i = 0; i < stretch.count; ++i) {
         Strand strand;
         if (!strand_of(&world, &end, &path, source, &band, &stretch, i, wavelength, &strand)) continue;
-        const Splat splat = splat_at(&world, &camera, &strand.surface, strand.triangle, path.direction);
+        const Splat splat = splat_at(&world, &seen_from, &strand.surface, strand.triangle, path.direction);
         if (splat.pixel < 0) continue;
         const float3 xyz = strand.xyz * (watts * splat.weight / PI_F);
         const float turn = dither + 0.61803399f * (float)i; // each strand has its own

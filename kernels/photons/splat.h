@@ -8,11 +8,28 @@
 #define NEPHROID_OCCLUSION 1
 #endif
 
+// The way from a position to where the camera sees it from.
+static inline float3 way_to_camera(const DeviceCamera* camera, float3 position) {
+#if NEPHROID_LENS
+  if (camera->orthographic)
+    return dot(camera->position.xyz - position, camera->forward.xyz) *
+           (camera->forward.xyz + camera->shift_x * camera->right.xyz + camera->shift_y * camera->up.xyz);
+#endif
+  return camera->position.xyz - position;
+}
+
 // The place of `position` in pixels from the top left corner. *depth is along the view, positive before the camera.
 static inline float2 place_on_film(const DeviceCamera* camera, float3 position, float* depth) {
   const float3 to_camera = camera->position.xyz - position;
   const float z = -dot(to_camera, camera->forward.xyz);
   *depth = z;
+#if NEPHROID_LENS
+  const float far = camera->orthographic ? 1.0f : z;
+  const float right = dot(to_camera, camera->right.xyz) + camera->shift_x * z,
+              up = dot(to_camera, camera->up.xyz) + camera->shift_y * z;
+  return (float2)((0.5f - 0.5f * right / (far * camera->tan_x)) * (float)camera->width,
+                  (0.5f + 0.5f * up / (far * camera->tan_y)) * (float)camera->height);
+#endif
   const float x = 0.5f - 0.5f * dot(to_camera, camera->right.xyz) / (z * camera->tan_x);
   const float y = 0.5f + 0.5f * dot(to_camera, camera->up.xyz) / (z * camera->tan_y);
   return (float2)(x * (float)camera->width, y * (float)camera->height);
@@ -21,17 +38,22 @@ static inline float2 place_on_film(const DeviceCamera* camera, float3 position, 
 // Whether the camera sees the side of `position` that light arrives on; *weight becomes the irradiance-to-pixel factor
 // in m^-2: a flux F deposited there adds F reflectance / pi * weight to the pixel's radiance. A pixel's value is the
 // mean of the radiance over its area A on the plane at distance 1, so F enters as F dq / (dA A), with dq / dA =
-// cos(theta) distance / z^3 (theta at the surface, z along the view axis).
+// cos(theta) distance / z^3 (theta at the surface, z along the view axis); orthographic: cos(theta) distance / z, in
+// units of the picture's plane.
 static inline bool project_to_film(const DeviceCamera* camera, float3 position, float3 geometric, float3 arriving,
                                    float metres_per_unit, float2* place, float* weight) {
-  const float3 to_camera = camera->position.xyz - position;
+  const float3 to_camera = way_to_camera(camera, position);
   const float cos_camera = dot(to_camera, geometric), cos_arriving = -dot(arriving, geometric);
   if (!(cos_camera * cos_arriving > 0.0f)) return false; // the camera sees its other side
   float z;
   *place = place_on_film(camera, position, &z);
   if (!(z > 0.0f)) return false;
   const float pixel_area = 4.0f * camera->tan_x * camera->tan_y / ((float)camera->width * (float)camera->height);
+#if NEPHROID_LENS
+  const float depth = (camera->orthographic ? 1.0f : z) * metres_per_unit; // parallel rays do not part with depth
+#else
   const float depth = z * metres_per_unit;
+#endif
   // cos_camera already is cos(theta) times the distance.
   *weight = fabs(cos_camera) / (z * depth * depth * pixel_area);
   return true;
@@ -67,7 +89,7 @@ COMPILED_ONCE Splat splat_at(const World* world, const DeviceCamera* camera, con
 #if NEPHROID_OCCLUSION
   if (splat.pixel < 0) return splat;
   const float3 from = start_on_side(surface, dot(arriving, surface->geometric) < 0.0f ? 1.0f : -1.0f);
-  const float3 way = camera->position.xyz - from;
+  const float3 way = way_to_camera(camera, from);
   const float distance = length(way);
   if (is_blocked(world, from, way / distance, distance, triangle)) splat.pixel = -1;
 #endif

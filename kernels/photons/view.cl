@@ -65,7 +65,9 @@ __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global 
   const uint pixel = pixels[first + index];
   const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
   const float4 jitter = random4(seed, sample, pixel, 0u, STREAM_VIEW);
-  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter.xy));
+  EYE_OF(camera);
+  begin_on_lens(eye, pixel, jitter.xy, seed, sample, 0u, STREAM_VIEW);
+  Path path = path_from_eye(eye, primary_direction(eye, column, row, jitter.xy));
   const Hit hit = next_hit(&world, &path);
   VisiblePoint point = nothing_visible();
   if (hit.primitive != NEPHROID_NO_PRIMITIVE) {

@@ -2,14 +2,40 @@
 // Where paths from the eye begin: their direction, and the wavelength cluster of one that meets glass.
 #include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/random.h"
+#include "kernels/tracing/world.h"
 
-// jitter: the place in the pixel's square, [0, 1) each way.
+// jitter: the place in the pixel's square, [0, 1) each way. The camera stands on its lens (stand_on_lens).
 static inline float3 primary_direction(const DeviceCamera* camera, int column, int row, float2 jitter) {
   const float x = 2.0f * ((float)column + jitter.x) / (float)camera->width - 1.0f;
   const float y = 1.0f - 2.0f * ((float)row + jitter.y) / (float)camera->height;
+#if NEPHROID_LENS
+  const float2 aside = camera->orthographic ? (float2)(0.0f) : (float2)(x * camera->tan_x, y * camera->tan_y);
+  return normalize(camera->forward.xyz + (aside.x + camera->shift_x) * camera->right.xyz +
+                   (aside.y + camera->shift_y) * camera->up.xyz);
+#endif
   return normalize(camera->forward.xyz + (x * camera->tan_x) * camera->right.xyz +
                    (y * camera->tan_y) * camera->up.xyz);
 }
+
+#define LENS_BLOCK 0xffu // of the numbers of a path, for its place on the lens
+
+// Declares `eye`, a kernel's camera, that the work item may move. Work items share an argument (PoCL): a copy is moved.
+#if NEPHROID_LENS
+#define EYE_OF(camera) DeviceCamera own_camera = (camera), *eye = &own_camera
+#else
+#define EYE_OF(camera) DeviceCamera* eye = &(camera)
+#endif
+
+#if NEPHROID_LENS
+// Moves a camera to where the ray of a place in a pixel begins. lens: uniform in [0, 1) x [0, 1).
+static inline void stand_on_lens(DeviceCamera* camera, uint pixel, float2 place, float2 lens) {
+  *camera = through_lens(camera, lens);
+  if (!camera->orthographic) return;
+  const float x = 2.0f * ((float)((int)pixel % camera->width) + place.x) / (float)camera->width - 1.0f;
+  const float y = 1.0f - 2.0f * ((float)((int)pixel / camera->width) + place.y) / (float)camera->height;
+  camera->position.xyz += x * camera->tan_x * camera->right.xyz + y * camera->tan_y * camera->up.xyz;
+}
+#endif
 
 // A number in [0, 1) for path `path` of `paths` in a frame: steps of the golden ratio, so that a pixel's numbers spread
 // evenly. Even and odd frames have starts and counts of their own, as the film's independent halves must.

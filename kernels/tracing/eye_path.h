@@ -101,9 +101,19 @@ static inline float3 sky_irradiance(const World* world, int light_index, const P
   return light.radiometric * sum;
 }
 
-// What the camera sees first in the direction of a place in a pixel. place: in [0, 1) x [0, 1).
-static inline Hit first_hit(const World* world, const DeviceCamera* camera, uint pixel, float2 place,
-                            float3* direction) {
+// Moves a camera to where the path of a place in a pixel begins, at a place of its lens by eye_numbers.
+static inline void begin_on_lens(DeviceCamera* camera, uint pixel, float2 place, uint2 seed, uint sample, uint paths,
+                                 uint stream) {
+#if NEPHROID_LENS
+  stand_on_lens(camera, pixel, place, eye_numbers(seed, sample, paths, pixel, LENS_BLOCK, stream).xy);
+#endif
+}
+
+// What the camera sees first in the direction of a place in a pixel. place: in [0, 1) x [0, 1). The camera moves to
+// where that path begins.
+static inline Hit first_hit(const World* world, DeviceCamera* camera, uint pixel, float2 place, uint2 seed, uint sample,
+                            uint stream, float3* direction) {
+  begin_on_lens(camera, pixel, place, seed, sample, 1u, stream);
   *direction = primary_direction(camera, (int)pixel % camera->width, (int)pixel / camera->width, place);
   Path path = path_from_eye(camera, *direction);
   return next_hit(world, &path);

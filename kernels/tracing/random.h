@@ -22,6 +22,7 @@
 #define STREAM_INDIRECT 22u              // indirect.cl, here and below: index is the pixel
 #define STREAM_INDIRECT_BAND 23u         // where a pixel starts in the spectrum
 #define STREAM_SURVEY 24u                // relight_direct.cl, its survey: index is the pixel
+#define STREAM_LENS 25u                  // places on the lens: index is the photon
 #define STREAM_VIEW 32u                  // view.cl, here and below: index is the pixel
 #define STREAM_VIEW_CLUSTER 33u
 #define STREAM_PASS_BAND 34u             // pass_band.h: index is the cluster

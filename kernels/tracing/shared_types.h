@@ -143,11 +143,15 @@ typedef struct {
 typedef struct {
   float4 position;
   float4 right, up, forward; // orthonormal
-  float tan_x, tan_y;        // tangents of half the angle of view
+  float tan_x, tan_y;        // tangents of half the angle of view; orthographic: half the picture's edges
   int width, height;         // pixels
   Media inside;
   int receiver; // the object whose light is mapped, whatever hides it; -1: an eye sees all
-  int padding[3];
+  // With NEPHROID_LENS, as scene::Camera has them:
+  int orthographic;
+  float shift_x, shift_y; // tangents: the way of the middle of the picture is forward + shift_x right + shift_y up
+  float lens_radius, focus;
+  int padding[2];
 } DeviceCamera;
 
 // The environment's picture: see background.h and sky.h.
@@ -187,7 +191,7 @@ typedef struct {
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceMaterial) == 40 && sizeof(DeviceObject) == 12 && sizeof(Media) == 16);
 static_assert(sizeof(DeviceLight) == 112 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
-static_assert(sizeof(DeviceCamera) == 112 && sizeof(DeviceScene) == 52 && sizeof(DeviceBackground) == 16);
+static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 52 && sizeof(DeviceBackground) == 16);
 static_assert(sizeof(DevicePrimitive) == 64 && sizeof(DeviceTexture) == 44);
 } // namespace nephroid::shared
 #endif

@@ -91,6 +91,9 @@ inline preset::Preset random_preset(std::uint64_t seed) {
     if (o.mesh.has_value() == o.shape.has_value()) o.mesh = "a.obj", o.shape.reset();
     for (double& s : o.transform.scale) s = std::abs(s) < 1e-6 ? 1 : s;
   }
+  Camera& camera = p.scene.camera;
+  if (camera.projection == Camera::Projection::perspective) camera.height.reset();
+  camera.aperture = std::min(camera.aperture, 2 * camera.focus_distance.value_or(target_distance(camera)));
   for (Light& l : p.scene.lights) {
     for (std::size_t i = 0; i < l.spectrum.table.size(); ++i)
       l.spectrum.table[i] = {500.0 + static_cast<double>(i), 0.1};

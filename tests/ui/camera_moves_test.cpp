@@ -82,6 +82,34 @@ TEST(CameraMoves, PanMovesTheTargetsPictureByWhatWasAsked) {
               glm::distance(vector(camera.position), vector(camera.target)), tolerance);
 }
 
+// With a shift and without perspective a point of the screen and its ray are each other's, and a pan and a dolly do
+// what they say.
+TEST(CameraMoves, ShiftedAndParallelPicturesAreHeldAsTheyAreShown) {
+  for (const bool orthographic : {false, true}) {
+    preset::Camera camera = at(0, 0, 4);
+    camera.shift = {0.25, -0.125};
+    if (orthographic) {
+      camera.projection = preset::Camera::Projection::orthographic;
+      camera.height = 2;
+    }
+    const auto place_of = [](const preset::Camera& c, const glm::dvec3& point) {
+      return *make_pinhole(c, Placement{}, {200, 100})->to_screen(point);
+    };
+    const Point middle = place_of(camera, {0, 0, 0}); // the shift's part of the picture away from its middle
+    EXPECT_NEAR(middle[0], 50, tolerance);
+    EXPECT_NEAR(middle[1], 37.5, tolerance);
+    const Ray ray = make_pinhole(camera, Placement{}, {200, 100})->ray({120, 20});
+    const Point back = place_of(camera, ray.origin + 3.0 * ray.direction);
+    EXPECT_NEAR(back[0], 120, tolerance);
+    EXPECT_NEAR(back[1], 20, tolerance);
+    const Point moved = place_of(pan(camera, 0.25, 0.125), {0, 0, 0});
+    EXPECT_NEAR(moved[0], 75, tolerance);
+    EXPECT_NEAR(moved[1], 50, tolerance);
+    const Point near = place_of(dolly(camera, 0.5), {0, 0.5, 0}), far = place_of(camera, {0, 1, 0});
+    EXPECT_NEAR(near[1], far[1], tolerance);
+  }
+}
+
 TEST(CameraMoves, OrbitToTheLeftTurnsTheSceneToTheRight) {
   // What is in front of the target comes to the right when the camera goes to the left: the scene follows the mouse.
   EXPECT_GT(seen(orbit(at(0, 0, 4), -10, 0), {0, 0, 1})[0], 0);

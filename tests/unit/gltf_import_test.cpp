@@ -166,6 +166,11 @@ TEST_F(GltfImport, TheCameraLooksAlongMinusZ) {
   EXPECT_THAT(camera.position, ElementsAre(0, 1, 5));
   EXPECT_THAT(camera.target, ElementsAre(0, 1, DoubleNear(0, 1e-6))); // as far as the triangle, at z = 0
   EXPECT_THAT(camera.up, ElementsAre(0, 1, 0));
+  json["cameras"] = Json::parse(R"([{"type":"orthographic","orthographic":{"xmag":3,"ymag":2,"znear":0,"zfar":9}}])");
+  const preset::Camera parallel = imported(json).scene.camera;
+  EXPECT_EQ(parallel.projection, preset::Camera::Projection::orthographic);
+  EXPECT_EQ(parallel.height, 4);
+  EXPECT_THAT(parallel.resolution, ElementsAre(768, 512));
 }
 
 TEST_F(GltfImport, CandelaAndLuxBecomeWatts) {

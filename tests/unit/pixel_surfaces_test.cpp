@@ -54,6 +54,47 @@ TEST(Camera, KeepsItsPlaceFarAway) {
   expect_near(camera.forward, {-1 / std::sqrt(5), 0, -2 / std::sqrt(5)}, 1e-6);
 }
 
+// From (0, 0, 5) with half a unit a unit of depth to each side. A shift of 1/4 of the width shows as much more to the
+// right; without perspective, all rays are parallel and begin in the plane z = 5.
+TEST(Camera, ShiftMovesThePictureAndParallelRaysBeginApart) {
+  preset::Camera preset{.position = {0, 0, 5}, .resolution = {400, 200}};
+  preset.fov_deg = 2 * std::atan(0.5) * 180 / M_PI;
+  preset.shift = {0.25, -0.5};
+  const auto check = [&](const glm::dvec3& from, const glm::dvec3& way) {
+    const auto [begin, along] = make_camera(preset, empty_scene()).ray(1, 1); // the top right corner
+    expect_near(begin, from);
+    expect_near(along, way);
+  };
+  check({0, 0, 5}, {1 + 0.5, 0.5 - 0.5, -1});
+  preset.projection = preset::Camera::Projection::orthographic;
+  check({5 + 2.5, 2.5 - 2.5, 5}, {0, 0, -1}); // as high as the perspective picture is at the target
+  preset.height = 2;
+  check({2 + 1, 1 - 1, 5}, {0, 0, -1});
+}
+
+// The ball's box reaches from z = -1 to 1.
+TEST(Camera, RefusesALensAndAPicturePlaneInGlass) {
+  preset::Preset p = test::empty_preset(4);
+  p.scene.materials["glass"] = test::glass(1.5);
+  p.scene.objects.push_back(test::object("ball", test::ball(1), "glass"));
+  preset::Camera& camera = p.scene.camera;
+  const auto refusal = [&] { return refusal_of([&] { load_scene(p); }); };
+  camera.position = {1.5, 0, 0.5};
+  camera.target = {1.5, 0, -5};
+  camera.aperture = 0.9;
+  EXPECT_NO_THROW(load_scene(p));
+  camera.aperture = 1.1;
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("#/scene/camera/aperture: the camera's lens may touch"), HasSubstr("'ball'")));
+  camera.aperture = 0;
+  camera.projection = preset::Camera::Projection::orthographic;
+  camera.height = 0.9;
+  EXPECT_NO_THROW(load_scene(p));
+  camera.height = 1.1;
+  EXPECT_THAT(refusal(), HasSubstr("#/scene/camera/projection: the camera's picture plane may touch"));
+  camera.position[2] = 1.1;
+  EXPECT_NO_THROW(load_scene(p));
+}
+
 TEST(Camera, RefusesWhatIsNoView) {
   const preset::Vec3 place = preset::Camera{}.position;
   const std::pair<const char*, preset::Camera> cases[] = {

@@ -74,6 +74,51 @@ TEST_F(SceneImport, OneSceneInBothFormatsIsOnePreset) {
   }
 }
 
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+// The window from 0 to 4 and -0.5 to 1.5 is as high as the one from -1 to 1, with its middle at (2, 0.5): half its
+// width and a quarter of its height away.
+TEST_F(SceneImport, LensesAndShiftsAreTaken) {
+  const std::string lens = R"(<float name="aperture_radius" value="0.1"/><float name="focus_distance" value="5"/>)",
+                    shift = R"(<float name="principal_point_offset_x" value="0.5"/>)"
+                            R"(<float name="principal_point_offset_y" value="-0.25"/>)";
+  for (const bool from_mitsuba : {true, false}) {
+    SCOPED_TRACE(from_mitsuba);
+    const preset::Camera camera =
+        (from_mitsuba ? imported(with(mitsuba, R"("perspective">)", R"("thinlens">)" + lens + shift), "in.xml")
+                      : imported(with(pbrt, "\"float fov\"",
+                                      "\"float lensradius\" 0.1 \"float focaldistance\" 5 \"float screenwindow\" "
+                                      "[ 0 4 -0.5 1.5 ] \"float fov\""),
+                                 "in.pbrt"))
+            .scene.camera;
+    EXPECT_TRUE(made.notes.empty()) << made.summary();
+    EXPECT_NEAR(camera.aperture, 0.2, 1e-12);
+    EXPECT_NEAR(camera.focus_distance.value(), 5, 1e-12);
+    EXPECT_NEAR(camera.shift[0], 0.5, 1e-12);
+    EXPECT_NEAR(camera.shift[1], 0.25, 1e-12);
+    EXPECT_NEAR(camera.fov_deg, 53.13010235, 1e-6);
+    fs::remove(folder.path() / "out.json");
+  }
+}
+
+// Mitsuba's picture is 2 wide, PBRT's 2 along its shorter edge, times the transform's scale.
+TEST_F(SceneImport, OrthographicCamerasAreTaken) {
+  const preset::Camera a = imported(with(with(mitsuba, R"("perspective">)", R"("orthographic">)"),
+                                         R"("to_world"><lookat)", R"("to_world"><scale value="3"/><lookat)"),
+                                    "in.xml")
+                               .scene.camera;
+  EXPECT_EQ(a.projection, preset::Camera::Projection::orthographic);
+  EXPECT_NEAR(a.height.value(), 3, 1e-9);
+  fs::remove(folder.path() / "out.json");
+  const preset::Camera b =
+      imported(with(with(pbrt, "perspective", "orthographic"), "\"float fov\" [ 53.13010235 ]", ""), "in.pbrt")
+          .scene.camera;
+  EXPECT_EQ(b.projection, preset::Camera::Projection::orthographic);
+  EXPECT_NEAR(b.height.value(), 2, 1e-9);
+}
+
 TEST_F(SceneImport, WhatIsLeftOutIsSaidWithItsLine) {
   std::string text = mitsuba;
   text.replace(text.find("</scene>"), 8, "<shape type=\"hair\"/>\n</scene>");

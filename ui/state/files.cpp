@@ -96,10 +96,8 @@ constexpr double part_of_view = 0.4; ///< the new object's longest edge, as a pa
 
 /// The shorter side of the visible rectangle in the plane of the camera's target.
 double view_at_target(const preset::Camera& camera) {
-  double square = 0;
-  for (std::size_t i = 0; i < 3; ++i) square += std::pow(camera.target[i] - camera.position[i], 2);
-  const double height = 2 * std::sqrt(square) * std::tan(camera.fov_deg / 2 * std::numbers::pi / 180);
-  return height * std::min(1.0, static_cast<double>(camera.resolution[0]) / camera.resolution[1]);
+  return preset::height_at_target(camera) *
+         std::min(1.0, static_cast<double>(camera.resolution[0]) / camera.resolution[1]);
 }
 
 std::string material_for(preset::Scene& scene) {

@@ -65,6 +65,12 @@ Bookmark read_bookmark(const Json& value) {
   read_within(value.at("up"), -far, far, camera.up);
   camera.fov_deg = within(value.at("fov_deg"), 0, 180);
   read_within(value.at("resolution"), 1, 1 << 20, camera.resolution);
+  if (!value.contains("aperture")) return bookmark; // of an older window
+  if (value.at("orthographic").get<bool>()) camera.projection = preset::Camera::Projection::orthographic;
+  if (!value.at("height").is_null()) camera.height = within(value.at("height"), 0, far);
+  read_within(value.at("shift"), -10, 10, camera.shift);
+  camera.aperture = within(value.at("aperture"), 0, far);
+  if (!value.at("focus_distance").is_null()) camera.focus_distance = within(value.at("focus_distance"), 0, far);
   return bookmark;
 }
 
@@ -212,6 +218,11 @@ std::string SessionText::of(const Session& session) {
                                  {"target", camera.target},
                                  {"up", camera.up},
                                  {"fov_deg", camera.fov_deg},
+                                 {"orthographic", camera.projection == preset::Camera::Projection::orthographic},
+                                 {"height", camera.height ? Json(*camera.height) : Json()},
+                                 {"shift", camera.shift},
+                                 {"aperture", camera.aperture},
+                                 {"focus_distance", camera.focus_distance ? Json(*camera.focus_distance) : Json()},
                                  {"resolution", camera.resolution}});
   if (session.edits) {
     const UndoStack::State state = trimmed(*session.edits);

@@ -39,8 +39,7 @@ glm::dmat3 light_axes(const preset::Light& light) {
 glm::dvec3 light_place(const preset::Preset& preset, const preset::Light& light) {
   if (light.type != LightType::directional) return to_vector(light.position);
   const preset::Camera& camera = preset.scene.camera;
-  const double distance = glm::length(to_vector(camera.target) - to_vector(camera.position));
-  const double reach = 0.6 * distance * std::tan(glm::radians(camera.fov_deg) / 2);
+  const double reach = 0.3 * preset::height_at_target(camera);
   return to_vector(camera.target) - reach * unit_or(to_vector(light.direction), {0, -1, 0});
 }
 

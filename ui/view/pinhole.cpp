@@ -85,13 +85,17 @@ std::optional<Point> Pinhole::to_screen(const glm::dvec3& p) const {
   const glm::dvec3 arm = p - position;
   const double ahead = glm::dot(arm, forward);
   if (!(ahead > 0)) return std::nullopt;
-  const double x = glm::dot(arm, right) / (ahead * tan_x), y = glm::dot(arm, up) / (ahead * tan_y);
+  const double far = orthographic ? 1 : ahead, x = glm::dot(arm, right) / (far * tan_x) - shift_x,
+               y = glm::dot(arm, up) / (far * tan_y) - shift_y;
   return Point{corner[0] + size[0] * (x + 1) / 2, corner[1] + size[1] * (1 - y) / 2};
 }
 
 Ray Pinhole::ray(const Point& screen) const {
-  const double x = 2 * (screen[0] - corner[0]) / size[0] - 1, y = 1 - 2 * (screen[1] - corner[1]) / size[1];
-  return {position, forward + x * tan_x * right + y * tan_y * up};
+  const double x = 2 * (screen[0] - corner[0]) / size[0] - 1 + shift_x,
+               y = 1 - 2 * (screen[1] - corner[1]) / size[1] + shift_y;
+  const glm::dvec3 aside = x * tan_x * right + y * tan_y * up;
+  if (orthographic) return {position + aside, forward};
+  return {position, forward + aside};
 }
 
 std::optional<Pinhole> make_pinhole(const preset::Camera& camera, const Placement& placement,
@@ -107,7 +111,11 @@ std::optional<Pinhole> make_pinhole(const preset::Camera& camera, const Placemen
   if (!(across > 1e-6 * glm::length(to_vector(camera.up)))) return std::nullopt;
   pinhole.right = right / across;
   pinhole.up = glm::cross(pinhole.right, pinhole.forward);
-  pinhole.tan_y = std::tan(glm::radians(camera.fov_deg) / 2);
+  pinhole.orthographic = camera.projection == preset::Camera::Projection::orthographic;
+  pinhole.tan_y =
+      pinhole.orthographic ? preset::height_at_target(camera) / 2 : std::tan(glm::radians(camera.fov_deg) / 2);
+  pinhole.shift_x = 2 * camera.shift[0];
+  pinhole.shift_y = 2 * camera.shift[1];
   pinhole.tan_x = pinhole.tan_y * camera.resolution[0] / camera.resolution[1];
   pinhole.corner = placement.origin;
   for (std::size_t i = 0; i < 2; ++i) pinhole.size[i] = placement.scale * shown[i];
@@ -182,13 +190,14 @@ preset::Camera dolly(const preset::Camera& camera, double factor) {
   preset::Camera moved = camera;
   const glm::dvec3 target = to_vector(camera.target);
   moved.position = to_stored(target + factor * (to_vector(camera.position) - target));
+  if (moved.height) *moved.height *= factor;
   return moved;
 }
 
 preset::Camera pan(const preset::Camera& camera, double right, double down) {
   const Axes a = axes(camera);
   const glm::dvec3 picture_up = glm::cross(a.outwards, a.right);
-  const double height = 2 * a.distance * std::tan(glm::radians(camera.fov_deg) / 2);
+  const double height = preset::height_at_target(camera);
   const glm::dvec3 shift = height * (down * picture_up - right * a.right);
   preset::Camera moved = camera;
   moved.position = to_stored(to_vector(camera.position) + shift);

@@ -26,11 +26,13 @@ struct Affine {
   glm::dvec3 offset;
 };
 
-/// A pinhole camera, as scene::make_camera has it, and the place of its picture.
+/// A camera through the middle of its lens, as scene::make_camera has it, and the place of its picture.
 struct Pinhole {
   glm::dvec3 position{0}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1}; ///< the last three are orthonormal
-  double tan_x = 1, tan_y = 1;                                            ///< tangents of half the fields of view
-  Point corner{0, 0}, size{1, 1};                                         ///< the whole picture on the screen
+  double tan_x = 1, tan_y = 1; ///< tangents of half the fields of view; orthographic: half the picture's edges, units
+  double shift_x = 0, shift_y = 0; ///< added to these places, in units of tan_x and tan_y
+  bool orthographic = false;
+  Point corner{0, 0}, size{1, 1}; ///< the whole picture on the screen
 
   /// The distance in front of the camera; not above 0 behind it.
   double depth(const glm::dvec3& p) const { return glm::dot(p - position, forward); }
@@ -69,7 +71,7 @@ glm::dvec3 pivot_of(const ViewedScene* seen, const preset::Preset& preset, std::
 /// up_deg towards up. It stops 1 degree short of looking along up, where left and right would swap.
 preset::Camera orbit(const preset::Camera& camera, double right_deg, double up_deg);
 
-/// Multiplies the distance to the target; the target stays. factor > 0.
+/// Multiplies the distance to the target, and an orthographic picture's height; the target stays. factor > 0.
 preset::Camera dolly(const preset::Camera& camera, double factor);
 
 /// Shifts position and target together, in parts of the picture's height at the target's distance: what is at the

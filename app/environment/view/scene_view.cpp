@@ -85,7 +85,9 @@ bool SceneView::show_anew(const preset::Preset& preset) {
 }
 
 bool SceneView::go_on_with(const preset::Preset& preset) {
-  if (!(with_view_of(with_places_of(shown_, preset), preset) == preset)) return show_anew(preset);
+  if (!(with_view_of(with_places_of(shown_, preset), preset) == preset) ||
+      is_plain(preset.scene.camera) != is_plain(shown_.scene.camera)) // it takes other programs
+    return show_anew(preset);
   bool begins = false;
   if (!(with_places_of(shown_, preset) == shown_)) {
     std::optional<MovedObjects> moved = move_objects(*task_, loaded_, shown_, preset, caster_);

@@ -271,12 +271,14 @@ private:
     for (const scene::Object& object : scene_.objects)
       farthest = std::max(farthest, glm::length(placed(object.bounds.centre) - position) +
                                         metres_ * static_cast<double>(object.bounds.radius));
-    const std::size_t lens = glb_.add("cameras", {{"type", "perspective"},
-                                                  {"perspective",
-                                                   {{"yfov", 2 * std::atan(camera.tan_y)},
-                                                    {"aspectRatio", static_cast<double>(camera.width) / camera.height},
-                                                    {"znear", 1e-4 * farthest},
-                                                    {"zfar", 10 * farthest}}}});
+    Json seen{{"znear", 1e-4 * farthest}, {"zfar", 10 * farthest}};
+    if (camera.orthographic)
+      seen.update({{"xmag", metres_ * camera.tan_x}, {"ymag", metres_ * camera.tan_y}});
+    else
+      seen.update(
+          {{"yfov", 2 * std::atan(camera.tan_y)}, {"aspectRatio", static_cast<double>(camera.width) / camera.height}});
+    const char* const type = camera.orthographic ? "orthographic" : "perspective";
+    const std::size_t lens = glb_.add("cameras", {{"type", type}, {type, std::move(seen)}});
     add_node({{"name", "camera"},
               {"camera", lens},
               {"translation", three_numbers(position)},

@@ -50,8 +50,12 @@ struct DescribedLight {
 
 struct DescribedCamera {
   Location where;
-  glm::dmat4 to_world{1}; ///< x to the right of the picture, y up, z forward
-  double fov_deg = 40;    ///< vertical
+  glm::dmat4 to_world{1};       ///< x to the right of the picture, y up, z forward
+  double fov_deg = 40;          ///< vertical
+  std::optional<double> height; ///< of an orthographic one, in the camera's own units
+  glm::dvec2 shift{0};          ///< as a preset's camera has it
+  double lens_radius = 0;       ///< in the camera's own units; 0: no lens
+  double focus_distance = 1;    ///< likewise; of a lens
   std::array<int, 2> resolution{768, 576};
 };
 

@@ -178,16 +178,25 @@ private:
 
   void add_camera(const GltfNode& node) {
     const GltfValue camera = node.value.item("camera", root_, "cameras");
-    if (camera.text("type") != "perspective") return d_.note("a camera without perspective is left out");
+    const bool orthographic = camera.text("type") == "orthographic";
+    if (!orthographic && camera.text("type") != "perspective") return d_.note("a camera of another type is left out");
     if (d_.camera) return d_.note("only the first camera is taken");
-    const GltfValue lens = camera.object("perspective");
-    const double fov = lens.number("yfov", 0.7), aspect = std::clamp(lens.number("aspectRatio", 1), 0.1, 10.0);
+    const GltfValue lens = camera.object(orthographic ? "orthographic" : "perspective");
+    const double fov = lens.number("yfov", 0.7), half_height = std::max(std::abs(lens.number("ymag", 1)), 1e-6),
+                 aspect = std::clamp(orthographic ? std::abs(lens.number("xmag", 1)) / half_height
+                                                  : lens.number("aspectRatio", 1),
+                                     0.1, 10.0);
     DescribedCamera& made = d_.camera.emplace();
     made.where = node.value.where();
-    made.fov_deg = glm::degrees(fov);
+    if (orthographic)
+      made.height = 2 * half_height;
+    else
+      made.fov_deg = glm::degrees(fov);
     made.resolution = aspect >= 1 ? std::array{static_cast<int>(std::lround(512 * aspect)), 512}
                                   : std::array{512, static_cast<int>(std::lround(512 / aspect))};
-    const glm::dvec3 up(node.to_world[1]), forward = -glm::dvec3(node.to_world[2]);
+    // A camera's node does not scale it.
+    const glm::dvec3 up = glm::normalize(glm::dvec3(node.to_world[1])),
+                     forward = -glm::normalize(glm::dvec3(node.to_world[2]));
     made.to_world = {glm::dvec4(glm::cross(forward, up), 0), glm::dvec4(up, 0), glm::dvec4(forward, 0),
                      node.to_world[3]};
   }

@@ -226,13 +226,26 @@ private:
     made.up = scene::to_vec3(glm::normalize(up));
     made.fov_deg = std::clamp(c.fov_deg, 0.001, 179.9);
     made.resolution = c.resolution;
+    if (c.height) {
+      made.projection = preset::Camera::Projection::orthographic;
+      made.height = std::clamp(*c.height * glm::length(up), 1e-6, 1e7);
+    }
+    made.shift = {std::clamp(c.shift.x, -10.0, 10.0), std::clamp(c.shift.y, -10.0, 10.0)};
+    if (c.lens_radius > 0) {
+      made.focus_distance = std::clamp(c.focus_distance * glm::length(forward), 1e-6, 1e7);
+      made.aperture = 2 * c.lens_radius * glm::length(up);
+      if (made.aperture > 2 * *made.focus_distance) {
+        from_.note(c.where, "the lens is wider than twice its focus distance: it is made as wide as that");
+        made.aperture = 2 * *made.focus_distance;
+      }
+    }
     // The file's camera looks along a line; ours at a point, about which the window turns it.
     const double ahead = glm::dot(middle() - position, glm::normalize(forward));
     made.target = scene::to_vec3(position + glm::normalize(forward) * (ahead > 1e-3 * size() ? ahead : size()));
   }
 
   void look_at_all() {
-    from_.note("the file has no camera with perspective: one that sees everything takes its place");
+    from_.note("the file has no camera that can be taken over: one that sees everything takes its place");
     made_.scene.camera.target = scene::to_vec3(middle());
     made_.scene.camera.position = scene::to_vec3(middle() + size() * glm::dvec3(0.3, 0.7, 1.2));
   }

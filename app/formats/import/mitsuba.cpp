@@ -49,10 +49,9 @@ private:
 
   void add_camera(xml_node node) {
     const std::string type = file_.attribute(node, "type");
-    if (type != "perspective" && type != "thinlens")
+    if (type != "perspective" && type != "thinlens" && type != "orthographic")
       return d_.note(file_.at(node), "the sensor " + type + " is left out");
     if (d_.camera) return d_.note(file_.at(node), "only the first camera is taken: this one is left out");
-    if (type == "thinlens") d_.note(file_.at(node), "the lens is left out: everything is sharp");
     DescribedCamera& camera = d_.camera.emplace();
     camera.where = file_.at(node);
     camera.to_world = file_.to_world(node) * glm::scale(glm::dmat4(1), {-1, 1, 1});
@@ -61,7 +60,18 @@ private:
                  h = std::clamp(file_.number(film, "height", 576), 1.0, 16384.0);
     camera.resolution = {static_cast<int>(w), static_cast<int>(h)};
     if (file_.child(film, "crop_width")) d_.note(file_.at(film), "the crop is left out: the whole picture is taken");
-    for (const char* shift : {"principal_point_offset_x", "principal_point_offset_y", "shift_x", "shift_y"})
+    if (type == "thinlens") {
+      camera.lens_radius = std::max(file_.number(node, "aperture_radius", 0), 0.0);
+      camera.focus_distance = std::max(file_.number(node, "focus_distance", 1), 0.0);
+    }
+    if (type == "orthographic") { // its width is 2
+      camera.height = 2 * h / w;
+      note_unasked(scene_, node);
+      return note_unasked(scene_, film);
+    }
+    camera.shift = {file_.number(node, "principal_point_offset_x", 0),
+                    0 - file_.number(node, "principal_point_offset_y", 0)};
+    for (const char* shift : {"shift_x", "shift_y"})
       if (file_.number(node, shift, 0) != 0) d_.note(file_.at(node), "the picture's shift is left out");
     std::string axis = file_.text(node, "fov_axis", "x");
     double fov = file_.number(node, "fov", 0);

@@ -193,21 +193,39 @@ private:
   void add_camera(const std::string& type, const PbrtParameters& p) {
     if (!(std::abs(glm::determinant(state_.to_world)) > 0)) throw bad_input(p.where, "the camera's transform is flat");
     systems_["camera"] = glm::inverse(state_.to_world);
-    if (type != "perspective") return d_.note(p.where, "the camera " + type + " is left out");
+    if (type != "perspective" && type != "orthographic") return d_.note(p.where, "the camera " + type + " is left out");
     DescribedCamera& camera = d_.camera.emplace();
     camera.where = p.where;
     camera.to_world = systems_["camera"];
-    fov_ = p.number("fov", 90);
-    if (p.number("lensradius", 0) > 0) d_.note(p.where, "the lens is left out: everything is sharp");
-    for (const char* frame : {"screenwindow", "frameaspectratio"})
-      if (p.find(frame)) d_.note(p.where, std::string("its ") + frame + " is left out");
+    orthographic_ = type == "orthographic";
+    fov_ = orthographic_ ? 90 : p.number("fov", 90);
+    camera.lens_radius = std::max(p.number("lensradius", 0), 0.0);
+    camera.focus_distance = std::max(p.number("focaldistance", 1e6), 0.0);
+    window_.clear();
+    if (const PbrtParameter* window = p.find("screenwindow")) window_ = window->numbers();
+    if (window_.size() != 4 || !(window_[1] > window_[0] && window_[3] > window_[2])) {
+      if (!window_.empty()) d_.note(p.where, "its screenwindow is left out: it is no left, right, bottom and top");
+      window_.clear();
+    }
+    if (p.find("frameaspectratio")) d_.note(p.where, "its frameaspectratio is left out");
     note_unasked(scene_, p);
     frame();
   }
-  /// The film may come before the camera or after it. fov is that of the shorter edge.
+  /// The film may come before the camera or after it. fov is that of the shorter edge, which a window has from -1 to 1.
   void frame() {
-    d_.camera->resolution = resolution_;
-    d_.camera->fov_deg = vertical_fov_deg(fov_, resolution_[1], std::min(resolution_[0], resolution_[1]));
+    DescribedCamera& camera = *d_.camera;
+    const double w = resolution_[0], h = resolution_[1], shorter = std::min(w, h);
+    camera.resolution = resolution_;
+    double height = 2 * h / shorter;
+    if (!window_.empty()) {
+      const double across = window_[1] - window_[0];
+      height = window_[3] - window_[2];
+      camera.shift = {(window_[0] + window_[1]) / 2 / across, (window_[2] + window_[3]) / 2 / height};
+      if (std::abs(across / height - w / h) > 1e-3 * w / h)
+        d_.note(camera.where, "its screenwindow has another shape than the film: only its height is taken");
+    }
+    camera.fov_deg = vertical_fov_deg(fov_, height, 2);
+    if (orthographic_) camera.height = height;
   }
 
   void add_shape(const std::string& type, const PbrtParameters& p) {
@@ -287,6 +305,8 @@ private:
   std::string object_name_;
   std::array<int, 2> resolution_{1280, 720};
   double fov_ = 90;
+  bool orthographic_ = false;
+  std::vector<double> window_; ///< left, right, bottom, top; empty: by the film
   int materials_ = 0;
 };
 

@@ -40,7 +40,8 @@ double bent_share(const scene::Scene& scene, const scene::Bvh& bvh) {
 
 /// The width of a pixel at the distance of the scene's middle.
 double pixel_width(const scene::Camera& camera, const scene::Sphere& bounds) {
-  const double distance = std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius);
+  const double distance =
+      camera.orthographic ? 1 : std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius);
   return 2 * distance * camera.tan_y / camera.height;
 }
 

@@ -3,6 +3,7 @@
 // deviations that follow from the number of photons or samples, so that no seed makes a check fail by chance.
 #include "optics/colour.h"
 #include "optics/spectrum.h"
+#include "scene/materials.h"
 #include "spectral/checks/render.h"
 #include "spectral/checks/scene_parts.h"
 
@@ -110,6 +111,68 @@ Result through_nothing(const compute::Context& context, std::uint64_t seed) {
                 fmt::format("photons through a ball of n = 1, 16 x 16 pixels and their sum, against the direct light "
                             "of a point: ratio {:.4f}",
                             d.ratio));
+}
+
+/// A floor with a disc of light on it, 1 m x 1 m of which a camera with a lens sees from above, out of focus and
+/// shifted. The picture is the disc convolved with the lens's image, a disc of the radius R |1 - z / f| on the floor at
+/// the depth z. So its mean place and its spread about that have closed forms, and its sum is the light's power.
+Result through_a_lens(const compute::Context& context, std::uint64_t seed, bool by_photons) {
+  constexpr int size = 64, samples = 128;
+  constexpr double depth = 0.5, focus = 0.3, radius = 0.2, half_angle = 0.15, shift_x = 0.1, shift_y = -0.05;
+  double worst = 0, spread_ratio = 1;
+  for (const bool orthographic : {false, true}) {
+    preset::Preset p = lit_floor(size, depth, seed);
+    preset::Camera& camera = p.scene.camera;
+    if (orthographic) camera.projection = preset::Camera::Projection::orthographic;
+    camera.shift = {shift_x, shift_y};
+    camera.aperture = 2 * radius;
+    camera.focus_distance = focus;
+    preset::Light& light = p.scene.lights[0];
+    light = pencil({0.05, 1, -0.1}, {0, -1, 0}, half_angle / degree);
+    light.power_w = 5;
+    p.scene.materials["nothing"] = glass(1);
+    if (by_photons) p.scene.objects.push_back(object("ball", ball(0.2), "nothing", at(light.position)));
+    spectral::settings(p).photons_per_pass = 1 << 17;
+    spectral::settings(p).direct = !by_photons;
+    spectral::settings(p).caustic = by_photons;
+    if (!by_photons) p.stop.passes = spectral::settings(p).pixel_samples = samples;
+    const job::Snapshot snapshot = render(p, context);
+    const job::Layer& seen = layer(snapshot, by_photons ? "caustic" : "direct");
+    double sum = 0, x = 0, y = 0, squares = 0; // in metres on the floor
+    for (int row = 0; row < size; ++row)
+      for (int column = 0; column < size; ++column) {
+        const double e = luminance(seen, size, row, column);
+        const double right = (column + 0.5) / size - 0.5 + shift_x - light.position[0],
+                     down = (row + 0.5) / size - 0.5 - shift_y - light.position[2];
+        sum += e;
+        x += e * right;
+        y += e * down;
+        squares += e * (right * right + down * down);
+      }
+    const double power = sum * pi / (size * size) / optics::to_xyz(scene::make_light_spectrum(light.spectrum, {}))[1];
+    // Of the disc, of the lens's image and of a pixel: the mean squares of the distance from the middle.
+    const double disc2 = 1 / std::cos(half_angle) - 1, image2 = std::pow(radius * (1 - depth / focus), 2) / 2,
+                 spread = disc2 + image2 + 1.0 / (6 * size * size);
+    const double count = by_photons ? double(spectral::settings(p).photons_per_pass)
+                                    : samples * double(size * size) * pi * std::pow(std::tan(half_angle), 2);
+    const double sigma = 1 / std::sqrt(count);
+    const double variance = (disc2 * disc2 + image2 * image2) / 3 + 2 * disc2 * image2; // of a distance's square
+    spread_ratio = squares / sum / spread;
+    for (const double error :
+         {(power / light.power_w - 1) / sigma, x / sum / (std::sqrt(spread / 2) * sigma),
+          y / sum / (std::sqrt(spread / 2) * sigma), (squares / sum - spread) / (std::sqrt(variance) * sigma)})
+      worst = worse(worst, error);
+  }
+  return judged(worst, 6, "sigma",
+                fmt::format("a disc of light out of focus, as {} show it, with perspective and without, against the "
+                            "circle of confusion: ratio of the mean squares {:.4f}",
+                            by_photons ? "photons" : "paths from the eye", spread_ratio));
+}
+Result photons_through_a_lens(const compute::Context& context, std::uint64_t seed) {
+  return through_a_lens(context, seed, true);
+}
+Result paths_through_a_lens(const compute::Context& context, std::uint64_t seed) {
+  return through_a_lens(context, seed, false);
 }
 
 /// A sky of one colour above and black below gives a white floor its own colour: what the ball of n = 1 hides of it
@@ -234,6 +297,8 @@ Result same_bits(const compute::Context& context, std::uint64_t seed) {
 Checks radiometry_checks() {
   return {{"picture: direct light of a point", direct_light},
           {"picture: photons through nothing", through_nothing},
+          {"picture: photons through a lens", photons_through_a_lens},
+          {"picture: paths through a lens", paths_through_a_lens},
           {"picture: a sky through nothing", sky_through_nothing},
           {"picture: a coloured mirror", coloured_mirror},
           {"picture: energy balance", energy},
