@@ -76,7 +76,7 @@ TEST(Camera, ShiftMovesThePictureAndParallelRaysBeginApart) {
 TEST(Camera, RefusesALensAndAPicturePlaneInGlass) {
   preset::Preset p = test::empty_preset(4);
   p.scene.materials["glass"] = test::glass(1.5);
-  p.scene.objects.push_back(test::object("ball", test::ball(1), "glass"));
+  p.scene.objects.push_back(test::object("ball", {.type = preset::Shape::Type::sphere, .radius = 1}, "glass"));
   preset::Camera& camera = p.scene.camera;
   const auto refusal = [&] { return refusal_of([&] { load_scene(p); }); };
   camera.position = {1.5, 0, 0.5};
