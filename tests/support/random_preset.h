@@ -93,7 +93,7 @@ inline preset::Preset random_preset(std::uint64_t seed) {
   }
   Camera& camera = p.scene.camera;
   if (camera.projection == Camera::Projection::perspective) camera.height.reset();
-  camera.aperture = std::min(camera.aperture, 2 * camera.focus_distance.value_or(target_distance(camera)));
+  if (camera.aperture > 0) camera.focus_distance = std::max(camera.aperture, 1e-6);
   for (Light& l : p.scene.lights) {
     for (std::size_t i = 0; i < l.spectrum.table.size(); ++i)
       l.spectrum.table[i] = {500.0 + static_cast<double>(i), 0.1};
