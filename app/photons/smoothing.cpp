@@ -330,9 +330,10 @@ void Smoothing::find_surfaces() {
   };
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const auto& [first, last, way, spacing] = pixels[i];
-    // What a rough surface shows of a texture has no detail left.
-    const bool has_detail = is_so(last.object, scene::is_textured) && !is_so(first.object, scene::is_rough);
-    seen[i] = {pulled[i] ? first : last, has_detail ? -1 : first.object};
+    // What a rough surface shows has no outlines and no texture left.
+    const bool is_rough = is_so(first.object, scene::is_rough),
+               has_detail = is_so(last.object, scene::is_textured) && !is_rough;
+    seen[i] = {pulled[i] || is_rough ? first : last, has_detail ? -1 : first.object};
   }
   for_neighbours(width_, height_, true, [&](std::size_t i, std::size_t j) {
     if (seen[i].first == seen[j].first && seen[i].surface.object == seen[j].surface.object) return;

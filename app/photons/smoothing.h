@@ -40,9 +40,10 @@ public:
 
   /// Sends one ray through the middle of every pixel of a picture of width x height, on every core. Light is spread
   /// within one nearly flat part of the diffuse object that the pixel shows, be it directly, in a mirror or through
-  /// glass. Along the object's outline it stays there. Where glass or a mirror shows none, or pulls neighbours far
-  /// apart, light is spread within one nearly flat part of it. Where a texture is seen none is, but through what is
-  /// rough. The rays would hold up a preview, so they wait until the first call of find_surfaces() or spread().
+  /// glass. Along the object's outline it stays there. Where glass or a mirror shows none, is rough, or pulls
+  /// neighbours far apart, light is spread within one nearly flat part of it. Where a texture is seen, but in what is
+  /// rough, it stays. The rays would hold up a preview, so they wait until the first call of find_surfaces() or
+  /// spread().
   Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread);
   void find_surfaces();
 

@@ -145,8 +145,7 @@ protected:
         EXPECT_EQ(text(), before) << "the run's preset is as it was";
       restore(before);
     }
-    if (pointer == "/inverse/outline") once = true;     // a round one is for a lens, which has one receiver
-    if (pointer == "/scene/camera/height") once = true; // of an orthographic camera only
+    if (pointer == "/inverse/outline") once = true; // a round one is for a lens, which has one receiver
     EXPECT_TRUE(once) << "none of its other values was taken";
   }
   /// A plain value, or each of the numbers in a list or table, which is given items first.
@@ -206,6 +205,10 @@ protected:
         if (pointer.ends_with("/mesh")) { // one of both
           search("scene.objects.0.shape");
           click("/scene/objects/0/shape:given");
+        }
+        if (pointer == "/scene/camera/height") { // of an orthographic camera only
+          search("scene.camera.projection");
+          choose("/scene/camera/projection", "orthographic");
         }
         if (pointer.ends_with("/sun_direction")) { // one of both
           search("scene.environment.place");
