@@ -8,7 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <list>
+#include <memory>
+#include <mutex>
 #include <numbers>
+#include <system_error>
+#include <utility>
 
 namespace nephroid::scene {
 namespace {
@@ -17,32 +22,66 @@ std::uint16_t texel(double value) {
   return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(value, 0.0, 1.0)));
 }
 
-void read_texels(const std::filesystem::path& file, const std::string& name, Texture& texture,
-                 std::vector<std::string>& warnings) {
+/// A picture's texels, and what is to be said of them.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<std::uint16_t> rgb;
+  std::vector<std::string> notes;
+};
+
+Picture read_picture(const std::filesystem::path& file) {
   const image::Image picture = image::read_image(file);
   const std::size_t texels = picture.data.size() / picture.channels.size();
   if (texels > most_texture_texels)
     throw bad_input(file.string(), fmt::format("has {} x {} texels", picture.width, picture.height),
                     fmt::format("expected at most {} in all", most_texture_texels), "make it smaller");
-  const auto warn = [&](const std::string& what) {
-    warnings.push_back(fmt::format("material '{}': texture {}: {}", name, file.filename().string(), what));
-  };
-  for (const std::string& note : picture.notes) warn(note);
   const image::Rgb colours = image::rgb_of(picture, file.string());
+  Picture result{picture.width, picture.height, {}, picture.notes};
   if (std::ranges::any_of(colours.alpha, [](float alpha) { return alpha < 1; }))
-    warn("has transparent texels, which are taken as opaque");
-  texture.width = picture.width;
-  texture.height = picture.height;
-  texture.rgb.reserve(3 * texels);
+    result.notes.push_back("has transparent texels, which are taken as opaque");
+  result.rgb.reserve(3 * texels);
   std::size_t clipped = 0;
   for (std::size_t i = 0; i < 3 * texels; ++i) {
     const float value = colours.values[i];
     if (!std::isfinite(value))
       throw bad_input(file.string(), fmt::format("texel {} has a value that is not finite", i / 3));
     clipped += value < 0 || value > 1;
-    texture.rgb.push_back(texel(value));
+    result.rgb.push_back(texel(value));
   }
-  if (clipped > 0) warn(counted(clipped, "value is", "values are") + " outside of 0 to 1, and clipped");
+  if (clipped > 0)
+    result.notes.push_back(counted(clipped, "value is", "values are") + " outside of 0 to 1, and clipped");
+  return result;
+}
+
+struct KeptPicture {
+  std::filesystem::path file;
+  std::uintmax_t bytes = 0;
+  std::filesystem::file_time_type written;
+  std::shared_ptr<const Picture> picture;
+};
+
+/// The same, but a file that is as it was is not read again, as far as the last pictures take no more than 256 MiB
+/// together: each edit loads its scene again. Safe from several threads.
+std::shared_ptr<const Picture> read_picture_once(const std::filesystem::path& file) {
+  constexpr std::size_t most_bytes = std::size_t{256} << 20;
+  static std::mutex mutex;
+  static std::list<KeptPicture> all; // the last used first
+  const std::lock_guard lock(mutex);
+  std::error_code ignored;
+  KeptPicture wanted{file, std::filesystem::file_size(file, ignored), std::filesystem::last_write_time(file, ignored),
+                     nullptr};
+  const auto kept = std::ranges::find(all, file, &KeptPicture::file);
+  if (kept != all.end() && kept->bytes == wanted.bytes && kept->written == wanted.written)
+    all.splice(all.begin(), all, kept);
+  else {
+    if (kept != all.end()) all.erase(kept);
+    wanted.picture = std::make_shared<const Picture>(read_picture(file));
+    all.push_front(std::move(wanted));
+  }
+  const std::shared_ptr<const Picture> result = all.front().picture;
+  std::size_t sum = 0;
+  all.remove_if([&](const KeptPicture& one) { return (sum += 2 * one.picture->rgb.size()) > most_bytes; });
+  return result;
 }
 
 } // namespace
@@ -56,7 +95,13 @@ Texture make_texture(const preset::Texture& texture, const FileFinder& finder, c
   result.offset = {texture.offset[0], texture.offset[1]};
   if (texture.type == preset::Texture::Type::file) {
     result.wrap = texture.wrap;
-    read_texels(finder.find(texture.file, where / "file"), name, result, warnings);
+    const std::filesystem::path file = finder.find(texture.file, where / "file");
+    const std::shared_ptr<const Picture> picture = read_picture_once(file);
+    for (const std::string& note : picture->notes)
+      warnings.push_back(fmt::format("material '{}': texture {}: {}", name, file.filename().string(), note));
+    result.width = picture->width;
+    result.height = picture->height;
+    result.rgb = picture->rgb;
     return result;
   }
   result.width = result.height = 2;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every field of the schema is edited through the panel "Parameters" by an injected mouse and keys: each type of each
 // object, each word of each choice. An edit changes its own field and nothing else; undo gives the same bytes.
+#include "image/image.h"
 #include "parameters_fixture.h"
 #include "preset/read.h"
 
@@ -261,7 +262,9 @@ protected:
 };
 
 TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes) {
-  for (const char* file : {"a.exr", "b.exr"}) folder.write(file, "a file that is there");
+  for (const char* file : {"a.exr", "b.exr"})
+    image::write_exr(folder.path() / file,
+                     {.width = 1, .height = 1, .channels = {"R", "G", "B"}, .data = {0.5f, 0.5f, 0.5f}});
   Json preset = Json::parse(test::preset_text);
   preset["scene"]["materials"]["glass"] = {{"type", "dielectric"}, {"dispersion", 1.5}};
   open(preset.dump());
