@@ -134,8 +134,18 @@ void check(const preset::Preset& preset, const Where& where) {
 } // namespace
 
 const preset::SettingsType& settings_type() {
-  static constexpr std::string_view without[] = {
-      "scene.materials", "scene.objects", "scene.lights", "scene.environment", "white", "reference", "stop.error"};
+  static constexpr std::string_view without[] = {"scene.materials",
+                                                 "scene.objects",
+                                                 "scene.lights",
+                                                 "scene.environment",
+                                                 "scene.camera.projection",
+                                                 "scene.camera.height",
+                                                 "scene.camera.shift",
+                                                 "scene.camera.aperture",
+                                                 "scene.camera.focus_distance",
+                                                 "white",
+                                                 "reference",
+                                                 "stop.error"};
   static const preset::SettingsType type = preset::settings_type<Settings>(
       "inverse", "One refractive object that casts several pictures at several distances.", check, without);
   return type;

@@ -176,7 +176,7 @@ void describe(Fields& v, Light& l) {
             {.unit = "W/m^2", .bounds = power_bounds});
   if (l.type == Type::directional)
     v.field("angular_diameter_deg", "Of the disc that the light comes from: 0.53 for the sun, 0 for a point.",
-            l.angular_diameter_deg, {.unit = "degrees", .bounds = within(0, 90)});
+            l.angular_diameter_deg, {.unit = "degrees", .bounds = within(0, 10)});
   else {
     v.field("power_w", "Radiant power of 380 to 780 nm.", l.power_w, {.unit = "W", .bounds = power_bounds});
     v.field("position", "Where it is; of an area light its centre.", l.position,

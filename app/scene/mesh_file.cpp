@@ -171,6 +171,8 @@ Mesh mesh_of(MeshAnswer answer) {
   for (const Texcoords& texcoords : mesh.texcoords)
     for (const glm::vec2& corner : texcoords)
       if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) refuse("a texcoord that is not finite");
+  for (Texcoords& texcoords : mesh.texcoords) // farther off there is no place left between texels
+    for (glm::vec2& corner : texcoords) corner = glm::clamp(corner, -1e6f, 1e6f);
   for (const glm::uvec3& triangle : mesh.triangles)
     for (int corner = 0; corner < 3; ++corner)
       if (triangle[corner] >= vertices)

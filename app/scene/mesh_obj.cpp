@@ -31,6 +31,7 @@ public:
     if (mesh_.triangles.empty() && has_surfaces_)
       throw std::runtime_error("it has free-form surfaces (surf) alone, and no triangles");
     if (!has_normals_) mesh_.normals.clear();
+    if (!has_texcoords_) mesh_.texcoords.clear();
     return std::move(mesh_);
   }
 
@@ -87,6 +88,17 @@ private:
         texcoord[axis] = *number;
   }
 
+  /// (0, 0) where there is none of this index.
+  glm::vec2 texcoord_at(std::string_view word) {
+    const auto number = typed_number<std::int64_t>(word);
+    const std::int64_t count = static_cast<std::int64_t>(texcoords_.size()), found = !number       ? -1
+                                                                                     : *number < 0 ? count + *number
+                                                                                                   : *number - 1;
+    if (found < 0 || found >= count) return glm::vec2(0);
+    has_texcoords_ = true;
+    return texcoords_[static_cast<std::size_t>(found)];
+  }
+
   /// From 1, or from the last one backwards.
   std::size_t index(std::string_view word, std::size_t count, const char* what) const {
     const auto number = typed_number<std::int64_t>(word);
@@ -112,9 +124,7 @@ private:
                      : places_[vertex]);
       const std::string_view rest = word.substr(std::min(first + 1, word.size())),
                              texcoord = rest.substr(0, rest.find('/'));
-      corner_texcoords_.push_back(texcoord.empty() || texcoords_.empty()
-                                      ? glm::vec2(0)
-                                      : texcoords_[index(texcoord, texcoords_.size(), "texcoord")]);
+      corner_texcoords_.push_back(texcoord_at(texcoord));
     }
     if (texcoords_.empty()) return add_polygon(mesh_, corners_);
     mesh_.texcoords.resize(mesh_.triangles.size()); // those before the first vt have none
@@ -152,7 +162,7 @@ private:
   std::vector<std::uint32_t> corners_;
   std::vector<glm::vec2> corner_texcoords_;
   std::size_t line_ = 0;
-  bool has_normals_ = false, has_surfaces_ = false;
+  bool has_normals_ = false, has_texcoords_ = false, has_surfaces_ = false;
 };
 
 } // namespace

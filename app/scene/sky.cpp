@@ -212,7 +212,9 @@ Environment make_sky(const preset::Environment& sky, const Location& where) {
                              "W/m^2 of 380 to 780 nm; the sky gives the ground {:.1f}",
                              place.elevation_deg, std::fmod(place.azimuth_deg + 360, 360), sky.sun_scale * sum_of(sun),
                              sky.radiance * watts_of(on_ground));
-  add(on_ground, sky.sun_scale * to_sun.y, optics::xyz_to_linear_srgb(optics::to_xyz(sun)));
+  // The map is multiplied by `radiance`. Where that is 0 the ground is as black as the sky.
+  const double sun_part = sky.radiance > 0 ? sky.sun_scale / sky.radiance : 0;
+  add(on_ground, sun_part * to_sun.y, optics::xyz_to_linear_srgb(optics::to_xyz(sun)));
   const std::size_t horizon = result.rgb.size() / 2;
   for (std::size_t i = horizon; i < result.rgb.size(); ++i)
     result.rgb[i] = static_cast<float>(std::max(sky.albedo / pi * on_ground[i % 3], 0.0));

@@ -306,7 +306,7 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
     const Losses none = no_losses();
     // Any reflector's row of the table has the share as w.
     const float power_share = is_of_environment(&world, lattice.light)
-                                  ? carried_light(&world, &none, source, &whole, 0).w
+                                  ? carried_light(&world, &none, source, &whole, reflector_of_row(0)).w
                                   : lattice.share,
                 watts = emission.watts / lattice.photons;
     const TileFilm to_film = {reflected_before, views,

@@ -85,7 +85,10 @@ bool SceneView::show_anew(const preset::Preset& preset) {
 }
 
 bool SceneView::go_on_with(const preset::Preset& preset) {
-  if (!(with_view_of(with_places_of(shown_, preset), preset) == preset) ||
+  const auto& sky = preset.scene.environment;
+  const bool turns_a_sun = sky && sky->type == preset::Environment::Type::sky &&
+                           sky->rotate_deg != shown_.scene.environment.value_or(*sky).rotate_deg;
+  if (!(with_view_of(with_places_of(shown_, preset), preset) == preset) || turns_a_sun ||
       is_plain(preset.scene.camera) != is_plain(shown_.scene.camera)) // it takes other programs
     return show_anew(preset);
   bool begins = false;

@@ -168,10 +168,12 @@ private:
     const auto way = wrap == clamp    ? preset::Texture::Wrap::clamp
                      : wrap == mirror ? preset::Texture::Wrap::mirror
                                       : preset::Texture::Wrap::repeat;
-    if (found.bytes.empty()) return picture(found.file, way, map, info.where(), d_);
+    if (!found.file.empty()) return picture(found.file, way, map, info.where(), d_);
+    const bool is_png = found.bytes.starts_with("\x89PNG");
+    if (!is_png && !found.bytes.starts_with("\xff\xd8")) return leave_out("it is neither PNG nor JPEG");
     preset::Texture made;
     made.wrap = way;
-    made.file = d_.own_file(name, found.bytes.starts_with("\x89PNG") ? ".png" : ".jpg");
+    made.file = d_.own_file(name, is_png ? ".png" : ".jpg");
     d_.files.emplace(made.file, found.bytes);
     return placed(made, map, info.where(), d_);
   }

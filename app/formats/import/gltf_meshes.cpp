@@ -126,8 +126,9 @@ const std::string& GltfMeshes::buffer(std::size_t index) const {
 
 GltfMeshes::Picture GltfMeshes::picture(const GltfValue& image) const {
   if (!image.has("uri")) {
+    if (!image.has("bufferView")) return {};
     const std::uint64_t length = image.item("bufferView", root_, "bufferViews").count("byteLength", 0);
-    if (length == 0) throw bad_input(image.where(), "is a picture of 0 bytes");
+    if (length == 0) return {};
     return {std::string(items(image, 1, length).first, length), {}};
   }
   const std::string uri = image.text("uri");
@@ -233,19 +234,12 @@ scene::Mesh GltfMeshes::read(const GltfValue& primitive) const {
   mesh.triangles = triangles_of(corners, primitive.count("mode", 4));
   if (!attributes.has("TEXCOORD_0")) return mesh;
   const std::vector<double> texcoords = numbers(attributes, "TEXCOORD_0", 2);
-  if (texcoords.size() != 2 * mesh.positions.size())
-    throw bad_input(primitive.where(),
-                    fmt::format("has {} texcoords of {} vertices", texcoords.size() / 2, mesh.positions.size()));
+  if (texcoords.size() != 2 * mesh.positions.size()) return mesh;
   const auto texcoord = [&](std::uint32_t vertex) {
-    return glm::vec2(texcoords[2 * vertex], texcoords[2 * vertex + 1]);
+    const glm::vec2 place(texcoords[2 * vertex], texcoords[2 * vertex + 1]);
+    return std::isfinite(place.x) && std::isfinite(place.y) ? place : glm::vec2(0);
   };
-  for (const glm::uvec3& t : mesh.triangles) {
-    const scene::Texcoords& made =
-        mesh.texcoords.emplace_back(scene::Texcoords{texcoord(t.x), texcoord(t.y), texcoord(t.z)});
-    for (const glm::vec2& corner : made)
-      if (!std::isfinite(corner.x) || !std::isfinite(corner.y))
-        throw bad_input(primitive.where(), "has a texcoord that is not a finite number");
-  }
+  for (const glm::uvec3& t : mesh.triangles) mesh.texcoords.push_back({texcoord(t.x), texcoord(t.y), texcoord(t.z)});
   return mesh;
 }
 

@@ -128,8 +128,10 @@ private:
     const bool has_texcoords = !shape.mesh.empty() && !from_.meshes.at(shape.mesh).texcoords.empty();
     if (material.texture && has_texcoords) textured_.insert(shape.mesh);
     if (!material.texture || has_texcoords) return shape.material;
+    std::string& plain = plain_[shape.material];
+    if (!plain.empty()) return plain;
     from_.note(shape.where, "its texture is left out, as the surface has no u, v: grey of 0.5 takes its place");
-    const std::string plain = shape.material + " without texture";
+    for (plain = shape.material + " plain"; made_.scene.materials.contains(plain);) plain += " 2";
     made_.scene.materials[plain].reflectance.value = 0.5;
     return plain;
   }
@@ -233,7 +235,7 @@ private:
     made.shift = {std::clamp(c.shift.x, -10.0, 10.0), std::clamp(c.shift.y, -10.0, 10.0)};
     if (c.lens_radius > 0) {
       made.focus_distance = std::clamp(c.focus_distance * glm::length(forward), 1e-6, 1e7);
-      made.aperture = 2 * c.lens_radius * glm::length(up);
+      made.aperture = std::min(2 * c.lens_radius * glm::length(up), 1e7);
       if (made.aperture > 2 * *made.focus_distance) {
         from_.note(c.where, "the lens is wider than twice its focus distance: it is made as wide as that");
         made.aperture = 2 * *made.focus_distance;
@@ -275,6 +277,7 @@ private:
   preset::Preset made_;
   glm::dmat4 mirror_{1};
   TakenNames names_;
+  std::map<std::string, std::string> plain_; ///< materials without a texture, by those with it
   scene::Bounds bounds_;
   std::set<std::string> used_, textured_; ///< keys of the objects' meshes
 };

@@ -234,7 +234,9 @@ struct ScaledTexture {
 };
 
 /// Of the texture that a parameter names; nothing where it is none that is taken over.
-std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& from, const std::string& name) {
+std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& from, const std::string& name,
+                                        int depth = 0) {
+  constexpr int deepest = 8; // scales of scales, which may go round in a circle
   const PbrtParameter* given = from.find(name);
   if (!given || given->type != "texture" || given->values.empty()) return std::nullopt;
   const auto found = scene.pictures.find(given->values[0]);
@@ -242,8 +244,15 @@ std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& 
   const auto& [kind, p] = found->second;
   if (kind == "scale") { // "tex" by "scale" in version 4, "tex1" by "tex2" in 3; one of them a colour
     for (const auto& [texture, colour] : {std::pair("tex", "scale"), {"tex1", "tex2"}, {"tex2", "tex1"}})
-      if (auto scaled = texture_of(scene, p, texture)) {
-        scaled->factor = pbrt_colour(scene, p, colour, 1) * linear_srgb_of(scaled->factor).x;
+      if (auto scaled = depth < deepest ? texture_of(scene, p, texture, depth + 1) : std::nullopt) {
+        const DescribedColour factor = pbrt_colour(scene, p, colour, 1);
+        const bool is_first = !scaled->factor.spectrum && scaled->factor.rgb == glm::dvec3(1);
+        const glm::dvec3 both = linear_srgb_of(scaled->factor) * linear_srgb_of(factor);
+        scaled->factor = factor;
+        if (!is_first) {
+          scaled->factor = {};
+          scaled->factor.rgb = both;
+        }
         return scaled;
       }
     return std::nullopt;

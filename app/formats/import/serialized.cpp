@@ -78,9 +78,8 @@ SerializedMesh read_mesh(Inflater& from, std::uint32_t flags, const Location& fi
   if (flags & has_normals) read_items<glm::vec3, Number>(from, vertices, mesh.normals);
   std::vector<glm::vec2> coordinates;
   if (flags & has_texture_coordinates) read_items<glm::vec2, Number>(from, vertices, coordinates);
-  for (const glm::vec2& place : coordinates)
-    if (!std::isfinite(place.x) || !std::isfinite(place.y))
-      throw bad_input(file, "has a texture coordinate at no place");
+  for (glm::vec2& place : coordinates)
+    if (!std::isfinite(place.x) || !std::isfinite(place.y)) place = glm::vec2(0);
   std::vector<glm::vec3> colours;
   if (flags & has_colours) read_items<glm::vec3, Number>(from, vertices, colours);
   read_items<glm::uvec3, std::uint32_t>(from, triangles, mesh.triangles);
