@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace nephroid::preset {
@@ -30,7 +31,10 @@ bool take(Json& preset, std::string_view key) {
   const std::string name(key.substr(0, dot));
   if (!preset.is_object() || !preset.contains(name)) return false;
   if (dot != std::string_view::npos) return take(preset[name], key.substr(dot + 1));
-  const bool is_given = !preset[name].is_null() && !(preset[name].is_structured() && preset[name].empty());
+  // What a pinhole has of a camera is nothing to be left out.
+  static const std::array<Json, 3> pinhole{0.0, Json::array({0.0, 0.0}), "perspective"};
+  const bool is_given = !preset[name].is_null() && !(preset[name].is_structured() && preset[name].empty()) &&
+                        std::ranges::count(pinhole, preset[name]) == 0;
   preset.erase(name);
   return is_given;
 }

@@ -59,6 +59,14 @@ def first_light(s, name):
     s.keep(name, [s.render("first-light", "first-light")])
 
 
+def materials(s, name):
+    s.keep(name, [s.render("materials", "spectral/on-wood")])
+
+
+def camera(s, name):
+    s.keep(name, [s.render("camera", "spectral/prism-macro")])
+
+
 def gallery(s, name):
     """Shipped presets as they come, after 20 seconds."""
     s.keep(
@@ -222,6 +230,8 @@ MAKERS = {
     "grazing-rainbow.png": grazing_rainbow,
     "inverse-glass.png": inverse_glass,
     "gallery.jpg": gallery,
+    "materials.jpg": materials,
+    "camera.jpg": camera,
     "thesis-scenes.jpg": thesis_scenes,
     "smoothing.jpg": smoothing,
     "inverse-sets.jpg": inverse_sets,

@@ -217,7 +217,7 @@ TEST_F(StrangeMeshReader, EndsAsItShouldNot) {
   const std::string three = R"(\3\0\0\0\0\0\0\0)", zero = R"(\0\0\0\0\0\0\0\0)",
                     one_number = R"(\1\0\0\0\0\0\0\0\0\0\0\0)";
   EXPECT_THAT(refusal_with("printf '" + three + "not'"), HasSubstr(line + "ended early; ")); // cut after its first part
-  EXPECT_THAT(refusal_with("printf '" + three + "not" + zero + zero + zero + one_number + zero + "'"),
+  EXPECT_THAT(refusal_with("printf '" + three + "not" + zero + zero + zero + zero + one_number + zero + "'"),
               HasSubstr(line + "not; "));
 }
 
@@ -237,16 +237,17 @@ std::string printed(const T&... values) {
 
 /// An answer for three vertices and a triangle, but for what a test makes wrong.
 struct Answer {
-  std::uint64_t refusal = 0, vertices = 3, normals = 0, triangles = 1, counts = 1, middles = 3;
-  float coordinate = 1, normal = 1;
+  std::uint64_t refusal = 0, vertices = 3, normals = 0, triangles = 1, counts = 1, middles = 3, texcoords = 0;
+  float coordinate = 1, normal = 1, texcoord = 0;
   std::uint32_t corner = 2, mended = 0;
   double middle = 0;
 
   std::string script() const {
     std::string bytes = printed(refusal, vertices, 0.0f, 0.0f, 0.0f, coordinate, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, normals);
     for (std::uint64_t i = 0; i < normals; ++i) bytes += printed(0.0f, 0.0f, normal);
-    if (counts > 0) bytes += printed(triangles, 0u, 1u, corner, counts, mended);
-    if (counts == 0) bytes += printed(triangles, 0u, 1u, corner, counts);
+    bytes += printed(triangles, 0u, 1u, corner, texcoords);
+    for (std::uint64_t i = 0; i < 6 * texcoords; ++i) bytes += printed(texcoord);
+    bytes += counts > 0 ? printed(counts, mended) : printed(counts);
     return "printf '" + bytes + printed(middles, middle, 0.0, 0.0) + "'";
   }
 };
@@ -259,6 +260,9 @@ TEST_F(StrangeMeshReader, AnswersNonsense) {
               HasSubstr(line + "a triangle with vertex 3 of 3; a triangle mesh as"));
   EXPECT_THAT(refusal_with(Answer{.coordinate = NAN}.script()), HasSubstr(line + "a coordinate that is not finite; "));
   EXPECT_THAT(refusal_with(Answer{.normals = 2}.script()), HasSubstr(line + "2 normals of 3 vertices; "));
+  EXPECT_THAT(refusal_with(Answer{.texcoords = 2}.script()), HasSubstr(line + "texcoords for 2 of 1 triangles; "));
+  EXPECT_THAT(refusal_with(Answer{.texcoords = 1, .texcoord = NAN}.script()),
+              HasSubstr(line + "a texcoord that is not finite; "));
   EXPECT_THAT(refusal_with(Answer{.normals = 3, .normal = 0}.script()),
               HasSubstr(line + "a normal that is no unit vector; "));
   EXPECT_THAT(refusal_with(Answer{.mended = 1}.script()), HasSubstr(line + "1 mended normals of 0; "));

@@ -8,6 +8,7 @@
 #include "formats/import/textures.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
+#include "scene/scene.h"
 #include "scene/sky.h"
 
 #include <fmt/format.h>

@@ -241,7 +241,8 @@ std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& 
   if (!given || given->type != "texture" || given->values.empty()) return std::nullopt;
   const auto found = scene.pictures.find(given->values[0]);
   if (found == scene.pictures.end()) return std::nullopt;
-  const auto& [kind, p] = found->second;
+  const std::string& kind = found->second.type;
+  const PbrtParameters& p = found->second.parameters;
   if (kind == "scale") { // "tex" by "scale" in version 4, "tex1" by "tex2" in 3; one of them a colour
     for (const auto& [texture, colour] : {std::pair("tex", "scale"), {"tex1", "tex2"}, {"tex2", "tex1"}})
       if (auto scaled = depth < deepest ? texture_of(scene, p, texture, depth + 1) : std::nullopt) {
