@@ -22,7 +22,7 @@ std::array<Spectrum, 3> spectra_of(const Numbers& parabolas) {
   for (std::size_t w = 0; w < wavelength_count; ++w) {
     const double x = (static_cast<double>(w) - 200) / 200;
     std::array<double, 3> q{};
-    for (int i = 0; i < 2; ++i)
+    for (Eigen::Index i = 0; i < 2; ++i)
       q[static_cast<std::size_t>(i)] = parabolas[3 * i] + x * (parabolas[3 * i + 1] + x * parabolas[3 * i + 2]);
     const double largest = std::ranges::max(q);
     double sum = 0;

@@ -235,7 +235,7 @@ scene::Mesh GltfMeshes::read(const GltfValue& primitive) const {
   if (!attributes.has("TEXCOORD_0")) return mesh;
   const std::vector<double> texcoords = numbers(attributes, "TEXCOORD_0", 2);
   if (texcoords.size() != 2 * mesh.positions.size()) return mesh;
-  const auto texcoord = [&](std::uint32_t vertex) {
+  const auto texcoord = [&](std::size_t vertex) {
     const glm::vec2 place(texcoords[2 * vertex], texcoords[2 * vertex + 1]);
     return std::isfinite(place.x) && std::isfinite(place.y) ? place : glm::vec2(0);
   };

@@ -183,7 +183,7 @@ private:
       const glm::dvec3 enu = scene::to_sky(scene::sun_place(place)); // east, up, south
       to_sun = to_world * glm::dvec3(enu.z, -enu.x, enu.y);
     }
-    const glm::dvec3 up = to_world[2];
+    const glm::dvec3& up = to_world[2];
     if (!(glm::length(to_sun) > 0) || !(glm::length(up) > 0))
       throw bad_input(file_.at(node), "its sun has no direction");
     if (glm::normalize(up).y < 1 - 1e-6) d_.note(file_.at(node), "the sky's horizon is made level: up is +y here");
