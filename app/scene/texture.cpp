@@ -25,7 +25,7 @@ std::uint16_t texel(double value) {
 /// A picture's texels, and what is to be said of them.
 struct Picture {
   int width = 0, height = 0;
-  std::vector<std::uint16_t> rgb;
+  std::shared_ptr<const std::vector<std::uint16_t>> rgb;
   std::vector<std::string> notes;
 };
 
@@ -39,15 +39,17 @@ Picture read_picture(const std::filesystem::path& file) {
   Picture result{picture.width, picture.height, {}, picture.notes};
   if (std::ranges::any_of(colours.alpha, [](float alpha) { return alpha < 1; }))
     result.notes.push_back("has transparent texels, which are taken as opaque");
-  result.rgb.reserve(3 * texels);
+  std::vector<std::uint16_t> rgb;
+  rgb.reserve(3 * texels);
   std::size_t clipped = 0;
   for (std::size_t i = 0; i < 3 * texels; ++i) {
     const float value = colours.values[i];
     if (!std::isfinite(value))
       throw bad_input(file.string(), fmt::format("texel {} has a value that is not finite", i / 3));
     clipped += value < 0 || value > 1;
-    result.rgb.push_back(texel(value));
+    rgb.push_back(texel(value));
   }
+  result.rgb = std::make_shared<const std::vector<std::uint16_t>>(std::move(rgb));
   if (clipped > 0)
     result.notes.push_back(counted(clipped, "value is", "values are") + " outside of 0 to 1, and clipped");
   return result;
@@ -80,7 +82,7 @@ std::shared_ptr<const Picture> read_picture_once(const std::filesystem::path& fi
   }
   const std::shared_ptr<const Picture> result = all.front().picture;
   std::size_t sum = 0;
-  all.remove_if([&](const KeptPicture& one) { return (sum += 2 * one.picture->rgb.size()) > most_bytes; });
+  all.remove_if([&](const KeptPicture& one) { return (sum += 2 * one.picture->rgb->size()) > most_bytes; });
   return result;
 }
 
@@ -106,8 +108,10 @@ Texture make_texture(const preset::Texture& texture, const FileFinder& finder, c
   }
   result.width = result.height = 2;
   result.nearest = true;
+  std::vector<std::uint16_t> rgb;
   for (const preset::Vec3* colour : {&texture.colour1, &texture.colour0, &texture.colour0, &texture.colour1})
-    for (const double value : *colour) result.rgb.push_back(texel(value));
+    for (const double value : *colour) rgb.push_back(texel(value));
+  result.rgb = std::make_shared<const std::vector<std::uint16_t>>(std::move(rgb));
   return result;
 }
 

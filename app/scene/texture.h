@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace nephroid::scene {
 
 struct Texture {
   int width = 0, height = 0;
-  std::vector<std::uint16_t> rgb; ///< linear sRGB, 65535 is 1, 3 a texel, row 0 at the top
+  /// Linear sRGB, 65535 is 1, 3 a texel, row 0 at the top; materials that show one picture share it.
+  std::shared_ptr<const std::vector<std::uint16_t>> rgb;
   preset::Texture::Wrap wrap = preset::Texture::Wrap::repeat;
   bool nearest = false; ///< texels have edges; else bilinear between their middles
   glm::dmat2 linear{1}; ///< (u, v) -> linear (u, v) + offset, from the mesh's to the picture's

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -128,7 +129,10 @@ Flux flux_by_rows(const scene::Environment& environment, double floor) {
 /// Throws bad_input where they have more texels together than a kernel can number.
 TextureTables make_texture_tables(const scene::Scene& scene, const std::vector<DeviceMaterial>& materials) {
   constexpr std::size_t most_texels = std::size_t{1} << 30;
+  static_assert(WRAP_REPEAT == int(preset::Texture::Wrap::repeat) &&
+                WRAP_MIRROR == int(preset::Texture::Wrap::mirror) && WRAP_CLAMP == int(preset::Texture::Wrap::clamp));
   TextureTables tables;
+  std::map<const void*, std::uint32_t> first_of; // of each picture's texels
   for (std::size_t i = 0; i < materials.size(); ++i) {
     if (materials[i].texture < 0) continue;
     const scene::Texture& from = *scene.materials[i].texture;
@@ -137,14 +141,12 @@ TextureTables make_texture_tables(const scene::Scene& scene, const std::vector<D
                         static_cast<float>(from.offset[axis])};
     };
     const auto u = place(0), v = place(1);
-    tables.textures.push_back({static_cast<std::uint32_t>(tables.texture_texels.size() / 3),
-                               from.width,
-                               from.height,
-                               int(from.wrap),
-                               from.nearest,
-                               {u[0], u[1], u[2]},
-                               {v[0], v[1], v[2]}});
-    tables.texture_texels.insert(tables.texture_texels.end(), from.rgb.begin(), from.rgb.end());
+    const auto [first, is_new] =
+        first_of.try_emplace(from.rgb.get(), static_cast<std::uint32_t>(tables.texture_texels.size() / 3));
+    tables.textures.push_back(
+        {first->second, from.width, from.height, int(from.wrap), from.nearest, {u[0], u[1], u[2]}, {v[0], v[1], v[2]}});
+    if (!is_new) continue;
+    tables.texture_texels.insert(tables.texture_texels.end(), from.rgb->begin(), from.rgb->end());
     if (tables.texture_texels.size() / 3 > most_texels)
       throw bad_input("scene.materials", fmt::format("have textures of more than {} texels", most_texels), {},
                       "make them smaller");
