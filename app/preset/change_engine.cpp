@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preset/change_engine.h"
 
+#include "preset/read.h"
 #include "preset/settings_type.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace nephroid::preset {
@@ -25,16 +25,15 @@ Json* part_of(Json& preset, const char* name, Json::value_t kind) {
   return part != preset.end() && part->type() == kind ? &*part : nullptr;
 }
 
-/// A key such as "scene.lights"; false where there is nothing, or null.
-bool take(Json& preset, std::string_view key) {
+/// A key such as "scene.lights"; false where there is what a new preset has, or nothing.
+bool take(Json& preset, std::string_view key, const Json& standard) {
   const std::size_t dot = key.find('.');
   const std::string name(key.substr(0, dot));
   if (!preset.is_object() || !preset.contains(name)) return false;
-  if (dot != std::string_view::npos) return take(preset[name], key.substr(dot + 1));
-  // What a pinhole has of a camera is nothing to be left out.
-  static const std::array<Json, 3> pinhole{0.0, Json::array({0.0, 0.0}), "perspective"};
-  const bool is_given = !preset[name].is_null() && !(preset[name].is_structured() && preset[name].empty()) &&
-                        std::ranges::count(pinhole, preset[name]) == 0;
+  const Json& usual = standard.is_object() && standard.contains(name) ? standard[name] : Json();
+  if (dot != std::string_view::npos) return take(preset[name], key.substr(dot + 1), usual);
+  const bool is_given =
+      !preset[name].is_null() && !(preset[name].is_structured() && preset[name].empty()) && preset[name] != usual;
   preset.erase(name);
   return is_given;
 }
@@ -51,9 +50,10 @@ std::vector<std::string> take_foreign(Json& preset, std::string_view engine) {
       for (const char* before : {"", "reference."}) foreign.push_back(before + std::string(other->name));
   for (const std::string_view key : (*own)->without) foreign.emplace_back(key);
 
+  static const Json standard = Json::parse(to_json(Preset()));
   std::vector<std::string> taken;
   for (const std::string& key : foreign)
-    if (take(preset, key)) taken.push_back(key);
+    if (take(preset, key, standard)) taken.push_back(key);
   if (Json* sweep = part_of(preset, "sweep", Json::value_t::object)) {
     const Json axes = *sweep;
     for (const auto& [key, values] : axes.items())
