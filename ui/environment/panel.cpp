@@ -172,7 +172,7 @@ void EnvironmentPanel::draw_toolbar(const Context& context) {
   }
   action_button("Open map...", context);
   ImGui::SameLine();
-  const bool turns = environment_.type == preset::Environment::Type::file;
+  const bool turns = environment_.type != preset::Environment::Type::constant;
   ImGui::BeginDisabled(!turns);
   ImGui::SetNextItemWidth(-1);
   draw_dragged(context, gestures_,
@@ -265,7 +265,7 @@ void EnvironmentPanel::draw_map(const Context& context) {
   }
   if (const auto region = map_.hovered(); region && *region < figures_.size())
     ImGui::SetTooltip("%s", text_of(figures_[*region], *region, by_flux_.size()).c_str());
-  if (environment_.type != preset::Environment::Type::file) return; // it looks the same however it is turned
+  if (environment_.type == preset::Environment::Type::constant) return; // it looks the same however it is turned
   if (drag.taken) {
     gestures_.begin();
     taken_deg_ = environment_.rotate_deg;

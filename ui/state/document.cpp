@@ -68,7 +68,9 @@ bool Document::take_texture(const std::string& file) {
   if (view_state_.selection.kind != Selection::Kind::object) return false;
   preset::Preset edited = edits_->current();
   if (view_state_.selection.index >= edited.scene.objects.size()) return false;
-  const std::string name = edited.scene.objects[view_state_.selection.index].material;
+  const preset::Object& object = edited.scene.objects[view_state_.selection.index];
+  if (object.shape && object.shape->type == preset::Shape::Type::sphere) return false; // which has no u, v
+  const std::string name = object.material;
   const auto material = edited.scene.materials.find(name);
   if (material == edited.scene.materials.end() || material->second.type != preset::Material::Type::diffuse)
     return false;

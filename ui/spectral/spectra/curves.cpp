@@ -103,7 +103,8 @@ std::shared_ptr<const SeenByGlass> SeenByGlass::of(const preset::Preset& preset,
                                                    const scene::Bvh& bvh) {
   auto seen = std::make_shared<SeenByGlass>();
   for (const scene::Material& material : scene.materials) seen->materials.push_back(material.name);
-  if (!scene.lights.empty() && is_environment(scene.lights.back())) seen->environment = scene.lights.back();
+  for (std::size_t i = preset.scene.lights.size(); i < scene.lights.size(); ++i)
+    seen->surroundings.push_back(scene.lights[i]);
   seen->importance_geometry = photons::importance_geometry(spectral::settings(preset), scene, bvh);
   seen->settings = spectral::settings(preset);
   seen->clusters = photons::scene_clusters(spectral::settings(preset), scene);
@@ -145,8 +146,9 @@ void SpectraMaker::make_lights(const preset::Scene& now) {
   outline_.lights.clear();
   for (std::size_t i = 0; i < now.lights.size(); ++i)
     outline_.lights.push_back(without_place(now.lights[i], spectra_.lights[i]));
-  if (now.environment && now.environment->lights && seen_ && seen_->environment)
-    outline_.lights.push_back(*seen_->environment);
+  if (!now.environment || !seen_) return;
+  for (const scene::Light& light : seen_->surroundings)
+    if (now.environment->lights || !is_environment(light)) outline_.lights.push_back(light);
 }
 
 void SpectraMaker::make_materials(const preset::Preset& now) {

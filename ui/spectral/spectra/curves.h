@@ -14,8 +14,8 @@ namespace nephroid::ui {
 /// What u(lambda) and clusters hang on of where a loaded scene's things are. It takes meshes and rays, so it comes with
 /// a run (SceneFacts); panels do the rest.
 struct SeenByGlass {
-  std::vector<std::string> materials;      ///< names of Scene::materials, in whose order the shares are
-  std::optional<scene::Light> environment; ///< where it is a light
+  std::vector<std::string> materials;     ///< names of Scene::materials, in whose order the shares are
+  std::vector<scene::Light> surroundings; ///< the sun of a sky, the environment where it is a light
   photons::ImportanceGeometry importance_geometry;
   photons::Settings settings;             ///< the run's,
   std::vector<std::vector<int>> clusters; ///< and what it is grouped into by them
