@@ -12,7 +12,7 @@ static inline int wrapped_texel(int i, int n, int wrap) {
   return i < n ? i : period - 1 - i;
 }
 
-// A place in -1..2 periods which looks the same, so that its texel's number is exact however far off it is.
+// The place in the first period which looks the same: 0..1, mirrored 0..2.
 static inline float wrapped_place(float x, int wrap) {
   if (wrap == WRAP_CLAMP) return clamp(x, 0.0f, 1.0f);
   const float period = wrap == WRAP_MIRROR ? 2.0f : 1.0f;

@@ -45,6 +45,11 @@ static inline bool is_followed(float weight, uint2 point, float u, int* level, f
   return u < left;
 }
 
+// A tile has one colour: textures are refused with tiles.
+static inline Reflector reflector_of_tile(const World* world, const Surface* surface) {
+  return reflector_of_row(material_of(world, surface->object).reflector);
+}
+
 #if NEPHROID_DIFFERENTIALS
 // The light of the part 0 .. u of a cluster's distribution of wavelengths, in a row of the tables of lights.
 static inline float3 light_before(const World* world, __global const float4* reflected_before,
@@ -146,7 +151,7 @@ COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, 
   Strand strand = {end->surface, end->triangle, end->xyz};
   Stretch sweep = {1, true, false};
 #if NEPHROID_DIFFERENTIALS
-  const Reflector reflector = reflector_at(world, &end->surface, end->triangle);
+  const Reflector reflector = reflector_of_tile(world, &end->surface);
   float from_x, to_x;
   stretched_band(world, source.light, band, lattice->low, &from_x);
   stretched_band(world, source.light, band, fmin(lattice->high, 0x1.fffffep-1f), &to_x);
@@ -324,7 +329,7 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
         end.left = 1.0f;
         if (deposited || branch.path.losses.any) {
           const Reflector reflector =
-              deposited ? reflector_at(&world, &end.surface, end.triangle) : white_reflector();
+              deposited ? reflector_of_tile(&world, &end.surface) : white_reflector();
           const float4 carried = carried_light(&world, &branch.path.losses, source, &whole, reflector);
           end.xyz = carried.xyz;
           if (branch.path.losses.any && power_share != 0.0f) end.left = carried.w / power_share;
