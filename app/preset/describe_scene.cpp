@@ -171,13 +171,12 @@ void describe(Fields& v, Light& l) {
   using Type = Light::Type;
   v.type("type", "What kind of source.", l.type);
   v.field("spectrum", "A CIE illuminant by name, or an object.", l.spectrum);
-  if (l.type == Type::directional)
+  if (l.type == Type::directional) {
     v.field("irradiance_w_m2", "Irradiance of 380 to 780 nm on a plane that faces the light.", l.irradiance_w_m2,
             {.unit = "W/m^2", .bounds = power_bounds});
-  if (l.type == Type::directional)
     v.field("angular_diameter_deg", "Of the disc that the light comes from: 0.53 for the sun, 0 for a point.",
             l.angular_diameter_deg, {.unit = "degrees", .bounds = within(0, 10)});
-  else {
+  } else {
     v.field("power_w", "Radiant power of 380 to 780 nm.", l.power_w, {.unit = "W", .bounds = power_bounds});
     v.field("position", "Where it is; of an area light its centre.", l.position,
             {.unit = length_unit, .bounds = position_bounds});

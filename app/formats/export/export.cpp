@@ -82,8 +82,8 @@ std::vector<std::string> left_out(const scene::Scene& scene) {
   if (scene.environment)
     notes.push_back(
         fmt::format("glTF has no surroundings: those are in {}, and blender.py takes them", surroundings_file));
-  if (std::ranges::any_of(scene.materials, scene::is_coated)) notes.push_back("coatings are left out");
-  if (std::ranges::any_of(scene.materials, scene::is_textured))
+  if (any_material(scene, scene::is_coated)) notes.push_back("coatings are left out");
+  if (any_material(scene, scene::is_textured))
     notes.push_back("textures are left out: their surfaces have the colour of their reflectance");
   if (std::ranges::any_of(scene.lights, scene::has_disc)) notes.push_back("a sun is a point: its disc is left out");
   if (scene.camera.lens_radius > 0) notes.push_back("glTF has no lenses: the camera's aperture is left out");

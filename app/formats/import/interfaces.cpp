@@ -50,8 +50,7 @@ void add_surface(scene::Mesh& body, const Description& d, const DescribedShape& 
   const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(shape.to_world)));
   for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dvec3(shape.to_world * glm::dvec4(glm::dvec3(p), 1)) - origin);
   for (glm::vec3& n : mesh.normals) n = glm::vec3(glm::normalize(turn * glm::dvec3(n)));
-  if (glm::determinant(turn) < 0)
-    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+  if (glm::determinant(turn) < 0) scene::turn_triangles(mesh);
   if (turned) scene::turn_round(mesh);
   for (const glm::uvec3& t : mesh.triangles) {
     const auto first = static_cast<std::uint32_t>(body.positions.size());

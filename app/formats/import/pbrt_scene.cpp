@@ -239,10 +239,10 @@ std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& 
   constexpr int deepest = 8; // scales of scales, which may go round in a circle
   const PbrtParameter* given = from.find(name);
   if (!given || given->type != "texture" || given->values.empty()) return std::nullopt;
-  const auto found = scene.pictures.find(given->values[0]);
-  if (found == scene.pictures.end()) return std::nullopt;
-  const std::string& kind = found->second.type;
-  const PbrtParameters& p = found->second.parameters;
+  const auto picture_named = scene.pictures.find(given->values[0]);
+  if (picture_named == scene.pictures.end()) return std::nullopt;
+  const std::string& kind = picture_named->second.type;
+  const PbrtParameters& p = picture_named->second.parameters;
   if (kind == "scale") { // "tex" by "scale" in version 4, "tex1" by "tex2" in 3; one of them a colour
     for (const auto& [texture, colour] : {std::pair("tex", "scale"), {"tex1", "tex2"}, {"tex2", "tex1"}})
       if (auto scaled = depth < deepest ? texture_of(scene, p, texture, depth + 1) : std::nullopt) {
