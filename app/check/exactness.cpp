@@ -72,6 +72,24 @@ Result uniforms(const compute::Context& context, std::uint64_t seed) {
                 fmt::format("of {} uniforms, those outside [0, 1) or other than the host's", 4 * count));
 }
 
+/// The first 2^k points of a scrambled Sobol sequence have one in each of 2^k equal intervals, in every dimension.
+Result low_discrepancy(const compute::Context& context, std::uint64_t seed) {
+  constexpr std::size_t count = 1 << 12;
+  const compute::Buffer<std::array<float, 4>> out(context, "points", count);
+  run_kernel(context, "sobol_points", count,
+             {{"seed", Key{device_seed(seed).x, device_seed(seed).y}}, {"results", out}});
+  std::array<std::array<bool, count>, 4> has_point{};
+  for (const std::array<float, 4>& point : out.read())
+    for (std::size_t d = 0; d < 4; ++d)
+      if (point[d] >= 0 && point[d] < 1) has_point[d][static_cast<std::size_t>(point[d] * count)] = true;
+  double empty = 0;
+  for (const auto& intervals : has_point) empty += static_cast<double>(std::ranges::count(intervals, false));
+  return judged(empty, 0, "intervals",
+                fmt::format("{} points of a Sobol sequence: of as many equal intervals in each of 4 dimensions, those "
+                            "without a point",
+                            count));
+}
+
 /// Sums of integers are the same in any order. `halves` adds with two 32-bit atomics and a carry.
 Result sums(const compute::Context& context, std::uint64_t seed, bool halves) {
   constexpr std::size_t count = 1 << 17, places = 7;
@@ -142,6 +160,7 @@ Result film_limit(const compute::Context& context, std::uint64_t) {
 Checks exactness_checks() {
   return {{"random numbers: published vectors", published_vectors},
           {"random numbers: uniforms bit for bit", uniforms},
+          {"random numbers: low discrepancy", low_discrepancy},
           {"sums: the device's own atomics",
            [](const compute::Context& c, std::uint64_t seed) { return sums(c, seed, false); }},
           {"sums: 32-bit halves with carry",

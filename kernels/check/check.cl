@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the functions of kernels/*.h over arrays, one item each, so that `nephroid check` (app/check) and tests hold
 // them against the host. Only built_ins computes something else: it runs the device's own functions.
+#include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/random.h"
 #include "kernels/materials/coating.h"
 #include "kernels/materials/conductor.h"
@@ -51,6 +52,11 @@ kernel void to_quanta(global const float* in, global long* out, uint count) {
 kernel void philox(global const uint4* counters, global const uint2* keys, global uint4* results, uint count) {
   const uint i = work_item();
   if (i < count) results[i] = philox4x32(counters[i], keys[i]);
+}
+
+kernel void sobol_points(uint2 seed, global float4* results, uint count) {
+  const uint i = work_item();
+  if (i < count) results[i] = sobol4(seed, (uint3)(3u, 1u, 0u), 0u, i);
 }
 
 kernel void uniforms(uint2 seed, uint pass, uint block, uint stream, global float4* results, uint count) {

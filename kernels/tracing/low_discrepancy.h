@@ -9,23 +9,19 @@
 
 // Direction numbers of the dimensions 2, 3 and 4 for each bit of the index (Joe and Kuo 2008, new-joe-kuo-6:
 // polynomials x + 1, x^2 + x + 1, x^3 + x + 1, initial numbers 1; 1, 3; 1, 3, 1). Dimension 1 is the reversed index.
-__constant uint3 sobol_directions[32] = {
-    (uint3)(0x80000000u, 0x80000000u, 0x80000000u), (uint3)(0xc0000000u, 0xc0000000u, 0xc0000000u),
-    (uint3)(0xa0000000u, 0x60000000u, 0x20000000u), (uint3)(0xf0000000u, 0x90000000u, 0x50000000u),
-    (uint3)(0x88000000u, 0xe8000000u, 0xf8000000u), (uint3)(0xcc000000u, 0x5c000000u, 0x74000000u),
-    (uint3)(0xaa000000u, 0x8e000000u, 0xa2000000u), (uint3)(0xff000000u, 0xc5000000u, 0x93000000u),
-    (uint3)(0x80800000u, 0x68800000u, 0xd8800000u), (uint3)(0xc0c00000u, 0x9cc00000u, 0x25400000u),
-    (uint3)(0xa0a00000u, 0xee600000u, 0x59e00000u), (uint3)(0xf0f00000u, 0x55900000u, 0xe6d00000u),
-    (uint3)(0x88880000u, 0x80680000u, 0x78080000u), (uint3)(0xcccc0000u, 0xc09c0000u, 0xb40c0000u),
-    (uint3)(0xaaaa0000u, 0x60ee0000u, 0x82020000u), (uint3)(0xffff0000u, 0x90550000u, 0xc3050000u),
-    (uint3)(0x80008000u, 0xe8808000u, 0x208f8000u), (uint3)(0xc000c000u, 0x5cc0c000u, 0x51474000u),
-    (uint3)(0xa000a000u, 0x8e606000u, 0xfbea2000u), (uint3)(0xf000f000u, 0xc5909000u, 0x75d93000u),
-    (uint3)(0x88008800u, 0x6868e800u, 0xa0858800u), (uint3)(0xcc00cc00u, 0x9c9c5c00u, 0x914e5400u),
-    (uint3)(0xaa00aa00u, 0xeeee8e00u, 0xdbe79e00u), (uint3)(0xff00ff00u, 0x5555c500u, 0x25db6d00u),
-    (uint3)(0x80808080u, 0x8000e880u, 0x58800080u), (uint3)(0xc0c0c0c0u, 0xc0005cc0u, 0xe54000c0u),
-    (uint3)(0xa0a0a0a0u, 0x60008e60u, 0x79e00020u), (uint3)(0xf0f0f0f0u, 0x9000c590u, 0xb6d00050u),
-    (uint3)(0x88888888u, 0xe8006868u, 0x800800f8u), (uint3)(0xccccccccu, 0x5c009c9cu, 0xc00c0074u),
-    (uint3)(0xaaaaaaaau, 0x8e00eeeeu, 0x200200a2u), (uint3)(0xffffffffu, 0xc5005555u, 0x50050093u),
+// Plain numbers: on an H200 (driver 580.159) a constant array of uint3 gave points that were not stratified.
+__constant uint sobol_directions[32 * 3] = {
+    0x80000000u, 0x80000000u, 0x80000000u, 0xc0000000u, 0xc0000000u, 0xc0000000u, 0xa0000000u, 0x60000000u, 0x20000000u,
+    0xf0000000u, 0x90000000u, 0x50000000u, 0x88000000u, 0xe8000000u, 0xf8000000u, 0xcc000000u, 0x5c000000u, 0x74000000u,
+    0xaa000000u, 0x8e000000u, 0xa2000000u, 0xff000000u, 0xc5000000u, 0x93000000u, 0x80800000u, 0x68800000u, 0xd8800000u,
+    0xc0c00000u, 0x9cc00000u, 0x25400000u, 0xa0a00000u, 0xee600000u, 0x59e00000u, 0xf0f00000u, 0x55900000u, 0xe6d00000u,
+    0x88880000u, 0x80680000u, 0x78080000u, 0xcccc0000u, 0xc09c0000u, 0xb40c0000u, 0xaaaa0000u, 0x60ee0000u, 0x82020000u,
+    0xffff0000u, 0x90550000u, 0xc3050000u, 0x80008000u, 0xe8808000u, 0x208f8000u, 0xc000c000u, 0x5cc0c000u, 0x51474000u,
+    0xa000a000u, 0x8e606000u, 0xfbea2000u, 0xf000f000u, 0xc5909000u, 0x75d93000u, 0x88008800u, 0x6868e800u, 0xa0858800u,
+    0xcc00cc00u, 0x9c9c5c00u, 0x914e5400u, 0xaa00aa00u, 0xeeee8e00u, 0xdbe79e00u, 0xff00ff00u, 0x5555c500u, 0x25db6d00u,
+    0x80808080u, 0x8000e880u, 0x58800080u, 0xc0c0c0c0u, 0xc0005cc0u, 0xe54000c0u, 0xa0a0a0a0u, 0x60008e60u, 0x79e00020u,
+    0xf0f0f0f0u, 0x9000c590u, 0xb6d00050u, 0x88888888u, 0xe8006868u, 0x800800f8u, 0xccccccccu, 0x5c009c9cu, 0xc00c0074u,
+    0xaaaaaaaau, 0x8e00eeeeu, 0x200200a2u, 0xffffffffu, 0xc5005555u, 0x50050093u,
 };
 
 static inline uint reverse_bits(uint x) {
@@ -61,7 +57,7 @@ COMPILED_ONCE uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index
         reverse_bits(permute_by_lower_bits((uint4)(reverse_bits(index)), (uint4)(key.x ^ key.w * 0x9e3779b9u)).x);
   uint3 bits = (uint3)(0u);
   ROLLED
-  for (int i = 0; i < 32; ++i) bits ^= sobol_directions[i] & (uint3)(0u - (shuffled >> i & 1u));
+  for (int i = 0; i < 32; ++i) bits ^= vload3(i, sobol_directions) & (uint3)(0u - (shuffled >> i & 1u));
   // Dimension 1 is the reversed index, so its own reversal, where scrambling happens, is the index.
   const uint4 reversed = (uint4)(shuffled, reverse_bits(bits.x), reverse_bits(bits.y), reverse_bits(bits.z));
   return reverse_bits4(permute_by_lower_bits(reversed, key));
