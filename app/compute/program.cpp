@@ -91,8 +91,22 @@ std::string compiler_options(const DeviceInfo& device, const Defines& defines, c
   return options;
 }
 
-/// Splits a line of the compiler's log into place and message; nothing if it names no place.
-std::optional<std::pair<Location, std::string>> located(std::string line) {
+/// The file and line that a line of the joined text is from.
+Location place_in(const std::string& source, unsigned line) {
+  std::istringstream lines(source);
+  std::array<char, 256> file{};
+  unsigned number = 0;
+  for (std::string text; line > 0 && std::getline(lines, text); --line)
+    if (std::sscanf(text.c_str(), "#line %9u \"%255[^\"]\"", &number, file.data()) == 2)
+      --number;
+    else
+      ++number;
+  return Location(file.data(), number);
+}
+
+/// Splits a line of the compiler's log into place and message; nothing if it names no place. NVIDIA's compiler does not
+/// follow #line: it counts the lines of "<kernel>", the joined text.
+std::optional<std::pair<Location, std::string>> located(std::string line, const std::string& source) {
   for (const std::string_view word : {"fatal error: ", "error: "})
     if (const std::size_t at = line.find(word); at != std::string::npos) line.erase(at, word.size());
   std::array<char, 256> file{};
@@ -101,16 +115,18 @@ std::optional<std::pair<Location, std::string>> located(std::string line) {
   if (std::sscanf(line.c_str(), " %255[^: \t]:%9u:%u: %n", file.data(), &number, &column, &end) < 3)
     std::sscanf(line.c_str(), " %255[^: \t]:%9u: %n", file.data(), &number, &end);
   if (end == 0) return std::nullopt;
-  return std::pair{Location(file.data(), number), line.substr(static_cast<std::size_t>(end))};
+  const Location place = file[0] == '<' ? place_in(source, number) : Location(file.data(), number);
+  return std::pair{place, line.substr(static_cast<std::size_t>(end))};
 }
 
 /// The log's first error. Compilers write "trace.cl:12:5: error: ...", PoCL 3 "error: trace.cl:12:5: ...".
-BuildError build_error(const std::string& file, const std::string& device, const std::string& log) {
+BuildError build_error(const std::string& file, const std::string& source, const std::string& device,
+                       const std::string& log) {
   std::istringstream lines(log);
   std::string first;
   for (std::string line; std::getline(lines, line);) {
     if (line.find("error: ") == std::string::npos) continue;
-    if (const auto error = located(line))
+    if (const auto error = located(line, source))
       return {error->first, fmt::format("{} (building {} for {})", error->second, file, device), log};
     if (first.empty()) first = line;
   }
@@ -129,7 +145,7 @@ cl::Program build(detail::ContextState& context, const std::string& file, const 
   } catch (const cl::BuildError& error) {
     const std::string log = error.getBuildLog().empty() ? "" : error.getBuildLog().front().second;
     if (log.find_first_not_of(" \n\t") == std::string::npos) throw detail::call_failed(error, file);
-    throw build_error(file, context.info.name, log);
+    throw build_error(file, source, context.info.name, log);
   }
   return program;
 }
