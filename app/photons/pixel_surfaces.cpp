@@ -231,16 +231,16 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
     const glm::dvec3 arrives = ray.way();
     if (is_refractive(type)) {
       if (material.thin || !ray.cross(*hit)) continue; // most of the light passes a pane
-    } else if (is_specular(type))
+    } else if (!is_matt(type))
       ray.reflect(*hit);
     const bool is_first = surfaces.first.object < 0;
-    if (is_first || !is_specular(type)) {
+    if (is_first || is_matt(type)) {
       surfaces.last = {glm::vec3(hit->position), glm::vec3(hit->geometric), hit->object};
       surfaces.way = glm::vec3(arrives);
       surfaces.spacing = static_cast<float>(spacing * (camera.orthographic ? 1 : ray.length()));
     }
     if (is_first) surfaces.first = surfaces.last;
-    if (!is_specular(type)) break;
+    if (is_matt(type)) break;
   }
   return surfaces;
 }

@@ -129,6 +129,15 @@ void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& sc
   if (wanted.estimator == Settings::Estimator::tiles && any_material(scene, scene::is_rough))
     throw bad_input(spectral / "estimator", "is tiles, and a rough surface scatters the corners of each",
                     "expected points, splat or sppm", "or set its roughness to 0");
+  if (any_material(scene, scene::is_plastic)) {
+    if (wanted.estimator == Settings::Estimator::tiles)
+      throw bad_input(spectral / "estimator", "is tiles, which end at matt surfaces, and one is of plastic",
+                      "expected points, splat or sppm", "or make it diffuse");
+    if (wanted.relight)
+      throw bad_input(spectral / "relight",
+                      "keeps layers of what surfaces scatter, and one is of plastic, which reflects", "expected false",
+                      "or make it diffuse");
+  }
   if (any_material(scene, scene::is_textured)) {
     if (wanted.estimator == Settings::Estimator::tiles)
       throw bad_input(spectral / "estimator", "is tiles, each of one colour, and a surface has a texture",
@@ -166,6 +175,7 @@ std::string why_points(const Settings& wanted, const scene::Scene& scene) {
   if (has_coatings(scene)) return "a coating reflects each wavelength otherwise";
   if (!scene.camera.is_plain()) return "a camera with a lens, a shift or parallel rays sees points only";
   if (any_material(scene, scene::is_rough)) return "a rough surface scatters the corners of a tile";
+  if (any_material(scene, scene::is_plastic)) return "plastic reflects a part of the light, which tiles do not follow";
   if (any_material(scene, scene::is_textured)) return "a tile has one colour, and a texture many";
   if (wanted.method == Settings::Method::brute_force || wanted.effort != Settings::Effort::automatic ||
       !wanted.jitter || !wanted.low_discrepancy)

@@ -65,8 +65,7 @@ void check_material(const Material& m, const std::string& pointer, const Where& 
     if (reflectance.type == Reflectance::Type::table)
       check_rows(reflectance.table, child(child(pointer, field), "table"), where);
   };
-  if (m.type == Material::Type::diffuse || m.type == Material::Type::mirror)
-    return check_reflectance(m.reflectance, "reflectance");
+  check_reflectance(m.reflectance, "reflectance");
   check_dispersion(m.dispersion, child(pointer, "dispersion"), where);
   check_reflectance(m.tint, "tint");
   if (m.coating) check_dispersion(m.coating->dispersion, child(child(pointer, "coating"), "dispersion"), where);

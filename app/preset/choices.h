@@ -51,7 +51,8 @@ inline constexpr Choice<Material::Type> choices<Material::Type>[] = {
     {Material::Type::diffuse, "diffuse", "Scatters light equally to all sides (Lambert): what caustics fall on."},
     {Material::Type::dielectric, "dielectric", "Glass, water, diamond: refracts and reflects."},
     {Material::Type::mirror, "mirror", "Reflects a part of the light that does not depend on the angle."},
-    {Material::Type::conductor, "conductor", "Metal, by its measured n and k."}};
+    {Material::Type::conductor, "conductor", "Metal, by its measured n and k."},
+    {Material::Type::plastic, "plastic", "A diffuse base below a clear coat: plastic, varnished wood, glazed tiles."}};
 
 template <>
 inline constexpr Choice<Shape::Type> choices<Shape::Type>[] = {

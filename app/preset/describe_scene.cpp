@@ -107,15 +107,18 @@ void describe(Fields& v, Material& m) {
   v.type("type", "What kind of surface.", m.type);
   if (m.type == Type::dielectric)
     v.field("dispersion", "Index of refraction: a number, a file or an object.", m.dispersion, {.required = true});
+  if (m.type == Type::plastic)
+    v.field("dispersion", "The coat's index of refraction, in air at 588 nm: a number, a file or an object.",
+            m.dispersion);
   if (m.type == Type::conductor)
     v.field("metal", "gold, silver, copper, aluminium, brass, or a YAML file of refractiveindex.info with n and k.",
             m.metal, {.text = Text::file});
-  if (m.type == Type::diffuse || m.type == Type::mirror)
+  if (is_matt(m.type) || m.type == Type::mirror)
     v.field("reflectance", "Part of the light that is reflected: a number, a ColorChecker patch or an object.",
             m.reflectance);
-  if (m.type == Type::diffuse)
+  if (is_matt(m.type))
     v.field("texture", "What the reflectance is multiplied by: a picture file or an object.", m.texture);
-  if (m.type != Type::diffuse)
+  if (is_specular(m.type))
     v.field("roughness", "0 is polished; GGX with alpha = roughness^2.", m.roughness, {.bounds = within(0, 1)});
   if (m.type != Type::dielectric) return;
   v.field("absorption", "Absorb light inside where the dispersion file has k.", m.absorption);

@@ -78,31 +78,36 @@ struct Coating {
 };
 
 struct Material {
-  enum class Type { diffuse, dielectric, mirror, conductor };
+  enum class Type { diffuse, dielectric, mirror, conductor, plastic };
   Type type = Type::diffuse;
-  Reflectance reflectance;        ///< diffuse, mirror
-  std::optional<Texture> texture; ///< diffuse: what the reflectance is multiplied by
-  Dispersion dispersion;          ///< dielectric
+  Reflectance reflectance;        ///< diffuse, mirror; plastic: of the matt base below its coat
+  std::optional<Texture> texture; ///< diffuse, plastic: what the reflectance is multiplied by
+  Dispersion dispersion;          ///< dielectric; plastic: of the coat, at 588 nm
   std::string metal = "gold";     ///< conductor: a file with n and k, or a shipped metal
   bool absorption = true;         ///< dielectric: use k where the dispersion file has it
   /// dielectric: the part of the light that passes its surface, each time
   Reflectance tint{Reflectance::Type::constant, 1, {}, {}};
-  double roughness = 0;           ///< dielectric that is not thin, mirror, conductor: the root of the alpha of GGX
+  double roughness = 0;           ///< of what is specular and not thin: the root of the alpha of GGX
   bool thin = false;              ///< dielectric: a pane without thickness, not a body
   std::optional<Coating> coating; ///< dielectric, not thin
   bool operator==(const Material&) const = default;
 };
 
-/// Whether a surface sends a path on in one direction (`bend_path` of kernels/tracing/world.h), and does not scatter
-/// it.
+/// Whether a surface sends a path on in one direction (`bend_path` of kernels/tracing/world.h), all of it or a part.
 constexpr bool is_specular(Material::Type type) {
   switch (type) {
   case Material::Type::diffuse: return false;
   case Material::Type::dielectric:
   case Material::Type::mirror:
-  case Material::Type::conductor: break;
+  case Material::Type::conductor:
+  case Material::Type::plastic: break;
   }
   return true;
+}
+
+/// Whether a surface scatters a path to all sides, all of it or a part: what caustics fall on.
+constexpr bool is_matt(Material::Type type) {
+  return type == Material::Type::diffuse || type == Material::Type::plastic;
 }
 
 /// Whether light passes the surface.
@@ -111,7 +116,8 @@ constexpr bool is_refractive(Material::Type type) {
   case Material::Type::dielectric: return true;
   case Material::Type::diffuse:
   case Material::Type::mirror:
-  case Material::Type::conductor: break;
+  case Material::Type::conductor:
+  case Material::Type::plastic: break;
   }
   return false;
 }

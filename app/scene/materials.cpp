@@ -140,6 +140,15 @@ Material make_material(const std::string& name, const preset::Material& material
   metal.file = material.metal;
   const Location dispersion = where / "dispersion";
   switch (material.type) {
+  case Material::Type::plastic:
+    sampled(material.dispersion, dispersion, [&](const optics::DispersionCurve& curve, optics::Extrapolation outside) {
+      result.coat_n = optics::sample_n(curve, outside)[588 - optics::first_nm];
+    });
+    if (!(result.coat_n >= 1 && result.coat_n <= 4))
+      throw bad_input(dispersion, fmt::format("is {:.3g} at 588 nm", result.coat_n), "expected 1 to 4 for a coat",
+                      "varnish and plastic have about 1.5");
+    result.coat = optics::make_coat(result.coat_n, result.alpha);
+    [[fallthrough]];
   case Material::Type::diffuse:
     if (material.texture)
       result.texture =

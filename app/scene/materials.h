@@ -39,8 +39,8 @@ optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const 
 inline constexpr double most_conductor_error = 0.01;
 
 /// where: the material's. Throws bad_input for a pane with a coating or a roughness, for a conductor without k, or
-/// whose reflectance three terms cannot hold (optics/conductor.h). Adds a warning where n is wanted outside the data's
-/// range.
+/// whose reflectance three terms cannot hold (optics/conductor.h), for a plastic's coat whose index is not 1 to 4. Adds
+/// a warning where n is wanted outside the data's range.
 Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder,
                        const Location& where, std::vector<std::string>& warnings);
 

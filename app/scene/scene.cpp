@@ -42,7 +42,7 @@ glm::dvec3 choose_origin(const std::vector<Pending>& pending, const Scene& scene
   for (const Pending& object : pending) {
     const Bounds bounds = placed_bounds(*object.mesh, object.placement, object.where);
     all = all ? enclosing(*all, bounds) : bounds;
-    if (scene.materials[static_cast<std::size_t>(object.material)].type != Material::Type::diffuse)
+    if (!is_matt(scene.materials[static_cast<std::size_t>(object.material)].type))
       bending = bending ? enclosing(*bending, bounds) : bounds;
   }
   if (bending) return 0.5 * bending->low + 0.5 * bending->high;

@@ -4,6 +4,7 @@
 // which keeps single precision good far from the preset's own origin.
 #pragma once
 #include "base/location.h"
+#include "optics/coat.h"
 #include "optics/conductor.h"
 #include "preset/preset.h"
 #include "scene/environment.h"
@@ -33,9 +34,11 @@ struct Material {
   optics::Spectrum n{};                   ///< dielectric, conductor
   optics::Spectrum k{};                   ///< conductor; dielectric: all zero where it does not absorb
   bool absorbs = false;                   ///< dielectric
-  optics::Spectrum reflectance{};         ///< diffuse, mirror; conductor: at normal incidence in air
-  std::shared_ptr<const Texture> texture; ///< diffuse: what its reflectance is multiplied by; null: 1
+  optics::Spectrum reflectance{};         ///< diffuse, mirror, plastic's base; conductor: at normal incidence in air
+  std::shared_ptr<const Texture> texture; ///< diffuse, plastic: what its reflectance is multiplied by; null: 1
   optics::ConductorTerms conductor;       ///< conductor
+  double coat_n = 1;                      ///< plastic: index of refraction of its coat
+  optics::Coat coat;                      ///< plastic
   optics::Spectrum tint{};                ///< dielectric: the part that passes its surface
   bool thin = false;                      ///< dielectric: a pane without thickness
   double alpha = 0;                       ///< of GGX; 0: polished
@@ -47,6 +50,8 @@ struct Material {
 inline bool is_body(const Material& material) { return is_refractive(material.type) && !material.thin; }
 
 inline bool is_rough(const Material& material) { return material.alpha > 0; }
+
+inline bool is_plastic(const Material& material) { return material.type == Material::Type::plastic; }
 
 inline bool is_textured(const Material& material) { return material.texture != nullptr; }
 

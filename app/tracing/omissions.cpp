@@ -113,7 +113,7 @@ ObjectCounts count_objects(const scene::Scene& scene) {
     const scene::Material::Type type = material_of(scene, object).type;
     counts.dielectrics += is_refractive(type);
     counts.mirrors += is_specular(type) && !is_refractive(type);
-    counts.diffuse += !is_specular(type);
+    counts.diffuse += is_matt(type);
     counts.smooth += object.smooth;
   }
   return counts;
@@ -129,7 +129,7 @@ bool goes_one_way(const scene::Scene& scene) {
 
 bool may_see_glass_or_mirror(const scene::Scene& scene) {
   return !scene.camera.inside.empty() || std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
-    return material_of(scene, object).type != scene::Material::Type::diffuse && may_be_in_view(scene, object);
+    return is_specular(material_of(scene, object).type) && may_be_in_view(scene, object);
   });
 }
 
@@ -182,7 +182,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
   const std::string seen_types = light_types_reason(types);
   const bool every_type = has(types == all_light_types ? needed("light types", seen_types)
                                                        : not_needed("light types", leave_out.light_types, seen_types));
-  const bool mirrors = has(counts.mirrors > 0 ? needed("mirrors", counted(counts.mirrors, "mirror object"))
+  const bool mirrors = has(counts.mirrors > 0 ? needed("mirrors", counted(counts.mirrors, "mirror or coated object"))
                                               : not_needed("mirrors", leave_out.mirrors, "no object is a mirror"));
   const bool bending =
       has(bends ? needed("bending", "glass has another n than its surroundings, or a coating")
@@ -206,6 +206,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       {"NEPHROID_PANES", flag(any(is_pane) || !leave_out.bending)},
       {"NEPHROID_COATINGS", flag(any(scene::is_coated) || !leave_out.bending)},
       {"NEPHROID_ROUGH", flag(any(scene::is_rough) || !leave_out.bending)},
+      {"NEPHROID_PLASTICS", flag(any(scene::is_plastic))},
       {"NEPHROID_TEXTURES", flag(any(scene::is_textured))},
       {"NEPHROID_TINTS", flag(any(is_tinted) || !leave_out.attenuation)},
       // Without materials that attenuate there is one place all the same: the code is compiled and does nothing.

@@ -66,8 +66,7 @@ std::vector<scene::Sphere> slices(const scene::Ellipsoid& ellipsoid) {
 std::vector<Piece> piece_by_object(const scene::Scene& scene) {
   std::vector<Piece> pieces;
   for (const scene::Object& object : scene.objects) {
-    const scene::Material::Type type = material_of(scene, object).type;
-    if (is_empty(object) || type == scene::Material::Type::diffuse) continue;
+    if (is_empty(object) || !is_specular(material_of(scene, object).type)) continue;
     const auto triangles = triangles_of(scene, object);
     if (!triangles.empty()) pieces.push_back({{triangles.begin(), triangles.end()}, object.bounds});
     for (const scene::Ellipsoid& ellipsoid : ellipsoids_of(scene, object))
@@ -171,7 +170,7 @@ std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene) {
     for (const Piece& piece : pieces) triangles.insert(triangles.end(), piece.triangles.begin(), piece.triangles.end());
     std::vector<scene::Ellipsoid> ellipsoids;
     for (const scene::Object& object : scene.objects)
-      if (material_of(scene, object).type != scene::Material::Type::diffuse)
+      if (is_specular(material_of(scene, object).type))
         for (const scene::Ellipsoid& ellipsoid : ellipsoids_of(scene, object)) ellipsoids.push_back(ellipsoid);
     return {enclosing_sphere(scene.geometry, triangles, ellipsoids)};
   }

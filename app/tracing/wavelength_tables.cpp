@@ -27,6 +27,7 @@ int device_type(MaterialType type) {
   case MaterialType::dielectric: return MATERIAL_DIELECTRIC;
   case MaterialType::mirror:
   case MaterialType::conductor: return MATERIAL_MIRROR;
+  case MaterialType::plastic: return MATERIAL_PLASTIC;
   case MaterialType::diffuse: break;
   }
   return MATERIAL_DIFFUSE;
@@ -68,7 +69,26 @@ int add_reflector(WavelengthTables& tables, const Spectrum& reflectance) {
   return tables.reflector_count++;
 }
 
-/// The row of what roughness takes, which all materials share.
+/// Adds the rows of a matt surface, and returns the first one's number. per_colour: of a texture's white.
+int add_matt(WavelengthTables& tables, const Spectrum& reflectance, const Spectrum& per_colour, bool textured) {
+  const int first = add_reflector(tables, reflectance);
+  if (!textured) return first;
+  for (Spectrum primary : optics::primary_reflectances()) {
+    for (std::size_t w = 0; w < primary.size(); ++w) primary[w] *= per_colour[w];
+    add_reflector(tables, primary);
+  }
+  return first;
+}
+
+/// Adds what the table surface_data has of a coat.
+void add_coat(WavelengthTables& tables, const scene::Material& plastic) {
+  static_assert(COAT_COSINES == optics::coat_cosines && COAT_INNER == 1 && COAT_MEAN == 2 && COAT_PARTS == 3);
+  for (const double value : {plastic.coat_n, plastic.coat.inner, 1 - plastic.coat.outer})
+    tables.surface_data.push_back(static_cast<float>(value));
+  for (const double part : plastic.coat.passes) tables.surface_data.push_back(static_cast<float>(part));
+}
+
+/// The row of what roughness and coats take, which all materials share.
 int masking_row(WavelengthTables& tables, std::span<const shared::DeviceMaterial> before) {
   for (const shared::DeviceMaterial& material : before)
     if (material.masking >= 0) return material.masking;
@@ -87,18 +107,22 @@ void add_material_rows(const scene::Scene& scene, WavelengthTables& tables,
     row.type = device_type(material.type);
     if (!used[i]) continue;
     row.alpha = static_cast<float>(material.alpha);
-    if (is_rough(material)) row.masking = masking_row(tables, {materials.data(), i});
+    if (is_textured(material)) row.texture = textures++;
+    if (is_rough(material) || is_plastic(material)) row.masking = masking_row(tables, {materials.data(), i});
     const int surface_first = static_cast<int>(tables.surface_data.size());
     switch (material.type) {
     case MaterialType::diffuse:
-      row.reflector = add_reflector(tables, material.reflectance);
-      if (!is_textured(material)) break;
-      row.texture = textures++;
-      for (Spectrum primary : optics::primary_reflectances()) {
-        for (std::size_t w = 0; w < primary.size(); ++w) primary[w] *= material.reflectance[w];
-        add_reflector(tables, primary);
-      }
+      row.reflector = add_matt(tables, material.reflectance, material.reflectance, is_textured(material));
       break;
+    case MaterialType::plastic: {
+      Spectrum white = material.reflectance; // kernels do the rest for a texel: colour_below_coat
+      for (double& part : white) part /= 1 - material.coat.outer;
+      row.reflector =
+          add_matt(tables, optics::base_reflectance(material.coat, material.reflectance), white, is_textured(material));
+      row.surface_first = surface_first;
+      add_coat(tables, material);
+      break;
+    }
     case MaterialType::mirror: row.attenuator = add_loss(tables, loss_at_surface(material)); break;
     case MaterialType::conductor:
       row.surface_first = surface_first;

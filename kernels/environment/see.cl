@@ -15,16 +15,20 @@ static inline DeviceEnd nowhere(void) {
   return end;
 }
 
-// Traces a path to its end. first: its next hit, where known: then nothing has bent it. weight: linear sRGB. likelier:
-// as in trace_to_diffuse, and it sees a point of the sky. place, edges: as in piece_of.
+// Traces a path to its end. first: its next hit, where known: then nothing has bent it, and it ends below a coat.
+// weight: linear sRGB. likelier: as in trace_to_diffuse, and it sees a point of the sky. place, edges: as in piece_of.
 static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, bool known, const Band* band,
                                float3 weight, uint2 seed, uint sample, uint pixel, bool likelier, float2 place,
                                float2 edges) {
   DeviceEnd end = nowhere();
   Surface surface;
   Hit hit = *first;
-  const float scale =
-      trace_to_diffuse(world, &path, &hit, known, band, seed, sample, 0u, pixel, STREAM_SEE, likelier, &surface);
+  float scale = 1.0f;
+  if (known && hit.primitive != NEPHROID_NO_PRIMITIVE && shows_coat(world, &hit)) {
+    surface = surface_at(&world->geometry, hit);
+    scale = part_through_coat(world, &surface, path.direction);
+  } else
+    scale = trace_to_diffuse(world, &path, &hit, known, band, seed, sample, 0u, pixel, STREAM_SEE, likelier, &surface);
   if (scale == 0.0f) return end;
   float3 throughput = scale * wavelength_left(&world->tables, &path.losses, max(band->wavelength, 0)) * weight;
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
@@ -41,10 +45,12 @@ static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, 
   const Reflector reflector = reflector_at(world, &surface, hit.primitive);
   if (reflector.is_textured) throughput *= reflector.rgb;
 #endif
+  const DeviceMaterial material = material_of(world, surface.object);
+  if (is_plastic(&material)) throughput *= world->tables.surface_data[material.surface_first + COAT_MEAN];
   end.throughput = (float4)(throughput, (float)END_SURFACE);
   end.place = (float4)(surface.position, surface.offset);
   end.geometric = (float4)(side * surface.geometric, as_float(hit.primitive));
-  end.shading = (float4)(side * surface.shading, as_float(material_of(world, surface.object).reflector));
+  end.shading = (float4)(side * surface.shading, as_float(material.reflector));
   return end;
 }
 
@@ -90,6 +96,7 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
   const Hit hit = next_hit(&world, &path);
   const bool bent = hit.primitive != NEPHROID_NO_PRIMITIVE &&
                     material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type != MATERIAL_DIFFUSE;
+  const bool coated = bent && shows_coat(&world, &hit);
   SET_ASIDE float3 outwards = path.direction;
   SET_ASIDE float u = coarse ? 0.5f : golden_place(seed, pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
   for (int i = 0; i < ENDS_OF_PIXEL; ++i) {
@@ -99,7 +106,8 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
     Path way = path_from_eye(eye, outwards);
     float3 weight = (float3)(1.0f);
     bool goes_on = i == 0;
-    if (bent) {
+    const bool straight = !bent || (coated && i == 0); // to what is seen first
+    if (!straight) {
       band = band_of_channel(channel_cdf, channel, u);
       const bool reflected = i == ENDS_OF_PIXEL - 1;
       const float2 facet =
@@ -113,7 +121,7 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
     }
     DeviceEnd end = nowhere();
     if (goes_on)
-      end = end_of(&world, way, &hit, !bent, &band, weight, seed, ENDS_OF_PIXEL * pass + (uint)i, pixel, coarse, jitter,
+      end = end_of(&world, way, &hit, straight, &band, weight, seed, ENDS_OF_PIXEL * pass + (uint)i, pixel, coarse, jitter,
                    edges);
     ends[ENDS_OF_PIXEL * item + i] = end;
     want(&end, middle, size, states);

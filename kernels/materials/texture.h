@@ -51,18 +51,18 @@ static inline float2 texcoord_at(const World* world, uint triangle, int object, 
 }
 #endif
 
-// Of a diffuse surface, at a point in a triangle.
+// Of a matt surface, at a point in a triangle.
 static inline Reflector reflector_at(const World* world, const Surface* surface, uint triangle) {
   const DeviceMaterial material = material_of(world, surface->object);
   Reflector reflector = reflector_of_row(material.reflector);
 #if NEPHROID_TEXTURES
-  if (material.type == MATERIAL_DIFFUSE && material.texture >= 0) {
+  if (is_matt(&material) && material.texture >= 0) {
     const DeviceTexture texture = world->textures[material.texture];
     const float2 at = texcoord_at(world, triangle, surface->object, surface->position);
     const float2 place = (float2)(texture.u[0] * at.x + texture.u[1] * at.y + texture.u[2],
                                   texture.v[0] * at.x + texture.v[1] * at.y + texture.v[2]);
     reflector.is_textured = true;
-    reflector.rgb = texture_colour(world, &texture, place);
+    reflector.rgb = colour_below_coat(world, &material, texture_colour(world, &texture, place));
   }
 #endif
   return reflector;

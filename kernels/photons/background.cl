@@ -38,7 +38,9 @@ static inline float3 reflected_after(const World* world, const Background* backg
   const float n_i = bend->near_material < 0 ? 1.0f : n_of[bend->near_material],
               n_t = bend->far_material < 0 ? 1.0f : n_of[bend->far_material];
   const float cos_i = dot(bend->direction, bend->normal), cos_t = refracted_cosine(cos_i, n_i / n_t);
-  const float share = cos_t < 0.0f ? 1.0f : fresnel_reflectance(cos_i, cos_t, n_i, n_t);
+  const float share = bend->near_material == bend->far_material ? bend->reflectance // a plastic's coat
+                      : cos_t < 0.0f                            ? 1.0f
+                                                                : fresnel_reflectance(cos_i, cos_t, n_i, n_t);
   return scale * share * background_xyz(background, rgb, WAVELENGTH_COUNT) +
          scale * (bend->reflectance - share) * band->weight * background_xyz(background, rgb, band->wavelength);
 }

@@ -34,14 +34,39 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
   return xyz;
 }
 
-// Follows a path that has hit `first` on through glass and mirrors. Returns the XYZ radiance of its band alone.
+// Follows a path that has hit `first` on through glass and mirrors. Returns the XYZ radiance of its band alone. Where
+// all its wavelengths go the same way (cluster -1), a coat that it meets first sends it to the base, else back.
 IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band,
                        __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel) {
   Surface surface;
   float3 shine = (float3)(0.0f);
-  const float radiance_scale =
-      reach_diffuse(world, &path, &first, band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel,
-                    STREAM_CAMERA, &surface, &shine);
+  float radiance_scale = 1.0f;
+  bool reached = false;
+#if NEPHROID_PLASTICS
+  surface = surface_at(&world->geometry, first);
+  const DeviceMaterial material = material_of(world, surface.object);
+  if (is_plastic(&material) && is_in_air(&path.media)) {
+    reached = band->cluster < 0;
+    if (reached)
+      radiance_scale = part_through_coat(world, &surface, path.direction);
+    else {
+#if NEPHROID_ROUGH
+      if (material.alpha > 0.0f)
+        shine = highlights(world, &path, &surface, first.primitive, &material, band, seed, sample, PATHS_THROUGH_GLASS,
+                           pixel + 0x9e3779b9u);
+#endif
+      const float2 facet = facet_numbers(seed, sample, pixel, BEFORE_THE_PATH, STREAM_CAMERA);
+      Bend bend;
+      if (!first_bend(world, &path, &first, band, true, facet, &radiance_scale, &bend)) return shine;
+      first = next_hit(world, &path);
+      if (first.primitive == NEPHROID_NO_PRIMITIVE) return shine;
+    }
+  }
+#endif
+  if (!reached)
+    radiance_scale *=
+        reach_diffuse(world, &path, &first, band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel,
+                      STREAM_CAMERA, &surface, &shine);
   if (radiance_scale == 0.0f) return shine;
   const Reflector reflector = reflector_at(world, &surface, first.primitive);
   return shine + radiance_scale *
@@ -69,18 +94,19 @@ __kernel void direct(WORLD_ARGUMENTS,
 
   // One call of follow() for both cases: Intel's vectoriser gets two of them wrong (docs/checking.md).
   const bool unbent = is_unbent(&world, &camera, &hit);
-  const uint paths = unbent ? 1u : PATHS_THROUGH_GLASS;
+  const uint straight = unbent ? 1u : 0u, paths = straight + (unbent && !shows_coat(&world, &hit) ? 0u : PATHS_THROUGH_GLASS);
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
   for (uint i = 0; i < paths; ++i) {
     const Path way = path_from_eye(eye, outwards);
-    const uint sample = frame * paths + i;
+    const bool bent = i >= straight;
+    const uint number = i - (bent ? straight : 0u), sample = bent ? frame * PATHS_THROUGH_GLASS + number : frame;
     Band band = whole_cluster(-1);
     SET_ASIDE float probability = 1.0f;
-    if (!unbent) {
-      const int cluster =
-          choose_cluster(cluster_cdf, scene.cluster_count, seed, frame, i, paths, pixel, STREAM_CAMERA_CLUSTER);
-      probability = (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)paths;
+    if (bent) {
+      const int cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, frame, number, PATHS_THROUGH_GLASS,
+                                         pixel, STREAM_CAMERA_CLUSTER);
+      probability = (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)PATHS_THROUGH_GLASS;
       band =
           choose_band(&world, scene.light_count, cluster, random4(seed, sample, pixel, 0u, STREAM_CAMERA_WAVELENGTH).x);
     }

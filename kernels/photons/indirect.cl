@@ -40,7 +40,7 @@ static inline float3 brought(const World* world, const Walk* walk, Source source
   return xyz;
 }
 
-// Of the unbent light at a diffuse surface. narrow: of narrow spots, too. numbers: the pixel in random numbers.
+// Of the unbent light at a matt surface. narrow: of narrow spots, too. numbers: the pixel in random numbers.
 IN_PLACE float3 unbent_light(const World* world, const Walk* walk, const Surface* surface, uint triangle,
                              Reflector reflector, bool narrow, uint2 seed, uint sample, uint paths, uint numbers) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
@@ -84,46 +84,49 @@ static inline bool scatter(const World* world, Walk* walk, const Surface* surfac
   if (!(most > 0.0f) || random.z >= chance) return false;
   for (int i = 0; i < BANDS; ++i) walk->throughput[i] /= chance;
   walk->path.direction = cosine_direction(side * surface->shading, random.x, random.y);
+  const float passes = part_through_coat(world, surface, walk->path.direction);
+  for (int i = 0; NEPHROID_PLASTICS && i < BANDS; ++i) walk->throughput[i] *= passes;
   walk->path.origin = start_on_side(surface, side);
   walk->path.skip = triangle;
   walk->path.behind = 0.0f;
   return side * dot(walk->path.direction, surface->geometric) > 0.0f;
 }
 
-// Follows a path that has hit `hit` to its end. Returns the XYZ radiance that it brings, with the light of narrow spots
-// or without.
-IN_PLACE float3 follow(const World* world, Walk* walk, Hit hit, bool narrow, uint2 seed, uint sample,
-                       uint paths, uint pixel) {
+// Follows a path that has hit `hit` to its end. Returns the XYZ radiance that it brings. Photons show the light of narrow
+// spots where the camera sees a surface directly; the path brings it where glass, a mirror or a coat sends it on first.
+IN_PLACE float3 follow(const World* world, Walk* walk, Hit hit, uint2 seed, uint sample, uint paths, uint pixel) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   SET_ASIDE uint scatterings = 0u;
   bool is_bent = false; // since the last of them
+  bool narrow = false;
   for (int surface_number = 0;; ++surface_number) {
     if (surface_number > 0) hit = next_hit(world, &walk->path);
     if (hit.primitive == NEPHROID_NO_PRIMITIVE) break;
     const Surface surface = surface_at(&world->geometry, hit);
     const DeviceMaterial material = material_of(world, surface.object);
     lose_in_medium(world, &walk->path, hit.t);
-    const bool is_diffuse = material.type == MATERIAL_DIFFUSE;
-    const Reflector reflector = is_diffuse ? reflector_at(world, &surface, hit.primitive) : white_reflector();
-    if (is_diffuse && scatterings > 0u)
+    const float4 random =
+        eye_numbers(seed, sample, surface_number < 2 ? paths : 0u, pixel, 1u + (uint)surface_number, STREAM_INDIRECT);
+    const float2 facet = facet_numbers(seed, sample, pixel, (uint)surface_number, STREAM_INDIRECT);
+    const bool ends = ends_at(world, walk->path.direction, &surface, &material, random.w, facet);
+    const Reflector reflector = ends ? reflector_at(world, &surface, hit.primitive) : white_reflector();
+    if (ends && scatterings > 0u)
       xyz += unbent_light(world, walk, &surface, hit.primitive, reflector, narrow, seed, sample, paths,
                           pixel + 0x9e3779b9u * scatterings);
     if (surface_number == world->scene.max_surfaces) return xyz;
-    const float4 random =
-        eye_numbers(seed, sample, surface_number < 2 ? paths : 0u, pixel, 1u + (uint)surface_number, STREAM_INDIRECT);
-    if (is_diffuse) {
+    if (ends) {
       if (!scatter(world, walk, &surface, hit.primitive, reflector, scatterings > 0u, random)) return xyz;
       ++scatterings;
       is_bent = false;
       continue;
     }
-    const float2 facet = facet_numbers(seed, sample, pixel, (uint)surface_number, STREAM_INDIRECT);
     float n_ratio;
     divide(walk);
     if (!bend_path(world, &walk->path, hit.primitive, &surface, &material, &walk->bands[0], random.x, facet, &n_ratio))
       return xyz;
     for (int i = 0; i < BANDS; ++i) walk->throughput[i] *= n_ratio * n_ratio;
     is_bent = true;
+    narrow = narrow || surface_number == 0;
   }
   if (NEPHROID_EVEN_SKY && is_bent && scatterings > 1u) xyz += even_light(world, walk);
   return xyz;
@@ -149,8 +152,6 @@ __kernel void indirect(WORLD_ARGUMENTS,
 
   const bool unbent = is_unbent(&world, &camera, &hit);
   const uint paths = unbent ? 1u : PATHS_THROUGH_GLASS;
-  // Photons show the light of narrow spots where the camera sees a surface directly.
-  const bool narrow = material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type != MATERIAL_DIFFUSE;
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
   for (uint p = 0; p < paths; ++p) {
@@ -164,7 +165,7 @@ __kernel void indirect(WORLD_ARGUMENTS,
       walk.bands[i].weight /= chance;
       walk.throughput[i] = 1.0f;
     }
-    xyz += follow(&world, &walk, first, narrow, seed, frame * paths + p, paths, pixel) / (float)(paths * BANDS);
+    xyz += follow(&world, &walk, first, seed, frame * paths + p, paths, pixel) / (float)(paths * BANDS);
   }
   add_sample(film, energy, &camera, pixel, frame, xyz, film_scale, limit_of_sample(frame, enough, film_limit),
              jitter.z);

@@ -64,7 +64,13 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
     lose_in_medium(world, path, hit.t);
     const float4 random = random4(seed, iteration, number, 2u + (uint)surface_number, STREAM_INDIRECT_PHOTONS);
     const Band band = band_of(photon);
-    if (material.type == MATERIAL_DIFFUSE) {
+    const float2 facet = facet_numbers(seed, iteration, number, (uint)surface_number, STREAM_INDIRECT_PHOTONS);
+    const bool must_reflect = is_plastic(&material) && !counts; // as in trace_way
+    float choice = random.x;
+    if (is_plastic(&material) && counts)
+      choice = random4(seed, iteration, number, 0x20000000u | (uint)surface_number, STREAM_INDIRECT_PHOTONS).x;
+    const bool ends = ends_at(world, path->direction, &surface, &material, must_reflect ? -1.0f : choice, facet);
+    if (ends) {
       if (!counts) return OUTCOME_MISSED;
 #if NEPHROID_LENS
       const float2 lens = random4(seed, iteration, number, 128u + (uint)surface_number, STREAM_LENS).xy;
@@ -76,21 +82,24 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
       met_diffuse = true;
       photon->shading *= shading_ratio(&surface, path->direction);
-      if (random.x >= reflectance_of(&world->tables, reflector, band.wavelength))
-        return OUTCOME_ABSORBED;
       const float side = dot(path->direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
       path->direction = cosine_direction(side * surface.geometric, random.y, random.z);
+      const float part = reflectance_of(&world->tables, reflector, band.wavelength) *
+                         part_through_coat(world, &surface, path->direction);
+      if (random.x >= part) return OUTCOME_ABSORBED;
+      photon->shading *= fmax(part, 1.0f); // of what a coat keeps from grazing ways, others have more
       path->origin = start_on_side(&surface, side);
       path->skip = hit.primitive;
       path->behind = 0.0f;
     }
     if (surface_number == world->scene.max_surfaces) return OUTCOME_LOST;
     counts = true;
-    const float2 facet = facet_numbers(seed, iteration, number, (uint)surface_number, STREAM_INDIRECT_PHOTONS);
+    if (ends) continue;
     float n_ratio;
-    if (material.type != MATERIAL_DIFFUSE &&
-        !bend_path(world, path, hit.primitive, &surface, &material, &band, random.x, facet, &n_ratio))
+    Bend bend;
+    if (!bend_path_as(world, path, hit.primitive, &surface, &material, &band, random.x, facet, &n_ratio, &bend))
       return OUTCOME_LOST;
+    if (must_reflect) lose_below_coat(path, &material, &bend);
   }
 }
 

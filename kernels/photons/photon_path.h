@@ -110,8 +110,9 @@ typedef struct {
   float3 xyz; // for a deposit: reflected light, as if the photon carried the light's whole power
 } PhotonEnd;
 
-// Follows a photon in a band to the first diffuse surface, out of the scene, or to its last interface. Leaves `path` on
-// its last way, with its losses. Does not work out what is left of the photon.
+// Follows a photon in a band to the first matt surface, out of the scene, or to its last interface. Leaves `path` on
+// its last way, with its losses. Does not work out what is left of the photon. Where it comes straight from the light to
+// a coat it is reflected, and loses what would reach the base: that is direct light.
 static inline PhotonEnd trace_way(const World* world, const Band* band, Path* path, uint2 seed, uint iteration,
                                   uint photon) {
   PhotonEnd end;
@@ -135,13 +136,23 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
       end.triangle = hit.primitive;
       break;
     }
-    if (surface_number == world->scene.max_surfaces) break;
-    met_caustic_object = true;
+    if (surface_number == world->scene.max_surfaces && !is_plastic(&material)) break;
     if ((surface_number & 3) == 0)
       choices = random4(seed, iteration, photon, 2u + (uint)surface_number / 4u, STREAM_PHOTONS);
     const float2 facet = facet_numbers(seed, iteration, photon, (uint)surface_number, STREAM_PHOTONS);
+    const bool must_reflect = is_plastic(&material) && !met_caustic_object;
+    if (ends_at(world, path->direction, &surface, &material, must_reflect ? -1.0f : choices.x, facet)) {
+      end.outcome = OUTCOME_DEPOSITED;
+      end.surface = surface;
+      end.triangle = hit.primitive;
+      break;
+    }
+    if (surface_number == world->scene.max_surfaces) break;
+    met_caustic_object = true;
     float n_ratio;
-    if (!bend_path(world, path, hit.primitive, &surface, &material, band, choices.x, facet, &n_ratio)) break;
+    Bend bend;
+    if (!bend_path_as(world, path, hit.primitive, &surface, &material, band, choices.x, facet, &n_ratio, &bend)) break;
+    if (must_reflect) lose_below_coat(path, &material, &bend);
     choices = choices.yzwx;
   }
   return end;

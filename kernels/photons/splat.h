@@ -82,6 +82,7 @@ COMPILED_ONCE Splat splat_at(const World* world, const DeviceCamera* camera, con
   splat.pixel = project_to_pixel(camera, surface->position, surface->geometric, arriving, world->scene.metres_per_unit,
                                  &splat.weight);
   splat.weight *= shading_ratio(surface, arriving);
+  splat.weight *= part_through_coat(world, surface, normalize(way_to_camera(camera, surface->position)));
   if (camera->receiver >= 0) {
     if (surface->object != camera->receiver) splat.pixel = -1;
     return splat;

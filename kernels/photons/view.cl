@@ -37,10 +37,22 @@ static inline VisiblePoint nothing_visible(void) {
 }
 
 // Where a path that has hit `hit` ends in a band, which belongs to a part of its cluster. weight is the path's.
-COMPILED_ONCE VisiblePoint see(const World* world, Path path, Hit hit, const Band* band, int part, float weight,
-                               int object_count, uint2 seed, uint sample, uint pixel) {
+// reflected: by the coat that it meets first.
+COMPILED_ONCE VisiblePoint see(const World* world, Path path, Hit hit, bool reflected, const Band* band, int part,
+                               float weight, int object_count, uint2 seed, uint sample, uint pixel) {
   VisiblePoint point = nothing_visible();
   Surface surface;
+#if NEPHROID_PLASTICS
+  if (reflected) {
+    const float2 facet = facet_numbers(seed, sample, pixel, BEFORE_THE_PATH, STREAM_VIEW);
+    float share;
+    Bend bend;
+    if (!first_bend(world, &path, &hit, band, true, facet, &share, &bend)) return point;
+    weight *= share;
+    hit = next_hit(world, &path);
+    if (hit.primitive == NEPHROID_NO_PRIMITIVE) return point;
+  }
+#endif
   const float radiance_scale = reach_diffuse(world, &path, &hit, band, seed, sample, 0u, pixel, STREAM_VIEW, &surface);
   if (radiance_scale == 0.0f) return point;
   const Reflector reflector = reflector_at(world, &surface, hit.primitive);
@@ -54,7 +66,7 @@ COMPILED_ONCE VisiblePoint see(const World* world, Path path, Hit hit, const Ban
 
 // points: [count], for pixels[first] and those after it; position.w is the film's dither. cluster: that of all paths;
 // or -1: each path that meets glass or a mirror first takes one by its chance in cluster_cdf and counts for so much
-// more, and the others see nothing here. sample: the number of earlier paths of a pixel; place: of those in this half
+// more; so does what a coat reflects, and the others see nothing here. sample: the number of earlier paths of a pixel; place: of those in this half
 // of the film. Each path counts 1 / path_count of a pass.
 __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global VisiblePoint* points,
                    DeviceCamera camera, uint2 seed, uint pass, uint sample, uint place, uint path_count, int cluster,
@@ -73,6 +85,7 @@ __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global 
   if (hit.primitive != NEPHROID_NO_PRIMITIVE) {
     const bool bent = material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type != MATERIAL_DIFFUSE;
     float weight = 1.0f / (float)path_count;
+    const bool reflected = cluster < 0 && shows_coat(&world, &hit);
     if (cluster < 0 && bent) {
       cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, pass, place, 0u, pixel, STREAM_VIEW_CLUSTER);
       weight /= (cluster_cdf[cluster + 1] - cluster_cdf[cluster]);
@@ -80,8 +93,8 @@ __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global 
     if (cluster >= 0) {
       const int part = part_of_cluster(jitter.w);
       const Band band = band_of_pass(&world, cluster, part, seed, pass);
-      point =
-          see(&world, path, hit, &band, part, weight * (float)NEPHROID_PASS_BANDS, object_count, seed, sample, pixel);
+      point = see(&world, path, hit, reflected, &band, part, weight * (float)NEPHROID_PASS_BANDS, object_count, seed,
+                  sample, pixel);
     }
   }
   point.position.w = jitter.z;

@@ -51,7 +51,8 @@ static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sa
 #endif
 }
 
-// The irradiance of a light's unbent light on the side of a surface that a path arrives at; 0 where something hides it.
+// The irradiance of a light's unbent light on the side of a surface that a path arrives at, or on the base below its
+// coat; 0 where something hides it.
 static inline float irradiance_of(const World* world, int light_index, const Path* path, const Surface* surface,
                                   uint triangle, uint2 seed, uint sample, uint paths, uint pixel) {
   DeviceLight light = world->lights[light_index];
@@ -62,7 +63,8 @@ static inline float irradiance_of(const World* world, int light_index, const Pat
       arrive_from(&light, surface->position, side * surface->shading, world->scene.metres_per_unit, place.xy);
   if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) return 0.0f;
   const float3 from = start_on_side(surface, side);
-  return is_blocked(world, from, arrival.direction, arrival.distance, triangle) ? 0.0f : arrival.irradiance;
+  if (is_blocked(world, from, arrival.direction, arrival.distance, triangle)) return 0.0f;
+  return arrival.irradiance * part_through_coat(world, surface, arrival.direction);
 }
 
 // Four numbers for sample `sample` of a pixel. They come from a sequence as in light_numbers, with `paths` samples a
@@ -95,7 +97,8 @@ static inline float3 sky_irradiance(const World* world, int light_index, const P
     if (!(cosine > 0.0f) || !(place.density > 0.0f) || !(side * dot(place.direction, surface->geometric) > 0.0f))
       continue;
     SET_ASIDE float3 rgb = place.rgb;
-    SET_ASIDE float weight = place.density * cosine / (place.peak_density + cosine / PI_F);
+    SET_ASIDE float weight = place.density * cosine / (place.peak_density + cosine / PI_F) *
+                             part_through_coat(world, surface, place.direction);
     if (!is_blocked(world, from, place.direction, INFINITY, triangle)) sum += rgb * weight;
   }
   return light.radiometric * sum;
@@ -127,21 +130,30 @@ static inline void add_sample(volatile __global long* film, volatile __global lo
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }
 
-// Whether a path from the eye met a diffuse surface at once, so that all wavelengths went the same way.
+// Whether a path from the eye met a matt surface at once, so that all wavelengths went the same way.
 static inline bool is_unbent(const World* world, const DeviceCamera* camera, const Hit* first) {
   const int object = object_of_primitive(&world->geometry, first->primitive);
-  return material_of(world, object).type == MATERIAL_DIFFUSE && is_in_air(&camera->inside);
+  const DeviceMaterial material = material_of(world, object);
+  return is_matt(&material) && is_in_air(&camera->inside);
+}
+
+// Whether what the camera sees first has a coat, which reflects a part of its light.
+static inline bool shows_coat(const World* world, const Hit* first) {
+  const DeviceMaterial material = material_of(world, object_of_primitive(&world->geometry, first->primitive));
+  return is_plastic(&material);
 }
 
 // A mirror, total reflection and glass that does not bend leave one way.
 static inline bool leaves_one_way(const Bend* bend) { return bend->reflectance == 0.0f || bend->reflectance == 1.0f; }
 
 // Continues a path at the glass or mirror that it meets first. reflected: whether it is reflected there or goes on
-// through, where there are both ways. *share: the factor of the radiance there. False: the path is lost.
+// through, where there are both ways. *share: the factor of the radiance there. False: the path is lost, or would reach
+// the base of a plastic.
 IN_PLACE bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, bool reflected,
                          float2 facet_choice, float* share, Bend* bend) {
   const Surface surface = surface_at(&world->geometry, *hit);
   const DeviceMaterial material = material_of(world, surface.object);
+  if (is_plastic(&material) && !reflected) return false;
   lose_in_medium(world, path, hit->t);
   float n_ratio;
   if (!bend_path_as(world, path, hit->primitive, &surface, &material, band, reflected ? 0.0f : 1.0f, facet_choice,
@@ -240,6 +252,7 @@ IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool k
                                             max(paths, 1u), pixel + 0x9e3779b9u * (1u + (uint)surface_number));
 #endif
     const float2 facet = facet_numbers(seed, sample, pixel, (uint)surface_number, stream);
+    if (ends_at(world, path->direction, surface, &material, choices.x, facet)) return radiance_scale;
     float n_ratio;
     if (!bend_path(world, path, hit->primitive, surface, &material, band, choices.x, facet, &n_ratio)) return 0.0f;
     radiance_scale *= n_ratio * n_ratio;

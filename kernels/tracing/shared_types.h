@@ -38,6 +38,7 @@ struct alignas(8) uint2 {
 #define MATERIAL_DIFFUSE 0
 #define MATERIAL_DIELECTRIC 1
 #define MATERIAL_MIRROR 2
+#define MATERIAL_PLASTIC 3
 
 #define LIGHT_POINT 0
 #define LIGHT_SPOT 1
@@ -60,17 +61,25 @@ struct alignas(8) uint2 {
 // The rows of losses that a metal has: materials/conductor.h.
 #define CONDUCTOR_TERMS 3
 
+// What the table surface_data has of a plastic's coat (materials/plastic.h): its index of refraction, the part of the
+// base's light that it reflects from within, the part of light from all sides that passes it; then the part that passes
+// it by the cosine of the way, at COAT_COSINES cosines from 0 to 1.
+#define COAT_INNER 1
+#define COAT_MEAN 2
+#define COAT_PARTS 3
+#define COAT_COSINES 256
+
 typedef struct {
   int type;            // MATERIAL_*
-  int reflector;       // diffuse: row of the reflectance tables; with a texture its red, green and blue rows follow
+  int reflector;       // diffuse, plastic: row of the reflectance tables; with a texture its red, green and blue rows follow
   int attenuator;      // absorbing dielectric, mirror, metal: (first) row of the attenuation table; -1: none
   int tint;            // dielectric: row of the attenuation table for what passes its surface; -1: none
-  int surface_first;   // metal, coated dielectric: its first item in the table surface_data; -1: none
+  int surface_first;   // metal, coated dielectric, plastic: its first item in the table surface_data; -1: none
   float coating_nm;    // dielectric: thickness of its coating
   int is_thin;         // dielectric: a pane without thickness
   float alpha;         // of GGX (materials/rough.h); 0: polished
-  int masking;         // rough: row of the attenuation table, 1 at all wavelengths
-  int texture;         // diffuse: number of its texture (materials/texture.h); -1: none
+  int masking;         // rough, plastic: row of the attenuation table, 1 at all wavelengths
+  int texture;         // diffuse, plastic: number of its texture (materials/texture.h); -1: none
 } DeviceMaterial;
 
 typedef struct {

@@ -118,6 +118,7 @@ static inline DeviceMaterial material_of(const World* world, int object) {
   return world->materials[world->objects[object].material];
 }
 
+#include "kernels/materials/plastic.h"
 #include "kernels/materials/texture.h"
 
 // Adds the absorption of the medium that the path crosses up to its next hit, `distance` from its origin.
@@ -225,6 +226,10 @@ static inline bool bend_about(const World* world, Path* path, const Surface* ben
     return true;
   }
 #endif
+  if (is_plastic(material)) { // its coat; what passes that ends at the base (ends_at)
+    *bend = bend_at_surface(path->direction, bent_at, 1.0f, coat_index(world, material), no_layer(), -1.0f);
+    return true;
+  }
   if (!cross_interface(&path->media, bent_at, world->objects, index_of_band(world, band), material,
                        layer_of(world, material, band), path->direction, choice, bend, n_ratio))
     return false;
@@ -235,8 +240,8 @@ static inline bool bend_about(const World* world, Path* path, const Surface* ben
   return true;
 }
 
-// Continues the path at a mirror or dielectric. choice: uniform in [0, 1); -1 reflects, 2 goes through where anything
-// does. facet_choice: facet_numbers. *n_ratio, false: as in cross_interface. *bend: what happened there.
+// Continues the path at a mirror, a coat or a dielectric. choice: uniform in [0, 1); -1 reflects, as coats always do; 2
+// goes through where anything does. facet_choice: facet_numbers. *n_ratio, false: as in cross_interface. *bend: what happened there.
 IN_PLACE bool bend_path_as(const World* world, Path* path, uint triangle, const Surface* surface,
                            const DeviceMaterial* material, const Band* band, float choice, float2 facet_choice,
                            float* n_ratio, Bend* bend) {

@@ -72,8 +72,7 @@ bool Document::take_texture(const std::string& file) {
   if (object.shape && object.shape->type == preset::Shape::Type::sphere) return false; // which has no u, v
   const std::string name = object.material;
   const auto material = edited.scene.materials.find(name);
-  if (material == edited.scene.materials.end() || material->second.type != preset::Material::Type::diffuse)
-    return false;
+  if (material == edited.scene.materials.end() || !is_matt(material->second.type)) return false;
   if (!is_there(file)) throw bad_input(file, "there is no such picture");
   preset::Texture texture = material->second.texture.value_or(preset::Texture());
   texture.type = preset::Texture::Type::file;

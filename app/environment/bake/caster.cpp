@@ -215,7 +215,7 @@ double nearest_outside(const scene::Scene& scene, std::vector<Piece> pieces) {
 
 bool casts(const preset::Preset& preset, const preset::Object& object) {
   const auto material = preset.scene.materials.find(object.material);
-  return material != preset.scene.materials.end() && is_specular(material->second.type);
+  return material != preset.scene.materials.end() && !is_matt(material->second.type);
 }
 
 std::vector<std::size_t> caster_objects(const preset::Preset& preset) {

@@ -83,6 +83,7 @@ std::vector<std::string> left_out(const scene::Scene& scene) {
     notes.push_back(
         fmt::format("glTF has no surroundings: those are in {}, and blender.py takes them", surroundings_file));
   if (any_material(scene, scene::is_coated)) notes.push_back("coatings are left out");
+  if (any_material(scene, scene::is_plastic)) notes.push_back("coats of plastic are left out: they are matt");
   if (any_material(scene, scene::is_textured))
     notes.push_back("textures are left out: their surfaces have the colour of their reflectance");
   if (std::ranges::any_of(scene.lights, scene::has_disc)) notes.push_back("a sun is a point: its disc is left out");
@@ -137,7 +138,7 @@ std::vector<std::string> write_export(const fs::path& folder, const scene::Scene
   fs::remove(folder / surroundings_file);
   for (const Caustic& caustic : caustics) all["caustics"].push_back(caustic_json(scene, caustic));
   for (const scene::Object& object : scene.objects)
-    if (material_of(scene, object).type == scene::Material::Type::diffuse)
+    if (is_matt(material_of(scene, object).type))
       all["matt"][object.name] = colour_of_reflectance(material_of(scene, object).reflectance);
   if (const auto& environment = scene.environment)
     all["surroundings"] = {{"file", surroundings_file},

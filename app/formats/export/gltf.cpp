@@ -201,7 +201,7 @@ private:
   Json plain(const scene::Material& material) {
     if (is_refractive(material.type)) return glass(material);
     Json made = matt(material);
-    if (is_specular(material.type))
+    if (!is_matt(material.type))
       made["pbrMetallicRoughness"]["metallicFactor"] = 1,
       made["pbrMetallicRoughness"]["roughnessFactor"] = std::sqrt(material.alpha);
     return made;

@@ -50,7 +50,7 @@ Receiver rectangle(const scene::Scene& scene, int index, const scene::Plane& pla
 std::vector<Receiver> receivers_of(const scene::Scene& scene) {
   std::vector<Receiver> receivers;
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    if (material_of(scene, scene.objects[i]).type == scene::Material::Type::diffuse)
+    if (is_matt(material_of(scene, scene.objects[i]).type))
       if (const auto plane = scene::plane_of(scene, scene.objects[i]))
         receivers.push_back(rectangle(scene, static_cast<int>(i), *plane));
   return receivers;

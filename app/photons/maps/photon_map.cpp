@@ -32,8 +32,7 @@ double bent_share(const scene::Scene& scene, const scene::Bvh& bvh) {
   for (int row = step / 2; row < height; row += step)
     for (int column = step / 2; column < width; column += step, ++rays) {
       const int object = surfaces_of_pixel(scene, bvh, scene.camera, column, row, 1).first.object;
-      bent += object >= 0 && material_of(scene, scene.objects[static_cast<std::size_t>(object)]).type !=
-                                 scene::Material::Type::diffuse;
+      bent += object >= 0 && is_specular(material_of(scene, scene.objects[static_cast<std::size_t>(object)]).type);
     }
   return static_cast<double>(bent) / rays;
 }

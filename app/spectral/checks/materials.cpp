@@ -57,10 +57,12 @@ double smith_lambda(double cosine, double alpha) {
   return (std::sqrt(1 + alpha * alpha * (1 / (cosine * cosine) - 1)) - 1) / 2;
 }
 
-/// The part of the light that leaves a mirror of GGX without meeting a second facet: the integral over facets h of D(h)
-/// (view . h) / (view . n) over 1 + Lambda(view) + Lambda(out), where `out` is above the surface. Facets are taken by t
-/// and azimuth, as in app/check/roughness.cpp, in steps of s = sqrt(1 - t).
-double unmasked_part(double cos_view, double alpha) {
+/// The part of the light that meets a facet of GGX, is reflected there and leaves without meeting a second one, or
+/// masked: does not leave. It is the integral over facets h of D(h) (view . h) / (view . n) R(view . h) over 1 +
+/// Lambda(view) + Lambda(out), where `out` is above the surface; of all that is reflected the integral without
+/// Lambda(out). Facets are taken by t and azimuth, as in app/check/roughness.cpp, in steps of s = sqrt(1 - t).
+template <class Reflectance>
+double reflected_part(double cos_view, double alpha, bool masked, const Reflectance& reflectance) {
   constexpr int steps = 1200;
   const double sin_view = std::sqrt(1 - cos_view * cos_view);
   double sum = 0;
@@ -70,8 +72,11 @@ double unmasked_part(double cos_view, double alpha) {
                    phi = std::numbers::pi * (j + 0.5) / steps; // both halves are alike
       const double cosine = std::sqrt((1 - t) / (1 - t + alpha * alpha * t)), sine = std::sqrt(1 - cosine * cosine);
       const double seen = sin_view * sine * std::cos(phi) + cos_view * cosine, out = 2 * seen * cosine - cos_view;
-      if (seen > 0 && out > 0)
-        sum += 2 * s * seen / (cosine * cos_view) / (1 + smith_lambda(cos_view, alpha) + smith_lambda(out, alpha));
+      if (!(seen > 0)) continue;
+      const double view_lambda = smith_lambda(cos_view, alpha),
+                   leaves = out > 0 ? 1 / (1 + view_lambda + smith_lambda(out, alpha)) : 0;
+      sum +=
+          2 * s * seen / (cosine * cos_view) * reflectance(seen) * (masked ? 1 / (1 + view_lambda) - leaves : leaves);
     }
   return sum / steps / steps;
 }
@@ -86,8 +91,9 @@ Result rough_mirror(const compute::Context& context, std::uint64_t seed) {
       preset::Preset p = onto_mirror(rough, theta_deg * degree, seed);
       spectral::settings(p).photons_per_pass = 1 << 20;
       const photons::EnergyBalance e = photons::energy_of(render(p, context));
-      worst = worse(worst,
-                    e.deposited_w / e.emitted_w - unmasked_part(std::cos(theta_deg * degree), roughness * roughness));
+      worst =
+          worse(worst, e.deposited_w / e.emitted_w - reflected_part(std::cos(theta_deg * degree), roughness * roughness,
+                                                                    false, [](double) { return 1.0; }));
     }
   return judged(worst, 2e-3, "",
                 "light that leaves a perfect mirror of roughness .3, .7 and 1 at 0, 60 and 80 degrees, against the "
@@ -136,6 +142,77 @@ Result highlights(const compute::Context& context, std::uint64_t) {
   return judged(worst, 1e-3, "",
                 "sunlight on mirrors of roughness .03, .3, .6 and 1, seen from four sides, over that on a white plane: "
                 "against the value of GGX' reflection");
+}
+
+/// A base of 0.5 below a coat, 0 to 1 of roughness.
+preset::Material plastic(double n, double roughness) {
+  preset::Material m;
+  m.type = preset::Material::Type::plastic;
+  m.dispersion.n = n;
+  m.reflectance.value = 0.5;
+  m.roughness = roughness;
+  return m;
+}
+
+/// A polished coat reflects by Fresnel's R. The base below it, over a white plane, has r / (n^2 (1 - r inner)) times
+/// the parts 1 - R that pass on the way in and out (Jakob's and Mitsuba's "plastic"); 1 - inner is the mean of 1 - R
+/// over all sides, over n^2.
+Result plastics(const compute::Context& context, std::uint64_t seed) {
+  double worst = 0;
+  for (const double n : {1.3, 1.5, 1.9}) {
+    double passes = 0;
+    constexpr int steps = 10000;
+    for (int i = 0; i < steps; ++i) {
+      const double cosine = (i + 0.5) / steps;
+      passes += 2 * cosine * (1 - optics::fresnel_reflectance(cosine, 1, n)) / steps;
+    }
+    const double base = 0.5 / (n * n) / (1 - 0.5 * (1 - passes / (n * n)));
+    for (const auto& [light_deg, view_deg] : {std::pair{0.0, 20.0}, {60.0, 20.0}, {30.0, -70.0}, {84.0, 0.0}}) {
+      const auto passing = [&](double angle_deg) {
+        return 1 - optics::fresnel_reflectance(std::cos(angle_deg * degree), 1, n);
+      };
+      const double light = light_deg * degree, view = view_deg * degree,
+                   truth = base * passing(light_deg) * passing(view_deg),
+                   seen = shine(context, plastic(n, 0), light, view) / shine(context, white(), light, view);
+      worst = worse(worst, seen - truth);
+      const photons::EnergyBalance e = photons::energy_of(render(onto_mirror(plastic(n, 0), light, seed), context));
+      worst = worse(worst, e.deposited_w / e.emitted_w - (1 - passing(light_deg)));
+    }
+  }
+  return judged(worst, 1e-3, "",
+                "sunlight on a matt base under coats of n = 1.3, 1.5 and 1.9, over that on a white plane, and the part "
+                "that the coat reflects: against Fresnel's equations");
+}
+
+/// In a white world a white base loses no light below a polished coat. Rough ones lose what meets a second facet.
+Result white_plastics(const compute::Context& context, std::uint64_t seed) {
+  double worst = 0;
+  for (const double roughness : {0.0, 0.1, 0.5})
+    for (const double view_deg : {0.0, 45.0, 80.0}) {
+      preset::Preset p = empty_preset(8);
+      p.seed = seed;
+      p.scene.materials["plane"] = plastic(1.5, roughness);
+      p.scene.materials["plane"].reflectance.value = 1;
+      p.scene.objects = {object("plane", quad(1, 1), "plane")};
+      p.scene.environment.emplace().type = preset::Environment::Type::constant;
+      p.scene.environment->lights = true;
+      p.scene.camera.position = {1000 * std::sin(view_deg * degree), 1000 * std::cos(view_deg * degree), 0};
+      p.scene.camera.up = {0, 0, 1};
+      p.scene.camera.fov_deg = 0.001;
+      spectral::settings(p).direct = spectral::settings(p).background = true;
+      spectral::settings(p).pixel_samples = p.stop.passes.emplace(1024);
+      spectral::settings(p).low_discrepancy = true;
+      const job::Snapshot snapshot = render(p, context);
+      double sum = 0;
+      for (const char* name : {"direct", "background"})
+        for (int pixel = 0; pixel < 64; ++pixel) sum += luminance(layer(snapshot, name), 8, pixel / 8, pixel % 8) / 64;
+      double truth = 1;
+      if (roughness > 0)
+        truth -= reflected_part(std::cos(view_deg * degree), roughness * roughness, true,
+                                [](double cosine) { return optics::fresnel_reflectance(cosine, 1, 1.5); });
+      worst = worse(worst, sum - truth);
+    }
+  return judged(worst, 1e-3, "", "radiance of white plastic in a white world, against that of the world");
 }
 
 /// `material` in a preset that an inclined pencil crosses, as `shape`.
@@ -253,9 +330,14 @@ Result textures(const compute::Context& context, std::uint64_t) {
 } // namespace
 
 Checks material_checks() {
-  return {{"material: metals", metals},         {"material: a rough mirror", rough_mirror},
-          {"material: highlights", highlights}, {"material: tinted glass", tinted_plate},
-          {"material: a thin pane", pane},      {"material: coatings", coated_plate},
+  return {{"material: metals", metals},
+          {"material: a rough mirror", rough_mirror},
+          {"material: highlights", highlights},
+          {"material: plastic", plastics},
+          {"material: white plastic", white_plastics},
+          {"material: tinted glass", tinted_plate},
+          {"material: a thin pane", pane},
+          {"material: coatings", coated_plate},
           {"material: textures", textures}};
 }
 
