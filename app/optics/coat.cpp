@@ -43,16 +43,13 @@ Coat make_coat(double n, double alpha) {
     const double c = static_cast<double>(i) * step, a = coat.passes[i], b = coat.passes[i + 1];
     passes += step * (c * (a + b) + step * (a + 2 * b) / 3);
   }
-  coat.outer = 1 - passes;
-  coat.inner = 1 - passes / (n * n);
+  coat.mean = passes;
   return coat;
 }
 
-Spectrum base_reflectance(const Coat& coat, const Spectrum& reflectance) {
-  Spectrum base{};
-  for (std::size_t w = 0; w < base.size(); ++w)
-    base[w] = reflectance[w] * (1 - coat.inner) / ((1 - coat.outer) * (1 - coat.inner * reflectance[w]));
-  return base;
+double seen_below_coat(const Coat& coat, double n, double reflectance) {
+  const double inner = 1 - coat.mean / (n * n);
+  return reflectance * (1 - inner) / (1 - inner * reflectance);
 }
 
 } // namespace nephroid::optics

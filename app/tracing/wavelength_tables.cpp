@@ -69,12 +69,14 @@ int add_reflector(WavelengthTables& tables, const Spectrum& reflectance) {
   return tables.reflector_count++;
 }
 
-/// Adds the rows of a matt surface, and returns the first one's number. per_colour: of a texture's white.
-int add_matt(WavelengthTables& tables, const Spectrum& reflectance, const Spectrum& per_colour, bool textured) {
+/// Adds the rows of a matt surface, and returns the first one's number. factor: of its reflectance.
+int add_matt(WavelengthTables& tables, const scene::Material& matt, double factor) {
+  Spectrum reflectance = matt.reflectance;
+  for (double& part : reflectance) part *= factor;
   const int first = add_reflector(tables, reflectance);
-  if (!textured) return first;
+  if (!is_textured(matt)) return first;
   for (Spectrum primary : optics::primary_reflectances()) {
-    for (std::size_t w = 0; w < primary.size(); ++w) primary[w] *= per_colour[w];
+    for (std::size_t w = 0; w < primary.size(); ++w) primary[w] *= reflectance[w];
     add_reflector(tables, primary);
   }
   return first;
@@ -82,8 +84,8 @@ int add_matt(WavelengthTables& tables, const Spectrum& reflectance, const Spectr
 
 /// Adds what the table surface_data has of a coat.
 void add_coat(WavelengthTables& tables, const scene::Material& plastic) {
-  static_assert(COAT_COSINES == optics::coat_cosines && COAT_INNER == 1 && COAT_MEAN == 2 && COAT_PARTS == 3);
-  for (const double value : {plastic.coat_n, plastic.coat.inner, 1 - plastic.coat.outer})
+  static_assert(COAT_COSINES == optics::coat_cosines && COAT_MEAN == 1 && COAT_PARTS == 2);
+  for (const double value : {plastic.coat_n, plastic.coat.mean})
     tables.surface_data.push_back(static_cast<float>(value));
   for (const double part : plastic.coat.passes) tables.surface_data.push_back(static_cast<float>(part));
 }
@@ -111,18 +113,12 @@ void add_material_rows(const scene::Scene& scene, WavelengthTables& tables,
     if (is_rough(material) || is_plastic(material)) row.masking = masking_row(tables, {materials.data(), i});
     const int surface_first = static_cast<int>(tables.surface_data.size());
     switch (material.type) {
-    case MaterialType::diffuse:
-      row.reflector = add_matt(tables, material.reflectance, material.reflectance, is_textured(material));
-      break;
-    case MaterialType::plastic: {
-      Spectrum white = material.reflectance; // kernels do the rest for a texel: colour_below_coat
-      for (double& part : white) part /= 1 - material.coat.outer;
-      row.reflector =
-          add_matt(tables, optics::base_reflectance(material.coat, material.reflectance), white, is_textured(material));
+    case MaterialType::diffuse: row.reflector = add_matt(tables, material, 1); break;
+    case MaterialType::plastic:
+      row.reflector = add_matt(tables, material, 1 / material.coat.mean);
       row.surface_first = surface_first;
       add_coat(tables, material);
       break;
-    }
     case MaterialType::mirror: row.attenuator = add_loss(tables, loss_at_surface(material)); break;
     case MaterialType::conductor:
       row.surface_first = surface_first;

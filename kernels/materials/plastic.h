@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plastic, varnish, glaze: a matt base under a polished or rough coat without colour. The coat reflects a part of the
-// light, by Fresnel's equations at its facets (rough.h). The rest reaches the base and is scattered there; what comes
-// back is reflected by the coat from within, again and again, until it passes or is absorbed. The rows of reflectances
-// hold that sum (app/optics/coat.h). So light scattered by the base has the row's reflectance, times the part that
-// passes the coat on its way in, times the part that passes on its way out.
+// light, by Fresnel's equations at its facets (rough.h). The rest reaches the base and is scattered there. The base has
+// the row's reflectance times the part that passes the coat on the way in, times the part that passes on the way out;
+// the row makes up for what these keep of light from all sides (app/optics/coat.h).
 
 // 0: no object is of plastic.
 #ifndef NEPHROID_PLASTICS
@@ -52,18 +51,6 @@ static inline bool ends_at(const World* world, float3 arriving, const Surface* s
   }
 #endif
   return material->type == MATERIAL_DIFFUSE;
-}
-
-// What the base of a plastic makes of the colour `rgb` of its texture, 0..1: light between the base and the coat meets
-// it again and again. 1 stays 1.
-static inline float3 colour_below_coat(const World* world, const DeviceMaterial* material, float3 rgb) {
-#if NEPHROID_PLASTICS
-  if (is_plastic(material)) {
-    const float inner = world->tables.surface_data[material->surface_first + COAT_INNER];
-    return rgb * (1.0f - inner) / (1.0f - inner * rgb);
-  }
-#endif
-  return rgb;
 }
 
 // Takes from a path that a coat has reflected what would have passed it.

@@ -62,7 +62,7 @@ static inline Reflector reflector_at(const World* world, const Surface* surface,
     const float2 place = (float2)(texture.u[0] * at.x + texture.u[1] * at.y + texture.u[2],
                                   texture.v[0] * at.x + texture.v[1] * at.y + texture.v[2]);
     reflector.is_textured = true;
-    reflector.rgb = colour_below_coat(world, &material, texture_colour(world, &texture, place));
+    reflector.rgb = texture_colour(world, &texture, place);
   }
 #endif
   return reflector;

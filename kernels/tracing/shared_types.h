@@ -61,12 +61,11 @@ struct alignas(8) uint2 {
 // The rows of losses that a metal has: materials/conductor.h.
 #define CONDUCTOR_TERMS 3
 
-// What the table surface_data has of a plastic's coat (materials/plastic.h): its index of refraction, the part of the
-// base's light that it reflects from within, the part of light from all sides that passes it; then the part that passes
-// it by the cosine of the way, at COAT_COSINES cosines from 0 to 1.
-#define COAT_INNER 1
-#define COAT_MEAN 2
-#define COAT_PARTS 3
+// What the table surface_data has of a plastic's coat (materials/plastic.h): its index of refraction, the part of light
+// from all sides that passes it; then the part that passes it by the cosine of the way, at COAT_COSINES cosines from 0
+// to 1.
+#define COAT_MEAN 1
+#define COAT_PARTS 2
 #define COAT_COSINES 256
 
 typedef struct {

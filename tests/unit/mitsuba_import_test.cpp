@@ -290,6 +290,20 @@ TEST_F(MitsubaImport, MattSurfacesHaveTextures) {
   EXPECT_NEAR(material_of(p, 3).texture->colour0[0], 0.2, 1e-12);
 }
 
+TEST_F(MitsubaImport, PlasticHasItsCoat) {
+  const preset::Preset p = imported(R"(<shape type="cube"><bsdf type="plastic"/></shape><shape type="cube">
+    <bsdf type="roughplastic"><float name="int_ior" value="1.8"/><string name="ext_ior" value="water"/>
+    <float name="alpha" value="0.09"/><boolean name="nonlinear" value="true"/></bsdf></shape>)");
+  EXPECT_EQ(material_of(p, 0).type, Type::plastic);
+  EXPECT_NEAR(material_of(p, 0).dispersion.n, 1.49, 1e-3);
+  EXPECT_EQ(material_of(p, 0).roughness, 0);
+  EXPECT_EQ(material_of(p, 0).reflectance.value, 0.5);
+  EXPECT_EQ(material_of(p, 1).type, Type::plastic);
+  EXPECT_NEAR(material_of(p, 1).dispersion.n, 1.8 / 1.333, 1e-3);
+  EXPECT_NEAR(material_of(p, 1).roughness, 0.3, 1e-12);
+  EXPECT_LT(material_of(p, 1).reflectance.value, 0.4) << "light that goes back and forth below the coat";
+}
+
 TEST_F(MitsubaImport, MetalsAreConductors) {
   const preset::Preset p = imported(R"(<shape type="cube"><bsdf type="conductor"><string name="material" value="Au"/>
     </bsdf></shape><shape type="cube"><bsdf type="roughconductor" id="own"><spectrum name="eta" value="400:0.5, 700:0.2"/>

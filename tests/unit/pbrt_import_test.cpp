@@ -89,11 +89,18 @@ TEST_F(PbrtImport, EveryParameterThatIsLeftOutIsSaid) {
 // Version 3 has a metal of its own, and the Kd of its plastic is .25 by default.
 TEST_F(PbrtImport, MaterialsOfVersion3AreWhatTheyAreThere) {
   const preset::Preset p = imported("Material \"metal\" Shape \"sphere\"\nMaterial \"plastic\" Shape \"sphere\"\n"
-                                    "Material \"mix\" Shape \"sphere\"\n");
+                                    "Material \"mix\" Shape \"sphere\"\n"
+                                    "Material \"coateddiffuse\" \"float eta\" 1.4 Shape \"sphere\"\n");
   EXPECT_EQ(material_of(p, 0).type, Type::conductor);
   EXPECT_EQ(material_of(p, 0).metal, "copper");
   EXPECT_EQ(material_of(p, 1).reflectance.value, 0.25);
-  EXPECT_THAT(made.notes, IsSupersetOf({HasSubstr("plastic is left out: a matt surface of 0.25 takes its place"),
+  EXPECT_EQ(material_of(p, 1).type, Type::plastic);
+  EXPECT_EQ(material_of(p, 3).type, Type::plastic);
+  EXPECT_EQ(material_of(p, 3).dispersion.n, 1.4);
+  EXPECT_EQ(material_of(p, 3).roughness, 0);
+  // 0.5 (1 - inner) / (1 - 0.5 inner), with the part 0.5289 of light from within that the coat reflects
+  EXPECT_NEAR(material_of(p, 3).reflectance.value, 0.3202, 2e-3);
+  EXPECT_THAT(made.notes, IsSupersetOf({HasSubstr("its coat reflects as one of n = 1.5 does"),
                                         HasSubstr("mix is left out: a matt surface of 0.5 takes its place")}));
 }
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "formats/import/description.h"
+#include "optics/coat.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "scene/materials.h"
@@ -147,6 +148,17 @@ preset::Reflectance reflectance_of(const DescribedColour& colour) {
   else
     reflectance.type = preset::Reflectance::Type::table;
   return reflectance;
+}
+
+void make_plastic(preset::Material& matt, double n, double roughness, bool below) {
+  matt.type = preset::Material::Type::plastic;
+  matt.dispersion.n = std::clamp(n, 1.0, 4.0);
+  matt.roughness = roughness;
+  if (!below) return;
+  const optics::Coat coat = optics::make_coat(matt.dispersion.n, roughness * roughness);
+  const auto darken = [&](double& part) { part = optics::seen_below_coat(coat, matt.dispersion.n, part); };
+  darken(matt.reflectance.value);
+  for (auto& row : matt.reflectance.table) darken(row[1]);
 }
 
 optics::Spectrum values_of(const DescribedColour& colour) {

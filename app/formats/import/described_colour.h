@@ -35,6 +35,9 @@ DescribedColour even_spectrum(double value, double unit);
 LightColour light_colour(const DescribedColour& colour);
 /// At most 1.
 preset::Reflectance reflectance_of(const DescribedColour& colour);
+/// Turns a matt material into plastic. below: its reflectance is that of the base below the coat, and light that goes
+/// back and forth between both makes it darker; false: it is what is seen, as a preset has it.
+void make_plastic(preset::Material& matt, double n, double roughness, bool below);
 /// At each wavelength; of rgb the smoothest spectrum, as of a reflectance.
 optics::Spectrum values_of(const DescribedColour& colour);
 

@@ -18,6 +18,7 @@ namespace {
 constexpr std::pair<const char*, const char*> extension_notes[] = {
     {"EXT_mesh_gpu_instancing", ""},
     {"KHR_lights_punctual", ""},
+    {"KHR_materials_clearcoat", ""},
     {"KHR_materials_dispersion", ""},
     {"KHR_materials_emissive_strength", ""}, // what shines has a note
     {"KHR_materials_ior", ""},
@@ -125,7 +126,7 @@ private:
     const GltfValue value = root_.item("materials", index);
     name = unique(name_of(value.text("name"), fmt::format("material {}", index)), taken_materials_);
     preset::Material& made = d_.materials[name] = material_of(value, name, d_.notes);
-    if (made.type == preset::Material::Type::diffuse) made.texture = base_texture(value, name);
+    if (is_matt(made.type)) made.texture = base_texture(value, name);
     if (made.type != preset::Material::Type::dielectric) return name;
     if (std::string glass = absorbing_glass_file(value, made.dispersion); !glass.empty()) {
       made.dispersion = {};

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/lower_case.h"
+#include "formats/import/described_colour.h"
 #include "formats/import/dielectrics.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
@@ -237,8 +238,13 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
     material.type = preset::Material::Type::mirror;
     material.roughness = std::clamp(roughness, 0.0, 1.0);
   }
-  if (!is_metal && !is_older && roughness < 0.5)
-    notes.push_back(fmt::format("material '{}' has a gloss in the file and is matt here", name));
+  const GltfValue varnish = value.extension("KHR_materials_clearcoat");
+  const bool is_varnished = varnish.number("clearcoatFactor", 0) >= 0.5;
+  if (!is_metal && !is_older && (roughness < 0.5 || is_varnished))
+    make_plastic(material, value.extension("KHR_materials_ior").number("ior", 1.5),
+                 std::clamp(is_varnished ? varnish.number("clearcoatRoughnessFactor", 0) : roughness, 0.0, 1.0), false);
+  else if (is_metal && is_varnished)
+    notes.push_back(fmt::format("material '{}' has no clear coat here", name));
   if (is_metal && value.extension("KHR_materials_transmission").number("transmissionFactor", 0) > 0)
     notes.push_back(fmt::format("material '{}': no light goes through it in the file either, as it is metal", name));
   if (std::string advice = advice_on_glass(value, name); !advice.empty())

@@ -280,7 +280,12 @@ preset::Material opaque(MitsubaScene& scene, xml_node node, const std::string& t
     made.reflectance.value = 1;
   else
     made.reflectance = reflectance_of(mitsuba_colour(scene, node, name, 0.5));
-  if (type == "diffuse")
+  if (type == "plastic" || type == "roughplastic") {
+    const DescribedGlass coat = dielectric(scene, node, "int_ior", "polypropylene");
+    const bool below = file.text(node, "nonlinear", "false") == "true" && !made.texture;
+    make_plastic(made, coat.inside.n / coat.outside, type == "roughplastic" ? roughness_of(scene, node) : 0, below);
+    note_unasked(scene, node);
+  } else if (type == "diffuse")
     note_unasked(scene, node);
   else
     scene.d.note(where, "the bsdf " + type + " is left out: a matt surface of its colour takes its place");

@@ -336,7 +336,14 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
   const bool is_older = type == "plastic" || type == "uber"; // whose Kd is .25 by default
   const char* const colour = p.find("Kd") || is_older ? "Kd" : "reflectance";
   reflect(colour, is_older ? 0.25 : 0.5);
-  if (type == "diffuse" || type == "matte")
+  if (type == "coateddiffuse") {
+    make_plastic(made, p.number("eta", 1.5), roughness_of(scene, p, 0), !made.texture);
+    if (made.texture) scene.d.note(p.where, "its texture is brighter here: its coat does not darken it");
+    note_unasked(scene, p);
+  } else if (type == "plastic") {
+    make_plastic(made, 1.5, roughness_of(scene, p, 0.1), false);
+    scene.d.note(p.where, "its coat reflects as one of n = 1.5 does, and its Kd lies below that");
+  } else if (type == "diffuse" || type == "matte")
     note_unasked(scene, p);
   else
     scene.d.note(p.where, fmt::format("the material {} is left out: a matt surface of {} takes its place", type,

@@ -154,9 +154,10 @@ preset::Material plastic(double n, double roughness) {
   return m;
 }
 
-/// A polished coat reflects by Fresnel's R. The base below it, over a white plane, has r / (n^2 (1 - r inner)) times
-/// the parts 1 - R that pass on the way in and out (Jakob's and Mitsuba's "plastic"); 1 - inner is the mean of 1 - R
-/// over all sides, over n^2.
+/// A polished coat reflects by Fresnel's R. The base below it, over a white plane, has the reflectance times the parts
+/// 1
+/// - R that pass on the way in and out, over the mean of 1 - R over all sides (Mitsuba's "plastic", where "nonlinear"
+/// is false).
 Result plastics(const compute::Context& context, std::uint64_t seed) {
   double worst = 0;
   for (const double n : {1.3, 1.5, 1.9}) {
@@ -166,13 +167,12 @@ Result plastics(const compute::Context& context, std::uint64_t seed) {
       const double cosine = (i + 0.5) / steps;
       passes += 2 * cosine * (1 - optics::fresnel_reflectance(cosine, 1, n)) / steps;
     }
-    const double base = 0.5 / (n * n) / (1 - 0.5 * (1 - passes / (n * n)));
     for (const auto& [light_deg, view_deg] : {std::pair{0.0, 20.0}, {60.0, 20.0}, {30.0, -70.0}, {84.0, 0.0}}) {
       const auto passing = [&](double angle_deg) {
         return 1 - optics::fresnel_reflectance(std::cos(angle_deg * degree), 1, n);
       };
       const double light = light_deg * degree, view = view_deg * degree,
-                   truth = base * passing(light_deg) * passing(view_deg),
+                   truth = 0.5 * passing(light_deg) * passing(view_deg) / passes,
                    seen = shine(context, plastic(n, 0), light, view) / shine(context, white(), light, view);
       worst = worse(worst, seen - truth);
       const photons::EnergyBalance e = photons::energy_of(render(onto_mirror(plastic(n, 0), light, seed), context));
