@@ -40,13 +40,25 @@ static inline Arrival arrive_from(const DeviceLight* light, float3 position, flo
   return arrival;
 }
 
-// The same of a light in the world, as choose_in_lamp leaves it; `distance` ends just before the light.
+// The same of a light in the world, as choose_in_lamp leaves it.
 static inline Arrival arrive_from_lamp(const World* world, const DeviceLight* light, float3 position, float3 normal,
                                        float2 place) {
   Arrival arrival = arrive_from(light, position, normal, world->scene.metres_per_unit, place);
   arrival.irradiance *= photometric(world, light, -arrival.direction);
-  arrival.distance *= UP_TO_LAMP;
   return arrival;
+}
+
+// Whether something hides a lamp from a surface. from: where rays start on the lamp's side.
+static inline bool is_hidden(const World* world, const Surface* surface, float3 from, const Arrival* arrival,
+                             uint triangle) {
+#if NEPHROID_LIGHT_TYPES >> LIGHT_MESH & 1
+  if (!isinf(arrival->distance)) { // to the place itself: a mesh would hide one beside it at grazing angles
+    const float3 way = surface->position + arrival->distance * arrival->direction - from;
+    const float distance = length(way);
+    return is_blocked(world, from, way / distance, distance * UP_TO_LAMP, triangle);
+  }
+#endif
+  return is_blocked(world, from, arrival->direction, arrival->distance, triangle);
 }
 
 // The four numbers of sample `sample` of a light that has places (light.h) at a pixel. A pass takes `paths` samples.
@@ -70,7 +82,7 @@ static inline float irradiance_of(const World* world, int light_index, const Pat
   const Arrival arrival = arrive_from_lamp(world, &light, surface->position, side * surface->shading, place.xy);
   if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) return 0.0f;
   const float3 from = start_on_side(surface, side);
-  return is_blocked(world, from, arrival.direction, arrival.distance, triangle) ? 0.0f : arrival.irradiance;
+  return is_hidden(world, surface, from, &arrival, triangle) ? 0.0f : arrival.irradiance;
 }
 
 // Four numbers for sample `sample` of a pixel. They come from a sequence as in light_numbers, with `paths` samples a
@@ -193,7 +205,7 @@ static inline float3 highlight(const World* world, int light_index, bool beyond,
   if (!bend_about(world, &bent, &facet, material, band, beyond ? 2.0f : -1.0f, &n_ratio, &bend) || bend.straight ||
       bend.transmitted != beyond)
     return (float3)(0.0f);
-  if (is_blocked(world, start_on_side(surface, light_side), arrival.direction, arrival.distance, triangle))
+  if (is_hidden(world, surface, start_on_side(surface, light_side), &arrival, triangle))
     return (float3)(0.0f);
   const Source lamp = {light_index, (float3)(1.0f)};
   return carried_light(world, &bent.losses, lamp, band, white_reflector()).xyz *

@@ -47,8 +47,8 @@ static inline bool has_places(const DeviceLight* light) {
   return has_lamp_places(light) || is_light(light, LIGHT_ENVIRONMENT);
 }
 
-// The part of the way to a lamp that something may stand on: a mesh that shines is there itself, with what single
-// precision makes of its place.
+// The part of the way to a lamp on which something may stand: a mesh that shines stands there itself, where single
+// precision has it.
 #if NEPHROID_LIGHT_TYPES >> LIGHT_MESH & 1
 #define UP_TO_LAMP (1.0f - 0x1p-18f)
 #else

@@ -8,6 +8,7 @@
 #include "optics/dispersion_file.h"
 #include "optics/spectrum.h"
 #include "preset/read.h"
+#include "scene/materials.h"
 #include "scene/scene.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test.h"
