@@ -56,7 +56,7 @@
 
 // What lamps have beyond their DeviceLight: tracing/lamp.h.
 #define LAMP_TABLES(TABLE) \
-  TABLE(float, lamp_tables, "lamps' tables") /* mesh: chances of its surfaces; picture: of its rows, then of each row's \
+  TABLE(float, lamp_tables, "lamps' tables") /* mesh: chances of its surfaces; picture: of rows, then of each row's \
     texels; photometry: [plane][gamma] intensity over the mean of all directions */
 
 // Tables that only some kernels read, as arguments of their own.

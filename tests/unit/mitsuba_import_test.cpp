@@ -217,24 +217,6 @@ TEST_F(MitsubaImport, FlippedNormalsTurnALamp) {
   EXPECT_EQ(p.scene.lights[1].direction, (preset::Vec3{-0.0, -0.0, -1}));
 }
 
-TEST_F(MitsubaImport, WhatIsNoRectangleStaysAndShines) {
-  const preset::Preset p = imported(R"(<shape type="sphere" id="bulb"><float name="radius" value="2"/>
-      <emitter type="area"/></shape>
-    <shape type="rectangle"><emitter type="area"/></shape>
-    <shape type="cube"><boolean name="flip_normals" value="true"/><emitter type="area"/></shape>)");
-  ASSERT_EQ(p.scene.objects.size(), 2u);
-  ASSERT_EQ(p.scene.lights.size(), 3u);
-  const std::vector<preset::Light>& lights = p.scene.lights;
-  for (const std::size_t i : {0, 2}) EXPECT_EQ(lights[i].type, preset::Light::Type::mesh);
-  EXPECT_EQ(lights[0].object, p.scene.objects[0].name);
-  EXPECT_EQ(lights[2].object, p.scene.objects[1].name);
-  EXPECT_EQ(p.scene.materials.at(p.scene.objects[0].material).reflectance.value, 0);
-  EXPECT_NEAR(lights[0].power_w / lights[1].power_w, 4 * std::numbers::pi * 4 / 4, 1e-6); // areas
-  EXPECT_NEAR(lights[2].power_w / lights[1].power_w, 6, 1e-6);
-  const scene::Scene scene = scene::load_scene(p); // the cube shines to its inside
-  EXPECT_LT(scene::signed_volume(scene.geometry, scene.objects[1].first_triangle, 12), 0);
-}
-
 TEST_F(MitsubaImport, ANullSurfaceIsNone) {
   const preset::Preset p = imported(R"(<shape type="cube"><bsdf type="null"/></shape><shape type="sphere"/>)");
   EXPECT_EQ(p.scene.objects.size(), 1u);

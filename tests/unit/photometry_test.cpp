@@ -121,7 +121,7 @@ TEST_F(Photometry, ReadsEulumdat) {
 
 TEST_F(Photometry, RefusesEulumdatThatIsWrong) {
   const auto refused = [&](const std::string& text) { return refusal(text, "lamp.ldt"); };
-  EXPECT_THAT(refused(eulumdat(0, {1, 2, 3})), HasSubstr("has 56 lines; expected 57 or more"));
+  EXPECT_THAT(refused(eulumdat(0, {1, 2, 3})), HasSubstr("has 54 lines; expected 55 or more"));
   EXPECT_THAT(refused(eulumdat(5, {1, 2, 3, 4})),
               HasSubstr("lamp.ldt:3: the symmetry is 5; expected a whole number from 0 to 4"));
   EXPECT_THAT(refused(eulumdat(0, {1, 2, -3, 4})), HasSubstr("has an intensity of -3"));
