@@ -45,7 +45,8 @@ static inline void choose_in_mesh(const World* world, DeviceLight* light, float2
            (length(primitive.edge_u.xyz) * length(primitive.edge_v.xyz) * length(primitive.normal.xyz));
   }
 #endif
-  const Surface surface = surface_at(&world->geometry, hit);
+  Surface surface = surface_at(&world->geometry, hit);
+  if (is_ellipsoid(&primitive)) surface.offset *= 16.0f; // paths do not know that they leave it, as they do after a hit
   light->type = LIGHT_AREA;
   light->direction.xyz = surface.geometric;
   light->radiometric *= area / (light->solid_angle * chance);

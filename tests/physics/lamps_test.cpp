@@ -171,7 +171,8 @@ TEST_P(Lamps, ASphereIsAPoint) {
   preset::Preset p = floor_below_mesh(object("", check::ball(0.2), "", at({0.1, 0.9, -0.1})), GetParam());
   if (GetParam() == By::direct) p.stop.passes = 8192;
   const Ratio r = ratio_of(rendered(p), truth);
-  expect_truth("mesh light: a sphere over a point", r.mean, 1, 0.01);
+  // Tiles have some 700 places on it, of which half look away.
+  expect_truth("mesh light: a sphere over a point", r.mean, 1, GetParam() == By::tiles ? 0.03 : 0.01);
   EXPECT_LT(r.worst, worst_of(GetParam()) + 0.1); // some 5 % of noise in direct light
 }
 
