@@ -107,9 +107,11 @@ Photometry make_photometry(const fs::path& file, std::vector<double> gamma_deg, 
   if (first > 0) add(last - 360, last_values);
   for (const auto& [c, values] : planes) add(c, values);
   add(first + 360, first_values);
+  constexpr double most = 1e15;
   for (const double value : result.intensity)
-    if (!(value >= 0))
-      throw bad_input(file.string(), fmt::format("has an intensity of {}", value), "expected none below 0");
+    if (!(value >= 0 && value <= most))
+      throw bad_input(file.string(), fmt::format("has an intensity of {}", value),
+                      fmt::format("expected 0 to {}", most));
   if (std::ranges::none_of(result.intensity, [](double value) { return value > 0; }))
     throw bad_input(file.string(), "has no light in any direction");
   return result;

@@ -71,6 +71,7 @@ TEST_F(Photometry, RefusesWhatItCannotRead) {
   EXPECT_THAT(refusal(ies("1 2 2" + size + "0 90\n0 90\n1 1\n1\n")), HasSubstr("the file ends before an intensity"));
   EXPECT_THAT(refusal(ies("1 2 2" + size)), HasSubstr("the file ends before a vertical angle"));
   EXPECT_THAT(refusal(ies("1 2 2" + size + "0 90\n0 90\n1 -1\n1 1\n")), HasSubstr("has an intensity of -1"));
+  EXPECT_THAT(refusal(ies("1e200 2 2" + size + "0 90\n0 90\n1 1e200\n1 1\n")), HasSubstr("has an intensity of 1e+200"));
   EXPECT_THAT(refusal(ies("1 2 2" + size + "0 90\n0 90\n1 nan\n1 1\n")),
               HasSubstr("lamp.ies:8: 'nan' is an intensity"));
   EXPECT_THAT(refusal(ies("1 2 2" + size + "0 90\n0 90\n1 x\n1 1\n")),
