@@ -21,7 +21,9 @@
 namespace nephroid::photons {
 namespace {
 
-bool has_size(const scene::Light& light) { return light.type == preset::Light::Type::area || scene::has_disc(light); }
+bool has_size(const scene::Light& light) {
+  return light.type == preset::Light::Type::area || light.object >= 0 || scene::has_disc(light);
+}
 
 /// The part that every run has.
 PlanPart plan_scene(const PlanInput& input) {

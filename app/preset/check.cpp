@@ -83,6 +83,17 @@ void check_spectrum(const LightSpectrum& s, const std::string& pointer, const Wh
     throw bad_input(where(table), "has no line that is rendered", "expected at least one from 380 to 780 nm");
 }
 
+/// what: of "material", "object". names: those that there are.
+[[noreturn]] void refuse_name(const std::string& what, const std::string& name, std::vector<std::string> names,
+                              const Location& where) {
+  const std::string similar = nearest(name.substr(0, 64), names);
+  if (names.size() > 12) names.resize(12);
+  throw bad_input(where, fmt::format("there is no {} {}", what, in_quotes(name)),
+                  names.empty() ? fmt::format("scene.{}s is empty", what)
+                                : fmt::format("scene.{}s has {}", what, fmt::join(names, ", ")),
+                  similar.empty() ? "" : fmt::format("did you mean '{}'?", similar));
+}
+
 void check_object(const Object& o, const Scene& scene, const std::string& pointer, const Where& where) {
   if (o.mesh.has_value() == o.shape.has_value())
     throw bad_input(where(pointer), o.mesh ? "has both 'mesh' and 'shape'" : "has neither 'mesh' nor 'shape'",
@@ -93,14 +104,9 @@ void check_object(const Object& o, const Scene& scene, const std::string& pointe
                       fmt::format("is {}", o.transform.scale[axis]),
                       "expected a factor of at least 1e-06 or at most -1e-06", "for a thin object use a plate");
   if (scene.materials.contains(o.material)) return;
-  std::vector<std::string> known;
-  for (const auto& [name, material] : scene.materials) known.push_back(name);
-  const std::string found = nearest(o.material.substr(0, 64), known);
-  if (known.size() > 12) known.resize(12);
-  throw bad_input(where(child(pointer, "material")), "there is no material " + in_quotes(o.material),
-                  known.empty() ? "scene.materials is empty"
-                                : fmt::format("scene.materials has {}", fmt::join(known, ", ")),
-                  found.empty() ? "" : fmt::format("did you mean '{}'?", found));
+  std::vector<std::string> names;
+  for (const auto& [name, material] : scene.materials) names.push_back(name);
+  refuse_name("material", o.material, std::move(names), where(child(pointer, "material")));
 }
 
 void check_environment(const Environment& e, const std::string& pointer, const Where& where) {
@@ -115,10 +121,16 @@ void check_environment(const Environment& e, const std::string& pointer, const W
                     "expected a day from 1950-01-01 to 2050-12-31 as YYYY-MM-DD");
 }
 
-void check_light(const Light& l, const std::string& pointer, const Where& where) {
+void check_light(const Light& l, const Scene& scene, const std::string& pointer, const Where& where) {
   check_spectrum(l.spectrum, child(pointer, "spectrum"), where);
-  if (l.type != Light::Type::point) check_direction(l.direction, child(pointer, "direction"), where);
-  if (l.type == Light::Type::area) check_up(l.up, l.direction, child(pointer, "up"), where);
+  if (is_directed(l)) check_direction(l.direction, child(pointer, "direction"), where);
+  if (l.type == Light::Type::area || l.photometry) check_up(l.up, l.direction, child(pointer, "up"), where);
+  if (l.type != Light::Type::mesh) return;
+  std::vector<std::string> names;
+  for (const Object& object : scene.objects)
+    if (!object.name.empty()) names.push_back(object.name);
+  if (l.object.empty() || std::ranges::find(names, l.object) == names.end())
+    refuse_name("object", l.object, std::move(names), where(child(pointer, "object")));
 }
 
 void check_camera(const Camera& c, const Where& where) {
@@ -184,7 +196,8 @@ void check(const Preset& preset, const Where& where) {
   for (const auto& [name, material] : scene.materials) check_material(material, child("/scene/materials", name), where);
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     check_object(scene.objects[i], scene, child("/scene/objects", i), where);
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], child("/scene/lights", i), where);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    check_light(scene.lights[i], scene, child("/scene/lights", i), where);
   if (scene.environment) check_environment(*scene.environment, "/scene/environment", where);
   check_stop(preset, where);
   check_reference(preset, where);

@@ -74,7 +74,8 @@ inline constexpr Choice<Light::Type> choices<Light::Type>[] = {
     {Light::Type::point, "point", "A point that shines equally to all sides."},
     {Light::Type::spot, "spot", "A point that shines into a cone."},
     {Light::Type::directional, "directional", "Parallel light, as from the sun."},
-    {Light::Type::area, "area", "A rectangle that shines to one side by the cosine law."}};
+    {Light::Type::area, "area", "A rectangle that shines to one side by the cosine law."},
+    {Light::Type::mesh, "mesh", "An object whose surface shines evenly to its outside by the cosine law."}};
 
 template <>
 inline constexpr Choice<Camera::Projection> choices<Camera::Projection>[] = {

@@ -45,7 +45,7 @@ struct Columns {
 enum class Text { text, line, file };
 
 /// What a text names. Whether such a thing exists is checked where the preset is used.
-enum class Names { nothing, material, illuminant, patch };
+enum class Names { nothing, material, object, illuminant, patch };
 
 /// One field. Its default is not here: it is what a default-constructed struct holds.
 struct Field {

@@ -157,19 +157,27 @@ struct Object {
 };
 
 struct Light {
-  enum class Type { point, spot, directional, area };
+  enum class Type { point, spot, directional, area, mesh };
   Type type = Type::point;
   LightSpectrum spectrum;
-  double power_w = 1;               ///< point, spot, area: radiant power of 380..780 nm
+  double power_w = 1;               ///< all but directional: radiant power of 380..780 nm
   double irradiance_w_m2 = 1;       ///< directional: on a plane that faces it
   Vec3 position{0, 0, 0};           ///< point, spot, area (its centre)
-  Vec3 direction{0, -1, 0};         ///< spot, directional, area (its facing side): the way the light goes
+  Vec3 direction{0, -1, 0};         ///< spot, directional, area (its facing side): the way the light goes; photometry
   double half_angle_deg = 30;       ///< spot: constant intensity inside, 0 outside
   std::array<double, 2> size{1, 1}; ///< area: a rectangle's edge lengths
-  Vec3 up{0, 0, 1};                 ///< area: along the rectangle's second edge (projected)
+  Vec3 up{0, 0, 1};                 ///< area: along the rectangle's second edge (projected); photometry: C = 0
   double angular_diameter_deg = 0;  ///< directional: of the even disc that it comes from; 0: a point
+  std::optional<std::string> photometry; ///< point: an IES or EULUMDAT file; its gamma = 0 is along `direction`
+  std::optional<std::string> picture;    ///< area: a picture file, of how much light each place sends
+  std::string object;                    ///< mesh: the name of the object whose surface shines
   bool operator==(const Light&) const = default;
 };
+
+/// Whether it has a direction.
+inline bool is_directed(const Light& l) {
+  return (l.type != Light::Type::point && l.type != Light::Type::mesh) || l.photometry;
+}
 
 struct Camera {
   enum class Projection { perspective, orthographic };

@@ -3,6 +3,8 @@
 #include "scene/scene.h"
 
 #include "base/error.h"
+#include "image/image.h"
+#include "optics/colour.h"
 #include "scene/materials.h"
 #include "scene/object_mesh.h"
 
@@ -71,6 +73,55 @@ void refuse_glass_about(const Camera& camera, const Scene& scene, const Location
   }
 }
 
+/// What an earlier light has of the same file; null: none has.
+std::shared_ptr<const Photometry> shared_photometry(const Scene& scene, const std::filesystem::path& file) {
+  for (const Light& light : scene.lights)
+    if (light.photometry && light.photometry->file == file) return light.photometry;
+  return nullptr;
+}
+
+/// Its luminance. A note of what is clipped goes to warnings.
+std::shared_ptr<const LightPicture> load_light_picture(const std::filesystem::path& file,
+                                                       std::vector<std::string>& warnings) {
+  const image::Image image = image::read_image(file);
+  const image::Rgb colours = image::rgb_of(image, file.string());
+  LightPicture picture{image.width, image.height, {}};
+  double most = 0;
+  bool negative = false;
+  for (std::size_t i = 0; i < colours.values.size(); i += 3) {
+    const double y = optics::linear_srgb_to_xyz({colours.values[i], colours.values[i + 1], colours.values[i + 2]})[1];
+    if (!std::isfinite(y))
+      throw bad_input(file.string(), fmt::format("texel {} has a value that is not finite", i / 3));
+    negative = negative || y < 0;
+    picture.luminance.push_back(static_cast<float>(std::max(y, 0.0)));
+    most = std::max(most, y);
+  }
+  if (!(most > 0)) throw bad_input(file.string(), "is black", "expected a picture that shines somewhere");
+  for (const std::string& note : image.notes) warnings.push_back(fmt::format("{}: {}", file.filename().string(), note));
+  if (!colours.grey)
+    warnings.push_back(fmt::format("{}: as a lamp it shines by its luminance, in the light's spectrum, without colours",
+                                   file.filename().string()));
+  if (negative) warnings.push_back(fmt::format("{}: negative luminance is taken as black", file.filename().string()));
+  return std::make_shared<const LightPicture>(std::move(picture));
+}
+
+/// The light of a surface. where: the name of the object, which there is. Throws bad_input there for one that has no
+/// surface, or more triangles than a table of chances can tell.
+void set_mesh(const preset::Light& light, const Scene& scene, const Location& where, Light& result) {
+  constexpr std::uint32_t most_triangles = 1U << 22;
+  const auto object = std::ranges::find(scene.objects, light.object, &Object::name);
+  if (object == scene.objects.end() || is_empty(*object))
+    throw bad_input(where, fmt::format("object '{}' has no surface that could shine", light.object));
+  if (object->triangle_count + object->ellipsoid_count > most_triangles)
+    throw bad_input(where, fmt::format("object '{}' has {} triangles", light.object, object->triangle_count),
+                    fmt::format("expected at most {} of one that shines", most_triangles), "make it coarser");
+  result.object = static_cast<int>(object - scene.objects.begin());
+  result.power_w = light.power_w;
+  result.position = object->bounds.centre;
+  result.inside = dielectrics_around(scene, places_of_mesh(scene, *object).front());
+  std::erase(result.inside, result.object); // it shines to its outside
+}
+
 } // namespace
 
 Camera make_camera(const preset::Camera& camera, const Scene& scene) {
@@ -108,11 +159,42 @@ Camera make_camera(const preset::Camera& camera, const Scene& scene) {
   return result;
 }
 
-Light make_light(const preset::Light& light, const Scene& scene, const Location& where) {
+std::vector<glm::dvec3> places_of_mesh(const Scene& scene, const Object& object) {
+  std::vector<glm::dvec3> places;
+  const std::span<const glm::uvec3> triangles = triangles_of(scene, object);
+  const std::size_t step = triangles.size() / 64 + 1;
+  for (std::size_t i = 0; i < triangles.size(); i += step) {
+    const auto corner = [&](int c) { return glm::dvec3(scene.geometry.positions[triangles[i][c]]); };
+    const glm::dvec3 a = corner(0), across = glm::cross(corner(1) - a, corner(2) - a);
+    const double length = glm::length(across); // twice the area
+    places.push_back((a + corner(1) + corner(2)) / 3.0 + 1e-3 / std::sqrt(length) * across);
+  }
+  for (const Ellipsoid& ellipsoid : ellipsoids_of(scene, object))
+    for (const double side : {1.001, -1.001})
+      for (const glm::vec3& half_axis : ellipsoid.half_axes)
+        places.push_back(glm::dvec3(ellipsoid.centre) + side * glm::dvec3(half_axis));
+  return places;
+}
+
+Light make_light(const preset::Light& light, const Scene& scene, const FileFinder& finder, const Location& where,
+                 std::vector<std::string>& warnings) {
   using Type = preset::Light::Type;
   Light result;
   result.type = light.type;
   result.spectrum = make_light_spectrum(light.spectrum, where / "spectrum");
+  if (light.type == Type::mesh) {
+    set_mesh(light, scene, where / "object", result);
+    return result;
+  }
+  if (light.photometry) {
+    const std::filesystem::path file = finder.find(*light.photometry, where / "photometry");
+    result.photometry = shared_photometry(scene, file);
+    if (!result.photometry) result.photometry = std::make_shared<const Photometry>(load_photometry(file));
+    result.direction = unit_direction(to_dvec3(light.direction), where / "direction");
+    result.edge_u = perpendicular_up(light.up, result.direction, where / "up");
+    result.edge_v = glm::cross(result.edge_u, result.direction); // counterclockwise from C = 0, seen from behind
+  }
+  if (light.picture) result.picture = load_light_picture(finder.find(*light.picture, where / "picture"), warnings);
   if (light.type != Type::point) {
     const glm::dvec3 direction = unit_direction(to_dvec3(light.direction), where / "direction");
     result.direction = direction;

@@ -105,15 +105,21 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
   scene.objects.push_back(result);
 }
 
-/// A rectangle that reaches through a surface has points inside and outside; its photons all start in what is around
-/// its centre.
+/// A lamp of a size that reaches through a surface has points inside and outside; its photons all start in what is
+/// around its centre, or around the first place of a mesh.
 void warn_if_straddling(Scene& scene, const Light& light, std::size_t index) {
-  if (light.type != preset::Light::Type::area) return;
-  for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)}) {
-    const glm::vec3 p = light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v);
-    if (dielectrics_around(scene, p) == light.inside) continue;
-    scene.warnings.push_back(fmt::format(
-        "light {}: reaches through the surface of a dielectric; its rays start in what is around its centre", index));
+  std::vector<glm::dvec3> places;
+  if (light.type == preset::Light::Type::area)
+    for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)})
+      places.emplace_back(light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v));
+  if (light.object >= 0) places = places_of_mesh(scene, scene.objects[static_cast<std::size_t>(light.object)]);
+  for (const glm::dvec3& p : places) {
+    std::vector<int> around = dielectrics_around(scene, p);
+    std::erase(around, light.object);
+    if (around == light.inside) continue;
+    scene.warnings.push_back(
+        fmt::format("light {}: reaches through the surface of a dielectric; its rays start in what is around its {}",
+                    index, light.object >= 0 ? "first triangle" : "centre"));
     return;
   }
 }
@@ -221,7 +227,7 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
       scene.object_of_primitive.insert(scene.object_of_primitive.end(), scene.objects[i].*count, i);
   part_touching(scene);
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i) {
-    scene.lights.push_back(make_light(preset.scene.lights[i], scene, where / "lights" / i));
+    scene.lights.push_back(make_light(preset.scene.lights[i], scene, finder, where / "lights" / i, scene.warnings));
     warn_if_straddling(scene, scene.lights.back(), i);
     warn_if_wide(scene, scene.lights.back(), i);
   }

@@ -9,6 +9,7 @@
 #include "preset/preset.h"
 #include "scene/environment.h"
 #include "scene/mesh.h"
+#include "scene/photometry.h"
 #include "scene/texture.h"
 
 #include <limits>
@@ -58,6 +59,12 @@ inline bool is_textured(const Material& material) { return material.texture != n
 /// Whether what its surface reflects depends on the wavelength even where n does not.
 inline bool is_coated(const Material& material) { return material.coating_nm > 0; }
 
+/// How much light the places of a rectangle send.
+struct LightPicture {
+  int width = 0, height = 0;
+  std::vector<float> luminance; ///< a texel, of any unit, row 0 at the top; not negative, not all 0
+};
+
 struct Object {
   std::string name;
   int material = 0; ///< index into Scene::materials
@@ -74,17 +81,21 @@ struct Light {
   preset::Light::Type type = preset::Light::Type::point;
   glm::vec3 position{0};
   glm::vec3 direction{0, -1, 0};  ///< unit, the way the light goes
-  glm::vec3 edge_u{0}, edge_v{0}; ///< area: the full edges; edge_u x edge_v points along direction
-  double cos_half_angle = -1;     ///< spot
-  double power_w = 0;             ///< point, spot, area
-  double irradiance_w_m2 = 0;     ///< directional
-  double one_minus_cos = 0;       ///< directional: of half its disc's angle; 0: a point
-  optics::Spectrum spectrum{};    ///< sums to 1
-  std::vector<int> inside;        ///< dielectric objects that contain it, outermost first
+  glm::vec3 edge_u{0}, edge_v{0}; ///< area: the full edges; edge_u x edge_v points along direction. photometry: unit,
+                                  ///< the ways to C = 0 and C = 90 degrees
+  double cos_half_angle = -1;  ///< spot
+  double power_w = 0;          ///< all but directional
+  double irradiance_w_m2 = 0;  ///< directional
+  double one_minus_cos = 0;    ///< directional: of half its disc's angle; 0: a point
+  optics::Spectrum spectrum{}; ///< sums to 1
+  std::vector<int> inside;     ///< dielectric objects that contain it, outermost first
   /// The environment's three parts. It is directional light of many directions and colours (environment.h): what a
   /// photon's red, green and blue part each carry at every wavelength; `spectrum` is what photons are allocated by.
   /// Empty for a lamp.
   std::vector<optics::Spectrum> primaries;
+  std::shared_ptr<const Photometry> photometry; ///< point: its intensity by direction; null: even
+  std::shared_ptr<const LightPicture> picture;  ///< area: its emission by place; null: even
+  int object = -1;                              ///< mesh: index into Scene::objects
 
   bool operator==(const Light&) const = default;
 };
@@ -205,9 +216,15 @@ glm::dmat3 rotation(const preset::Vec3& rotate_deg);
 /// The camera alone, for a view that changes while everything else stays. Throws bad_input at FILE#/scene/camera/...
 Camera make_camera(const preset::Camera& camera, const Scene& scene);
 
-/// where: FILE#/scene/lights/INDEX. Throws bad_input there: no direction, power, size or angle out of range, unknown
-/// spectrum.
-Light make_light(const preset::Light& light, const Scene& scene, const Location& where);
+/// scene: with its objects, and the lights before this one, which share their files. warnings: what a file says and is
+/// not obeyed. where: FILE#/scene/lights/INDEX. Throws bad_input there: no direction, power, size or angle out of
+/// range, unknown spectrum, an object without a surface; and at a file that is not there or no photometry or picture.
+Light make_light(const preset::Light& light, const Scene& scene, const FileFinder& finder, const Location& where,
+                 std::vector<std::string>& warnings);
+
+/// A mesh light's places to look at, scene coordinates, just outside of its surface: at most 64, even over its
+/// triangles.
+std::vector<glm::dvec3> places_of_mesh(const Scene& scene, const Object& object);
 
 /// The surface of a shape of preset.h, centred by its bounds on the origin, y up, with normals. Flat facets have
 /// vertices of their own, so their normals are exact; curved sides share theirs. quad: open, size x by z in the plane y

@@ -79,12 +79,18 @@ bool nothing_blocks_the_view(const scene::Scene& scene) {
   return true;
 }
 
-/// NEPHROID_LIGHT_TYPES of kernels/tracing/light.h.
+/// Types of light that the scene has.
 unsigned light_type_bits(const scene::Scene& scene) {
   unsigned bits = 0;
   for (const scene::Light& light : scene.lights) bits |= 1u << device_light_type(light);
   return bits;
 }
+
+/// A mesh becomes an area light at each of its places (kernels/tracing/lamp.h).
+unsigned types_in_kernels(unsigned types) { return (types >> LIGHT_MESH & 1) != 0 ? types | 1u << LIGHT_AREA : types; }
+
+bool has_picture(const scene::Light& light) { return light.picture != nullptr; }
+bool has_photometry(const scene::Light& light) { return light.photometry != nullptr; }
 
 std::string light_types_reason(unsigned bits) {
   std::vector<std::string_view> names;
@@ -198,7 +204,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
   const auto any = [&](bool (*is)(const scene::Material&)) { return any_material(scene, is); };
   omissions.defines = {
       {"NEPHROID_OCCLUSION", flag(occlusion)},
-      {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types)},
+      {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types_in_kernels(types))},
       {"NEPHROID_DISCS", flag(std::ranges::any_of(scene.lights, scene::has_disc) || !leave_out.light_types)},
       {"NEPHROID_MIRRORS", flag(mirrors)},
       {"NEPHROID_CONDUCTORS", flag(any(is_conductor) || !leave_out.mirrors)},
@@ -207,6 +213,8 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       {"NEPHROID_COATINGS", flag(any(scene::is_coated) || !leave_out.bending)},
       {"NEPHROID_ROUGH", flag(any(scene::is_rough) || !leave_out.bending)},
       {"NEPHROID_PLASTICS", flag(any(scene::is_plastic))},
+      {"NEPHROID_LIGHT_PICTURES", flag(std::ranges::any_of(scene.lights, has_picture))},
+      {"NEPHROID_PHOTOMETRY", flag(std::ranges::any_of(scene.lights, has_photometry))},
       {"NEPHROID_TEXTURES", flag(any(scene::is_textured))},
       {"NEPHROID_TINTS", flag(any(is_tinted) || !leave_out.attenuation)},
       // Without materials that attenuate there is one place all the same: the code is compiled and does nothing.

@@ -2,6 +2,7 @@
 #include "tracing/scene_tables.h"
 
 #include "base/parallel.h"
+#include "tracing/lamp_tables.h"
 #include "tracing/omissions.h"
 #include "tracing/scales.h"
 #include "tracing/targets.h"
@@ -45,7 +46,8 @@ shared::DeviceLight device_light(const scene::Light& light, double power_unit, c
   out.one_minus_cos = static_cast<float>(spot ? 1 - light.cos_half_angle : light.one_minus_cos);
   out.solid_angle = static_cast<float>(2 * pi * (1 - light.cos_half_angle));
   out.radiometric = static_cast<float>(scene::radiometric(light) / power_unit);
-  out.inside = to_media(light.inside, where / "position");
+  out.inside = to_media(light.inside, where / (light.object < 0 ? "position" : "object"));
+  out.table = -1;
   return out;
 }
 
@@ -196,16 +198,18 @@ shared::DevicePrimitive device_ellipsoid(const scene::Ellipsoid& ellipsoid, int 
 
 } // namespace
 
-std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene) {
+shared::DevicePrimitive device_primitive(const scene::Scene& scene, std::size_t i) {
   const scene::Mesh& mesh = scene.geometry;
+  const auto object = static_cast<int>(scene.object_of_primitive[i]);
+  return i < mesh.triangles.size()
+             ? device_triangle(mesh, mesh.triangles[i], object, scene.objects[scene.object_of_primitive[i]].smooth)
+             : device_ellipsoid(mesh.ellipsoids[i - mesh.triangles.size()], object);
+}
+
+std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene) {
   std::vector<shared::DevicePrimitive> primitives(scene.object_of_primitive.size());
   for_ranges(primitives.size(), 1 << 14, [&](std::size_t, Range range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      const auto object = static_cast<int>(scene.object_of_primitive[i]);
-      primitives[i] = i < mesh.triangles.size() ? device_triangle(mesh, mesh.triangles[i], object,
-                                                                  scene.objects[scene.object_of_primitive[i]].smooth)
-                                                : device_ellipsoid(mesh.ellipsoids[i - mesh.triangles.size()], object);
-    }
+    for (std::size_t i = range.begin; i < range.end; ++i) primitives[i] = device_primitive(scene, i);
   });
   return primitives;
 }
@@ -281,6 +285,7 @@ int device_light_type(preset::Light::Type type) {
   case preset::Light::Type::spot: return LIGHT_SPOT;
   case preset::Light::Type::directional: return LIGHT_DIRECTIONAL;
   case preset::Light::Type::area: return LIGHT_AREA;
+  case preset::Light::Type::mesh: return LIGHT_MESH;
   case preset::Light::Type::point: break;
   }
   return LIGHT_POINT;
@@ -317,6 +322,7 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
     tables.sky = std::make_shared<const SkyTables>(make_sky_tables(*scene.environment));
     tables.lights.back().edge_u = tables.sky->mean_colour;
   }
+  tables.lamps = make_lamp_tables(scene, lights, tables.lights);
   tables.light_towards_targets_w =
       std::accumulate(tables.towards_targets_w.begin(), tables.towards_targets_w.end(), 0.0);
   tables.camera = device_camera(scene.camera, Location(scene.source) / "scene" / "camera");

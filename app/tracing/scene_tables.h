@@ -44,6 +44,13 @@ struct TextureTables {
   TEXTURE_TABLES(TABLE_VECTOR)
 };
 
+/// What lamps have beyond their DeviceLight, as kernels/tracing/lamp.h reads it.
+struct LampTables {
+  LAMP_TABLES(TABLE_VECTOR)
+  /// [light] a mesh's surfaces, in the order of its table; else nothing.
+  std::vector<std::vector<shared::DevicePrimitive>> surfaces;
+};
+
 struct SceneTables {
   shared::DeviceScene scene{}; ///< complete but for `root`, which is the tree's
   shared::DeviceCamera camera{};
@@ -52,6 +59,7 @@ struct SceneTables {
   std::vector<scene::Sphere> spheres;            ///< the targets of all lights together
   std::shared_ptr<const SkyTables> sky;          ///< null where the environment is no light; large, so copies share it
   std::shared_ptr<const TextureTables> textures; ///< null where there are none; large, so copies share it
+  std::shared_ptr<const LampTables> lamps;       ///< null where no lamp has a table; large, so copies share it
   WavelengthTables wavelengths;
   StretchTables stretch;                 ///< for the clusters of `wavelengths`
   std::vector<double> towards_targets_w; ///< [light]: power that it sends towards its targets, all wavelengths
@@ -74,6 +82,9 @@ int device_light_type(const scene::Light& light);
 /// light is inside more than MEDIA_DEPTH dielectrics.
 SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters,
                               const LeaveOut& leave_out);
+
+/// number: of the triangles, then the ellipsoids.
+shared::DevicePrimitive device_primitive(const scene::Scene& scene, std::size_t number);
 
 /// The triangles, then the ellipsoids.
 std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene);

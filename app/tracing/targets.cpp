@@ -2,6 +2,7 @@
 #include "tracing/targets.h"
 
 #include "scene/ray.h"
+#include "tracing/lamp_tables.h"
 #include "tracing/scales.h"
 
 #include <algorithm>
@@ -108,6 +109,7 @@ bool reaches(const scene::Light& light, const scene::Sphere& sphere) {
 
 double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit) {
   using std::numbers::pi;
+  if (light.photometry) return light.power_w * photometric_share(light, targets);
   double steradians = 0, square_metres = 0;
   for (const scene::Sphere& target : targets) {
     const double distance2 = std::pow(glm::length(glm::dvec3(target.centre) - glm::dvec3(light.position)), 2);
@@ -120,7 +122,8 @@ double towards_targets_w(const scene::Light& light, const std::vector<scene::Sph
   case preset::Light::Type::directional: return light.irradiance_w_m2 * square_metres;
   case preset::Light::Type::spot:
     return light.power_w * std::min(1.0, steradians / (2 * pi * (1 - light.cos_half_angle)));
-  case preset::Light::Type::area: return light.power_w * std::min(1.0, steradians / pi);
+  case preset::Light::Type::area:
+  case preset::Light::Type::mesh: return light.power_w * std::min(1.0, steradians / pi);
   case preset::Light::Type::point: break;
   }
   return light.power_w * std::min(1.0, steradians / (4 * pi));

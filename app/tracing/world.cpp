@@ -41,6 +41,14 @@ std::uint64_t texture_bytes(const SceneTables& tables) {
   return bytes;
 }
 
+std::uint64_t lamp_bytes(const SceneTables& tables) {
+  if (!tables.lamps) return 0;
+  const LampTables& from = *tables.lamps;
+  std::uint64_t bytes = 0;
+  LAMP_TABLES(ADD_BYTES)
+  return bytes;
+}
+
 std::uint64_t tree_bytes(const scene::Bvh& bvh) { return bytes_of(bvh.nodes) + bytes_of(bvh.blocks); }
 
 std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh,
@@ -51,6 +59,7 @@ std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, cons
                                         {"wavelength tables", wavelength_bytes(tables)}};
   if (tables.sky) rows.push_back({"environment as a light", sky_bytes(tables)});
   if (tables.textures) rows.push_back({"textures", texture_bytes(tables)});
+  if (tables.lamps) rows.push_back({"lamps", lamp_bytes(tables)});
   return rows;
 }
 
@@ -69,6 +78,7 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   upload_surfaces(context, scene, bvh, buffers);
   static const SkyTables no_sky;
   static const TextureTables no_textures;
+  static const LampTables no_lamps;
   const auto upload_objects = [&](const SceneTables& from) { OBJECT_TABLES(UPLOAD) TARGET_TABLES(UPLOAD) };
   const auto upload_wavelengths = [&](const WavelengthTables& from) { WAVELENGTH_TABLES(UPLOAD) COLOUR_TABLES(UPLOAD) };
   const auto upload_stretch = [&](const StretchTables& from) { STRETCH_TABLES(UPLOAD) };
@@ -79,6 +89,8 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   upload_sky(tables.sky ? *tables.sky : no_sky);
   const auto upload_textures = [&](const TextureTables& from) { TEXTURE_TABLES(UPLOAD) };
   upload_textures(tables.textures ? *tables.textures : no_textures);
+  const auto upload_lamps = [&](const LampTables& from) { LAMP_TABLES(UPLOAD) };
+  upload_lamps(tables.lamps ? *tables.lamps : no_lamps);
   return buffers;
 }
 

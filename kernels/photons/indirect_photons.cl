@@ -125,8 +125,9 @@ __kernel void indirect_photons(WORLD_ARGUMENTS, __global const DeviceTarget* tar
         has_places(&light) ? random4(seed, iteration, number, 1u, STREAM_INDIRECT_PHOTONS).xy : (float2)(0.0f);
     const Source source = source_of(&world, emitter.light, place, &light);
     const bool narrow = is_narrow(&light);
-    const Emission emission =
+    Emission emission =
         narrow ? emit_in_cone(&light, random) : emit(&light, targets, &scene, random, place);
+    emission.watts *= photometric(&world, &light, emission.direction);
     if (emission.watts == 0.0f) continue;
     const Band band =
         wavelength_of_cluster(0, cluster_wavelengths, spectrum_cdf + emitter.light * members, members, random.w);

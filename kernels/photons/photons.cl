@@ -84,7 +84,8 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const Guided guided = {1.0f, 0u};
 #endif
     const Source source = source_of(&world, emitter.light, start.place, &light);
-    const Emission emission = emit(&light, targets, &scene, start.emission, start.place);
+    Emission emission = emit(&light, targets, &scene, start.emission, start.place);
+    emission.watts *= photometric(&world, &light, emission.direction);
     if (emission.watts == 0.0f) continue;
 #if NEPHROID_STORE
     const int part = part_of_cluster(start.wavelength);

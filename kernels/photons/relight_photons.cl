@@ -23,8 +23,9 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
         photon_start(emitters, scene.emitter_count, lights, seed, iteration, first_iteration, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
     DeviceLight light = lights[emitter.light];
-    choose_in_disc(&light, start.place);
-    const Emission emission = emit(&light, targets, &scene, start.emission, start.place);
+    choose_in_lamp(&world, &light, start.place);
+    Emission emission = emit(&light, targets, &scene, start.emission, start.place);
+    emission.watts *= photometric(&world, &light, emission.direction);
     if (emission.watts == 0.0f) continue;
     const Band band = whole_cluster(emitter.cluster);
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,

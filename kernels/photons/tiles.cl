@@ -303,8 +303,9 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
     const float2 place = (float2)(lattice.place_x, lattice.place_y);
     const Source source = source_of(&world, lattice.light, place, &light);
     Branch branch;
-    const Emission emission =
+    Emission emission =
         emit_on_lattice(&light, targets, &scene, lattice.target, disc, place, branch.path.by_place);
+    emission.watts *= photometric(&world, &light, emission.direction);
     if (emission.watts == 0.0f) continue;
     const Band band = choose_band(&world, lattice.light, lattice.cluster, lattice.wavelength);
     const Band whole = whole_cluster(lattice.cluster);

@@ -132,6 +132,7 @@ static inline Emission emit_from_area(const DeviceLight* light, __global const D
                                       float2 place) {
   Emission emission;
   const float steradians = sample_targets(targets, light->target_count, area_point(light, place), random, &emission);
+  emission.behind *= UP_TO_LAMP;
   emission.watts = watts_of(light, emission.direction, steradians);
   return emission;
 }
@@ -175,7 +176,7 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
   return emission;
 }
 
-// targets: the whole table. light: the environment as source_of (world.h) turns it into a light for one photon.
+// targets: the whole table. light: as source_of (world.h) turns it into a light for one photon.
 COMPILED_ONCE Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
                             float4 random, float2 place) {
   targets += light->first_target;
@@ -240,5 +241,6 @@ static inline Emission emit_on_lattice(const DeviceLight* light, __global const 
   for (int i = 0; i < target_count; ++i) sum += one_minus_cos_of(targets[i].centre_radius, from);
   emission.watts =
       watts_of(light, emission.direction, steradians_a_photon(targets, target_count, target, sum, from, &emission));
+  emission.behind *= UP_TO_LAMP;
   return emission;
 }

@@ -40,6 +40,27 @@ static inline Arrival arrive_from(const DeviceLight* light, float3 position, flo
   return arrival;
 }
 
+// The same of a light in the world, as choose_in_lamp leaves it.
+static inline Arrival arrive_from_lamp(const World* world, const DeviceLight* light, float3 position, float3 normal,
+                                       float2 place) {
+  Arrival arrival = arrive_from(light, position, normal, world->scene.metres_per_unit, place);
+  arrival.irradiance *= photometric(world, light, -arrival.direction);
+  return arrival;
+}
+
+// Whether something hides a lamp from a surface. from: where rays start on the lamp's side.
+static inline bool is_hidden(const World* world, const Surface* surface, float3 from, const Arrival* arrival,
+                             uint triangle) {
+#if NEPHROID_LIGHT_TYPES >> LIGHT_MESH & 1
+  if (!isinf(arrival->distance)) { // to the place itself: a mesh would hide one beside it at grazing angles
+    const float3 way = surface->position + arrival->distance * arrival->direction - from;
+    const float distance = length(way);
+    return is_blocked(world, from, way / distance, distance * UP_TO_LAMP, triangle);
+  }
+#endif
+  return is_blocked(world, from, arrival->direction, arrival->distance, triangle);
+}
+
 // The four numbers of sample `sample` of a light that has places (light.h) at a pixel. A pass takes `paths` samples.
 // The samples of each half of the film follow a sequence, whose sets 0 and 1 belong to photons.
 static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sample, uint paths, uint pixel) {
@@ -58,12 +79,11 @@ static inline float irradiance_of(const World* world, int light_index, const Pat
   DeviceLight light = world->lights[light_index];
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   const float4 place = has_lamp_places(&light) ? light_numbers(&light, seed, sample, paths, pixel) : (float4)(0.0f);
-  choose_in_disc(&light, place.xy);
-  const Arrival arrival =
-      arrive_from(&light, surface->position, side * surface->shading, world->scene.metres_per_unit, place.xy);
+  choose_in_lamp(world, &light, place.xy);
+  const Arrival arrival = arrive_from_lamp(world, &light, surface->position, side * surface->shading, place.xy);
   if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) return 0.0f;
   const float3 from = start_on_side(surface, side);
-  if (is_blocked(world, from, arrival.direction, arrival.distance, triangle)) return 0.0f;
+  if (is_hidden(world, surface, from, &arrival, triangle)) return 0.0f;
   return arrival.irradiance * part_through_coat(world, surface, arrival.direction);
 }
 
@@ -174,9 +194,8 @@ static inline float3 highlight(const World* world, int light_index, bool beyond,
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f, light_side = beyond ? -side : side;
   const float3 n = normal_before(path->direction, surface), view = -path->direction;
   const float4 place = has_lamp_places(&light) ? light_numbers(&light, seed, sample, paths, pixel) : (float4)(0.0f);
-  choose_in_disc(&light, place.xy);
-  const Arrival arrival =
-      arrive_from(&light, surface->position, beyond ? -n : n, world->scene.metres_per_unit, place.xy);
+  choose_in_lamp(world, &light, place.xy);
+  const Arrival arrival = arrive_from_lamp(world, &light, surface->position, beyond ? -n : n, place.xy);
   if (!(arrival.irradiance > 0.0f) || !(light_side * dot(arrival.direction, surface->geometric) > 0.0f))
     return (float3)(0.0f);
   Path bent = *path;
@@ -198,7 +217,7 @@ static inline float3 highlight(const World* world, int light_index, bool beyond,
   if (!bend_about(world, &bent, &facet, material, band, beyond ? 2.0f : -1.0f, &n_ratio, &bend) || bend.straight ||
       bend.transmitted != beyond)
     return (float3)(0.0f);
-  if (is_blocked(world, start_on_side(surface, light_side), arrival.direction, arrival.distance, triangle))
+  if (is_hidden(world, surface, start_on_side(surface, light_side), &arrival, triangle))
     return (float3)(0.0f);
   const Source lamp = {light_index, (float3)(1.0f)};
   return carried_light(world, &bent.losses, lamp, band, white_reflector()).xyz *

@@ -34,18 +34,26 @@ static inline bool is_narrow(const DeviceLight* light) {
   return is_light(light, LIGHT_SPOT) && light->one_minus_cos < NARROW_SPOT;
 }
 
-// Whether a lamp's light comes from different places: of a rectangle, or of a disc far away.
+// Whether a lamp's light comes from different places: of a surface, or of a disc far away.
 static inline bool has_lamp_places(const DeviceLight* light) {
 #if NEPHROID_DISCS
   if (is_light(light, LIGHT_DIRECTIONAL) && light->one_minus_cos > 0.0f) return true;
 #endif
-  return is_light(light, LIGHT_AREA);
+  return is_light(light, LIGHT_AREA) || is_light(light, LIGHT_MESH);
 }
 
 // Whether photons begin at different places: of such a lamp, or in the environment.
 static inline bool has_places(const DeviceLight* light) {
   return has_lamp_places(light) || is_light(light, LIGHT_ENVIRONMENT);
 }
+
+// The part of the way to a lamp on which something may stand: a mesh that shines stands there itself, where single
+// precision has it.
+#if NEPHROID_LIGHT_TYPES >> LIGHT_MESH & 1
+#define UP_TO_LAMP (1.0f - 0x1p-18f)
+#else
+#define UP_TO_LAMP 1.0f
+#endif
 
 // Light of a disc becomes, in *light, directional light from one place, even over the disc's solid angle.
 static inline void choose_in_disc(DeviceLight* light, float2 place) {

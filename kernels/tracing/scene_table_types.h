@@ -54,6 +54,11 @@
   TABLE(ushort, texture_texels, "texels of textures") /* [texel][3]: linear sRGB, 65535 is 1 */ \
   TABLE(float, texcoords, "texture coordinates") /* [triangle of textured objects][corner][2] */
 
+// What lamps have beyond their DeviceLight: tracing/lamp.h.
+#define LAMP_TABLES(TABLE) \
+  TABLE(float, lamp_tables, "lamps' tables") /* mesh: chances of its surfaces; picture: of rows, then of each row's \
+    texels; photometry: [plane][gamma] intensity over the mean of all directions */
+
 // Tables that only some kernels read, as arguments of their own.
 #define TARGET_TABLES(TABLE) \
   TABLE(DeviceTarget, targets, "targets") /* lists: DeviceLight::first_target */
@@ -66,7 +71,7 @@
 // Tables that every kernel of the scene reads: WORLD_ARGUMENTS.
 #define WORLD_TABLES(TABLE) \
   GEOMETRY_TABLES(TABLE) OBJECT_TABLES(TABLE) WAVELENGTH_TABLES(TABLE) STRETCH_TABLES(TABLE) SKY_TABLES(TABLE) \
-  TEXTURE_TABLES(TABLE)
+  TEXTURE_TABLES(TABLE) LAMP_TABLES(TABLE)
 #define SCENE_TABLES(TABLE) WORLD_TABLES(TABLE) TARGET_TABLES(TABLE) COLOUR_TABLES(TABLE)
 
 // clang-format on

@@ -45,7 +45,8 @@ struct alignas(8) uint2 {
 #define LIGHT_DIRECTIONAL 2
 #define LIGHT_AREA 3
 #define LIGHT_ENVIRONMENT 4 // the last light, if there is one; as directional light but for what sky.h says
-#define LIGHT_TYPE_COUNT 5
+#define LIGHT_MESH 5
+#define LIGHT_TYPE_COUNT 6
 
 // Where a photon ended. The energy counters, in quanta of power (RunTables::energy_scale), are in this order.
 #define OUTCOME_EMITTED 0   // sum of the next five
@@ -109,22 +110,26 @@ typedef struct {
 #define NARROW_SPOT 0.05f // half an angle of 18 degrees
 
 typedef struct {
-  float4 position;  // area: its centre; directional, environment: unused
-  float4 direction; // unit, the way the light goes; point, environment: unused
-  float4 edge_u;    // area: the full edges; environment: the mean colour of its photons
-  float4 edge_v;
+  float4 position;  // area: its centre; directional, environment, mesh: unused
+  float4 direction; // unit, the way the light goes; point: of its photometry; environment, mesh: unused
+  float4 edge_u;    // area: the full edges; environment: the mean colour of its photons; photometry: unit, the way to
+  float4 edge_v;    // C = 0, 90 degrees; w: of a picture (tracing/lamp.h) as_int, its width, height; of a mesh as_int,
+                    // how many surfaces it has, the first of them in the table of triangles
   int type;            // LIGHT_*
   float one_minus_cos; // spot: 1 - cos of its half angle; less than NARROW_SPOT: see is_narrow (light.h); directional:
                        // of half its disc's angle, 0 for a point
-  float solid_angle;   // spot: its cone's, in steradians
-  float radiometric; // point, spot, area: power in W; directional: irradiance in W m^-2; environment: of all directions
-                     // together
+  float solid_angle;   // spot: its cone's, in steradians; mesh: its area, in square units
+  float radiometric; // directional: irradiance in W m^-2; environment: of all directions together; else power in W
   Media inside;        // directional, environment: none
   int first_target;    // the first of its targets in the table: those that this light can reach
   int target_count;
   int number; // among the preset's lights, so that its random numbers do not depend on lights left out
-  int padding;
+  int table;  // of a mesh, a picture or photometry: its first item in lamp_tables; -1: none
 } DeviceLight;
+
+// A point's photometry: intensities at even steps of gamma, from 0 to 180 degrees, and of C, from 0 to 360.
+#define PHOTOMETRY_GAMMAS 361
+#define PHOTOMETRY_PLANES 361
 
 // A bounding sphere of a caustic object; photons are sent towards these only. The table has lists of them.
 typedef struct {

@@ -31,6 +31,7 @@ typedef struct {
   STRETCH_TABLES(TABLE_MEMBER)
   Sky sky; // empty where no environment is a light
   TEXTURE_TABLES(TABLE_MEMBER)
+  LAMP_TABLES(TABLE_MEMBER)
   DeviceScene scene;
 } World;
 
@@ -38,7 +39,7 @@ typedef struct {
 #define WORLD \
   {{GEOMETRY_TABLES(TABLE_VALUE) scene.root}, OBJECT_TABLES(TABLE_VALUE) {WAVELENGTH_TABLES(TABLE_VALUE)}, \
    STRETCH_TABLES(TABLE_VALUE) {SKY_TABLES(TABLE_VALUE) scene.sky_size}, \
-   TEXTURE_TABLES(TABLE_VALUE) scene}
+   TEXTURE_TABLES(TABLE_VALUE) LAMP_TABLES(TABLE_VALUE) scene}
 
 // 1: paths carry how they move with the place in the lattice or in the pixel that they start from.
 #ifndef NEPHROID_PLACE_DIFFERENTIALS
@@ -271,11 +272,13 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   return bend_path_as(world, path, triangle, surface, material, band, choice, facet_choice, n_ratio, &bend);
 }
 
+#include "kernels/tracing/lamp.h"
+
 // A light for one photon. The environment and a disc become, in *light, directional light from one place, drawn by
-// `place`.
+// `place`; lamps of other shapes an area light of one place.
 static inline Source source_of(const World* world, int index, float2 place, DeviceLight* light) {
   Source source = {index, (float3)(1.0f)};
-  choose_in_disc(light, place);
+  choose_in_lamp(world, light, place);
   if (is_light(light, LIGHT_ENVIRONMENT)) {
 #if NEPHROID_EVEN_SKY
     const SkyPlace from = sample_sky(&world->sky, cdf_of_peaks(&world->sky), place);

@@ -97,8 +97,14 @@ inline preset::Preset random_preset(std::uint64_t seed) {
   for (Light& l : p.scene.lights) {
     for (std::size_t i = 0; i < l.spectrum.table.size(); ++i)
       l.spectrum.table[i] = {500.0 + static_cast<double>(i), 0.1};
-    if (l.type == Light::Type::area) l.direction = {0.1, -1, 1.0 / 3}, l.up = {0, 0.2, 1};
-    if (l.type != Light::Type::point) l.direction[1] += l.direction == Vec3{0, 0, 0} ? 1 : 0;
+    if (l.type == Light::Type::area || l.photometry) l.direction = {0.1, -1, 1.0 / 3}, l.up = {0, 0.2, 1};
+    if (is_directed(l)) l.direction[1] += l.direction == Vec3{0, 0, 0} ? 1 : 0;
+    if (l.type != Light::Type::mesh) continue;
+    if (p.scene.objects.empty()) p.scene.objects.emplace_back().shape.emplace();
+    Object& shining = p.scene.objects.front();
+    if (shining.name.empty()) shining.name = "it shines";
+    shining.material = p.scene.materials.begin()->first;
+    l.object = shining.name;
   }
   if (auto& e = p.scene.environment; e && e->place) e->place->date = "2026-06-21", e->sun_direction.reset();
   if (auto& e = p.scene.environment; e && !e->place && e->type == preset::Environment::Type::sky)

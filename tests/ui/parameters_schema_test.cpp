@@ -7,8 +7,10 @@
 
 namespace nephroid::ui::parameters_schema_test {
 
-const std::map<std::string, std::vector<std::string>> names{
-    {"material", {"glass", "wall"}}, {"illuminant", {"A", "F7"}}, {"patch", {"red", "blue"}}};
+const std::map<std::string, std::vector<std::string>> names{{"material", {"glass", "wall"}},
+                                                            {"object", {"wall", "floor"}},
+                                                            {"illuminant", {"A", "F7"}},
+                                                            {"patch", {"red", "blue"}}};
 
 /// What a property may be besides null.
 const Json& given(const Json& node) { return node.contains("anyOf") ? node["anyOf"][0] : node; }
@@ -267,6 +269,7 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes) {
                      {.width = 1, .height = 1, .channels = {"R", "G", "B"}, .data = {0.5f, 0.5f, 0.5f}});
   Json preset = Json::parse(test::preset_text);
   preset["scene"]["materials"]["glass"] = {{"type", "dielectric"}, {"dispersion", 1.5}};
+  preset["scene"]["objects"].push_back({{"name", "floor"}, {"material", "wall"}, {"shape", {{"type", "quad"}}}});
   open(preset.dump());
   ASSERT_FALSE(HasFatalFailure());
   const std::string before = text();

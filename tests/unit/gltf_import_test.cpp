@@ -8,6 +8,7 @@
 #include "optics/dispersion_file.h"
 #include "optics/spectrum.h"
 #include "preset/read.h"
+#include "scene/materials.h"
 #include "scene/scene.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test.h"
@@ -90,6 +91,24 @@ TEST_F(GltfImport, ATriangleBecomesAnObjectWithAMeshOfItsOwn) {
   EXPECT_THAT(mesh.positions, UnorderedElementsAre(glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
   EXPECT_THAT(made.notes, ElementsAre(HasSubstr("no camera"), HasSubstr("no lights")));
   EXPECT_THAT(made.summary(), HasSubstr("1 object, 1 mesh, 1 light; the file has no camera"));
+}
+
+TEST_F(GltfImport, WhatEmitsShines) {
+  Json json = triangle();
+  Json& material = json["materials"][0];
+  material["emissiveFactor"] = {1, 1, 1};
+  material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 1000;
+  const preset::Preset p = imported(json);
+  ASSERT_EQ(p.scene.lights.size(), 1u);
+  EXPECT_EQ(p.scene.lights[0].type, preset::Light::Type::mesh);
+  EXPECT_EQ(p.scene.lights[0].object, "tri");
+  EXPECT_EQ(p.scene.objects[0].material, "wall");
+  const double k = formats::lumens_per_watt(scene::make_light_spectrum(p.scene.lights[0].spectrum, "spectrum"));
+  EXPECT_NEAR(p.scene.lights[0].power_w * k, 1000 * std::numbers::pi * 0.5, 1e-3); // cd/m^2 of half a square metre
+  EXPECT_THAT(made.notes, testing::Contains(HasSubstr("lights the scene, but is not seen to shine")));
+  material["emissiveTexture"]["index"] = 0;
+  EXPECT_EQ(imported(json).scene.lights[0].type, preset::Light::Type::point); // the lamp above
+  EXPECT_THAT(made.notes, testing::Contains(HasSubstr("material 'wall' does not shine here")));
 }
 
 TEST_F(GltfImport, BinaryFilesAndBuffersBesideTheFileAreRead) {

@@ -3,6 +3,7 @@
 // comments; what is left out; files that are broken.
 #include "formats/import/import.h"
 #include "preset/read.h"
+#include "scene/scene.h"
 #include "tests/support/test.h"
 
 #include <numbers>
@@ -117,6 +118,26 @@ TEST_F(SceneImport, OrthographicCamerasAreTaken) {
           .scene.camera;
   EXPECT_EQ(b.projection, preset::Camera::Projection::orthographic);
   EXPECT_NEAR(b.height.value(), 2, 1e-9);
+}
+
+TEST_F(SceneImport, WhatIsNoRectangleStaysAndShines) {
+  const preset::Preset p =
+      imported(R"(<scene version="3.0.0"><shape type="sphere" id="bulb"><float name="radius" value="2"/>
+      <emitter type="area"/></shape>
+    <shape type="rectangle"><emitter type="area"/></shape>
+    <shape type="cube"><boolean name="flip_normals" value="true"/><emitter type="area"/></shape></scene>)",
+               "in.xml");
+  ASSERT_EQ(p.scene.objects.size(), 2u);
+  ASSERT_EQ(p.scene.lights.size(), 3u);
+  const std::vector<preset::Light>& lights = p.scene.lights;
+  for (const std::size_t i : {0, 2}) EXPECT_EQ(lights[i].type, preset::Light::Type::mesh);
+  EXPECT_EQ(lights[0].object, p.scene.objects[0].name);
+  EXPECT_EQ(lights[2].object, p.scene.objects[1].name);
+  EXPECT_EQ(p.scene.materials.at(p.scene.objects[0].material).reflectance.value, 0);
+  EXPECT_NEAR(lights[0].power_w / lights[1].power_w, 4 * pi * 4 / 4, 1e-6); // areas
+  EXPECT_NEAR(lights[2].power_w / lights[1].power_w, 6, 1e-6);
+  const scene::Scene scene = scene::load_scene(p); // the cube shines to its inside
+  EXPECT_LT(scene::signed_volume(scene.geometry, scene.objects[1].first_triangle, 12), 0);
 }
 
 TEST_F(SceneImport, WhatIsLeftOutIsSaidWithItsLine) {

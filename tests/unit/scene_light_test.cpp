@@ -27,6 +27,23 @@ TEST(SceneLight, AreaLightHasItsEdges) {
               ElementsAre(HasSubstr("light 0: reaches through the surface of a dielectric")));
 }
 
+TEST(SceneLight, AMeshIsAnObject) {
+  preset::Preset preset = ball_over_floor();
+  preset::Light& light = preset.scene.lights[0];
+  light.type = preset::Light::Type::mesh;
+  light.object = preset.scene.objects[0].name;
+  const Scene scene = load_scene(preset);
+  EXPECT_EQ(scene.lights[0].object, 0);
+  EXPECT_TRUE(scene.lights[0].inside.empty()) << "it shines to the outside of its glass";
+  EXPECT_TRUE(scene.warnings.empty());
+  std::vector<int> wavelengths(optics::wavelength_count);
+  std::iota(wavelengths.begin(), wavelengths.end(), 0);
+  const tracing::SceneTables tables = tracing::make_scene_tables(scene, {wavelengths}, {});
+  ASSERT_TRUE(tables.lamps);
+  EXPECT_EQ(tables.lamps->lamp_tables, std::vector<float>{1});
+  EXPECT_EQ(tables.lights[0].table, 0);
+}
+
 TEST(SceneLight, LightsKeepTheirFigures) {
   preset::Preset preset = ball_over_floor();
   preset::Light& light = preset.scene.lights[0];

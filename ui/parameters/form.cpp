@@ -151,7 +151,10 @@ void ValueWidgets::draw_value(const Outline& o, const Json& value, const std::st
       std::vector<std::string> choices;
       if (names == preset::Names::material)
         for (const auto& [name, material] : form_.draft.value()["scene"]["materials"].items()) choices.push_back(name);
-      else
+      else if (names == preset::Names::object) {
+        for (const Json& object : form_.draft.value()["scene"]["objects"])
+          if (const std::string name = object.value("name", ""); !name.empty()) choices.push_back(name);
+      } else
         choices = names == preset::Names::illuminant ? optics::illuminant_names() : optics::colorchecker_names();
       std::vector<Outline::Word> words;
       for (const std::string& name : choices) words.push_back({name, {}});

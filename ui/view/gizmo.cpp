@@ -141,7 +141,9 @@ void draw_object_box(const Context& context, const Pinhole& pinhole, std::size_t
 void draw_light(const Context& context, const Pinhole& pinhole, std::size_t index, bool selected) {
   const preset::Preset& preset = *context.preset();
   const preset::Light& light = preset.scene.lights[index];
-  const GizmoTarget grip = *grip_of(preset, {Selection::Kind::light, index}, nullptr);
+  const auto held = grip_of(preset, {Selection::Kind::light, index}, nullptr);
+  if (!held) return; // a mesh is where its object is
+  const GizmoTarget& grip = *held;
   const auto at = pinhole.to_screen(grip.at);
   if (!at) return;
   const ImU32 colour = selected ? marked : lamp;
@@ -149,7 +151,7 @@ void draw_light(const Context& context, const Pinhole& pinhole, std::size_t inde
   if (light.type == LightType::area)
     draw_box(pinhole, grip.at, {0.5 * light.size[0] * grip.axes[0], 0.5 * light.size[1] * grip.axes[1], glm::dvec3(0)},
              colour);
-  if (light.type != LightType::point) draw_line(pinhole, grip.at, grip.at + 2.5 * scene_em * grip.axes[2], colour);
+  if (preset::is_directed(light)) draw_line(pinhole, grip.at, grip.at + 2.5 * scene_em * grip.axes[2], colour);
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   const float radius = icon_radius * scale();
   draw_list->AddCircleFilled(vec(*at), radius + 2 * scale(), colour::outline);

@@ -47,7 +47,7 @@ GizmoTarget light_grip(const preset::Preset& preset, const preset::Light& light)
   GizmoTarget grip;
   grip.at = light_place(preset, light);
   grip.moves = light.type != LightType::directional;
-  grip.turns = light.type != LightType::point;
+  grip.turns = preset::is_directed(light);
   if (grip.turns) grip.axes = light_axes(light);
   if (light.type == LightType::area) grip.scales = {true, true, false};
   return grip;
@@ -99,7 +99,10 @@ std::optional<GizmoTarget> grip_of(const preset::Preset& preset, const Selection
     grip.scales = {true, true, true};
     return grip;
   }
-  case Kind::light: return light_grip(preset, preset.scene.lights[selection.index]);
+  case Kind::light: {
+    const preset::Light& light = preset.scene.lights[selection.index];
+    return light.type == LightType::mesh ? std::nullopt : std::optional(light_grip(preset, light));
+  }
   case Kind::camera: return GizmoTarget{.at = to_vector(preset.scene.camera.target)};
   case Kind::nothing: break;
   }
@@ -167,7 +170,7 @@ void turn(preset::Preset& preset, const Selection& selection, const GizmoTarget&
   } else if (selection.kind == Kind::light) {
     preset::Light& light = preset.scene.lights[selection.index];
     light.direction = rounded_vector(rotation * to_vector(light.direction), 7);
-    if (light.type == LightType::area) light.up = rounded_vector(rotation * to_vector(light.up), 7);
+    if (light.type == LightType::area || light.photometry) light.up = rounded_vector(rotation * to_vector(light.up), 7);
   }
 }
 

@@ -87,6 +87,12 @@ std::vector<std::string> left_out(const scene::Scene& scene) {
   if (any_material(scene, scene::is_textured))
     notes.push_back("textures are left out: their surfaces have the colour of their reflectance");
   if (std::ranges::any_of(scene.lights, scene::has_disc)) notes.push_back("a sun is a point: its disc is left out");
+  const auto any_light = [&](bool (*is)(const scene::Light&)) { return std::ranges::any_of(scene.lights, is); };
+  if (any_light([](const scene::Light& light) { return light.object >= 0; }))
+    notes.push_back("an object that shines is a point light in its middle, where it may hide it: give its material an "
+                    "emission in the other program");
+  if (any_light([](const scene::Light& light) { return light.photometry || light.picture; }))
+    notes.push_back("glTF has no photometry and no lamps with pictures: those shine evenly");
   if (scene.camera.lens_radius > 0) notes.push_back("glTF has no lenses: the camera's aperture is left out");
   if (scene.camera.shift != glm::dvec2(0)) notes.push_back("glTF has no shift: the camera's is left out");
   if (std::ranges::any_of(scene.materials, [](const scene::Material& material) {

@@ -20,7 +20,7 @@ constexpr std::pair<const char*, const char*> extension_notes[] = {
     {"KHR_lights_punctual", ""},
     {"KHR_materials_clearcoat", ""},
     {"KHR_materials_dispersion", ""},
-    {"KHR_materials_emissive_strength", ""}, // what shines has a note
+    {"KHR_materials_emissive_strength", ""},
     {"KHR_materials_ior", ""},
     {"KHR_materials_transmission", ""},
     {"KHR_materials_volume", ""},
@@ -74,6 +74,11 @@ private:
       shape.name = name;
       shape.material = material(primitives[p]);
       shape.mesh = key->second;
+      if (primitives[p].has("material")) {
+        const auto emission = emission_of(root_.item("materials", primitives[p].index("material", root_, "materials")));
+        const glm::dvec3 rgb(emission[0], emission[1], emission[2]);
+        if (rgb != glm::dvec3(0)) shape.glow.emplace().rgb = rgb / most_lumens;
+      }
       for (const glm::dmat4& instance : places) {
         shape.to_world = node.to_world * instance;
         d_.shapes.push_back(shape);

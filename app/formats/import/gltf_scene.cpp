@@ -223,8 +223,11 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
   const bool is_glass = transmitted_part(value) >= 0.5, is_metal = metal_part(value) >= 0.5;
   if (const std::string textures = textures_left_out(value, !is_glass && !is_metal); !textures.empty())
     notes.push_back(fmt::format("material '{}': {} left out", name, textures));
-  if (value.numbers<3>("emissiveFactor", {0, 0, 0}) != std::array<double, 3>{0, 0, 0})
-    notes.push_back(fmt::format("material '{}' does not shine here", name));
+  const bool shines = value.numbers<3>("emissiveFactor", {0, 0, 0}) != std::array<double, 3>{0, 0, 0};
+  if (shines && (is_glass || value.has("emissiveTexture")))
+    notes.push_back(fmt::format("material '{}' does not shine here: only matt and metal surfaces do, without a texture "
+                                "of their light",
+                                name));
   if (is_glass) return glass(value, name, notes);
   const GltfValue pbr = value.object("pbrMetallicRoughness");
   const GltfValue older = value.extension("KHR_materials_pbrSpecularGlossiness"); // takes the other's place
@@ -256,6 +259,14 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
 
 double lumens_per_watt(const optics::Spectrum& spectrum) {
   return most_lumens * optics::to_xyz(spectrum)[1] / std::accumulate(spectrum.begin(), spectrum.end(), 0.0);
+}
+
+std::array<double, 3> emission_of(const GltfValue& material) {
+  const double strength = material.extension("KHR_materials_emissive_strength").number("emissiveStrength", 1);
+  std::array<double, 3> rgb = material.numbers<3>("emissiveFactor", {0, 0, 0});
+  const bool shines = transmitted_part(material) < 0.5 && !material.has("emissiveTexture");
+  for (double& x : rgb) x = shines ? std::max(x * strength, 0.0) : 0;
+  return rgb;
 }
 
 LightColour light_colour(const std::array<double, 3>& rgb) {

@@ -55,6 +55,10 @@ struct LightColour {
 /// Linear sRGB. White is D65, as in sRGB; a colour has the smoothest spectrum that shows it.
 LightColour light_colour(const std::array<double, 3>& rgb);
 
+/// What a material's surface shines with, linear sRGB whose luminance is in candela per square metre; black of what
+/// does not shine here.
+std::array<double, 3> emission_of(const GltfValue& material);
+
 /// The light of a node, which shines along its -z axis. light: an item of the extension's list. Intensities in candela,
 /// of "directional" in lux.
 preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const std::string& name,

@@ -26,7 +26,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr std::size_t most_objects = 10000; ///< of a preset
+constexpr std::size_t most_objects = 10000, most_lights = 1000; ///< of a preset
 
 double clamped_power(double watts) { return std::clamp(watts, 0.0, 1e9); }
 
@@ -136,7 +136,7 @@ private:
     return plain;
   }
 
-  /// A lamp takes the place of a surface that shines.
+  /// A rectangle that shines and has no material becomes a lamp; another surface stays and is one.
   void glow(const DescribedShape& shape, const glm::dmat4& to_world) {
     const LightColour colour = light_colour(*shape.glow);
     const auto power_of = [&](double area) { // of a radiance in W m^-2 sr^-1
@@ -148,25 +148,25 @@ private:
       const double radius = std::cbrt(std::abs(glm::determinant(glm::dmat3(to_world))));
       light.position = scene::to_vec3(glm::dvec3(to_world[3]));
       light.power_w = power_of(4 * pi * radius * radius);
-      from_.note(shape.where, "a sphere that shines is left out: a point light of its power is in its centre");
+      if (!shape.inside_out) return keep_glowing(shape, light);
+      from_.note(shape.where, "a sphere whose inside shines is left out: a point light of its power is in its centre");
     } else {
       const Emitter e = emitter_of(from_.meshes.at(shape.mesh), to_world);
       light.position = scene::to_vec3(e.centre);
       light.power_w = power_of(e.area);
-      if (e.flat) {
-        light.type = preset::Light::Type::area;
-        light.direction = scene::to_vec3(shape.inside_out ? -e.normal : e.normal);
-        const glm::dvec3 up = glm::cross(e.normal, e.edge);
-        light.up = scene::to_vec3(up);
-        light.size = e.size;
-        from_.note(
-            "a surface that shines is a lamp, which lights the scene and reflects nothing: it is not seen, neither "
-            "itself nor in glass and mirrors");
-        if (!e.rectangle)
-          from_.note(shape.where,
-                     "a flat surface that shines is left out: a rectangle of its area shines in its place");
-      } else
-        from_.note(shape.where, "a surface that shines is left out: a point light of its power is in its middle");
+      if (!e.flat || has_material(shape) || !(e.rectangle || shape.glows_on_both_sides))
+        return keep_glowing(shape, light);
+      light.type = preset::Light::Type::area;
+      light.direction = scene::to_vec3(shape.inside_out ? -e.normal : e.normal);
+      const glm::dvec3 up = glm::cross(e.normal, e.edge);
+      light.up = scene::to_vec3(up);
+      light.size = e.size;
+      from_.note(
+          "a rectangle that shines is a lamp, which lights the scene and reflects nothing: it is not seen, neither "
+          "itself nor in glass and mirrors");
+      if (!e.rectangle)
+        from_.note(shape.where,
+                   "a flat surface that shines on both sides is left out: rectangles of its area shine in its place");
     }
     if (!(light.power_w > 0)) return;
     if (shape.glows_on_both_sides && light.type == preset::Light::Type::area) {
@@ -175,6 +175,38 @@ private:
       for (double& d : light.direction) d = -d;
     }
     made_.scene.lights.push_back(light);
+  }
+
+  bool has_material(const DescribedShape& shape) const { return made_.scene.materials.contains(shape.material); }
+
+  /// light: with its power and spectrum, in the middle.
+  void keep_glowing(DescribedShape shape, preset::Light light) {
+    shape.glow.reset();
+    if (!has_material(shape)) {
+      if (!(light.power_w > 0)) return;
+      from_.note("a surface that shines, and is no rectangle, is an object that shines: it is black in the picture, as "
+                 "lamps are not seen");
+      if (black_.empty())
+        for (black_ = "lamp"; made_.scene.materials.contains(black_);) black_ += " 2";
+      made_.scene.materials[black_].reflectance.value = 0;
+      shape.material = black_;
+    } else
+      from_.note("a surface that shines lights the scene, but is not seen to shine");
+    if (shape.inside_out && !shape.mesh.empty()) {
+      scene::Mesh mesh = from_.meshes.at(shape.mesh);
+      mesh.normals.clear();
+      scene::turn_triangles(mesh);
+      shape.mesh = from_.own_mesh(shape.name, std::move(mesh));
+    }
+    const std::size_t objects = made_.scene.objects.size();
+    add(shape);
+    if (made_.scene.objects.size() == objects) return; // it could not be taken over
+    if (!(light.power_w > 0)) return;
+    if (made_.scene.lights.size() >= most_lights)
+      return from_.note(shape.where, fmt::format("there are more than {} lights: it does not shine", most_lights));
+    light.type = preset::Light::Type::mesh;
+    light.object = made_.scene.objects.back().name;
+    made_.scene.lights.push_back(std::move(light));
   }
 
   double watts(const LightColour& colour) const { return colour.watts_per_lumen * most_lumens * from_.unit; }
@@ -277,6 +309,7 @@ private:
   preset::Preset made_;
   glm::dmat4 mirror_{1};
   TakenNames names_;
+  std::string black_;                        ///< material of what shines; empty: none yet
   std::map<std::string, std::string> plain_; ///< materials without a texture, by those with it
   scene::Bounds bounds_;
   std::set<std::string> used_, textured_; ///< keys of the objects' meshes

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photons/tiles/lattices.h"
 
+#include "tracing/lamp_tables.h"
+
 #include <glm/glm.hpp>
 
 #include <algorithm>
@@ -47,10 +49,9 @@ double one_minus_cos(const shared::float4& sphere, const glm::dvec3& from) {
   return radius2 / distance2 / (1 + std::sqrt(1 - radius2 / distance2));
 }
 
-std::vector<Disc> discs_of(const RunTables& tables, const shared::DeviceLight& light, std::array<double, 2> place) {
-  const glm::dvec3 from = light.type == LIGHT_AREA ? vector(light.position) + (place[0] - 0.5) * vector(light.edge_u) +
-                                                         (place[1] - 0.5) * vector(light.edge_v)
-                                                   : vector(light.position);
+std::vector<Disc> discs_of(const RunTables& tables, int light_index, std::array<double, 2> place) {
+  const shared::DeviceLight& light = tables.lights[static_cast<std::size_t>(light_index)];
+  const glm::dvec3 from = tracing::lamp_place(tables, light_index, below_1(place[0]), below_1(place[1]));
   std::vector<Disc> discs;
   double sum = 0;
   for (int t = 0; t < light.target_count; ++t) {
@@ -69,7 +70,8 @@ std::vector<Disc> discs_of(const RunTables& tables, const shared::DeviceLight& l
 /// many a lattice is coarse.
 double places_of(const shared::DeviceLight& light, double photons) {
   const bool has_disc = light.type == LIGHT_DIRECTIONAL && light.one_minus_cos > 0;
-  if (light.type != LIGHT_AREA && light.type != LIGHT_ENVIRONMENT && !has_disc) return 1;
+  const bool has_surface = light.type == LIGHT_AREA || light.type == LIGHT_MESH;
+  if (!has_surface && light.type != LIGHT_ENVIRONMENT && !has_disc) return 1;
   return std::max(1.0, std::round(std::pow(photons, 0.4)));
 }
 
@@ -104,7 +106,7 @@ Lattices make_lattices(const RunTables& tables, unsigned halves, double batches,
         const auto step_on = [k](double from, double step) { return std::fmod(from + k * step, 1.0); };
         const std::array<double, 2> place{step_on(start[0], 0.7548776662466927), step_on(start[1], 0.5698402909980532)};
         const double wavelength = places > 1 ? step_on(start[2], std::numbers::phi - 1) : (part + 0.5) / parts;
-        for (const Disc& disc : discs_of(tables, light, place)) {
+        for (const Disc& disc : discs_of(tables, emitter.light, place)) {
           const double step = std::sqrt(pi * places * parts / (photons * disc.part));
           shared::DeviceLattice lattice{};
           lattice.first_photon = result.points;

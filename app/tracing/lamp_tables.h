@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of lamps that are a mesh, have a picture or photometry (kernels/tracing/lamp.h).
+#pragma once
+#include "tracing/scene_tables.h"
+
+#include <memory>
+#include <vector>
+
+namespace nephroid::tracing {
+
+/// from: the scene's lights in the order of `lights`, which get the places of their tables. Null where none has one.
+/// Throws bad_input where they have more numbers together than a kernel can count, and at a photometric file whose beam
+/// is narrower than its table's steps.
+std::shared_ptr<const LampTables> make_lamp_tables(const scene::Scene& scene,
+                                                   const std::vector<const scene::Light*>& from,
+                                                   std::vector<shared::DeviceLight>& lights);
+
+/// Where kernels have a lamp shine from, for the two numbers of its place, in [0, 1). light: index into tables.lights.
+glm::dvec3 lamp_place(const SceneTables& tables, int light, float x, float y);
+
+/// Of a point with photometry: the part of its light that goes towards the spheres, or somewhat more.
+double photometric_share(const scene::Light& light, const std::vector<scene::Sphere>& targets);
+
+} // namespace nephroid::tracing
