@@ -100,6 +100,7 @@ inline preset::Preset random_preset(std::uint64_t seed) {
     if (l.type == Light::Type::area) l.direction = {0.1, -1, 1.0 / 3}, l.up = {0, 0.2, 1};
     if (l.type != Light::Type::point) l.direction[1] += l.direction == Vec3{0, 0, 0} ? 1 : 0;
   }
+  if (p.scene.lights.empty()) p.display.white_balance = Display::WhiteBalance::d65;
   if (auto& e = p.scene.environment; e && e->place) e->place->date = "2026-06-21", e->sun_direction.reset();
   if (auto& e = p.scene.environment; e && !e->place && e->type == preset::Environment::Type::sky)
     e->sun_direction = {0.1, 1, 1.0 / 3};
