@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace nephroid::image {
@@ -161,6 +162,11 @@ public:
   explicit Exposure(const Showing& showing)
       : matrix_(showing.display.white_balance), balances_(!is_identity(matrix_)), scale_(showing.scale) {}
 
+  /// Nothing where the white balance asks for more.
+  std::optional<Rgb3> plain(const float* pixel) const {
+    if (balances_) return std::nullopt;
+    return Rgb3{pixel[0] * scale_, pixel[1] * scale_, pixel[2] * scale_};
+  }
   Rgb3 operator()(const float* pixel) const {
     Rgb3 rgb{finite(pixel[0]), finite(pixel[1]), finite(pixel[2])};
     if (balances_) {
@@ -183,10 +189,22 @@ private:
   float scale_;
 };
 
+float smallest(const Rgb3& rgb) { return std::min({rgb[0], rgb[1], rgb[2]}); }
+
+/// Colours that keep their values: most pixels of most pictures. What the encoding does to the others is the same.
+struct Kept {
+  float low = -std::numeric_limits<float>::infinity(), high = std::numeric_limits<float>::infinity();
+  explicit Kept(const Showing& showing) {
+    if (showing.display.gamut == Gamut::oklch) low = -margin, high = 1;
+    if (showing.display.tone == ToneCurve::filmic) high = 0;
+    if (showing.display.tone == ToneCurve::reinhard) high = showing.peak > 1 ? knee : 1;
+  }
+  bool contains(const Rgb3& rgb) const { return smallest(rgb) >= low && largest(rgb) <= high; }
+};
+
 void tone_and_gamut(Rgb3& rgb, const Showing& showing) {
   apply_tone(rgb, showing.display.tone, showing.peak);
-  if (showing.display.gamut == Gamut::oklch &&
-      (std::min({rgb[0], rgb[1], rgb[2]}) < -margin || largest(rgb) > 1 + margin))
+  if (showing.display.gamut == Gamut::oklch && (smallest(rgb) < -margin || largest(rgb) > 1 + margin))
     rgb = less_colourful(rgb);
 }
 
@@ -203,11 +221,14 @@ Showing showing_of(const Display& display, double exposure_stops, std::span<cons
   std::vector<std::vector<std::uint32_t>> counts(blocks);
   const Exposure exposed(showing);
   for_ranges(pixels, block_pixels, [&](std::size_t block, const Range& range) {
-    for (std::size_t i = range.begin; i < range.end; ++i)
-      if (const float most = largest(exposed(&rgb[3 * i])); most > 1) {
-        if (counts[block].empty()) counts[block].resize(steps);
-        ++counts[block][(bits(most) >> left_out) - first];
-      }
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const auto plain = exposed.plain(&rgb[3 * i]);
+      if (plain && largest(*plain) <= 1) continue;
+      const float most = largest(exposed(&rgb[3 * i]));
+      if (!(most > 1)) continue;
+      if (counts[block].empty()) counts[block].resize(steps);
+      ++counts[block][(bits(most) >> left_out) - first];
+    }
   });
   std::vector<std::size_t> sums(steps, 0);
   for (const auto& of_block : counts)
@@ -224,11 +245,17 @@ Showing showing_of(const Display& display, double exposure_stops, std::span<cons
 void show(std::span<const float> rgb, const Showing& showing, std::span<unsigned char> bytes) {
   const std::size_t pixels = rgb.size() / 3, channels = pixels == 0 ? 3 : bytes.size() / pixels;
   const Exposure exposed(showing);
+  const Kept kept(showing);
   const Encoding& encode = encoding();
   for_ranges(pixels, block_pixels, [&](std::size_t, const Range& range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      Rgb3 pixel = exposed(&rgb[3 * i]);
-      tone_and_gamut(pixel, showing);
+      Rgb3 pixel;
+      if (const auto plain = exposed.plain(&rgb[3 * i]); plain && kept.contains(*plain)) {
+        pixel = *plain;
+      } else {
+        pixel = exposed(&rgb[3 * i]);
+        tone_and_gamut(pixel, showing);
+      }
       for (std::size_t c = 0; c < 3; ++c) bytes[channels * i + c] = encode(pixel[c]);
       if (channels == 4) bytes[4 * i + 3] = 255;
     }

@@ -68,7 +68,7 @@ def camera(s, name):
 
 
 def pictures(s, name):
-    """Clipped, as it comes, and with the lamp as white: one run a scene, shown three times."""
+    """Clipped, as it comes, and with the lamp as white."""
     clipped = ["display.gamut=clip", "display.tone=clip"]
     lamp = ['scene.lights.0.spectrum={"type": "blackbody", "temperature_k": 2700}']
     scenes = {"prism": ("spectral/prism", []), "lamp": ("first-light", lamp)}
@@ -76,7 +76,7 @@ def pictures(s, name):
     s.keep(
         name,
         [
-            s.render(f"shown-{scene}-{i}", preset, *sets, *display, size=(400, 300), passes=16)
+            s.render(f"shown-{scene}-{i}", preset, *sets, *display, size=(400, 300), passes=8)
             for i, display in enumerate(shown)
             for scene, (preset, sets) in scenes.items()
         ],

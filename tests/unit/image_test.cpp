@@ -74,7 +74,6 @@ TEST(Shown, EqualsTheRoundedEncodingEverywhere) {
     ASSERT_EQ(shown(float(linear)), std::lround(code)) << linear;
   }
 }
-}
 
 // As phones write pictures: 6 says that the first row is the right column of what was seen.
 TEST_F(Pictures, AreTurnedAsTheirFileSays) {

@@ -72,7 +72,7 @@ void draw_range_choice(const Context& context, const LuminanceRange& shown, Widg
     view_settings.range = range;
     context.push(command::SetViewSettings{view_settings});
   };
-  bool automatic = !context.view_state.view_settings.false_colour;
+  bool automatic = !context.view_state.view_settings.range;
   if (places.checkbox("Auto range", &automatic, "auto range",
                       "From where 1 % of the pixels are below to where 99.9 % are; else as typed here."))
     set(automatic ? std::nullopt : std::optional(shown));
