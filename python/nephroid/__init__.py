@@ -23,8 +23,8 @@ from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence
 
 from .core import _nephroid as _core
 from .core._nephroid import BadInput, Error
-from .optics import (Cluster, Clusters, Dispersion, Lights, _linear, clusters, compare, dispersion, read_picture, segment,
-                     wavelengths_nm)
+from .optics import (Cluster, Clusters, Dispersion, Lights, _linear, clusters, compare, dispersion, read_picture,
+                     segment, wavelengths_nm)
 
 if TYPE_CHECKING:
     from numpy import uint8
