@@ -140,7 +140,6 @@ Rgb3 less_colourful(const Rgb3& rgb) {
   if (lightness >= 1) return {1, 1, 1};
   for (float& root : deviation) root -= lightness;
   Cubic channels[3];
-  float t = 1;
   for (int c = 0; c < 3; ++c) {
     Cubic& channel = channels[c] = {lightness * lightness * lightness, 0, 0, 0};
     for (int i = 0; i < 3; ++i) {
@@ -149,8 +148,13 @@ Rgb3 less_colourful(const Rgb3& rgb) {
       channel.c2 += 3 * lightness * part * deviation[i];
       channel.c3 += part * deviation[i] * deviation[i];
     }
-    if (const float there = channel(t); there < 0 || there > 1) t = crossing(channel, there < 0 ? 0 : 1, t);
   }
+  float t = 1;
+  // Towards blue a channel that is inside may be outside nearer to grey, so all are looked at again.
+  for (int round = 0; round < 3; ++round)
+    for (const Cubic& channel : channels)
+      if (const float there = channel(t); there < -margin / 4 || there > 1 + margin / 4)
+        t = crossing(channel, there < 0 ? 0 : 1, t);
   return {channels[0](t), channels[1](t), channels[2](t)};
 }
 
