@@ -35,7 +35,7 @@ void draw_display_choice(const Context& context, const char* name, E preset::Dis
     view_settings.false_colour = on;
     context.push(command::SetViewSettings{view_settings});
   };
-  ImGui::SetNextItemWidth(7 * em());
+  ImGui::SetNextItemWidth((false_colour ? 7 : 5) * em());
   const std::string plain = "as image.png";
   Combo list(fmt::format("##{}", name).c_str(),
              is_false    ? "false colour"
@@ -249,10 +249,10 @@ void draw_view_bar(const Context& context, const Tone& tone, WidgetPlaces& place
     return draw_range_choice(context, *tone.false_colour, places);
   }
   if (!has_display(*context.preset())) return;
-  same_line_if_room(ImGui::CalcTextSize("Gamut").x + 8 * em());
+  same_line_if_room(ImGui::CalcTextSize("Gamut").x + 5.5f * em());
   draw_label("Gamut");
   draw_display_choice(context, "gamut", &preset::Display::gamut, places);
-  same_line_if_room(ImGui::CalcTextSize("White").x + 8 * em());
+  same_line_if_room(ImGui::CalcTextSize("White").x + 5.5f * em());
   draw_label("White");
   draw_display_choice(context, "white balance", &preset::Display::white_balance, places);
 }
