@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions without a run: dispersion, wavelength clusters, an environment's lights, metrics.
+// Functions without a run: dispersion, wavelength clusters, an environment's lights, metrics, what a display shows.
 #include "environment/describe_settings.h"
 #include "environment/segment/segment.h"
 #include "measure/metrics.h"
@@ -8,6 +8,7 @@
 #include "photons/describe_settings.h"
 #include "preset/choices.h"
 #include "python/bindings.h"
+#include "run/display.h"
 #include "scene/environment.h"
 #include "scene/materials.h"
 
@@ -68,6 +69,13 @@ py::dict compare(const Floats& picture, const Floats& reference,
   py::dict named;
   for (const auto& [name, value] : measure::named(metrics)) named[py::str(name)] = value;
   return named;
+}
+
+py::array displayed(const preset::Preset& preset, const Floats& picture) {
+  const measure::Pixels pixels = pixels_of(picture, "picture");
+  std::vector<unsigned char> bytes(pixels.rgb.size());
+  image::show(pixels.rgb, image::showing_of(run::display_of(preset), 0, pixels.rgb), bytes);
+  return given(std::move(bytes), {pixels.height, pixels.width, 3});
 }
 
 py::tuple sampled(const optics::DispersionCurve& curve, const Doubles& nm) {
@@ -152,6 +160,7 @@ void add_optics(py::module_& module) {
   module.def("clusters", &clusters, py::arg("n"), py::arg("threshold_deg"), py::arg("method"));
   module.def("segment", &segment, py::arg("texels"), py::arg("lights"), py::arg("method"));
   module.def("compare", &compare, py::arg("picture"), py::arg("reference"), py::arg("mask"));
+  module.def("displayed", &displayed, py::arg("preset"), py::arg("picture"));
   module.def(
       "read_picture",
       [](const std::string& file) {

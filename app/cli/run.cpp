@@ -13,6 +13,7 @@
 #include "run/exposure.h"
 #include "run/folder.h"
 #include "run/prepare.h"
+#include "run/write_run.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -108,6 +109,7 @@ void run_one(const RunOptions& options, Target& target, const std::stop_token& i
                     "run without --resume to start over");
   if (communicator.broadcast(done.has_value())) {
     if (!done) return; // the root reports it
+    if (done->is_shown_otherwise) run::show_anew(target.folder, target.preset);
     fmt::print(stderr, "{}: this run is finished\n", target.label);
     return report_result(options, target, done->progress, true);
   }

@@ -10,6 +10,7 @@
 #include "run/animation.h"
 #include "run/folder.h"
 #include "run/prepare.h"
+#include "run/write_run.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -92,6 +93,7 @@ private:
                         target_.folder};
     const auto done = options_.resume ? run::finished_frame(target_.folder, frame, target.preset) : std::nullopt;
     if (done && done->changed.empty()) {
+      if (done->is_shown_otherwise) run::show_anew(own, target.preset);
       run::show_frame(target_.folder, frame);
       if (options_.json) report_result(options_, target, done->progress, true);
       return;

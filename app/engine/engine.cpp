@@ -41,7 +41,9 @@ std::string_view name_of(const Engine& engine) { return engine.settings().name; 
 
 bool adoptable(const preset::Preset& before, const preset::Preset& now) {
   const Engine& engine = engine_of(before);
-  return now.white && engine.adoptable && &engine == &engine_of(now) && engine.adoptable(before, now);
+  preset::Preset same = now;
+  same.display = before.display;
+  return now.white && engine.adoptable && &engine == &engine_of(now) && engine.adoptable(before, same);
 }
 
 } // namespace nephroid::engine

@@ -53,15 +53,6 @@ void encode_exr(const std::string& name, const Image& image, ByteSink& to) {
   to.write(std::as_bytes(std::span(bytes)));
 }
 
-/// Entry i is the linear value halfway between the codes i and i + 1: the code of a value is the number of entries not
-/// above it. The same as rounding the encoding, without a power a pixel.
-std::array<float, 255> code_thresholds() {
-  std::array<float, 255> thresholds{};
-  for (std::size_t i = 0; i < thresholds.size(); ++i)
-    thresholds[i] = static_cast<float>(decoded_srgb((static_cast<double>(i) + 0.5) / 255));
-  return thresholds;
-}
-
 /// A PNG without its last chunk. libpng prints a line of its own about that, so it is not asked.
 bool is_cut_png(const fs::path& file) {
   constexpr std::uint64_t piece = 1 << 20;
@@ -86,10 +77,9 @@ std::string png_picture(const std::string& name, int width, int height, std::siz
   return {file.begin(), file.end()};
 }
 
-std::vector<unsigned char> shown_bytes(const std::vector<float>& rgb, double exposure_stops) {
-  const auto scale = static_cast<float>(std::exp2(exposure_stops));
+std::vector<unsigned char> shown_bytes(const std::vector<float>& rgb, const Showing& showing) {
   std::vector<unsigned char> bytes(rgb.size());
-  for (std::size_t i = 0; i < rgb.size(); ++i) bytes[i] = shown(rgb[i], scale);
+  show(rgb, showing, bytes);
   return bytes;
 }
 
@@ -243,16 +233,16 @@ void write_png16(ByteSink& to, int width, int height, const std::vector<std::uin
   to.write(std::as_bytes(std::span(bytes)));
 }
 
-void write_png(const fs::path& file, int width, int height, const std::vector<float>& rgb, double exposure_stops) {
-  write_file_whole(file, png_picture(file.string(), width, height, 3, shown_bytes(rgb, exposure_stops)));
+void write_png(const fs::path& file, int width, int height, const std::vector<float>& rgb, const Showing& showing) {
+  write_file_whole(file, png_picture(file.string(), width, height, 3, shown_bytes(rgb, showing)));
 }
 
 void write_png_bytes(const fs::path& file, int width, int height, const std::vector<unsigned char>& rgba8) {
   write_file_whole(file, png_picture(file.string(), width, height, 4, rgba8));
 }
 
-std::string png(int width, int height, const std::vector<float>& rgb, double exposure_stops) {
-  return png_picture("PNG", width, height, 3, shown_bytes(rgb, exposure_stops));
+std::string png(int width, int height, const std::vector<float>& rgb, const Showing& showing) {
+  return png_picture("PNG", width, height, 3, shown_bytes(rgb, showing));
 }
 
 std::string png_of_bytes(int width, int height, const std::vector<unsigned char>& rgb8) {
@@ -261,13 +251,6 @@ std::string png_of_bytes(int width, int height, const std::vector<unsigned char>
 
 double decoded_srgb(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
-unsigned char shown(float linear, float exposure_scale) {
-  static const std::array<float, 255> thresholds = code_thresholds();
-  const float value = linear * exposure_scale;
-  if (std::isnan(value)) return 0;
-  return static_cast<unsigned char>(std::ranges::upper_bound(thresholds, value) - thresholds.begin());
 }
 
 } // namespace nephroid::image

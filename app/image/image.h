@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures in and out, words as pictures, and how a linear picture is shown. OpenImageIO is behind a library that is
-// loaded at the first call (it costs 0.24 s and 130 MB at start), so including this costs nothing.
+// Pictures in and out, and words as pictures. OpenImageIO is behind a library that is loaded at the first call (it
+// costs 0.24 s and 130 MB at start), so including this costs nothing.
 #pragma once
 #include "base/bytes.h"
 #include "base/error.h"
+#include "image/display.h"
 
 #include <array>
 #include <cstdint>
@@ -98,23 +99,19 @@ void write_exr(ByteSink& to, const Image& image);
 /// Values as they are, row 0 at the top, and what they mean.
 void write_png16(ByteSink& to, int width, int height, const std::vector<std::uint16_t>& grey,
                  const std::string& description);
-/// rgb: linear sRGB, 3 a pixel, row 0 at the top; an 8-bit PNG of what shown() gives at exposure 2^stops.
+/// rgb: linear sRGB, 3 a pixel, row 0 at the top; an 8-bit PNG of what show() gives.
 /// All writers write whole (write_file_whole) and throw failed: a size that does not fit, OpenImageIO's or the system's
 /// reason.
 void write_png(const std::filesystem::path& file, int width, int height, const std::vector<float>& rgb,
-               double exposure_stops = 0);
+               const Showing& showing = {});
 /// rgba8: 4 bytes a pixel, e.g. a screenshot.
 void write_png_bytes(const std::filesystem::path& file, int width, int height, const std::vector<unsigned char>& rgba8);
 
 /// The linear value of an sRGB-encoded one, 0..1 (IEC 61966-2-1).
 double decoded_srgb(double encoded);
 /// The bytes of the file that write_png makes.
-std::string png(int width, int height, const std::vector<float>& rgb, double exposure_stops = 0);
+std::string png(int width, int height, const std::vector<float>& rgb, const Showing& showing = {});
 /// The same of 8-bit values, 3 a pixel.
 std::string png_of_bytes(int width, int height, const std::vector<unsigned char>& rgb8);
-
-/// What a display shows of one linear channel, 0..255: times the exposure, clipped to 0..1, sRGB-encoded. Infinity is
-/// 255, NaN 0.
-unsigned char shown(float linear, float exposure_scale);
 
 } // namespace nephroid::image

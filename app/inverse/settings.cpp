@@ -144,6 +144,7 @@ const preset::SettingsType& settings_type() {
                                                  "scene.camera.aperture",
                                                  "scene.camera.focus_distance",
                                                  "white",
+                                                 "display",
                                                  "reference",
                                                  "stop.error"};
   static const preset::SettingsType type = preset::settings_type<Settings>(

@@ -125,6 +125,22 @@ Colour xyz_to_linear_srgb(const Colour& xyz) { return multiply(xyz_to_srgb_matri
 
 Colour linear_srgb_to_xyz(const Colour& rgb) { return multiply(srgb_to_xyz_matrix, rgb); }
 
+std::array<Colour, 3> white_balance(const Colour& white_xyz) {
+  constexpr Matrix bradford{{{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
+  const Colour grey = linear_srgb_to_xyz({white_xyz[1], white_xyz[1], white_xyz[1]});
+  const Colour seen = multiply(bradford, white_xyz), wanted = multiply(bradford, grey);
+  std::array<Colour, 3> balance{};
+  for (std::size_t column = 0; column < 3; ++column) {
+    Colour primary{};
+    primary[column] = 1;
+    Colour cones = multiply(bradford, linear_srgb_to_xyz(primary));
+    for (std::size_t i = 0; i < 3; ++i) cones[i] *= wanted[i] / std::max(seen[i], wanted[i] / 50);
+    const Colour rgb = xyz_to_linear_srgb(multiply(inverse(bradford), cones));
+    for (std::size_t row = 0; row < 3; ++row) balance[row][column] = rgb[row];
+  }
+  return balance;
+}
+
 double srgb_encode(double linear) {
   const double size = std::fabs(linear);
   const double encoded = size <= 0.0031308 ? 12.92 * size : 1.055 * std::pow(size, 1 / 2.4) - 0.055;

@@ -154,6 +154,12 @@ void check_stop(const Preset& preset, const Where& where) {
                     "expected a 'reference', or 'measure.estimate' true");
 }
 
+void check_display(const Preset& preset, const Where& where) {
+  if (preset.display.white_balance == Display::WhiteBalance::light && preset.scene.lights.empty())
+    throw bad_input(where("/display/white_balance"), "is \"light\", and the scene has no lamp",
+                    "expected one in scene.lights, or \"D65\"");
+}
+
 /// Each frame has another picture.
 void check_animation(const Preset& preset, const Where& where) {
   if (preset.animation && preset.reference && preset.reference->type == Reference::Type::file)
@@ -199,6 +205,7 @@ void check(const Preset& preset, const Where& where) {
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     check_light(scene.lights[i], scene, child("/scene/lights", i), where);
   if (scene.environment) check_environment(*scene.environment, "/scene/environment", where);
+  check_display(preset, where);
   check_stop(preset, where);
   check_reference(preset, where);
   check_animation(preset, where);

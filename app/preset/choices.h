@@ -113,6 +113,23 @@ inline constexpr Choice<Preset::Unit> choices<Preset::Unit>[] = {{Preset::Unit::
                                                                  {Preset::Unit::m, "m", "Metres."}};
 
 template <>
+inline constexpr Choice<Display::Gamut> choices<Display::Gamut>[] = {
+    {Display::Gamut::oklch, "oklch", "Less colourful, with the same hue and lightness (OKLCh)."},
+    {Display::Gamut::clip, "clip", "Each channel is clipped, which shifts the hue."}};
+
+template <>
+inline constexpr Choice<Display::Tone> choices<Display::Tone>[] = {
+    {Display::Tone::reinhard, "reinhard",
+     "Highlights up to the brightest ones are compressed; below .6 of white all stays (Reinhard 2002)."},
+    {Display::Tone::filmic, "filmic", "A soft shoulder up to 5.6 times white, darker middle tones (Hable 2010)."},
+    {Display::Tone::clip, "clip", "What is above white is clipped."}};
+
+template <>
+inline constexpr Choice<Display::WhiteBalance> choices<Display::WhiteBalance>[] = {
+    {Display::WhiteBalance::d65, "D65", "Daylight, as sRGB has it: a lamp shows its own colour."},
+    {Display::WhiteBalance::light, "light", "The first of scene.lights is white (Bradford adaptation)."}};
+
+template <>
 inline constexpr Choice<Track::Interpolation> choices<Track::Interpolation>[] = {
     {Track::Interpolation::linear, "linear", "Straight lines between keys."},
     {Track::Interpolation::smooth, "smooth",

@@ -42,6 +42,13 @@ void describe(Fields& v, Measure& m) {
           {.text = Text::file});
 }
 
+void describe(Fields& v, Display& d) {
+  v.about("Display", "How light becomes the 8 bits of image.png and of the window; image.exr stays linear.");
+  v.field("gamut", "What becomes of colours that sRGB does not have, such as most single wavelengths.", d.gamut);
+  v.field("tone", "What becomes of light above white.", d.tone);
+  v.field("white_balance", "Which light is white.", d.white_balance);
+}
+
 void describe(Fields& v, Key& k) {
   v.about("Key", "The value of a field at a frame.");
   v.field("frame", "Which frame, from 0; it may lie beyond the last one that is rendered.", k.frame,
@@ -81,6 +88,7 @@ void describe(Fields& v, Preset& p) {
       "white",
       "The luminance Y (without the factor 683) that becomes 1 in the picture; \"auto\": fitted to the first picture.",
       p.white, {.unit = "W/(m^2 sr)", .bounds = within(1e-12, 1e12), .none_word = "auto"});
+  v.field("display", "How the picture is shown.", p.display);
   v.field("scene", "What there is to see.", p.scene);
   v.settings(p.settings);
   v.field("stop", "When the run is done.", p.stop);

@@ -290,6 +290,17 @@ struct Measure {
   bool operator==(const Measure&) const = default;
 };
 
+/// How linear light becomes the bytes of a display (image/display.h). It changes no light: no picture is computed anew.
+struct Display {
+  enum class Gamut { oklch, clip };
+  enum class Tone { reinhard, filmic, clip };
+  enum class WhiteBalance { d65, light };
+  Gamut gamut = Gamut::oklch;
+  Tone tone = Tone::reinhard;
+  WhiteBalance white_balance = WhiteBalance::d65;
+  bool operator==(const Display&) const = default;
+};
+
 /// A value of a field at a frame.
 struct Key {
   int frame = 0;
@@ -339,6 +350,7 @@ struct Preset {
   /// The luminance Y (W m^-2 sr^-1, no factor 683) that becomes 1 in the picture; nothing: "auto", which is a number
   /// once a run is ready (run::fitted_white).
   std::optional<double> white = 1;
+  Display display;
   Scene scene;
   Settings settings;
   Stop stop;

@@ -91,7 +91,7 @@ private:
     }
     const auto picture = std::make_shared<const Picture>(measure::read_linear_rgb(file));
     Group& group = group_of(run, file.stem().string(), picture);
-    group.pictures.push_back(picture_json("run", {run}, {}, image::png(picture->width, picture->height, picture->rgb)));
+    group.pictures.push_back(picture_json("run", {run}, {}, png(*picture, run)));
     const auto index = group.name == main_name ? result_.reference_of_run[run] : std::nullopt;
     if (index && references_[*index] && have_one_size(*references_[*index], *picture)) {
       group.references.insert(*index);
@@ -113,14 +113,19 @@ private:
          measure::difference_map(picture.pixels(), other.pixels(), measure::DifferenceMetric::lab)});
   }
 
+  std::string png(const Picture& picture, std::size_t run) const {
+    return image::png(picture.width, picture.height, picture.rgb,
+                      image::showing_of(runs_[run].display, 0, picture.rgb));
+  }
+
   void finish(Group& group) {
     const int width = group.first->width, height = group.first->height;
     for (const std::size_t reference : group.references) {
       Json runs = Json::array();
       for (std::size_t run = 0; run < runs_.size(); ++run)
         if (result_.reference_of_run[run] == reference) runs.push_back(run);
-      group.pictures.push_back(
-          picture_json("reference", std::move(runs), {}, image::png(width, height, references_[reference]->rgb)));
+      const std::size_t first = runs.front();
+      group.pictures.push_back(picture_json("reference", std::move(runs), {}, png(*references_[reference], first)));
     }
     double scale = 0;
     for (const Difference& difference : group.differences)

@@ -8,6 +8,8 @@
 #include "base/numbers.h"
 #include "measure/difference.h"
 #include "measure/run_files.h"
+#include "preset/choices.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,7 +50,31 @@ Json read_run_json(const fs::path& folder) {
                                       {"/error_column", Type::text}})
     if (run.has(pointer)) run.at(pointer, type);
   if (run.has("/reference")) run.at("/reference/origin", Type::text);
+  if (run.has("/display"))
+    for (const auto& [pointer, type] : {std::pair{"/display/gamut", Type::text},
+                                        {"/display/tone", Type::text},
+                                        {"/display/white_balance", Type::list}})
+      run.at(pointer, type);
   return run.json();
+}
+
+/// The choice of this word, or the one before where a later version has further ones.
+template <class E>
+void choose(E& value, const std::string& word) {
+  for (const auto& choice : preset::choices<E>)
+    if (choice.name == word) value = choice.value;
+}
+
+/// Plain where the run is of a version that did not say it.
+image::Display read_display(const Json& run) {
+  image::Display display;
+  if (!run.contains("display")) return display;
+  choose(display.gamut, run["display"]["gamut"]);
+  choose(display.tone, run["display"]["tone"]);
+  const Json& matrix = run["display"]["white_balance"];
+  for (std::size_t i = 0; i < std::min(matrix.size(), display.white_balance.size()); ++i)
+    display.white_balance[i] = matrix[i].is_number() ? matrix[i].get<float>() : 0;
+  return display;
 }
 
 std::map<std::string, std::string> read_settings(const fs::path& folder) {
@@ -144,7 +170,8 @@ RunFolder read_run(const fs::path& folder) {
   if (!is_there(folder / "run.json") && is_begun_run(folder))
     throw bad_input(folder.string(), "this run is not finished: it has no run.json", "expected a finished run",
                     "wait for it, or go on with `nephroid run --resume`");
-  RunFolder run{folder, read_run_json(folder), read_plan(folder), read_settings(folder), read_curves(folder), {}};
+  RunFolder run{folder, read_run_json(folder), read_plan(folder), read_settings(folder), read_curves(folder), {}, {}};
+  run.display = read_display(run.run);
   if (is_there(folder / "history.csv")) run.history = measure::read_run_history(folder);
   return run;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a report shows, as data: runs read back from their folders, their error curves side by side, their pictures.
 #pragma once
+#include "image/display.h"
 #include "job/history.h"
 
 #include <nlohmann/json.hpp>
@@ -23,6 +24,8 @@ struct RunFolder {
       settings; ///< preset.json: every value by its key as --set takes it ("scene.lights.0.power_w"), as JSON
   Json curves;  ///< every other CSV file: [{"name", "columns", "rows"}]
   std::optional<job::History> history; ///< none where there is no history.csv
+
+  image::Display display; ///< how run.json says that its pictures are shown
 
   std::string name() const { return run["name"]; }
   /// The picture that it is measured against; empty where it is measured against none.
@@ -52,7 +55,7 @@ struct Pictures {
   ///   "pictures": [{"kind": "run", "reference" or "difference", "runs": [whose it is], "from": a difference's run;
   ///   null: its reference,
   ///                 "png": base64}]}], one of these for each name and size; runs before references before differences.
-  /// Full size, as shown() at exposure 0, differences in the colours of map_colour.
+  /// Full size, as the run shows them, a reference as its first run, differences in the colours of map_colour.
   Json groups = Json::array();
   Json notes = Json::array(); ///< what is not there and why
   /// For each run the reference that it was measured against, if any; equal numbers are equal pictures.

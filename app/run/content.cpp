@@ -48,6 +48,7 @@ const plan::Input* find_input(const std::vector<plan::Input>& inputs, const std:
 /// The preset without what changes no sum.
 preset::Preset settings_only(preset::Preset preset) {
   preset.name = preset.description = preset.source = "";
+  preset.display = {};
   preset.stop = {};
   preset.reference = {};
   preset.animation.reset(); // its fields are in their places

@@ -104,8 +104,12 @@ std::optional<FinishedRun> finished_run(const fs::path& folder, const preset::Pr
                                         const std::vector<plan::Input>& known) {
   for (const char* name : {"image.exr", "run.json", "preset.json"})
     if (!is_there(folder / name)) return std::nullopt;
-  if (read_file(folder / "preset.json") != preset::to_json(preset, folder) + "\n") return std::nullopt;
   try {
+    auto its = nlohmann::json::parse(read_file(folder / "preset.json")),
+         ours = nlohmann::json::parse(preset::to_json(preset, folder));
+    const bool is_shown_otherwise = its["display"] != ours["display"];
+    its.erase("display"), ours.erase("display");
+    if (its != ours) return std::nullopt;
     const auto run = nlohmann::json::parse(read_file(folder / "run.json"));
     if (!run.at("finished").get<bool>()) return std::nullopt;
     const auto& units = run.at("units"); // what the engine calls them
@@ -118,7 +122,7 @@ std::optional<FinishedRun> finished_run(const fs::path& folder, const preset::Pr
     progress.work = run.at(work).get<std::uint64_t>();
     progress.work_seconds = run.at("work_seconds").get<double>();
     progress.units = {.step = words->at(0), .steps = words->at(1), .work = words->at(2), .works = words->at(2)};
-    return FinishedRun{progress, words, changed_input(folder, read_inputs(preset, known))};
+    return FinishedRun{progress, words, changed_input(folder, read_inputs(preset, known)), is_shown_otherwise};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt; // written by something else: the run is done again
   }

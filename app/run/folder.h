@@ -49,10 +49,11 @@ void write_settings(const std::filesystem::path& folder, const Prepared& prepare
 struct FinishedRun {
   job::Progress progress; ///< its units are `words`
   std::shared_ptr<const std::vector<std::string>> words;
-  std::string changed; ///< changed_input() of its files since: then it is no longer the preset's
+  std::string changed;             ///< changed_input() of its files since: then it is no longer the preset's
+  bool is_shown_otherwise = false; ///< its preset has another `display`: show_anew() (write_run.h) is to follow
 };
-/// The run in the folder, if it is the finished run of exactly this preset; else nothing, also where run.json is
-/// damaged. known: as read_inputs takes it.
+/// The run in the folder, if it is the finished run of exactly this preset but for its `display`; else nothing, also
+/// where run.json is damaged. known: as read_inputs takes it.
 std::optional<FinishedRun> finished_run(const std::filesystem::path& folder, const preset::Preset& preset,
                                         const std::vector<plan::Input>& known = {});
 

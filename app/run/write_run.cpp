@@ -6,9 +6,12 @@
 #include "base/build_info.h"
 #include "base/files.h"
 #include "base/json_output.h"
+#include "measure/read_picture.h"
 #include "measure/run_files.h"
+#include "preset/choices.h"
 #include "preset/read.h"
 #include "report/report.h"
+#include "run/display.h"
 #include "run/folder.h"
 
 #include <fmt/format.h>
@@ -46,6 +49,13 @@ Json device_json(const compute::DeviceInfo& device) {
           {"driver", device.driver}, {"version", device.version}, {"compute_units", device.compute_units}};
 }
 
+/// As a report reads it.
+Json display_json(const image::Display& display) {
+  return {{"gamut", preset::word(display.gamut)},
+          {"tone", preset::word(display.tone)},
+          {"white_balance", display.white_balance}};
+}
+
 /// The run's error, "errors", with what they were measured against and what the measuring cost.
 void add_errors(Json& run, const job::History& history, const measure::Reference* reference) {
   run["measuring_seconds"] = history.measuring_seconds;
@@ -71,6 +81,7 @@ std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device
            {"engine", prepared.plan->engine},
            {"seed", prepared.preset.seed},
            {"white", prepared.preset.white.value()},
+           {"display", display_json(display_of(prepared.preset))},
            {"version", version()},
            {"commit", commit()},
            {"compiler", compiler()},
@@ -125,12 +136,15 @@ image::Image with_layers(const job::Picture& picture) {
 void write_picture(const fs::path& stem, const preset::Preset& preset, const compute::DeviceInfo& device,
                    const job::Picture& picture) {
   image::Image exr = with_layers(picture);
-  exr.attributes = {{"nephroid:preset", preset::to_json(preset, stem.parent_path())},
+  preset::Preset maker = preset;
+  maker.display = {}; // which changes nothing of it
+  exr.attributes = {{"nephroid:preset", preset::to_json(maker, stem.parent_path())},
                     {"nephroid:seed", std::to_string(preset.seed)},
                     {"nephroid:device", device.name},
                     {"nephroid:version", version()}};
   image::write_exr(stem.string() + ".exr", exr);
-  image::write_png(stem.string() + ".png", picture.width, picture.height, picture.rgb);
+  image::write_png(stem.string() + ".png", picture.width, picture.height, picture.rgb,
+                   image::showing_of(display_of(preset), 0, picture.rgb));
 }
 
 Json pictures_at(const fs::path& folder) {
@@ -189,6 +203,20 @@ void remove_pictures_after(const fs::path& folder, double work_seconds) {
     fs::remove(folder / pictures_file, ignored);
   else
     write_list(folder, kept);
+}
+
+void show_anew(const fs::path& folder, const preset::Preset& preset) {
+  const image::Display display = display_of(preset);
+  for (const fs::path& exr : report::files_ending(folder, ".exr")) {
+    const measure::LinearPicture picture = measure::read_linear_rgb(exr);
+    image::write_png(fs::path(exr).replace_extension(".png"), picture.width, picture.height, picture.rgb,
+                     image::showing_of(display, 0, picture.rgb));
+  }
+  Json run = Json::parse(read_file(folder / "run.json"));
+  run["display"] = display_json(display);
+  write_file_whole(folder / "run.json", json_text(run, 2) + "\n");
+  if (is_there(folder / "report.html")) write_report(folder);
+  write_file_whole(folder / "preset.json", preset::to_json(preset, folder) + "\n"); // last: it says that all is done
 }
 
 void write_report(const fs::path& folder) {

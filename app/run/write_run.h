@@ -42,6 +42,10 @@ nlohmann::ordered_json write_picture_at(const std::filesystem::path& folder, dou
 /// Removes those of later than work_seconds: of work that a resumed run does again, or all (-1).
 void remove_pictures_after(const std::filesystem::path& folder, double work_seconds);
 
+/// The PNGs of a finished run again, from its EXRs, with the preset's `display`; preset.json, run.json and a report say
+/// so. Throws bad_input for an EXR that is damaged, and failed where the files cannot be written.
+void show_anew(const std::filesystem::path& folder, const preset::Preset& preset);
+
 /// report.html of a run whose other files are written. Throws as report::report_html does.
 void write_report(const std::filesystem::path& folder);
 /// history.csv alone, while the run goes on.

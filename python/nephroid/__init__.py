@@ -23,10 +23,13 @@ from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence
 
 from .core import _nephroid as _core
 from .core._nephroid import BadInput, Error
-from .optics import (Cluster, Clusters, Dispersion, Lights, clusters, compare, dispersion, read_picture, segment,
-                     wavelengths_nm)
+from .optics import (Cluster, Clusters, Dispersion, Lights, _linear, clusters, compare, dispersion, read_picture,
+                     segment, wavelengths_nm)
 
 if TYPE_CHECKING:
+    from numpy import uint8
+    from numpy.typing import ArrayLike, NDArray
+
     from .core._nephroid import Doubles, Floats
 
 __version__: str = _core.version
@@ -117,6 +120,10 @@ class Preset:
         """What would run, what is left out and why, and the memory that it takes."""
         plan: dict[str, Any] = _json.loads(_core.plan_json(self._core))
         return plan
+
+    def displayed(self, picture: ArrayLike) -> NDArray[uint8]:
+        """The bytes that image.png has of a linear picture, by "display": height x width x 3."""
+        return _core.displayed(self._core, _linear(picture, "picture"))
 
     def __repr__(self) -> str:
         return f"<nephroid.Preset {self.name!r}, engine {self.engine}>"

@@ -67,6 +67,23 @@ def camera(s, name):
     s.keep(name, [s.render("camera", "spectral/prism-macro")])
 
 
+def pictures(s, name):
+    """Clipped, as it comes, and with the lamp as white."""
+    clipped = ["display.gamut=clip", "display.tone=clip"]
+    lamp = ['scene.lights.0.spectrum={"type": "blackbody", "temperature_k": 2700}']
+    scenes = {"prism": ("spectral/prism", []), "lamp": ("first-light", lamp)}
+    shown = [clipped, [], ["display.white_balance=light"]]
+    s.keep(
+        name,
+        [
+            s.render(f"shown-{scene}-{i}", preset, *sets, *display, size=(400, 300), passes=8)
+            for i, display in enumerate(shown)
+            for scene, (preset, sets) in scenes.items()
+        ],
+        2,
+    )
+
+
 def gallery(s, name):
     """Shipped presets as they come, after 20 seconds."""
     s.keep(
@@ -231,6 +248,7 @@ MAKERS = {
     "inverse-glass.png": inverse_glass,
     "gallery.jpg": gallery,
     "materials.jpg": materials,
+    "pictures.jpg": pictures,
     "camera.jpg": camera,
     "thesis-scenes.jpg": thesis_scenes,
     "smoothing.jpg": smoothing,

@@ -62,6 +62,30 @@ TEST_F(Runs, LeaveEveryFileOfTheContract) {
   EXPECT_EQ(png.width * png.height, 48 * 40);
 }
 
+TEST_F(Runs, AreShownAnewWithoutBeingComputed) {
+  const std::vector<std::string> passes{"--passes", "2", "--set", "white=0.01"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), passes.begin(), passes.end());
+    return more;
+  };
+  ASSERT_EQ(run("a", passes).exit_code, 0);
+  const std::string exr = read_file(file("a", "image.exr")), png = read_file(file("a", "image.png"));
+  const double seconds = run_json("a")["work_seconds"];
+  const Ended filmic = run("a", with({"--resume", "--set", "display.tone=filmic"}));
+  ASSERT_EQ(filmic.exit_code, 0) << filmic.err;
+  EXPECT_THAT(filmic.err, HasSubstr("this run is finished"));
+  EXPECT_TRUE(read_file(file("a", "image.exr")) == exr);
+  EXPECT_FALSE(read_file(file("a", "image.png")) == png);
+  EXPECT_EQ(run_json("a")["work_seconds"], seconds);
+  EXPECT_EQ(run_json("a")["display"]["tone"], "filmic");
+  ASSERT_EQ(run("b", with({"--set", "display.tone=filmic"})).exit_code, 0);
+  EXPECT_TRUE(read_file(file("b", "image.exr")) == exr) << "whatever display says";
+  for (const char* name : {"image.png", "preset.json"})
+    EXPECT_TRUE(read_file(file("a", name)) == read_file(file("b", name))) << name;
+  ASSERT_EQ(run("a", with({"--resume"})).exit_code, 0);
+  EXPECT_TRUE(read_file(file("a", "image.png")) == png) << "and back";
+}
+
 TEST_F(Runs, AreTheSameBitsForTheSameSeedOnAnyThreadsAndFromTheirOwnPreset) {
   ASSERT_EQ(run("one", {"--passes", "5"}, {{"POCL_MAX_PTHREAD_COUNT", "1"}}).exit_code, 0);
   ASSERT_EQ(run("two", {"--passes", "5"}, {{"POCL_MAX_PTHREAD_COUNT", "2"}}).exit_code, 0);

@@ -331,6 +331,16 @@ class Optics(unittest.TestCase):
             with self.assertRaises(nephroid.BadInput):
                 call()
 
+    def test_a_picture_is_displayed_as_the_preset_says(self):
+        picture = np.array([[[0.21586, 1, 0], [2, 1, 0.5]]])
+        plain = nephroid.Preset("first-light", {"display": {"gamut": "clip", "tone": "clip"}})
+        self.assertEqual(plain.displayed(picture).tolist(), [[[128, 255, 0], [255, 255, 188]]])
+        soft = nephroid.Preset("first-light").displayed(picture)
+        self.assertEqual(soft.dtype, np.uint8)
+        self.assertEqual(soft[0, 1, 0], 255)
+        self.assertLess(soft[0, 1, 1], 200)  # half of the red, as the light has it
+        self.assertRaises(nephroid.BadInput, plain.displayed, picture[0])
+
     def test_pictures_are_linear(self):
         a = np.ones((4, 8, 3))
         for wrong, words in ((a.astype(np.uint8),

@@ -106,6 +106,7 @@ inline preset::Preset random_preset(std::uint64_t seed) {
     shining.material = p.scene.materials.begin()->first;
     l.object = shining.name;
   }
+  if (p.scene.lights.empty()) p.display.white_balance = Display::WhiteBalance::d65;
   if (auto& e = p.scene.environment; e && e->place) e->place->date = "2026-06-21", e->sun_direction.reset();
   if (auto& e = p.scene.environment; e && !e->place && e->type == preset::Environment::Type::sky)
     e->sun_direction = {0.1, 1, 1.0 / 3};

@@ -33,6 +33,10 @@ public:
     HeadlessWindow::edit([&](preset::Preset& p) { p.scene.camera.position = {0, 0, z}; });
     frames(4);
   }
+  void set_tone(preset::Display::Tone tone) {
+    HeadlessWindow::edit([tone](preset::Preset& p) { p.display.tone = tone; });
+    frames(4);
+  }
   void look(ui::ViewSettings view_settings) { apply(ui::command::SetViewSettings{view_settings}); }
   static std::string clipboard() {
     const char* text = ImGui::GetClipboardText();

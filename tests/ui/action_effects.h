@@ -138,9 +138,10 @@ inline void add_select_and_camera(Effects& all) {
 inline Effect moves_pixel(int x, int y) {
   return {inspect_pixel, [x, y](Desk& d) { return d.view_state().pixel == std::optional(std::array{20 + x, 20 + y}); }};
 }
-inline Effect sets_tone(ToneCurve tone) {
-  return {[tone](Desk& d) { d.look({.tone = tone == ToneCurve::filmic ? ToneCurve::standard : ToneCurve::filmic}); },
-          [tone](Desk& d) { return d.view_state().view_settings.tone == tone; }};
+inline Effect sets_tone(preset::Display::Tone tone) {
+  using Curve = preset::Display::Tone;
+  return {[tone](Desk& d) { d.set_tone(tone == Curve::filmic ? Curve::clip : Curve::filmic); },
+          [tone](Desk& d) { return d.preset().display.tone == tone; }};
 }
 /// Pinned, so that there is something to compare with.
 inline void compare_with_pin(Desk& d) {
@@ -212,10 +213,15 @@ inline void add_run_and_view(Effects& all) {
   const auto shows_direct = [](Desk& d) { return d.comparing().comparison().layer == "direct"; };
   all["Next layer"] = {{}, shows_direct};
   all["Previous layer"] = {{}, shows_direct}; // there is one, so that both ways lead to it
-  all["Next tone curve"] = {{}, [](Desk& d) { return d.view_state().view_settings.tone == ToneCurve::filmic; }};
-  all["Tone as image.png"] = sets_tone(ToneCurve::standard);
-  all["Filmic tone"] = sets_tone(ToneCurve::filmic);
-  all["False colour"] = sets_tone(ToneCurve::false_colour);
+  using Shown = preset::Display;
+  all["Next tone curve"] = {{}, [](Desk& d) { return d.preset().display.tone == Shown::Tone::filmic; }};
+  all["Tone reinhard"] = sets_tone(Shown::Tone::reinhard);
+  all["Tone filmic"] = sets_tone(Shown::Tone::filmic);
+  all["Tone clip"] = sets_tone(Shown::Tone::clip);
+  all["False colour"] = {{}, [](Desk& d) { return d.view_state().view_settings.false_colour; }};
+  all["Keep hues"] = {{}, [](Desk& d) { return d.preset().display.gamut == Shown::Gamut::clip; }};
+  all["The lamp is white"] = {{},
+                              [](Desk& d) { return d.preset().display.white_balance == Shown::WhiteBalance::light; }};
   all["Inspect pixel"] = {{}, [](Desk& d) { return d.view_state().pixel == std::optional(std::array{32, 24}); }};
   all["Pixel to the left"] = moves_pixel(-1, 0);
   all["Pixel to the right"] = moves_pixel(1, 0);

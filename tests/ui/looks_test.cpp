@@ -2,6 +2,7 @@
 // How the View shows a picture: layers, tone curves, false colour; and that a picture is saved as it is shown.
 #include "image/image.h"
 #include "layered_runs.h"
+#include "run/display.h"
 #include "ui/state/tone.h"
 #include "ui/view/pinhole.h"
 #include "window_fixture.h"
@@ -15,7 +16,9 @@ protected:
     const auto pixels = view().texture().pixels().subspan(4 * static_cast<std::size_t>(64 * y + x));
     return {pixels[0], pixels[1], pixels[2]};
   }
-  static std::array<int, 3> bytes(float r, float g, float b) { return {shown_byte(r), shown_byte(g), shown_byte(b)}; }
+  static std::array<int, 3> bytes(float r, float g, float b) {
+    return {image::shown(r), image::shown(g), image::shown(b)};
+  }
   const std::string& layer() { return workbench.comparing().comparison().layer; }
   const ViewSettings& view_settings() { return workbench.view_state().view_settings; }
   void click_on(const std::string& widget) { click_in(view(), widget, 2); }
@@ -39,6 +42,8 @@ protected:
 };
 
 TEST_F(LooksTest, AKeyGoesThroughTheLayers) {
+  edit([](preset::Preset& p) { p.display.tone = preset::Display::Tone::clip; });
+  frames(2);
   EXPECT_EQ(texel(32, 12), bytes(0.75f, 0.75f, 0.125f));
   const std::pair<const char*, std::array<int, 3>> layers[] = {
       {"direct", bytes(0.25f, 0.5f, 0.125f)}, {"caustic", bytes(0.5f, 0.25f, 0)}, {"", bytes(0.75f, 0.75f, 0.125f)}};
@@ -61,64 +66,89 @@ TEST_F(LooksTest, TheBoxesChooseLayerAndTone) {
   EXPECT_EQ(layer(), "caustic");
   click_on("tone");
   click_on("tone:filmic");
-  EXPECT_EQ(view_settings().tone, ToneCurve::filmic);
+  EXPECT_EQ(workbench.preset()->display.tone, preset::Display::Tone::filmic);
   click_on("tone");
   click_on("tone:false colour");
-  EXPECT_EQ(view_settings().tone, ToneCurve::false_colour);
-  EXPECT_FALSE(view_settings().false_colour) << "automatic";
+  EXPECT_TRUE(view_settings().false_colour);
+  EXPECT_FALSE(view_settings().range) << "automatic";
   click_on("auto range");
-  ASSERT_TRUE(view_settings().false_colour);
-  EXPECT_EQ(*view_settings().false_colour, view().tone().range) << "as it was";
+  ASSERT_TRUE(view_settings().range);
+  EXPECT_EQ(view_settings().range, view().tone().false_colour) << "as it was";
   click_on("auto range");
+  EXPECT_FALSE(view_settings().range);
+  click_on("tone");
+  click_on("tone:clip");
   EXPECT_FALSE(view_settings().false_colour);
+  click_on("gamut");
+  click_on("gamut:clip");
+  click_on("white balance");
+  click_on("white balance:light");
+  EXPECT_EQ(workbench.preset()->display, (preset::Display{preset::Display::Gamut::clip, preset::Display::Tone::clip,
+                                                          preset::Display::WhiteBalance::light}));
+  EXPECT_EQ(runs.made, 1) << "no new run";
+  EXPECT_FALSE(workbench.run().snapshot_is_previous());
 }
 
 TEST_F(LooksTest, ARangeIsTyped) {
-  apply({command::SetViewSettings{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.01, 1}}}});
+  apply({command::SetViewSettings{{.false_colour = true, .range = LuminanceRange{0.01, 1}}}});
   const auto type = [&](const std::string& field, const char* text) {
     click_on(field);
     retype(text);
     press(ImGuiKey_Enter);
   };
   type("high", "50");
-  EXPECT_EQ(*view_settings().false_colour, (LuminanceRange{0.01, 50}));
+  EXPECT_EQ(*view_settings().range, (LuminanceRange{0.01, 50}));
   type("low", "0.5");
-  EXPECT_EQ(*view_settings().false_colour, (LuminanceRange{0.5, 50}));
+  EXPECT_EQ(*view_settings().range, (LuminanceRange{0.5, 50}));
   type("low", "60");
-  EXPECT_EQ(*view_settings().false_colour, (LuminanceRange{0.5, 50})) << "the low end is not above the high one";
+  EXPECT_EQ(*view_settings().range, (LuminanceRange{0.5, 50})) << "the low end is not above the high one";
   EXPECT_THAT(only_message(workbench), HasSubstr("0 < low < high"));
 }
 
 TEST_F(LooksTest, RangesThatAreNoneAreNotTaken) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   for (const LuminanceRange& range : {LuminanceRange{nan, 1}, LuminanceRange{1, infinity}, LuminanceRange{0, -1}}) {
-    workbench.apply({command::SetViewSettings{{.tone = ToneCurve::false_colour, .false_colour = range}}});
-    EXPECT_FALSE(view_settings().false_colour);
+    workbench.apply({command::SetViewSettings{{.false_colour = true, .range = range}}});
+    EXPECT_FALSE(view_settings().range);
     frames(2);
   }
-  workbench.apply({command::SetViewSettings{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{5, 1}}}});
-  ASSERT_TRUE(view_settings().false_colour);
-  EXPECT_LT(view_settings().false_colour->low, view_settings().false_colour->high);
+  workbench.apply({command::SetViewSettings{{.false_colour = true, .range = LuminanceRange{5, 1}}}});
+  ASSERT_TRUE(view_settings().range);
+  EXPECT_LT(view_settings().range->low, view_settings().range->high);
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(LooksTest, AKeyGoesThroughTheToneCurves) {
+TEST_F(LooksTest, AKeyGoesThroughTheToneCurvesOfThePreset) {
+  using Curve = preset::Display::Tone;
+  const auto tone = [&] { return workbench.preset()->display.tone; };
   press(ImGuiKey_T);
-  EXPECT_EQ(view_settings().tone, ToneCurve::filmic);
-  EXPECT_EQ(texel(32, 12), bytes(static_cast<float>(filmic(0.75)), static_cast<float>(filmic(0.75)),
-                                 static_cast<float>(filmic(0.125))));
+  EXPECT_EQ(tone(), Curve::filmic);
+  const auto filmic = image::displayed({0.75f, 0.75f, 0.125f}, {.display = run::display_of(*workbench.preset())});
+  EXPECT_EQ(texel(32, 12), bytes(filmic[0], filmic[1], filmic[2]));
+  EXPECT_LT(filmic[0], 0.5f);
   press(ImGuiKey_T);
-  EXPECT_EQ(view_settings().tone, ToneCurve::false_colour);
-  // (32, 12) is (.75, .75, .125): Y = .2126 .75 + .7152 .75 + .0722 .125 = .7049
-  const Rgb8 wanted = luminance_colour(0.704875, view().tone().range);
-  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(texel(32, 12)[c], wanted[c], 2);
-  press(ImGuiKey_T);
-  EXPECT_EQ(view_settings().tone, ToneCurve::standard);
+  EXPECT_EQ(tone(), Curve::clip);
   EXPECT_EQ(texel(32, 12), bytes(0.75f, 0.75f, 0.125f));
+  press(ImGuiKey_T);
+  EXPECT_EQ(tone(), Curve::reinhard);
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(tone(), Curve::clip);
+  EXPECT_EQ(runs.made, 1) << "no new run";
+  EXPECT_EQ(workbench.run().snapshot_origin().preset->display.tone, Curve::clip) << "as its files say";
+  apply({command::SetViewSettings{{.false_colour = true}}});
+  // (32, 12) is (.75, .75, .125): Y = .2126 .75 + .7152 .75 + .0722 .125 = .7049
+  const Rgb8 wanted = luminance_colour(0.704875, *view().tone().false_colour);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(texel(32, 12)[c], wanted[c], 2);
+}
+
+TEST_F(LooksTest, AnotherEditAfterOneOfTheDisplayStartsARun) {
+  press(ImGuiKey_T);
+  edit([](preset::Preset& p) { p.seed += 1; });
+  EXPECT_TRUE(until([&] { return runs.made == 2; }));
 }
 
 TEST_F(LooksTest, FalseColourIsInWattsWhateverTheExposure) {
-  apply({command::SetViewSettings{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.1, 10}}}});
+  apply({command::SetViewSettings{{.false_colour = true, .range = LuminanceRange{0.1, 10}}}});
   const std::array<int, 3> before = texel(32, 12);
   press(ImGuiKey_E);
   EXPECT_EQ(view_settings().exposure_stops, 0.5);
@@ -135,18 +165,19 @@ TEST_F(LooksTest, KeysOfOneFrameDoNotUndoEachOther) {
   imgui.key(ImGuiKey_L, true);
   frame();
   EXPECT_EQ(view_settings().exposure_stops, 0.5);
-  EXPECT_EQ(view_settings().tone, ToneCurve::filmic);
+  EXPECT_EQ(workbench.preset()->display.tone, preset::Display::Tone::filmic);
   EXPECT_EQ(layer(), "direct");
 }
 
 TEST_F(LooksTest, PicturesAreSavedAsShown) {
   expect_saved_as_shown("standard.png");
-  for (const auto& [key, said] :
-       {std::pair(ImGuiKey_E, ""), {ImGuiKey_L, ""}, {ImGuiKey_T, "filmic"}, {ImGuiKey_T, "W/m2/sr"}}) {
+  for (const ImGuiKey key : {ImGuiKey_E, ImGuiKey_L, ImGuiKey_T, ImGuiKey_T}) {
     press(key);
     expect_saved_as_shown("picture.png");
-    EXPECT_THAT(last_message(workbench), HasSubstr(said));
   }
+  apply({command::SetViewSettings{{.false_colour = true}}});
+  expect_saved_as_shown("picture.png");
+  EXPECT_THAT(last_message(workbench), HasSubstr("W/m2/sr"));
   EXPECT_THAT(saved("linear.exr").channels, SizeIs(9)) << "the whole picture with both layers, whatever is shown";
 }
 
@@ -218,8 +249,8 @@ TEST_F(LooksTest, TheCameraIsCopiedAsTextThatPresetsTake) {
 
 TEST(LooksOfASession, AreKept) {
   Session session;
-  session.view_state.view_settings.tone = ToneCurve::false_colour;
-  session.view_state.view_settings.false_colour = LuminanceRange{0.25, 64};
+  session.view_state.view_settings.false_colour = true;
+  session.view_state.view_settings.range = LuminanceRange{0.25, 64};
   const std::string text = SessionText().of(session);
   EXPECT_EQ(parse_session(text, "session.json").view_state.view_settings, session.view_state.view_settings);
   EXPECT_EQ(parse_session(SessionText().of({}), "session.json").view_state.view_settings, ViewSettings{});

@@ -134,6 +134,7 @@ TEST_F(PicturesTest, AnOpenedPictureIsMovedWithoutACamera) {
 
 TEST_F(PicturesTest, SplitsTwoPicturesAtALineThatIsDragged) {
   run_through();
+  edit([](preset::Preset& p) { p.display = {preset::Display::Gamut::clip, preset::Display::Tone::clip}; });
   const std::uint64_t red = open_picture(even("red.exr", {1, 0, 0}));
   press(ImGuiKey_1);
   apply({command::CompareWith{red}});
@@ -227,6 +228,7 @@ TEST_F(PicturesTest, MetricsAreOfTheShownAgainstTheCompared) {
 
 TEST_F(PicturesTest, OneOfAnotherSizeIsShownAndSaidNotToBeMeasured) {
   run_through();
+  edit([](preset::Preset& p) { p.display = {preset::Display::Gamut::clip, preset::Display::Tone::clip}; });
   const std::uint64_t id = open_picture(even("small.exr", {1, 0, 0}, {32, 16}));
   apply({command::ShowPicture{}, command::CompareWith{id}, command::Arrange{Arrangement::side_by_side}});
   EXPECT_EQ(texel(view().texture_beside()), (std::array{255, 0, 0}));

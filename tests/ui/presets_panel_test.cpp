@@ -197,7 +197,7 @@ TEST(ThumbnailsTest, AreReadInTheBackgroundAndBrokenOnesAreNone) {
   job::Picture picture{.width = 400, .height = 200};
   picture.rgb.assign(3 * 400 * 200, 1.0f);
   for (std::size_t i = 0; i < 3 * 400 * 100; ++i) picture.rgb[i] = 0; // the upper half is black
-  write_thumbnail(folder.path() / "new" / "good.png", picture, 0);
+  write_thumbnail(folder.path() / "new" / "good.png", picture, {}, 0);
   folder.write("broken.png", "\x89PNG\r\n\x1a\nnot");
   write_file_whole(folder.path() / "large.png", std::string(2 << 20, 'x'));
   Messages messages;

@@ -8,6 +8,8 @@
 #include "tests/support/meshes.h"
 #include "tests/support/test.h"
 
+#include <nlohmann/json.hpp>
+
 namespace nephroid::gltf_accessors_test {
 
 using Json = nlohmann::json;

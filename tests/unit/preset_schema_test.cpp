@@ -84,6 +84,7 @@ TEST_F(Schema, RefusesWhatTheReaderRefuses) {
       R"("seed":18446744073709551616)",
       R"("unit":"inch")",
       R"("white":0)",
+      R"("display":{"tone":"soft"})",
       R"("spectral":{"threshold_deg":0})",
       R"("spectral":{"threshold_deg":90})",
       R"("spectral":{"photons_per_pass":16777217})",

@@ -306,8 +306,8 @@ TEST(PresetWriting, IsCompleteAndInTheOrderOfTheDescription) {
   const auto json = nlohmann::ordered_json::parse(preset::to_json(preset::read_preset("first-light")));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys, ElementsAre("name", "description", "not_imported", "engine", "unit", "seed", "white", "scene",
-                                "spectral", "stop", "reference", "measure", "animation", "leave_out"));
+  EXPECT_THAT(keys, ElementsAre("name", "description", "not_imported", "engine", "unit", "seed", "white", "display",
+                                "scene", "spectral", "stop", "reference", "measure", "animation", "leave_out"));
   EXPECT_TRUE(json["scene"]["objects"][0]["shape"].is_null());
   EXPECT_EQ(json["scene"]["materials"]["glass"]["dispersion"]["outside"], "automatic");
 }
@@ -351,6 +351,8 @@ TEST(OnlyRelit, IsAnotherSpectrumPowerWhiteOrName) {
   now.white = 3;
   now.name = "evening";
   EXPECT_TRUE(spectral::adoptable(before, now));
+  now.display.tone = preset::Display::Tone::clip;
+  EXPECT_TRUE(engine::adoptable(before, now)) << "how it is shown changes no light";
 }
 
 TEST(OnlyRelit, IsNothingElse) {

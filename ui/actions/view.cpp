@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The menu "View": how the picture is shown.
+#include "preset/choices.h"
 #include "ui/actions/table.h"
 #include "ui/inspector/pixels.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
@@ -49,13 +52,42 @@ void next_layer(C c) {
   c.push(command::ShowLayer{next == 0 ? "" : layers[static_cast<std::size_t>(next - 1)].name});
 }
 
-Action tone_action(const char* name, const char* help, ToneCurve curve) {
-  return switching({name, 0, help, always, [curve](C c) { change_view(c, [&](ViewSettings& l) { l.tone = curve; }); }},
-                   [curve](C c) { return c.view_state.view_settings.tone == curve; });
+void show_false_colour(C c, bool on) {
+  if (c.view_settings().false_colour != on) change_view(c, [on](ViewSettings& l) { l.false_colour = on; });
+}
+
+bool has_tones(C c) { return c.preset() && has_display(*c.preset()); }
+std::string no_tones(C c) { return c.preset() ? "this engine's pictures are shown as they are" : "no preset is open"; }
+bool has_lamp(C c) { return has_tones(c) && !c.preset()->scene.lights.empty(); }
+std::string no_lamp(C c) { return has_tones(c) ? "the scene has no lamp" : no_tones(c); }
+
+void set_tone(C c, preset::Display::Tone tone) {
+  show_false_colour(c, false);
+  if (c.preset()->display.tone != tone)
+    c.edit(fmt::format("tone {}", preset::word(tone)), [tone](preset::Preset& p) { p.display.tone = tone; });
+}
+
+constexpr std::span tones{preset::choices<preset::Display::Tone>};
+
+template <std::size_t i>
+Action tone_action(const char* name) {
+  return switching({name, 0, tones[i].sentence.data(), has_tones, [](C c) { set_tone(c, tones[i].value); }, no_tones},
+                   [](C c) { return has_tones(c) && c.preset()->display.tone == tones[i].value; });
 }
 
 void next_tone(C c) {
-  change_view(c, [](ViewSettings& l) { l.tone = ToneCurve((static_cast<int>(l.tone) + 1) % tone_curves); });
+  const auto now = std::ranges::find(tones, c.preset()->display.tone, [](const auto& tone) { return tone.value; });
+  set_tone(c, tones[static_cast<std::size_t>(now - tones.begin() + 1) % tones.size()].value);
+}
+
+/// Between two values of a field of the preset's `display`.
+template <auto field, auto on, auto off>
+Action display_action(const char* name, const char* help, bool (*can)(C), std::string (*why_not)(C)) {
+  return switching(
+      {name, 0, help, can,
+       [name](C c) { c.edit(name, [](preset::Preset& p) { p.display.*field = p.display.*field == on ? off : on; }); },
+       why_not},
+      [](C c) { return has_tones(c) && c.preset()->display.*field == on; });
 }
 
 bool has_pixel(C c) { return c.view_state.pixel.has_value(); }
@@ -108,10 +140,20 @@ std::vector<Action> view_actions() {
       {"Next layer", ImGuiKey_L, "All of the light, then each layer of the picture", has_layers, next_layer<1>,
        no_layers},
       {"Previous layer", shift | ImGuiKey_L, "The same the other way round", has_layers, next_layer<-1>, no_layers},
-      {"Next tone curve", ImGuiKey_T, "As image.png, filmic, false colour", always, next_tone},
-      tone_action("Tone as image.png", "sRGB, clipped at 1", ToneCurve::standard),
-      tone_action("Filmic tone", "A soft shoulder for pictures with a wide range", ToneCurve::filmic),
-      tone_action("False colour", "The luminance as a colour, on a logarithmic scale", ToneCurve::false_colour),
+      {"Next tone curve", ImGuiKey_T, "What becomes of light above white: reinhard, filmic, clip", has_tones, next_tone,
+       no_tones},
+      tone_action<0>("Tone reinhard"),
+      tone_action<1>("Tone filmic"),
+      tone_action<2>("Tone clip"),
+      switching({"False colour", 0, "The luminance as a colour, on a logarithmic scale", always,
+                 [](C c) { show_false_colour(c, !c.view_settings().false_colour); }},
+                [](C c) { return c.view_state.view_settings.false_colour; }),
+      display_action<&preset::Display::gamut, preset::Display::Gamut::oklch, preset::Display::Gamut::clip>(
+          "Keep hues", "Colours that sRGB does not have become less colourful, or else are clipped", has_tones,
+          no_tones),
+      display_action<&preset::Display::white_balance, preset::Display::WhiteBalance::light,
+                     preset::Display::WhiteBalance::d65>(
+          "The lamp is white", "White balance for the first lamp of the scene, or else for D65", has_lamp, no_lamp),
       {"Inspect pixel", ImGuiKey_I, "The pixel in the middle, or none; Alt and a click takes another", is_shown,
        inspect, nullptr, nullptr, has_pixel},
       repeating({"Pixel to the left", ImGuiKey_LeftArrow, "Inspect the pixel beside", can_step, move_pixel<-1, 0>}),

@@ -3,8 +3,8 @@
 
 #include "environment/segment/irradiance.h"
 #include "environment/settings.h"
+#include "image/display.h"
 #include "scene/environment.h"
-#include "ui/state/tone.h"
 
 #include <glm/trigonometric.hpp>
 
@@ -40,7 +40,7 @@ std::shared_ptr<const CutMap> cut(const ReadMap& map, const SegmentSettings& set
 Colour colour_of(const glm::dvec3& flux) {
   const double most = std::max({flux.x, flux.y, flux.z});
   if (!(most > 0)) return {};
-  const auto byte = [&](double value) { return shown_byte(static_cast<float>(value / most)); };
+  const auto byte = [&](double value) { return image::shown(static_cast<float>(value / most)); };
   return {byte(flux.x), byte(flux.y), byte(flux.z)};
 }
 

@@ -137,12 +137,14 @@ void InspectorPanel::draw_neighbours(const Context& context) {
   const ViewSettings& view_settings = context.view_state.view_settings;
   const std::array<int, 2> pixel = *context.view_state.pixel;
   const double white = context.white();
+  const image::Display display = context.display();
   Neighbours& n = neighbours_;
   constexpr int across = 2 * reach + 1;
-  if (picture.owner &&
-      (n.owner != picture.owner || n.pixel != pixel || n.view_settings != view_settings || n.white != white)) {
-    n = {picture.owner, pixel, view_settings, white, std::vector<unsigned char>(std::size_t{4} * across * across, 0)};
-    const Tone tone = tone_of(view_settings, white, picture.pixels.rgb);
+  if (picture.owner && (n.owner != picture.owner || n.pixel != pixel || n.view_settings != view_settings ||
+                        n.display != display || n.white != white)) {
+    n = {picture.owner, pixel, view_settings,
+         display,       white, std::vector<unsigned char>(std::size_t{4} * across * across, 0)};
+    const Tone tone = tone_of(view_settings, display, white, picture.pixels.rgb);
     for (int i = 0; i < across * across; ++i) {
       const int x = pixel[0] - reach + i % across, y = pixel[1] - reach + i / across;
       if (x < 0 || y < 0 || x >= picture.pixels.width || y >= picture.pixels.height) continue;

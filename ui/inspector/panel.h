@@ -30,6 +30,7 @@ private:
     std::shared_ptr<const void> owner;
     std::array<int, 2> pixel{};
     ViewSettings view_settings;
+    image::Display display;
     double white = 1;
     std::vector<unsigned char> rgba; ///< transparent outside of the picture
   };

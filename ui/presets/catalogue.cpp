@@ -171,7 +171,7 @@ Thumbnails::Pixels Thumbnails::read(const std::string& file) {
     if (picture.width < 1 || picture.height < 1 || picture.width > most_pixels || picture.height > most_pixels)
       return pixels;
     for (std::size_t i = 0; const float value : image::rgb_of(picture, file).values) {
-      pixels.rgba8.push_back(image::shown(value, 1));
+      pixels.rgba8.push_back(image::shown(value));
       if (++i % 3 == 0) pixels.rgba8.push_back(255);
     }
     pixels.width = picture.width;

@@ -12,25 +12,20 @@
 
 namespace nephroid::ui {
 
-/// standard: as in image.png. filmic: for a wide range (state/tone.h). false_colour: the logarithm of the luminance in
-/// colours; the exposure plays no part.
-enum class ToneCurve { standard, filmic, false_colour };
-inline constexpr int tone_curves = 3;
-
 /// The luminance at the two ends of false colour.
 struct LuminanceRange {
   double low = 0, high = 0; ///< W/m^2/sr, 0 < low < high
   bool operator==(const LuminanceRange&) const = default;
 };
 
-/// How the picture is shown. Nothing here needs a new run.
+/// How the picture is shown, beside what the preset's `display` says. Nothing here needs a new run.
 struct ViewSettings {
   double exposure_stops = 0; ///< -20..20
-  ToneCurve tone = ToneCurve::standard;
-  std::optional<LuminanceRange> false_colour = {}; ///< nothing: automatic_range of the shown picture
-  bool fit = true;                    ///< the whole picture is in the panel; zoom and centre are not used then
-  double zoom = 1;                    ///< screen pixels a picture pixel
-  std::array<double, 2> centre{0, 0}; ///< the picture's point, in pixels, at the panel's middle
+  bool false_colour = false; ///< the logarithm of the luminance in colours; exposure and `display` play no part
+  std::optional<LuminanceRange> range = {}; ///< of false colour; nothing: automatic_range of the shown picture
+  bool fit = true;                          ///< the whole picture is in the panel; zoom and centre are not used then
+  double zoom = 1;                          ///< screen pixels a picture pixel
+  std::array<double, 2> centre{0, 0};       ///< the picture's point, in pixels, at the panel's middle
   bool operator==(const ViewSettings&) const = default;
 };
 

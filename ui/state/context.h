@@ -3,6 +3,7 @@
 #pragma once
 #include "ui/state/recent_files.h"
 #include "ui/state/sweep_queue.h"
+#include "ui/state/tone.h"
 
 namespace nephroid::ui {
 
@@ -22,6 +23,8 @@ struct Context {
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }
   /// The radiance of luminance 1 (preset::Preset::white); 1 while it is unknown.
   double white() const { return edits ? edits->current().white.value_or(1) : 1; }
+  /// How its pictures are shown; plain while there is none.
+  image::Display display() const { return edits ? display_of(edits->current()) : image::Display(); }
   /// The selection, as far as the preset has it.
   Selection selection() const { return in_preset(view_state.selection, preset()); }
   /// A preset must be open, as for edit().

@@ -52,7 +52,7 @@ bool Document::take_over(preset::WithSweep read) {
   edits_->push("reload " + std::filesystem::path(source).filename().string(), std::move(read.preset),
                std::move(read.sweep));
   edits_->mark_saved(source);
-  if (is_other_run) run_.follow_edit();
+  if (is_other_run) run_.follow_edit(*edits_);
   return true;
 }
 
@@ -125,7 +125,7 @@ void Document::edit(const command::Edit& c) {
   if (!c.was_read) preset::with_overrides(edited, {});
   if (edited.settings.engine() != edits_->current().settings.engine()) note_left_out(edited.settings.engine());
   edits_->push(c.label, std::move(edited), c.gesture);
-  run_.follow_edit(c.live);
+  run_.follow_edit(*edits_, c.live);
 }
 
 /// Makes a note of what is lost when the engine changes.

@@ -64,9 +64,10 @@ void FileWriter::carry_out(const command::SavePreset& c) {
 void FileWriter::save_thumbnail(const std::filesystem::path& preset) {
   const std::filesystem::path file = thumbnail_of(preset, recent_.thumbnails());
   if (!run_.snapshot() || file.empty() || !preset::shipped_name(preset).empty()) return;
-  save(file, [file, picture = run_.snapshot()->picture, exposure_stops = view_state_.view_settings.exposure_stops] {
+  save(file, [file, picture = run_.snapshot()->picture, display = display_of(document_.edits()->current()),
+              exposure_stops = view_state_.view_settings.exposure_stops] {
     try {
-      write_thumbnail(file, *picture, exposure_stops);
+      write_thumbnail(file, *picture, display, exposure_stops);
       return std::string();
     } catch (const Error& error) { // the preset itself is saved
       return "the preset is saved without its small picture: " + error.line();
@@ -83,13 +84,21 @@ void FileWriter::carry_out(const command::SavePicture& c) {
 
 PictureToSave FileWriter::shown_picture() const {
   const Comparison& comparison = comparing_.comparison();
-  const double white = document_.preset() ? document_.preset()->white.value_or(1) : 1;
-  if (comparison.flip) return {comparing_.other_picture(), {}, view_state_.view_settings, white, comparing_.why_not()};
-  if (!comparison.difference)
-    return {comparing_.picture(), {}, view_state_.view_settings, white, comparing_.why_no_picture()};
-  const auto& map = comparing_.difference();
-  if (!map) return {{}, {}, {}, 1, "the difference is not computed yet"};
-  return {map->of.picture, map, view_state_.view_settings, white, map->error};
+  PictureToSave shown{
+      .picture = {}, .map = {}, .view_settings = view_state_.view_settings, .display = {}, .why_not = {}};
+  if (const preset::Preset* preset = document_.preset()) {
+    shown.white = preset->white.value_or(1);
+    shown.display = display_of(*preset);
+  }
+  if (comparison.flip || !comparison.difference) {
+    shown.picture = comparison.flip ? comparing_.other_picture() : comparing_.picture();
+    shown.why_not = comparison.flip ? comparing_.why_not() : comparing_.why_no_picture();
+    return shown;
+  }
+  shown.map = comparing_.difference();
+  if (shown.map) shown.picture = shown.map->of.picture;
+  shown.why_not = shown.map ? shown.map->error : "the difference is not computed yet";
+  return shown;
 }
 
 void FileWriter::carry_out(const command::OpenResult& c) {

@@ -64,16 +64,15 @@ std::string write_shown(const fs::path& file, const PictureToSave& shown) {
     image::write_png_bytes(file, pixels.width, pixels.height, shown.map->rgba);
     return fmt::format(", a difference whose colours end at {:.3g}", shown.map->scale);
   }
-  const Tone tone = tone_of(shown.view_settings, shown.white, pixels.rgb);
-  if (tone.curve == ToneCurve::standard) {
-    image::write_png(file, pixels.width, pixels.height, {pixels.rgb.begin(), pixels.rgb.end()}, tone.exposure_stops);
+  const Tone tone = tone_of(shown.view_settings, shown.display, shown.white, pixels.rgb);
+  if (!tone.false_colour) {
+    image::write_png(file, pixels.width, pixels.height, {pixels.rgb.begin(), pixels.rgb.end()}, tone.showing);
     return {};
   }
   std::vector<unsigned char> rgba(pixels.rgb.size() / 3 * 4);
   toned_pixels(pixels.rgb, tone, rgba);
   image::write_png_bytes(file, pixels.width, pixels.height, rgba);
-  if (tone.curve == ToneCurve::filmic) return ", with the filmic curve";
-  return fmt::format(", false colour of {:.3g} to {:.3g} W/m2/sr", tone.range.low, tone.range.high);
+  return fmt::format(", false colour of {:.3g} to {:.3g} W/m2/sr", tone.false_colour->low, tone.false_colour->high);
 }
 
 /// The kind with this ending; null: only a preset can have it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which files a person may open, drop and save, how they are written, and how a dropped mesh is added.
 #pragma once
+#include "image/display.h"
 #include "job/job.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
@@ -41,8 +42,9 @@ struct PictureToSave {
   HeldPicture picture;
   std::shared_ptr<const ShownDifference> map; ///< shown in place of the picture; null: none
   ViewSettings view_settings;
-  double white = 1;    ///< preset::Preset::white
-  std::string why_not; ///< why there is no picture: a sentence without a full stop
+  image::Display display; ///< the preset's
+  double white = 1;       ///< preset::Preset::white
+  std::string why_not;    ///< why there is no picture: a sentence without a full stop
 };
 
 /// Saves by the extension of file: .png as shown, .exr the picture, linear with every layer. Returns a sentence for the

@@ -100,7 +100,8 @@ fs::path thumbnail_of(const fs::path& preset, const fs::path& thumbnails) {
   return thumbnails / fmt::format("{:016x}.png", hash_of(absolute.string()));
 }
 
-void write_thumbnail(const fs::path& file, const job::Picture& picture, double exposure_stops) {
+void write_thumbnail(const fs::path& file, const job::Picture& picture, const image::Display& display,
+                     double exposure_stops) {
   const double shrink =
       std::min({1.0, double(thumbnail_width) / picture.width, double(thumbnail_height) / picture.height});
   const int width = std::max(1, static_cast<int>(std::lround(picture.width * shrink)));
@@ -124,7 +125,7 @@ void write_thumbnail(const fs::path& file, const job::Picture& picture, double e
     }
   std::error_code ignored;
   fs::create_directories(file.parent_path(), ignored);
-  image::write_png(file, width, height, rgb, exposure_stops);
+  image::write_png(file, width, height, rgb, image::showing_of(display, exposure_stops, rgb));
 }
 
 } // namespace nephroid::ui

@@ -2,6 +2,7 @@
 // The preset files that were opened lately, over many sessions, and where presets' thumbnails are. The list is one
 // small JSON file. Where it is missing, cut or written by another program, the list is empty, and one note says so.
 #pragma once
+#include "image/display.h"
 #include "job/job.h"
 
 namespace nephroid::ui {
@@ -43,7 +44,8 @@ private:
 std::filesystem::path thumbnail_of(const std::filesystem::path& preset, const std::filesystem::path& thumbnails);
 
 /// Writes a small copy of the picture at this exposure as PNG; makes the folder. Throws failed.
-void write_thumbnail(const std::filesystem::path& file, const job::Picture& picture, double exposure_stops);
+void write_thumbnail(const std::filesystem::path& file, const job::Picture& picture, const image::Display& display,
+                     double exposure_stops);
 
 /// The largest size of a thumbnail in pixels.
 inline constexpr int thumbnail_width = 128, thumbnail_height = 96;

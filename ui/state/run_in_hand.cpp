@@ -5,6 +5,15 @@
 #include "preset/read.h"
 
 namespace nephroid::ui {
+namespace {
+
+bool same_but_display(const preset::Preset& a, const preset::Preset& b) {
+  preset::Preset same = a;
+  same.display = b.display;
+  return same == b;
+}
+
+} // namespace
 
 /// The facts of a run, filled on the worker's thread when the run is prepared.
 struct RunInHand::Arrival {
@@ -88,15 +97,26 @@ void RunInHand::begin() {
   status_ = worker_.status();
 }
 
+/// Takes an edit that changes no light; false where it is another one.
+bool RunInHand::take_display(const preset::Preset& now) {
+  if (lent_ || restart_wanted_ || !preset_ || now.display == preset_->display || !same_but_display(now, *preset_))
+    return false;
+  const bool is_shown = snapshot_origin_.preset == preset_;
+  preset_ = std::make_shared<const preset::Preset>(now);
+  if (is_shown) snapshot_origin_.preset = preset_;
+  return true;
+}
+
 void RunInHand::adopt_or_start(const UndoStack& edits) {
-  if (lent_) return;
+  if (lent_ || take_display(edits.current())) return;
   if (kernels_changed_ || !preset_ || !engine::adoptable(*preset_, edits.current())) return start(edits);
   take_over(edits);
   newest_.reference.reset(); // it belongs to the old light
   adoption_ = worker_.adopt(preset_, maker());
 }
 
-void RunInHand::follow_edit(bool live) {
+void RunInHand::follow_edit(const UndoStack& edits, bool live) {
+  if (take_display(edits.current())) return;
   restart_wanted_ = true;
   gesture_lasts_ = live;
   snapshot_is_current_ = false;
@@ -118,7 +138,7 @@ void RunInHand::take_arrival() {
   const std::lock_guard lock(arrival_->mutex);
   if (!arrival_->run) return;
   newest_ = *std::exchange(arrival_->run, std::nullopt);
-  if (arrival_->preset != preset_) newest_.reference.reset(); // it belongs to another light
+  if (!same_but_display(*arrival_->preset, *preset_)) newest_.reference.reset(); // it belongs to another light
   if (!preset_->white && newest_.white) {
     preset::Preset fitted = *preset_;
     fitted.white = newest_.white;

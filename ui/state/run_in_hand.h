@@ -63,7 +63,8 @@ public:
   /// Drops all that earlier runs have shown: another preset's picture would be mistaken for this one's.
   void forget();
   void start(const UndoStack& edits);
-  /// Where only the light differs, the run in hand adopts it and goes on converging.
+  /// Where only the light differs, the run in hand adopts it and goes on converging. Where only `display` differs,
+  /// nothing is computed (both).
   void adopt_or_start(const UndoStack& edits);
   /// Starts again with the same preset: files that it names have changed.
   void start_with_new_files(const UndoStack& edits) {
@@ -72,7 +73,7 @@ public:
     start(edits);
   }
   /// Notes an edit; the run follows at the next start_if_wanted(). live: the gesture still lasts.
-  void follow_edit(bool live = false);
+  void follow_edit(const UndoStack& edits, bool live = false);
   void carry_out(const command::EndGesture&) { gesture_lasts_ = false; }
   void cancel();
   /// Runs another preset, called `name`, in place of the present one. Runs that edits and files ask for wait until
@@ -125,6 +126,7 @@ private:
   /// Returns what makes a run of the present preset on the worker's thread.
   std::function<std::unique_ptr<job::Job>()> maker();
   void take_over(const UndoStack& edits);
+  bool take_display(const preset::Preset& now);
   bool loads_the_same() const;
   void begin();
   bool take_snapshot();

@@ -20,12 +20,7 @@ using PresetPtr = std::shared_ptr<const preset::Preset>;
 constexpr int session_version = 1, settings_version = 2;
 constexpr std::size_t most_panels = 64;
 
-struct NamedTone {
-  ToneCurve curve;
-  std::string_view name;
-};
-constexpr std::array tone_names{NamedTone{ToneCurve::standard, "standard"}, NamedTone{ToneCurve::filmic, "filmic"},
-                                NamedTone{ToneCurve::false_colour, "false_colour"}};
+constexpr std::array<std::string_view, 3> tones{"standard", "false_colour", "filmic"}; ///< the last: of an older window
 
 /// Dear ImGui trusts what it reads, so text that it did not write itself is refused here.
 std::string checksum(const std::string& ini) { return fmt::format("{:016x}", hash_of(ini)); }
@@ -44,11 +39,11 @@ void read_within(const Json& values, double low, double high, std::array<T, N>& 
 ViewSettings read_view_settings(const Json& value) {
   ViewSettings view_settings;
   view_settings.exposure_stops = within(value.at("exposure_stops"), -20, 20);
-  const auto tone = std::ranges::find(tone_names, value.value("tone", "standard"), &NamedTone::name);
-  if (tone == tone_names.end()) throw std::out_of_range("there is no such tone curve");
-  view_settings.tone = tone->curve;
+  const std::string tone = value.value("tone", "standard");
+  if (std::ranges::find(tones, tone) == tones.end()) throw std::out_of_range("there is no such tone");
+  view_settings.false_colour = tone == tones[1];
   if (value.contains("false_colour"))
-    view_settings.false_colour =
+    view_settings.range =
         valid_range({value["false_colour"].at(0).get<double>(), value["false_colour"].at(1).get<double>()});
   view_settings.fit = value.at("fit").get<bool>();
   view_settings.zoom = within(value.at("zoom"), 1.0 / 1024, 1024);
@@ -200,14 +195,13 @@ std::string SessionText::of(const Session& session) {
             {"closed", session.closed},
             {"look",
              {{"exposure_stops", view_settings.exposure_stops},
-              {"tone", std::ranges::find(tone_names, view_settings.tone, &NamedTone::curve)->name},
+              {"tone", tones[view_settings.false_colour ? 1 : 0]},
               {"fit", view_settings.fit},
               {"zoom", view_settings.zoom},
               {"centre", view_settings.centre}}},
             {"error_metric", session.view_state.error_metric},
             {"material", session.view_state.material}};
-  if (view_settings.false_colour)
-    text["look"]["false_colour"] = {view_settings.false_colour->low, view_settings.false_colour->high};
+  if (view_settings.range) text["look"]["false_colour"] = {view_settings.range->low, view_settings.range->high};
   text["pins"] = Json::array();
   for (const Session::Pin& pin : session.pins)
     text["pins"].push_back({{"folder", pin.folder}, {"name", pin.name}, {"colour", pin.colour}, {"shown", pin.shown}});

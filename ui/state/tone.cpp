@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/tone.h"
 
-#include "image/image.h"
+#include "base/error.h"
 #include "measure/difference.h"
 #include "measure/lab.h"
+#include "preset/settings_type.h"
+#include "run/display.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,76 +15,10 @@
 namespace nephroid::ui {
 namespace {
 
-/// Positive floats sort like their bits. Without the last bits they are steps of 0.4 % at most. A step holds the end of
-/// one byte at most, because those of sRGB are 0.9 % apart.
+/// Positive floats sort like their bits. Without the last bits they are steps of 0.4 % at most.
 constexpr int left_out_bits = 15;
 
 std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
-
-/// A rising curve from floats to bytes, by a table: the window needs it for every channel of every snapshot. exact:
-/// maps a float of 0..end to its byte; rises by one byte at most within 0.4 % of a value. Values above the end become
-/// 255, values not above 0 become exact(0).
-template <unsigned char (*exact)(float)>
-class ByteTable {
-public:
-  explicit ByteTable(float end) : end_(end), bytes_((bits(end) >> left_out_bits) + 1) {
-    for (std::uint32_t i = 0; i < bytes_.size(); ++i) bytes_[i] = exact(std::bit_cast<float>(i << left_out_bits));
-    for (std::uint32_t byte = 0; byte < 256; ++byte) least_[byte] = least_shown_as(byte);
-    least_[256] = std::numeric_limits<float>::infinity();
-  }
-
-  unsigned char operator()(float value) const {
-    value = std::min(std::max(0.0f, value), end_); // NaN becomes 0
-    const unsigned char byte = bytes_[bits(value) >> left_out_bits];
-    // No branch: neighbours in a noisy picture differ.
-    return static_cast<unsigned char>(byte + (value >= least_[byte + 1u]));
-  }
-
-private:
-  /// The first float of 0..end whose byte is this one or a greater one; the end, where there is none.
-  float least_shown_as(std::uint32_t byte) const {
-    std::uint32_t low = 0, high = bits(end_);
-    while (low < high) {
-      const std::uint32_t middle = low + (high - low) / 2;
-      if (exact(std::bit_cast<float>(middle)) >= byte)
-        high = middle;
-      else
-        low = middle + 1;
-    }
-    return std::bit_cast<float>(low);
-  }
-
-  float end_;
-  std::vector<unsigned char> bytes_; ///< the byte of each step's first float
-  std::array<float, 257> least_{};   ///< [byte]: the first float with this byte
-};
-
-constexpr double brightening = 2, white_point = 11.2; ///< constants of the filmic curve, as published
-
-double hable(double x) {
-  constexpr double a = 0.15, b = 0.5, c = 0.1, d = 0.2, e = 0.02, f = 0.3;
-  return (x * (a * x + c * b) + d * e) / (x * (a * x + b) + d * f) - e / f;
-}
-
-unsigned char exact_srgb(float value) { return image::shown(value, 1); }
-unsigned char exact_filmic(float value) {
-  return image::shown(static_cast<float>(filmic(static_cast<double>(value))), 1);
-}
-
-template <unsigned char (*exact)(float)>
-const ByteTable<exact>& table(float end) {
-  static const ByteTable<exact> bytes(end);
-  return bytes;
-}
-
-template <class Bytes>
-void pixels_by(const Bytes& bytes, std::span<const float> rgb, double exposure_stops, std::span<unsigned char> rgba8) {
-  const float scale = static_cast<float>(std::exp2(exposure_stops));
-  for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) rgba8[4 * i + c] = bytes(rgb[3 * i + c] * scale);
-    rgba8[4 * i + 3] = 255;
-  }
-}
 
 /// The colour of a pixel whose luminance is not a number above 0.
 Rgb8 odd_colour(const float* rgb, double luminance, const LuminanceRange& range) {
@@ -94,17 +30,18 @@ Rgb8 odd_colour(const float* rgb, double luminance, const LuminanceRange& range)
 std::uint32_t step_of(double value) { return bits(static_cast<float>(value)) >> left_out_bits; }
 
 void false_colour_pixels(std::span<const float> rgb, const Tone& tone, std::span<unsigned char> rgba8) {
-  const std::uint32_t first = step_of(tone.range.low), last = std::max(step_of(tone.range.high), first);
+  const LuminanceRange& range = *tone.false_colour;
+  const std::uint32_t first = step_of(range.low), last = std::max(step_of(range.high), first);
   std::vector<Rgb8> colour_of_step;
   for (std::uint32_t i = first; i <= last; ++i)
     colour_of_step.push_back(luminance_colour(
-        static_cast<double>(std::bit_cast<float>((i << left_out_bits) + (1u << (left_out_bits - 1)))), tone.range));
+        static_cast<double>(std::bit_cast<float>((i << left_out_bits) + (1u << (left_out_bits - 1)))), range));
   for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
     const float* pixel = &rgb[3 * i];
     const double luminance = tone.white * measure::luminance(pixel);
     const bool ordinary = luminance > 0 && luminance <= static_cast<double>(std::numeric_limits<float>::max());
     const Rgb8 colour = ordinary ? colour_of_step[std::clamp(step_of(luminance), first, last) - first]
-                                 : odd_colour(pixel, luminance, tone.range);
+                                 : odd_colour(pixel, luminance, range);
     std::copy(colour.begin(), colour.end(), &rgba8[4 * i]);
     rgba8[4 * i + 3] = 255;
   }
@@ -125,15 +62,24 @@ double round_number(double value, bool up) {
 
 } // namespace
 
-double filmic(double linear) {
-  if (!(linear > 0)) return 0;
-  return std::min(hable(brightening * std::min(linear, white_point)) / hable(white_point), 1.0);
+image::Display display_of(const preset::Preset& preset) {
+  try {
+    return run::display_of(preset);
+  } catch (const Error&) {
+    preset::Preset daylight = preset;
+    daylight.display.white_balance = preset::Display::WhiteBalance::d65;
+    return run::display_of(daylight);
+  }
 }
 
-Tone tone_of(const ViewSettings& view_settings, double white, std::span<const float> rgb) {
-  if (view_settings.tone != ToneCurve::false_colour) return {view_settings.tone, view_settings.exposure_stops, {}, 1};
-  return {view_settings.tone, 0, view_settings.false_colour ? *view_settings.false_colour : automatic_range(rgb, white),
-          white};
+bool has_display(const preset::Preset& preset) {
+  return std::ranges::count(preset.settings.type().without, "display") == 0;
+}
+
+Tone tone_of(const ViewSettings& view_settings, const image::Display& display, double white,
+             std::span<const float> rgb) {
+  if (!view_settings.false_colour) return {image::showing_of(display, view_settings.exposure_stops, rgb), {}, 1};
+  return {{}, view_settings.range ? *view_settings.range : automatic_range(rgb, white), white};
 }
 
 LuminanceRange automatic_range(std::span<const float> rgb, double white) {
@@ -171,15 +117,8 @@ Rgb8 luminance_colour(double luminance, const LuminanceRange& range) {
 }
 
 void toned_pixels(std::span<const float> rgb, const Tone& tone, std::span<unsigned char> rgba8) {
-  switch (tone.curve) {
-  case ToneCurve::standard: return pixels_by(table<exact_srgb>(1), rgb, tone.exposure_stops, rgba8);
-  case ToneCurve::filmic:
-    return pixels_by(table<exact_filmic>(static_cast<float>(white_point / brightening)), rgb, tone.exposure_stops,
-                     rgba8);
-  case ToneCurve::false_colour: return false_colour_pixels(rgb, tone, rgba8);
-  }
+  if (tone.false_colour) return false_colour_pixels(rgb, tone, rgba8);
+  image::show(rgb, tone.showing, rgba8);
 }
-
-unsigned char shown_byte(float linear) { return table<exact_srgb>(1)(linear); }
 
 } // namespace nephroid::ui

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts linear pictures to a display's bytes by a tone curve: that of image.png, filmic, or the luminance in false
+// Converts linear pictures to a display's bytes: as image.png shows them (image/display.h), or the luminance in false
 // colour.
 #pragma once
+#include "image/display.h"
 #include "ui/state/commands.h"
 
 namespace nephroid::ui {
 
-/// The filmic curve of J. Hable, "Uncharted 2: HDR Lighting" (GDC 2010), f(2 x) / f(11.2) with f(x) = (x (A x + C B) +
-/// D E) / (x (A x + B) + D F) - E / F and A .15, B .5, C .1, D .2, E .02, F .3. It is 0 at 0 and 1 at 5.6, and clipped
-/// above. It applies to each channel, before the sRGB encoding.
-double filmic(double linear);
+/// As run::display_of; of D65 where the lamp has no spectrum: its run says why.
+image::Display display_of(const preset::Preset& preset);
+/// Whether the preset's engine has a `display`.
+bool has_display(const preset::Preset& preset);
 
 struct Tone {
-  ToneCurve curve = ToneCurve::standard;
-  double exposure_stops = 0; ///< 0 in false colour
-  LuminanceRange range;
+  image::Showing showing;
+  std::optional<LuminanceRange> false_colour = {}; ///< its range, where it is shown
   double white = 1; ///< preset::Preset::white: W/m^2/sr of luminance 1; 1 but in false colour
   bool operator==(const Tone&) const = default;
 };
-/// rgb: the picture, which gives the automatic range.
-Tone tone_of(const ViewSettings& view_settings, double white, std::span<const float> rgb);
+/// display: the preset's. rgb: the picture, which gives the peak and the automatic range.
+Tone tone_of(const ViewSettings& view_settings, const image::Display& display, double white,
+             std::span<const float> rgb);
 
 /// The range from the 1 % quantile of the luminances above 0 to the 99.9 % quantile, widened to round numbers (1, 2, 5
 /// times a power of ten); a decade at least, 8 decades at most. 0.01 .. 1 where no pixel is above 0.
@@ -39,8 +40,5 @@ Rgb8 luminance_colour(double luminance, const LuminanceRange& range);
 /// NaN or infinite channel has its own colour, and so has one with a negative luminance. Single channels may be
 /// negative where a colour lies outside of sRGB.
 void toned_pixels(std::span<const float> rgb, const Tone& tone, std::span<unsigned char> rgba8);
-
-/// The same byte as image::shown(linear, 1), by a table. NaN is shown as by image::shown(0).
-unsigned char shown_byte(float linear);
 
 } // namespace nephroid::ui

@@ -22,7 +22,7 @@ struct ViewState {
 
   void carry_out(const command::SetViewSettings& c) {
     view_settings = c.view_settings;
-    if (view_settings.false_colour) view_settings.false_colour = valid_range(*view_settings.false_colour);
+    if (view_settings.range) view_settings.range = valid_range(*view_settings.range);
     view_settings.exposure_stops = std::clamp(view_settings.exposure_stops, -20.0, 20.0);
   }
   void carry_out(const command::SelectRegion& c) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/view/bars.h"
 
+#include "preset/choices.h"
 #include "ui/widgets/action.h"
 
 #include <fmt/format.h>
@@ -10,18 +11,6 @@
 
 namespace nephroid::ui {
 namespace {
-
-struct NamedTone {
-  ToneCurve curve;
-  const char *name, *help;
-};
-constexpr std::array tones{
-    NamedTone{ToneCurve::standard, "as image.png", "sRGB, clipped at 1: the bytes of image.png"},
-    NamedTone{ToneCurve::filmic, "filmic",
-              "For a wide range: a soft shoulder up to 5.6 times white (Hable 2010), then sRGB"},
-    NamedTone{ToneCurve::false_colour, "false colour",
-              "The luminance as a colour, on a logarithmic scale in W/m2/sr. Exposure plays no part."},
-};
 
 void draw_layer_choice(const Context& context, WidgetPlaces& places) {
   const std::string& chosen = context.comparing.comparison().layer;
@@ -33,16 +22,40 @@ void draw_layer_choice(const Context& context, WidgetPlaces& places) {
       if (list.entry(layer.name, chosen == layer.name)) context.push(command::ShowLayer{layer.name});
 }
 
-void draw_tone_choice(const Context& context, WidgetPlaces& places) {
-  ViewSettings view_settings = context.view_settings();
-  const ToneCurve now = view_settings.tone;
-  ImGui::SetNextItemWidth(8 * em());
-  Combo list("##tone", std::ranges::find(tones, now, &NamedTone::curve)->name, &places, "tone");
-  for (const NamedTone& tone : tones)
-    if (list.entry(tone.name, tone.curve == now, tone.help)) {
-      view_settings.tone = tone.curve;
-      context.push(command::SetViewSettings{view_settings});
-    }
+/// Draws a list of the words of one of the fields of the preset's `display`; false_colour: with that as one more.
+template <class E>
+void draw_display_choice(const Context& context, const char* name, E preset::Display::*field, WidgetPlaces& places,
+                         bool false_colour = false) {
+  const bool in_preset = has_display(*context.preset()),
+             is_false = false_colour && context.view_settings().false_colour;
+  const E now = context.preset()->display.*field;
+  const auto show_false = [&](bool on) {
+    ViewSettings view_settings = context.view_settings();
+    if (!false_colour || view_settings.false_colour == on) return;
+    view_settings.false_colour = on;
+    context.push(command::SetViewSettings{view_settings});
+  };
+  ImGui::SetNextItemWidth((false_colour ? 7 : 5) * em());
+  const std::string plain = "as image.png";
+  Combo list(fmt::format("##{}", name).c_str(),
+             is_false    ? "false colour"
+             : in_preset ? std::string(preset::word(now))
+                         : plain,
+             &places, name);
+  if (!in_preset) {
+    if (list.entry(plain, !is_false, "sRGB, clipped at 1")) show_false(false);
+  } else
+    for (const auto& choice : preset::choices<E>)
+      if (list.entry(std::string(choice.name), !is_false && choice.value == now, std::string(choice.sentence))) {
+        show_false(false);
+        if (choice.value != now)
+          context.edit(fmt::format("{} {}", name, choice.name),
+                       [&](preset::Preset& p) { p.display.*field = choice.value; });
+      }
+  if (false_colour &&
+      list.entry("false colour", is_false,
+                 "The luminance as a colour, on a logarithmic scale in W/m2/sr. Exposure plays no part."))
+    show_false(true);
 }
 
 /// Draws a number field in the line of the last item. True where a person typed a value.
@@ -56,10 +69,10 @@ bool draw_number(const char* label, double& value) {
 void draw_range_choice(const Context& context, const LuminanceRange& shown, WidgetPlaces& places) {
   const auto set = [&](const std::optional<LuminanceRange>& range) {
     ViewSettings view_settings = context.view_settings();
-    view_settings.false_colour = range;
+    view_settings.range = range;
     context.push(command::SetViewSettings{view_settings});
   };
-  bool automatic = !context.view_state.view_settings.false_colour;
+  bool automatic = !context.view_state.view_settings.range;
   if (places.checkbox("Auto range", &automatic, "auto range",
                       "From where 1 % of the pixels are below to where 99.9 % are; else as typed here."))
     set(automatic ? std::nullopt : std::optional(shown));
@@ -230,10 +243,18 @@ void draw_view_bar(const Context& context, const Tone& tone, WidgetPlaces& place
   draw_layer_choice(context, places);
   ImGui::SameLine(0, em());
   draw_label("Tone");
-  draw_tone_choice(context, places);
-  if (tone.curve != ToneCurve::false_colour) return;
-  same_line_if_room(ImGui::CalcTextSize("Auto range").x + 14 * em());
-  draw_range_choice(context, tone.range, places);
+  draw_display_choice(context, "tone", &preset::Display::tone, places, true);
+  if (tone.false_colour) {
+    same_line_if_room(ImGui::CalcTextSize("Auto range").x + 14 * em());
+    return draw_range_choice(context, *tone.false_colour, places);
+  }
+  if (!has_display(*context.preset())) return;
+  same_line_if_room(ImGui::CalcTextSize("Gamut").x + 5.5f * em());
+  draw_label("Gamut");
+  draw_display_choice(context, "gamut", &preset::Display::gamut, places);
+  same_line_if_room(ImGui::CalcTextSize("White").x + 5.5f * em());
+  draw_label("White");
+  draw_display_choice(context, "white balance", &preset::Display::white_balance, places);
 }
 
 std::string metrics_as_text(const Context& context) {

@@ -17,7 +17,7 @@ const char* metric_name(measure::DifferenceMetric metric);
 /// where it has no value (yet). Empty where nothing is measured.
 std::string metrics_as_text(const Context& context);
 
-/// Draws the choice of layer, tone curve and range of false colour. tone: the shown picture's.
+/// Draws the choice of layer, the preset's `display`, and false colour with its range. tone: the shown picture's.
 void draw_view_bar(const Context& context, const Tone& tone, WidgetPlaces& places);
 /// Draws what is shown, what it is compared with, and how. places: "shown" and "other".
 void draw_comparison_bar(const Context& context, WidgetPlaces& places);

@@ -97,18 +97,20 @@ void PictureOnScreen::refresh(const Context& context, const ShownPicture& shown,
   if (!shown.owner) return;
   const ViewSettings& now = context.view_state.view_settings;
   const bool is_linear = !shown.rgb.empty();
-  const bool same_settings = now.exposure_stops == view_settings.exposure_stops && now.tone == view_settings.tone &&
-                             now.false_colour == view_settings.false_colour && context.white() == white &&
-                             (!like || *like == tone);
+  const image::Display display_now = context.display();
+  const bool same_settings = now.exposure_stops == view_settings.exposure_stops &&
+                             now.false_colour == view_settings.false_colour && now.range == view_settings.range &&
+                             display_now == display && context.white() == white && (!like || *like == tone);
   if (shown.owner == owner && (!is_linear || same_settings)) return;
   const std::span<unsigned char> bytes = texture.edit(shown.size[0], shown.size[1]);
   if (is_linear) {
-    tone = like ? *like : tone_of(now, context.white(), shown.rgb);
+    tone = like ? *like : tone_of(now, display_now, context.white(), shown.rgb);
     toned_pixels(shown.rgb, tone, bytes);
   } else
     std::copy(shown.rgba.begin(), shown.rgba.end(), bytes.begin());
   owner = shown.owner;
   view_settings = now;
+  display = display_now;
   white = context.white();
 }
 
@@ -153,8 +155,7 @@ void ViewPanel::draw(const Context& context) {
   draw_list->AddRectFilled(corner, corner + size, colour::surround);
   draw_pictures(context);
   if (const auto& map = context.comparing.difference(); map && map == shown_.owner) draw_difference_scale(*map, area);
-  if (!shown_.rgb.empty() && first_.tone.curve == ToneCurve::false_colour)
-    draw_luminance_scale(first_.tone.range, area);
+  if (!shown_.rgb.empty() && first_.tone.false_colour) draw_luminance_scale(*first_.tone.false_colour, area);
   draw_pixel_value(context, area);
   draw_list->PopClipRect();
 }

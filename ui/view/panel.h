@@ -32,6 +32,7 @@ struct PictureOnScreen {
   std::shared_ptr<const void> owner; ///< the picture's owner
   Tone tone;                         ///< its tone
   ViewSettings view_settings;        ///< the settings that gave the tone
+  image::Display display;            ///< the preset's that gave the tone
   double white = 1;                  ///< the white that gave the tone
 
   /// like: the tone of the picture that it is compared with; null: its own.

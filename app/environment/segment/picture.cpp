@@ -124,7 +124,7 @@ SegmentPicture shown_map(const scene::Environment& map) {
   make_small_range(pixels);
   SegmentPicture picture{width, height, {}};
   for (const glm::dvec3& rgb : pixels) {
-    for (int c = 0; c < 3; ++c) picture.rgba.push_back(image::shown(static_cast<float>(rgb[c]), 1));
+    for (int c = 0; c < 3; ++c) picture.rgba.push_back(image::shown(static_cast<float>(rgb[c])));
     picture.rgba.push_back(255);
   }
   return picture;

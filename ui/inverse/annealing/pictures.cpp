@@ -138,7 +138,7 @@ void draw_beam_cells(const inverse::Footprint& print, const job::Picture& pictur
   for (int y = first_y; y < picture.height && corner(0, y).y < high.y; ++y)
     for (int x = first_x; x < picture.width && corner(x, y).x < high.x; ++x) {
       const std::size_t index = inverse::index_at(x, y, picture.width);
-      const unsigned char grey = shown_byte(picture.rgb[3 * index]);
+      const unsigned char grey = image::shown(picture.rgb[3 * index]);
       list.AddRectFilled(corner(x, y), corner(x + 1, y + 1), IM_COL32(grey, grey, grey, 255));
       const int i = x - print.x0, k = y - print.y0;
       if (i < 0 || k < 0 || i >= print.columns || k >= print.rows) continue;

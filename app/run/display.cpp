@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/display.h"
+
+#include "optics/colour.h"
+#include "preset/settings_type.h"
+#include "scene/materials.h"
+
+#include <algorithm>
+
+namespace nephroid::run {
+
+image::Display display_of(const preset::Preset& preset) {
+  image::Display display;
+  if (std::ranges::count(preset.settings.type().without, "display") > 0) return display;
+  display.gamut = preset.display.gamut;
+  display.tone = preset.display.tone;
+  if (preset.display.white_balance == preset::Display::WhiteBalance::d65) return display;
+  const Location where = Location(preset.source) / "scene" / "lights" / 0 / "spectrum";
+  const auto balance =
+      optics::white_balance(optics::to_xyz(scene::make_light_spectrum(preset.scene.lights.at(0).spectrum, where)));
+  for (std::size_t i = 0; i < 9; ++i) display.white_balance[i] = static_cast<float>(balance[i / 3][i % 3]);
+  return display;
+}
+
+} // namespace nephroid::run
