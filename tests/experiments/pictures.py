@@ -221,6 +221,7 @@ WINDOW = [
     "dispersion",
     "environment",
     "handles",
+    "materials",
     "parameters",
     "spectra-relit",
     "spectra",

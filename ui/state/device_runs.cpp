@@ -28,8 +28,8 @@ std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prep
 } // namespace
 
 DeviceRuns::DeviceRuns(compute::DeviceOptions device, TakeFacts take_facts)
-    : kernels_(device.kernels), take_facts_(take_facts),
-      run_([device = std::move(device)] { return compute::Context::open(device); }) {
+    : kernels_(device.kernels), take_facts_(take_facts), run_([device] { return compute::Context::open(device); }),
+      beside_([device = std::move(device)] { return compute::Context::open(device); }) {
   if (!kernels_.empty()) watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }
 
@@ -54,6 +54,13 @@ NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch) {
   if (take_facts_) facts = take_facts_(preset, run_.prepared->loaded);
   return {std::move(run_.job),        std::move(plan), run_.reference, std::move(facts), run_.device.opened().device(),
           run_.prepared->preset.white};
+}
+
+std::unique_ptr<job::Job> DeviceRuns::make_beside(const preset::Preset& preset, const Watch& watch) {
+  if (reopen_beside_.exchange(false)) beside_.device.close();
+  beside_.prepared.reset(); // files may have changed, and there is little to read
+  run::make_ready(beside_, preset, {.watch = watch});
+  return std::move(beside_.job);
 }
 
 void DeviceRuns::watch(const std::stop_token& stop) {

@@ -39,6 +39,9 @@ public:
   virtual ~RunSource() = default;
   /// Called on the worker's thread only. What it throws is why the run failed; interrupted where `watch` asks for it.
   virtual NewRun make(const preset::Preset& preset, const Watch& watch) = 0;
+  /// Makes the job of a small picture that goes beside the runs. Called on one thread only, which is another one than
+  /// make()'s and may be here at the same time. Throws as make().
+  virtual std::unique_ptr<job::Job> make_beside(const preset::Preset& preset, const Watch& watch) = 0;
   /// Both return at once, from any thread. The next make() then reads every file again, or opens the device again,
   /// which a run may have lost.
   virtual void reread_files() {}
