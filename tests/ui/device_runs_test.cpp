@@ -118,11 +118,13 @@ TEST(NewScenesTest, EachIsDrawn) {
 double warmth(DeviceRuns& engine, const preset::Material& material) {
   preset::Preset preset = preset::parse_preset(test::preset_text, "test");
   preset.scene.materials["shown"] = material;
+  Messages messages;
+  const RunInHand idle(engine, messages);
   MaterialBalls balls(engine);
   std::shared_ptr<const job::Picture> picture;
   const auto look = [&] {
     picture = balls.of("shown");
-    balls.update(&preset, false);
+    balls.update(&preset, idle);
   };
   EXPECT_TRUE(test::eventually(look, [&] { return picture && !balls.works(); }));
   double red = 0, blue = 0;

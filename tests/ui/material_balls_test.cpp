@@ -68,6 +68,31 @@ TEST_F(BallsTest, AMaterialIsAskedForOnceAChange) {
   EXPECT_THAT(workbench.messages(), IsEmpty());
 }
 
+TEST_F(BallsTest, AMaterialWhoseFileChangesIsAskedForAgain) {
+  folder.write("own.yml", read_file(test::shipped("N-BK7")));
+  test::Json preset = test::Json::parse(metal_text());
+  preset["scene"]["materials"]["glass"]["dispersion"] = "own.yml";
+  open(preset.dump());
+  search("scene.materials.glass");
+  expect_asked(1);
+  folder.write("own.yml", read_file(test::shipped("N-SF66")));
+  EXPECT_TRUE(until([&] { return runs.made_beside == 2; }));
+  expect_asked(2);
+}
+
+TEST_F(BallsTest, TheRunInHandIsWaitedForButNotLong) {
+  open(metal_text());
+  search("scene.materials.metal");
+  expect_asked(1);
+  runs.reads_on = true; // it comes to no picture
+  edit([](preset::Preset& p) { p.scene.materials.at("metal").roughness = 0.3; });
+  frame();
+  EXPECT_EQ(runs.made_beside, 1);
+  EXPECT_TRUE(until([&] { return runs.made_beside == 2; }));
+  EXPECT_EQ(workbench.run().status().state, job::State::preparing);
+  runs.reads_on = false;
+}
+
 TEST_F(BallsTest, ASelectedObjectShowsItsMaterial) {
   open(metal_text());
   const std::string at = "/scene/objects/0/material:picture";
@@ -220,6 +245,7 @@ class GlassOfDispersion : public test::DispersionFixture {};
 TEST_F(GlassOfDispersion, IsChosenAndSeen) {
   test::HeadlessWindow<>::resize({1400, 900});
   open_glass({{"glass", test::from_points(test::five)}});
+  frames(5);
   ASSERT_TRUE(until([&] { return panel().place_of("picture").has_value(); }));
   click("glass:shipped");
   ASSERT_TRUE(until([&] { return panel().place_of("glass:N-BK7").has_value(); }));

@@ -164,7 +164,7 @@ void FieldRows::draw_picture(const std::string& material, const std::string& poi
     return is_inside(problem.first, at) || is_inside(shown_at(problem.second), at);
   };
   if (std::ranges::none_of(form_.draft.problems(), is_of_it))
-    pictures_.draw(*form_.balls, material, form_.places(), pointer + ":picture");
+    pictures_.draw(*form_.balls, material, 8 * em(), form_.places(), pointer + ":picture");
 }
 
 } // namespace nephroid::ui

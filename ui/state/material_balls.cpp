@@ -13,7 +13,9 @@ namespace nephroid::ui {
 namespace {
 
 /// While the run in hand works, a ball that has a picture rests so many times as long as it worked.
-constexpr int rest_a_slice = 3;
+constexpr int rest_a_slice = 5;
+/// The run in hand has the device for itself so long, at most, until it shows its first picture.
+constexpr std::chrono::milliseconds patience{120};
 
 /// The sun and a lamp for highlights and caustics, a sky for mirrors. Of the first engine, whose pictures are of all
 /// materials.
@@ -39,7 +41,7 @@ constexpr const char* scene_text = R"({
     ],
     "lights": [{"type": "directional", "irradiance_w_m2": 80, "direction": [-0.9, -0.8, -0.6]}]
   },
-  "stop": {"seconds": 1.5}
+  "stop": {"seconds": 1}
 })";
 
 /// A job that leaves most of the device to others once it has shown a picture.
@@ -106,11 +108,12 @@ std::shared_ptr<const job::Picture> MaterialBalls::of(const std::string& materia
   return ball.picture;
 }
 
-void MaterialBalls::update(const preset::Preset* preset, bool device_is_wanted) {
-  device_is_wanted_ = device_is_wanted;
+void MaterialBalls::update(const preset::Preset* preset, const RunInHand& run) {
+  const job::State state = run.status().state;
+  device_is_wanted_ = state == job::State::preparing || state == job::State::running;
   take_newest();
-  follow(preset);
-  start_next();
+  follow(preset, run.readings());
+  start_next(device_is_wanted_ && !run.snapshot_is_current());
 }
 
 void MaterialBalls::take_newest() {
@@ -131,20 +134,18 @@ void MaterialBalls::take_newest() {
 }
 
 /// Takes over what the preset says of the materials. Those that nobody shows keep the picture that they have.
-void MaterialBalls::follow(const preset::Preset* preset) {
+void MaterialBalls::follow(const preset::Preset* preset, std::uint64_t readings) {
   for (auto entry = balls_.begin(); entry != balls_.end();) {
     auto& [name, ball] = *entry;
     const bool exists = preset && preset->scene.materials.contains(name);
-    if (name == in_hand_ && (!exists || !ball.wanted)) {
-      making_.request_stop();
-      worker_.cancel();
-      in_hand_.clear();
-    }
+    if (name == in_hand_ && (!exists || !ball.wanted)) end_run();
     if (!exists) {
       entry = balls_.erase(entry);
       continue;
     }
-    if (Subject now{preset->source, preset->unit, preset->scene.materials.at(name)}; ball.subject != now) {
+    if (Subject now{preset->source, preset->unit, preset->scene.materials.at(name), readings}; ball.subject != now) {
+      if (ball.work_seconds >= 0 || ball.done) ball.outdated = Clock::now();
+      if (name == in_hand_ && shown_) end_run(); // else there would be no picture while a number is dragged
       ball.subject = std::move(now);
       ball.work_seconds = -1;
       ball.done = false;
@@ -154,15 +155,23 @@ void MaterialBalls::follow(const preset::Preset* preset) {
 }
 
 /// First pictures come before better ones.
-void MaterialBalls::start_next() {
-  // A run that has shown nothing yet goes on: else there would be no picture while a number is dragged.
-  const bool waits = works() && !shown_;
+void MaterialBalls::start_next(bool run_shows_nothing) {
   const auto is_next = [&](const auto& entry) { return entry.second.wanted && !entry.second.done; };
-  const auto has_none = [&](const auto& entry) { return is_next(entry) && entry.second.work_seconds < 0; };
-  auto next = waits ? balls_.end() : std::ranges::find_if(balls_, has_none);
-  if (next == balls_.end() && !works()) next = std::ranges::find_if(balls_, is_next);
+  const Clock::time_point waiting_since = run_shows_nothing ? Clock::now() - patience : Clock::time_point::max();
+  const auto has_none = [&](const auto& entry) {
+    return is_next(entry) && entry.second.work_seconds < 0 && entry.second.outdated <= waiting_since;
+  };
+  auto next = in_hand_.empty() || shown_ ? std::ranges::find_if(balls_, has_none) : balls_.end();
+  if (next == balls_.end() && in_hand_.empty() && !run_shows_nothing) next = std::ranges::find_if(balls_, is_next);
   if (next != balls_.end()) start(next->first, next->second);
+  works_ = std::ranges::any_of(balls_, is_next);
   for (auto& [name, ball] : balls_) ball.wanted = false;
+}
+
+void MaterialBalls::end_run() {
+  making_.request_stop();
+  worker_.cancel();
+  in_hand_.clear();
 }
 
 void MaterialBalls::start(const std::string& material, const Ball& ball) {

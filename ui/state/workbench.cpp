@@ -129,8 +129,7 @@ void Workbench::update(Clock::time_point now) {
   document_files_.update();
   run_.update(edits());
   document_.update();
-  const job::State state = run_.status().state;
-  balls_.update(preset(), state == job::State::preparing || state == job::State::running);
+  balls_.update(preset(), run_);
   sweep_.update();
   files_.update();
   services_.tasks.collect(services_.messages);

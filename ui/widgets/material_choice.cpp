@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace nephroid::ui {
 namespace {
 
@@ -50,10 +52,13 @@ std::optional<std::string> MaterialChoice::draw_list(const std::string& widget, 
   const std::string before = words_;
   const bool entered = ImGui::InputTextWithHint("##words", "Search", &words_, ImGuiInputTextFlags_EnterReturnsTrue);
   places.note(widget + ":words");
+  std::size_t count = 0;
   std::vector<const scene::ShippedMaterial*> matches;
-  for (const scene::ShippedMaterial& material : shipped_)
-    if (material.metal == (kind == Kind::metal) && has_words(material.name + " " + figures_of(material), words_))
-      matches.push_back(&material);
+  for (const scene::ShippedMaterial& material : shipped_) {
+    if (material.metal != (kind == Kind::metal)) continue;
+    ++count;
+    if (has_words(material.name + " " + figures_of(material), words_)) matches.push_back(&material);
+  }
   bool moved = before != words_;
   if (moved) marked_ = 0;
   if (ImGui::IsKeyPressed(ImGuiKey_DownArrow) && marked_ + 1 < matches.size()) moved = ++marked_ > 0;
@@ -61,7 +66,8 @@ std::optional<std::string> MaterialChoice::draw_list(const std::string& widget, 
   std::optional<std::string> chosen;
   if (entered && marked_ < matches.size()) chosen = matches[marked_]->name;
   // The arrows move in the list while the text field has the keyboard.
-  if (ImGui::BeginChild("list", {width, 12 * ImGui::GetTextLineHeightWithSpacing()}, ImGuiChildFlags_None,
+  const float rows = static_cast<float>(std::clamp<std::size_t>(count, 1, 14)); // as high whatever is typed
+  if (ImGui::BeginChild("list", {width, rows * ImGui::GetTextLineHeightWithSpacing()}, ImGuiChildFlags_None,
                         ImGuiWindowFlags_NoNav)) {
     if (!was_read_)
       ImGui::TextDisabled("Reading the files");

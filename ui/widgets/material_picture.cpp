@@ -6,9 +6,9 @@
 
 namespace nephroid::ui {
 
-void MaterialPictures::draw(MaterialBalls& balls, const std::string& material, WidgetPlaces& places,
+void MaterialPictures::draw(MaterialBalls& balls, const std::string& material, float edge, WidgetPlaces& places,
                             const std::string& widget) {
-  const ImVec2 corner = ImGui::GetCursorScreenPos(), size{8 * em(), 8 * em()};
+  const ImVec2 corner = ImGui::GetCursorScreenPos(), size{edge, edge};
   ImGui::Dummy(size);
   if (!ImGui::IsItemVisible()) return;
   ImGui::GetWindowDrawList()->AddRectFilled(corner, corner + size, colour::surround);

@@ -9,9 +9,10 @@ namespace nephroid::ui {
 
 class MaterialPictures {
 public:
-  /// Draws the material's picture as the next item; while there is none, an empty place. Out of sight it asks for none.
-  /// Noted as `widget` where there is one.
-  void draw(MaterialBalls& balls, const std::string& material, WidgetPlaces& places, const std::string& widget);
+  /// Draws the material's picture as the next item, `edge` pixels wide; while there is none, an empty place. Out of
+  /// sight it asks for none. Noted as `widget` where there is one.
+  void draw(MaterialBalls& balls, const std::string& material, float edge, WidgetPlaces& places,
+            const std::string& widget);
 
 private:
   struct Drawn {

@@ -45,8 +45,8 @@ void DispersionPanel::draw(const Context& context) {
   const std::vector<std::string> names = dielectrics(*context.preset());
   if (names.empty()) return draw_hint(colour::quiet_text, corner, size, "No material of this preset is a dielectric");
   follow(context);
-  if (size.x > 36 * em()) {
-    pictures_.draw(context.balls, shown_, places_, "picture");
+  if (constexpr float edge = 6; size.x > (edge + 20) * em()) {
+    pictures_.draw(context.balls, shown_, edge * em(), places_, "picture");
     ImGui::SameLine();
   }
   ImGui::BeginGroup();
@@ -55,8 +55,8 @@ void DispersionPanel::draw(const Context& context) {
   if (!fitted_text_.empty() && dispersion_ == fitted_) source += "; " + fitted_text_;
   draw_wrapped(colour::quiet_text, source);
   if (!model_.curve().note.empty()) draw_wrapped(colour::note, model_.curve().note);
-  draw_points_row(context);
   ImGui::EndGroup();
+  draw_points_row(context);
   draw_plot(context);
   const float top = ImGui::GetCursorPosY();
   if (model_.error().empty()) {
