@@ -17,13 +17,12 @@ constexpr int rest_a_slice = 5;
 /// The run in hand has the device for itself so long, at most, until it shows its first picture.
 constexpr std::chrono::milliseconds patience{120};
 
-/// The sun and a lamp for highlights and caustics, a sky for mirrors. Of the first engine, whose pictures are of all
-/// materials.
+/// A lamp for highlights and caustics; the sun and a sky, which mirrors show, are added. Of the first engine, whose
+/// pictures are of all materials.
 constexpr const char* scene_text = R"({
   "white": 50,
   "scene": {
     "camera": {"position": [0, 3, 5.6], "target": [0, 0.8, 0], "fov_deg": 24},
-    "environment": {"type": "sky", "sun_direction": [-0.6, 0.75, 0.5], "turbidity": 7},
     "materials": {
       "ground": {
         "type": "diffuse",
@@ -88,6 +87,10 @@ preset::Preset MaterialBalls::scene_of(const Subject& subject) {
   settings.threshold_deg = 0.2;                       // and bends light wrong by less than a pixel
   settings.effort = photons::Settings::Effort::power; // measuring first would take as long as the picture
   settings.photons_per_pass = 1 << 15;
+  preset::Environment& sky = preset.scene.environment.emplace();
+  sky.type = preset::Environment::Type::sky;
+  sky.sun_direction = {-0.6, 0.75, 0.5};
+  sky.turbidity = 7; // in clear air metals would mirror much blue
   preset.unit = subject.unit;
   preset.scene.camera.resolution = {edge, edge};
   preset.scene.materials["ball"] = subject.material;
