@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/device_runs.h"
 
+#include "compute/own_queue.h"
 #include "preset/origins.h"
 #include "run/reference.h"
 
@@ -28,16 +29,28 @@ std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prep
 } // namespace
 
 DeviceRuns::DeviceRuns(compute::DeviceOptions device, TakeFacts take_facts)
-    : kernels_(device.kernels), take_facts_(take_facts), run_([device] { return compute::Context::open(device); }),
-      beside_([device = std::move(device)] { return compute::Context::open(device); }) {
+    : kernels_(device.kernels), take_facts_(take_facts), options_(std::move(device)),
+      run_([this] { return this->device(); }), beside_([this] { return compute::with_own_queue(this->device()); }) {
   if (!kernels_.empty()) watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }
 
 DeviceRuns::~DeviceRuns() = default;
 
+/// Opens it where it is not open.
+compute::Context DeviceRuns::device() {
+  const std::lock_guard lock(opening_);
+  if (!opened_) opened_ = compute::Context::open(options_);
+  return *opened_;
+}
+
 NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch) {
   if (reread_.exchange(false)) run_.prepared.reset();
-  if (reopen_.exchange(false)) run_.device.close();
+  if (reopen_.exchange(false)) {
+    run_.device.close();
+    const std::lock_guard lock(opening_);
+    opened_.reset();
+    reopen_beside_ = true;
+  }
   if (watcher_.joinable()) { // the sources are read below, so changes until here are in this run
     const std::lock_guard lock(watching_);
     seen_ = compute::kernel_times(kernels_);
