@@ -42,14 +42,6 @@ Json to_json(const std::string& file, const optics::DispersionCurve& curve,
   return {{"file", file}, {"name", curve.name}, {"range_nm", {low, or_null(high)}}, {"samples", std::move(rows)}};
 }
 
-/// V_d = (n_d - 1) / (n_F - n_C); empty if the data does not reach the three lines or has no dispersion.
-std::optional<double> abbe_number(const optics::DispersionCurve& curve) {
-  const optics::IndexSample d = curve.sample(optics::line_d_nm), f = curve.sample(optics::line_f_nm),
-                            c = curve.sample(optics::line_c_nm);
-  if (d.extrapolated || f.extrapolated || c.extrapolated || !d.n || !f.n || !c.n || *f.n == *c.n) return std::nullopt;
-  return (*d.n - 1) / (*f.n - *c.n);
-}
-
 void print_text(const optics::DispersionCurve& curve, const std::vector<optics::IndexSample>& samples) {
   const auto cell = [](const std::optional<double>& value, const char* format) {
     return value ? fmt::format(fmt::runtime(format), *value) : std::string("-");
@@ -64,7 +56,7 @@ void print_text(const optics::DispersionCurve& curve, const std::vector<optics::
   for (const optics::IndexSample& s : samples)
     fmt::print("{:>10.8g} {:>10} {:>11}{}\n", s.nm, cell(s.n, "{:.6f}"), cell(s.k, "{:.4e}"),
                s.extrapolated ? "  outside the range" : "");
-  if (const std::optional<double> abbe = abbe_number(curve)) fmt::print("Abbe number V_d {:.2f}\n", *abbe);
+  if (const std::optional<double> abbe = optics::abbe_number(curve)) fmt::print("Abbe number V_d {:.2f}\n", *abbe);
 }
 
 /// Says on standard error where a formula has no value; the sample is null there.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which devices there are and why there might be none; choosing one and opening it with one queue.
 #include "base/lower_case.h"
+#include "compute/own_queue.h"
 #include "compute/state.h"
 
 #include <fmt/format.h>
@@ -132,6 +133,22 @@ Context Context::open(const DeviceOptions& options) {
     throw Error(ErrorKind::no_device, {}, failure.line());
   }
   return context;
+}
+
+Context with_own_queue(const Context& context) {
+  Context other;
+  other.state = std::make_shared<detail::ContextState>();
+  detail::ContextState& s = *other.state;
+  s.info = context.state->info;
+  s.device = context.state->device;
+  s.kernels = context.state->kernels;
+  s.context = context.state->context;
+  try {
+    s.queue = cl::CommandQueue(s.context, s.device);
+  } catch (const cl::Error& error) {
+    throw detail::call_failed(error, s.info.name);
+  }
+  return other;
 }
 
 TellOfCompiling::TellOfCompiling(Context context, std::function<void()> tell) : context_(std::move(context)) {

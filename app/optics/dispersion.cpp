@@ -182,6 +182,12 @@ Curve curve_of(LinearTable table) {
   return {std::move(table), low, high, false, gap};
 }
 
+std::optional<double> abbe_number(const DispersionCurve& curve) {
+  const IndexSample d = curve.sample(line_d_nm), f = curve.sample(line_f_nm), c = curve.sample(line_c_nm);
+  if (d.extrapolated || f.extrapolated || c.extrapolated || !d.n || !f.n || !c.n || *f.n == *c.n) return std::nullopt;
+  return (*d.n - 1) / (*f.n - *c.n);
+}
+
 std::string outside_note(const DispersionCurve& curve, Extrapolation outside) {
   if (!curve.n) return {};
   const double low = curve.n->low_nm, high = curve.n->high_nm;

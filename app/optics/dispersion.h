@@ -49,6 +49,9 @@ Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside);
 /// (data: 390..2500 nm)", or into a gap of it; empty where they do not.
 std::string outside_note(const DispersionCurve& curve, Extrapolation outside);
 
+/// V_d = (n_d - 1) / (n_F - n_C); empty if the data does not reach the three lines or has no dispersion.
+std::optional<double> abbe_number(const DispersionCurve& curve);
+
 /// The same n > 0 at every wavelength.
 DispersionCurve constant_index(double n);
 /// n^2 = 1 + sum b l^2 / (l^2 - c); l in micrometres, c in square micrometres. low/high: the fit's range.

@@ -21,7 +21,8 @@ void describe(Fields& v, Dispersion& d) {
   if (d.type == Type::constant) // which has no range to leave
     return v.field("n", "Index of refraction.", d.n, {.bounds = index_bounds, .required = true});
   if (d.type == Type::file)
-    v.field("file", "A YAML file of refractiveindex.info.", d.file, {.text = Text::file, .required = true});
+    v.field("file", "A YAML file of refractiveindex.info.", d.file,
+            {.text = Text::file, .names = Names::glass, .required = true});
   if (d.type == Type::sellmeier) {
     coefficients("b", "Strength of each term.", d.b);
     coefficients("c_um2", "Resonance of each term: its wavelength squared.", d.c_um2, "square micrometres");
@@ -112,7 +113,7 @@ void describe(Fields& v, Material& m) {
             m.dispersion);
   if (m.type == Type::conductor)
     v.field("metal", "gold, silver, copper, aluminium, brass, or a YAML file of refractiveindex.info with n and k.",
-            m.metal, {.text = Text::file});
+            m.metal, {.text = Text::file, .names = Names::metal});
   if (is_matt(m.type) || m.type == Type::mirror)
     v.field("reflectance", "Part of the light that is reflected: a number, a ColorChecker patch or an object.",
             m.reflectance);

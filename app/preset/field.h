@@ -44,8 +44,9 @@ struct Columns {
 /// docs/presets.md says.
 enum class Text { text, line, file };
 
-/// What a text names. Whether such a thing exists is checked where the preset is used.
-enum class Names { nothing, material, object, illuminant, patch };
+/// What a text names. Whether such a thing exists is checked where the preset is used. metal, glass: a file with n and
+/// k or with n, or a shipped material of the kind.
+enum class Names { nothing, material, object, illuminant, patch, metal, glass };
 
 /// One field. Its default is not here: it is what a default-constructed struct holds.
 struct Field {

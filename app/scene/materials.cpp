@@ -54,6 +54,26 @@ std::set<std::string> shipped_materials() {
   return names;
 }
 
+std::vector<ShippedMaterial> read_shipped_materials() {
+  std::vector<ShippedMaterial> materials;
+  for (const std::string& stem : shipped_materials()) try {
+      const auto file = shipped_material(stem);
+      ShippedMaterial material{stem, false, {}, {}};
+      // A file's name ends in who measured it: "gold-Johnson".
+      if (const std::string short_name = stem.substr(0, stem.rfind('-')); shipped_material(short_name) == file)
+        material.name = short_name;
+      const optics::DispersionCurve curve = optics::load_dispersion(*file);
+      const optics::IndexSample at_d = curve.sample(optics::line_d_nm);
+      material.metal = at_d.k.value_or(0) > 1; // light comes less than 50 nm deep
+      material.n_d = at_d.n;
+      material.abbe = optics::abbe_number(curve);
+      materials.push_back(std::move(material));
+    } catch (const Error&) {
+      // What uses it says what is wrong with it.
+    }
+  return materials;
+}
+
 std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Location& where) {
   try {
     return finder.find(name, where);

@@ -25,6 +25,15 @@ std::filesystem::path find_dispersion(const std::string& name, const FileFinder&
 /// The names of the shipped materials: "N-BK7".
 std::set<std::string> shipped_materials();
 
+/// What a person chooses a shipped material by.
+struct ShippedMaterial {
+  std::string name;                ///< as presets name it: "gold", "N-BK7"
+  bool metal = false;              ///< it lets no light through: material for a conductor
+  std::optional<double> n_d, abbe; ///< where the data has them
+};
+/// All that can be read, by name. Reads every file, which takes a while: no frame of a window waits for it.
+std::vector<ShippedMaterial> read_shipped_materials();
+
 /// The dispersion that a person names: a file, else a shipped material. Throws bad_input naming the folders searched.
 optics::DispersionCurve load_dispersion(const std::string& name);
 

@@ -238,6 +238,7 @@ WINDOW = [
     "dispersion",
     "environment",
     "handles",
+    "materials",
     "parameters",
     "spectra-relit",
     "spectra",

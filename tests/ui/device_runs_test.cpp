@@ -114,4 +114,42 @@ TEST(NewScenesTest, EachIsDrawn) {
   }
 }
 
+/// Red over blue of a material's picture.
+double warmth(DeviceRuns& engine, const preset::Material& material) {
+  preset::Preset preset = preset::parse_preset(test::preset_text, "test");
+  preset.scene.materials["shown"] = material;
+  Messages messages;
+  const RunInHand idle(engine, messages);
+  MaterialBalls balls(engine);
+  std::shared_ptr<const job::Picture> picture;
+  const auto look = [&] {
+    picture = balls.of("shown");
+    balls.update(&preset, idle);
+  };
+  EXPECT_TRUE(test::eventually(look, [&] { return picture && !balls.works(); }));
+  double red = 0, blue = 0;
+  for (std::size_t i = 0; picture && i < picture->rgb.size(); i += 3) {
+    red += picture->rgb[i];
+    blue += picture->rgb[i + 2];
+  }
+  return red / blue;
+}
+
+TEST(MaterialBalls, AreOfTheMaterial) {
+  DeviceRuns engine({});
+  preset::Material material;
+  material.type = preset::Material::Type::conductor;
+  std::map<std::string, double> warm;
+  for (const char* metal : {"copper", "silver"}) {
+    material.metal = metal;
+    warm[metal] = warmth(engine, material);
+  }
+  EXPECT_GT(warm["copper"], 1.1 * warm["silver"]);
+  material.type = preset::Material::Type::diffuse;
+  const double grey = warmth(engine, material);
+  material.texture =
+      preset::Texture{.type = preset::Texture::Type::checkerboard, .colour0 = {1, 0, 0}, .colour1 = {1, 0.5, 0}};
+  EXPECT_GT(warmth(engine, material), 1.1 * grey) << "a texture is seen";
+}
+
 } // namespace nephroid::ui::device_runs_test

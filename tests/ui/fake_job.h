@@ -114,6 +114,13 @@ public:
             {},
             white};
   }
+  std::unique_ptr<job::Job> make_beside(const preset::Preset& preset, const Watch&) override {
+    ++made_beside;
+    if (refuses_beside) throw bad_input("scene", "cannot be");
+    const std::lock_guard lock(beside_mutex);
+    seen_beside = preset;
+    return std::make_unique<FakeJob>(preset, beside);
+  }
   void reread_files() override { ++reread; }
   void reopen_device() override { ++reopened; }
   bool take_changed() override { return changed.exchange(false); }
@@ -125,6 +132,11 @@ public:
   std::atomic<int> made{0}, reread{0}, reopened{0};
   std::atomic<bool> changed{false}, broken{false}; ///< the kernels
   std::atomic<bool> reads_on{false};               ///< runs do not come to the end of a file
+  FakeSettings beside;                             ///< of small pictures
+  std::atomic<int> made_beside{0};
+  std::atomic<bool> refuses_beside{false};
+  std::mutex beside_mutex;
+  preset::Preset seen_beside; ///< the newest, guarded by the mutex
 };
 
 /// The newest message's line; empty where there is none.

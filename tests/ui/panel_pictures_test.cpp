@@ -263,6 +263,41 @@ constexpr const char* scene_text = R"({
   "stop": {"passes": 1000000}
 })";
 
+TEST_F(PanelPictures, AMetalIsChosen) {
+  preset::Preset preset = preset::parse_preset(scene_text, "test");
+  preset.scene.materials["metal"].type = preset::Material::Type::conductor;
+  preset.scene.objects[0].material = "metal";
+  const std::string file = folder.write("metal.json", preset::to_json(preset));
+  const std::string metal = "/scene/materials/metal";
+  test::HeadlessWindow<test::SceneRuns> like(size, "parameters", file);
+  const auto place_of = [&](const std::string& widget) {
+    return like.workspace.panel<ParametersPanel>().place_of(widget).value();
+  };
+  const test::Pixel search = click(place_of("search"), like);
+  like.type("materials.metal");
+  ASSERT_TRUE(
+      like.until([&] { return like.workspace.panel<ParametersPanel>().place_of(metal + ":picture").has_value(); }));
+  const test::Pixel ball = pixel(place_of(metal + ":picture")), list = pixel(place_of(metal + "/metal:shipped"));
+  test::PlayedWindow window = open(file, "parameters");
+  window.click(search);
+  window.type("materials.metal");
+  const auto blue_part = [&](const image::Image& picture) {
+    const auto colour = test::bytes_at(picture, ball[0], ball[1] + 10); // where it mirrors the ground
+    return static_cast<double>(colour[2]) / std::max(colour[0], 1);
+  };
+  window.until("a golden ball", [&] { return blue_part(window.picture("gold.png")) < 0.7; });
+  window.click(list);
+  window.type("o");
+  taken(window, "window-materials.png", "a golden ball", [&](const auto& picture) { return blue_part(picture) < 0.7; });
+  window.key("BackSpace");
+  window.type("silv");
+  window.key("Return");
+  window.until("a silver ball", [&] { return blue_part(window.picture("silver.png")) > 0.8; });
+  window.save();
+  EXPECT_EQ(window.quit().exit_code, 0);
+  EXPECT_EQ(preset::read_preset(file).scene.materials.at("metal").metal, "silver");
+}
+
 class GizmoWindowTest : public test::PicturedWindow {};
 
 TEST_F(GizmoWindowTest, AnArrowMovesABall) {

@@ -251,6 +251,26 @@ TEST_F(SceneFiles, ShippedMaterialsHaveShortNamesWhichFilesBesideThePresetGoBefo
                                                          HasSubstr("the program comes with"), HasSubstr(", N-BK7, ")));
 }
 
+TEST(Scene, ShippedMaterialsAreReadByTheNamesOfPresets) {
+  const std::vector<ShippedMaterial> shipped = read_shipped_materials();
+  EXPECT_EQ(shipped.size(), shipped_materials().size());
+  std::set<std::string> metals;
+  for (const ShippedMaterial& material : shipped) {
+    preset::Material of;
+    of.type = material.metal ? Material::Type::conductor : Material::Type::dielectric;
+    of.metal = of.dispersion.file = material.name;
+    of.dispersion.type = preset::Dispersion::Type::file;
+    std::vector<std::string> warnings;
+    EXPECT_NO_THROW(make_material("new", of, FileFinder(), "test", warnings)) << material.name;
+    if (material.metal) metals.insert(material.name);
+  }
+  EXPECT_THAT(metals, testing::ElementsAre("aluminium", "brass", "copper", "gold", "silver"));
+  const auto glass = std::ranges::find(shipped, "N-BK7", &ShippedMaterial::name);
+  ASSERT_NE(glass, shipped.end());
+  EXPECT_NEAR(glass->n_d.value(), 1.5168, 1e-5) << "Schott's catalogue";
+  EXPECT_NEAR(glass->abbe.value(), 64.17, 0.01);
+}
+
 TEST_F(SceneFiles, MaterialFromAFileWithItsRangeAndAbsorption) {
   write_file_whole(folder / "dye.yml",
                    "DATA:\n  - type: tabulated nk\n    data: |\n        0.40 1.6 0.5\n        0.70 1.5 0.0\n");

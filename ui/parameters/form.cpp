@@ -147,7 +147,8 @@ void ValueWidgets::draw_value(const Outline& o, const Json& value, const std::st
   }
   default: {
     const preset::Names names = o.field.names;
-    if (names != preset::Names::nothing) {
+    const bool file = o.field.text == preset::Text::file;
+    if (names != preset::Names::nothing && !file) {
       std::vector<std::string> choices;
       if (names == preset::Names::material)
         for (const auto& [name, material] : form_.draft.value()["scene"]["materials"].items()) choices.push_back(name);
@@ -161,9 +162,10 @@ void ValueWidgets::draw_value(const Outline& o, const Json& value, const std::st
       draw_choice(pointer, text_of(value), words, set, width);
       break;
     }
-    const bool file = o.field.text == preset::Text::file;
-    draw_text(pointer, value, file ? width - ImGui::GetFrameHeight() - gap() : width,
+    const float buttons = file && names != preset::Names::nothing ? 2 : file ? 1 : 0;
+    draw_text(pointer, value, std::max(width - buttons * (ImGui::GetFrameHeight() + gap()), 3 * em()),
               [](const std::string& text) { return Json(text); });
+    if (file && names != preset::Names::nothing) draw_shipped_choice(names, value, pointer);
     if (file) draw_file_choice(pointer);
     break;
   }
@@ -263,6 +265,14 @@ void ValueWidgets::draw_type(const Outline& o, const Json& object, const std::st
     form_.ask(dotted(at) + ": " + std::string(word), pointer, preset::as_type(object, fields, *chooser, word));
   };
   draw_choice(at, object.value(key, ""), chooser->words, choose, 8 * em());
+}
+
+/// A button in the line of what was drawn last, for a list of the shipped materials.
+void ValueWidgets::draw_shipped_choice(preset::Names names, const Json& value, const std::string& pointer) {
+  ImGui::SameLine(0, gap());
+  const auto kind = names == preset::Names::metal ? MaterialChoice::Kind::metal : MaterialChoice::Kind::glass;
+  if (const auto chosen = shipped_.draw(pointer, kind, text_of(value), *form_.tasks, form_.places()))
+    form_.ask(dotted(pointer) + ": " + *chosen, pointer, *chosen);
 }
 
 /// A button in the line of what was drawn last, for a list of the files beside the preset.

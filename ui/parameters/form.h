@@ -6,6 +6,7 @@
 #include "ui/parameters/draft.h"
 #include "ui/state/context.h"
 #include "ui/widgets/file_list.h"
+#include "ui/widgets/material_choice.h"
 
 namespace nephroid::ui {
 
@@ -38,7 +39,9 @@ public:
   bool only_changed = false;
   Draft draft;
   Gestures gestures;
-  TaskQueue* tasks = nullptr;     ///< this frame's
+  TaskQueue* tasks = nullptr;     ///< this frame's, as is
+  MaterialBalls* balls = nullptr; ///< this,
+  std::string selected;           ///< and the pointer of what is selected
   std::string reveal;             ///< the pointer of a field that is to be brought into sight
   std::optional<Problem> refused; ///< by the run
 
@@ -88,10 +91,12 @@ private:
   void draw_choice(const std::string& pointer, const std::string& now, const std::vector<preset::Outline::Word>& words,
                    const std::function<void(std::string_view)>& choose, float width);
   void draw_file_choice(const std::string& pointer);
+  void draw_shipped_choice(preset::Names names, const Json& value, const std::string& pointer);
   std::string unit_of(const preset::Field& field) const;
 
   Form& form_;
   FileList files_;
+  MaterialChoice shipped_;
   std::string number_typed_;    ///< the number that is a text field in place of one to drag,
   bool number_focused_ = false; ///< and has the keyboard
   std::string typed_at_, typed_;

@@ -130,6 +130,7 @@ void FieldRows::draw_items(const Outline& o, const Json& value, const std::strin
     draw_item_buttons(value, key, pointer);
     if (o.kind == Kind::map && open) draw_name(value, key, pointer);
     draw_problem(at, !open);
+    if (pointer == materials_pointer && open) draw_picture(key, at);
     if (!open) continue;
     draw_fields(o.fields(item), item, at);
     ImGui::TreePop();

@@ -8,6 +8,8 @@ namespace nephroid::ui {
 void ParametersPanel::draw(const Context& context) {
   form_.draft.follow(*context.preset());
   form_.tasks = &context.tasks;
+  form_.balls = &context.balls;
+  form_.selected = pointer_of(context.selection());
   places_.clear();
   if (const Selection selection = context.selection(); selection != revealed_) {
     revealed_ = selection;

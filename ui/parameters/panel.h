@@ -4,9 +4,13 @@
 // was.
 #pragma once
 #include "ui/parameters/form.h"
+#include "ui/widgets/material_picture.h"
 #include "ui/widgets/panel.h"
 
 namespace nephroid::ui {
+
+/// Where a preset has its materials.
+inline constexpr const char* materials_pointer = "/scene/materials";
 
 /// A row a field (rows.cpp), and the rows of what has any number of items: lists, maps and tables (items.cpp).
 class FieldRows {
@@ -29,6 +33,7 @@ private:
   void draw_reset(const preset::Outline& o, const Json& value, const std::string& pointer);
   /// with_inner: also what is wrong further inside.
   void draw_problem(const std::string& pointer, bool with_inner);
+  void draw_picture(const std::string& material, const std::string& pointer);
 
   void draw_add(const preset::Outline& o, const Json& value, const std::string& pointer);
   void draw_items(const preset::Outline& o, const Json& value, const std::string& pointer);
@@ -39,6 +44,7 @@ private:
 
   Form& form_;
   ValueWidgets values_{form_};
+  MaterialPictures pictures_;
   std::string help_;
 };
 

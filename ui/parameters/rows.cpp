@@ -79,6 +79,8 @@ void FieldRows::draw_field(const Outline& o, const Json& value, const std::strin
     draw_add(o, value, pointer);
   if (changed && !value.is_null()) draw_reset(o, value, pointer);
   draw_problem(pointer, leaf || !open);
+  if (o.field.names == preset::Names::material && !form_.selected.empty() && is_inside(pointer, form_.selected))
+    draw_picture(value.get<std::string>(), pointer);
   if (leaf || !open) return;
   if (value.is_null())
     ;
@@ -153,6 +155,16 @@ void FieldRows::draw_problem(const std::string& pointer, bool with_inner) {
   for (const auto& [edit, problem] : form_.draft.problems())
     if (!typing || !is_inside(edit, pointer)) draw(problem);
   if (form_.refused) draw(*form_.refused);
+}
+
+/// Draws what the material looks like. Where an edit of it waits nobody knows.
+void FieldRows::draw_picture(const std::string& material, const std::string& pointer) {
+  const std::string at = child_of(materials_pointer, material);
+  const auto is_of_it = [&](const auto& problem) {
+    return is_inside(problem.first, at) || is_inside(shown_at(problem.second), at);
+  };
+  if (std::ranges::none_of(form_.draft.problems(), is_of_it))
+    pictures_.draw(*form_.balls, material, 8 * em(), form_.places(), pointer + ":picture");
 }
 
 } // namespace nephroid::ui

@@ -240,7 +240,8 @@ private:
     FrameClock::Pace pace = FrameClock::Pace::idle;
     if (Clock::now() - last_touch_ < hands_rest)
       pace = FrameClock::Pace::hands_on;
-    else if ((!is_over(state) && state != job::State::paused) || !workbench_.tasks().empty())
+    else if ((!is_over(state) && state != job::State::paused) || !workbench_.tasks().empty() ||
+             workbench_.balls().works())
       pace = FrameClock::Pace::running;
     if (const double seconds = clock_.rest(pace); seconds > 0) window_.wait(seconds);
   }

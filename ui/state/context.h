@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a panel reads, and where its commands go. A new one is made for every frame.
 #pragma once
+#include "ui/state/material_balls.h"
 #include "ui/state/recent_files.h"
 #include "ui/state/sweep_queue.h"
 #include "ui/state/tone.h"
@@ -17,7 +18,8 @@ struct Context {
   Commands& commands;
   const RecentFiles& recent;
   const SweepQueue& sweep;
-  TaskQueue& tasks; ///< for work that takes longer than a frame
+  TaskQueue& tasks;     ///< for work that takes longer than a frame
+  MaterialBalls& balls; ///< pictures of the materials that panels show
 
   /// The preset in hand; null before one is opened.
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/device_runs.h"
 
+#include "compute/own_queue.h"
 #include "preset/origins.h"
 #include "run/reference.h"
 
@@ -28,16 +29,28 @@ std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prep
 } // namespace
 
 DeviceRuns::DeviceRuns(compute::DeviceOptions device, TakeFacts take_facts)
-    : kernels_(device.kernels), take_facts_(take_facts),
-      run_([device = std::move(device)] { return compute::Context::open(device); }) {
+    : kernels_(device.kernels), take_facts_(take_facts), options_(std::move(device)),
+      run_([this] { return this->device(); }), beside_([this] { return compute::with_own_queue(this->device()); }) {
   if (!kernels_.empty()) watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }
 
 DeviceRuns::~DeviceRuns() = default;
 
+/// Opens it where it is not open.
+compute::Context DeviceRuns::device() {
+  const std::lock_guard lock(opening_);
+  if (!opened_) opened_ = compute::Context::open(options_);
+  return *opened_;
+}
+
 NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch) {
   if (reread_.exchange(false)) run_.prepared.reset();
-  if (reopen_.exchange(false)) run_.device.close();
+  if (reopen_.exchange(false)) {
+    run_.device.close();
+    const std::lock_guard lock(opening_);
+    opened_.reset();
+    reopen_beside_ = true;
+  }
   if (watcher_.joinable()) { // the sources are read below, so changes until here are in this run
     const std::lock_guard lock(watching_);
     seen_ = compute::kernel_times(kernels_);
@@ -54,6 +67,13 @@ NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch) {
   if (take_facts_) facts = take_facts_(preset, run_.prepared->loaded);
   return {std::move(run_.job),        std::move(plan), run_.reference, std::move(facts), run_.device.opened().device(),
           run_.prepared->preset.white};
+}
+
+std::unique_ptr<job::Job> DeviceRuns::make_beside(const preset::Preset& preset, const Watch& watch) {
+  if (reopen_beside_.exchange(false)) beside_.device.close();
+  beside_.prepared.reset(); // files may have changed, and there is little to read
+  run::make_ready(beside_, preset, {.watch = watch});
+  return std::move(beside_.job);
 }
 
 void DeviceRuns::watch(const std::stop_token& stop) {

@@ -23,18 +23,25 @@ public:
   ~DeviceRuns() override;
   /// Reads the scene and builds the job. Throws as run::make_ready.
   NewRun make(const preset::Preset& preset, const Watch& watch) override;
+  /// On a queue of its own.
+  std::unique_ptr<job::Job> make_beside(const preset::Preset& preset, const Watch& watch) override;
   void reread_files() override { reread_ = true; }
   void reopen_device() override { reopen_ = true; }
   /// True once after a file in the kernels folder has changed since the newest run was built.
   bool take_changed() override { return changed_.exchange(false); }
 
 private:
+  compute::Context device();
   void watch(const std::stop_token& stop);
 
   std::filesystem::path kernels_; ///< empty: none
   TakeFacts take_facts_;
-  run::ReadyRun run_; ///< the newest one, without its job; the worker's thread only
-  std::atomic<bool> changed_{false}, reread_{false}, reopen_{false};
+  compute::DeviceOptions options_;
+  std::mutex opening_;
+  std::optional<compute::Context> opened_; ///< for run_; beside_ has a queue of its own there. Guarded by opening_
+  run::ReadyRun run_;                      ///< the newest one, without its job; the worker's thread only
+  run::ReadyRun beside_;                   ///< the same of small pictures
+  std::atomic<bool> changed_{false}, reread_{false}, reopen_{false}, reopen_beside_{false};
   std::mutex watching_;                      ///< held while the folder is read
   std::optional<compute::KernelTimes> seen_; ///< by the newest run or check; nothing before the first run
   std::condition_variable_any stopping_;

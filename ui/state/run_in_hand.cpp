@@ -187,6 +187,7 @@ void RunInHand::update(const UndoStack* edits) {
   if (!edits) return;
   if (source_.take_changed()) {
     restart_wanted_ = kernels_changed_ = true;
+    ++readings_;
     snapshot_is_current_ = false;
   }
   start_if_wanted(*edits);

@@ -39,6 +39,9 @@ public:
   virtual ~RunSource() = default;
   /// Called on the worker's thread only. What it throws is why the run failed; interrupted where `watch` asks for it.
   virtual NewRun make(const preset::Preset& preset, const Watch& watch) = 0;
+  /// Makes the job of a small picture that goes beside the runs. Called on one thread only, which is another one than
+  /// make()'s and may be here at the same time. Throws as make().
+  virtual std::unique_ptr<job::Job> make_beside(const preset::Preset& preset, const Watch& watch) = 0;
   /// Both return at once, from any thread. The next make() then reads every file again, or opens the device again,
   /// which a run may have lost.
   virtual void reread_files() {}
@@ -70,8 +73,11 @@ public:
   void start_with_new_files(const UndoStack& edits) {
     source_.reread_files();
     reads_anew_ = true;
+    ++readings_;
     start(edits);
   }
+  /// Counts how often files or kernels have changed.
+  std::uint64_t readings() const { return readings_; }
   /// Notes an edit; the run follows at the next start_if_wanted(). live: the gesture still lasts.
   void follow_edit(const UndoStack& edits, bool live = false);
   void carry_out(const command::EndGesture&) { gesture_lasts_ = false; }
@@ -136,9 +142,10 @@ private:
 
   RunSource& source_;
   Messages& messages_;
-  bool lent_ = false;              ///< the run is of a preset other than the present one
-  bool restart_wanted_ = false;    ///< the preset changed since the last start
-  bool kernels_changed_ = false;   ///< the kernels changed since the last start
+  bool lent_ = false;            ///< the run is of a preset other than the present one
+  bool restart_wanted_ = false;  ///< the preset changed since the last start
+  bool kernels_changed_ = false; ///< the kernels changed since the last start
+  std::uint64_t readings_ = 0;
   bool reads_anew_ = false;        ///< files that the preset names changed since the last start
   bool gesture_lasts_ = false;     ///< the gesture of the newest edit still lasts
   bool shown_since_start_ = false; ///< a snapshot of the run in hand has come

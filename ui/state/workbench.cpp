@@ -129,6 +129,7 @@ void Workbench::update(Clock::time_point now) {
   document_files_.update();
   run_.update(edits());
   document_.update();
+  balls_.update(preset(), run_);
   sweep_.update();
   files_.update();
   services_.tasks.collect(services_.messages);

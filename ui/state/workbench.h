@@ -15,7 +15,7 @@ public:
   using Clock = std::chrono::steady_clock;
 
   /// source outlives the workbench.
-  explicit Workbench(RunSource& source) : run_(source, services_.messages) {}
+  explicit Workbench(RunSource& source) : run_(source, services_.messages), balls_(source) {}
 
   /// Carries out commands in their order. Errors become messages; nothing is thrown.
   void apply(const Commands& commands);
@@ -29,7 +29,7 @@ public:
   /// What panels read in one frame; their commands go to `commands`.
   Context context(Commands& commands) {
     return {edits(),         run_,   comparing_, view_state_, setup_.settings(), has_earlier_session_, commands,
-            files_.recent(), sweep_, tasks()};
+            files_.recent(), sweep_, tasks(),    balls_};
   }
   /// Both are null before a preset is opened.
   const preset::Preset* preset() const { return document_.preset(); }
@@ -39,6 +39,7 @@ public:
   const SweepQueue& sweep() const { return sweep_; }
   const ViewState& view_state() const { return view_state_; }
   const std::vector<Message>& messages() const { return services_.messages.all(); }
+  const MaterialBalls& balls() const { return balls_; }
   TaskQueue& tasks() { return services_.tasks; }
   Questions& questions() { return questions_; }
   const Questions& questions() const { return questions_; }
@@ -68,6 +69,7 @@ private:
 
   Services services_; ///< first: the other members use it
   RunInHand run_;
+  MaterialBalls balls_;
   Comparing comparing_{run_, services_};
   ViewState view_state_;
   Document document_{run_, view_state_, services_};

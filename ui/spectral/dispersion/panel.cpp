@@ -45,11 +45,17 @@ void DispersionPanel::draw(const Context& context) {
   const std::vector<std::string> names = dielectrics(*context.preset());
   if (names.empty()) return draw_hint(colour::quiet_text, corner, size, "No material of this preset is a dielectric");
   follow(context);
+  if (constexpr float edge = 6; size.x > (edge + 20) * em()) {
+    pictures_.draw(context.balls, shown_, edge * em(), places_, "picture");
+    ImGui::SameLine();
+  }
+  ImGui::BeginGroup();
   draw_toolbar(context, names);
   std::string source = source_text(dispersion_, model_.curve());
   if (!fitted_text_.empty() && dispersion_ == fitted_) source += "; " + fitted_text_;
   draw_wrapped(colour::quiet_text, source);
   if (!model_.curve().note.empty()) draw_wrapped(colour::note, model_.curve().note);
+  ImGui::EndGroup();
   draw_points_row(context);
   draw_plot(context);
   const float top = ImGui::GetCursorPosY();
@@ -83,6 +89,10 @@ void DispersionPanel::draw_toolbar(const Context& context, const std::vector<std
       if (list.entry(name, name == shown_)) context.push(command::ChooseMaterial{name});
   }
   tooltip("The dielectric that is shown; files that are dropped on the window are loaded into it");
+  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+  const std::string file = dispersion_.type == Type::file ? dispersion_.file : std::string();
+  if (const auto glass = glasses_.draw("glass", MaterialChoice::Kind::glass, file, context.tasks, places_))
+    context.push(command::LoadDispersion{*glass});
   ImGui::SameLine();
   const bool editable = dispersion_.type == Type::points;
   ImGui::BeginDisabled(editable || !model_.curve().error.empty());

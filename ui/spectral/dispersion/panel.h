@@ -3,6 +3,8 @@
 // method needs and how far they may bend light wrong. Everything follows the mouse.
 #pragma once
 #include "ui/spectral/dispersion/model.h"
+#include "ui/widgets/material_choice.h"
+#include "ui/widgets/material_picture.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
 
@@ -64,6 +66,8 @@ private:
   RowEditor editor_{gestures_};
   DispersionModel model_;
   DispersionPlot plot_;
+  MaterialChoice glasses_;
+  MaterialPictures pictures_;
   std::string shown_;                ///< the material,
   preset::Dispersion dispersion_;    ///< and its
   std::vector<ControlPoint> points_; ///< this frame's, by rising wavelength
