@@ -61,7 +61,7 @@ public:
     begin_ = Clock::now();
     edits_->push("edit", is_edited_ ? original_ : edited_);
     is_edited_ = !is_edited_;
-    run_.follow_edit(false);
+    run_.follow_edit(*edits_);
     run_.start_if_wanted(*edits_);
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/widgets/material_picture.h"
 
-#include "image/image.h"
+#include "image/display.h"
 #include "ui/widgets/theme.h"
 
 namespace nephroid::ui {
@@ -16,11 +16,9 @@ void MaterialPictures::draw(MaterialBalls& balls, const std::string& material, f
   if (!picture) return;
   Drawn& drawn = drawn_[material];
   if (std::exchange(drawn.picture, picture) != picture) {
-    auto to = drawn.texture.edit(picture->width, picture->height).begin();
-    for (std::size_t i = 0; const float value : picture->rgb) {
-      *to++ = image::shown(value, 1);
-      if (++i % 3 == 0) *to++ = 255;
-    }
+    const preset::Display display; // as a new preset shows it
+    image::show(picture->rgb, image::showing_of({display.gamut, display.tone}, 0, picture->rgb),
+                drawn.texture.edit(picture->width, picture->height));
   }
   drawn.texture.draw(corner, corner + size, false);
   places.note(widget, "A ball of this material, or a cylinder with its texture");
