@@ -121,8 +121,8 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
     }
     DeviceEnd end = nowhere();
     if (goes_on)
-      end = end_of(&world, way, &hit, straight, &band, weight, seed, ENDS_OF_PIXEL * pass + (uint)i, pixel, coarse, jitter,
-                   edges);
+      end = end_of(&world, way, &hit, straight, &band, weight, seed, ENDS_OF_PIXEL * pass + (uint)i, pixel, coarse,
+                   jitter, edges);
     ends[ENDS_OF_PIXEL * item + i] = end;
     want(&end, middle, size, states);
   }

@@ -94,7 +94,8 @@ __kernel void direct(WORLD_ARGUMENTS,
 
   // One call of follow() for both cases: Intel's vectoriser gets two of them wrong (docs/checking.md).
   const bool unbent = is_unbent(&world, &camera, &hit);
-  const uint straight = unbent ? 1u : 0u, paths = straight + (unbent && !shows_coat(&world, &hit) ? 0u : PATHS_THROUGH_GLASS);
+  const uint straight = unbent ? 1u : 0u,
+             paths = straight + (unbent && !shows_coat(&world, &hit) ? 0u : PATHS_THROUGH_GLASS);
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
   for (uint i = 0; i < paths; ++i) {

@@ -92,8 +92,9 @@ static inline bool scatter(const World* world, Walk* walk, const Surface* surfac
   return side * dot(walk->path.direction, surface->geometric) > 0.0f;
 }
 
-// Follows a path that has hit `hit` to its end. Returns the XYZ radiance that it brings. Photons show the light of narrow
-// spots where the camera sees a surface directly; the path brings it where glass, a mirror or a coat sends it on first.
+// Follows a path that has hit `hit` to its end. Returns the XYZ radiance that it brings. Photons show the light of
+// narrow spots where the camera sees a surface directly; the path brings it where glass, a mirror or a coat sends it on
+// first.
 IN_PLACE float3 follow(const World* world, Walk* walk, Hit hit, uint2 seed, uint sample, uint paths, uint pixel) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   SET_ASIDE uint scatterings = 0u;

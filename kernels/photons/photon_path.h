@@ -111,8 +111,8 @@ typedef struct {
 } PhotonEnd;
 
 // Follows a photon in a band to the first matt surface, out of the scene, or to its last interface. Leaves `path` on
-// its last way, with its losses. Does not work out what is left of the photon. Where it comes straight from the light to
-// a coat it is reflected, and loses what would reach the base: that is direct light.
+// its last way, with its losses. Does not work out what is left of the photon. Where it comes straight from the light
+// to a coat it is reflected, and loses what would reach the base: that is direct light.
 static inline PhotonEnd trace_way(const World* world, const Band* band, Path* path, uint2 seed, uint iteration,
                                   uint photon) {
   PhotonEnd end;

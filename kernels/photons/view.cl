@@ -66,8 +66,8 @@ COMPILED_ONCE VisiblePoint see(const World* world, Path path, Hit hit, bool refl
 
 // points: [count], for pixels[first] and those after it; position.w is the film's dither. cluster: that of all paths;
 // or -1: each path that meets glass or a mirror first takes one by its chance in cluster_cdf and counts for so much
-// more; so does what a coat reflects, and the others see nothing here. sample: the number of earlier paths of a pixel; place: of those in this half
-// of the film. Each path counts 1 / path_count of a pass.
+// more; so does what a coat reflects, and the others see nothing here. sample: the number of earlier paths of a pixel;
+// place: of those in this half of the film. Each path counts 1 / path_count of a pass.
 __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global VisiblePoint* points,
                    DeviceCamera camera, uint2 seed, uint pass, uint sample, uint place, uint path_count, int cluster,
                    int object_count, __global const uint* pixels, uint first, uint count) {

@@ -71,7 +71,7 @@ struct alignas(8) uint2 {
 
 typedef struct {
   int type;            // MATERIAL_*
-  int reflector;       // diffuse, plastic: row of the reflectance tables; with a texture its red, green and blue rows follow
+  int reflector;       // matt: row of the reflectance tables; with a texture its red, green and blue rows follow
   int attenuator;      // absorbing dielectric, mirror, metal: (first) row of the attenuation table; -1: none
   int tint;            // dielectric: row of the attenuation table for what passes its surface; -1: none
   int surface_first;   // metal, coated dielectric, plastic: its first item in the table surface_data; -1: none

@@ -242,7 +242,8 @@ static inline bool bend_about(const World* world, Path* path, const Surface* ben
 }
 
 // Continues the path at a mirror, a coat or a dielectric. choice: uniform in [0, 1); -1 reflects, as coats always do; 2
-// goes through where anything does. facet_choice: facet_numbers. *n_ratio, false: as in cross_interface. *bend: what happened there.
+// goes through where anything does. facet_choice: facet_numbers. *n_ratio, false: as in cross_interface. *bend: what
+// happened there.
 IN_PLACE bool bend_path_as(const World* world, Path* path, uint triangle, const Surface* surface,
                            const DeviceMaterial* material, const Band* band, float choice, float2 facet_choice,
                            float* n_ratio, Bend* bend) {
