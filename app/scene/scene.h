@@ -83,12 +83,12 @@ struct Light {
   glm::vec3 direction{0, -1, 0};  ///< unit, the way the light goes
   glm::vec3 edge_u{0}, edge_v{0}; ///< area: the full edges; edge_u x edge_v points along direction. photometry: unit,
                                   ///< the ways to C = 0 and C = 90 degrees
-  double cos_half_angle = -1;  ///< spot
-  double power_w = 0;          ///< all but directional
-  double irradiance_w_m2 = 0;  ///< directional
-  double one_minus_cos = 0;    ///< directional: of half its disc's angle; 0: a point
-  optics::Spectrum spectrum{}; ///< sums to 1
-  std::vector<int> inside;     ///< dielectric objects that contain it, outermost first
+  double cos_half_angle = -1;     ///< spot
+  double power_w = 0;             ///< all but directional
+  double irradiance_w_m2 = 0;     ///< directional
+  double one_minus_cos = 0;       ///< directional: of half its disc's angle; 0: a point
+  optics::Spectrum spectrum{};    ///< sums to 1
+  std::vector<int> inside;        ///< dielectric objects that contain it, outermost first
   /// The environment's three parts. It is directional light of many directions and colours (environment.h): what a
   /// photon's red, green and blue part each carry at every wavelength; `spectrum` is what photons are allocated by.
   /// Empty for a lamp.
