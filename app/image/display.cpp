@@ -80,7 +80,7 @@ float largest(const Rgb3& rgb) { return std::max({rgb[0], rgb[1], rgb[2]}); }
 
 void apply_tone(Rgb3& rgb, ToneCurve tone, float peak) {
   const float most = largest(rgb);
-  if (tone == ToneCurve::clip || most <= (tone == ToneCurve::reinhard ? knee : 0)) return;
+  if (tone == ToneCurve::clip || most <= (tone == ToneCurve::reinhard ? knee : margin)) return;
   if (tone == ToneCurve::reinhard && peak <= 1 && most <= 1) return;
   const float factor = std::min(tone == ToneCurve::reinhard ? reinhard(most, peak) : filmic(most), 1.0f) / most;
   for (float& value : rgb) value *= factor;

@@ -143,7 +143,7 @@ private:
 
 PlanPart plan_indirect_photons(const PlanInput& input) {
   if (!indirect_decision(input).runs) return {};
-  const bool caustics = input.objects.dielectrics + input.objects.mirrors > 0 && !input.tables.emitters.empty();
+  const bool caustics = input.objects.throw_caustics() && !input.tables.emitters.empty();
   const bool narrow = std::ranges::any_of(input.tables.lights, is_narrow);
   if (!caustics && !narrow) return {};
   return part_of({"indirect photons", true,

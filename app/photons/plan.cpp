@@ -358,10 +358,9 @@ plan::Decision caustics_decision(const PlanInput& input) {
   if (!input.settings.caustic) return not_asked_for(name, "caustic");
   // No field turns these on, as there is nothing to send.
   if (const std::string dark = no_light(input); !dark.empty()) return {name, false, dark};
-  const std::string missing = input.objects.dielectrics + input.objects.mirrors == 0
-                                  ? "no object is of glass or a mirror"
-                              : input.objects.diffuse == 0 ? "no diffuse surface can receive a caustic"
-                                                           : "";
+  const std::string missing = !input.objects.throw_caustics() ? "no object is of glass or a mirror"
+                              : input.objects.diffuse == 0    ? "no diffuse surface can receive a caustic"
+                                                              : "";
   if (!missing.empty()) return tracing::not_needed(name, input.leave_out.photons, missing);
   if (input.tables.emitters.empty())
     return {name, false,

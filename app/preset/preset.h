@@ -80,7 +80,7 @@ struct Coating {
 struct Material {
   enum class Type { diffuse, dielectric, mirror, conductor, plastic };
   Type type = Type::diffuse;
-  Reflectance reflectance;        ///< diffuse, mirror; plastic: what it scatters of light from all sides
+  Reflectance reflectance;        ///< diffuse, mirror; plastic: of its base, as seen in even light
   std::optional<Texture> texture; ///< diffuse, plastic: what the reflectance is multiplied by
   Dispersion dispersion;          ///< dielectric; plastic: of the coat, at 588 nm
   std::string metal = "gold";     ///< conductor: a file with n and k, or a shipped metal

@@ -207,7 +207,11 @@ void remove_pictures_after(const fs::path& folder, double work_seconds) {
 
 void show_anew(const fs::path& folder, const preset::Preset& preset) {
   const image::Display display = display_of(preset);
-  for (const fs::path& exr : report::files_ending(folder, ".exr")) {
+  std::vector<fs::path> pictures{folder / "image.exr"};
+  for (const Json& picture : pictures_at(folder))
+    pictures.push_back((folder / picture["picture"].get<std::string>()).replace_extension(".exr"));
+  for (const fs::path& exr : pictures) {
+    if (!is_there(exr)) continue;
     const measure::LinearPicture picture = measure::read_linear_rgb(exr);
     image::write_png(fs::path(exr).replace_extension(".png"), picture.width, picture.height, picture.rgb,
                      image::showing_of(display, 0, picture.rgb));

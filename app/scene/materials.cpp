@@ -162,7 +162,7 @@ Material make_material(const std::string& name, const preset::Material& material
   switch (material.type) {
   case Material::Type::plastic:
     sampled(material.dispersion, dispersion, [&](const optics::DispersionCurve& curve, optics::Extrapolation outside) {
-      result.coat_n = optics::sample_n(curve, outside)[588 - optics::first_nm];
+      result.coat_n = curve.sample(588, outside).n.value_or(0);
     });
     if (!(result.coat_n >= 1 && result.coat_n <= 4))
       throw bad_input(dispersion, fmt::format("is {:.3g} at 588 nm", result.coat_n), "expected 1 to 4 for a coat",

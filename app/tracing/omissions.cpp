@@ -118,7 +118,8 @@ ObjectCounts count_objects(const scene::Scene& scene) {
   for (const scene::Object& object : scene.objects) {
     const scene::Material::Type type = material_of(scene, object).type;
     counts.dielectrics += is_refractive(type);
-    counts.mirrors += is_specular(type) && !is_refractive(type);
+    counts.mirrors += is_specular(type) && !is_refractive(type) && !is_matt(type);
+    counts.plastics += type == scene::Material::Type::plastic;
     counts.diffuse += is_matt(type);
     counts.smooth += object.smooth;
   }
@@ -188,7 +189,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
   const std::string seen_types = light_types_reason(types);
   const bool every_type = has(types == all_light_types ? needed("light types", seen_types)
                                                        : not_needed("light types", leave_out.light_types, seen_types));
-  const bool mirrors = has(counts.mirrors > 0 ? needed("mirrors", counted(counts.mirrors, "mirror or coated object"))
+  const bool mirrors = has(counts.mirrors > 0 ? needed("mirrors", counted(counts.mirrors, "mirror object"))
                                               : not_needed("mirrors", leave_out.mirrors, "no object is a mirror"));
   const bool bending =
       has(bends ? needed("bending", "glass has another n than its surroundings, or a coating")

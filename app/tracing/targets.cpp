@@ -87,9 +87,11 @@ std::vector<scene::Sphere> spheres_of(const std::vector<Piece>& pieces) {
 scene::Sphere everything(const scene::Scene& scene) {
   std::vector<glm::vec3> points = extreme_points(scene.geometry);
   for (const scene::Light& light : scene.lights)
-    if (light.type != preset::Light::Type::directional)
+    if (light.type == preset::Light::Type::area)
       for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)})
         points.push_back(light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v));
+    else if (light.type != preset::Light::Type::directional)
+      points.push_back(light.position);
   const auto [low, high] = box_about(points);
   // The sphere is larger than it needs to be, so that no light is on its surface, and never a point.
   return {0.5f * (low + high), std::max(0.51f * glm::length(high - low), 1e-3f)};

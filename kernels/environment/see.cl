@@ -26,6 +26,7 @@ static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, 
   float scale = 1.0f;
   if (known && hit.primitive != NEPHROID_NO_PRIMITIVE && shows_coat(world, &hit)) {
     surface = surface_at(&world->geometry, hit);
+    lose_in_medium(world, &path, hit.t);
     scale = part_through_coat(world, &surface, path.direction);
   } else
     scale = trace_to_diffuse(world, &path, &hit, known, band, seed, sample, 0u, pixel, STREAM_SEE, likelier, &surface);

@@ -29,7 +29,7 @@ static inline float part_through_coat(const World* world, const Surface* surface
   if (is_plastic(&material)) {
     __global const float* parts = world->tables.surface_data + material.surface_first + COAT_PARTS;
     const float place = fabs(dot(way, surface->shading)) * (float)(COAT_COSINES - 1);
-    const int before = min((int)place, COAT_COSINES - 2);
+    const int before = clamp((int)place, 0, COAT_COSINES - 2);
     return mix(parts[before], parts[before + 1], place - (float)before);
   }
 #endif
@@ -47,7 +47,7 @@ static inline bool ends_at(const World* world, float3 arriving, const Surface* s
     if (material->alpha > 0.0f) normal = visible_facet(-arriving, normal, material->alpha, facet_choice);
 #endif
     const float cos_i = clamp(-dot(arriving, normal), 0.0f, 1.0f), n = coat_index(world, material);
-    return !(choice < fresnel_reflectance(cos_i, refracted_cosine(cos_i, 1.0f / n), 1.0f, n));
+    return choice >= 0.0f && !(choice < fresnel_reflectance(cos_i, refracted_cosine(cos_i, 1.0f / n), 1.0f, n));
   }
 #endif
   return material->type == MATERIAL_DIFFUSE;

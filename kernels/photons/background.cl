@@ -29,18 +29,19 @@ static inline float3 shown_after(const World* world, const Background* backgroun
 #endif
 }
 
-// What glass that a path leaves at once reflects of a colour, in all wavelengths. All go the same way. The share of
+// What glass or a coat that a path leaves at once reflects of a colour, in all wavelengths. All go the same way. A coat
+// reflects them alike. The share of
 // bare glass at the mean index counts for all of them, and what this wavelength's differs from it for itself: little
 // where there is no coating.
 static inline float3 reflected_after(const World* world, const Background* background, float3 rgb, const Band* band,
-                                     float scale, const Bend* bend) {
+                                     float scale, const Bend* bend, bool by_coat) {
   __global const float* n_of = world->tables.index_of_cluster;
   const float n_i = bend->near_material < 0 ? 1.0f : n_of[bend->near_material],
               n_t = bend->far_material < 0 ? 1.0f : n_of[bend->far_material];
   const float cos_i = dot(bend->direction, bend->normal), cos_t = refracted_cosine(cos_i, n_i / n_t);
-  const float share = bend->near_material == bend->far_material ? bend->reflectance // a plastic's coat
-                      : cos_t < 0.0f                            ? 1.0f
-                                                                : fresnel_reflectance(cos_i, cos_t, n_i, n_t);
+  const float share = by_coat        ? bend->reflectance
+                      : cos_t < 0.0f ? 1.0f
+                                     : fresnel_reflectance(cos_i, cos_t, n_i, n_t);
   return scale * share * background_xyz(background, rgb, WAVELENGTH_COUNT) +
          scale * (bend->reflectance - share) * band->weight * background_xyz(background, rgb, band->wavelength);
 }
@@ -55,7 +56,7 @@ IN_PLACE float3 seen_through(const World* world, const Background* background, P
   Bend bend;
   const float2 facet = facet_numbers(seed, sample, pixel, BEFORE_THE_PATH, STREAM_BACKGROUND);
   if (!first_bend(world, &path, &first, band, reflected, facet, &share, &bend)) return (float3)(0.0f);
-  const bool one_way = leaves_one_way(&bend);
+  const bool one_way = leaves_one_way(&bend), by_coat = shows_coat(world, &first);
   const float part = 1.0f / (one_way ? PATHS_THROUGH_GLASS : reflected ? 1.0f : PATHS_THROUGH_GLASS - 1.0f);
   Surface surface;
   Hit hit = next_hit(world, &path);
@@ -72,7 +73,7 @@ IN_PLACE float3 seen_through(const World* world, const Background* background, P
 #endif
 #if !NEPHROID_ONE_WAY
   if (leaves && reflected && !one_way && !path.losses.any)
-    return reflected_after(world, background, rgb, band, part, &bend);
+    return reflected_after(world, background, rgb, band, part, &bend, by_coat);
 #endif
   return radiance_scale * shown_after(world, background, rgb, &path.losses, band);
 }

@@ -63,10 +63,13 @@ IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* ban
     }
   }
 #endif
+  float3 shine_behind = (float3)(0.0f);
+  const float share = radiance_scale;
   if (!reached)
     radiance_scale *=
         reach_diffuse(world, &path, &first, band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel,
-                      STREAM_CAMERA, &surface, &shine);
+                      STREAM_CAMERA, &surface, &shine_behind);
+  shine += share * shine_behind;
   if (radiance_scale == 0.0f) return shine;
   const Reflector reflector = reflector_at(world, &surface, first.primitive);
   return shine + radiance_scale *

@@ -133,6 +133,7 @@ void MaterialBalls::take_newest() {
   if (status.state == job::State::preparing || status.state == job::State::running) return;
   if (status.state == job::State::failed && is_of_subject) ball.picture.reset();
   if (is_of_subject) ball.done = true;
+  worker_.cancel(); // it would keep the device's memory
   in_hand_.clear();
 }
 

@@ -13,7 +13,10 @@ void MaterialPictures::draw(MaterialBalls& balls, const std::string& material, f
   if (!ImGui::IsItemVisible()) return;
   ImGui::GetWindowDrawList()->AddRectFilled(corner, corner + size, colour::surround);
   const std::shared_ptr<const job::Picture> picture = balls.of(material);
-  if (!picture) return;
+  if (!picture) {
+    drawn_.erase(material);
+    return;
+  }
   Drawn& drawn = drawn_[material];
   if (std::exchange(drawn.picture, picture) != picture) {
     const preset::Display display; // as a new preset shows it

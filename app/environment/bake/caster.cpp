@@ -29,11 +29,11 @@ Location objects_location(const std::string& source) { return Location(source) /
   std::vector<std::string> candidates;
   for (const preset::Object& object : preset.scene.objects)
     if (casts(preset, object) && !object.name.empty()) candidates.push_back(object.name);
-  const bool diffuse =
+  const bool exists =
       std::ranges::any_of(preset.scene.objects, [&](const preset::Object& o) { return o.name == name; });
   const std::string near = nearest(name, candidates);
   throw bad_input(where,
-                  fmt::format("'{}' is {}", name, diffuse ? "neither of glass nor a mirror" : "no object of the scene"),
+                  fmt::format("'{}' is {}", name, exists ? "neither of glass nor a mirror" : "no object of the scene"),
                   candidates.empty() ? "expected an object of glass or a mirror with a name"
                                      : fmt::format("expected one of {}", fmt::join(candidates, ", ")),
                   near.empty() ? "" : fmt::format("did you mean '{}'?", near));

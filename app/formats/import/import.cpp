@@ -9,6 +9,7 @@
 #include "formats/import/emitter.h"
 #include "formats/import/gltf_scene.h"
 #include "preset/read.h"
+#include "scene/ray.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>
@@ -25,6 +26,16 @@ namespace fs = std::filesystem;
 namespace {
 
 using std::numbers::pi;
+
+/// Of what the unit sphere becomes. A place u of it has the area |cofactor u| a steradian.
+double ellipsoid_area(const glm::dmat3& to_world) {
+  constexpr int count = 4096;
+  const glm::dmat3 cofactor(glm::cross(to_world[1], to_world[2]), glm::cross(to_world[2], to_world[0]),
+                            glm::cross(to_world[0], to_world[1]));
+  double sum = 0;
+  for (int i = 0; i < count; ++i) sum += glm::length(cofactor * scene::even_direction(i, count));
+  return 4 * pi * sum / count;
+}
 
 constexpr std::size_t most_objects = 10000, most_lights = 1000; ///< of a preset
 
@@ -145,9 +156,8 @@ private:
     preset::Light light;
     light.spectrum = colour.spectrum;
     if (shape.mesh.empty()) {
-      const double radius = std::cbrt(std::abs(glm::determinant(glm::dmat3(to_world))));
       light.position = scene::to_vec3(glm::dvec3(to_world[3]));
-      light.power_w = power_of(4 * pi * radius * radius);
+      light.power_w = power_of(ellipsoid_area(glm::dmat3(to_world)));
       if (!shape.inside_out) return keep_glowing(shape, light);
       from_.note(shape.where, "a sphere whose inside shines is left out: a point light of its power is in its centre");
     } else {

@@ -154,10 +154,9 @@ preset::Material plastic(double n, double roughness) {
   return m;
 }
 
-/// A polished coat reflects by Fresnel's R. The base below it, over a white plane, has the reflectance times the parts
-/// 1
-/// - R that pass on the way in and out, over the mean of 1 - R over all sides (Mitsuba's "plastic", where "nonlinear"
-/// is false).
+/// A polished coat reflects by Fresnel's R, and T = 1 - R passes. The base below it, over a white plane, has the
+/// reflectance times the T of the ways in and out, over the mean of T over all sides (Mitsuba's "plastic", where
+/// "nonlinear" is false).
 Result plastics(const compute::Context& context, std::uint64_t seed) {
   double worst = 0;
   for (const double n : {1.3, 1.5, 1.9}) {
