@@ -287,10 +287,10 @@ double intensity(const Photometry& p, double gamma_deg, double c_deg) {
     return std::pair(low, high > low ? (angle - angles[low]) / (angles[high] - angles[low]) : 0.0);
   };
   const auto [row, across] = place(p.c_deg, c_deg);
-  const auto [column, along] = place(p.gamma_deg, gamma_deg);
-  const std::size_t gammas = p.gamma_deg.size(), next = std::min(column + 1, gammas - 1);
+  const auto column = place(p.gamma_deg, gamma_deg);
+  const std::size_t gammas = p.gamma_deg.size(), next = std::min(column.first + 1, gammas - 1);
   const auto in_plane = [&](std::size_t plane) {
-    return std::lerp(p.intensity[plane * gammas + column], p.intensity[plane * gammas + next], along);
+    return std::lerp(p.intensity[plane * gammas + column.first], p.intensity[plane * gammas + next], column.second);
   };
   return std::lerp(in_plane(row), in_plane(row + 1), across);
 }

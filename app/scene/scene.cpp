@@ -24,7 +24,7 @@ void check_names(const std::vector<preset::Object>& objects, const Location& whe
     const auto [entry, added] = first.try_emplace(objects[i].name, i);
     if (!added)
       throw bad_input(where / i / "name", fmt::format("'{}' is also object {}", objects[i].name, entry->second),
-                      "a name of its own");
+                      "expected a name of its own");
   }
 }
 
