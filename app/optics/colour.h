@@ -23,7 +23,7 @@ Colour linear_srgb_to_xyz(const Colour& rgb);
 double srgb_encode(double linear);
 /// From linear sRGB to the same, [row][column]: a white with this XYZ becomes grey of its Y, other colours follow by
 /// the Bradford transform (Lam 1985; ICC.1:2022, annex E). A cone that sees less than a fiftieth of what it sees of D65
-/// is taken to see that: a laser does not become white.
+/// is taken to see that, as of a glow of 1000 K.
 std::array<Colour, 3> white_balance(const Colour& white_xyz);
 /// CIE lightness L* (0..100) of a relative luminance Y / Yn.
 double lightness(double relative_luminance);

@@ -259,13 +259,15 @@ TEST(WhiteBalance, IsThePublishedBradfordMatrix) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(became[i], wanted[i], 2e-4) << i;
 }
 
-TEST(WhiteBalance, OfALaserIsFinite) {
-  for (const double nm : {380.0, 450.0, 532.0, 650.0, 780.0}) {
+TEST(WhiteBalance, ALaserHasNoneAndACandleHas) {
+  for (const double nm : {380.0, 450.0, 532.0, 589.0, 650.0, 780.0}) {
     const preset::LightSpectrum laser{.type = preset::LightSpectrum::Type::lines, .table = {{nm, 1}}};
-    for (const float value : run::display_of(lit_by(laser)).white_balance) {
-      EXPECT_TRUE(std::isfinite(value)) << nm;
-      EXPECT_LT(std::abs(value), 200) << nm;
-    }
+    EXPECT_THAT(test::refusal_of([&] { run::display_of(lit_by(laser)); }),
+                HasSubstr("no display has the colour of the first light"));
+  }
+  for (const double kelvin : {1000.0, 1900.0}) {
+    const preset::LightSpectrum glow{.type = preset::LightSpectrum::Type::blackbody, .temperature_k = kelvin};
+    for (const float value : run::display_of(lit_by(glow)).white_balance) EXPECT_LT(std::abs(value), 200);
   }
 }
 
