@@ -63,7 +63,7 @@ double smith_lambda(double cosine, double alpha) {
 /// Lambda(out). Facets are taken by t and azimuth, as in app/check/roughness.cpp, in steps of s = sqrt(1 - t).
 template <class Reflectance>
 double reflected_part(double cos_view, double alpha, bool masked, const Reflectance& reflectance) {
-  constexpr int steps = 1200;
+  constexpr int steps = 600;
   const double sin_view = std::sqrt(1 - cos_view * cos_view);
   double sum = 0;
   for (int i = 0; i < steps; ++i)
@@ -199,7 +199,7 @@ Result white_plastics(const compute::Context& context, std::uint64_t seed) {
       p.scene.camera.up = {0, 0, 1};
       p.scene.camera.fov_deg = 0.001;
       spectral::settings(p).direct = spectral::settings(p).background = true;
-      spectral::settings(p).pixel_samples = p.stop.passes.emplace(1024);
+      spectral::settings(p).pixel_samples = p.stop.passes.emplace(256);
       spectral::settings(p).low_discrepancy = true;
       const job::Snapshot snapshot = render(p, context);
       double sum = 0;
