@@ -102,10 +102,11 @@ TEST(NotLeftOut, WhereTheSceneNeedsIt) {
 
   p = ball_scene();
   using Type = preset::Light::Type;
-  for (const Type type : {Type::spot, Type::directional, Type::area}) {
+  for (const Type type : {Type::spot, Type::directional, Type::area, Type::mesh}) {
     EXPECT_FALSE(pass_of(p, "light_types").runs);
     p.scene.lights.push_back(p.scene.lights[0]);
     p.scene.lights.back().type = type;
+    if (type == Type::mesh) p.scene.lights.back().object = p.scene.objects[0].name;
   }
   EXPECT_FALSE(pass_of(p, "light_types").runs);
   p.scene.environment.emplace().type = preset::Environment::Type::constant;
