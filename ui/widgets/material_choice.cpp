@@ -78,7 +78,7 @@ std::optional<std::string> MaterialChoice::draw_list(const std::string& widget, 
       if (name == now) ImGui::PushStyleColor(ImGuiCol_Text, colour::note);
       if (ImGui::Selectable(name.c_str(), i == marked_)) chosen = name;
       if (name == now) ImGui::PopStyleColor();
-      places.note(widget + ":" + name);
+      places.note(fmt::format("{}:{}", widget, name));
       if (i == marked_ && moved) ImGui::SetScrollHereY();
       if (const std::string figures = figures_of(*matches[i]); !figures.empty()) {
         ImGui::SameLine(10 * em());
