@@ -9,9 +9,13 @@
 
 namespace nephroid::run {
 
+bool has_display(const preset::Preset& preset) {
+  return std::ranges::count(preset.settings.type().without, "display") == 0;
+}
+
 image::Display display_of(const preset::Preset& preset) {
   image::Display display;
-  if (std::ranges::count(preset.settings.type().without, "display") > 0) return display;
+  if (!has_display(preset)) return display;
   display.gamut = preset.display.gamut;
   display.tone = preset.display.tone;
   if (preset.display.white_balance == preset::Display::WhiteBalance::d65) return display;

@@ -83,10 +83,7 @@ std::shared_ptr<const Photometry> shared_photometry(const Scene& scene, const st
 /// Its luminance. A note of what is clipped goes to warnings.
 std::shared_ptr<const LightPicture> load_light_picture(const std::filesystem::path& file,
                                                        std::vector<std::string>& warnings) {
-  const image::Image image = image::read_image(file);
-  if (image.data.size() / image.channels.size() > most_texture_texels)
-    throw bad_input(file.string(), fmt::format("has {} x {} texels", image.width, image.height),
-                    fmt::format("expected at most {} in all", most_texture_texels), "make it smaller");
+  const image::Image image = read_texels(file);
   const image::Rgb colours = image::rgb_of(image, file.string());
   LightPicture picture{image.width, image.height, {}};
   double most = 0;

@@ -22,6 +22,19 @@ std::uint16_t texel(double value) {
   return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(value, 0.0, 1.0)));
 }
 
+} // namespace
+
+image::Image read_texels(const std::filesystem::path& file) {
+  constexpr std::size_t most_texels = std::size_t{1} << 26;
+  image::Image picture = image::read_image(file);
+  if (picture.data.size() / picture.channels.size() > most_texels)
+    throw bad_input(file.string(), fmt::format("has {} x {} texels", picture.width, picture.height),
+                    fmt::format("expected at most {} in all", most_texels), "make it smaller");
+  return picture;
+}
+
+namespace {
+
 /// A picture's texels, and what is to be said of them.
 struct Picture {
   int width = 0, height = 0;
@@ -30,19 +43,15 @@ struct Picture {
 };
 
 Picture read_picture(const std::filesystem::path& file) {
-  const image::Image picture = image::read_image(file);
-  const std::size_t texels = picture.data.size() / picture.channels.size();
-  if (texels > most_texture_texels)
-    throw bad_input(file.string(), fmt::format("has {} x {} texels", picture.width, picture.height),
-                    fmt::format("expected at most {} in all", most_texture_texels), "make it smaller");
+  const image::Image picture = read_texels(file);
   const image::Rgb colours = image::rgb_of(picture, file.string());
   Picture result{picture.width, picture.height, {}, picture.notes};
   if (std::ranges::any_of(colours.alpha, [](float alpha) { return alpha < 1; }))
     result.notes.push_back("has transparent texels, which are taken as opaque");
   std::vector<std::uint16_t> rgb;
-  rgb.reserve(3 * texels);
+  rgb.reserve(colours.values.size());
   std::size_t clipped = 0;
-  for (std::size_t i = 0; i < 3 * texels; ++i) {
+  for (std::size_t i = 0; i < colours.values.size(); ++i) {
     const float value = colours.values[i];
     if (!std::isfinite(value))
       throw bad_input(file.string(), fmt::format("texel {} has a value that is not finite", i / 3));

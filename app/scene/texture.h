@@ -11,6 +11,10 @@
 #include <string>
 #include <vector>
 
+namespace nephroid::image {
+struct Image;
+}
+
 namespace nephroid::scene {
 
 struct Texture {
@@ -23,8 +27,8 @@ struct Texture {
   glm::dvec2 offset{0, 0};
 };
 
-/// The most texels that one may have.
-inline constexpr std::size_t most_texture_texels = std::size_t{1} << 26;
+/// A picture of a texture or a lamp. Throws bad_input as image::read_image does, and for more than 2^26 texels.
+image::Image read_texels(const std::filesystem::path& file);
 
 /// Integers are decoded as image/image.h says. Values outside of 0..1 are clipped, and alpha is left out; warnings say
 /// so, after `name`, the material's. where: FILE#/scene/materials/NAME/texture. Throws bad_input there for a file that

@@ -30,9 +30,8 @@ static inline float3 shown_after(const World* world, const Background* backgroun
 }
 
 // What glass or a coat that a path leaves at once reflects of a colour, in all wavelengths. All go the same way. A coat
-// reflects them alike. The share of
-// bare glass at the mean index counts for all of them, and what this wavelength's differs from it for itself: little
-// where there is no coating.
+// reflects them alike. Of glass the share of bare glass at the mean index counts for all of them, and what this
+// wavelength's differs from it for itself: little where there is no coating.
 static inline float3 reflected_after(const World* world, const Background* background, float3 rgb, const Band* band,
                                      float scale, const Bend* bend, bool by_coat) {
   __global const float* n_of = world->tables.index_of_cluster;

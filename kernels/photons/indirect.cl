@@ -85,7 +85,7 @@ static inline bool scatter(const World* world, Walk* walk, const Surface* surfac
   for (int i = 0; i < BANDS; ++i) walk->throughput[i] /= chance;
   walk->path.direction = cosine_direction(side * surface->shading, random.x, random.y);
   const float passes = part_through_coat(world, surface, walk->path.direction);
-  for (int i = 0; NEPHROID_PLASTICS && i < BANDS; ++i) walk->throughput[i] *= passes;
+  for (int i = 0; i < BANDS; ++i) walk->throughput[i] *= passes;
   walk->path.origin = start_on_side(surface, side);
   walk->path.skip = triangle;
   walk->path.behind = 0.0f;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The menu "View": how the picture is shown.
 #include "preset/choices.h"
+#include "run/display.h"
 #include "ui/actions/table.h"
 #include "ui/inspector/pixels.h"
 
@@ -56,7 +57,7 @@ void show_false_colour(C c, bool on) {
   if (c.view_settings().false_colour != on) change_view(c, [on](ViewSettings& l) { l.false_colour = on; });
 }
 
-bool has_tones(C c) { return c.preset() && has_display(*c.preset()); }
+bool has_tones(C c) { return c.preset() && run::has_display(*c.preset()); }
 std::string no_tones(C c) { return c.preset() ? "this engine's pictures are shown as they are" : "no preset is open"; }
 bool has_lamp(C c) { return has_tones(c) && !c.preset()->scene.lights.empty(); }
 std::string no_lamp(C c) { return has_tones(c) ? "the scene has no lamp" : no_tones(c); }

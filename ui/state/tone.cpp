@@ -4,7 +4,6 @@
 #include "base/error.h"
 #include "measure/difference.h"
 #include "measure/lab.h"
-#include "preset/settings_type.h"
 #include "run/display.h"
 
 #include <algorithm>
@@ -70,10 +69,6 @@ image::Display display_of(const preset::Preset& preset) {
     daylight.display.white_balance = preset::Display::WhiteBalance::d65;
     return run::display_of(daylight);
   }
-}
-
-bool has_display(const preset::Preset& preset) {
-  return std::ranges::count(preset.settings.type().without, "display") == 0;
 }
 
 Tone tone_of(const ViewSettings& view_settings, const image::Display& display, double white,

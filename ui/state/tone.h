@@ -9,8 +9,6 @@ namespace nephroid::ui {
 
 /// As run::display_of; of D65 where the lamp has no spectrum: its run says why.
 image::Display display_of(const preset::Preset& preset);
-/// Whether the preset's engine has a `display`.
-bool has_display(const preset::Preset& preset);
 
 struct Tone {
   image::Showing showing;

@@ -2,6 +2,7 @@
 #include "ui/view/bars.h"
 
 #include "preset/choices.h"
+#include "run/display.h"
 #include "ui/widgets/action.h"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ void draw_layer_choice(const Context& context, WidgetPlaces& places) {
 template <class E>
 void draw_display_choice(const Context& context, const char* name, E preset::Display::*field, WidgetPlaces& places,
                          bool false_colour = false) {
-  const bool in_preset = has_display(*context.preset()),
+  const bool in_preset = run::has_display(*context.preset()),
              is_false = false_colour && context.view_settings().false_colour;
   const E now = context.preset()->display.*field;
   const auto show_false = [&](bool on) {
@@ -248,7 +249,7 @@ void draw_view_bar(const Context& context, const Tone& tone, WidgetPlaces& place
     same_line_if_room(ImGui::CalcTextSize("Auto range").x + 14 * em());
     return draw_range_choice(context, *tone.false_colour, places);
   }
-  if (!has_display(*context.preset())) return;
+  if (!run::has_display(*context.preset())) return;
   same_line_if_room(ImGui::CalcTextSize("Gamut").x + 5.5f * em());
   draw_label("Gamut");
   draw_display_choice(context, "gamut", &preset::Display::gamut, places);

@@ -199,7 +199,7 @@ Result white_plastics(const compute::Context& context, std::uint64_t seed) {
       p.scene.camera.up = {0, 0, 1};
       p.scene.camera.fov_deg = 0.001;
       spectral::settings(p).direct = spectral::settings(p).background = true;
-      spectral::settings(p).pixel_samples = p.stop.passes.emplace(256);
+      spectral::settings(p).pixel_samples = p.stop.passes.emplace(1024);
       spectral::settings(p).low_discrepancy = true;
       const job::Snapshot snapshot = render(p, context);
       double sum = 0;
