@@ -4,6 +4,7 @@
 #include "scene/bvh.h"
 
 #include "base/error.h"
+#include "scene/mesh_parts.h"
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -89,9 +90,8 @@ void check_triangle(const Mesh& mesh, std::size_t index) {
     const Location where = fmt::format("triangle {}", index);
     if (vertex >= mesh.positions.size())
       throw bad_input(where, fmt::format("has vertex {}, of {}", vertex, mesh.positions.size()));
-    const glm::vec3& p = mesh.positions[vertex];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      throw bad_input(where, "has a vertex that is not finite");
+    if (!is_within_reach(mesh.positions[vertex]))
+      throw bad_input(where, "has a vertex beyond 1e18, or that is no number");
   }
 }
 
@@ -125,6 +125,8 @@ std::vector<RTCBuildPrimitive> primitive_boxes(const Mesh& mesh) {
       if (!has_area(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z])) continue;
     }
     const auto [low, high] = primitive_box(mesh, i);
+    if (!is_within_reach(low) || !is_within_reach(high))
+      throw bad_input(fmt::format("ellipsoid {}", i - mesh.triangles.size()), "reaches beyond 1e18, or is no number");
     boxes.push_back({low.x, low.y, low.z, 0, high.x, high.y, high.z, static_cast<unsigned int>(i)});
   }
   return boxes;

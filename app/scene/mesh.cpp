@@ -103,6 +103,11 @@ glm::dvec3 on_unit_sphere(const Ellipsoid& ellipsoid, const glm::dvec3& point) {
 
 } // namespace
 
+bool is_within_reach(const glm::vec3& place) {
+  constexpr float farthest = 0x1p60f;
+  return std::abs(place.x) <= farthest && std::abs(place.y) <= farthest && std::abs(place.z) <= farthest;
+}
+
 bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle) {
   const auto [a, b, c] = corners(mesh, triangle);
   const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});

@@ -13,6 +13,10 @@ namespace nephroid::scene {
 /// The reader may take so many times its limit of processor time, where what a file names never answers: a pipe, say.
 inline constexpr unsigned mesh_reader_patience = 5;
 
+/// Whether no coordinate is above 2^60, some 1e18, or no number. Squares of larger ones overflow in single precision,
+/// and Embree ends the program over their boxes.
+bool is_within_reach(const glm::vec3& place);
+
 /// For each vertex the first vertex with exactly the same position (0 and -0 are the same), or with the same position
 /// and normal.
 std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, bool compare_normals);

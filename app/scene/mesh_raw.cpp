@@ -247,6 +247,8 @@ Mesh finished(RawMesh raw) {
   mesh.triangles = std::move(raw.triangles);
   mesh.texcoords = std::move(raw.texcoords);
   join_vertices(mesh);
+  if (!std::ranges::all_of(mesh.positions, is_within_reach))
+    throw std::runtime_error("a vertex lies more than 1e18 units from the origin or from the mesh's middle");
   if (close_seams(mesh)) join_vertices(mesh);
   if (!mesh.normals.empty()) mend_normals(mesh);
   return mesh;

@@ -29,9 +29,9 @@ scene::Mesh mesh_of(std::string_view bytes) {
     if (bytes.starts_with("ply")) return finished(scene::read_ply(bytes));
     if (bytes.starts_with("solid") || bytes.starts_with("STL")) return finished(scene::read_stl(bytes));
     if (bytes.starts_with("v ") || bytes.starts_with("#")) return finished(scene::read_obj(std::string(bytes)));
-    std::FILE* const stream = fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");
-    std::optional<scene::MeshAnswer> answer = scene::take_answer(stream);
-    std::fclose(stream);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(
+        fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb"), std::fclose);
+    std::optional<scene::MeshAnswer> answer = scene::take_answer(stream.get());
     if (!answer) throw std::runtime_error("it is cut");
     return scene::mesh_of(std::move(*answer));
   } catch (const std::runtime_error& refusal) { // load_mesh() says which file

@@ -45,8 +45,8 @@ fuzz() {
   if [ "$status" -eq 0 ]; then
     printf 'fuzz %-11s %9s executions\n' "$name" "${executions:-0}"
   else
-    printf 'fuzz %-11s a finding after %s executions: %s\n' "$name" "${executions:-?}" \
-      "$(grep -m1 -E 'SUMMARY|finding:|runtime error|what\(\)|ERROR' "$log" || tail -n1 "$log")"
+    printf 'fuzz %-11s a finding after %s executions:\n%s\n' "$name" "${executions:-?}" \
+      "$(grep -vE '^#[0-9]+[[:space:]]|^(INFO|stat):' "$log" | tail -n 60)"
     return 1
   fi
 }

@@ -81,6 +81,7 @@ std::vector<BadFile> bad_files() {
       {"truncated.ply", ply("3", "1", "0 0 0\n1 0"), "ends in element 1 'vertex'"},
       {"beyond.ply", ply("3", "1", std::string(corners) + "3 0 1 9\n"), "names vertex 9 of 3"},
       {"negative.ply", ply("3", "1", std::string(corners) + "3 0 1 -1\n"), "names vertex -1 of 3"},
+      {"far.obj", "v 3e38 0 0\nv -3e38 0 0\nv 0 1 0\nf 1 2 3\n", "more than 1e18 units"},
       {"nan.ply", ply("3", "1", "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n"), "not a finite number"},
       {"list.ply", ply("3", "1", std::string(corners) + "4000000000 0 1 2\n"), "ends in element 0 'face'"},
       {"binary.ply", ply("100000000", "1", binary_corners(), little.c_str()), "'vertex' of the 100000000"},
