@@ -101,7 +101,7 @@ public:
                                           {"seed", world_.seed},
                                           {"film_scale", world_.on_device(tables_.film_scale)},
                                           {"energy_scale", world_.on_device(tables_.energy_scale)}});
-                           });
+                           }) > 0;
   }
 
   /// Sends as large a part of the first pass as caustics do, where a pass has more than a few slices.

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -48,36 +49,8 @@ public:
   bool counts_energy() const override { return splats_; }
 
   bool advance(std::int64_t pass) override {
-    const RunTables& t = world_.tables;
-    const std::int64_t batch = pass * t.batches + batch_;
-    if (batch_ == 0 && slices_.at_start()) stored_.fill_zero(); // each photon is stored by one rank
-    if (by_variance_ && slices_.at_start() && batch >= first_reallocation(t.batches) && allocation_.is_due(batch))
-      reallocate(batch);
-    const bool complete =
-        slices_.advance(world_.context.communicator(), t.photons_per_batch, [&](const tracing::PhotonSlice& slice) {
-          world_.send(
-              kernel_, slice, batch,
-              {{"targets", world_.buffers.targets},
-               {"emitters", world_.emitters},
-               {"film", film_},
-               {"energy", splats_ ? world_.energy : own_energy_},
-               {"moments", moments_},
-               {"guide_moments", guide_moments_},
-               {"guide", guide_table_},
-               {"unseen_weight", unseen_weight()},
-               {"stored", stored_},
-               {"stored_first", static_cast<std::uint32_t>(batch_) * t.photons_per_batch},
-               {"map_pass", static_cast<std::uint32_t>(pass)},
-               {"emitter_count", t.scene.emitter_count},
-               {"object_count", static_cast<int>(t.objects.size())},
-               {"seed", world_.seed},
-               {"first_iteration", static_cast<std::uint32_t>(allocation_.first_iteration())},
-               {"film_scale", world_.on_device(t.caustic_scale)},
-               {"energy_scale", world_.on_device(t.energy_scale)},
-               {"stored_scale", world_.on_device(photon_scale(t.photons_per_batch, t.light_towards_targets_w))}});
-        });
-    if (complete) ++batch_;
-    if (batch_ < t.batches) return false;
+    advance_to(pass, world_.tables.batches);
+    if (batch_ < world_.tables.batches) return false;
     batch_ = 0;
     return true;
   }
@@ -85,7 +58,7 @@ public:
   bool has_halves(std::int64_t passes, bool done) const override { return !splats_ || batches(passes, done) >= 2; }
 
   bool advance_preview() override {
-    if (batch_ < world_.preview.batches) advance(0);
+    if (batch_ < world_.preview.batches) advance_to(0, world_.preview.batches);
     return batch_ >= world_.preview.batches;
   }
 
@@ -113,6 +86,44 @@ public:
   }
 
 private:
+  /// The next slice of the pass, which has no photons of its batch `end` or a later one.
+  void advance_to(std::int64_t pass, std::int64_t end) {
+    const RunTables& t = world_.tables;
+    const std::int64_t batch = pass * t.batches + batch_;
+    if (batch_ == 0 && slices_.at_start()) stored_.fill_zero(); // each photon is stored by one rank
+    if (by_variance_ && slices_.at_start() && batch >= first_reallocation(t.batches) && allocation_.is_due(batch))
+      reallocate(batch);
+    // A batch that may be reallocated, of a number that is a power of 2, begins a slice.
+    const std::int64_t reallocated = static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(batch) + 1)),
+                       most = std::min<std::int64_t>(end - batch_, by_variance_ ? reallocated - batch : t.batches);
+    batch_ += slices_.advance(
+        world_.context.communicator(), t.photons_per_batch,
+        [&](const tracing::PhotonSlice& slice) {
+          world_.send(
+              kernel_, slice, batch,
+              {{"targets", world_.buffers.targets},
+               {"emitters", world_.emitters},
+               {"film", film_},
+               {"energy", splats_ ? world_.energy : own_energy_},
+               {"moments", moments_},
+               {"guide_moments", guide_moments_},
+               {"guide", guide_table_},
+               {"unseen_weight", unseen_weight()},
+               {"stored", stored_},
+               {"stored_first", static_cast<std::uint32_t>(batch_) * t.photons_per_batch},
+               {"map_pass", static_cast<std::uint32_t>(pass)},
+               {"photons_per_batch", t.photons_per_batch},
+               {"emitter_count", t.scene.emitter_count},
+               {"object_count", static_cast<int>(t.objects.size())},
+               {"seed", world_.seed},
+               {"first_iteration", static_cast<std::uint32_t>(allocation_.first_iteration())},
+               {"film_scale", world_.on_device(t.caustic_scale)},
+               {"energy_scale", world_.on_device(t.energy_scale)},
+               {"stored_scale", world_.on_device(photon_scale(t.photons_per_batch, t.light_towards_targets_w))}});
+        },
+        most);
+  }
+
   std::int64_t batches(std::int64_t passes, bool done) const {
     return passes * world_.tables.batches + (done ? world_.tables.batches : batch_);
   }

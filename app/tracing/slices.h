@@ -82,38 +82,45 @@ private:
   SliceSize amount_;
 };
 
-/// The photons `offset`, offset + stride, ... of a pass, `count` of them.
+/// The photons `offset`, offset + stride, ... of a batch and those that follow it, `count` of them.
 struct PhotonSlice {
   std::uint32_t offset = 0, stride = 1, count = 0;
 };
 
-/// The photons of a pass: slice s of n has the photons s, s + n, s + 2 n, ..., so that each is a fair sample of all.
+/// The photons of batches. A slice has several batches, or is a part of one: slice s of n has the photons s, s + n,
+/// s + 2 n, ..., so that each is a fair sample of the batch.
 class PhotonSlices {
 public:
+  /// Of the batch in hand.
   double fraction_done() const { return static_cast<double>(at_.slice) / at_.slices; }
-  /// How many of the photons 0 .. photons - 1 of the pass in hand are done.
+  /// How many of the photons 0 .. photons - 1 of the batch in hand are done.
   std::uint32_t done_of(std::uint32_t photons) const {
     return photons / at_.slices * at_.slice + std::min(photons % at_.slices, at_.slice);
   }
-  /// Whether the next slice is the first of a pass.
+  /// Whether the next slice begins a batch.
   bool at_start() const { return at_.slice == 0; }
 
-  /// Calls work(slice) for this rank's part of the next slice of `photons` photons. True when the pass is complete.
+  /// Calls work(slice) for this rank's part of the next slice. A batch has `photons` photons; `most` batches may begin.
+  /// Returns how many it completes.
   template <class Work>
-  bool advance(const Communicator& communicator, std::uint32_t photons, const Work& work) {
+  std::int64_t advance(const Communicator& communicator, std::uint32_t photons, const Work& work,
+                       std::int64_t most = 1) {
     const double amount = photons_a_slice_.amount(communicator);
-    if (at_start())
+    std::int64_t batches = 1;
+    if (at_start()) {
       at_.slices = static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::llround(photons / amount), 1, photons));
-    const std::uint32_t count = (photons - at_.slice + at_.slices - 1) / at_.slices;
-    const auto rank = static_cast<std::uint32_t>(communicator.rank()),
+      batches = std::clamp<std::int64_t>(std::llround(amount / photons), 1, most);
+    }
+    const auto count = static_cast<std::uint32_t>((batches * photons - at_.slice + at_.slices - 1) / at_.slices),
+               rank = static_cast<std::uint32_t>(communicator.rank()),
                ranks = static_cast<std::uint32_t>(communicator.size());
     photons_a_slice_.timed(count, [&] {
       if (rank < count)
         work(PhotonSlice{at_.slice + rank * at_.slices, ranks * at_.slices, (count - rank + ranks - 1) / ranks});
     });
-    if (++at_.slice < at_.slices) return false;
+    if (++at_.slice < at_.slices) return 0;
     at_ = {};
-    return true;
+    return batches;
   }
 
   void serialize(Archive& archive) { archive.value(at_); }

@@ -51,8 +51,8 @@ static inline bool store_photon(__global StoredPhoton* slot, const Surface* surf
   return fits;
 }
 
-// Follows `count` photons offset, offset + stride, ... of the batch `iteration`. map_pass is the pass of the maps.
-// energy counts what photons carry, whatever a smooth receiver's shading normals make of it.
+// Follows `count` photons offset, offset + stride, ... of the batch `iteration` and those that follow it. map_pass is
+// the pass of the maps. energy counts what photons carry, whatever a smooth receiver's shading normals make of it.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
                       volatile __global long* moments,                              // with NEPHROID_MOMENTS: [emitter]
@@ -61,20 +61,20 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
                       float unseen_weight, // ... weight of a stored photon that no pixel sees directly
                       __global StoredPhoton* stored,
                       uint stored_first, // [photon], with NEPHROID_STORE; where the batch begins
-                      int emitter_count, int object_count, DeviceCamera camera, uint2 seed, uint iteration,
-                      uint map_pass, uint first_iteration, uint offset, uint stride, uint count, float film_scale,
-                      float energy_scale, float stored_scale) {
+                      uint photons_per_batch, int emitter_count, int object_count, DeviceCamera camera, uint2 seed,
+                      uint iteration, uint map_pass, uint first_iteration, uint offset, uint stride, uint count,
+                      float film_scale, float energy_scale, float stored_scale) {
   const World world = WORLD;
   OUTCOMES(outcomes);
-  film = film_of_iteration(film, iteration, camera.width * camera.height);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint number = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= count) break;
-    const uint photon = offset + stride * neighbours_follow(number, count);
+    const uint place = offset + stride * neighbours_follow(number, count);
+    const uint batch = iteration + place / photons_per_batch, photon = place % photons_per_batch;
 #if NEPHROID_STORE
-    stored[stored_first + photon].group = NO_PHOTON;
+    stored[stored_first + place].group = NO_PHOTON;
 #endif
-    PhotonStart start = photon_start(emitters, emitter_count, lights, seed, iteration, first_iteration, photon);
+    PhotonStart start = photon_start(emitters, emitter_count, lights, seed, batch, first_iteration, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
     DeviceLight light = lights[emitter.light];
 #if NEPHROID_MOMENTS
@@ -99,11 +99,11 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
         emission.watts / ((float)emitter.photon_count * guided.density); // as if the band had all of the light's power
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
                  light.inside,    no_losses(),        emission.behind};
-    const PhotonEnd end = trace_photon(&world, source, &band, share, &path, seed, iteration, photon);
+    const PhotonEnd end = trace_photon(&world, source, &band, share, &path, seed, batch, photon);
 #if NEPHROID_STORE
     if (end.outcome == OUTCOME_DEPOSITED) {
       const float3 xyz = end.xyz * (watts * shading_ratio(&end.surface, path.direction));
-      if (!store_photon(stored + stored_first + photon, &end.surface, path.direction,
+      if (!store_photon(stored + stored_first + place, &end.surface, path.direction,
                         band_number(emitter.cluster, part), object_count, xyz, stored_scale, dither))
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
     }
@@ -111,10 +111,11 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     if (NEPHROID_SPLAT && end.outcome == OUTCOME_DEPOSITED) {
       const Stretch stretch = stretch_of(&world, &camera, &end, &path, &band);
 #if NEPHROID_LENS
-      const DeviceCamera seen_from = through_lens(&camera, random4(seed, iteration, photon, 0u, STREAM_LENS).xy);
+      const DeviceCamera seen_from = through_lens(&camera, random4(seed, batch, photon, 0u, STREAM_LENS).xy);
 #else
 #define seen_from camera
 #endif
+      volatile __global long* const sums = film_of_iteration(film, batch, camera.width * camera.height);
       for (int i = 0; i < stretch.count; ++i) {
         Strand strand;
         if (!strand_of(&world, &end, &path, source, &band, &stretch, i, wavelength, &strand)) continue;
@@ -122,7 +123,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
         if (splat.pixel < 0) continue;
         const float3 xyz = strand.xyz * (watts * splat.weight / PI_F);
         const float turn = dither + 0.61803399f * (float)i; // each strand has its own
-        if (!film_add_dithered(film, splat.pixel, xyz, film_scale, FILM_LIMIT, turn - floor(turn)))
+        if (!film_add_dithered(sums, splat.pixel, xyz, film_scale, FILM_LIMIT, turn - floor(turn)))
           add_outcome(outcomes, OUTCOME_REFUSED, 1);
 #if NEPHROID_MOMENTS
         moment += squared(xyz, film_scale);

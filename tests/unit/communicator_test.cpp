@@ -2,6 +2,7 @@
 // Which rank works on what.
 #include "base/communicator.h"
 #include "tests/support/test.h"
+#include "tracing/slices.h"
 
 namespace nephroid::communicator_test {
 
@@ -68,6 +69,30 @@ TEST(Partition, KeepsWhatOneRankOwns) {
     EXPECT_GT(first, 0);
   }
   EXPECT_EQ(sum, std::vector<int>(sum.size(), 1));
+}
+
+TEST(PhotonSlices, HaveEachPhotonOfEachBatchOnce) {
+  constexpr std::uint32_t photons = 10000;
+  constexpr std::int64_t batches = 40;
+  std::vector<int> count(photons * batches);
+  std::int64_t longest = 0;
+  for (int rank = 0; rank < 3; ++rank) {
+    tracing::PhotonSlices slices; // they do nothing, so each is twice as long as the one before
+    for (std::int64_t batch = 0; batch < batches;) {
+      const std::int64_t done = slices.advance(
+          rank_of(rank, 3), photons,
+          [&](const tracing::PhotonSlice& slice) {
+            for (std::uint32_t i = 0; i < slice.count; ++i)
+              ++count[static_cast<std::size_t>(batch * photons + slice.offset + i * slice.stride)];
+          },
+          std::min<std::int64_t>(batches - batch, 16));
+      longest = std::max(longest, done);
+      batch += done;
+    }
+  }
+  EXPECT_EQ(count, std::vector<int>(count.size(), 1));
+  EXPECT_GT(longest, 1);
+  EXPECT_LE(longest, 16);
 }
 
 TEST(Communicator, KeepsEverySoManyethItem) {

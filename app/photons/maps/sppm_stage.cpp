@@ -235,6 +235,7 @@ private:
                  {"stored", map_.stored()},
                  {"stored_first", 0u},
                  {"map_pass", static_cast<std::uint32_t>(iteration)},
+                 {"photons_per_batch", photons_},
                  {"emitter_count", sender.emitter_count},
                  {"object_count", static_cast<int>(t.objects.size())},
                  {"seed", seed_of(cluster)},
@@ -261,7 +262,7 @@ private:
   bool send(std::int64_t pass) {
     if (slices_.at_start()) map_.stored().fill_zero(); // each photon is stored by one rank
     return slices_.advance(world_.context.communicator(), photons_,
-                           [&](const tracing::PhotonSlice& slice) { send_photons(pass, slice); });
+                           [&](const tracing::PhotonSlice& slice) { send_photons(pass, slice); }) > 0;
   }
 
   bool gather(std::int64_t pass) {

@@ -31,7 +31,7 @@ public:
   bool advance(std::int64_t pass) override {
     take_light(pass);
     at_.half = static_cast<std::size_t>(pass) % world_.halves;
-    const bool complete = slices_.advance(
+    const std::int64_t batches = slices_.advance(
         world_.context.communicator(), world_.tables.photons_per_batch, [&](const tracing::PhotonSlice& slice) {
           world_.send(
               kernel_, slice, pass,
@@ -48,9 +48,9 @@ public:
                {"film_scale", world_.on_device(scale_)},
                {"energy_scale", static_cast<float>(world_.tables.energy_scale * relighting_.light.strongest())}});
         });
-    if (complete)
+    if (batches > 0)
       for (std::size_t e = 0; e < emitters_.size(); ++e) sent_[e][at_.half] += emitters_[e].photon_count;
-    return complete;
+    return batches > 0;
   }
 
   void develop(std::int64_t, bool, job::Picture& picture) override {
