@@ -34,7 +34,7 @@ public:
 
   const char* name() const override { return "photons"; }
   double fraction_done() const override {
-    const auto [first, last] = points_of_batch();
+    const std::int64_t first = points_of_batches(of_round_), last = points_of_batches(of_round_ + 1);
     const double part = last > first ? double(point_ - first) / double(last - first) : 0;
     return (static_cast<double>(batch_) + part) / world_.tables.batches;
   }
@@ -43,13 +43,7 @@ public:
   }
 
   bool advance(std::int64_t) override {
-    const std::int64_t last = points_of_batch()[1];
-    if (point_ < last)
-      point_ += amount_.advance(world_.context.communicator(), lattices_.points, point_, last - point_,
-                                [&](std::uint32_t first, std::uint32_t count) { send(first, count); });
-    if (point_ < last) return false;
-    ++batch_;
-    if (++of_round_ == round_batches()) end_round();
+    advance_to(world_.tables.batches);
     if (batch_ < world_.tables.batches) return false;
     batch_ = 0;
     return true;
@@ -58,7 +52,7 @@ public:
   bool has_halves(std::int64_t, bool) const override { return batches_ > 0 && world_.halves == 2; }
 
   bool advance_preview() override {
-    if (batch_ < world_.preview.batches) advance(0);
+    if (batch_ < world_.preview.batches) advance_to(world_.preview.batches);
     return batch_ >= world_.preview.batches;
   }
 
@@ -128,9 +122,21 @@ private:
     on_device_ = compute::Buffer<shared::DeviceLattice>(world_.context, "lattices", lattices_.lattices);
   }
 
-  std::array<std::int64_t, 2> points_of_batch() const {
-    const std::int64_t points = lattices_.points, batches = round_batches();
-    return {points * of_round_ / batches, points * (of_round_ + 1) / batches};
+  /// Points of the first batches of the round in hand.
+  std::int64_t points_of_batches(std::int64_t batches) const { return lattices_.points * batches / round_batches(); }
+
+  /// The next slice of the round and the pass in hand, which has no points of the pass's batch `end` or a later one.
+  void advance_to(std::int64_t end) {
+    const std::int64_t last = points_of_batches(std::min(of_round_ + end - batch_, round_batches()));
+    if (point_ < last)
+      point_ += amount_.advance(world_.context.communicator(), lattices_.points, point_, last - point_,
+                                [&](std::uint32_t first, std::uint32_t count) { send(first, count); });
+    while (batch_ < end && point_ >= points_of_batches(of_round_ + 1)) {
+      ++batch_;
+      if (++of_round_ < round_batches()) continue;
+      end_round();
+      break;
+    }
   }
 
   void send(std::uint32_t first, std::uint32_t count) {
