@@ -148,6 +148,9 @@ void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& sc
       throw bad_input(spectral / "relight", "keeps layers for surfaces of one colour, and one has a texture",
                       "expected false", "or take the texture away");
   }
+  if (wanted.relight && std::ranges::any_of(scene.lights, [](const scene::Light& l) { return l.object >= 0; }))
+    throw bad_input(spectral / "relight", "keeps layers of what surfaces scatter, and an object shines itself",
+                    "expected false", "or take an area light in its place");
   if (!has_coatings(scene)) return;
   const auto refuse = [&](bool is_set, const char* field, const char* expected) {
     if (is_set)

@@ -172,7 +172,7 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
 /// What a pixel shows, as far as it matters for spreading light over it.
 struct PixelSight {
   PixelSurfaces::Surface surface; ///< the diffuse one at the end of a ray, or the first of glass or a mirror
-  int first = -1;                 ///< object that the ray meets first; -1: none, or a texture is seen
+  int first = -1;                 ///< object that the ray meets first; -1: none, or a texture or a lamp is seen
   bool at_edge = false;           ///< whether a neighbour shows something else, whose light the pixel may hold
 };
 
@@ -335,6 +335,16 @@ void Smoothing::find_surfaces() {
                has_detail = is_so(last.object, scene::is_textured) && !is_rough;
     seen[i] = {pulled[i] || is_rough ? first : last, has_detail ? -1 : first.object};
   }
+  std::vector<bool> is_lamp(view->scene.objects.size() + 1); // by object + 1
+  for (const scene::Light& light : view->scene.lights) is_lamp[static_cast<std::size_t>(light.object + 1)] = true;
+  is_lamp[0] = false;
+  const auto shows_lamp = [&](std::size_t i) { return is_lamp[static_cast<std::size_t>(pixels[i].last.object + 1)]; };
+  std::vector<bool> near_lamp(seen.size());
+  for_neighbours(width_, height_, true, [&](std::size_t i, std::size_t j) {
+    if (shows_lamp(i) || shows_lamp(j)) near_lamp[i] = near_lamp[j] = true;
+  });
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (near_lamp[i]) seen[i].first = -1, lamps_.push_back(i);
   for_neighbours(width_, height_, true, [&](std::size_t i, std::size_t j) {
     if (seen[i].first == seen[j].first && seen[i].surface.object == seen[j].surface.object) return;
     seen[i].at_edge = seen[j].at_edge = true;
@@ -363,6 +373,13 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
                        double noise) {
   if (error_draw.empty()) return;
   find_surfaces();
+  const auto keep_lamps = [&](const std::vector<float>& from, std::vector<float>& to) {
+    for (const std::size_t i : lamps_)
+      for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) to[c] = from.empty() ? 0 : from[c];
+  };
+  const std::vector<float> rgb_before = rgb, draw_before = error_draw;
+  keep_lamps({}, rgb);
+  keep_lamps({}, error_draw);
   const std::vector<double> light = light_of(rgb);
   std::vector<double> wanted = portions(light, error_draw, width_, height_);
   for (double& portion : wanted) portion /= noise * noise; // n portions have the noise 1 / sqrt(n)
@@ -399,6 +416,8 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
   std::vector<float> draw_spread = spread_by(kernels, error_draw);
   if (!known.empty()) mix(rgb, error_draw, {known, {}}, light, width_, height_, rgb_spread, draw_spread);
   add_bias(rgb, error_draw, rgb_spread, draw_spread, width_, height_);
+  keep_lamps(rgb_before, rgb_spread);
+  keep_lamps(draw_before, draw_spread);
   rgb = std::move(rgb_spread);
   error_draw = std::move(draw_spread);
 }

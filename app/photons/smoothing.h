@@ -65,6 +65,7 @@ private:
   Spread spread_;
   std::shared_ptr<const View> view_; ///< null once the surfaces are found
   std::vector<Level> level_;         ///< [pixel]
+  std::vector<std::size_t> lamps_;   ///< pixels that may hold light which a lamp sends there itself, and keep it
 };
 
 } // namespace nephroid::photons

@@ -185,6 +185,10 @@ Material make_material(const std::string& name, const preset::Material& material
       result.n = optics::sample_n(curve, outside);
       result.k = optics::sample_k(curve, outside);
     });
+    if (const double most = std::ranges::max(result.k); most < 0.01)
+      warnings.push_back(fmt::format("material '{}': its k is at most {:.2g}, which is no metal's: a conductor absorbs "
+                                     "what a dielectric lets through",
+                                     name, most));
     result.conductor = optics::conductor_terms(result.n, result.k);
     if (const double error = result.conductor.error; error > most_conductor_error)
       throw bad_input(where / "metal", fmt::format("has a reflectance that is off by up to {:.2g} here", error),

@@ -48,11 +48,17 @@ public:
     for (int i = 0; i < count; ++i) values.push_back(number(what));
     return values;
   }
+  /// Throws bad_input where a number follows: the counts are not the file's.
+  void end() {
+    if (rest_.find_first_not_of(between) != std::string_view::npos && typed_number<double>(next("the end")))
+      throw bad_input(where(), "more numbers follow than the counts of angles say", {}, "get it again");
+  }
   std::string where() const { return fmt::format("{}:{}", file_, line_); }
 
 private:
+  static constexpr std::string_view between = " \t\r\n,";
+
   std::string_view next(std::string_view what) {
-    constexpr std::string_view between = " \t\r\n,";
     const std::size_t begin = std::min(rest_.find_first_not_of(between), rest_.size());
     line_ += static_cast<int>(std::count(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(begin), '\n'));
     rest_.remove_prefix(begin);
@@ -146,6 +152,7 @@ Photometry read_ies(const fs::path& file, std::string_view text, int line, bool 
     for (double& value : plane) value *= multiplier;
     values.try_emplace(turned(c), std::move(plane));
   }
+  words.end();
   const double first = c_deg.front(), last = c_deg.back();
   if (first == 90 && last == 270)
     mirror(values, 180);

@@ -51,6 +51,16 @@ shared::DeviceLight device_light(const scene::Light& light, double power_unit, c
   return out;
 }
 
+/// XYZ of a light's whole spectrum, of power 1. The environment, which has three rows, is the last light.
+glm::dvec3 white_xyz(const WavelengthTables& tables, std::size_t light) {
+  glm::dvec3 sum(0);
+  for (std::size_t w = 0; w < optics::wavelength_count; ++w) {
+    const shared::float4& xyz = tables.light_xyz[light * optics::wavelength_count + w];
+    sum += glm::dvec3(xyz.x, xyz.y, xyz.z);
+  }
+  return sum;
+}
+
 /// Appends the spheres to the table of targets, unless an earlier light has the same ones.
 void set_targets(shared::DeviceLight& light, const std::vector<scene::Sphere>& spheres, SceneTables& tables) {
   std::vector<shared::DeviceTarget> list;
@@ -322,6 +332,8 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
     tables.sky = std::make_shared<const SkyTables>(make_sky_tables(*scene.environment));
     tables.lights.back().edge_u = tables.sky->mean_colour;
   }
+  for (std::size_t l = 0; l < lights.size(); ++l)
+    if (tables.lights[l].type == LIGHT_MESH) tables.lights[l].edge_u = to_float4(white_xyz(tables.wavelengths, l));
   tables.lamps = make_lamp_tables(scene, lights, tables.lights);
   tables.light_towards_targets_w =
       std::accumulate(tables.towards_targets_w.begin(), tables.towards_targets_w.end(), 0.0);

@@ -6,9 +6,20 @@
 #include "kernels/tracing/eye_path.h"
 #include "kernels/tracing/work_item.h"
 
-// The XYZ radiance that a diffuse surface sends back along the path.
-IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, Reflector reflector,
-                      const Band* band, __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel) {
+// The XYZ radiance of a lamp's own surface.
+static inline float3 emitted(const World* world, int light_index, const Path* path, const Band* band) {
+  const DeviceLight light = world->lights[light_index];
+  const float metres = world->scene.metres_per_unit;
+  const Source lamp = {light_index, (float3)(1.0f)};
+  const float3 xyz = band->cluster < 0 ? light.edge_u.xyz
+                                       : carried_light(world, &path->losses, lamp, band, white_reflector()).xyz;
+  return xyz * (light.radiometric / (PI_F * light.solid_angle * metres * metres));
+}
+
+// The XYZ radiance that a diffuse surface sends back along the path. shines: with its own where it is a lamp.
+IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, bool shines,
+                      Reflector reflector, const Band* band, __global const float4* reflected_xyz_all, uint2 seed,
+                      uint sample, uint pixel) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   const uint paths = band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS;
   for (int l = 0; l < world->scene.light_count; ++l) {
@@ -23,6 +34,7 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
                  : carried_light(world, &path->losses, sky, band, reflector).xyz;
       continue;
     }
+    if (shines && is_on_lamp(world, l, triangle)) xyz += emitted(world, l, path, band);
     const float irradiance = irradiance_of(world, l, path, surface, triangle, seed, sample, paths, pixel);
     if (irradiance == 0.0f) continue;
     const Source lamp = {l, (float3)(1.0f)};
@@ -39,7 +51,7 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
 IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band,
                        __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel) {
   Surface surface;
-  float3 shine = (float3)(0.0f);
+  Shine shine = {(float3)(0.0f), false};
   float radiance_scale = 1.0f;
   bool reached = false;
 #if NEPHROID_PLASTICS
@@ -51,29 +63,31 @@ IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* ban
       radiance_scale = part_through_coat(world, &surface, path.direction);
     else {
 #if NEPHROID_ROUGH
-      if (material.alpha > 0.0f)
-        shine = highlights(world, &path, &surface, first.primitive, &material, band, seed, sample, PATHS_THROUGH_GLASS,
-                           pixel + 0x9e3779b9u);
+      shine.by_facets = material.alpha > 0.0f;
+      if (shine.by_facets)
+        shine.xyz = highlights(world, &path, &surface, first.primitive, &material, band, seed, sample,
+                               PATHS_THROUGH_GLASS, pixel + 0x9e3779b9u);
 #endif
       const float2 facet = facet_numbers(seed, sample, pixel, BEFORE_THE_PATH, STREAM_CAMERA);
       Bend bend;
-      if (!first_bend(world, &path, &first, band, true, facet, &radiance_scale, &bend)) return shine;
+      if (!first_bend(world, &path, &first, band, true, facet, &radiance_scale, &bend)) return shine.xyz;
       first = next_hit(world, &path);
-      if (first.primitive == NEPHROID_NO_PRIMITIVE) return shine;
+      if (first.primitive == NEPHROID_NO_PRIMITIVE) return shine.xyz;
     }
   }
 #endif
-  float3 shine_behind = (float3)(0.0f);
+  Shine behind = {(float3)(0.0f), shine.by_facets};
   const float share = radiance_scale;
   if (!reached)
     radiance_scale *=
         reach_diffuse(world, &path, &first, band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel,
-                      STREAM_CAMERA, &surface, &shine_behind);
-  shine += share * shine_behind;
-  if (radiance_scale == 0.0f) return shine;
+                      STREAM_CAMERA, &surface, &behind);
+  const float3 xyz = shine.xyz + share * behind.xyz;
+  if (radiance_scale == 0.0f) return xyz;
+  const bool shines = !behind.by_facets && dot(path.direction, surface.geometric) < 0.0f;
   const Reflector reflector = reflector_at(world, &surface, first.primitive);
-  return shine + radiance_scale *
-         shade(world, &path, &surface, first.primitive, reflector, band, reflected_xyz_all, seed, sample, pixel);
+  return xyz + radiance_scale * shade(world, &path, &surface, first.primitive, shines, reflector, band,
+                                      reflected_xyz_all, seed, sample, pixel);
 }
 
 // samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.

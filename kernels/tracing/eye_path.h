@@ -241,9 +241,13 @@ static inline float3 highlights(const World* world, const Path* path, const Surf
 // next hit. `hit` and, at a diffuse surface, `surface` become those of its end. Returns the factor of the radiance
 // there, 0 where the path is lost: a path keeps radiance over n^2 (Nicodemus 1963, "Radiance"). stream: for the numbers
 // that choose between reflection and refraction. likelier: takes the likelier of both, for a preview.
-// shine: gets the light of lamps that rough surfaces reflect on the way (NEPHROID_HIGHLIGHTS).
+// shine: with NEPHROID_HIGHLIGHTS.
 #ifdef NEPHROID_HIGHLIGHTS
-#define SHINE_PARAMETER , float3* shine
+typedef struct {
+  float3 xyz;     // light of lamps that rough surfaces send back on the way
+  bool by_facets; // the path was bent by a rough surface last: what it meets of a lamp is in xyz
+} Shine;
+#define SHINE_PARAMETER , Shine* shine
 #define SHINE , shine
 #else
 #define SHINE_PARAMETER
@@ -266,9 +270,10 @@ IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool k
                          : eye_numbers(seed, sample, surface_number == 0 ? paths : 0u, pixel,
                                        1u + (uint)surface_number / 4u, stream);
 #if NEPHROID_ROUGH && defined(NEPHROID_HIGHLIGHTS)
-    if (material.alpha > 0.0f)
-      *shine += radiance_scale * highlights(world, path, surface, hit->primitive, &material, band, seed, sample,
-                                            max(paths, 1u), pixel + 0x9e3779b9u * (1u + (uint)surface_number));
+    shine->by_facets = material.alpha > 0.0f;
+    if (shine->by_facets)
+      shine->xyz += radiance_scale * highlights(world, path, surface, hit->primitive, &material, band, seed, sample,
+                                                max(paths, 1u), pixel + 0x9e3779b9u * (1u + (uint)surface_number));
 #endif
     const float2 facet = facet_numbers(seed, sample, pixel, (uint)surface_number, stream);
     if (ends_at(world, path->direction, surface, &material, choices.x, facet)) return radiance_scale;

@@ -17,6 +17,16 @@ static inline void shine_from(DeviceLight* light, float3 place) {
   light->edge_u = light->edge_v = (float4)(0.0f);
 }
 
+// Whether a triangle or ellipsoid is one of a lamp's mesh.
+static inline bool is_on_lamp(const World* world, int light_index, uint primitive) {
+#if NEPHROID_LIGHT_TYPES >> LIGHT_MESH & 1
+  const DeviceLight light = world->lights[light_index];
+  return is_light(&light, LIGHT_MESH) && primitive - (uint)as_int(light.edge_v.w) < (uint)as_int(light.edge_u.w);
+#else
+  return false;
+#endif
+}
+
 // A place of a mesh, even over its area: a triangle or ellipsoid in proportion to its area, and a place on it. What
 // chances are rounded by, and where an ellipsoid is stretched, *light makes up for in power.
 static inline void choose_in_mesh(const World* world, DeviceLight* light, float2 place) {

@@ -319,7 +319,7 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
     return left * (float4)(reflectance * light_xyz.xyz, light_xyz.w);
   }
 #endif
-#if NEPHROID_ATTENUATORS > 0
+#if NEPHROID_ATTENUATORS > 0 || NEPHROID_LIGHT_TYPES >> LIGHT_MESH & 1
   if (losses->any || is_white(reflector))
     return attenuated_sum(&world->tables, losses, light, band->cluster, reflector);
 #endif

@@ -3,12 +3,16 @@
 """Imports scenes of Mitsuba, PBRT and glTF, renders them, and has Mitsuba render the same: mean light, and where
 pictures differ by more than their noise.
 
-    tests/experiments/others.py PROGRAM OUT [SCENE...]     of these scenes of others_scenes.py, or of all
+    tests/experiments/others.py PROGRAM OUT [SCENE...]            of these scenes of others_scenes.py, or of all
+    tests/experiments/others.py PROGRAM OUT --seconds S [SCENE...]   the noise of both after as much processor time
 
 Mitsuba is installed from PyPI into OUT/venv. Both render each scene with several seeds, whose differences are the
 noise. A scene's line has the mean light of ours over theirs with its noise, of the pixels that show the floor alone
 and of all; the part of blocks of 8 x 8 pixels whose means differ by less than 4 times their noise; and what the import
 said to have left out. OUT/SCENE.png is theirs, ours, and their difference, 4 times as bright, about grey.
+
+Noise is the root mean square of a pixel's deviation among seeds over the mean light, of pixels that show the floor
+alone. Both have S seconds of all threads together, ours with its start and its files, theirs without.
 
 Mitsuba's particle tracer (of lamps that are points) shows nothing in glass, so there the floor alone counts. Where a
 lamp is a surface, Mitsuba shows its reflection in glass and we do not.
@@ -17,6 +21,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 from peers import in_venv
@@ -24,8 +29,8 @@ from peers import in_venv
 THEIR_SEEDS, OUR_SEEDS, SAMPLES, PASSES, BLOCK = 4, 4, 256, 16, 8
 
 
-def theirs(scene, folder):
-    """Pictures, and which of their pixels show the floor alone."""
+def loaded_by_mitsuba(scene, folder):
+    """The scene, its integrator, and which pixels show the floor alone."""
     import mitsuba
     import numpy as np
     from others_scenes import FLOOR_HEIGHT
@@ -33,29 +38,51 @@ def theirs(scene, folder):
     loaded = mitsuba.load_file(str(folder / scene["theirs"]))
     integrator = mitsuba.load_dict({"type": scene["integrator"], "max_depth": 32, "rr_depth": 32})
     at = np.array(mitsuba.render(loaded, integrator=mitsuba.load_dict({"type": "aov", "aovs": "at:position"}), spp=64))
-    return [np.array(mitsuba.render(loaded, integrator=integrator, spp=SAMPLES, seed=seed))[..., :3].astype(float)
-            for seed in range(1, THEIR_SEEDS + 1)], np.abs(at[..., -2] - FLOOR_HEIGHT) < 1e-3
+    return loaded, integrator, np.abs(at[..., -2] - FLOOR_HEIGHT) < 1e-3
 
 
-def ours(scene, folder, program):
+def theirs(loaded, integrator, samples):
+    import mitsuba
+    import numpy as np
+    return [np.array(mitsuba.render(loaded, integrator=integrator, spp=samples, seed=seed))[..., :3].astype(float)
+            for seed in range(1, THEIR_SEEDS + 1)]
+
+
+def their_samples(loaded, integrator, seconds):
+    """As many a pixel as take this processor time."""
+    import mitsuba
+    import numpy as np
+    samples, taken = 16, 0
+    while taken < seconds / 4:
+        samples *= 2
+        began = time.process_time()
+        np.array(mitsuba.render(loaded, integrator=integrator, spp=samples))
+        taken = time.process_time() - began
+    return max(1, int(samples * seconds / taken))
+
+
+def ours(scene, folder, program, stop=("--passes", str(PASSES))):
+    """Pictures, what the import said, and processor seconds a picture."""
     from layers import read_layer
     from others_scenes import SIZE
     preset = folder / "ours.json"
     done = subprocess.run([program, "import", str(folder / scene["ours"]), "-o", str(preset), "--replace"],
                           capture_output=True, text=True)
     if done.returncode:
-        return None, done.stderr.strip()
+        return None, done.stderr.strip(), 0
     size, unit = [], 1
     if scene["ours"].endswith(".gltf"):  # which has no size of a picture, and candela: 683 lm are a watt at the peak
         size = ["--set", f"scene.camera.resolution=[{SIZE},{SIZE}]"]
         unit = 683 * json.loads(preset.read_text())["white"]
-    pictures = []
+    pictures, began = [], os.times()
     for seed in range(1, OUR_SEEDS + 1):
         out = folder / f"ours-{seed}"
-        subprocess.run([program, "run", str(preset), "-o", str(out), "--passes", str(PASSES), "--set", f"seed={seed}",
+        subprocess.run([program, "run", str(preset), "-o", str(out), *stop, "--set", f"seed={seed}",
                         "--set", "spectral.smoothing=off", *size], capture_output=True, check=True)
         pictures.append(unit * read_layer(out / "image.exr", ""))
-    return pictures, done.stderr.strip()
+    ended = os.times()
+    seconds = ended.children_user + ended.children_system - began.children_user - began.children_system
+    return pictures, done.stderr.strip(), seconds / OUR_SEEDS
 
 
 def blocks(grey):
@@ -72,17 +99,41 @@ def compared(a, b):
     return f"{means[1].mean() / means[0].mean():.4f} +- {noise:.4f}"
 
 
-def measure(name, scene, program, out):
-    import numpy as np
-    from layers import write_png
+def folder_of(name, scene, out):
     folder = out / name.replace(" ", "-")
     for file, content in scene["files"].items():
         (folder / file).parent.mkdir(parents=True, exist_ok=True)
         (folder / file).write_bytes(content if isinstance(content, bytes) else content.encode())
-    b, said = ours(scene, folder, program)
+    return folder
+
+
+def noise(pictures, floor):
+    import numpy as np
+    grey = np.array(pictures).mean(-1)[:, floor]
+    return np.sqrt(grey.var(0, ddof=1).mean()) / grey.mean()
+
+
+def compare_noise(name, scene, program, out, seconds):
+    folder = folder_of(name, scene, out)
+    loaded, integrator, floor = loaded_by_mitsuba(scene, folder)
+    samples = their_samples(loaded, integrator, seconds)
+    began = time.process_time()
+    a = theirs(loaded, integrator, samples)
+    their_seconds = (time.process_time() - began) / THEIR_SEEDS
+    b, _, our_seconds = ours(scene, folder, program, ("--seconds", str(seconds / os.cpu_count())))
+    print(f"| {name} | {our_seconds:.1f} s, {noise(b, floor):.4f} | {their_seconds:.1f} s, {noise(a, floor):.4f} |",
+          flush=True)
+
+
+def measure(name, scene, program, out):
+    import numpy as np
+    from layers import write_png
+    folder = folder_of(name, scene, out)
+    b, said, _ = ours(scene, folder, program)
     if b is None:
         return print(f"| {name} | refused | | | {said} |", flush=True)
-    a, floor = theirs(scene, folder)
+    loaded, integrator, floor = loaded_by_mitsuba(scene, folder)
+    a = theirs(loaded, integrator, SAMPLES)
     greys = [np.array(pictures).mean(-1) for pictures in (a, b)]
     parts = [blocks(grey) for grey in greys]
     variance = sum(p.var(0, ddof=1) / len(p) for p in parts)
@@ -98,14 +149,19 @@ def measure(name, scene, program, out):
 
 if __name__ == "__main__":
     if len(sys.argv) < 3 or not Path(sys.argv[1]).is_file():
-        sys.exit("usage: others.py PROGRAM OUT [SCENE...], PROGRAM being the program, as build/release/bin/nephroid")
+        sys.exit("usage: others.py PROGRAM OUT [--seconds S] [SCENE...]; PROGRAM is build/release/bin/nephroid")
     target = Path(sys.argv[2]).absolute()
     target.mkdir(parents=True, exist_ok=True)
     in_venv(target)
     from others_scenes import SCENES
-    if not set(sys.argv[3:]) <= set(SCENES):
+    names = sys.argv[3:]
+    seconds = float(names[1]) if names[:1] == ["--seconds"] else 0
+    names = names[2:] if seconds else names
+    if not set(names) <= set(SCENES):
         sys.exit(f"scenes: {', '.join(SCENES)}")
-    print("| scene | floor, ours over theirs | picture | blocks that agree | what the import said |\n"
+    print("| scene | ours | Mitsuba's |\n|---|---|---|" if seconds else
+          "| scene | floor, ours over theirs | picture | blocks that agree | what the import said |\n"
           "|---|---|---|---|---|")
-    for scene_name in sys.argv[3:] or SCENES:
-        measure(scene_name, SCENES[scene_name], os.path.abspath(sys.argv[1]), target)
+    for scene_name in names or SCENES:
+        arguments = scene_name, SCENES[scene_name], os.path.abspath(sys.argv[1]), target
+        compare_noise(*arguments, seconds) if seconds else measure(*arguments)

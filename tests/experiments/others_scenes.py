@@ -164,6 +164,16 @@ PANE = """<shape type="rectangle"><transform name="to_world"><scale value="2"/><
 <translate y="0.5"/></transform><bsdf type="thindielectric"><float name="int_ior" value="1.7"/>
 <float name="specular_transmittance" value="0.8"/></bsdf></shape>"""
 
+CHECKED = FLOOR.replace('<rgb name="reflectance" value="0.6"/>', """<texture type="checkerboard" name="reflectance">
+<rgb name="color0" value=".8 .6 .4"/><rgb name="color1" value=".2 .3 .4"/>
+<transform name="to_uv"><scale value="4"/></transform></texture>""")
+VARNISHED = FLOOR.replace(grey(.6), """<bsdf type="plastic"><rgb name="diffuse_reflectance" value=".6"/>
+<boolean name="nonlinear" value="true"/></bsdf>""")
+FROSTED = ball(material=rough("roughdielectric", .1, '<float name="int_ior" value="1.5"/>'
+                              '<float name="ext_ior" value="1"/>'))
+SUN_AND_SKY = """<emitter type="sunsky"><float name="turbidity" value="3"/>
+<vector name="sun_direction" x=".4" y=".8" z=".45"/></emitter>"""
+
 ABSORBS = ('<medium name="interior" type="homogeneous"><rgb name="sigma_t" value="0.5"/><rgb name="albedo" value="0"/>'
            '</medium>')
 
@@ -217,9 +227,16 @@ SCENES = {
     "tinted ball": mitsuba(whole(SKY_LIGHT, ball(material=glass().replace(
         "</bsdf>", '<float name="specular_transmittance" value="0.7"/></bsdf>')))),
     "thin pane": mitsuba(whole(SKY_LIGHT, PANE)),
-    "rough glass": mitsuba(whole(SKY_LIGHT, ball(material=rough("roughdielectric", .1,
-                                                                '<float name="int_ior" value="1.5"/>'
-                                                                '<float name="ext_ior" value="1"/>')))),
+    "rough glass": mitsuba(whole(SKY_LIGHT, FROSTED)),
+    "rough glass, lamp": mitsuba(whole(LAMP, FROSTED)),
+    "textured floor": mitsuba(whole(LAMP, ball(), floor=CHECKED)),
+    "plastic floor": mitsuba(whole(LAMP, ball(), floor=VARNISHED)),
+    "sun and sky": mitsuba(whole(SUN_AND_SKY, ball())),
+    "shining ball": mitsuba(whole(ball(.7, '<bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>'
+                                       '<emitter type="area"><rgb name="radiance" value="4"/></emitter>'))),
+    "thin lens": mitsuba(whole(LAMP, ball(), camera=sensor(more='<float name="aperture_radius" value="0.3"/>'
+                                                           '<float name="focus_distance" value="9"/>').replace(
+                                                               "perspective", "thinlens"))),
     "rough mirror": mitsuba(whole(SKY_LIGHT, ball(material=rough("roughconductor", .1,
                                                                  '<string name="material" value="none"/>')))),
     "sky of a picture": mitsuba(whole('<emitter type="envmap"><string name="filename" value="sky.hdr"/>'

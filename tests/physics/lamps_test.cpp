@@ -213,6 +213,40 @@ TEST(MeshLight, SendsItsPower) {
   }
 }
 
+// A ball of 0.5 m that shines with 5 W has the radiance 5 / (pi 4 pi 0.5^2): in the middle of the picture, seen past
+// nothing, through a pane, in a mirror, in frosted metal (where highlights have it, and what paths meet must not add to
+// them) and in gold.
+TEST(Lamps, AreSeen) {
+  const double y = optics::to_xyz(spectrum_of({.spectrum = line(550)}))[1], radiance = 5 * y / (M_PI * M_PI);
+  const auto seen = [&](const preset::Material* between) {
+    preset::Preset p = empty_preset(16);
+    p.scene.materials = {{"black", white(0)}};
+    p.scene.objects = {object("ball", check::ball(0.5), "black", at({0, 2, 0}))};
+    p.scene.lights = {{.type = Type::mesh, .spectrum = line(550), .power_w = 5, .object = "ball"}};
+    p.scene.camera = {.position = {0, 0, 0}, .target = {0, 1, 0}, .up = {0, 0, -1}, .fov_deg = 5};
+    p.scene.camera.resolution = {16, 16};
+    if (between) {
+      p.scene.materials["between"] = *between;
+      const bool is_pane = between->type == preset::Material::Type::dielectric;
+      p.scene.objects.push_back(object("between", quad(20, 20), "between", at({0, is_pane ? 1.0 : -1.0, 0})));
+      if (!is_pane) p.scene.camera.target = {0, -1, 0};
+      if (!is_pane) p.scene.camera.fov_deg = 2;
+    }
+    p.stop.passes = 256;
+    const std::vector<double> picture = luminance(layer(render(p), "direct"));
+    return std::accumulate(picture.begin(), picture.end(), 0.0) / static_cast<double>(picture.size()) / radiance;
+  };
+  expect_truth("a ball that shines, its radiance seen directly", seen(nullptr), 1, 1e-5);
+  preset::Material pane = glass(1.5);
+  pane.thin = true;
+  expect_truth("the same through a pane, (1 - R) / (1 + R)", seen(&pane), 0.96 / 1.04, 0.01);
+  preset::Material mirror{.type = preset::Material::Type::mirror};
+  mirror.reflectance.value = 0.8;
+  expect_truth("the same in a mirror", seen(&mirror), 0.8, 1e-5);
+  mirror.roughness = 0.1; // facets within some degrees, of a ball of 19
+  expect_truth("the same in a frosted mirror", seen(&mirror), 0.8, 0.02);
+}
+
 // Kernels made for a scene, with other lights beside, make what general kernels make.
 TEST(Lamps, KernelsOfTheirOwnMakeTheSamePicture) {
   const TemporaryFolder folder;

@@ -69,6 +69,7 @@ TEST_F(Photometry, RefusesWhatItCannotRead) {
   const std::string good = "1 2 2" + size + "0 90\n0 90\n1 1\n1 1\n";
   EXPECT_NO_THROW(read(ies(good)));
   EXPECT_THAT(refusal(ies("1 2 2" + size + "0 90\n0 90\n1 1\n1\n")), HasSubstr("the file ends before an intensity"));
+  EXPECT_THAT(refusal(ies("1 2 1" + size + "0 90\n0\n1 1\n7\n")), HasSubstr("more numbers follow"));
   EXPECT_THAT(refusal(ies("1 2 2" + size)), HasSubstr("the file ends before a vertical angle"));
   EXPECT_THAT(refusal(ies("1 2 2" + size + "0 90\n0 90\n1 -1\n1 1\n")), HasSubstr("has an intensity of -1"));
   EXPECT_THAT(refusal(ies("1e200 2 2" + size + "0 90\n0 90\n1 1e200\n1 1\n")), HasSubstr("has an intensity of 1e+200"));

@@ -120,24 +120,43 @@ TEST_F(SceneImport, OrthographicCamerasAreTaken) {
   EXPECT_NEAR(b.height.value(), 2, 1e-9);
 }
 
-TEST_F(SceneImport, WhatIsNoRectangleStaysAndShines) {
+TEST_F(SceneImport, SurfacesStayAndShine) {
   const preset::Preset p =
       imported(R"(<scene version="3.0.0"><shape type="sphere" id="bulb"><float name="radius" value="2"/>
       <emitter type="area"/></shape>
     <shape type="rectangle"><emitter type="area"/></shape>
     <shape type="cube"><boolean name="flip_normals" value="true"/><emitter type="area"/></shape></scene>)",
                "in.xml");
-  ASSERT_EQ(p.scene.objects.size(), 2u);
+  ASSERT_EQ(p.scene.objects.size(), 3u);
   ASSERT_EQ(p.scene.lights.size(), 3u);
   const std::vector<preset::Light>& lights = p.scene.lights;
-  for (const std::size_t i : {0, 2}) EXPECT_EQ(lights[i].type, preset::Light::Type::mesh);
-  EXPECT_EQ(lights[0].object, p.scene.objects[0].name);
-  EXPECT_EQ(lights[2].object, p.scene.objects[1].name);
+  for (const std::size_t i : {0, 1, 2}) {
+    EXPECT_EQ(lights[i].type, preset::Light::Type::mesh);
+    EXPECT_EQ(lights[i].object, p.scene.objects[i].name);
+  }
   EXPECT_EQ(p.scene.materials.at(p.scene.objects[0].material).reflectance.value, 0);
   EXPECT_NEAR(lights[0].power_w / lights[1].power_w, 4 * pi * 4 / 4, 1e-6); // areas
   EXPECT_NEAR(lights[2].power_w / lights[1].power_w, 6, 1e-6);
   const scene::Scene scene = scene::load_scene(p); // the cube shines to its inside
-  EXPECT_LT(scene::signed_volume(scene.geometry, scene.objects[1].first_triangle, 12), 0);
+  EXPECT_LT(scene::signed_volume(scene.geometry, scene.objects[2].first_triangle, 12), 0);
+}
+
+TEST_F(SceneImport, AFlatLampThatShinesOnBothSidesIsTwo) {
+  const preset::Preset p = imported(R"(WorldBegin
+    AreaLightSource "diffuse" "rgb L" [ 1 1 1 ] "bool twosided" true
+    Shape "disk" "float radius" 2)",
+                                    "in.pbrt");
+  ASSERT_EQ(p.scene.lights.size(), 2u);
+  const scene::Scene scene = scene::load_scene(p);
+  std::vector<glm::vec3> normals;
+  for (const scene::Object& disk : scene.objects) {
+    const glm::uvec3 t = scene::triangles_of(scene, disk).front();
+    const std::vector<glm::vec3>& at = scene.geometry.positions;
+    normals.push_back(glm::normalize(glm::cross(at[t.y] - at[t.x], at[t.z] - at[t.x])));
+    EXPECT_GT(normals.back().z * (disk.bounds.centre.z + (normals.size() == 1 ? 1e-6f : 0)), 0) << "apart";
+  }
+  EXPECT_NEAR(glm::dot(normals[0], normals[1]), -1, 1e-6);
+  EXPECT_EQ(p.scene.lights[0].power_w, p.scene.lights[1].power_w);
 }
 
 TEST_F(SceneImport, WhatIsLeftOutIsSaidWithItsLine) {

@@ -147,7 +147,7 @@ private:
     return plain;
   }
 
-  /// A rectangle that shines and has no material becomes a lamp; another surface stays and is one.
+  /// A surface that shines stays and is a lamp; one that is flat and shines on both sides becomes two, back to back.
   void glow(const DescribedShape& shape, const glm::dmat4& to_world) {
     const LightColour colour = light_colour(*shape.glow);
     const auto power_of = [&](double area) { // of a radiance in W m^-2 sr^-1
@@ -160,31 +160,21 @@ private:
       light.power_w = power_of(ellipsoid_area(glm::dmat3(to_world)));
       if (!shape.inside_out) return keep_glowing(shape, light);
       from_.note(shape.where, "a sphere whose inside shines is left out: a point light of its power is in its centre");
-    } else {
-      const Emitter e = emitter_of(from_.meshes.at(shape.mesh), to_world);
-      light.position = scene::to_vec3(e.centre);
-      light.power_w = power_of(e.area);
-      if (!e.flat || has_material(shape) || !(e.rectangle || shape.glows_on_both_sides))
-        return keep_glowing(shape, light);
-      light.type = preset::Light::Type::area;
-      light.direction = scene::to_vec3(shape.inside_out ? -e.normal : e.normal);
-      const glm::dvec3 up = glm::cross(e.normal, e.edge);
-      light.up = scene::to_vec3(up);
-      light.size = e.size;
-      from_.note(
-          "a rectangle that shines is a lamp, which lights the scene and reflects nothing: it is not seen, neither "
-          "itself nor in glass and mirrors");
-      if (!e.rectangle)
-        from_.note(shape.where,
-                   "a flat surface that shines on both sides is left out: rectangles of its area shine in its place");
+      if (light.power_w > 0) made_.scene.lights.push_back(light);
+      return;
     }
-    if (!(light.power_w > 0)) return;
-    if (shape.glows_on_both_sides && light.type == preset::Light::Type::area) {
-      if (shape.glow_power) light.power_w /= 2; // that of both
-      made_.scene.lights.push_back(light);
-      for (double& d : light.direction) d = -d;
-    }
-    made_.scene.lights.push_back(light);
+    const Emitter e = emitter_of(from_.meshes.at(shape.mesh), to_world);
+    light.position = scene::to_vec3(e.centre);
+    light.power_w = power_of(e.area);
+    const bool both = shape.glows_on_both_sides && e.flat;
+    if (both && shape.glow_power) light.power_w /= 2; // that of both
+    keep_glowing(shape, light);
+    if (!both) return;
+    DescribedShape back = shape;
+    const glm::dvec3 behind = (shape.inside_out ? 1e-4 : -1e-4) * std::sqrt(e.area) * e.normal;
+    back.to_world = mirror_ * glm::translate(glm::dmat4(1), behind) * to_world;
+    back.inside_out = !shape.inside_out;
+    keep_glowing(std::move(back), light);
   }
 
   bool has_material(const DescribedShape& shape) const { return made_.scene.materials.contains(shape.material); }
@@ -194,14 +184,12 @@ private:
     shape.glow.reset();
     if (!has_material(shape)) {
       if (!(light.power_w > 0)) return;
-      from_.note("a surface that shines, and is no rectangle, is an object that shines: it is black in the picture, as "
-                 "lamps are not seen");
       if (black_.empty())
         for (black_ = "lamp"; made_.scene.materials.contains(black_);) black_ += " 2";
       made_.scene.materials[black_].reflectance.value = 0;
       shape.material = black_;
-    } else
-      from_.note("a surface that shines lights the scene, but is not seen to shine");
+    } else if (!preset::is_matt(made_.scene.materials.at(shape.material).type))
+      from_.note(shape.where, "a surface of glass or metal that shines lights the scene, but is not seen to shine");
     if (shape.inside_out && !shape.mesh.empty()) {
       scene::Mesh mesh = from_.meshes.at(shape.mesh);
       mesh.normals.clear();
