@@ -232,6 +232,7 @@ TEST(Lamps, AreSeen) {
       if (!is_pane) p.scene.camera.target = {0, -1, 0};
       if (!is_pane) p.scene.camera.fov_deg = 2;
     }
+    spectral::settings(p).direct = true;
     p.stop.passes = 256;
     const std::vector<double> picture = luminance(layer(render(p), "direct"));
     return std::accumulate(picture.begin(), picture.end(), 0.0) / static_cast<double>(picture.size()) / radiance;

@@ -209,20 +209,6 @@ TEST_F(MitsubaImport, MeshesWithoutNormalsAreSmoothUnlessFacesAreAskedFor) {
   EXPECT_EQ(p.scene.objects[2].normals, preset::Object::Normals::faceted);
 }
 
-TEST_F(MitsubaImport, FlippedNormalsTurnALamp) {
-  const std::string lamp = R"(<shape type="rectangle"><emitter type="area"/>)";
-  const preset::Preset p = imported(R"(<shape type="sphere"/>)" + lamp + "</shape>" + lamp +
-                                    R"(<boolean name="flipNormals" value="true"/></shape>)");
-  ASSERT_EQ(p.scene.lights.size(), 2u);
-  const scene::Scene scene = scene::load_scene(p);
-  for (const int i : {0, 1}) {
-    const scene::Object& rectangle = scene.objects[static_cast<std::size_t>(scene.lights[i].object)];
-    const glm::uvec3 t = scene::triangles_of(scene, rectangle).front();
-    const std::vector<glm::vec3>& at = scene.geometry.positions;
-    EXPECT_EQ(glm::cross(at[t.y] - at[t.x], at[t.z] - at[t.x]).z > 0, i == 0);
-  }
-}
-
 TEST_F(MitsubaImport, ANullSurfaceIsNone) {
   const preset::Preset p = imported(R"(<shape type="cube"><bsdf type="null"/></shape><shape type="sphere"/>)");
   EXPECT_EQ(p.scene.objects.size(), 1u);

@@ -125,7 +125,7 @@ TEST_F(SceneImport, SurfacesStayAndShine) {
       imported(R"(<scene version="3.0.0"><shape type="sphere" id="bulb"><float name="radius" value="2"/>
       <emitter type="area"/></shape>
     <shape type="rectangle"><emitter type="area"/></shape>
-    <shape type="cube"><boolean name="flip_normals" value="true"/><emitter type="area"/></shape></scene>)",
+    <shape type="cube"><boolean name="flipNormals" value="true"/><emitter type="area"/></shape></scene>)",
                "in.xml");
   ASSERT_EQ(p.scene.objects.size(), 3u);
   ASSERT_EQ(p.scene.lights.size(), 3u);
