@@ -65,6 +65,16 @@ TEST_F(ImportedPictures, AreOfRoughnessTintAndNormalsInMitsuba) {
   EXPECT_NO_THROW(scene::load_scene(p));
 }
 
+TEST_F(ImportedPictures, AreOfNoUseWithoutPlaces) {
+  image::write_png(folder.path() / "p.png", 1, 1, {0.5f, 0.5f, 0.5f});
+  const preset::Preset p = mitsuba("<shape type='sphere'><bsdf type='roughconductor'><texture type='bitmap' "
+                                   "name='alpha'><string name='filename' value='p.png'/></texture></bsdf></shape>");
+  EXPECT_FALSE(material_of(p, 0).roughness_texture);
+  EXPECT_EQ(material_of(p, 0).roughness, 0.5);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("has no u, v: a roughness of 0.5 takes its place")));
+  EXPECT_NO_THROW(scene::load_scene(p));
+}
+
 // Alpha is the root of PBRT's roughness, and a preset's roughness the root of alpha.
 TEST_F(ImportedPictures, AreOfRoughnessAndNormalsInPbrt) {
   image::write_png(folder.path() / "p.png", 1, 1, {0.5f, 0.5f, 0.5f});

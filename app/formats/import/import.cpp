@@ -151,14 +151,17 @@ private:
     if (!is_textured || has_texcoords) return shape.material;
     std::string& plain = plain_[shape.material];
     if (!plain.empty()) return plain;
-    from_.note(shape.where, material.texture
-                                ? "its texture is left out, as the surface has no u, v: grey of 0.5 takes its place"
-                                : "its textures are left out, as the surface has no u, v");
-    for (plain = shape.material + " plain"; made_.scene.materials.contains(plain);) plain += " 2";
+    std::string instead;
     if (material.texture) {
       without = {};
       without.reflectance.value = 0.5;
+      instead = ": grey of 0.5 takes its place";
+    } else if (material.roughness_texture) {
+      without.roughness /= 2;
+      instead = fmt::format(": a roughness of {:.3g} takes its place", without.roughness);
     }
+    from_.note(shape.where, "its texture is left out, as the surface has no u, v" + instead);
+    for (plain = shape.material + " plain"; made_.scene.materials.contains(plain);) plain += " 2";
     without.roughness_texture = without.tint_texture = without.normal_map = std::nullopt;
     made_.scene.materials[plain] = without;
     return plain;
