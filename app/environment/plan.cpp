@@ -182,7 +182,7 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
     plan.notes.push_back("what a coating reflects to the camera has one colour in this engine, that of green light");
   if (std::ranges::any_of(scene.lights, scene::has_disc))
     plan.notes.push_back("caustics of a sun, or of another disc, are those of its middle in this engine's own light");
-  if (any_material(scene, scene::is_textured))
+  if (any_material(scene, [](const scene::Material& m) { return is_matt(m.type) && is_textured(m); }))
     plan.notes.push_back("textures multiply red, green and blue of this engine's own light; its photons have spectra");
   for (const scene::Object& object : task.caster.scene.objects)
     if (!object.closed && is_body(material_of(task.caster.scene, object)))

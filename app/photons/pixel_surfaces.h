@@ -18,7 +18,7 @@ struct PixelSurfaces {
     glm::vec3 position{0}, normal{0}; ///< scene units; unit vector, the triangle's
     int object = -1;                  ///< -1: the ray meets none
   };
-  Surface first;     ///< the first one; glass that bends nothing does not count
+  Surface first;     ///< the first one; glass without a texture that bends nothing does not count
   Surface last;      ///< the diffuse one at the end; `first` where there is none
   glm::vec3 way{0};  ///< unit vector: direction of the ray that meets `last`
   float spacing = 0; ///< distance of neighbouring pixels' places there, across `way`, if glass and mirrors were flat

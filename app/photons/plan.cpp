@@ -122,11 +122,11 @@ bool glass_meets_glass(const scene::Scene& scene) {
   return false;
 }
 
-bool has_coatings(const scene::Scene& scene) { return any_material(scene, scene::is_coated); }
+bool parts_wavelengths(const scene::Scene& scene) { return any_material(scene, scene::parts_wavelengths); }
 
 /// A rough surface sends neighbouring photons to different places, so no piece of light joins them. A tile has one
-/// colour, and a texture many. What a coating reflects is worked out for one wavelength, and the others of its cluster
-/// are reflected otherwise.
+/// colour, and a texture many. What a coating reflects, or passes a texture of glass, is worked out for one wavelength,
+/// and the others of its cluster are treated otherwise.
 void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& scene, const Location& spectral) {
   if (wanted.estimator == Settings::Estimator::tiles && any_material(scene, scene::is_rough))
     throw bad_input(spectral / "estimator", "is tiles, and a rough surface scatters the corners of each",
@@ -140,7 +140,7 @@ void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& sc
                       "keeps layers of what surfaces scatter, and one is of plastic, which reflects", "expected false",
                       "or make it diffuse");
   }
-  if (any_material(scene, scene::is_textured)) {
+  if (any_material(scene, scene::has_pictures)) {
     if (wanted.estimator == Settings::Estimator::tiles)
       throw bad_input(spectral / "estimator", "is tiles, each of one colour, and a surface has a texture",
                       "expected points, splat or sppm", "or take the texture away");
@@ -151,11 +151,12 @@ void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& sc
   if (wanted.relight && std::ranges::any_of(scene.lights, [](const scene::Light& l) { return l.object >= 0; }))
     throw bad_input(spectral / "relight", "keeps layers of what surfaces scatter, and an object shines itself",
                     "expected false", "or take an area light in its place");
-  if (!has_coatings(scene)) return;
+  if (!parts_wavelengths(scene)) return;
+  const char* const what = any_material(scene, scene::is_coated) ? "coating" : "texture of glass";
   const auto refuse = [&](bool is_set, const char* field, const char* expected) {
     if (is_set)
-      throw bad_input(spectral / field, "sends wavelengths of a cluster together, which a coating parts", expected,
-                      "or take the coating away");
+      throw bad_input(spectral / field, fmt::format("sends wavelengths of a cluster together, which a {} parts", what),
+                      expected, fmt::format("or take the {} away", what));
   };
   refuse(!wanted.jitter, "jitter", "expected true");
   refuse(wanted.relight, "relight", "expected false");
@@ -177,11 +178,11 @@ void refuse_what_cameras_cannot(const Settings& wanted, const scene::Scene& scen
 /// Why photons are points; empty where tiles have less error (docs/notebook/tiles.md).
 std::string why_points(const Settings& wanted, const scene::Scene& scene) {
   if (wanted.relight) return "spectral.relight is true: layers hold whole clusters";
-  if (has_coatings(scene)) return "a coating reflects each wavelength otherwise";
+  if (any_material(scene, scene::is_coated)) return "a coating reflects each wavelength otherwise";
   if (!scene.camera.is_plain()) return "a camera with a lens, a shift or parallel rays sees points only";
   if (any_material(scene, scene::is_rough)) return "a rough surface scatters the corners of a tile";
   if (any_material(scene, scene::is_plastic)) return "plastic reflects a part of the light, which tiles do not follow";
-  if (any_material(scene, scene::is_textured)) return "a tile has one colour, and a texture many";
+  if (any_material(scene, scene::has_pictures)) return "a tile has one colour, and a texture many";
   if (wanted.method == Settings::Method::brute_force || wanted.effort != Settings::Effort::automatic ||
       !wanted.jitter || !wanted.low_discrepancy)
     return "spectral.method, effort, jitter or low_discrepancy ask for points";
@@ -217,7 +218,9 @@ plan::Decision differentials_decision(const PlanInput& input) {
   const bool tiles = input.settings.estimator == Settings::Estimator::tiles;
   if (!input.caustics.runs || input.is_sppm()) return {name, false, "nothing is splatted"};
   const tracing::StretchParameter along = tracing::stretch_parameter(input.scene);
-  if (has_coatings(input.scene)) return {name, false, "a coating reflects each wavelength otherwise"};
+  if (any_material(input.scene, scene::is_coated)) return {name, false, "a coating reflects each wavelength otherwise"};
+  if (any_material(input.scene, scene::has_tint_texture))
+    return {name, false, "a texture of glass passes each wavelength otherwise"};
   if (along == tracing::StretchParameter::none)
     return {name, false, "no glass bends one wavelength otherwise than another"};
   if (!input.settings.jitter && !tiles)

@@ -330,9 +330,11 @@ void Smoothing::find_surfaces() {
   };
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const auto& [first, last, way, spacing] = pixels[i];
-    // What a rough surface shows has no outlines and no texture left.
+    // What a rough surface shows has no outlines and no texture left, but for its own.
     const bool is_rough = is_so(first.object, scene::is_rough),
-               has_detail = is_so(last.object, scene::is_textured) && !is_rough;
+               has_detail = (is_so(last.object, scene::has_pictures) && !is_rough) ||
+                            is_so(first.object, scene::has_rough_texture) ||
+                            is_so(first.object, scene::has_tint_texture);
     seen[i] = {pulled[i] || is_rough ? first : last, has_detail ? -1 : first.object};
   }
   std::vector<bool> is_lamp(view->scene.objects.size() + 1); // by object + 1

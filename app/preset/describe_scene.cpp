@@ -81,7 +81,8 @@ void describe(Fields& v, Texture& t) {
   using Type = Texture::Type;
   v.type("type", "Where the colours come from.", t.type);
   if (t.type == Type::file) {
-    v.field("file", "A picture; integers are taken as sRGB.", t.file, {.text = Text::file, .required = true});
+    v.field("file", "A picture; integers of colours are taken as sRGB.", t.file,
+            {.text = Text::file, .required = true});
     v.field("wrap", "What is beyond the picture's edges.", t.wrap);
   } else {
     v.field("colour0", "Linear sRGB of the lower left and the upper right quarter.", t.colour0,
@@ -121,10 +122,21 @@ void describe(Fields& v, Material& m) {
     v.field("texture", "What the reflectance is multiplied by: a picture file or an object.", m.texture);
   if (is_specular(m.type))
     v.field("roughness", "0 is polished; GGX with alpha = roughness^2.", m.roughness, {.bounds = within(0, 1)});
+  if (is_specular(m.type) && m.type != Type::plastic)
+    v.field("roughness_texture",
+            "What the roughness is multiplied by: green of a picture file or an object. Integers are plain numbers.",
+            m.roughness_texture);
+  if (m.type == Type::diffuse) {
+    v.field("normal_map",
+            "A picture of normals, as glTF has it: (1 + x, y, z) / 2 as red, green and blue, which are plain numbers.",
+            m.normal_map);
+    v.field("normal_scale", "Factor of the x and y of the normal map.", m.normal_scale, {.bounds = within(-100, 100)});
+  }
   if (m.type != Type::dielectric) return;
   v.field("absorption", "Absorb light inside where the dispersion file has k.", m.absorption);
   v.field("tint", "Part of the light that passes the surface, each time: a number, a ColorChecker patch or an object.",
           m.tint);
+  v.field("tint_texture", "What the tint is multiplied by: a picture file or an object.", m.tint_texture);
   v.field("thin", "A pane without thickness: light goes straight on, or is reflected by both faces together.", m.thin);
   v.field("coating", "A thin layer on the surface, such as an anti-reflection coat or a soap film.", m.coating);
 }

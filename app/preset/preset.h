@@ -87,9 +87,13 @@ struct Material {
   bool absorption = true;         ///< dielectric: use k where the dispersion file has it
   /// dielectric: the part of the light that passes its surface, each time
   Reflectance tint{Reflectance::Type::constant, 1, {}, {}};
-  double roughness = 0;           ///< of what is specular and not thin: the root of the alpha of GGX
-  bool thin = false;              ///< dielectric: a pane without thickness, not a body
-  std::optional<Coating> coating; ///< dielectric, not thin
+  double roughness = 0;                     ///< of what is specular and not thin: the root of the alpha of GGX
+  bool thin = false;                        ///< dielectric: a pane without thickness, not a body
+  std::optional<Texture> roughness_texture; ///< what is specular, but plastic: its green is a factor of the roughness
+  std::optional<Texture> tint_texture;      ///< dielectric: what the tint is multiplied by
+  std::optional<Texture> normal_map;        ///< diffuse: red, green, blue are (1 + the normal's part along x, y, z) / 2
+  double normal_scale = 1;                  ///< diffuse: of the map's x and y
+  std::optional<Coating> coating;           ///< dielectric, not thin
   bool operator==(const Material&) const = default;
 };
 

@@ -155,6 +155,20 @@ Material make_material(const std::string& name, const preset::Material& material
     if (const std::string note = optics::outside_note(curve, outside); !note.empty())
       warnings.push_back(fmt::format("material '{}': {}", name, note));
   };
+  const auto pictured = [&](const std::optional<preset::Texture>& texture, Texels texels, const char* field) {
+    return !texture
+               ? nullptr
+               : std::make_shared<const Texture>(make_texture(*texture, texels, finder, where / field, name, warnings));
+  };
+  if (is_specular(material.type) && !is_plastic(result) && material.roughness_texture) {
+    if (!is_rough(result))
+      throw bad_input(where / "roughness_texture", "multiplies a roughness of 0", "expected a roughness above 0",
+                      "set the roughness to 1 for that of the picture");
+    result.roughness_texture = pictured(material.roughness_texture, Texels::numbers, "roughness_texture");
+  }
+  if (material.type == Material::Type::diffuse && material.normal_map)
+    result.normal_map = std::make_shared<const Texture>(
+        make_normal_map(*material.normal_map, material.normal_scale, finder, where / "normal_map", name, warnings));
   preset::Dispersion metal;
   metal.type = preset::Dispersion::Type::file;
   metal.file = material.metal;
@@ -170,9 +184,7 @@ Material make_material(const std::string& name, const preset::Material& material
     result.coat = optics::make_coat(result.coat_n, result.alpha);
     [[fallthrough]];
   case Material::Type::diffuse:
-    if (material.texture)
-      result.texture =
-          std::make_shared<const Texture>(make_texture(*material.texture, finder, where / "texture", name, warnings));
+    result.texture = pictured(material.texture, Texels::colours, "texture");
     [[fallthrough]];
   case Material::Type::mirror:
     result.reflectance = make_reflectance(material.reflectance, where / "reflectance");
@@ -205,6 +217,7 @@ Material make_material(const std::string& name, const preset::Material& material
     });
     result.absorbs = std::any_of(result.k.begin(), result.k.end(), [](double k) { return k > 0; });
     result.tint = make_reflectance(material.tint, where / "tint");
+    result.texture = pictured(material.tint_texture, Texels::colours, "tint_texture");
     result.thin = material.thin;
     if (material.thin && is_rough(result))
       throw bad_input(where / "roughness", "is of a thin pane", "expected 0, or a body: a pane is polished",

@@ -91,8 +91,8 @@ using Planes = std::map<double, std::vector<double>>;
 
 /// 0..360, without 360.
 double turned(double c_deg) {
-  const double c = std::fmod(c_deg, 360.0);
-  return c < 0 ? c + 360 : c;
+  const double c = std::fmod(c_deg, 360.0), turned = c < 0 ? c + 360 : c;
+  return turned < 360 ? turned : 0; // next to nothing below 0 rounds to 360
 }
 
 /// Adds the planes' mirror images at `sum` - c.

@@ -82,7 +82,7 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
   tell_damages(scene, placed.damages, damaged, label, pending.where);
   if (scene.geometry.triangles.size() + placed.mesh.triangles.size() > max_triangles)
     throw bad_input(pending.where, fmt::format("the scene has more than {} triangles", max_triangles));
-  if (!is_textured(material))
+  if (!has_pictures(material))
     placed.mesh.texcoords.clear();
   else if (placed.mesh.texcoords.size() != placed.mesh.triangles.size() || placed.mesh.triangles.empty())
     throw bad_input(pending.where, fmt::format("{} has a texture, but no u, v", label),

@@ -36,14 +36,16 @@ struct Material {
   optics::Spectrum k{};                   ///< conductor; dielectric: all zero where it does not absorb
   bool absorbs = false;                   ///< dielectric
   optics::Spectrum reflectance{};         ///< diffuse, mirror, plastic's base; conductor: at normal incidence in air
-  std::shared_ptr<const Texture> texture; ///< diffuse, plastic: what its reflectance is multiplied by; null: 1
-  optics::ConductorTerms conductor;       ///< conductor
-  double coat_n = 1;                      ///< plastic: index of refraction of its coat
-  optics::Coat coat;                      ///< plastic
-  optics::Spectrum tint{};                ///< dielectric: the part that passes its surface
-  bool thin = false;                      ///< dielectric: a pane without thickness
-  double alpha = 0;                       ///< of GGX; 0: polished
-  double coating_nm = 0;                  ///< dielectric: thickness of its coating; 0: none
+  std::shared_ptr<const Texture> texture; ///< what its reflectance or, of a dielectric, tint is multiplied by; null: 1
+  std::shared_ptr<const Texture> roughness_texture; ///< whose green its roughness is multiplied by; null: 1
+  std::shared_ptr<const Texture> normal_map;        ///< diffuse: (1 + normal) / 2, of any length; null: none
+  optics::ConductorTerms conductor;                 ///< conductor
+  double coat_n = 1;                                ///< plastic: index of refraction of its coat
+  optics::Coat coat;                                ///< plastic
+  optics::Spectrum tint{};                          ///< dielectric: the part that passes its surface
+  bool thin = false;                                ///< dielectric: a pane without thickness
+  double alpha = 0;                                 ///< of GGX, where no texture makes it less; 0: polished
+  double coating_nm = 0;                            ///< dielectric: thickness of its coating; 0: none
   optics::Spectrum coating_n{};
 };
 
@@ -56,8 +58,22 @@ inline bool is_plastic(const Material& material) { return material.type == Mater
 
 inline bool is_textured(const Material& material) { return material.texture != nullptr; }
 
-/// Whether what its surface reflects depends on the wavelength even where n does not.
+inline bool has_rough_texture(const Material& material) { return material.roughness_texture != nullptr; }
+
+inline bool has_normal_map(const Material& material) { return material.normal_map != nullptr; }
+
+/// Whether glass has a texture of its tint.
+inline bool has_tint_texture(const Material& material) { return is_refractive(material.type) && is_textured(material); }
+
+/// Whether it looks up places by u, v.
+inline bool has_pictures(const Material& material) {
+  return is_textured(material) || has_rough_texture(material) || has_normal_map(material);
+}
+
 inline bool is_coated(const Material& material) { return material.coating_nm > 0; }
+
+/// Whether its surface parts the wavelengths of a cluster even where n does not, so that a path has to have one.
+inline bool parts_wavelengths(const Material& material) { return is_coated(material) || has_tint_texture(material); }
 
 /// How much light the places of a rectangle send.
 struct LightPicture {
@@ -74,7 +90,7 @@ struct Object {
   std::uint32_t first_ellipsoid = 0, ellipsoid_count = 0;
   Sphere bounds;                     ///< encloses all of it
   bool closed = true;                ///< every edge is shared by exactly two triangles of opposite direction
-  std::uint32_t first_texcoords = 0; ///< textured: its first triangle's in Mesh::texcoords
+  std::uint32_t first_texcoords = 0; ///< with pictures: its first triangle's in Mesh::texcoords
 };
 
 struct Light {
@@ -144,8 +160,8 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<Light> lights; ///< the preset's; after them the sun of a sky, then the environment, where they are
   std::optional<Environment> environment;
-  Mesh geometry; ///< every object's triangles, one after the other; normals for every vertex; texcoords of textured
-                 ///< objects alone
+  Mesh geometry; ///< every object's triangles, one after the other; normals for every vertex; texcoords of objects
+                 ///< with pictures alone
   std::vector<std::uint32_t> object_of_primitive; ///< the triangles', then the ellipsoids'
   std::vector<std::string> warnings; ///< one line each: open meshes, dropped triangles, extrapolated dispersion
 };

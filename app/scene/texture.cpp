@@ -38,14 +38,19 @@ namespace {
 /// A picture's texels, and what is to be said of them.
 struct Picture {
   int width = 0, height = 0;
+  bool grey = false;
   std::shared_ptr<const std::vector<std::uint16_t>> rgb;
   std::vector<std::string> notes;
 };
 
-Picture read_picture(const std::filesystem::path& file) {
-  const image::Image picture = read_texels(file);
+Picture read_picture(const std::filesystem::path& file, Texels texels) {
+  image::Image picture = read_texels(file);
+  if (texels == Texels::numbers) {
+    picture.integers = false;
+    picture.chromaticities.reset();
+  }
   const image::Rgb colours = image::rgb_of(picture, file.string());
-  Picture result{picture.width, picture.height, {}, picture.notes};
+  Picture result{picture.width, picture.height, colours.grey, {}, picture.notes};
   if (std::ranges::any_of(colours.alpha, [](float alpha) { return alpha < 1; }))
     result.notes.push_back("has transparent texels, which are taken as opaque");
   std::vector<std::uint16_t> rgb;
@@ -66,6 +71,7 @@ Picture read_picture(const std::filesystem::path& file) {
 
 struct KeptPicture {
   std::filesystem::path file;
+  Texels texels = Texels::colours;
   std::uintmax_t bytes = 0;
   std::filesystem::file_time_type written;
   std::shared_ptr<const Picture> picture;
@@ -73,20 +79,21 @@ struct KeptPicture {
 
 /// The same, but a file that is as it was is not read again, as far as the last pictures take no more than 256 MiB
 /// together: each edit loads its scene again. Safe from several threads.
-std::shared_ptr<const Picture> read_picture_once(const std::filesystem::path& file) {
+std::shared_ptr<const Picture> read_picture_once(const std::filesystem::path& file, Texels texels) {
   constexpr std::size_t most_bytes = std::size_t{256} << 20;
   static std::mutex mutex;
   static std::list<KeptPicture> all; // the last used first
   const std::lock_guard lock(mutex);
   std::error_code ignored;
-  KeptPicture wanted{file, std::filesystem::file_size(file, ignored), std::filesystem::last_write_time(file, ignored),
-                     nullptr};
-  const auto kept = std::ranges::find(all, file, &KeptPicture::file);
+  KeptPicture wanted{file, texels, std::filesystem::file_size(file, ignored),
+                     std::filesystem::last_write_time(file, ignored), nullptr};
+  const auto kept =
+      std::ranges::find_if(all, [&](const KeptPicture& one) { return one.file == file && one.texels == texels; });
   if (kept != all.end() && kept->bytes == wanted.bytes && kept->written == wanted.written)
     all.splice(all.begin(), all, kept);
   else {
     if (kept != all.end()) all.erase(kept);
-    wanted.picture = std::make_shared<const Picture>(read_picture(file));
+    wanted.picture = std::make_shared<const Picture>(read_picture(file, texels));
     all.push_front(std::move(wanted));
   }
   const std::shared_ptr<const Picture> result = all.front().picture;
@@ -97,7 +104,7 @@ std::shared_ptr<const Picture> read_picture_once(const std::filesystem::path& fi
 
 } // namespace
 
-Texture make_texture(const preset::Texture& texture, const FileFinder& finder, const Location& where,
+Texture make_texture(const preset::Texture& texture, Texels texels, const FileFinder& finder, const Location& where,
                      const std::string& name, std::vector<std::string>& warnings) {
   Texture result;
   const double angle = texture.rotate_deg * std::numbers::pi / 180;
@@ -107,11 +114,12 @@ Texture make_texture(const preset::Texture& texture, const FileFinder& finder, c
   if (texture.type == preset::Texture::Type::file) {
     result.wrap = texture.wrap;
     const std::filesystem::path file = finder.find(texture.file, where / "file");
-    const std::shared_ptr<const Picture> picture = read_picture_once(file);
+    const std::shared_ptr<const Picture> picture = read_picture_once(file, texels);
     for (const std::string& note : picture->notes)
       warnings.push_back(fmt::format("material '{}': texture {}: {}", name, file.filename().string(), note));
     result.width = picture->width;
     result.height = picture->height;
+    result.grey = picture->grey;
     result.rgb = picture->rgb;
     return result;
   }
@@ -122,6 +130,22 @@ Texture make_texture(const preset::Texture& texture, const FileFinder& finder, c
     for (const double value : *colour) rgb.push_back(texel(value));
   result.rgb = std::make_shared<const std::vector<std::uint16_t>>(std::move(rgb));
   return result;
+}
+
+Texture make_normal_map(const preset::Texture& texture, double scale, const FileFinder& finder, const Location& where,
+                        const std::string& name, std::vector<std::string>& warnings) {
+  Texture map = make_texture(texture, Texels::numbers, finder, where, name, warnings);
+  if (map.grey)
+    throw bad_input(where, "is a grey picture", "expected a map of normals, which is mostly light blue",
+                    "make one of a map of heights in another program");
+  if (scale == 1) return map;
+  // Kernels mix texels before they make the normal's length 1, so z may be shortened for x and y that are lengthened.
+  const double longer = std::max(std::abs(scale), 1.0);
+  std::vector<std::uint16_t> rgb(*map.rgb);
+  for (std::size_t i = 0; i < rgb.size(); ++i)
+    rgb[i] = texel(0.5 + (rgb[i] / 65535.0 - 0.5) * (i % 3 < 2 ? scale : 1) / longer);
+  map.rgb = std::make_shared<const std::vector<std::uint16_t>>(std::move(rgb));
+  return map;
 }
 
 } // namespace nephroid::scene

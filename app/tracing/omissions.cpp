@@ -26,7 +26,7 @@ constexpr unsigned all_light_types = (1u << LIGHT_TYPE_COUNT) - 1;
 bool is_conductor(const scene::Material& material) { return material.type == scene::Material::Type::conductor; }
 bool is_pane(const scene::Material& material) { return material.thin; }
 bool is_tinted(const scene::Material& material) {
-  return is_refractive(material.type) && !loss_at_surface(material).empty();
+  return is_refractive(material.type) && (is_textured(material) || !loss_at_surface(material).empty());
 }
 
 /// Whether the glass of any object has an index other than 1.
@@ -130,7 +130,7 @@ bool goes_one_way(const scene::Scene& scene) {
   return std::ranges::none_of(scene.objects, [&](const scene::Object& object) {
     const scene::Material& material = material_of(scene, object);
     const auto same = [&](double n) { return n == material.n.front(); };
-    return is_coated(material) || (is_refractive(material.type) && !std::ranges::all_of(material.n, same));
+    return parts_wavelengths(material) || (is_refractive(material.type) && !std::ranges::all_of(material.n, same));
   });
 }
 
@@ -198,11 +198,12 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       attenuators > 0
           ? needed("attenuation", counted(attenuators, "loss", "losses") + " by wavelength, in glass and at surfaces")
           : not_needed("attenuation", leave_out.attenuation, "no glass absorbs and no surface is coloured"));
-  const bool smooth =
-      has(counts.smooth > 0 ? needed("smooth normals", counted(counts.smooth, "smooth object"))
-                            : not_needed("smooth normals", leave_out.smooth_normals, "no mesh has smooth normals"));
-  const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
   const auto any = [&](bool (*is)(const scene::Material&)) { return any_material(scene, is); };
+  const bool smooth = has(counts.smooth > 0 ? needed("smooth normals", counted(counts.smooth, "smooth object"))
+                          : any(scene::has_normal_map)
+                              ? needed("smooth normals", "a surface has a normal map")
+                              : not_needed("smooth normals", leave_out.smooth_normals, "no mesh has smooth normals"));
+  const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
   omissions.defines = {
       {"NEPHROID_OCCLUSION", flag(occlusion)},
       {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types_in_kernels(types))},
@@ -216,7 +217,10 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       {"NEPHROID_PLASTICS", flag(any(scene::is_plastic))},
       {"NEPHROID_LIGHT_PICTURES", flag(std::ranges::any_of(scene.lights, has_picture))},
       {"NEPHROID_PHOTOMETRY", flag(std::ranges::any_of(scene.lights, has_photometry))},
-      {"NEPHROID_TEXTURES", flag(any(scene::is_textured))},
+      {"NEPHROID_TEXTURES", flag(any(scene::has_pictures))},
+      {"NEPHROID_ROUGHNESS_TEXTURES", flag(any(scene::has_rough_texture))},
+      {"NEPHROID_TINT_TEXTURES", flag(any(scene::has_tint_texture))},
+      {"NEPHROID_NORMAL_MAPS", flag(any(scene::has_normal_map))},
       {"NEPHROID_TINTS", flag(any(is_tinted) || !leave_out.attenuation)},
       // Without materials that attenuate there is one place all the same: the code is compiled and does nothing.
       {"NEPHROID_ATTENUATORS", std::to_string(attenuation ? std::max(attenuators, 1) : 0)},

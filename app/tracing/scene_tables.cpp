@@ -145,9 +145,7 @@ TextureTables make_texture_tables(const scene::Scene& scene, const std::vector<D
                 WRAP_MIRROR == int(preset::Texture::Wrap::mirror) && WRAP_CLAMP == int(preset::Texture::Wrap::clamp));
   TextureTables tables;
   std::map<const void*, std::uint32_t> first_of; // of each picture's texels
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (materials[i].texture < 0) continue;
-    const scene::Texture& from = *scene.materials[i].texture;
+  const auto add = [&](const scene::Texture& from) {
     const auto place = [&](int axis) {
       return std::array{static_cast<float>(from.linear[0][axis]), static_cast<float>(from.linear[1][axis]),
                         static_cast<float>(from.offset[axis])};
@@ -157,11 +155,16 @@ TextureTables make_texture_tables(const scene::Scene& scene, const std::vector<D
         first_of.try_emplace(from.rgb.get(), static_cast<std::uint32_t>(tables.texture_texels.size() / 3));
     tables.textures.push_back(
         {first->second, from.width, from.height, int(from.wrap), from.nearest, {u[0], u[1], u[2]}, {v[0], v[1], v[2]}});
-    if (!is_new) continue;
+    if (!is_new) return;
     tables.texture_texels.insert(tables.texture_texels.end(), from.rgb->begin(), from.rgb->end());
     if (tables.texture_texels.size() / 3 > most_texels)
       throw bad_input("scene.materials", fmt::format("have textures of more than {} texels", most_texels), {},
                       "make them smaller");
+  };
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (materials[i].texture >= 0) add(*scene.materials[i].texture);
+    if (materials[i].roughness_texture >= 0) add(*scene.materials[i].roughness_texture);
+    if (materials[i].normal_map >= 0) add(*scene.materials[i].normal_map);
   }
   for (const scene::Texcoords& corners : scene.geometry.texcoords)
     for (const glm::vec2& corner : corners)

@@ -69,14 +69,13 @@ int add_reflector(WavelengthTables& tables, const Spectrum& reflectance) {
   return tables.reflector_count++;
 }
 
-/// Adds the rows of a matt surface, and returns the first one's number. factor: of its reflectance.
-int add_matt(WavelengthTables& tables, const scene::Material& matt, double factor) {
-  Spectrum reflectance = matt.reflectance;
-  for (double& part : reflectance) part *= factor;
-  const int first = add_reflector(tables, reflectance);
-  if (!is_textured(matt)) return first;
+/// Adds the rows of a surface that a texture may lie on, and returns the first one's number. factor: of its colour.
+int add_colour(WavelengthTables& tables, Spectrum colour, double factor, bool is_textured) {
+  for (double& part : colour) part *= factor;
+  const int first = add_reflector(tables, colour);
+  if (!is_textured) return first;
   for (Spectrum primary : optics::primary_reflectances()) {
-    for (std::size_t w = 0; w < primary.size(); ++w) primary[w] *= reflectance[w];
+    for (std::size_t w = 0; w < primary.size(); ++w) primary[w] *= colour[w];
     add_reflector(tables, primary);
   }
   return first;
@@ -101,21 +100,27 @@ int masking_row(WavelengthTables& tables, std::span<const shared::DeviceMaterial
 void add_material_rows(const scene::Scene& scene, WavelengthTables& tables,
                        std::vector<shared::DeviceMaterial>& materials) {
   const std::vector<bool> used = used_materials(scene);
-  materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, -1, -1, 0, 0, 0, -1, -1});
+  materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, -1, -1, 0, 0, 0, -1, -1, -1, -1});
   int textures = 0;
+  const auto number = [&](const std::shared_ptr<const scene::Texture>& texture) { return texture ? textures++ : -1; };
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const scene::Material& material = scene.materials[i];
     shared::DeviceMaterial& row = materials[i];
     row.type = device_type(material.type);
     if (!used[i]) continue;
     row.alpha = static_cast<float>(material.alpha);
-    if (is_textured(material)) row.texture = textures++;
-    if (is_rough(material) || is_plastic(material)) row.masking = masking_row(tables, {materials.data(), i});
+    row.texture = number(material.texture); // in the order of make_texture_tables
+    row.roughness_texture = number(material.roughness_texture);
+    row.normal_map = number(material.normal_map);
+    if (is_rough(material) || is_plastic(material) || has_tint_texture(material))
+      row.masking = masking_row(tables, {materials.data(), i});
     const int surface_first = static_cast<int>(tables.surface_data.size());
     switch (material.type) {
-    case MaterialType::diffuse: row.reflector = add_matt(tables, material, 1); break;
+    case MaterialType::diffuse:
+      row.reflector = add_colour(tables, material.reflectance, 1, is_textured(material));
+      break;
     case MaterialType::plastic:
-      row.reflector = add_matt(tables, material, 1 / material.coat.mean);
+      row.reflector = add_colour(tables, material.reflectance, 1 / material.coat.mean, is_textured(material));
       row.surface_first = surface_first;
       add_coat(tables, material);
       break;
@@ -126,7 +131,10 @@ void add_material_rows(const scene::Scene& scene, WavelengthTables& tables,
       break;
     case MaterialType::dielectric:
       row.attenuator = add_loss(tables, loss_inside(material));
-      row.tint = add_loss(tables, loss_at_surface(material));
+      if (has_tint_texture(material))
+        row.reflector = add_colour(tables, material.tint, 1, true);
+      else
+        row.tint = add_loss(tables, loss_at_surface(material));
       row.is_thin = material.thin;
       if (!is_coated(material)) break;
       row.surface_first = surface_first;
@@ -166,7 +174,7 @@ void add_wavelength_rows(const scene::Scene& scene, WavelengthTables& tables) {
   const std::vector<bool> used = used_materials(scene);
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     if (!used[m] || !bends(scene.materials[m])) continue;
-    tables.clusters_spread = tables.clusters_spread || is_coated(scene.materials[m]);
+    tables.clusters_spread = tables.clusters_spread || parts_wavelengths(scene.materials[m]);
     const Spectrum& n = scene.materials[m].n;
     for (const std::vector<int>& cluster : tables.clusters)
       for (const int w : cluster)

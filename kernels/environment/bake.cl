@@ -122,7 +122,7 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
       if (surface_number == scene.max_surfaces) break;
       met = true;
       const Surface surface = surface_at(&world.geometry, hit);
-      const DeviceMaterial material = material_of(&world, surface.object);
+      const DeviceMaterial material = material_at(&world, &surface, hit.primitive);
       lose_in_medium(&world, &path, hit.t);
       if ((surface_number & 3) == 0) choices = random4(seed, number, photon, (uint)surface_number / 4u, STREAM_BAKE);
       const float2 facet = facet_numbers(seed, number, photon, (uint)surface_number, STREAM_BAKE);

@@ -64,10 +64,13 @@ typedef struct {
   int count;
 } SkyLights;
 
-// Their irradiance on a surface with the normal n, without shadows.
-static inline float3 smooth_irradiance(const SkyLights* sky, float3 n) {
+// Their irradiance on a surface, without shadows.
+static inline float3 smooth_irradiance(const SkyLights* sky, const Surface* surface) {
   float3 sum = (float3)(0.0f);
-  for (int l = 0; l < sky->count; ++l) sum += fmax(dot(n, sky->lights[2 * l].xyz), 0.0f) * sky->lights[2 * l + 1].xyz;
+  for (int l = 0; l < sky->count; ++l) {
+    const float3 way = sky->lights[2 * l].xyz;
+    sum += fmax(dot(surface->shading, way), 0.0f) * part_at_normal(surface, way) * sky->lights[2 * l + 1].xyz;
+  }
   return sum;
 }
 
@@ -96,7 +99,7 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
   for (int l = 0; l < world->scene.light_count; ++l) {
     __global const float4* row = lit_rgb + l * world->scene.reflector_count + reflector;
     if (is_of_environment(world, l)) {
-      sum += reflected_colour(reflected_rgb, reflector, seen * smooth_irradiance(sky, surface.shading));
+      sum += reflected_colour(reflected_rgb, reflector, seen * smooth_irradiance(sky, &surface));
 #if !NEPHROID_COARSE
       const float3 rgb = power_unit * sky_irradiance(world, l, &path, &surface, primitive, seed, pass, 1u, sequence);
       sampled += rgb.x * row[0].xyz + rgb.y * row[world->scene.reflector_count].xyz +

@@ -56,7 +56,7 @@ IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* ban
   bool reached = false;
 #if NEPHROID_PLASTICS
   surface = surface_at(&world->geometry, first);
-  const DeviceMaterial material = material_of(world, surface.object);
+  const DeviceMaterial material = material_at(world, &surface, first.primitive);
   if (is_plastic(&material) && is_in_air(&path.media)) {
     reached = band->cluster < 0;
     if (reached)

@@ -36,7 +36,7 @@ IN_PLACE float3 even_irradiance(const World* world, const DeviceLight* light, __
   path->direction = direction_to_targets(targets + light->first_target, light->target_count, path->origin,
                                          side * surface->shading, random, &weight);
   if (!(weight > 0.0f) || !(side * dot(path->direction, surface->geometric) > 0.0f)) return (float3)(0.0f);
-  weight *= part_through_coat(world, surface, path->direction);
+  weight *= part_through_coat(world, surface, path->direction) * part_at_normal(surface, path->direction);
   Hit hit = next_hit(world, path);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return (float3)(0.0f); // unbent light is of the layer "direct"
   Surface last;

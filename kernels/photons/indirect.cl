@@ -84,7 +84,8 @@ static inline bool scatter(const World* world, Walk* walk, const Surface* surfac
   if (!(most > 0.0f) || random.z >= chance) return false;
   for (int i = 0; i < BANDS; ++i) walk->throughput[i] /= chance;
   walk->path.direction = cosine_direction(side * surface->shading, random.x, random.y);
-  const float passes = part_through_coat(world, surface, walk->path.direction);
+  const float passes = part_through_coat(world, surface, walk->path.direction) *
+                       part_at_normal(surface, walk->path.direction);
   for (int i = 0; i < BANDS; ++i) walk->throughput[i] *= passes;
   walk->path.origin = start_on_side(surface, side);
   walk->path.skip = triangle;
@@ -103,8 +104,8 @@ IN_PLACE float3 follow(const World* world, Walk* walk, Hit hit, uint2 seed, uint
   for (int surface_number = 0;; ++surface_number) {
     if (surface_number > 0) hit = next_hit(world, &walk->path);
     if (hit.primitive == NEPHROID_NO_PRIMITIVE) break;
-    const Surface surface = surface_at(&world->geometry, hit);
-    const DeviceMaterial material = material_of(world, surface.object);
+    const Surface surface = surface_of(world, hit);
+    const DeviceMaterial material = material_at(world, &surface, hit.primitive);
     lose_in_medium(world, &walk->path, hit.t);
     const float4 random =
         eye_numbers(seed, sample, surface_number < 2 ? paths : 0u, pixel, 1u + (uint)surface_number, STREAM_INDIRECT);

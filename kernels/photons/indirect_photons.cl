@@ -59,8 +59,8 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
     const Hit hit = next_hit(world, path);
     *segments = surface_number + 1;
     if (hit.primitive == NEPHROID_NO_PRIMITIVE) return counts ? OUTCOME_ESCAPED : OUTCOME_MISSED;
-    const Surface surface = surface_at(&world->geometry, hit);
-    const DeviceMaterial material = material_of(world, surface.object);
+    const Surface surface = surface_of(world, hit);
+    const DeviceMaterial material = material_at(world, &surface, hit.primitive);
     lose_in_medium(world, path, hit.t);
     const float4 random = random4(seed, iteration, number, 2u + (uint)surface_number, STREAM_INDIRECT_PHOTONS);
     const Band band = band_of(photon);

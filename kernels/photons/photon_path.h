@@ -127,8 +127,8 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
       end.outcome = met_caustic_object ? OUTCOME_ESCAPED : OUTCOME_MISSED;
       break;
     }
-    const Surface surface = surface_at(&world->geometry, hit);
-    const DeviceMaterial material = material_of(world, surface.object);
+    const Surface surface = surface_of(world, hit);
+    const DeviceMaterial material = material_at(world, &surface, hit.primitive);
     lose_in_medium(world, path, hit.t);
     if (material.type == MATERIAL_DIFFUSE) {
       end.outcome = met_caustic_object ? OUTCOME_DEPOSITED : OUTCOME_MISSED;

@@ -61,7 +61,7 @@ static inline bool surface_beside(const World* world, const PhotonEnd* end, floa
   const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, place - reach * down,
                               down, 0.0f, 2.0f * reach, NEPHROID_NO_PRIMITIVE);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return false;
-  *surface = surface_at(&world->geometry, hit);
+  *surface = surface_of(world, hit);
   *triangle = hit.primitive;
   return surface->object == end->surface.object && dot(surface->geometric, end->surface.geometric) > 0.7f;
 }
@@ -157,6 +157,11 @@ COMPILED_ONCE bool strand_of(const World* world, const PhotonEnd* end, const Pat
     x = place_in_tent(world, band->wavelength, turned, stretch_origin(world, band));
   float3 place;
   if (!stretched_place(path, &end->surface, x, &place)) return false;
+#if NEPHROID_NORMAL_MAPS
+  const float2 at = place_in_triangle(world, end->triangle, place);
+  const Hit there = {0.0f, at.x, at.y, end->triangle};
+  strand->surface = surface_of(world, there);
+#endif
   strand->surface.position = place;
   if (stretch->beside && !is_in_triangle(&world->geometry, end->triangle, place)) {
     const float side = dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f;

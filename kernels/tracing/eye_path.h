@@ -84,7 +84,8 @@ static inline float irradiance_of(const World* world, int light_index, const Pat
   if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) return 0.0f;
   const float3 from = start_on_side(surface, side);
   if (is_hidden(world, surface, from, &arrival, triangle)) return 0.0f;
-  return arrival.irradiance * part_through_coat(world, surface, arrival.direction);
+  return arrival.irradiance * part_through_coat(world, surface, arrival.direction) *
+         part_at_normal(surface, arrival.direction);
 }
 
 // Four numbers for sample `sample` of a pixel. They come from a sequence as in light_numbers, with `paths` samples a
@@ -118,7 +119,8 @@ static inline float3 sky_irradiance(const World* world, int light_index, const P
       continue;
     SET_ASIDE float3 rgb = place.rgb;
     SET_ASIDE float weight = place.density * cosine / (place.peak_density + cosine / PI_F) *
-                             part_through_coat(world, surface, place.direction);
+                             part_through_coat(world, surface, place.direction) *
+                             part_at_normal(surface, place.direction);
     if (!is_blocked(world, from, place.direction, INFINITY, triangle)) sum += rgb * weight;
   }
   return light.radiometric * sum;
@@ -172,7 +174,7 @@ static inline bool leaves_one_way(const Bend* bend) { return bend->reflectance =
 IN_PLACE bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, bool reflected,
                          float2 facet_choice, float* share, Bend* bend) {
   const Surface surface = surface_at(&world->geometry, *hit);
-  const DeviceMaterial material = material_of(world, surface.object);
+  const DeviceMaterial material = material_at(world, &surface, hit->primitive);
   if (is_plastic(&material) && !reflected) return false;
   lose_in_medium(world, path, hit->t);
   float n_ratio;
@@ -214,8 +216,8 @@ static inline float3 highlight(const World* world, int light_index, bool beyond,
   facet.shading = side * normal;
   Bend bend;
   float n_ratio;
-  if (!bend_about(world, &bent, &facet, material, band, beyond ? 2.0f : -1.0f, &n_ratio, &bend) || bend.straight ||
-      bend.transmitted != beyond)
+  if (!bend_about(world, &bent, triangle, &facet, material, band, beyond ? 2.0f : -1.0f, &n_ratio, &bend) ||
+      bend.straight || bend.transmitted != beyond)
     return (float3)(0.0f);
   if (is_hidden(world, surface, start_on_side(surface, light_side), &arrival, triangle))
     return (float3)(0.0f);
@@ -261,8 +263,8 @@ IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool k
   for (int surface_number = 0; surface_number <= world->scene.max_surfaces; ++surface_number) {
     if (surface_number > 0 || !known) *hit = next_hit(world, path);
     if (hit->primitive == NEPHROID_NO_PRIMITIVE) return radiance_scale;
-    *surface = surface_at(&world->geometry, *hit);
-    const DeviceMaterial material = material_of(world, surface->object);
+    *surface = surface_of(world, *hit);
+    const DeviceMaterial material = material_at(world, surface, hit->primitive);
     lose_in_medium(world, path, hit->t);
     if (material.type == MATERIAL_DIFFUSE) return radiance_scale;
     if ((surface_number & 3) == 0)

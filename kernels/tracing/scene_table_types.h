@@ -51,8 +51,8 @@
 // Pictures on surfaces: materials/texture.h. Empty where there are none.
 #define TEXTURE_TABLES(TABLE) \
   TABLE(DeviceTexture, textures, "textures") \
-  TABLE(ushort, texture_texels, "texels of textures") /* [texel][3]: linear sRGB, 65535 is 1 */ \
-  TABLE(float, texcoords, "texture coordinates") /* [triangle of textured objects][corner][2] */
+  TABLE(ushort, texture_texels, "texels of textures") /* [texel][3]: linear sRGB or numbers, 65535 is 1 */ \
+  TABLE(float, texcoords, "texture coordinates") /* [triangle of objects with textures][corner][2] */
 
 // What lamps have beyond their DeviceLight: tracing/lamp.h.
 #define LAMP_TABLES(TABLE) \

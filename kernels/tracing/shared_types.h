@@ -71,21 +71,24 @@ struct alignas(8) uint2 {
 
 typedef struct {
   int type;            // MATERIAL_*
-  int reflector;       // matt: row of the reflectance tables; with a texture its red, green and blue rows follow
+  int reflector;       // matt, tint with a texture: row of the reflectance tables; with a texture its red, green and
+                       // blue rows follow
   int attenuator;      // absorbing dielectric, mirror, metal: (first) row of the attenuation table; -1: none
-  int tint;            // dielectric: row of the attenuation table for what passes its surface; -1: none
+  int tint;            // dielectric: row of the attenuation table for what passes its surface; -1: none, or a texture
   int surface_first;   // metal, coated dielectric, plastic: its first item in the table surface_data; -1: none
   float coating_nm;    // dielectric: thickness of its coating
   int is_thin;         // dielectric: a pane without thickness
   float alpha;         // of GGX (materials/rough.h); 0: polished
-  int masking;         // rough, plastic: row of the attenuation table, 1 at all wavelengths
-  int texture;         // diffuse, plastic: number of its texture (materials/texture.h); -1: none
+  int masking;         // rough, plastic, tint with a texture: row of the attenuation table, 1 at all wavelengths
+  int texture;         // of its reflectance or tint: number of a texture (materials/texture.h); -1: none
+  int roughness_texture; // the same of its roughness
+  int normal_map;        // the same of its normals
 } DeviceMaterial;
 
 typedef struct {
   int material;
   int priority;
-  int texcoords; // textured: its triangles' numbers less those of their texcoords
+  int texcoords; // with textures: its triangles' numbers less those of their texcoords
 } DeviceObject;
 
 // The preset's words for what is beyond a texture's edges.
@@ -203,7 +206,7 @@ typedef struct {
 } DeviceScene;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DeviceMaterial) == 40 && sizeof(DeviceObject) == 12 && sizeof(Media) == 16);
+static_assert(sizeof(DeviceMaterial) == 48 && sizeof(DeviceObject) == 12 && sizeof(Media) == 16);
 static_assert(sizeof(DeviceLight) == 112 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
 static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 52 && sizeof(DeviceBackground) == 16);
 static_assert(sizeof(DevicePrimitive) == 64 && sizeof(DeviceTexture) == 44);

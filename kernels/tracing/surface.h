@@ -120,6 +120,24 @@ static inline float3 start_on_side(const Surface* surface, float side) {
   return surface->position + side * surface->offset * surface->geometric;
 }
 
+// 1: a matt surface has a normal map.
+#ifndef NEPHROID_NORMAL_MAPS
+#define NEPHROID_NORMAL_MAPS 0
+#endif
+
+// The part of the light along the unit vector `way`, to or from it, that a surface with such a normal as its shading
+// normal takes: 1, or less where it would take more than what falls on the triangle over the cosine of both normals
+// (Chiang, Li and Burley 2019, "Taming the Shadow Terminator", without its smoothing).
+static inline float part_at_normal(const Surface* surface, float3 way) {
+#if NEPHROID_NORMAL_MAPS
+  const float falls = fabs(dot(way, surface->geometric)),
+              takes = fabs(dot(way, surface->shading)) * dot(surface->shading, surface->geometric);
+  return takes > falls ? falls / takes : 1.0f;
+#else
+  return 1.0f;
+#endif
+}
+
 // The limit of shading_ratio, without which photons near grazing, within 3.6 degrees, would be bright specks.
 #define SHADING_RATIO_LIMIT 16.0f
 
@@ -128,7 +146,8 @@ static inline float3 start_on_side(const Surface* surface, float side) {
 static inline float shading_ratio(const Surface* surface, float3 arriving) {
 #if NEPHROID_SMOOTH
   const float ratio = dot(arriving, surface->shading) / dot(arriving, surface->geometric);
-  return ratio > 0.0f ? (ratio < SHADING_RATIO_LIMIT ? ratio : SHADING_RATIO_LIMIT) : 0.0f;
+  return part_at_normal(surface, arriving) *
+         (ratio > 0.0f ? (ratio < SHADING_RATIO_LIMIT ? ratio : SHADING_RATIO_LIMIT) : 0.0f);
 #else
   return 1.0f;
 #endif

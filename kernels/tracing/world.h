@@ -216,8 +216,9 @@ static inline void lose_by_masking(Path* path, const DeviceMaterial* material, c
 }
 
 // bend_path_as about the shading normal of `bent_at`, without what roughness takes.
-static inline bool bend_about(const World* world, Path* path, const Surface* bent_at, const DeviceMaterial* material,
-                              const Band* band, float choice, float* n_ratio, Bend* bend) {
+static inline bool bend_about(const World* world, Path* path, uint triangle, const Surface* bent_at,
+                              const DeviceMaterial* material, const Band* band, float choice, float* n_ratio,
+                              Bend* bend) {
   *n_ratio = 1.0f;
 #if NEPHROID_MIRRORS
   if (material->type == MATERIAL_MIRROR) {
@@ -235,8 +236,15 @@ static inline bool bend_about(const World* world, Path* path, const Surface* ben
                        layer_of(world, material, band), path->direction, choice, bend, n_ratio))
     return false;
 #if NEPHROID_TINTS
-  if (bend->transmitted && (material->is_thin || bend->near_material != bend->far_material))
+  if (bend->transmitted && (material->is_thin || bend->near_material != bend->far_material)) {
     lose(&path->losses, material->tint, 1.0f);
+#if NEPHROID_TINT_TEXTURES
+    if (material->texture >= 0) {
+      const float part = tint_at(world, material, bent_at, triangle, max(band->wavelength, 0)); // as layer_of
+      lose(&path->losses, material->masking, part > 0.0f ? -log(part) : 200.0f);
+    }
+#endif
+  }
 #endif
   return true;
 }
@@ -253,10 +261,10 @@ IN_PLACE bool bend_path_as(const World* world, Path* path, uint triangle, const 
   const float3 n = normal_before(path->direction, surface);
   Surface facet = *surface;
   if (material->alpha > 0.0f) facet.shading = side * visible_facet(-path->direction, n, material->alpha, facet_choice);
-  if (!bend_about(world, path, &facet, material, band, choice, n_ratio, bend)) return false;
+  if (!bend_about(world, path, triangle, &facet, material, band, choice, n_ratio, bend)) return false;
   if (material->alpha > 0.0f) lose_by_masking(path, material, bend, side * facet.shading, n);
 #else
-  if (!bend_about(world, path, surface, material, band, choice, n_ratio, bend)) return false;
+  if (!bend_about(world, path, triangle, surface, material, band, choice, n_ratio, bend)) return false;
 #endif
   bend_differential(world, path, triangle, surface, band, bend);
   path->direction = bend->direction;

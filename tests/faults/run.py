@@ -39,6 +39,7 @@ SUITES = [
     "physics.Background:BackgroundFurnace",
     "physics.Indirect:DiffuseFurnace", "physics.HalvesOfTheFilm:LowDiscrepancy:WholeClusters:WavelengthJitter",
     "physics.PhotonMaps:MapEstimators", "physics.MapBands", "physics.SmoothReceiver", "physics.SpectralDifferentials",
+    "physics.NormalMaps:RoughnessTextures:TintTextures",
     "kernels.Relighting", "physics.EnvironmentLight:HotTexel", "environment.Bake",
     "inverse.DeviceFacetsTest:Judge:Colours:Assignment",
 ]

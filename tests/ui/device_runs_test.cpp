@@ -150,6 +150,14 @@ TEST(MaterialBalls, AreOfTheMaterial) {
   material.texture =
       preset::Texture{.type = preset::Texture::Type::checkerboard, .colour0 = {1, 0, 0}, .colour1 = {1, 0.5, 0}};
   EXPECT_GT(warmth(engine, material), 1.1 * grey) << "a texture is seen";
+  material.type = preset::Material::Type::dielectric;
+  material.thin = true;
+  const double clear = warmth(engine, material);
+  material.tint_texture = material.texture;
+  EXPECT_GT(warmth(engine, material), 1.1 * clear) << "what passes glass is seen";
+  material.coating.emplace();
+  material.thin = false;
+  EXPECT_GT(warmth(engine, material), 1.1 * clear) << "so it is below a coating";
 }
 
 } // namespace nephroid::ui::device_runs_test

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace nephroid::photometry_test {
 
@@ -119,6 +121,16 @@ TEST_F(Photometry, ReadsEulumdat) {
   EXPECT_THAT(at(2, {1, 2, 4}), ElementsAre(1, 2, 4, 2, 1.5));
   EXPECT_THAT(at(3, {1, 2, 4}), ElementsAre(2, 4, 2, 1, 1.5)); // from 270 by 0 to 90 degrees
   EXPECT_THAT(at(4, {1, 3}), ElementsAre(1, 3, 1, 3, 2));
+}
+
+// A plane just beyond 180 degrees, mirrored, is next to nothing below 0, which is 360 where it is rounded.
+TEST_F(Photometry, PlanesThatMeetAtZeroAreOne) {
+  std::string text = eulumdat(3, {2, 4, 6});
+  const std::string angles = "0\n90\n180\n270\n";
+  text.replace(text.find(angles), angles.size(), "0\n180.00000000000003\n200\n300\n");
+  const scene::Photometry p = read(text, "lamp.ldt");
+  EXPECT_EQ(std::ranges::adjacent_find(p.c_deg, std::greater_equal()), p.c_deg.end());
+  for (const double c : {0.0, 360.0}) EXPECT_DOUBLE_EQ(intensity(p, 50, c), 4);
 }
 
 TEST_F(Photometry, RefusesEulumdatThatIsWrong) {

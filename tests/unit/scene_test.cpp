@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loading a scene: places and orientation of objects, what contains what, warnings about them; meshes and glasses in
 // files; contradictions between fields, refused at the right place.
+#include "base/bytes.h"
+#include "image/image.h"
 #include "scene/materials.h"
 #include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
@@ -330,12 +332,54 @@ TEST(SceneRefusals, PointAtTheRightPlace) {
        }},
       {"materials/m/texture/file: 'no.png' not found",
        [](S& s) { s.materials["m"].texture.emplace().file = "no.png"; }},
+      {"objects/0: object 'ball' has a texture, but no u, v",
+       [](S& s) {
+         s.materials["wall"].normal_map.emplace().type = preset::Texture::Type::checkerboard,
+         s.objects[0].material = "wall";
+       }},
+      {"materials/mirror/roughness_texture/file: 'no.png' not found",
+       [](S& s) {
+         s.materials["mirror"].roughness = 1, s.materials["mirror"].roughness_texture.emplace().file = "no.png";
+       }},
+      {"materials/mirror/roughness_texture: multiplies a roughness of 0",
+       [](S& s) { s.materials["mirror"].roughness_texture.emplace().file = "no.png"; }},
+      {"materials/glass/tint_texture/file: 'no.png' not found",
+       [](S& s) { s.materials["glass"].tint_texture.emplace().file = "no.png"; }},
       {"camera/target: (0, 0, 0) has no direction", [](S& s) { s.camera.target = s.camera.position; }}};
   for (const auto& [says, change] : wrongs) {
     preset::Preset preset = ball_over_floor();
     change(preset.scene);
     EXPECT_THAT(refusal(preset), StartsWith(std::string("p.json#/scene/") + says));
   }
+}
+
+TEST(Textures, HaveTheNumbersThatTheyAreOf) {
+  const TemporaryFolder folder;
+  image::write_png(folder.path() / "p.png", 1, 1, {0.5f, 0.25f, 1}); // sRGB: 188, 137, 255
+  const preset::Texture given{.file = (folder.path() / "p.png").string()};
+  std::vector<std::string> warnings;
+  const auto texels = [&](const Texture& texture) {
+    return glm::dvec3((*texture.rgb)[0], (*texture.rgb)[1], (*texture.rgb)[2]) / 65535.0;
+  };
+  const auto expect_texels = [&](const Texture& texture, const glm::dvec3& rgb) {
+    EXPECT_LT(glm::distance(texels(texture), rgb), 3e-3);
+  };
+  const FileFinder finder(folder.path());
+  expect_texels(make_texture(given, Texels::colours, finder, "p.json", "m", warnings), {0.5, 0.25, 1});
+  const glm::dvec3 raw(188.0 / 255, 137.0 / 255, 1);
+  expect_texels(make_texture(given, Texels::numbers, finder, "p.json", "m", warnings), raw);
+  // x and y are scaled, or z is divided: the direction is the same.
+  const glm::dvec3 normal = 2.0 * raw - 1.0;
+  for (const double scale : {0.5, 1.0, 4.0, -2.0}) {
+    const glm::dvec3 scaled = 2.0 * texels(make_normal_map(given, scale, finder, "p.json", "m", warnings)) - 1.0;
+    EXPECT_LT(glm::distance(glm::normalize(scaled), glm::normalize(glm::dvec3(scale, scale, 1) * normal)), 3e-3);
+  }
+  EXPECT_THAT(warnings, IsEmpty());
+  ByteStore grey;
+  image::write_png16(grey, 1, 1, {1000}, "grey");
+  folder.write("grey.png", std::string(reinterpret_cast<const char*>(grey.bytes().data()), grey.bytes().size()));
+  EXPECT_THAT(refusal_of([&] { make_normal_map({.file = "grey.png"}, 1, finder, "p.json", "m", warnings); }),
+              StartsWith("p.json: is a grey picture"));
 }
 
 } // namespace nephroid::scene::scene_test

@@ -83,8 +83,11 @@ preset::Preset MaterialBalls::scene_of(const Subject& subject) {
   scene["engine"] = preset::Settings().engine();
   preset::Preset preset = preset::read_json(std::move(scene), subject.source);
   auto& settings = preset.settings.as<photons::Settings>();
-  settings.jitter = false;                            // one way for a whole cluster leaves no coloured noise,
-  settings.threshold_deg = 0.2;                       // and bends light wrong by less than a pixel
+  const preset::Material& material = subject.material;
+  // One way for a whole cluster leaves no coloured noise, and bends light wrong by less than a pixel. What parts the
+  // wavelengths needs one for each.
+  settings.jitter = material.coating || material.tint_texture;
+  settings.threshold_deg = 0.2;
   settings.effort = photons::Settings::Effort::power; // measuring first would take as long as the picture
   settings.photons_per_pass = 1 << 15;
   preset::Environment& sky = preset.scene.environment.emplace();
@@ -93,10 +96,10 @@ preset::Preset MaterialBalls::scene_of(const Subject& subject) {
   sky.turbidity = 7; // in clear air metals would mirror much blue
   preset.unit = subject.unit;
   preset.scene.camera.resolution = {edge, edge};
-  preset.scene.materials["ball"] = subject.material;
+  preset.scene.materials["ball"] = material;
   preset::Object& ball = preset.scene.objects.back();
   ball.material = "ball";
-  if (subject.material.texture) {
+  if (material.texture || material.roughness_texture || material.tint_texture || material.normal_map) {
     ball.shape->type = preset::Shape::Type::cylinder;
     ball.shape->height = 1.6;
     ball.normals = preset::Object::Normals::smooth;

@@ -104,6 +104,13 @@ std::uint64_t hash_items(const T& items, std::uint64_t hash) {
   return hash_of({reinterpret_cast<const char*>(items.data()), items.size() * sizeof(Item)}, hash);
 }
 
+std::uint64_t hash_texture(const scene::Texture& t, std::uint64_t hash) {
+  hash = hash_of(fmt::format("{} {} {} {} {} {} {} {} {} {}", t.width, t.height, static_cast<int>(t.wrap), t.nearest,
+                             t.linear[0].x, t.linear[0].y, t.linear[1].x, t.linear[1].y, t.offset.x, t.offset.y),
+                 hash);
+  return hash_items(*t.rgb, hash);
+}
+
 /// The point of a triangle nearest to the origin: in its plane where the foot lies inside, else on an edge.
 glm::dvec3 nearest_point(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 normal = glm::cross(b - a, c - a);
@@ -301,8 +308,10 @@ std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster) {
     for (const optics::Spectrum* spectrum :
          {&material.n, &material.k, &material.reflectance, &material.tint, &material.coating_n})
       hash = hash_items(*spectrum, hash);
+    for (const auto* texture : {&material.texture, &material.roughness_texture})
+      if (*texture) hash = hash_texture(**texture, hash);
   }
-  return hash;
+  return mesh.texcoords.empty() ? hash : hash_items(mesh.texcoords, hash);
 }
 
 // A point that the object has at p without its rotation R and its translation T is at R p + T in the preset.

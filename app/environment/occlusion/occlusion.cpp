@@ -20,7 +20,7 @@ public:
     added.first_triangle = static_cast<std::uint32_t>(to_.geometry.triangles.size());
     added.first_ellipsoid = static_cast<std::uint32_t>(to_.geometry.ellipsoids.size());
     added.first_texcoords = static_cast<std::uint32_t>(to_.geometry.texcoords.size());
-    if (is_textured(material_of(from_, object)))
+    if (has_pictures(material_of(from_, object)))
       for (std::uint32_t i = 0; i < object.triangle_count; ++i)
         to_.geometry.texcoords.push_back(from_.geometry.texcoords[object.first_texcoords + i]);
     for (const glm::uvec3& triangle : triangles_of(from_, object))

@@ -84,7 +84,7 @@ std::vector<std::string> left_out(const scene::Scene& scene) {
         fmt::format("glTF has no surroundings: those are in {}, and blender.py takes them", surroundings_file));
   if (any_material(scene, scene::is_coated)) notes.push_back("coatings are left out");
   if (any_material(scene, scene::is_plastic)) notes.push_back("coats of plastic are left out: they are matt");
-  if (any_material(scene, scene::is_textured))
+  if (any_material(scene, scene::has_pictures))
     notes.push_back("textures are left out: their surfaces have the colour of their reflectance");
   if (std::ranges::any_of(scene.lights, scene::has_disc)) notes.push_back("a sun is a point: its disc is left out");
   const auto any_light = [&](bool (*is)(const scene::Light&)) { return std::ranges::any_of(scene.lights, is); };

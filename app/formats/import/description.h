@@ -31,13 +31,14 @@ struct DescribedShape {
 
 /// A dielectric of the file.
 struct DescribedGlass {
-  preset::Dispersion inside;                 ///< on the side that normals look away from
-  double outside = 1;                        ///< the index on their other side, as the file has it
-  bool is_ratio = false;                     ///< inside is over what is on the other side, whatever that is
-  bool is_thin = false;                      ///< a pane whose surfaces are one
-  std::optional<DescribedColour> tint;       ///< the part that passes its surface
-  double roughness = 0;                      ///< as a preset's material has it; not of a pane
-  std::optional<DescribedColour> absorption; ///< a unit of length
+  preset::Dispersion inside;           ///< on the side that normals look away from
+  double outside = 1;                  ///< the index on their other side, as the file has it
+  bool is_ratio = false;               ///< inside is over what is on the other side, whatever that is
+  bool is_thin = false;                ///< a pane whose surfaces are one
+  std::optional<DescribedColour> tint; ///< the part that passes its surface
+  double roughness = 0;                ///< as a preset's material has it; not of a pane
+  std::optional<preset::Texture> tint_texture, roughness_texture; ///< as a preset's material has them
+  std::optional<DescribedColour> absorption;                      ///< a unit of length
 };
 
 struct DescribedLight {

@@ -193,6 +193,8 @@ private:
     material.thin = body.glass.is_thin;
     material.roughness = body.glass.roughness;
     if (body.glass.tint) material.tint = reflectance_of(*body.glass.tint);
+    material.tint_texture = body.glass.tint_texture;
+    material.roughness_texture = body.glass.roughness_texture;
     if (const auto& absorption = body.glass.absorption; absorption && !absorption->is_black()) {
       if (body.shape.inside_out)
         d_.note(body.shape.where, "the medium around it is left out");

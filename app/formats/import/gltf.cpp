@@ -131,8 +131,18 @@ private:
     const GltfValue value = root_.item("materials", index);
     name = unique(name_of(value.text("name"), fmt::format("material {}", index)), taken_materials_);
     preset::Material& made = d_.materials[name] = material_of(value, name, d_.notes);
-    if (is_matt(made.type)) made.texture = base_texture(value, name);
+    const GltfValue pbr = value.object("pbrMetallicRoughness"),
+                    older = value.extension("KHR_materials_pbrSpecularGlossiness"), // takes the other's place
+        base = older.has("diffuseTexture") ? older.object("diffuseTexture") : pbr.object("baseColorTexture");
+    if (is_matt(made.type)) made.texture = texture_of(base, name);
+    if (takes_roughness_texture(made)) // whose green it is here, too
+      made.roughness_texture = texture_of(pbr.object("metallicRoughnessTexture"), name);
+    if (made.type == preset::Material::Type::diffuse) {
+      made.normal_map = texture_of(value.object("normalTexture"), name);
+      made.normal_scale = std::clamp(value.object("normalTexture").number("scale", 1), -100.0, 100.0);
+    }
     if (made.type != preset::Material::Type::dielectric) return name;
+    made.tint_texture = texture_of(base, name);
     if (std::string glass = absorbing_glass_file(value, made.dispersion); !glass.empty()) {
       made.dispersion = {};
       made.dispersion.type = preset::Dispersion::Type::file;
@@ -142,12 +152,8 @@ private:
     return name;
   }
 
-  /// Of a matt surface; nothing where it has none that is taken over.
-  std::optional<preset::Texture> base_texture(const GltfValue& material, const std::string& name) {
-    const GltfValue older = material.extension("KHR_materials_pbrSpecularGlossiness"),
-                    info = older.has("diffuseTexture")
-                               ? older.object("diffuseTexture")
-                               : material.object("pbrMetallicRoughness").object("baseColorTexture");
+  /// info: of a material, where it names one. Nothing where it has none that is taken over.
+  std::optional<preset::Texture> texture_of(const GltfValue& info, const std::string& name) {
     if (!info.has("index")) return std::nullopt;
     const auto leave_out = [&](const char* why) {
       d_.note(fmt::format("material '{}': its texture is left out: {}", name, why));

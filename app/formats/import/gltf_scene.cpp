@@ -42,16 +42,19 @@ std::vector<std::size_t> roots_of(const GltfValue& root) {
 constexpr double line_f = optics::line_f_nm / 1000, line_d = optics::line_d_nm / 1000,
                  line_c = optics::line_c_nm / 1000;
 
-/// The names of those textures that are left out.
-std::string textures_left_out(const GltfValue& material, bool is_matt) {
+/// The names of those textures of a material that are left out.
+std::string textures_left_out(const GltfValue& material, const preset::Material& made) {
   const GltfValue pbr = material.object("pbrMetallicRoughness");
   std::string names;
   const auto add = [&](const GltfValue& from, const char* key) {
     if (from.has(key)) names += (names.empty() ? "" : ", ") + std::string(key);
   };
-  if (!is_matt) add(pbr, "baseColorTexture");
-  add(pbr, "metallicRoughnessTexture");
-  add(material, "normalTexture");
+  if (!is_matt(made.type) && !is_refractive(made.type)) add(pbr, "baseColorTexture");
+  if (!takes_roughness_texture(made))
+    add(pbr, "metallicRoughnessTexture");
+  else if (!is_refractive(made.type) && pbr.has("metallicRoughnessTexture"))
+    names += (names.empty() ? "" : ", ") + std::string("the metalness of metallicRoughnessTexture");
+  if (made.type != preset::Material::Type::diffuse) add(material, "normalTexture");
   add(material.extension("KHR_materials_transmission"), "transmissionTexture");
   return names;
 }
@@ -219,10 +222,15 @@ preset::Reflectance reflectance_of(const std::array<double, 3>& rgb) {
   return reflectance;
 }
 
-preset::Material material_of(const GltfValue& value, const std::string& name, std::vector<std::string>& notes) {
+bool takes_roughness_texture(const preset::Material& material) {
+  return is_specular(material.type) && material.type != preset::Material::Type::plastic && material.roughness > 0;
+}
+
+namespace {
+
+preset::Material material_without_textures(const GltfValue& value, const std::string& name,
+                                           std::vector<std::string>& notes) {
   const bool is_glass = transmitted_part(value) >= 0.5, is_metal = metal_part(value) >= 0.5;
-  if (const std::string textures = textures_left_out(value, !is_glass && !is_metal); !textures.empty())
-    notes.push_back(fmt::format("material '{}': {} left out", name, textures));
   const bool shines = value.numbers<3>("emissiveFactor", {0, 0, 0}) != std::array<double, 3>{0, 0, 0};
   if (shines && (is_glass || value.has("emissiveTexture")))
     notes.push_back(fmt::format("material '{}' does not shine here: only matt and metal surfaces do, without a texture "
@@ -255,6 +263,15 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
   else if (base[3] < 1 && value.text("alphaMode") == "BLEND")
     notes.push_back(fmt::format("material '{}' is opaque here", name));
   return material;
+}
+
+} // namespace
+
+preset::Material material_of(const GltfValue& value, const std::string& name, std::vector<std::string>& notes) {
+  preset::Material made = material_without_textures(value, name, notes);
+  if (const std::string textures = textures_left_out(value, made); !textures.empty())
+    notes.push_back(fmt::format("material '{}': {} left out", name, textures));
+  return made;
 }
 
 double lumens_per_watt(const optics::Spectrum& spectrum) {

@@ -39,6 +39,9 @@ std::string absorbing_glass_file(const GltfValue& material, const preset::Disper
 /// A reflectance of this linear sRGB colour; one number where it is grey.
 preset::Reflectance reflectance_of(const std::array<double, 3>& rgb);
 
+/// Whether a texture of its roughness makes a difference that is seen here.
+bool takes_roughness_texture(const preset::Material& material);
+
 /// name: for notes, which say what has no counterpart.
 preset::Material material_of(const GltfValue& value, const std::string& name, std::vector<std::string>& notes);
 

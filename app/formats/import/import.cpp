@@ -39,6 +39,14 @@ double ellipsoid_area(const glm::dmat3& to_world) {
 
 constexpr std::size_t most_objects = 10000, most_lights = 1000; ///< of a preset
 
+/// Those that a material has.
+std::vector<preset::Texture*> textures_of(preset::Material& material) {
+  std::vector<preset::Texture*> textures;
+  for (auto* texture : {&material.texture, &material.roughness_texture, &material.tint_texture, &material.normal_map})
+    if (*texture) textures.push_back(&**texture);
+  return textures;
+}
+
 double clamped_power(double watts) { return std::clamp(watts, 0.0, 1e9); }
 
 class PresetBuilder {
@@ -56,7 +64,7 @@ public:
     made_.scene.materials = from_.materials;
     for (auto& [key, material] : made_.scene.materials) {
       std::vector<std::string*> files{&material.dispersion.file, &material.metal};
-      if (material.texture) files.push_back(&material.texture->file);
+      for (preset::Texture* texture : textures_of(material)) files.push_back(&texture->file);
       for (std::string* file : files)
         if (from_.files.contains(*file)) *file = folder_ + "/" + *file;
     }
@@ -137,13 +145,25 @@ private:
   std::string material_of(const DescribedShape& shape) {
     const preset::Material& material = made_.scene.materials.at(shape.material);
     const bool has_texcoords = !shape.mesh.empty() && !from_.meshes.at(shape.mesh).texcoords.empty();
-    if (material.texture && has_texcoords) textured_.insert(shape.mesh);
-    if (!material.texture || has_texcoords) return shape.material;
+    preset::Material without = material;
+    const bool is_textured = !textures_of(without).empty();
+    if (is_textured && has_texcoords) textured_.insert(shape.mesh);
+    if (!is_textured || has_texcoords) return shape.material;
     std::string& plain = plain_[shape.material];
     if (!plain.empty()) return plain;
-    from_.note(shape.where, "its texture is left out, as the surface has no u, v: grey of 0.5 takes its place");
+    std::string instead;
+    if (material.texture) {
+      without = {};
+      without.reflectance.value = 0.5;
+      instead = ": grey of 0.5 takes its place";
+    } else if (material.roughness_texture) {
+      without.roughness /= 2;
+      instead = fmt::format(": a roughness of {:.3g} takes its place", without.roughness);
+    }
+    from_.note(shape.where, "its texture is left out, as the surface has no u, v" + instead);
     for (plain = shape.material + " plain"; made_.scene.materials.contains(plain);) plain += " 2";
-    made_.scene.materials[plain].reflectance.value = 0.5;
+    without.roughness_texture = without.tint_texture = without.normal_map = std::nullopt;
+    made_.scene.materials[plain] = without;
     return plain;
   }
 

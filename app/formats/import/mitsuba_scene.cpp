@@ -177,11 +177,14 @@ DescribedGlass dielectric(MitsubaScene& scene, xml_node node, const char* inside
 }
 
 /// What of the bsdf is taken: those that only wrap others are unwrapped.
-xml_node unwrapped(MitsubaScene& scene, xml_node node) {
+/// normal_map: gets the outermost normalmap around it.
+xml_node unwrapped(MitsubaScene& scene, xml_node node, xml_node& normal_map) {
   for (int depth = 0; node; ++depth) {
     const std::string type = mitsuba_name(scene.file.attribute(node, "type"));
     if (type != "twosided" && type != "bumpmap" && type != "normalmap" && type != "mask" && type != "blendbsdf") break;
-    if (type != "twosided")
+    if (type == "normalmap" && !normal_map)
+      normal_map = node;
+    else if (type != "twosided")
       scene.d.note(scene.file.at(node), "the " + type + " is left out: the material in it is taken");
     if (depth > 16) throw bad_input(scene.file.at(node), "materials go round in a circle");
     node = scene.file.object(node, "bsdf");
@@ -195,18 +198,6 @@ double plain_number(MitsubaScene& scene, xml_node node, const char* name, double
     scene.d.note(scene.file.at(given),
                  fmt::format("the texture of {} is left out: {:.3g} takes its place", name, standard));
   return scene.file.number(node, name, standard);
-}
-
-/// As a preset has it, whose square is the alpha of GGX.
-double roughness_of(MitsubaScene& scene, xml_node node) {
-  const MitsubaFile& file = scene.file;
-  const double both = plain_number(scene, node, "alpha", 0.1), u = plain_number(scene, node, "alpha_u", both),
-               v = plain_number(scene, node, "alpha_v", both);
-  if (u != v)
-    scene.d.note(file.at(node), fmt::format("its alpha_u {:.3g} and alpha_v {:.3g} are one: their mean", u, v));
-  if (file.text(node, "distribution", "beckmann") != "ggx")
-    scene.d.note(file.at(node), "its facets have the distribution GGX here, not Beckmann's");
-  return std::sqrt(std::clamp((u + v) / 2, 0.0, 1.0));
 }
 
 /// By n and k, or by name; nothing for a perfect mirror, and with a note where it is not to be had.
@@ -226,8 +217,9 @@ std::optional<preset::Material> metal(MitsubaScene& scene, xml_node node, const 
   return made;
 }
 
-/// A picture or a checkerboard in a colour's place; nothing where there is none.
-std::optional<preset::Texture> texture_of(MitsubaScene& scene, xml_node parent, const std::string& name) {
+/// A picture or a checkerboard in a colour's or number's place; nothing where there is none.
+std::optional<preset::Texture> texture_of(MitsubaScene& scene, xml_node parent, const std::string& name,
+                                          scene::Texels texels) {
   const MitsubaFile& file = scene.file;
   const xml_node node = file.child(parent, name);
   const std::string type = node ? file.attribute(node, "type") : std::string();
@@ -250,13 +242,34 @@ std::optional<preset::Texture> texture_of(MitsubaScene& scene, xml_node parent, 
   const std::string wrap = file.text(node, "wrap_mode", "repeat");
   if (file.text(node, "filter_type", "bilinear") != "bilinear")
     scene.d.note(where, "the texels of the texture have no edges here");
-  if (file.flag(node, "raw")) scene.d.note(where, "the texture is raw in the file, and taken as sRGB here");
+  if (file.flag(node, "raw") && texels == scene::Texels::colours)
+    scene.d.note(where, "the texture is raw in the file, and taken as sRGB here");
   note_unasked(scene, node);
   return picture(file.find(node, file.text(node, "filename", "")),
                  wrap == "mirror"  ? preset::Texture::Wrap::mirror
                  : wrap == "clamp" ? preset::Texture::Wrap::clamp
                                    : preset::Texture::Wrap::repeat,
                  map, where, scene.d);
+}
+
+/// As a preset has it, whose square is the alpha of GGX. texture: gets the picture that it is multiplied by; null: that
+/// is left out.
+double roughness_of(MitsubaScene& scene, xml_node node, const std::string& key,
+                    std::optional<preset::Texture>* texture) {
+  const MitsubaFile& file = scene.file;
+  if (file.text(node, "distribution", "beckmann") != "ggx")
+    scene.d.note(file.at(node), "its facets have the distribution GGX here, not Beckmann's");
+  const auto alpha = texture ? texture_of(scene, node, "alpha", scene::Texels::numbers) : std::nullopt;
+  if (alpha) {
+    const xml_node given = file.child(node, "alpha");
+    *texture = roughness_picture(*alpha, 0.5, !file.flag(given, "raw"), key, file.at(given), scene.d);
+    if (*texture) return 1;
+  }
+  const double both = plain_number(scene, node, "alpha", 0.1), u = plain_number(scene, node, "alpha_u", both),
+               v = plain_number(scene, node, "alpha_v", both);
+  if (u != v)
+    scene.d.note(file.at(node), fmt::format("its alpha_u {:.3g} and alpha_v {:.3g} are one: their mean", u, v));
+  return std::sqrt(std::clamp((u + v) / 2, 0.0, 1.0));
 }
 
 preset::Material opaque(MitsubaScene& scene, xml_node node, const std::string& type, const std::string& key) {
@@ -269,21 +282,22 @@ preset::Material opaque(MitsubaScene& scene, xml_node node, const std::string& t
       made = *own;
     else
       made.reflectance = reflectance_of(mitsuba_colour(scene, node, "specular_reflectance", 1));
-    if (type == "roughconductor") made.roughness = roughness_of(scene, node);
+    if (type == "roughconductor") made.roughness = roughness_of(scene, node, key, &made.roughness_texture);
     note_unasked(scene, node);
     return made;
   }
   const char* const name = type == "diffuse"      ? "reflectance"
                            : type == "principled" ? "base_color"
                                                   : "diffuse_reflectance";
-  if ((made.texture = texture_of(scene, node, name)))
+  if ((made.texture = texture_of(scene, node, name, scene::Texels::colours)))
     made.reflectance.value = 1;
   else
     made.reflectance = reflectance_of(mitsuba_colour(scene, node, name, 0.5));
   if (type == "plastic" || type == "roughplastic") {
     const DescribedGlass coat = dielectric(scene, node, "int_ior", "polypropylene");
     const bool below = file.text(node, "nonlinear", "false") == "true" && !made.texture;
-    make_plastic(made, coat.inside.n / coat.outside, type == "roughplastic" ? roughness_of(scene, node) : 0, below);
+    make_plastic(made, coat.inside.n / coat.outside,
+                 type == "roughplastic" ? roughness_of(scene, node, key, nullptr) : 0, below);
     note_unasked(scene, node);
   } else if (type == "diffuse")
     note_unasked(scene, node);
@@ -341,7 +355,9 @@ DescribedColour mitsuba_colour(MitsubaScene& scene, xml_node parent, const std::
 
 std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
   const MitsubaFile& file = scene.file;
-  const xml_node node = unwrapped(scene, file.object(shape, "bsdf")), medium = file.object(shape, "medium", "interior");
+  xml_node normal_map;
+  const xml_node node = unwrapped(scene, file.object(shape, "bsdf"), normal_map),
+                 medium = file.object(shape, "medium", "interior");
   if (file.object(shape, "medium", "exterior"))
     scene.d.note(file.at(shape), "the medium around it is left out: there is clear space in its place");
   const std::string type = node ? mitsuba_name(file.attribute(node, "type")) : "diffuse";
@@ -350,23 +366,31 @@ std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
   if (medium && !refracts)
     scene.d.note(file.at(shape), "the medium in it is left out: there is clear space in its place");
   if (type == "null") return {};
-  const auto [known, is_new] = scene.keys.try_emplace({node.hash_value(), refracts ? medium.hash_value() : 0});
+  const auto [known, is_new] =
+      scene.keys.try_emplace({node.hash_value(), (refracts ? medium : normal_map).hash_value()});
   if (!is_new) return known->second;
   const std::string id = node ? file.attribute(node, "id") : std::string();
   const std::string key = known->second =
       unique(node ? name_of(id, fmt::format("material {}", file.at(node).line)) : "plain", scene.taken);
+  if (normal_map && (refracts || type != "diffuse"))
+    scene.d.note(file.at(normal_map), "the normalmap is left out: here only diffuse surfaces have one");
   if (!refracts) {
-    scene.d.materials[key] = opaque(scene, node, type, key);
+    preset::Material& made = scene.d.materials[key] = opaque(scene, node, type, key);
+    if (normal_map && type == "diffuse") {
+      made.normal_map = texture_of(scene, normal_map, "normalmap", scene::Texels::numbers);
+      if (!made.normal_map) scene.d.note(file.at(normal_map), "the normalmap is left out: it is no picture");
+    }
     return key;
   }
   const Location where = file.at(node);
   DescribedGlass glass =
       through > 0 ? dielectric(scene, node, "eta", "1.5") : dielectric(scene, node, "int_ior", "bk7");
   glass.is_thin = thin;
-  if (type == "roughdielectric") glass.roughness = roughness_of(scene, node);
+  if (type == "roughdielectric") glass.roughness = roughness_of(scene, node, key, &glass.roughness_texture);
   if (type == "principled") glass.roughness = std::clamp(plain_number(scene, node, "roughness", 0.5), 0.0, 1.0);
-  if (const char* tint = through > 0 ? "base_color" : "specular_transmittance"; file.child(node, tint))
-    glass.tint = mitsuba_colour(scene, node, tint, 1);
+  const char* const tint = through > 0 ? "base_color" : "specular_transmittance";
+  if (through == 0) glass.tint_texture = texture_of(scene, node, tint, scene::Texels::colours);
+  if (file.child(node, tint) && !glass.tint_texture) glass.tint = mitsuba_colour(scene, node, tint, 1);
   if (through > 0 && glass.tint) { // whose root each surface of a principled body takes
     glass.tint->spectrum = values_of(*glass.tint);
     for (double& part : *glass.tint->spectrum) part = std::sqrt(std::max(part, 0.0));

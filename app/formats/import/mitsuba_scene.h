@@ -9,7 +9,7 @@ namespace nephroid::formats {
 struct MitsubaScene {
   MitsubaFile file;
   Description& d;
-  std::map<std::pair<std::size_t, std::size_t>, std::string> keys{}; ///< of materials, by bsdf and medium
+  std::map<std::pair<std::size_t, std::size_t>, std::string> keys{}; ///< of materials, by bsdf and medium or normalmap
   TakenNames taken{};
 };
 

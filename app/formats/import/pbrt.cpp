@@ -133,8 +133,8 @@ private:
       const PbrtParameters p = parameters("texture", where);
       if (kind == "constant" && p.find("value"))
         scene_.textures[name] = *p.find("value");
-      else if (value != "float") // a roughness or an alpha, which has no picture here
-        scene_.pictures[name] = {kind, p};
+      else
+        (value == "float" ? scene_.numbers : scene_.pictures)[name] = {kind, p};
     } else
       return false;
     return true;

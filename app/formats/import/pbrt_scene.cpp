@@ -145,32 +145,6 @@ std::optional<DescribedColour> absorption_of(PbrtScene& scene, const PbrtThing& 
   return absorption;
 }
 
-/// As a preset has it, whose square is the alpha of GGX. PBRT's alpha is the root of its roughness, in version 3 a
-/// polynomial of its logarithm. standard: where the file has none.
-double roughness_of(PbrtScene& scene, const PbrtParameters& p, double standard) {
-  const auto number_of = [&](const char* name, double otherwise) {
-    const PbrtParameter* given = resolved(scene, p, name);
-    if (!given) return otherwise;
-    if (given->type == "float" && given->values.size() == 1) return given->numbers()[0];
-    scene.d.note(given->where,
-                 fmt::format("the {} \"{}\" is left out: {:.3g} takes its place", given->type, name, otherwise));
-    return otherwise;
-  };
-  const double both = number_of("roughness", standard), u = number_of("uroughness", both),
-               v = number_of("vroughness", both);
-  if (u != v) scene.d.note(p.where, fmt::format("its two roughnesses {:.3g} and {:.3g} are one: their mean", u, v));
-  const double mean = std::max((u + v) / 2, 0.0);
-  if (mean == 0) return 0;
-  double alpha = mean;
-  if (p.text("remaproughness", "true") != "false") {
-    const double x = std::log(std::max(mean, 1e-3));
-    alpha = scene.is_version_3
-                ? 1.62142 + 0.819955 * x + 0.1734 * x * x + 0.0171201 * x * x * x + 0.000640711 * x * x * x * x
-                : std::sqrt(mean);
-  }
-  return std::sqrt(std::clamp(alpha, 0.0, 1.0));
-}
-
 } // namespace
 
 void note_unasked(PbrtScene& scene, const PbrtParameters& p) {
@@ -231,21 +205,23 @@ namespace {
 struct ScaledTexture {
   preset::Texture texture;
   DescribedColour factor;
+  bool is_srgb = true; ///< its integers
 };
 
 /// Of the texture that a parameter names; nothing where it is none that is taken over.
 std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& from, const std::string& name,
-                                        int depth = 0) {
+                                        scene::Texels texels, int depth = 0) {
   constexpr int deepest = 8; // scales of scales, which may go round in a circle
   const PbrtParameter* given = from.find(name);
   if (!given || given->type != "texture" || given->values.empty()) return std::nullopt;
-  const auto picture_named = scene.pictures.find(given->values[0]);
-  if (picture_named == scene.pictures.end()) return std::nullopt;
+  const auto& pictures = texels == scene::Texels::colours ? scene.pictures : scene.numbers;
+  const auto picture_named = pictures.find(given->values[0]);
+  if (picture_named == pictures.end()) return std::nullopt;
   const std::string& kind = picture_named->second.type;
   const PbrtParameters& p = picture_named->second.parameters;
   if (kind == "scale") { // "tex" by "scale" in version 4, "tex1" by "tex2" in 3; one of them a colour
     for (const auto& [texture, colour] : {std::pair("tex", "scale"), {"tex1", "tex2"}, {"tex2", "tex1"}})
-      if (auto scaled = depth < deepest ? texture_of(scene, p, texture, depth + 1) : std::nullopt) {
+      if (auto scaled = depth < deepest ? texture_of(scene, p, texture, texels, depth + 1) : std::nullopt) {
         const DescribedColour factor = pbrt_colour(scene, p, colour, 1);
         const bool is_first = !scaled->factor.spectrum && scaled->factor.rgb == glm::dvec3(1);
         const glm::dvec3 both = linear_srgb_of(scaled->factor) * linear_srgb_of(factor);
@@ -280,7 +256,9 @@ std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& 
   if (wrap != "repeat" && wrap != "clamp")
     scene.d.note(p.where, "the texture is not " + wrap + " beyond its edges here");
   if (p.text("invert", "false") == "true") scene.d.note(p.where, "the texture is not inverted here");
-  if (p.text("encoding", "sRGB") != "sRGB") scene.d.note(p.where, "the texture's integers are taken as sRGB here");
+  made.is_srgb = p.text("encoding", "sRGB") == "sRGB";
+  if (!made.is_srgb && texels == scene::Texels::colours)
+    scene.d.note(p.where, "the texture's integers are taken as sRGB here");
   made.factor = made.factor * p.number("scale", 1);
   auto file =
       picture(scene.file.find(p.text("filename", ""), p.where),
@@ -288,6 +266,41 @@ std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& 
   if (!file) return std::nullopt;
   made.texture = *file;
   return made;
+}
+
+/// As a preset has it, whose square is the alpha of GGX. PBRT's alpha is the root of its roughness, in version 3 a
+/// polynomial of its logarithm. standard: where the file has none. texture: gets the picture that it is multiplied by;
+/// null: that is left out.
+double roughness_of(PbrtScene& scene, const PbrtParameters& p, double standard, const std::string& key,
+                    std::optional<preset::Texture>* texture) {
+  const bool is_remapped = p.text("remaproughness", "true") != "false";
+  if (texture && !(scene.is_version_3 && is_remapped))
+    if (const auto values = texture_of(scene, p, "roughness", scene::Texels::numbers)) {
+      const double exponent = is_remapped ? 0.25 : 0.5;
+      *texture = roughness_picture(values->texture, exponent, values->is_srgb, key, p.where, scene.d);
+      if (*texture) return std::pow(std::clamp(linear_srgb_of(values->factor)[1], 0.0, 1.0), exponent);
+    }
+  const auto number_of = [&](const char* name, double otherwise) {
+    const PbrtParameter* given = resolved(scene, p, name);
+    if (!given) return otherwise;
+    if (given->type == "float" && given->values.size() == 1) return given->numbers()[0];
+    scene.d.note(given->where,
+                 fmt::format("the {} \"{}\" is left out: {:.3g} takes its place", given->type, name, otherwise));
+    return otherwise;
+  };
+  const double both = number_of("roughness", standard), u = number_of("uroughness", both),
+               v = number_of("vroughness", both);
+  if (u != v) scene.d.note(p.where, fmt::format("its two roughnesses {:.3g} and {:.3g} are one: their mean", u, v));
+  const double mean = std::max((u + v) / 2, 0.0);
+  if (mean == 0) return 0;
+  double alpha = mean;
+  if (is_remapped) {
+    const double x = std::log(std::max(mean, 1e-3));
+    alpha = scene.is_version_3
+                ? 1.62142 + 0.819955 * x + 0.1734 * x * x + 0.0171201 * x * x * x + 0.000640711 * x * x * x * x
+                : std::sqrt(mean);
+  }
+  return std::sqrt(std::clamp(alpha, 0.0, 1.0));
 }
 
 } // namespace
@@ -303,8 +316,12 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
     glass.inside = index_of(scene, p);
     glass.is_ratio = true;
     glass.is_thin = thin;
-    glass.roughness = thin ? 0 : roughness_of(scene, p, 0);
-    if (p.find("Kt")) glass.tint = pbrt_colour(scene, p, "Kt", 1);
+    glass.roughness = thin ? 0 : roughness_of(scene, p, 0, key, &glass.roughness_texture);
+    if (const auto scaled = texture_of(scene, p, "Kt", scene::Texels::colours)) {
+      glass.tint_texture = scaled->texture;
+      glass.tint = scaled->factor;
+    } else if (p.find("Kt"))
+      glass.tint = pbrt_colour(scene, p, "Kt", 1);
     if (const PbrtParameter* given = resolved(scene, p, "Kr"))
       if (const auto colour = colour_of(scene, *given); !colour || values_of(*colour) != optics::constant_spectrum(1))
         scene.d.note(given->where, "its Kr is left out: it reflects as clear glass does");
@@ -315,7 +332,7 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
   preset::Material& made = scene.d.materials[key];
   const auto reflect = [&](const char* name, double standard) {
     if (made.type == preset::Material::Type::diffuse)
-      if (const auto scaled = texture_of(scene, p, name)) {
+      if (const auto scaled = texture_of(scene, p, name, scene::Texels::colours)) {
         made.texture = scaled->texture;
         made.reflectance = reflectance_of(scaled->factor);
         return;
@@ -329,7 +346,7 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
       made = metal(scene, key, p);
     else
       reflect(is_metal ? "reflectance" : "Kr", 0.9);
-    made.roughness = roughness_of(scene, p, type == "metal" ? 0.01 : 0);
+    made.roughness = roughness_of(scene, p, type == "metal" ? 0.01 : 0, key, &made.roughness_texture);
     note_unasked(scene, p);
     return true;
   }
@@ -337,15 +354,17 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
   const char* const colour = p.find("Kd") || is_older ? "Kd" : "reflectance";
   reflect(colour, is_older ? 0.25 : 0.5);
   if (type == "coateddiffuse") {
-    make_plastic(made, p.number("eta", 1.5), roughness_of(scene, p, 0), !made.texture);
+    make_plastic(made, p.number("eta", 1.5), roughness_of(scene, p, 0, key, nullptr), !made.texture);
     if (made.texture) scene.d.note(p.where, "its texture is brighter here: its coat does not darken it");
     note_unasked(scene, p);
   } else if (type == "plastic") {
-    make_plastic(made, 1.5, roughness_of(scene, p, 0.1), false);
+    make_plastic(made, 1.5, roughness_of(scene, p, 0.1, key, nullptr), false);
     scene.d.note(p.where, "its coat reflects as one of n = 1.5 does, and its Kd lies below that");
-  } else if (type == "diffuse" || type == "matte")
+  } else if (type == "diffuse" || type == "matte") {
+    if (const std::string map = p.text("normalmap", ""); !map.empty())
+      made.normal_map = picture(scene.file.find(map, p.where), preset::Texture::Wrap::repeat, {}, p.where, scene.d);
     note_unasked(scene, p);
-  else
+  } else
     scene.d.note(p.where, fmt::format("the material {} is left out: a matt surface of {} takes its place", type,
                                       p.find(colour) ? std::string("its ") + colour
                                       : is_older     ? "0.25"

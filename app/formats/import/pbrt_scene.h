@@ -16,7 +16,8 @@ struct PbrtScene {
   Description& d;
   const PbrtFile& file;
   std::map<std::string, PbrtParameter> textures{}; ///< the values of those that are constant
-  std::map<std::string, PbrtThing> pictures{};     ///< the other textures
+  std::map<std::string, PbrtThing> pictures{};     ///< the other textures of colours
+  std::map<std::string, PbrtThing> numbers{};      ///< the other textures of numbers
   std::map<std::string, PbrtThing> materials{};    ///< those without a name have a number
   std::map<std::string, PbrtThing> media{};
   bool is_version_3 = false;

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/import/textures.h"
 
+#include "base/bytes.h"
+#include "base/error.h"
 #include "base/files.h"
+#include "image/image.h"
+#include "scene/texture.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace nephroid::formats {
 
@@ -45,6 +51,37 @@ std::optional<preset::Texture> picture(const std::filesystem::path& file, preset
   texture.file = std::filesystem::absolute(file).lexically_normal().string();
   texture.wrap = wrap;
   return placed(texture, map, where, into);
+}
+
+std::optional<preset::Texture> roughness_picture(const preset::Texture& values, double exponent, bool is_srgb,
+                                                 const std::string& name, const Location& where, Description& into) {
+  preset::Texture made = values;
+  const auto root = [exponent](double value) { return std::pow(std::clamp(value, 0.0, 1.0), exponent); };
+  if (values.type == preset::Texture::Type::checkerboard) {
+    for (preset::Vec3* colour : {&made.colour0, &made.colour1})
+      for (double& value : *colour) value = root(value);
+    return made;
+  }
+  try {
+    image::Image picture = scene::read_texels(values.file);
+    if (!is_srgb) picture.integers = false;
+    picture.chromaticities.reset();
+    const std::vector<float> rgb = image::rgb_of(picture, values.file).values;
+    std::vector<std::uint16_t> grey;
+    for (std::size_t i = 0; i < rgb.size(); i += 3) {
+      const double mean = (double(rgb[i]) + double(rgb[i + 1]) + double(rgb[i + 2])) / 3;
+      grey.push_back(static_cast<std::uint16_t>(std::lround(65535 * root(std::isfinite(mean) ? mean : 0))));
+    }
+    const std::string file = into.own_file(name + " roughness", ".png");
+    ByteStore bytes;
+    image::write_png16(bytes, picture.width, picture.height, grey, "roughness");
+    into.files.emplace(file, std::string(reinterpret_cast<const char*>(bytes.bytes().data()), bytes.bytes().size()));
+    made.file = file;
+    return made;
+  } catch (const Error& error) {
+    into.note(where, "the picture of its roughness is left out: " + error.line());
+    return std::nullopt;
+  }
 }
 
 } // namespace nephroid::formats

@@ -3,6 +3,7 @@
 // and from its upper one in Mitsuba and glTF.
 #pragma once
 #include "formats/import/description.h"
+#include "scene/texture.h"
 
 #include <glm/glm.hpp>
 
@@ -24,5 +25,11 @@ preset::Texture placed(preset::Texture texture, const TextureMap& map, const Loc
 /// A picture file so placed; nothing, with a note, where it is not there.
 std::optional<preset::Texture> picture(const std::filesystem::path& file, preset::Texture::Wrap wrap,
                                        const TextureMap& map, const Location& where, Description& into);
+
+/// The texture of a roughness, of which the file has the picture of `values`: a preset's roughness is their value to
+/// the power `exponent`, so the picture is written anew. is_srgb: integers are. Nothing, with a note, where it cannot
+/// be read.
+std::optional<preset::Texture> roughness_picture(const preset::Texture& values, double exponent, bool is_srgb,
+                                                 const std::string& name, const Location& where, Description& into);
 
 } // namespace nephroid::formats
