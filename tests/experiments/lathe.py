@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the turned meshes of presets/environment: a drinking glass, the water in it, a finger ring.
+"""Writes the turned meshes of presets: a drinking glass, the water in it, a finger ring, a hoop, a bottle.
 
-usage: lathe.py [FOLDER]    (presets/environment)
+usage: lathe.py [FOLDER]    (presets)
 
 A profile is a list of (radius, height) from below to above along the outside; about the y axis it becomes a closed mesh
 that faces outwards. Arcs are fine enough for smooth normals. Centimetres.
@@ -44,6 +44,19 @@ def ring():
     return [place(a) for a in around]
 
 
+def hoop():
+    """Upright walls from 1 to 1.1, 0.8 high, rounded rims."""
+    return (arc((1.05, 0.05), 0.05, 180, 360, 8) + [(1.1, 0.1), (1.1, 0.7)] + arc((1.05, 0.75), 0.05, 0, 180, 8) +
+            [(1, 0.7), (1, 0.1)])
+
+
+def bottle():
+    """12.7 high, without its hollow: smaller, it is what fills it."""
+    return ([(0, 0), (1.6, 0)] + arc((2.8, 0.4), 0.4, -90, 0, 5) + [(3.2, 0.9), (3.2, 4), (3.2, 7.6)] +
+            arc((1.9, 8), 1.3, 0, 62, 8) + [(1.6, 9.6), (1.25, 10.3), (1.12, 11), (1.1, 12.2)] +
+            arc((1.1, 12.5), 0.2, -60, 90, 5) + [(0.6, 12.7), (0, 12.7)])
+
+
 def turn(profile, segments, closes):
     """OBJ text. closes: the profile's end joins its begin; else it begins and ends on the axis."""
     lines, rows = [], []
@@ -68,10 +81,12 @@ def turn(profile, segments, closes):
 
 
 def main():
-    folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "presets/environment")
-    for name, profile, closes in [("drinking-glass", drinking_glass(), False), ("water", water(), False),
-                                  ("ring", ring(), True)]:
-        text = "# made by tests/experiments/lathe.py\n" + turn(profile, 96, closes)
+    folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "presets")
+    for name, profile, segments, closes in [("environment/drinking-glass", drinking_glass(), 96, False),
+                                            ("environment/water", water(), 96, False),
+                                            ("environment/ring", ring(), 96, True), ("spectral/hoop", hoop(), 96, True),
+                                            ("spectral/bottle", bottle(), 64, False)]:
+        text = "# made by tests/experiments/lathe.py\n" + turn(profile, segments, closes)
         (folder / f"{name}.obj").write_text(text)
 
 

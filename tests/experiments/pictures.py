@@ -32,17 +32,17 @@ SIZE = 256
 SCENES = ["bunny", "bunny-arbitrary-2", "diamond-arbitrary-1", "enclosed-bunny", "cylinders", "newton", "prism-f10"]
 GALLERY = [
     "first-light",
-    "spectral/brilliant",
-    "spectral/ball-lens",
-    "spectral/glass-in-a-room",
-    "spectral/prism",
-    "spectral/thesis/newton",
+    "spectral/on-wood",
+    "spectral/gold-and-copper",
+    "spectral/coatings",
+    "spectral/frosted-bottle",
+    "spectral/prism-macro",
     "spectral/thesis/cylinders",
-    "spectral/thesis/diamond-arbitrary-1",
-    "spectral/thesis/enclosed-bunny",
     "spectral/thesis/bunny-arbitrary-2",
-    "extremes/laser-beside-lamp",
-    "extremes/nested-eight",
+    "spectral/thesis/diamond-arbitrary-1",
+    "spectral/glass-in-a-room",
+    "spectral/evening-sun",
+    "environment/glass",
 ]
 OTHERS = ["staircase", "rhodamine-6G", "rhodamine-6G-absorption", "F8BT", "F8BT-absorption"]
 RAINBOW = ["spectral.photons_per_pass=1048576"]
@@ -55,12 +55,27 @@ PEERS = {
 SIDE = {"geometry": f"{SIZE}x{SIZE}"}
 
 
+def front(s, name):
+    s.keep(name, [s.render("front", "spectral/gold-and-copper", size=(840, 560), seconds=240)])
+
+
 def first_light(s, name):
     s.keep(name, [s.render("first-light", "first-light")])
 
 
 def materials(s, name):
-    s.keep(name, [s.render("materials", "spectral/on-wood")])
+    s.keep(name, [s.render("materials", "spectral/on-wood", size=(576, 384), seconds=120)])
+
+
+def surfaces(s, name):
+    """A bottle, films and coats, rings."""
+    presets = ["frosted-bottle", "coatings", "gold-and-copper"]
+    s.keep(name, [of_gallery(s, f"spectral/{preset}") for preset in presets], 3, 1)
+
+
+def coatings(s, name):
+    s.script("coatings.py", s.folder / "coatings")
+    s.keep(name, [s.folder / "coatings" / "coatings.png"])
 
 
 def camera(s, name):
@@ -84,11 +99,13 @@ def pictures(s, name):
     )
 
 
+def of_gallery(s, preset):
+    """A shipped preset as it comes, but for its size."""
+    return s.render("gallery-" + preset.replace("/", "-"), preset, size=(342, 228), seconds=40)
+
+
 def gallery(s, name):
-    """Shipped presets as they come, after 20 seconds."""
-    s.keep(
-        name, [s.render("gallery-" + preset.replace("/", "-"), preset, seconds=20) for preset in GALLERY], 4, 1, **SIDE
-    )
+    s.keep(name, [of_gallery(s, preset) for preset in GALLERY], 3, 1)
 
 
 def thesis_scenes(s, name):
@@ -244,11 +261,14 @@ WINDOW = [
     "spectra",
 ]
 MAKERS = {
+    "front.jpg": front,
     "first-light.png": first_light,
     "grazing-rainbow.png": grazing_rainbow,
     "inverse-glass.png": inverse_glass,
     "gallery.jpg": gallery,
     "materials.jpg": materials,
+    "surfaces.jpg": surfaces,
+    "coatings.png": coatings,
     "pictures.jpg": pictures,
     "camera.jpg": camera,
     "thesis-scenes.jpg": thesis_scenes,

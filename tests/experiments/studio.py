@@ -111,6 +111,7 @@ class Studio:
         if self.small:
             return
         target = self.docs / name
+        gap = gap if len(pictures) > 1 else 0
         if len(pictures) == 1 and not widest and Path(pictures[0]).suffix == target.suffix:
             shutil.copyfile(pictures[0], target)
         else:

@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 WIDTH, HEIGHT = 128, 96
-SECONDS, PASSES, PATIENCE = 6, 16, 120
+SECONDS, PASSES, PATIENCE = 20, 32, 240
 TARGET = Path(__file__).resolve().parents[2] / "presets" / "thumbnails"
 
 
