@@ -14,8 +14,7 @@ said to have left out. OUT/SCENE.png is theirs, ours, and their difference, 4 ti
 Noise is the root mean square of a pixel's deviation among seeds over the mean light, of pixels that show the floor
 alone. Both have S seconds of all threads together, ours with its start and its files, theirs without.
 
-Mitsuba's particle tracer (of lamps that are points) shows nothing in glass, so there the floor alone counts. Where a
-lamp is a surface, Mitsuba shows its reflection in glass and we do not.
+Mitsuba's particle tracer (of lamps that are points) shows nothing in glass, so there the floor alone counts.
 """
 import json
 import os

@@ -27,6 +27,8 @@ FLOOR = f"""<shape type="rectangle"><transform name="to_world"><scale value="4"/
 LAMP = """<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="90"/>
 <translate x="1" y="4"/></transform><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
 <emitter type="area"><rgb name="radiance" value="10"/></emitter></shape>"""
+SMALL_LAMP = LAMP.replace('<translate x="1"', '<scale value="0.1"/><translate x="1"').replace(
+    'value="10"', 'value="1000"')
 POINT = '<emitter type="point"><point name="position" x="1" y="4" z="0.5"/><rgb name="intensity" value="20"/></emitter>'
 
 
@@ -229,6 +231,8 @@ SCENES = {
     "thin pane": mitsuba(whole(SKY_LIGHT, PANE)),
     "rough glass": mitsuba(whole(SKY_LIGHT, FROSTED)),
     "rough glass, lamp": mitsuba(whole(LAMP, FROSTED)),
+    "rough glass, small lamp": mitsuba(whole(SMALL_LAMP, FROSTED)),
+    "textured floor, small lamp": mitsuba(whole(SMALL_LAMP, ball(), floor=CHECKED)),
     "textured floor": mitsuba(whole(LAMP, ball(), floor=CHECKED)),
     "plastic floor": mitsuba(whole(LAMP, ball(), floor=VARNISHED)),
     "sun and sky": mitsuba(whole(SUN_AND_SKY, ball())),
