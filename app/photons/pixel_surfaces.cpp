@@ -230,8 +230,8 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
     const Type type = material.type;
     const glm::dvec3 arrives = ray.way();
     if (is_refractive(type)) {
-      // Most of the light passes a pane.
-      if (material.thin ? !is_textured(material) : !ray.cross(*hit)) continue;
+      const bool bends = !material.thin && ray.cross(*hit); // most of the light passes a pane
+      if (!bends && !is_textured(material)) continue;
     } else if (!is_matt(type))
       ray.reflect(*hit);
     const bool is_first = surfaces.first.object < 0;

@@ -122,8 +122,6 @@ bool glass_meets_glass(const scene::Scene& scene) {
   return false;
 }
 
-bool parts_wavelengths(const scene::Scene& scene) { return any_material(scene, scene::parts_wavelengths); }
-
 /// A rough surface sends neighbouring photons to different places, so no piece of light joins them. A tile has one
 /// colour, and a texture many. What a coating reflects, or passes a texture of glass, is worked out for one wavelength,
 /// and the others of its cluster are treated otherwise.
@@ -148,10 +146,13 @@ void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& sc
       throw bad_input(spectral / "relight", "keeps layers for surfaces of one colour, and one has a texture",
                       "expected false", "or take the texture away");
   }
-  if (wanted.relight && std::ranges::any_of(scene.lights, [](const scene::Light& l) { return l.object >= 0; }))
+  const auto is_seen = [&](const scene::Light& light) {
+    return light.object >= 0 && is_matt(material_of(scene, scene.objects[static_cast<std::size_t>(light.object)]).type);
+  };
+  if (wanted.relight && std::ranges::any_of(scene.lights, is_seen))
     throw bad_input(spectral / "relight", "keeps layers of what surfaces scatter, and an object shines itself",
                     "expected false", "or take an area light in its place");
-  if (!parts_wavelengths(scene)) return;
+  if (!any_material(scene, scene::parts_wavelengths)) return;
   const char* const what = any_material(scene, scene::is_coated) ? "coating" : "texture of glass";
   const auto refuse = [&](bool is_set, const char* field, const char* expected) {
     if (is_set)

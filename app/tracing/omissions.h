@@ -24,7 +24,7 @@ ObjectCounts count_objects(const scene::Scene& scene);
 /// False only where no glass object or mirror is in the camera's view or encloses the camera.
 bool may_see_glass_or_mirror(const scene::Scene& scene);
 
-/// Whether no object's glass disperses light or is coated.
+/// Whether no object's glass disperses light, is coated or has a texture.
 bool goes_one_way(const scene::Scene& scene);
 
 /// Rows of the plan for what may be left out. What the scene does not need runs where nothing is left out.

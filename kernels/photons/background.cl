@@ -9,7 +9,7 @@
 #include "kernels/tracing/piece.h"
 #include "kernels/tracing/work_item.h"
 
-// 1: no glass disperses light or is coated.
+// 1: no glass disperses light, is coated or has a texture.
 #ifndef NEPHROID_ONE_WAY
 #define NEPHROID_ONE_WAY 0
 #endif

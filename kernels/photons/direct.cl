@@ -63,14 +63,14 @@ IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* ban
       radiance_scale = part_through_coat(world, &surface, path.direction);
     else {
 #if NEPHROID_ROUGH
-      shine.by_facets = material.alpha > 0.0f;
-      if (shine.by_facets)
+      if (material.alpha > 0.0f)
         shine.xyz = highlights(world, &path, &surface, first.primitive, &material, band, seed, sample,
                                PATHS_THROUGH_GLASS, pixel + 0x9e3779b9u);
 #endif
       const float2 facet = facet_numbers(seed, sample, pixel, BEFORE_THE_PATH, STREAM_CAMERA);
       Bend bend;
       if (!first_bend(world, &path, &first, band, true, facet, &radiance_scale, &bend)) return shine.xyz;
+      shine.by_facets = material.alpha > 0.0f;
       first = next_hit(world, &path);
       if (first.primitive == NEPHROID_NO_PRIMITIVE) return shine.xyz;
     }

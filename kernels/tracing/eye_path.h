@@ -243,7 +243,7 @@ static inline float3 highlights(const World* world, const Path* path, const Surf
 // next hit. `hit` and, at a diffuse surface, `surface` become those of its end. Returns the factor of the radiance
 // there, 0 where the path is lost: a path keeps radiance over n^2 (Nicodemus 1963, "Radiance"). stream: for the numbers
 // that choose between reflection and refraction. likelier: takes the likelier of both, for a preview.
-// shine: with NEPHROID_HIGHLIGHTS.
+// shine: with NEPHROID_HIGHLIGHTS, what is added to it on the way.
 #ifdef NEPHROID_HIGHLIGHTS
 typedef struct {
   float3 xyz;     // light of lamps that rough surfaces send back on the way
@@ -272,15 +272,19 @@ IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool k
                          : eye_numbers(seed, sample, surface_number == 0 ? paths : 0u, pixel,
                                        1u + (uint)surface_number / 4u, stream);
 #if NEPHROID_ROUGH && defined(NEPHROID_HIGHLIGHTS)
-    shine->by_facets = material.alpha > 0.0f;
-    if (shine->by_facets)
+    if (material.alpha > 0.0f)
       shine->xyz += radiance_scale * highlights(world, path, surface, hit->primitive, &material, band, seed, sample,
                                                 max(paths, 1u), pixel + 0x9e3779b9u * (1u + (uint)surface_number));
 #endif
     const float2 facet = facet_numbers(seed, sample, pixel, (uint)surface_number, stream);
     if (ends_at(world, path->direction, surface, &material, choices.x, facet)) return radiance_scale;
     float n_ratio;
-    if (!bend_path(world, path, hit->primitive, surface, &material, band, choices.x, facet, &n_ratio)) return 0.0f;
+    Bend bend;
+    if (!bend_path_as(world, path, hit->primitive, surface, &material, band, choices.x, facet, &n_ratio, &bend))
+      return 0.0f;
+#ifdef NEPHROID_HIGHLIGHTS
+    shine->by_facets = material.alpha > 0.0f && !bend.straight;
+#endif
     radiance_scale *= n_ratio * n_ratio;
     choices = choices.yzwx;
   }

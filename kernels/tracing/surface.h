@@ -127,12 +127,13 @@ static inline float3 start_on_side(const Surface* surface, float side) {
 
 // The part of the light along the unit vector `way`, to or from it, that a surface with such a normal as its shading
 // normal takes: 1, or less where it would take more than what falls on the triangle over the cosine of both normals
-// (Chiang, Li and Burley 2019, "Taming the Shadow Terminator", without its smoothing).
+// (Chiang, Li and Burley 2019, "Taming the Shadow Terminator", without its smoothing); 0 from behind one of both.
 static inline float part_at_normal(const Surface* surface, float3 way) {
 #if NEPHROID_NORMAL_MAPS
-  const float falls = fabs(dot(way, surface->geometric)),
-              takes = fabs(dot(way, surface->shading)) * dot(surface->shading, surface->geometric);
-  return takes > falls ? falls / takes : 1.0f;
+  const float falls = dot(way, surface->geometric),
+              takes = dot(way, surface->shading) * dot(surface->shading, surface->geometric);
+  if (falls * takes <= 0.0f) return 0.0f;
+  return fabs(takes) > fabs(falls) ? falls / takes : 1.0f;
 #else
   return 1.0f;
 #endif
@@ -145,9 +146,9 @@ static inline float part_at_normal(const Surface* surface, float3 way) {
 // lights the surface. It is the ratio of both cosines (Veach 1997, 5.3.2), and 0 behind the shading normal's horizon.
 static inline float shading_ratio(const Surface* surface, float3 arriving) {
 #if NEPHROID_SMOOTH
-  const float ratio = dot(arriving, surface->shading) / dot(arriving, surface->geometric);
-  return part_at_normal(surface, arriving) *
-         (ratio > 0.0f ? (ratio < SHADING_RATIO_LIMIT ? ratio : SHADING_RATIO_LIMIT) : 0.0f);
+  const float ratio = dot(arriving, surface->shading) / dot(arriving, surface->geometric) *
+                      part_at_normal(surface, arriving);
+  return ratio > 0.0f ? (ratio < SHADING_RATIO_LIMIT ? ratio : SHADING_RATIO_LIMIT) : 0.0f;
 #else
   return 1.0f;
 #endif

@@ -214,13 +214,13 @@ TEST(MeshLight, SendsItsPower) {
 }
 
 // A ball of 0.5 m that shines with 5 W has the radiance 5 / (pi 4 pi 0.5^2): in the middle of the picture, seen past
-// nothing, through a pane, in a mirror, in frosted metal (where highlights have it, and what paths meet must not add to
-// them) and in gold.
+// nothing, through a pane, in a mirror, and in a frosted mirror, where highlights have it and what paths meet must not
+// add to them. A lamp of plastic, polished or rough, is as bright less what its coat reflects, 4 % straight on.
 TEST(Lamps, AreSeen) {
   const double y = optics::to_xyz(spectrum_of({.spectrum = line(550)}))[1], radiance = 5 * y / (M_PI * M_PI);
-  const auto seen = [&](const preset::Material* between) {
+  const auto seen = [&](const preset::Material* between, const preset::Material& lamp = white(0)) {
     preset::Preset p = empty_preset(16);
-    p.scene.materials = {{"black", white(0)}};
+    p.scene.materials = {{"black", lamp}};
     p.scene.objects = {object("ball", check::ball(0.5), "black", at({0, 2, 0}))};
     p.scene.lights = {{.type = Type::mesh, .spectrum = line(550), .power_w = 5, .object = "ball"}};
     p.scene.camera = {.position = {0, 0, 0}, .target = {0, 1, 0}, .up = {0, 0, -1}, .fov_deg = 5};
@@ -246,6 +246,13 @@ TEST(Lamps, AreSeen) {
   expect_truth("the same in a mirror", seen(&mirror), 0.8, 1e-5);
   mirror.roughness = 0.1; // facets within some degrees, of a ball of 19
   expect_truth("the same in a frosted mirror", seen(&mirror), 0.8, 0.02);
+  preset::Material plastic{.type = preset::Material::Type::plastic};
+  plastic.reflectance.value = 0;
+  expect_truth("a ball of plastic, seen directly", seen(nullptr, plastic), 0.96, 1e-3);
+  expect_truth("the same in a frosted mirror", seen(&mirror, plastic), 0.8 * 0.96, 0.02);
+  mirror.roughness = 0;
+  plastic.roughness = 0.3;
+  expect_truth("a ball of rough plastic in a polished mirror", seen(&mirror, plastic), 0.8 * 0.96, 0.02);
 }
 
 // Kernels made for a scene, with other lights beside, make what general kernels make.

@@ -276,7 +276,8 @@ TEST_F(MitsubaImport, MattSurfacesHaveTextures) {
   EXPECT_EQ(texcoords[0][0], glm::vec2(0, 1)); // at (-1, -1), where v is 0 there
   EXPECT_EQ(texcoords[2][0], glm::vec2(0, 0.25));
   EXPECT_FALSE(material_of(p, 2).texture);
-  EXPECT_THAT(made.notes, Contains(HasSubstr("its texture is left out, as the surface has no u, v")));
+  EXPECT_THAT(made.notes,
+              Contains(HasSubstr("what pictures say of it is left out, as the surface has no u, v: grey of 0.5")));
   ASSERT_TRUE(material_of(p, 3).texture);
   EXPECT_EQ(material_of(p, 3).texture->colour1, (preset::Vec3{0.5, 0.25, 1}));
   EXPECT_NEAR(material_of(p, 3).texture->colour0[0], 0.2, 1e-12);

@@ -134,8 +134,8 @@ TEST_F(SceneImport, SurfacesStayAndShine) {
     EXPECT_EQ(lights[i].type, preset::Light::Type::mesh);
     EXPECT_EQ(lights[i].object, p.scene.objects[i].name);
   }
-  EXPECT_EQ(p.scene.materials.at(p.scene.objects[0].material).reflectance.value, 0);
-  EXPECT_NEAR(lights[0].power_w / lights[1].power_w, 4 * pi * 4 / 4, 1e-6); // areas
+  EXPECT_EQ(p.scene.materials.at(p.scene.objects[0].material).reflectance.value, 0.5); // as without a lamp
+  EXPECT_NEAR(lights[0].power_w / lights[1].power_w, 4 * pi * 4 / 4, 1e-6);            // areas
   EXPECT_NEAR(lights[2].power_w / lights[1].power_w, 6, 1e-6);
   const scene::Scene scene = scene::load_scene(p); // the cube shines to its inside
   EXPECT_LT(scene::signed_volume(scene.geometry, scene.objects[2].first_triangle, 12), 0);

@@ -308,8 +308,8 @@ std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster) {
     for (const optics::Spectrum* spectrum :
          {&material.n, &material.k, &material.reflectance, &material.tint, &material.coating_n})
       hash = hash_items(*spectrum, hash);
-    for (const auto* texture : {&material.texture, &material.roughness_texture})
-      if (*texture) hash = hash_texture(**texture, hash);
+    if (material.texture) hash = hash_texture(*material.texture, hash_of("texture", hash));
+    if (material.roughness_texture) hash = hash_texture(*material.roughness_texture, hash_of("roughness", hash));
   }
   return mesh.texcoords.empty() ? hash : hash_items(mesh.texcoords, hash);
 }

@@ -10,7 +10,7 @@ namespace nephroid::formats {
 /// Places and lengths in the coordinates that the mesh's triangles are brought to.
 struct Emitter {
   glm::dvec3 centre{0}; ///< of the area
-  glm::dvec3 normal{0}; ///< of a flat one: a unit vector
+  glm::dvec3 normal{0}; ///< of a flat one: a unit vector; else the sum of its areas as vectors
   double area = 0;
   bool flat = false;
 };

@@ -75,9 +75,11 @@ private:
       shape.material = material(primitives[p]);
       shape.mesh = key->second;
       if (primitives[p].has("material")) {
-        const auto emission = emission_of(root_.item("materials", primitives[p].index("material", root_, "materials")));
+        const GltfValue surface = root_.item("materials", primitives[p].index("material", root_, "materials"));
+        const auto emission = emission_of(surface);
         const glm::dvec3 rgb(emission[0], emission[1], emission[2]);
         if (rgb != glm::dvec3(0)) shape.glow.emplace().rgb = rgb / most_lumens;
+        shape.glows_on_both_sides = surface.truth("doubleSided", false);
       }
       for (const glm::dmat4& instance : places) {
         shape.to_world = node.to_world * instance;

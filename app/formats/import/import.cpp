@@ -156,11 +156,14 @@ private:
       without = {};
       without.reflectance.value = 0.5;
       instead = ": grey of 0.5 takes its place";
-    } else if (material.roughness_texture) {
-      without.roughness /= 2;
-      instead = fmt::format(": a roughness of {:.3g} takes its place", without.roughness);
     }
-    from_.note(shape.where, "its texture is left out, as the surface has no u, v" + instead);
+    if (material.tint_texture) instead += ": the glass is clear";
+    if (material.roughness_texture) {
+      without.roughness /= 2;
+      instead += fmt::format(": a roughness of {:.3g} takes its place", without.roughness);
+    }
+    if (material.normal_map) instead += ": it is even";
+    from_.note(shape.where, "what pictures say of it is left out, as the surface has no u, v" + instead);
     for (plain = shape.material + " plain"; made_.scene.materials.contains(plain);) plain += " 2";
     without.roughness_texture = without.tint_texture = without.normal_map = std::nullopt;
     made_.scene.materials[plain] = without;
@@ -187,6 +190,9 @@ private:
     light.position = scene::to_vec3(e.centre);
     light.power_w = power_of(e.area);
     const bool both = shape.glows_on_both_sides && e.flat;
+    // The areas of a closed surface add up to 0 as vectors.
+    if (shape.glows_on_both_sides && !e.flat && glm::length(e.normal) > 1e-3 * e.area)
+      from_.note("a curved surface that shines on both sides shines on its outside alone");
     if (both && shape.glow_power) light.power_w /= 2; // that of both
     keep_glowing(shape, light);
     if (!both) return;

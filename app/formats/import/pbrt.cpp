@@ -252,11 +252,9 @@ private:
     std::vector<DescribedShape> shapes;
     for (DescribedShape& shape : d_.shapes) {
       Use& use = uses_.at(shape.material);
-      if (!shape.glow) {
-        if (!use.key) use.key = key_of(use, taken);
-        if (use.key->empty()) continue; // no surface
-        shape.material = *use.key;
-      }
+      if (!use.key) use.key = key_of(use, taken);
+      if (use.key->empty() && !shape.glow) continue; // no surface
+      shape.material = *use.key;
       shapes.push_back(std::move(shape));
     }
     d_.shapes = std::move(shapes);

@@ -38,7 +38,8 @@ std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, con
   return sources;
 }
 
-/// A surface that the light reaches from the scene's radius gets 2^24 quanta of the direct film. The limit is one that
+/// A surface that the light reaches from the scene's radius gets 2^24 quanta of the direct film, and a lamp's own
+/// surface 2^40 at most, which no sample of it exceeds. The limit is one that
 /// the pixel's samples cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches.
 void set_scales(const scene::Scene& scene, int pixel_samples, RunTables& tables) {
   const double metres = scene.metres_per_unit, radius = tracing::scene_bounds(scene).radius;
@@ -46,6 +47,10 @@ void set_scales(const scene::Scene& scene, int pixel_samples, RunTables& tables)
   double irradiance = 0;
   for (const scene::Light& light : scene.lights)
     irradiance += light.irradiance_w_m2 + light.power_w / (4 * pi * std::pow(radius * metres, 2));
+  for (const shared::DeviceLight& light : tables.lights) // a mesh's solid_angle is its area
+    if (light.type == LIGHT_MESH)
+      irradiance =
+          std::max(irradiance, light.radiometric * tables.power_unit / (light.solid_angle * metres * metres) * 0x1p-16);
   tables.direct_scale = tracing::power_of_two_below(std::exp2(24) * pi / irradiance);
   tables.direct_limit = std::exp2(62) / pixel_samples;
   tables.energy_scale = tracing::energy_scale(tables.light_towards_targets_w);
