@@ -91,6 +91,22 @@ def radiance_of(picture):
     return b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % picture.shape[:2] + rgbe.tobytes()
 
 
+def png_of(values):
+    """Rows of red, green and blue, 0 to 1, as a picture of 8 bits."""
+    rows = np.round(255 * np.asarray(values)).astype(np.uint8)
+    height, width = rows.shape[:2]
+    lines = b"".join(b"\0" + row.tobytes() for row in rows)
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        for kind, data in ((b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)),
+                           (b"IDAT", zlib.compress(lines)), (b"IEND", b"")))
+
+
+def bitmap(name, file, raw):
+    return (f'<texture type="bitmap" name="{name}"><string name="filename" value="{file}"/>'
+            f'<boolean name="raw" value="{raw}"/></texture>')
+
+
 def pbrt(body, camera='LookAt 0 6 8  0 0 0  0 1 0\nCamera "perspective" "float fov" 40'):
     """PBRT is left-handed: the lamp, which stands at x = 1 elsewhere, is at -1."""
     return (f'Film "rgb" "integer xresolution" {SIZE} "integer yresolution" {SIZE}\n{camera}\nWorldBegin\n'
@@ -176,6 +192,20 @@ FROSTED = ball(material=rough("roughdielectric", .1, '<float name="int_ior" valu
 SUN_AND_SKY = """<emitter type="sunsky"><float name="turbidity" value="3"/>
 <vector name="sun_direction" x=".4" y=".8" z=".45"/></emitter>"""
 
+# Normals that lean by up to 25 degrees, a roughness alpha of .05 to .3, and panes of colours.
+CHANCE = np.random.default_rng(46)
+LEANS = CHANCE.uniform(-.3, .3, (8, 8, 2))
+NORMALS = np.concatenate([LEANS, np.sqrt(1 - (LEANS ** 2).sum(-1, keepdims=True))], -1) / 2 + .5
+ALPHAS = np.repeat(CHANCE.uniform(.05, .3, (8, 8, 1)), 3, -1)
+COLOURS = CHANCE.uniform(.1, .9, (4, 4, 3))
+BUMPY = FLOOR.replace(grey(.6), f"""<bsdf type="twosided"><bsdf type="normalmap">{bitmap("normalmap", "n.png", "true")}
+<bsdf type="diffuse"><rgb name="reflectance" value=".6"/></bsdf></bsdf></bsdf>""")
+ETCHED = PANE[:PANE.index("<bsdf")] + '<bsdf type="twosided">' + rough(
+    "roughconductor", .1, '<string name="material" value="none"/>').replace(
+        '<float name="alpha" value="0.1"/>', bitmap("alpha", "a.png", "true")) + "</bsdf></shape>"
+STAINED = PANE.replace('<float name="specular_transmittance" value="0.8"/>',
+                       bitmap("specular_transmittance", "c.png", "false"))
+
 ABSORBS = ('<medium name="interior" type="homogeneous"><rgb name="sigma_t" value="0.5"/><rgb name="albedo" value="0"/>'
            '</medium>')
 
@@ -243,6 +273,9 @@ SCENES = {
                                                                "perspective", "thinlens"))),
     "rough mirror": mitsuba(whole(SKY_LIGHT, ball(material=rough("roughconductor", .1,
                                                                  '<string name="material" value="none"/>')))),
+    "normal map": mitsuba(whole(LAMP, ball(), floor=BUMPY), **{"n.png": png_of(NORMALS)}),
+    "etched mirror": mitsuba(whole(SKY_LIGHT, ETCHED), **{"a.png": png_of(ALPHAS)}),
+    "stained pane": mitsuba(whole(SKY_LIGHT, STAINED), **{"c.png": png_of(COLOURS)}),
     "sky of a picture": mitsuba(whole('<emitter type="envmap"><string name="filename" value="sky.hdr"/>'
                                       '<float name="scale" value="2"/><transform name="to_world">'
                                       '<rotate y="1" angle="70"/></transform></emitter>', ball()),

@@ -55,7 +55,11 @@ TEST_F(ImportedPictures, AreOfRoughnessTintAndNormalsInMitsuba) {
   std::size_t with_map = 0, matt = 0;
   for (std::size_t i = 0; i < p.scene.objects.size(); ++i) {
     matt += material_of(p, i).type == preset::Material::Type::diffuse;
-    with_map += material_of(p, i).normal_map.has_value();
+    if (!material_of(p, i).normal_map) continue;
+    ++with_map;
+    const image::Image normals = image::read_image(folder.path() / material_of(p, i).normal_map->file);
+    EXPECT_NEAR(normals.data.at(0), raw, 1e-6);
+    EXPECT_NEAR(normals.data.at(1), 1 - raw, 1e-6) << "Mitsuba's y goes down in the picture";
   }
   EXPECT_EQ(matt, 2u);
   EXPECT_EQ(with_map, 1u) << "the same bsdf without its map has none";

@@ -377,8 +377,12 @@ std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
   if (!refracts) {
     preset::Material& made = scene.d.materials[key] = opaque(scene, node, type, key);
     if (normal_map && type == "diffuse") {
-      made.normal_map = texture_of(scene, normal_map, "normalmap", scene::Texels::numbers);
-      if (!made.normal_map) scene.d.note(file.at(normal_map), "the normalmap is left out: it is no picture");
+      const auto map = texture_of(scene, normal_map, "normalmap", scene::Texels::numbers);
+      if (!map || map->type != preset::Texture::Type::file)
+        scene.d.note(file.at(normal_map), "the normalmap is left out: it is no picture");
+      else
+        made.normal_map = normals_with_y_up(*map, !file.flag(file.child(normal_map, "normalmap"), "raw"), key,
+                                            file.at(normal_map), scene.d);
     }
     return key;
   }

@@ -53,6 +53,43 @@ std::optional<preset::Texture> picture(const std::filesystem::path& file, preset
   return placed(texture, map, where, into);
 }
 
+namespace {
+
+/// The picture of a texture's numbers. is_srgb: integers are encoded.
+image::Image numbers_of(const preset::Texture& texture, bool is_srgb) {
+  image::Image picture = scene::read_texels(texture.file);
+  if (!is_srgb) picture.integers = false;
+  picture.chromaticities.reset();
+  return {picture.width, picture.height, {"R", "G", "B"}, image::rgb_of(picture, texture.file).values};
+}
+
+/// texture gets the file of its own, written by `write`.
+template <class Write>
+void give_file(preset::Texture& texture, const std::string& name, const char* extension, Description& into,
+               const Write& write) {
+  texture.file = into.own_file(name, extension);
+  ByteStore bytes;
+  write(bytes);
+  into.files.emplace(texture.file,
+                     std::string(reinterpret_cast<const char*>(bytes.bytes().data()), bytes.bytes().size()));
+}
+
+} // namespace
+
+std::optional<preset::Texture> normals_with_y_up(const preset::Texture& map, bool is_srgb, const std::string& name,
+                                                 const Location& where, Description& into) {
+  preset::Texture made = map;
+  try {
+    image::Image picture = numbers_of(map, is_srgb);
+    for (std::size_t i = 1; i < picture.data.size(); i += 3) picture.data[i] = 1 - picture.data[i];
+    give_file(made, name + " normals", ".exr", into, [&](ByteStore& bytes) { image::write_exr(bytes, picture); });
+    return made;
+  } catch (const Error& error) {
+    into.note(where, "the normalmap is left out: " + error.line());
+    return std::nullopt;
+  }
+}
+
 std::optional<preset::Texture> roughness_picture(const preset::Texture& values, double exponent, bool is_srgb,
                                                  const std::string& name, const Location& where, Description& into) {
   preset::Texture made = values;
@@ -63,20 +100,15 @@ std::optional<preset::Texture> roughness_picture(const preset::Texture& values, 
     return made;
   }
   try {
-    image::Image picture = scene::read_texels(values.file);
-    if (!is_srgb) picture.integers = false;
-    picture.chromaticities.reset();
-    const std::vector<float> rgb = image::rgb_of(picture, values.file).values;
+    const image::Image picture = numbers_of(values, is_srgb);
+    const std::vector<float>& rgb = picture.data;
     std::vector<std::uint16_t> grey;
     for (std::size_t i = 0; i < rgb.size(); i += 3) {
       const double mean = (double(rgb[i]) + double(rgb[i + 1]) + double(rgb[i + 2])) / 3;
       grey.push_back(static_cast<std::uint16_t>(std::lround(65535 * root(std::isfinite(mean) ? mean : 0))));
     }
-    const std::string file = into.own_file(name + " roughness", ".png");
-    ByteStore bytes;
-    image::write_png16(bytes, picture.width, picture.height, grey, "roughness");
-    into.files.emplace(file, std::string(reinterpret_cast<const char*>(bytes.bytes().data()), bytes.bytes().size()));
-    made.file = file;
+    give_file(made, name + " roughness", ".png", into,
+              [&](ByteStore& bytes) { image::write_png16(bytes, picture.width, picture.height, grey, "roughness"); });
     return made;
   } catch (const Error& error) {
     into.note(where, "the picture of its roughness is left out: " + error.line());

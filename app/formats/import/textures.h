@@ -32,4 +32,8 @@ std::optional<preset::Texture> picture(const std::filesystem::path& file, preset
 std::optional<preset::Texture> roughness_picture(const preset::Texture& values, double exponent, bool is_srgb,
                                                  const std::string& name, const Location& where, Description& into);
 
+/// A normal map whose y goes down in the picture, as Mitsuba has it: written anew with y up. Else as roughness_picture.
+std::optional<preset::Texture> normals_with_y_up(const preset::Texture& map, bool is_srgb, const std::string& name,
+                                                 const Location& where, Description& into);
+
 } // namespace nephroid::formats
