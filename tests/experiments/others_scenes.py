@@ -113,7 +113,8 @@ def pbrt(body, camera='LookAt 0 6 8  0 0 0  0 1 0\nCamera "perspective" "float f
             'Material "diffuse" "rgb reflectance" [ .6 .6 .6 ]\n'
             'Shape "trianglemesh" "point3 P" [ -4 -1.5 -4  4 -1.5 -4  4 -1.5 4  -4 -1.5 4 ] '
             '"integer indices" [ 0 1 2 0 2 3 ]\n'
-            'AttributeBegin\nAreaLightSource "diffuse" "rgb L" [ 10 10 10 ]\n'
+            'AttributeBegin\nMaterial "diffuse" "rgb reflectance" [ 0 0 0 ]\n'
+            'AreaLightSource "diffuse" "rgb L" [ 10 10 10 ]\n'
             'Shape "trianglemesh" "point3 P" [ -2 4 -1  0 4 -1  0 4 1  -2 4 1 ] "integer indices" [ 0 1 2 0 2 3 ]\n'
             f'AttributeEnd\n{body}\n')
 
