@@ -337,10 +337,13 @@ void Smoothing::find_surfaces() {
                             is_so(first.object, scene::has_tint_texture);
     seen[i] = {pulled[i] || is_rough ? first : last, has_detail ? -1 : first.object};
   }
-  std::vector<bool> is_lamp(view->scene.objects.size() + 1); // by object + 1
-  for (const scene::Light& light : view->scene.lights) is_lamp[static_cast<std::size_t>(light.object + 1)] = true;
-  is_lamp[0] = false;
-  const auto shows_lamp = [&](std::size_t i) { return is_lamp[static_cast<std::size_t>(pixels[i].last.object + 1)]; };
+  std::vector<bool> is_lamp(view->scene.objects.size());
+  for (const scene::Light& light : view->scene.lights)
+    if (light.object >= 0) is_lamp[static_cast<std::size_t>(light.object)] = true;
+  const auto shows_lamp = [&](std::size_t i) {
+    const int object = pixels[i].last.object;
+    return object >= 0 && is_lamp[static_cast<std::size_t>(object)];
+  };
   std::vector<bool> near_lamp(seen.size());
   for_neighbours(width_, height_, true, [&](std::size_t i, std::size_t j) {
     if (shows_lamp(i) || shows_lamp(j)) near_lamp[i] = near_lamp[j] = true;
