@@ -100,8 +100,8 @@ TEST(RoughnessTextures, OfZeroAndNextToItArePolished) {
       ASSERT_EQ(black.size(), polished.size());
       for (std::size_t i = 0; i < black.size(); ++i) ASSERT_NEAR(black[i], polished[i], 1e-5f + 1e-5f * polished[i]);
     }
-    for (const float value : render_as_it_is(rough_thing(glassy, 1, even(0.011))).picture->rgb)
-      ASSERT_TRUE(std::isfinite(value));
+    const job::Snapshot rough = render_as_it_is(rough_thing(glassy, 1, even(0.011)));
+    for (const float value : rough.picture->rgb) ASSERT_TRUE(std::isfinite(value));
   }
 }
 
