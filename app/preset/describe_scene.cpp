@@ -127,8 +127,7 @@ void describe(Fields& v, Material& m) {
             "What the roughness is multiplied by: green of a picture file or an object. Integers are plain numbers.",
             m.roughness_texture);
   if (m.type == Type::diffuse) {
-    v.field("normal_map",
-            "A picture of normals, as glTF has it: (1 + x, y, z) / 2 as red, green and blue, which are plain numbers.",
+    v.field("normal_map", "Normals as glTF has them: red, green, blue, plain numbers, are (1 + x, y, z) / 2.",
             m.normal_map);
     v.field("normal_scale", "Factor of the x and y of the normal map.", m.normal_scale, {.bounds = within(-100, 100)});
   }
