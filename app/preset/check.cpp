@@ -98,6 +98,9 @@ void check_object(const Object& o, const Scene& scene, const std::string& pointe
   if (o.mesh.has_value() == o.shape.has_value())
     throw bad_input(where(pointer), o.mesh ? "has both 'mesh' and 'shape'" : "has neither 'mesh' nor 'shape'",
                     "expected exactly one of them");
+  if (o.shape && !o.states.empty())
+    throw bad_input(where(child(pointer, "states")), "is of a mesh only, and the object is a shape",
+                    "expected 'mesh', or no states", "a shape's own numbers can be animated");
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (std::abs(o.transform.scale[axis]) < 1e-6)
       throw bad_input(where(child(child(child(pointer, "transform"), "scale"), axis)),

@@ -62,7 +62,9 @@ inline constexpr Choice<Shape::Type> choices<Shape::Type>[] = {
     {Shape::Type::cylinder, "cylinder", "A closed cylinder about the y axis."},
     {Shape::Type::prism, "prism", "A prism along y whose cross-section is an isosceles triangle."},
     {Shape::Type::plate, "plate", "A plane-parallel plate, y thick."},
-    {Shape::Type::brilliant, "brilliant", "A brilliant-cut stone with its table up."}};
+    {Shape::Type::brilliant, "brilliant", "A brilliant-cut stone with its table up."},
+    {Shape::Type::water, "water", "A box of water with waves on it, which wind has raised."},
+    {Shape::Type::relief, "relief", "A box whose top has the heights of a picture."}};
 
 template <>
 inline constexpr Choice<Object::Normals> choices<Object::Normals>[] = {

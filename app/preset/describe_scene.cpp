@@ -156,10 +156,28 @@ void describe(Fields& v, Shape& s) {
   v.type("type", "Which shape.", s.type);
   if (s.type == Type::quad) length("size", "Edge lengths along x and z; the middle number is not used.", s.size);
   if (s.type == Type::box || s.type == Type::plate) length("size", "Edge lengths along x, y and z.", s.size);
+  if (s.type == Type::water) length("size", "Edge lengths along x, y and z at rest; y is the depth.", s.size);
+  if (s.type == Type::relief) length("size", "Edge lengths along x, y and z; y where the picture is black.", s.size);
   if (s.type == Type::sphere || s.type == Type::cylinder) length("radius", "Radius.", s.radius);
   if (s.type == Type::brilliant) length("radius", "Radius of the girdle.", s.radius);
   if (s.type == Type::cylinder || s.type == Type::prism) length("height", "Length along y.", s.height);
+  if (s.type == Type::relief) length("height", "How much higher white is than black.", s.height);
   if (s.type == Type::cylinder) v.field("segments", "Facets around.", s.segments, {.bounds = within(3, 4096)});
+  if (s.type == Type::water || s.type == Type::relief)
+    v.field("segments", "Squares along the longer edge.", s.segments, {.bounds = within(3, 4096)});
+  if (s.type == Type::relief)
+    v.field("picture", "A picture of heights: its green, as a plain number; its top is at -z.", s.picture,
+            {.text = Text::file, .required = true});
+  if (s.type == Type::water) {
+    v.field("wind_m_s", "Speed of the wind that raises the waves; 0: the water is at rest.", s.wind_m_s,
+            {.unit = "m/s", .bounds = within(0, 60)});
+    v.field("wind_deg", "Where the wind goes to, counterclockwise from +x as seen from above.", s.wind_deg,
+            {.unit = "degrees", .bounds = within(-3600, 3600)});
+    v.field("fetch_m", "The length of water that the wind has blown over: longer waves come of a longer one.",
+            s.fetch_m, {.unit = "m", .bounds = within(0.1, 1e6)});
+    v.field("time_s", "The waves run with it.", s.time_s, {.unit = "s", .bounds = within(-1e6, 1e6)});
+    v.field("seed", "Which waves of those that this wind may raise.", s.seed);
+  }
   if (s.type == Type::prism) {
     v.field("apex_deg", "Angle between the two equal sides; their edge is at +z.", s.apex_deg,
             {.unit = "degrees", .bounds = within(0.1, 179)});
@@ -168,10 +186,19 @@ void describe(Fields& v, Shape& s) {
   v.field("inwards", "Turn the shape inside out, for a room.", s.inwards);
 }
 
+void describe(Fields& v, State& s) {
+  v.about("State", "What an object's mesh can become.");
+  v.field("mesh", "A mesh file with as many triangles as the object's, in the same order.", s.mesh,
+          {.text = Text::file, .required = true});
+  v.field("weight", "How far it is there: 0 the object's mesh, 1 this one.", s.weight, {.bounds = within(-100, 100)});
+}
+
 void describe(Fields& v, Object& o) {
   v.about("Object", "A mesh or a shape, put in its place.");
   v.field("name", "What messages call it.", o.name, {.text = Text::line});
   v.field("mesh", "A mesh file (OBJ, PLY, STL, glTF, ...); give either this or a shape.", o.mesh, {.text = Text::file});
+  v.field("states", "What the mesh can become: its vertices go a part of the way to each.", o.states,
+          {.count = {0, 1000}});
   v.field("shape", "A simple shape; give either this or a mesh.", o.shape);
   v.field("material", "One of the names in scene.materials.", o.material,
           {.text = Text::line, .names = Names::material, .required = true});

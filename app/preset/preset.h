@@ -136,22 +136,37 @@ struct Transform {
 
 /// Shapes are centred on the origin; y is up. Every closed shape's triangles face outwards.
 struct Shape {
-  enum class Type { quad, box, sphere, cylinder, prism, plate, brilliant };
+  enum class Type { quad, box, sphere, cylinder, prism, plate, brilliant, water, relief };
   Type type = Type::sphere;
-  Vec3 size{1, 1, 1};   ///< quad (x by z, facing +y), box, plate (x by z, y thick): edge lengths
-  double radius = 0.5;  ///< sphere, cylinder; brilliant: girdle radius
-  double height = 1;    ///< cylinder and prism: length along y
-  double apex_deg = 60; ///< prism: angle between the two equal sides, whose edge is at +z
-  double side = 1;      ///< prism: length of the two equal sides
-  int segments = 256;   ///< cylinder: facets around
-  bool inwards = false; ///< turn every triangle round, e.g. for a room
+  /// Edge lengths: quad (x by z, facing +y), box, plate (x by z, y thick); water at rest, relief where it is black.
+  Vec3 size{1, 1, 1};
+  double radius = 0.5;      ///< sphere, cylinder; brilliant: girdle radius
+  double height = 1;        ///< cylinder and prism: length along y; relief: how much higher white is than black
+  double apex_deg = 60;     ///< prism: angle between the two equal sides, whose edge is at +z
+  double side = 1;          ///< prism: length of the two equal sides
+  int segments = 256;       ///< cylinder: facets around; water, relief: squares along the longer edge
+  double wind_m_s = 3;      ///< water: ten metres above it; 0: it is at rest
+  double wind_deg = 0;      ///< water: where the wind goes to, counterclockwise from +x as seen from above
+  double fetch_m = 100;     ///< water: how long the wind has blown over it
+  double time_s = 0;        ///< water
+  std::uint64_t seed = 1;   ///< water: which waves of those that this wind may raise
+  std::string picture = {}; ///< relief: a picture file, whose green is the height; its top is at -z
+  bool inwards = false;     ///< turn every triangle round, e.g. for a room
   bool operator==(const Shape&) const = default;
+};
+
+/// What an object's mesh can become, and how far it has: a morph target.
+struct State {
+  std::string mesh;  ///< a mesh file with the same triangles, elsewhere
+  double weight = 0; ///< 0: the object's own mesh; 1: this one
+  bool operator==(const State&) const = default;
 };
 
 struct Object {
   enum class Normals { faceted, smooth };
   std::string name;
   std::optional<std::string> mesh; ///< a mesh file; exactly one of mesh and shape is given
+  std::vector<State> states;       ///< of the mesh: each moves its vertices by its weight's part of the way
   std::optional<Shape> shape;
   std::string material; ///< a key of Scene::materials
   Transform transform;

@@ -23,8 +23,12 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-bool same_triangles(const scene::Mesh& a, const scene::Mesh& b) {
-  return same_bytes(a.positions, b.positions) && same_bytes(a.triangles, b.triangles);
+/// The tree that the lender's becomes for another mesh. Null where that has other triangles or any ellipsoid.
+std::shared_ptr<const scene::Bvh> lent_tree(const LoadedScene& lender, const scene::Mesh& mesh) {
+  const scene::Mesh& lent = lender.scene.geometry;
+  if (!same_bytes(lent.triangles, mesh.triangles) || lent.ellipsoids.size() != mesh.ellipsoids.size()) return nullptr;
+  if (mesh.ellipsoids.empty() && same_bytes(lent.positions, mesh.positions)) return lender.bvh;
+  return std::make_shared<const scene::Bvh>(scene::refitted(*lender.bvh, mesh));
 }
 
 /// What the scene that `lender` lends was read from, at its time.
@@ -42,12 +46,9 @@ LoadedScene load(const preset::Preset& preset, const Prepared* previous, bool le
     return loaded;
   }
   LoadedScene loaded{scene::load_scene(preset, watch), nullptr};
-  if (previous && same_triangles(loaded.scene.geometry, previous->loaded->scene.geometry))
-    loaded.bvh = previous->loaded->bvh;
-  else {
-    watch.begin("sorting the triangles");
-    loaded.bvh = std::make_shared<const scene::Bvh>(scene::build_bvh(loaded.scene.geometry));
-  }
+  watch.begin("sorting the triangles");
+  if (previous) loaded.bvh = lent_tree(*previous->loaded, loaded.scene.geometry);
+  if (!loaded.bvh) loaded.bvh = std::make_shared<const scene::Bvh>(scene::build_bvh(loaded.scene.geometry));
   return loaded;
 }
 

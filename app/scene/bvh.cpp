@@ -4,6 +4,7 @@
 #include "scene/bvh.h"
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "scene/mesh_parts.h"
 
 #if __has_include(<embree4/rtcore.h>)
@@ -153,6 +154,14 @@ void set_box(float* child, const Box& box) {
     child[16 * axis] = box.low[static_cast<int>(axis)];
     child[16 * axis + 8] = box.high[static_cast<int>(axis)];
   }
+}
+
+Box box_at(const float* child) { return {{child[0], child[16], child[32]}, {child[8], child[24], child[40]}}; }
+
+/// Half its surface.
+double area_of(const Box& box) {
+  const glm::dvec3 edges = glm::dvec3(box.high) - glm::dvec3(box.low);
+  return edges.x * edges.y + edges.y * edges.z + edges.z * edges.x;
 }
 
 /// Lays Embree's nodes out in the kernel's format, depth first.
@@ -309,21 +318,48 @@ Bvh build_bvh(const Mesh& mesh) {
   boxes = {}; // they take as much as the tree
   bvh.root = Layout(mesh, bvh).add(*root, 0, 1);
   if (bvh.nodes.empty()) bvh.nodes.resize(floats_per_node); // the root is a leaf
+  bvh.built_cost = cost_of(bvh);
   return bvh;
 }
 
 void refit(Bvh& bvh, const Mesh& mesh) {
   if (bvh.root < 0) refit_leaf(bvh, bvh.root, mesh);
-  std::vector<Box> boxes(bvh.nodes.size() / floats_per_node);
-  for (std::size_t node = boxes.size(); node-- > 0;) // children come after their parents
+  const std::size_t count = bvh.nodes.size() / floats_per_node;
+  const auto child_of = [&](const float* place) { return std::bit_cast<int>(place[48]); }; // 0: none, as the root is
+  for_ranges(count, 1024, [&](std::size_t, Range nodes) {
+    for (float* to = bvh.nodes.data() + nodes.begin * floats_per_node;
+         to < bvh.nodes.data() + nodes.end * floats_per_node; to += floats_per_node)
+      for (std::size_t i = 0; i < children_per_node; ++i)
+        if (child_of(to + i) < 0) set_box(to + i, refit_leaf(bvh, child_of(to + i), mesh));
+  });
+  std::vector<Box> boxes(count);
+  for (std::size_t node = count; node-- > 0;) // children come after their parents
     for (std::size_t i = 0; i < children_per_node; ++i) {
       float* to = bvh.nodes.data() + node * floats_per_node + i;
-      const int child = std::bit_cast<int>(to[48]);
-      if (child == 0) continue; // there is none: the root is nobody's child
-      const Box box = child < 0 ? refit_leaf(bvh, child, mesh) : boxes[static_cast<std::size_t>(child)];
-      set_box(to, box);
-      boxes[node].add(box);
+      const int child = child_of(to);
+      if (child > 0) set_box(to, boxes[static_cast<std::size_t>(child)]);
+      if (child != 0) boxes[node].add(box_at(to));
     }
+}
+
+double cost_of(const Bvh& bvh) {
+  Box whole;
+  double sum = 0;
+  for (std::size_t node = 0; node < bvh.nodes.size() / floats_per_node; ++node)
+    for (std::size_t i = 0; i < children_per_node; ++i) {
+      const float* place = bvh.nodes.data() + node * floats_per_node + i;
+      if (std::bit_cast<int>(place[48]) == 0) continue;
+      const Box box = box_at(place);
+      sum += area_of(box);
+      if (node == 0) whole.add(box); // the root is the first node
+    }
+  return sum > 0 ? sum / area_of(whole) : 1;
+}
+
+Bvh refitted(const Bvh& before, const Mesh& mesh) {
+  Bvh bvh = before;
+  refit(bvh, mesh);
+  return cost_of(bvh) > 4.0 / 3 * bvh.built_cost ? build_bvh(mesh) : bvh;
 }
 
 } // namespace nephroid::scene

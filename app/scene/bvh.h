@@ -22,6 +22,7 @@ struct Bvh {
   int root = 0;  ///< node index, or ~leaf
   int depth = 0; ///< nodes on the longest way from the root to a leaf: -DNEPHROID_BVH_DEPTH must be at least that
   int stack = 0; ///< what -DNEPHROID_BVH_STACK must be at least: entries that a traversal can need at once
+  double built_cost = 0; ///< cost_of() when it was built
 };
 
 /// The -D flags of kernels that go through it. An object that moves changes the tree, but hardly ever these: a kernel
@@ -33,7 +34,16 @@ std::map<std::string, std::string> tree_defines(const Bvh& bvh);
 Bvh build_bvh(const Mesh& mesh);
 
 /// Fits a tree to where its mesh's vertices and ellipsoids are now: a tenth of the time of building one. Rays meet the
-/// same as with a new tree, later the more the shapes have changed.
+/// same as with a new tree, later the more the shapes have changed. Triangles that have an area now had one when the
+/// tree was built.
 void refit(Bvh& bvh, const Mesh& mesh);
+
+/// The boxes that a ray through the tree's own box meets, on average over all such rays (MacDonald and Booth 1990,
+/// "Heuristics for ray tracing using space subdivision").
+double cost_of(const Bvh& bvh);
+
+/// The tree of a mesh whose triangles are those of a tree that there is, elsewhere: that one refitted, or where its
+/// cost has grown by more than a third since it was built, a new one.
+Bvh refitted(const Bvh& before, const Mesh& mesh);
 
 } // namespace nephroid::scene

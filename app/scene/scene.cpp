@@ -3,9 +3,11 @@
 // objects.
 #include "scene/scene.h"
 
+#include "scene/heights.h"
 #include "scene/materials.h"
 #include "scene/move.h"
 #include "scene/object_mesh.h"
+#include "scene/states.h"
 
 #include <fmt/format.h>
 
@@ -202,10 +204,14 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
   // Each file is read once, however many objects name it and however large it is.
   std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes;
   const auto mesh_of = [&](const preset::Object& object, const Location& at) {
+    if (object.shape && has_heights(*object.shape))
+      return std::make_shared<const Mesh>(make_heights(*object.shape, scene.metres_per_unit, finder, at / "shape"));
     if (object.shape) return std::make_shared<const Mesh>(make_shape(*object.shape));
-    const std::filesystem::path file = finder.find(*object.mesh, at / "mesh");
-    if (!meshes.contains(file)) meshes[file] = load_mesh_once(file, watch);
-    return meshes[file];
+    return deformed_mesh(object, at, [&](const std::string& name, const Location& place) {
+      const std::filesystem::path file = finder.find(name, place);
+      if (!meshes.contains(file)) meshes[file] = load_mesh_once(file, watch);
+      return meshes[file];
+    });
   };
   std::vector<Pending> pending;
   for (std::size_t i = 0; i < preset.scene.objects.size(); ++i) {

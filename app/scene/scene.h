@@ -246,7 +246,7 @@ std::vector<glm::dvec3> places_of_mesh(const Scene& scene, const Object& object)
 /// vertices of their own, so their normals are exact; curved sides share theirs. quad: open, size x by z in the plane y
 /// = 0, facing +y. box, plate: size x, y, z. sphere: an exact one, not of triangles. cylinder: about the y axis, flat
 /// ends, a sharp rim. prism: stands along y; the apex edge at +z, the third side at -z, facing -z. brilliant: the round
-/// brilliant cut, table up: 57 facets and 16 of the girdle.
+/// brilliant cut, table up: 57 facets and 16 of the girdle. Of water and relief nothing: those are in heights.h.
 Mesh make_shape(const preset::Shape& shape);
 
 /// The plane of a flat object, in the scene's coordinates.

@@ -189,6 +189,8 @@ Mesh make_outward(const preset::Shape& shape) {
     for (glm::vec3& position : mesh.positions) position *= static_cast<float>(shape.radius);
     return mesh;
   }
+  case preset::Shape::Type::water:
+  case preset::Shape::Type::relief: break; // heights.h
   }
   return {};
 }

@@ -92,7 +92,7 @@ public:
       const auto caustic =
           std::ranges::find(caustics, static_cast<int>(i), [](const Caustic& c) { return c.receiver.object; });
       if (const preset::Object& meant = preset.scene.objects[i];
-          caustic == caustics.end() && meant.mesh && shared_[kind_of(meant)].uses > 1)
+          caustic == caustics.end() && meant.mesh && meant.states.empty() && shared_[kind_of(meant)].uses > 1)
         add_instance(scene.objects[i], meant);
       else
         add_object(scene.objects[i], caustic == caustics.end() ? nullptr : &*caustic);
