@@ -14,10 +14,21 @@ namespace nephroid::formats {
 /// Names, with how many asked for each.
 using TakenNames = std::map<std::string, int>;
 
+/// What a mesh can become, and how its weight changes.
+struct DescribedState {
+  struct Key {
+    double seconds = 0, weight = 0;
+  };
+  std::string mesh;      ///< a key of Description::meshes
+  double weight = 0;     ///< where it does not change
+  std::vector<Key> keys; ///< by rising time; straight lines between them
+};
+
 struct DescribedShape {
   Location where;
   std::string name;
   std::string mesh;                    ///< a key of Description::meshes; empty: a sphere about the origin
+  std::vector<DescribedState> states;  ///< of the mesh
   double radius = 1;                   ///< the sphere's
   glm::dmat4 to_world{1};              ///< in the file's coordinates
   std::string material;                ///< a key of Description::materials

@@ -38,6 +38,7 @@ public:
   GltfReader(const GltfFile& file, Description& into) : root_(file.json, file.where()), meshes_(file), d_(into) {
     d_.source = file.file;
     d_.fits_white = true;
+    read_animations();
     for (const GltfNode& node : nodes_of(file)) {
       if (node.value.has("camera")) add_camera(node);
       if (!node.is_visible) d_.note("what the file hides (KHR_node_visibility) is left out");
@@ -47,10 +48,77 @@ public:
       if (node.value.object("extensions").has("KHR_lights_punctual")) add_light(node);
     }
     note_extensions();
-    if (!root_.list("animations").empty()) d_.note("animations are left out");
   }
 
 private:
+  /// How the weights of a node's morph targets change: the numbers of all targets at each time.
+  struct WeightKeys {
+    std::vector<double> seconds, weights;
+  };
+
+  /// The first of the file's animations that moves weights; the others play instead of it, not with it.
+  void read_animations() {
+    const std::vector<GltfValue> animations = root_.list("animations");
+    for (const GltfValue& animation : animations) {
+      for (const GltfValue& channel : animation.list("channels")) {
+        const GltfValue target = channel.object("target");
+        if (target.text("path") != "weights" || !target.has("node")) {
+          d_.note("animations are left out, but those of morph targets");
+          continue;
+        }
+        if (!weights_.empty() && animated_by_ != animation.where().text()) {
+          d_.note("of several animations of morph targets the first is taken");
+          continue;
+        }
+        animated_by_ = animation.where().text();
+        weights_[target.index("node", root_, "nodes")] = weight_keys(channel.item("sampler", animation, "samplers"));
+      }
+    }
+  }
+
+  WeightKeys weight_keys(const GltfValue& sampler) {
+    WeightKeys keys{meshes_.numbers(sampler, "input", 1), meshes_.numbers(sampler, "output", 1)};
+    const std::string way = sampler.text("interpolation");
+    const std::size_t times = keys.seconds.size(), parts = way == "CUBICSPLINE" ? 3 : 1,
+                      width = keys.weights.size() / (times * parts);
+    if (width == 0 || keys.weights.size() != width * times * parts)
+      throw bad_input(sampler.where(), fmt::format("has {} numbers at {} times", keys.weights.size(), times));
+    for (std::size_t i = 0; i < times; ++i)
+      if (!std::isfinite(keys.seconds[i]) || (i > 0 && !(keys.seconds[i] > keys.seconds[i - 1])))
+        throw bad_input(sampler.where(), "its times do not rise");
+    for (double& weight : keys.weights)
+      if (!std::isfinite(weight)) throw bad_input(sampler.where(), "has a weight that is not a finite number");
+    if (parts == 3) { // a tangent, the value, a tangent
+      std::vector<double> values;
+      for (std::size_t i = 0; i < times; ++i)
+        for (std::size_t w = 0; w < width; ++w) values.push_back(keys.weights[(3 * i + 1) * width + w]);
+      keys.weights = std::move(values);
+      d_.note("weights of morph targets go straight from key to key where the file has curves");
+    }
+    if (way == "STEP") d_.note("weights of morph targets go straight from key to key where the file has steps");
+    return keys;
+  }
+
+  /// targets: keys of meshes.
+  std::vector<DescribedState> states_of(const GltfNode& node, const GltfValue& mesh,
+                                        const std::vector<std::string>& targets) {
+    const GltfValue& weighted = node.value.has("weights") ? node.value : mesh;
+    const std::vector<double> weights = weighted.number_list("weights");
+    const auto animated = weights_.find(node.index);
+    std::vector<DescribedState> states;
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+      DescribedState& state = states.emplace_back();
+      state.mesh = targets[k];
+      if (k < weights.size()) state.weight = weights[k];
+      if (animated == weights_.end()) continue;
+      const WeightKeys& keys = animated->second;
+      const std::size_t width = keys.weights.size() / keys.seconds.size();
+      for (std::size_t i = 0; k < width && i < keys.seconds.size(); ++i)
+        state.keys.push_back({keys.seconds[i], keys.weights[i * width + k]});
+    }
+    return states;
+  }
+
   void add_mesh(const GltfNode& node) {
     const std::size_t index = node.value.index("mesh", root_, "meshes");
     const GltfValue mesh = root_.item("meshes", index);
@@ -65,15 +133,15 @@ private:
       }
       if (primitives[p].object("attributes").has("COLOR_0"))
         d_.note(fmt::format("the colours of the corners of '{}' are left out", name));
-      if (primitives[p].has("targets")) d_.note("morph targets are left out: meshes are as they rest");
-      const auto [key, is_new] = keys_.try_emplace({index, p});
-      if (is_new) key->second = own_mesh(primitives[p], name);
-      if (key->second.empty()) continue;
+      const auto [keys, is_new] = keys_.try_emplace({index, p});
+      if (is_new) keys->second = own_meshes(primitives[p], name);
+      if (keys->second.empty()) continue;
       DescribedShape shape;
       shape.where = primitives[p].where();
       shape.name = name;
       shape.material = material(primitives[p]);
-      shape.mesh = key->second;
+      shape.mesh = keys->second[0];
+      shape.states = states_of(node, mesh, {keys->second.begin() + 1, keys->second.end()});
       if (primitives[p].has("material")) {
         const GltfValue surface = root_.item("materials", primitives[p].index("material", root_, "materials"));
         const auto emission = emission_of(surface);
@@ -88,8 +156,8 @@ private:
     }
   }
 
-  /// The mesh's key; empty where nothing of it can be seen.
-  std::string own_mesh(const GltfValue& primitive, const std::string& name) {
+  /// The mesh's key, then those of its morph targets; empty where nothing of it can be seen.
+  std::vector<std::string> own_meshes(const GltfValue& primitive, const std::string& name) {
     if (!primitive.object("attributes").has("POSITION")) {
       d_.note(fmt::format("a part of '{}' has no positions and is left out", name));
       return {};
@@ -99,8 +167,12 @@ private:
       d_.note(fmt::format("a part of '{}' has no triangle with an area and is left out", name));
       return {};
     }
+    std::vector<std::string> keys{{}};
+    for (const GltfValue& target : primitive.list("targets"))
+      keys.push_back(d_.own_mesh(name + " target", meshes_.target(mesh, primitive, target)));
     turn_upside_down(mesh);
-    return d_.own_mesh(name, std::move(mesh));
+    keys[0] = d_.own_mesh(name, std::move(mesh));
+    return keys;
   }
 
   void note_extensions() {
@@ -227,7 +299,9 @@ private:
   GltfValue root_;
   GltfMeshes meshes_;
   Description& d_;
-  std::map<std::pair<std::size_t, std::size_t>, std::string> keys_; ///< keys of meshes by mesh and primitive
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> keys_; ///< of meshes, by mesh and primitive
+  std::map<std::size_t, WeightKeys> weights_;                                    ///< by the node
+  std::string animated_by_;                                                      ///< the animation that they are of
   std::map<std::size_t, std::string> material_names_;
   TakenNames taken_materials_;
 };

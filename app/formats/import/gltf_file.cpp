@@ -200,6 +200,14 @@ std::vector<std::size_t> GltfValue::indices(const char* key, const GltfValue& ro
   return all;
 }
 
+std::vector<double> GltfValue::number_list(const char* key) const {
+  if (!has(key)) return {};
+  if (!(*json_)[key].is_array()) refuse(where_ / key, "a list of numbers");
+  std::vector<double> values((*json_)[key].size());
+  read_numbers(key, values.data(), values.size());
+  return values;
+}
+
 void GltfValue::read_numbers(const char* key, double* values, std::size_t count) const {
   if (!has(key)) return;
   const GltfJson& value = (*json_)[key];

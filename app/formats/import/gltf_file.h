@@ -52,6 +52,7 @@ public:
   /// An index into root's list, and a list of such.
   std::size_t index(const char* key, const GltfValue& root, const char* list) const;
   std::vector<std::size_t> indices(const char* key, const GltfValue& root, const char* list) const;
+  std::vector<double> number_list(const char* key) const; ///< empty without it
   template <std::size_t N>
   std::array<double, N> numbers(const char* key, const std::array<double, N>& standard) const {
     std::array<double, N> values = standard;

@@ -243,6 +243,28 @@ scene::Mesh GltfMeshes::read(const GltfValue& primitive) const {
   return mesh;
 }
 
+scene::Mesh GltfMeshes::target(const scene::Mesh& own, const GltfValue& primitive, const GltfValue& target) const {
+  scene::Mesh mesh = own;
+  mesh.texcoords.clear();
+  const auto add = [&](const char* key, std::vector<glm::vec3>& to) {
+    if (!target.has(key) || to.empty()) return;
+    const std::vector<double> ways = numbers(target, key, 3);
+    if (ways.size() != 3 * to.size())
+      throw bad_input(primitive.where() / "targets",
+                      fmt::format("has {} {}S of {} vertices", ways.size() / 3, key, to.size()));
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      to[i] += glm::vec3(ways[3 * i], ways[3 * i + 1], ways[3 * i + 2]);
+      if (!std::isfinite(glm::dot(to[i], to[i])))
+        throw bad_input(primitive.where() / "targets", fmt::format("vertex {} is not a finite number there", i));
+    }
+  };
+  add("POSITION", mesh.positions);
+  add("NORMAL", mesh.normals);
+  for (glm::vec3& normal : mesh.normals)
+    if (const float length = glm::length(normal); length > 0) normal /= length;
+  return mesh;
+}
+
 std::vector<glm::dmat4> GltfMeshes::instances(const GltfValue& node) const {
   constexpr const char* extension = "EXT_mesh_gpu_instancing";
   if (!node.object("extensions").has(extension)) return {glm::dmat4(1)};

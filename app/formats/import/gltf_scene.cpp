@@ -146,7 +146,7 @@ std::vector<GltfNode> nodes_of(const GltfFile& file) {
       throw bad_input(node.where(), "the node has two parents, or nodes go round in a circle", "expected a tree");
     seen[task.index] = true;
     const bool is_visible = task.is_visible && node.extension("KHR_node_visibility").truth("visible", true);
-    nodes.push_back({node, task.parent * local_matrix(node), is_visible});
+    nodes.push_back({node, task.index, task.parent * local_matrix(node), is_visible});
     add(node.indices("children", root, "nodes"), nodes.back().to_world, is_visible);
   }
   return nodes;

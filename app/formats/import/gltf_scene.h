@@ -16,6 +16,7 @@ namespace nephroid::formats {
 
 struct GltfNode {
   GltfValue value;
+  std::size_t index = 0; ///< in the file's list
   glm::dmat4 to_world;
   bool is_visible = true; ///< by KHR_node_visibility, of it and of all its parents
 };
@@ -80,6 +81,13 @@ public:
   /// what it uses: data that are missing, shorter than the file says or no numbers, indices out of range.
   scene::Mesh read(const GltfValue& primitive) const;
 
+  /// The same mesh at one of the primitive's "targets". Throws as read().
+  scene::Mesh target(const scene::Mesh& own, const GltfValue& primitive, const GltfValue& target) const;
+
+  /// Of the accessor whose index is from[key]; width: how many an item has to have. Throws bad_input at what is
+  /// missing.
+  std::vector<double> numbers(const GltfValue& from, const char* key, std::size_t width) const;
+
   /// The file's own bytes of a picture, in a buffer or in its URI; else where the file is that it names.
   struct Picture {
     std::string bytes;
@@ -97,8 +105,6 @@ private:
   };
   const std::string& buffer(std::size_t index) const;
   Items items(const GltfValue& value, std::uint64_t count, std::size_t item) const;
-  /// Of the accessor whose index is from[key]; width: how many an item has to have.
-  std::vector<double> numbers(const GltfValue& from, const char* key, std::size_t width) const;
 
   const GltfFile& file_;
   GltfValue root_;

@@ -96,6 +96,37 @@ public:
   bool is_textured(const std::string& mesh) const { return textured_.contains(mesh); }
 
 private:
+  /// A mesh that is sheared or flattened, as it is then, about its place. Returns its key.
+  std::string own_sheared(const DescribedShape& shape, const std::string& from, const glm::dmat4& to_world) {
+    scene::Mesh mesh = from_.meshes.at(from);
+    mesh.normals.clear();
+    for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dmat3(to_world) * glm::dvec3(p));
+    if (glm::determinant(glm::dmat3(to_world)) < 0) scene::turn_triangles(mesh);
+    return from_.own_mesh(shape.name, std::move(mesh));
+  }
+
+  /// What the object's mesh becomes, and tracks of it. keys: of the states' meshes.
+  void add_states(preset::Object& object, const DescribedShape& shape, const std::vector<std::string>& keys) {
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const DescribedState& from = shape.states[i];
+      const auto weight = [](double value) { return std::clamp(value, -100.0, 100.0); };
+      used_.insert(keys[i]);
+      preset::State& state = object.states.emplace_back(preset::State{folder_ + "/" + keys[i], weight(from.weight)});
+      if (from.keys.empty()) continue;
+      if (!made_.animation) made_.animation.emplace().frames = 1;
+      preset::Track track;
+      track.path = fmt::format("scene.objects.{}.states.{}.weight", made_.scene.objects.size(), i);
+      for (const DescribedState::Key& key : from.keys) {
+        const double frame = std::clamp(std::round(key.seconds * made_.animation->fps), 0.0, preset::max_frames - 1.0);
+        if (!track.keys.empty() && track.keys.back().frame == static_cast<int>(frame)) track.keys.pop_back();
+        track.keys.push_back({static_cast<int>(frame), {weight(key.weight)}});
+      }
+      state.weight = track.keys.front().value[0];
+      made_.animation->frames = std::max(made_.animation->frames, track.keys.back().frame + 1);
+      made_.animation->tracks.push_back(std::move(track));
+    }
+  }
+
   void see(const glm::dvec3& p) { bounds_ = scene::enclosing(bounds_, {p, p}); }
   glm::dvec3 middle() const { return 0.5 * (bounds_.low + bounds_.high); }
   double size() const { return std::max(glm::length(bounds_.high - bounds_.low), 1e-3); }
@@ -117,12 +148,11 @@ private:
           for (const double z : {-1.0, 1.0}) see(to_world * glm::dvec4(x, y, z, 1));
     } else {
       std::string key = shape.mesh;
-      if (!transform) { // a mesh that is sheared or flattened is written as it is then, about its place
-        scene::Mesh mesh = from_.meshes.at(key);
-        mesh.normals.clear();
-        for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dmat3(to_world) * glm::dvec3(p));
-        if (glm::determinant(glm::dmat3(to_world)) < 0) scene::turn_triangles(mesh);
-        key = from_.own_mesh(shape.name, std::move(mesh));
+      std::vector<std::string> states;
+      for (const DescribedState& state : shape.states) states.push_back(state.mesh);
+      if (!transform) {
+        key = own_sheared(shape, key, to_world);
+        for (std::string& state : states) state = own_sheared(shape, state, to_world);
         if (textured_.contains(shape.mesh)) textured_.insert(key);
         to_world = glm::translate(glm::dmat4(1), glm::dvec3(to_world[3]));
         transform = transform_of(to_world);
@@ -135,6 +165,7 @@ private:
       for (const glm::vec3& p : mesh.positions) see(to_world * glm::dvec4(glm::dvec3(p), 1));
       object.mesh = folder_ + "/" + key;
       used_.insert(key);
+      add_states(object, shape, states);
     }
     object.transform = *transform;
     object.priority = shape.priority;
@@ -217,6 +248,8 @@ private:
     } else if (!preset::is_matt(made_.scene.materials.at(shape.material).type))
       from_.note(shape.where, "a surface of glass or metal that shines lights the scene, but is not seen to shine");
     if (shape.inside_out && !shape.mesh.empty()) {
+      if (!shape.states.empty()) from_.note(shape.where, "morph targets of a surface whose back shines are left out");
+      shape.states.clear();
       scene::Mesh mesh = from_.meshes.at(shape.mesh);
       mesh.normals.clear();
       scene::turn_triangles(mesh);
