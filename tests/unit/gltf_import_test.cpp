@@ -10,6 +10,7 @@
 #include "preset/read.h"
 #include "scene/materials.h"
 #include "scene/scene.h"
+#include "tests/support/gltf.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test.h"
 
@@ -20,62 +21,10 @@ namespace nephroid::gltf_import_test {
 using preset::Light;
 using preset::Material;
 using Json = nlohmann::json;
-
-/// A triangle with corners (0, 0, 0), (1, 0, 0), (0, 1, 0) and three indices.
-std::string triangle_bytes() {
-  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-  const std::uint16_t indices[] = {0, 1, 2};
-  std::string bytes(sizeof positions + sizeof indices, '\0');
-  std::memcpy(bytes.data(), positions, sizeof positions);
-  std::memcpy(bytes.data() + sizeof positions, indices, sizeof indices);
-  return bytes;
-}
-
-Json triangle() {
-  return Json::parse(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"name":"tri"}],
-    "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
-    "materials":[{"name":"wall","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1],"metallicFactor":0}}],
-    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
-                 {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],
-    "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
-    "buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,)" +
-                     base64(triangle_bytes()) + R"("}]})");
-}
-
-std::string word(std::uint32_t value) { return {reinterpret_cast<const char*>(&value), sizeof value}; }
-
-/// With its buffer in the binary chunk.
-std::string glb(Json json) {
-  json["buffers"][0].erase("uri");
-  std::string text = json.dump(), bin = triangle_bytes();
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  bin.resize((bin.size() + 3) / 4 * 4, '\0');
-  const auto size = static_cast<std::uint32_t>(12 + 8 + text.size() + 8 + bin.size());
-  return "glTF" + word(2) + word(size) + word(static_cast<std::uint32_t>(text.size())) + "JSON" + text +
-         word(static_cast<std::uint32_t>(bin.size())) + std::string("BIN\0", 4) + bin;
-}
-
-class GltfImport : public testing::Test {
-protected:
-  formats::Imported import(const std::string& bytes, const std::string& name = "in.gltf") {
-    return formats::import_scene(folder.write(name, bytes), folder.path() / "out.json");
-  }
-  preset::Preset imported(const Json& json) {
-    made = import(json.dump());
-    return preset::read_preset(made.preset.string());
-  }
-  /// What the import says; it has to leave nothing behind.
-  std::string refusal(const Json& json) {
-    const std::string line = test::refusal_of([&] { import(json.dump()); });
-    EXPECT_FALSE(fs::exists(folder.path() / "out.json"));
-    return line.starts_with((folder.path() / "in.gltf").string())
-               ? line.substr((folder.path() / "in.gltf").string().size())
-               : line;
-  }
-
-  test::TemporaryFolder folder;
-  formats::Imported made;
-};
+using test::GltfImport;
+using test::triangle;
+using test::triangle_bytes;
+using test::word;
 
 TEST_F(GltfImport, ATriangleBecomesAnObjectWithAMeshOfItsOwn) {
   const preset::Preset p = imported(triangle());
@@ -171,60 +120,6 @@ TEST_F(GltfImport, AShearedMeshIsWrittenAsItIsThen) {
   EXPECT_EQ(p.scene.objects[0].transform, place);
   EXPECT_THAT(scene::load_mesh(folder.path() / *p.scene.objects[0].mesh).positions,
               UnorderedElementsAre(glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0.5f, 1, 0)));
-}
-
-/// A triangle with a morph target that lifts it by 2, at half its weight in the file's rest, and a channel of weights.
-Json morphing_triangle() {
-  Json json = triangle();
-  const float numbers[] = {0, 0, 2, 0, 0, 2, 0, 0, 2, 0, 0.5, 1, 0, 1, 0.25};
-  std::string bytes = triangle_bytes();
-  bytes.resize(44);
-  const std::size_t begin = bytes.size();
-  bytes.resize(begin + sizeof numbers);
-  std::memcpy(bytes.data() + begin, numbers, sizeof numbers);
-  json["buffers"][0] = {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}};
-  for (const auto& [offset, length] : {std::pair{44, 36}, {80, 12}, {92, 12}})
-    json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", length}});
-  for (const auto& [view, type] : {std::pair{2, "VEC3"}, {3, "SCALAR"}, {4, "SCALAR"}})
-    json["accessors"].push_back({{"bufferView", view}, {"componentType", 5126}, {"count", 3}, {"type", type}});
-  json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 2}}};
-  json["meshes"][0]["weights"] = {0.5};
-  json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}},
-                         {"samplers", {{{"input", 3}, {"output", 4}}}}}};
-  return json;
-}
-
-TEST_F(GltfImport, MorphTargetsBecomeStatesAndTheirWeightsTracks) {
-  Json still = morphing_triangle();
-  still.erase("animations");
-  const preset::Preset rest = imported(still);
-  EXPECT_FALSE(rest.animation);
-  ASSERT_EQ(rest.scene.objects[0].states.size(), 1u);
-  EXPECT_EQ(rest.scene.objects[0].states[0].weight, 0.5);
-  const scene::Scene scene = scene::load_scene(rest);
-  EXPECT_EQ(scene.origin.z + scene.geometry.positions[0].z, 1);
-
-  const preset::Preset moving = imported(morphing_triangle());
-  ASSERT_TRUE(moving.animation);
-  EXPECT_EQ(moving.animation->frames, 25); // a second at 24 a second
-  ASSERT_EQ(moving.animation->tracks.size(), 1u);
-  EXPECT_EQ(moving.animation->tracks[0].path, "scene.objects.0.states.0.weight");
-  const std::vector<preset::Key> keys{{0, {0}}, {12, {1}}, {24, {0.25}}};
-  EXPECT_EQ(moving.animation->tracks[0].keys, keys);
-  EXPECT_EQ(moving.scene.objects[0].states[0].weight, 0);
-  EXPECT_THAT(made.notes, Not(Contains(HasSubstr("morph"))));
-}
-
-TEST_F(GltfImport, DamagedMorphTargetsAreRefusedAtTheirPlace) {
-  Json few = morphing_triangle(), short_of_times = few, turning_back = few, nowhere = few;
-  few["accessors"][2]["count"] = 2;
-  EXPECT_THAT(refusal(few), HasSubstr("#/meshes/0/primitives/0/targets: has 2 POSITIONS of 3 vertices"));
-  short_of_times["accessors"][4]["count"] = 2;
-  EXPECT_THAT(refusal(short_of_times), HasSubstr("#/animations/0/samplers/0: has 2 numbers at 3 times"));
-  turning_back["bufferViews"][3]["byteOffset"] = 92;
-  EXPECT_THAT(refusal(turning_back), HasSubstr("its times do not rise"));
-  nowhere["animations"][0]["channels"][0]["sampler"] = 1;
-  EXPECT_THAT(refusal(nowhere), HasSubstr("#/animations/0/channels/0/sampler"));
 }
 
 TEST_F(GltfImport, TheCameraLooksAlongMinusZ) {

@@ -98,7 +98,7 @@ TEST_F(States, TheTreeIsRefittedAndRebuiltWhereItsCostHasGrown) {
   EXPECT_NEAR(scene::cost_of(*after.loaded->bvh), scene::cost_of(*alone.loaded->bvh),
               0.02 * scene::cost_of(*alone.loaded->bvh));
   for (int i = 0; i < 100; ++i) {
-    const glm::dvec3 from(-0.9 + 0.018 * i, 3, 0.4 - 0.011 * i), way(0.05, -1, 0.1);
+    const glm::dvec3 from(-0.9 + 0.016 * i, 3, 0.4 - 0.011 * i), way(0.05, -1, 0.1);
     const auto a = scene::closest_hit(*alone.loaded->bvh, from, way),
                b = scene::closest_hit(*after.loaded->bvh, from, way);
     ASSERT_TRUE(a && b);
