@@ -101,7 +101,7 @@ std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const Ba
   std::uint64_t whole = 0;
   for (const plan::PlannedBuffer& buffer : tracing::planned_buffers(s, *render.bvh, render.tables))
     whole += buffer.bytes;
-  return {{"caustic spheres", Caustics::bytes(bake.empty_bake())},
+  return {{"caustic spheres", bake.bytes()},
           {"whole scene", whole},
           {"environment", sky},
           {"receivers", Renderer::receiver_bytes()},
