@@ -14,8 +14,8 @@ using environment::Bake;
 using std::numbers::pi;
 using testing::HasSubstr;
 
-/// Of a step, which is the upper half of a float: 8 bits. Texels with one, two, ... photons are rounded alike, so that it
-/// does not average out.
+/// Of a step, which is the upper half of a float: 8 bits. Texels with one, two, ... photons are rounded alike, so that
+/// it does not average out.
 constexpr double half_rounding = 0x1p-9;
 
 const glm::dvec3 slanted = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
