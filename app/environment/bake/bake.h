@@ -2,10 +2,10 @@
 // Caustic spheres: what an object does to parallel light from each of several directions (thesis 3.1).
 //
 // A texel of a sphere stores the power through it over its solid angle, for light of 1 W/m^2. This is E r^2, where E is
-// the irradiance on the sphere itself, that is on a surface that faces the middle. The texel also stores the mean way
-// that its light goes. A surface with another normal gets E cos(its normal, way) / cos(the sphere's normal, way), which
-// is exact where all light of a texel goes one way. (The thesis takes all light to come from the middle. Under a low
-// sun `environment/bunny` then has 30 % too much light on its floor.)
+// the irradiance on the sphere itself, that is on a surface that faces the middle. A block of texels also stores the
+// mean way that their light goes. A surface with another normal gets E cos(its normal, way) / cos(the sphere's normal,
+// way), which is exact where all light of a block goes one way. (The thesis takes all light to come from the middle.
+// Under a low sun `environment/bunny` then has 30 % too much light on its floor.)
 #pragma once
 #include <glm/glm.hpp>
 
