@@ -20,6 +20,18 @@ inline constexpr Choice<environment::SegmentMethod> choices<environment::Segment
      "The brightest region is cut into halves of equal light (Algorithm 3.3)."}};
 
 template <>
+inline constexpr Choice<environment::SegmentWeights> choices<environment::SegmentWeights>[] = {
+    {environment::SegmentWeights::solid_angle, "solid_angle", "A texel of the cube counts as much as its solid angle."},
+    {environment::SegmentWeights::texel, "texel", "All texels count alike, as printed in the thesis."}};
+
+template <>
+inline constexpr Choice<environment::Settings::Occlusion> choices<environment::Settings::Occlusion>[] = {
+    {environment::Settings::Occlusion::surface, "surface",
+     "From points all over the object; the light then comes from the middle of what is seen."},
+    {environment::Settings::Occlusion::thesis, "thesis",
+     "From the object's middle; the light keeps its direction (Algorithm 3.4)."}};
+
+template <>
 inline constexpr Choice<environment::Settings::Phase> choices<environment::Settings::Phase>[] = {
     {environment::Settings::Phase::henyey_greenstein, "henyey_greenstein", "By 'anisotropy', as mist and smoke do."},
     {environment::Settings::Phase::rayleigh, "rayleigh",
@@ -48,6 +60,8 @@ inline void describe(preset::Fields& v, Settings& s) {
   v.field("photons", "Photons from each direction.", s.photons, {.bounds = within(1, 1 << 30)});
   v.field("lights", "Directional lights that the environment is cut into.", s.lights, {.bounds = within(6, 4096)});
   v.field("segmentation", "How the environment is cut into lights.", s.segmentation);
+  v.field("weights", "How much a texel of the environment counts where it is cut.", s.weights);
+  v.field("occlusion", "How it is found what other objects hide of a light.", s.occlusion);
   v.field("threshold", "A region with no more than this part of the environment's light is no light of its own.",
           s.threshold, {.bounds = within(0, 1)});
   v.field("refine",

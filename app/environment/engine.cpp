@@ -34,7 +34,7 @@ constexpr const char* new_scene = R"({
 
 constinit const engine::Engine engine{
     .settings = settings_type,
-    .state_version = 13,
+    .state_version = 14,
     .plan = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
         -> std::unique_ptr<plan::Plan> { return std::make_unique<EnvironmentPlan>(make_plan(preset, scene, bvh)); },
     .job =
@@ -74,6 +74,7 @@ bool adoptable(const preset::Preset& before, const preset::Preset& now) {
   same = with_places_of(same, now);
   Settings& s = settings(same);
   const Settings& n = settings(now);
+  s.occlusion = n.occlusion;
   s.cast = n.cast;
   s.extinction = n.extinction;
   s.albedo = n.albedo;

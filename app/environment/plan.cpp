@@ -59,11 +59,13 @@ std::vector<plan::Decision> view_decisions(const preset::Preset& preset, const R
        !sky   ? "there is no environment, only lamps"
        : even ? fmt::format("the environment has one colour all around: {} equal lights", lights)
               : fmt::format("the environment is cut into {} lights by {}", lights, preset::word(s.segmentation))});
-  decisions.push_back({"occlusion", sky && render->has_surroundings,
-                       !sky ? "there is no environment"
-                       : render->has_surroundings
-                           ? fmt::format("{} rays a light from all over the object", samples_per_light(lights))
-                           : "nothing stands around the object"});
+  decisions.push_back(
+      {"occlusion", sky && render->has_surroundings,
+       !sky ? "there is no environment"
+       : render->has_surroundings
+           ? fmt::format("{} rays a light from {}", samples_per_light(lights),
+                         s.occlusion == Settings::Occlusion::thesis ? "the object's middle" : "all over the object")
+           : "nothing stands around the object"});
   const bool receivers = tracing::count_objects(*render->scene).diffuse > 0;
   decisions.push_back({"cast", receivers && s.cast,
                        !s.cast     ? "environment.cast is false"
@@ -101,7 +103,7 @@ std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const Ba
   std::uint64_t whole = 0;
   for (const plan::PlannedBuffer& buffer : tracing::planned_buffers(s, *render.bvh, render.tables))
     whole += buffer.bytes;
-  return {{"caustic spheres", Caustics::bytes(bake.empty_bake())},
+  return {{"caustic spheres", bake.bytes()},
           {"whole scene", whole},
           {"environment", sky},
           {"receivers", Renderer::receiver_bytes()},

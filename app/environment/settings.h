@@ -20,9 +20,12 @@ struct Settings {
   int photons = 160000;               ///< photons from each direction
   int lights = 24;                    ///< q: how many lights the map is cut into
   SegmentMethod segmentation = SegmentMethod::variance;
-  double threshold = 1e-7; ///< a region with no more than this part of the map's light is no light
-  bool refine = true;      ///< photons follow the spheres
-  bool cast = true;        ///< caustics on surfaces
+  SegmentWeights weights = SegmentWeights::solid_angle; ///< how much a texel counts where the map is cut
+  enum class Occlusion { surface, thesis };
+  Occlusion occlusion = Occlusion::surface; ///< from where it is seen what hides a light, and what that changes
+  double threshold = 1e-7;                  ///< a region with no more than this part of the map's light is no light
+  bool refine = true;                       ///< photons follow the spheres
+  bool cast = true;                         ///< caustics on surfaces
   enum class Phase { henyey_greenstein, rayleigh };
   double extinction = 0;                  ///< the extinction of the medium around the object, 1 / unit; 0: no medium
   double albedo = 1;                      ///< the part of the extinction that is scattering, 0..1

@@ -128,13 +128,12 @@ void add_figures(const Bake& bake, job::Snapshot& snapshot) {
     sum.absorbed += d.absorbed;
     sum.lost += d.lost;
   }
-  snapshot.scalars.insert(
-      snapshot.scalars.end(),
-      {{"bake", "size", bake.size},
-       {"bake", "smallest_radius", bake.radii.front()},
-       {"bake", "largest_radius", bake.radii.back()},
-       {"bake", "channels", static_cast<double>(bake.channels)},
-       {"bake", "bytes", static_cast<double>((bake.light.size() + bake.ways.size()) * sizeof(std::uint16_t))}});
+  snapshot.scalars.insert(snapshot.scalars.end(),
+                          {{"bake", "size", bake.size},
+                           {"bake", "smallest_radius", bake.radii.front()},
+                           {"bake", "largest_radius", bake.radii.back()},
+                           {"bake", "channels", static_cast<double>(bake.channels)},
+                           {"bake", "bytes", static_cast<double>(bake.bytes(bake.baked.size()))}});
   if (sum.met <= 0) return;
   snapshot.scalars.insert(snapshot.scalars.end(), {{"energy", "met", sum.met / static_cast<double>(bake.baked.size())},
                                                    {"energy", "sent", sum.sent / sum.met},

@@ -28,7 +28,7 @@ namespace nephroid::shared {
 typedef struct {
   float to_bake[9][8]; // rows of the rotation from the scene into the coordinates of that direction's spheres
   float flux[3][8];    // linear sRGB: the light's irradiance on a plane that faces it, times the direction's weight
-  ulong first[8];      // index of the direction's first texel among all stored ones
+  ulong first[8];      // number of the direction's first map
 } DeviceEightSets;
 
 // The radii of the spheres, and how they are stored.
@@ -38,6 +38,18 @@ typedef struct {
   float scale; // from a stored number to E r^2 in scene units squared, for light of 1 W/m^2
   int padding;
 } DeviceSpheres;
+
+// A texel of a sphere is stored as its brightness, (R + 2 G + B) / 4, in 0 to 255 steps. Texels of a block share the
+// rest: the way of their light; the step, the upper 16 bits of a float; and their colour, which is red and blue over
+// the brightness, 8 bits each.
+#define BLOCK_ACROSS_BITS 2 // a block has 4 x 2 texels
+#define BLOCK_DOWN_BITS 1
+#define COLOUR_STEPS 32.0f // codes a unit of brightness
+#define COLOUR_ZERO 96.0f  // the code of none
+
+// Blocks across and down the stored form of a map. One more than there are across, so that two may be read at once.
+#define BLOCKS_ACROSS(side) ((((side) + 1) >> BLOCK_ACROSS_BITS) + 2)
+#define BLOCKS_DOWN(side) ((((side) + 1) >> BLOCK_DOWN_BITS) + 1)
 
 // The end of a path from the eye. A pixel that first sees glass has one end by reflection and one through the glass, or
 // three through it where glass parts colours. Other pixels have one.

@@ -57,23 +57,37 @@ static inline int texel_of_stored(int stored, int side) {
   return (across ? last - y : y) * side + (down ? last - x : x);
 }
 
-// Maps in their stored form, direction after direction. Numbers are stored as the upper 16 bits of floats. Their nine
-// bits are more than the photons' noise leaves certain, and every device reads them fast.
+// Maps in their stored form, direction after direction (render_types.h).
 typedef struct {
-  __global const ushort* stored; // [map][texel][channel]
-  __global const ushort* ways;   // [map][texel]: indices into way_of
+  __global const uchar* texels;  // [map][texel]: steps of brightness
+  __global const ushort* blocks; // [map]: the ways of all blocks, indices into way_of; their steps; of 3 channels,
+                                 // their colours
   __global const float4* way_of; // unit vectors
 } Maps;
+
+static inline size_t texels_of_map(const DeviceSpheres* spheres) {
+  return (size_t)((spheres->side + 2) * (spheres->side + 2));
+}
+static inline size_t blocks_of_map(const DeviceSpheres* spheres) {
+  return (size_t)(BLOCKS_ACROSS(spheres->side) * BLOCKS_DOWN(spheres->side));
+}
+// How many numbers a map has in Maps::blocks.
+#define ITEMS_OF_BLOCK (NEPHROID_CHANNELS == 3 ? 3 : 2)
 
 // The least cosine between a sphere's normal and its light's way that counts.
 #define LEAST_COSINE 0.125f
 
 // The texels of a map in its stored form that a place lies between.
 typedef struct {
-  size_t texels[4];
+  size_t texels[4], blocks[4];
   float weights[4];
-  size_t nearest;
+  size_t nearest_block;
 } FourTexels;
+
+// The block of a texel of the stored form.
+static inline size_t block_of(int column, int row, int side) {
+  return (size_t)((row >> BLOCK_DOWN_BITS) * BLOCKS_ACROSS(side) + (column >> BLOCK_ACROSS_BITS));
+}
 
 // direction: unit, in the map's coordinates.
 static inline FourTexels four_texels(float3 direction, int side) {
@@ -83,29 +97,39 @@ static inline FourTexels four_texels(float3 direction, int side) {
   const float u = column - (float)left, v = row - (float)top;
   const size_t first = (size_t)(top * stride + left);
   const FourTexels four = {{first, first + 1, first + (size_t)stride, first + (size_t)stride + 1},
+                           {block_of(left, top, side), block_of(left + 1, top, side), block_of(left, top + 1, side),
+                            block_of(left + 1, top + 1, side)},
                            {(1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v},
-                           (size_t)((int)(row + 0.5f) * stride + (int)(column + 0.5f))};
+                           block_of((int)(column + 0.5f), (int)(row + 0.5f), side)};
   return four;
 }
 
-static inline float3 stored_between(__global const ushort* map, const FourTexels* four) {
+// E r^2 of one map in stored units.
+static inline float3 stored_between(const Maps* maps, size_t map, const DeviceSpheres* spheres,
+                                    const FourTexels* four) {
+  __global const uchar* const texels = maps->texels + map * texels_of_map(spheres);
+  __global const ushort* const steps = maps->blocks + (ITEMS_OF_BLOCK * map + 1) * blocks_of_map(spheres);
   float3 sum = (float3)(0.0f);
   for (int i = 0; i < 4; ++i) {
+    const float step = as_float((uint)steps[four->blocks[i]] << 16),
+                brightness = four->weights[i] * step * (float)texels[four->texels[i]];
 #if NEPHROID_CHANNELS == 1
-    sum += four->weights[i] * as_float((uint)map[four->texels[i]] << 16);
+    sum += brightness;
 #else
-    sum += four->weights[i] * as_float3(convert_uint3(vload3(four->texels[i], map)) << 16);
+    const uint colour = steps[blocks_of_map(spheres) + four->blocks[i]];
+    const float red = ((float)(colour & 255u) - COLOUR_ZERO) / COLOUR_STEPS,
+                blue = ((float)(colour >> 8) - COLOUR_ZERO) / COLOUR_STEPS;
+    sum += brightness * (float3)(red, 2.0f - 0.5f * (red + blue), blue);
 #endif
   }
   return sum;
 }
 
-// E r^2 of one set in stored units.
-static inline float3 stored_between_spheres(__global const ushort* set, const DeviceSpheres* spheres,
+// E r^2 of the set whose maps begin with number `first`, in stored units.
+static inline float3 stored_between_spheres(const Maps* maps, size_t first, const DeviceSpheres* spheres,
                                             const FourTexels* four, Shell shell) {
-  const size_t map_items = NEPHROID_CHANNELS * (size_t)((spheres->side + 2) * (spheres->side + 2));
-  const float3 lower = stored_between(set + (size_t)shell.lower * map_items, four);
-  return lower + shell.part * (stored_between(set + (size_t)shell.upper * map_items, four) - lower);
+  const float3 lower = stored_between(maps, first + (size_t)shell.lower, spheres, four);
+  return lower + shell.part * (stored_between(maps, first + (size_t)shell.upper, spheres, four) - lower);
 }
 
 // Row `row` of the rotation of set k of eight.
@@ -123,7 +147,7 @@ static inline float3 flux_of_set(__global const DeviceEightSets* eight, int k) {
 // The light of a set in a unit direction of the scene, in the set's coordinates.
 typedef struct {
   float3 outwards; // the direction
-  float3 way;      // the light's way in the nearest texel
+  float3 way;      // the light's way in the nearest texel's block
   float3 stored;   // E r^2 in stored units, interpolated
 } SetLight;
 
@@ -133,10 +157,11 @@ static inline SetLight light_of_set(const Maps* maps, const DeviceSpheres* spher
   SetLight light;
   light.outwards = in_set(eight, k, direction);
   const FourTexels four = four_texels(light.outwards, spheres->side);
-  const size_t first = (size_t)eight->first[k], map_texels = (size_t)((spheres->side + 2) * (spheres->side + 2));
-  const size_t nearest = first + (size_t)(shell.part > 0.5f ? shell.upper : shell.lower) * map_texels + four.nearest;
-  light.way = maps->way_of[maps->ways[nearest]].xyz;
-  light.stored = stored_between_spheres(maps->stored + NEPHROID_CHANNELS * first, spheres, &four, shell);
+  const size_t first = (size_t)eight->first[k],
+               nearest = first + (size_t)(shell.part > 0.5f ? shell.upper : shell.lower);
+  light.way =
+      maps->way_of[maps->blocks[ITEMS_OF_BLOCK * nearest * blocks_of_map(spheres) + four.nearest_block]].xyz;
+  light.stored = stored_between_spheres(maps, first, spheres, &four, shell);
   return light;
 }
 
@@ -186,7 +211,7 @@ static inline void add_air(AirLight* sum, const Maps* maps, const DeviceSpheres*
 static inline AirLight compiled_air(__global const float* air, const DeviceSpheres* spheres, float3 in_object,
                                     Shell shell) {
   const FourTexels four = four_texels(in_object, spheres->side);
-  const size_t map_texels = (size_t)((spheres->side + 2) * (spheres->side + 2));
+  const size_t map_texels = texels_of_map(spheres);
   AirLight sum = {(float3)(0.0f), (float3)(0.0f)};
   for (int i = 0; i < 4; ++i) {
     const size_t lower = 2 * ((size_t)shell.lower * map_texels + four.texels[i]),

@@ -33,12 +33,21 @@ inline environment::Bake bake_of(const preset::Preset& preset, std::vector<glm::
   return baker.take();
 }
 
-/// Fills Bake::ways as if all light came from the middle.
-inline void make_radial(environment::Bake& bake) {
-  bake.ways.clear();
-  for (std::size_t map = 0; map < bake.baked.size() * bake.radii.size(); ++map)
-    for (const std::size_t t : bake.map.texels_of_stored())
-      bake.ways.push_back(static_cast<std::uint16_t>(environment::Bake::way_map.texel(bake.map.direction(t))));
+/// Bakes 26 directions by formula, as if all light came from the middle. of(direction of the bake, radius, place on its
+/// sphere): E r^2 over size^2, linear sRGB.
+template <class Of>
+void bake_by(environment::Bake& bake, const Of& of) {
+  bake.directions = environment::light_directions(26);
+  bake.resize(26);
+  std::vector<environment::TexelLight> light(bake.map.texels());
+  for (std::size_t i = 0; i < 26; ++i)
+    for (std::size_t sphere = 0; sphere < bake.radii.size(); ++sphere) {
+      for (std::size_t t = 0; t < light.size(); ++t) {
+        const glm::dvec3 place = bake.map.direction(t);
+        light[t] = {of(i, bake.radii[sphere], place), place};
+      }
+      bake.store(i, sphere, light);
+    }
 }
 
 /// Sum over a sphere of E r^2 over size^2 times the solid angle: the power through it, for each channel.

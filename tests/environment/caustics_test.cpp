@@ -11,8 +11,6 @@ namespace nephroid::caustics_test {
 using namespace nephroid::environment;
 using scene::even_direction;
 
-constexpr double nine_bits = 1.0 / 256; ///< half of what the last bit of a float's upper half is worth
-
 /// of(direction of the bake, radius, place on its sphere): E r^2 over size^2, linear sRGB.
 template <class Of>
 Bake made_bake(int side, int channels, const std::vector<double>& radii, const Of& of) {
@@ -21,15 +19,7 @@ Bake made_bake(int side, int channels, const std::vector<double>& radii, const O
   bake.channels = channels;
   bake.size = 2;
   bake.radii = radii;
-  bake.directions = light_directions(26);
-  bake.baked.resize(bake.directions.size());
-  for (std::size_t i = 0; i < bake.directions.size(); ++i)
-    for (const double radius : radii)
-      for (const std::size_t t : bake.map.texels_of_stored()) {
-        const glm::dvec3 value = of(i, radius, bake.map.direction(t));
-        for (int c = 0; c < channels; ++c) bake.light.push_back(upper_half(value[c]));
-      }
-  test::make_radial(bake);
+  test::bake_by(bake, of);
   return bake;
 }
 
@@ -120,30 +110,35 @@ TEST(Caustics, AtATexelsMiddleAreWhatWasBaked) {
     const glm::dmat3 turn = shortest_turn(bake.map.direction(texel), {1, 0, 0});
     cast.caustics.set_lights({{turn * bake.directions[direction], light}}, turn);
     const glm::dvec3 expected = 4.0 * light * bake.at(direction, sphere, texel), found = cast.at(bake.radii[sphere])[0];
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 1.01 * nine_bits * expected[c]) << texel << " " << c;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 1e-3 * expected[c]) << texel << " " << c;
   }
 }
 
 // Between texels and over all edges of the square there is no jump: what is found differs from a smooth formula by what
 // straight lines between texels leave out.
 TEST(Caustics, BetweenTexelsFollowTheFormula) {
-  for (const int side : {16, 64}) {
-    const Bake bake =
-        made_bake(side, 3, {1, 2}, [](std::size_t i, double, const glm::dvec3& d) { return smooth(i, d); });
-    Cast cast(bake, 48);
-    const glm::dmat3 turn = scene::rotation({33, -12, 71});
-    cast.caustics.set_lights({{turn * bake.directions[7], glm::dvec3(1)}}, turn);
-    const Off o = off(cast, cast.at(1), [&](const glm::dvec3& d) { return 4.0 * smooth(7, glm::transpose(turn) * d); });
-    fmt::print("{} x {} texels: {:.3f} % off, {:.3f} % at most\n", side, side, 100 * o.mean, 100 * o.most);
-    EXPECT_LT(o.mean, 0.003 + 0.1 / side);
-    EXPECT_LT(o.most, 0.012 + 0.9 / side);
-  }
+  for (const int side : {16, 64})
+    for (const int channels : {1, 3}) { // colours are those of blocks
+      const auto of = [&](std::size_t i, const glm::dvec3& d) {
+        return channels == 3 ? smooth(i, d) : glm::dvec3(smooth(i, d).x);
+      };
+      const Bake bake =
+          made_bake(side, channels, {1, 2}, [&](std::size_t i, double, const glm::dvec3& d) { return of(i, d); });
+      Cast cast(bake, 48);
+      const glm::dmat3 turn = scene::rotation({33, -12, 71});
+      cast.caustics.set_lights({{turn * bake.directions[7], glm::dvec3(1)}}, turn);
+      const Off o = off(cast, cast.at(1), [&](const glm::dvec3& d) { return 4.0 * of(7, glm::transpose(turn) * d); });
+      fmt::print("{} x {} texels, {} channels: {:.3f} % off, {:.3f} % at most\n", side, side, channels, 100 * o.mean,
+                 100 * o.most);
+      EXPECT_LT(o.mean, channels == 1 ? 0.003 + 0.1 / side : 0.005 + 0.75 / side);
+      EXPECT_LT(o.most, channels == 1 ? 0.012 + 0.9 / side : 0.012 + 2.8 / side);
+    }
 }
 
 // What an object without directions of its own does, as a ball, goes with the light, whichever directions were baked.
 TEST(Caustics, OfABallGoWithTheLight) {
   const std::vector<glm::dvec3> baked = light_directions(26);
-  const auto of_angle = [](double cosine) { return glm::dvec3(1 + 0.8 * cosine + 0.5 * cosine * cosine * cosine); };
+  const auto of_angle = [](double cosine) { return glm::dvec3(1 + 0.5 * cosine + 0.3 * cosine * cosine * cosine); };
   const Bake bake = made_bake(
       48, 1, {1, 2}, [&](std::size_t i, double, const glm::dvec3& d) { return of_angle(glm::dot(d, baked[i])); });
   Cast cast(bake, 24);
@@ -177,13 +172,14 @@ TEST(Caustics, BetweenDirectionsAreWeighted) {
     }
     return glm::dvec3(4, 8, 12) * sum;
   });
-  EXPECT_LT(o.mean, 0.006);
-  EXPECT_LT(o.most, 0.03);
+  EXPECT_LT(o.mean, 0.013);
+  EXPECT_LT(o.most, 0.05);
 }
 
 TEST(Caustics, BetweenSpheresAreLinear) {
   const std::vector<double> radii{1, 1.5, 3, 4};
-  const auto of_radius = [](double r) { return r < 1.2 ? 1.0 : r < 2 ? 3.0 : r < 3.5 ? 0.5 : 2.0; };
+  // Each is 255 steps that 8 bits of a float hold.
+  const auto of_radius = [](double r) { return 255.0 / 256 * (r < 1.2 ? 1.0 : r < 2 ? 3.0 : r < 3.5 ? 0.5 : 2.0); };
   const Bake bake =
       made_bake(8, 1, radii, [&](std::size_t, double r, const glm::dvec3&) { return glm::dvec3(of_radius(r)); });
   Cast cast(bake, 2);
@@ -199,8 +195,8 @@ TEST(Caustics, BetweenSpheresAreLinear) {
     for (const double part : {0.0, 0.25, 0.5, 0.999, 1.0})
       expect(radii[i] + part * (radii[i + 1] - radii[i]),
              (1 - part) * of_radius(radii[i]) + part * of_radius(radii[i + 1]));
-  for (const double beyond : {4.0, 4.001, 10.0, 1e6}) expect(beyond, 2);     // E r^2 stays: the inverse square
-  for (const double within : {0.01, 0.999}) expect(within, within * within); // E stays
+  for (const double beyond : {4.0, 4.001, 10.0, 1e6}) expect(beyond, of_radius(4));         // the inverse square
+  for (const double within : {0.01, 0.999}) expect(within, within * within * of_radius(1)); // E stays
   for (const glm::dvec3& found : cast.at(std::numeric_limits<double>::infinity()))
     EXPECT_EQ(found, glm::dvec3(0)); // nothing is there
 }

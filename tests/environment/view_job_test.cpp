@@ -110,6 +110,9 @@ TEST_F(EnvironmentViewJob, AdoptsWithTheBitsOfARunOfItsOwn) {
       {"more lights", [](preset::Preset& p) { environment::settings(p).lights = 60; }},
       {"segmentation",
        [](preset::Preset& p) { environment::settings(p).segmentation = environment::SegmentMethod::thesis; }},
+      {"weights", [](preset::Preset& p) { environment::settings(p).weights = environment::SegmentWeights::texel; }},
+      {"occlusion",
+       [](preset::Preset& p) { environment::settings(p).occlusion = environment::Settings::Occlusion::thesis; }},
       {"white", [](preset::Preset& p) { p.white = 3; }},
       {"lamps",
        [](preset::Preset& p) {

@@ -166,6 +166,24 @@ TEST_F(EnvironmentView, ALampThatIsHiddenFromTheObjectThrowsNoCaustic) {
   EXPECT_NEAR(caustic(0, {above, side}), both - free, 0.02 * both);
 }
 
+// A board's edge over the ball: a lamp straight above sees (1 + edge) / 2 of its surface. The middle sees the lamp or
+// does not.
+TEST_F(EnvironmentView, AnEdgeHidesAPartOfALampOrAsInTheThesisAllOfIt) {
+  const auto caustic = [&](double edge, const std::string& occlusion) {
+    preset::Preset p = ball_and(facing_quad("floor", {0, -2, 0}, {0, 1, 0}, 8) + ", " +
+                                    facing_quad("board", {edge + 2, 3, 0}, {0, 1, 0}, 4),
+                                {"environment.occlusion=" + occlusion});
+    p.scene.lights = {lamp({0, -1, 0})};
+    look(p, {3, -1.5, 0}, {0, -2, 0}, 20);
+    return mean(layer_rgb(run(p), "caustic")).y;
+  };
+  const double free = caustic(2, "surface");
+  for (const double edge : {-0.4, 0.4}) {
+    EXPECT_NEAR(caustic(edge, "surface"), free * (1 + edge) / 2, 0.02 * free) << edge;
+    EXPECT_NEAR(caustic(edge, "thesis"), edge > 0 ? free : 0, 1e-6 * free) << edge;
+  }
+}
+
 /// Of the first lamp, W/m^2 of Y.
 double y_of_lamp(const preset::Preset& p) { return environment::lamps(scene::load_scene(p)).at(0).irradiance.y; }
 

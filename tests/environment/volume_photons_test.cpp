@@ -27,7 +27,7 @@ Phase henyey_greenstein(double g) {
 }
 
 constexpr double largest = 4, impact = 2; ///< radius of the largest sphere; how near the path comes to the middle
-constexpr double even = 0.25;             ///< E r^2 over size^2, everywhere
+constexpr double even = 0.25 * 255 / 256; ///< E r^2 over size^2, everywhere: stored as it is
 
 /// As if the object sent light evenly to all sides.
 Bake even_bake(double size) {
@@ -35,10 +35,7 @@ Bake even_bake(double size) {
   bake.map.side = 128;
   bake.size = size;
   bake.radii = {1.1, 2, largest};
-  bake.directions = environment::light_directions(26);
-  bake.baked.resize(26);
-  bake.light.assign(26 * bake.direction_items(), environment::upper_half(even));
-  make_radial(bake);
+  bake_by(bake, [](std::size_t, double, const glm::dvec3&) { return glm::dvec3(even); });
   return bake;
 }
 
@@ -137,7 +134,7 @@ double sum_of(const Picture& picture) {
 }
 
 struct Spheres {
-  int count = 16, directions = 26, resolution = 128, photons = 1 << 17;
+  int count = 16, directions = 26, resolution = 360, photons = 1 << 17;
 };
 
 preset::Preset preset_of(const MediumScene& s, const Phase& phase, const Spheres& spheres) {
@@ -168,20 +165,19 @@ Bake bake_for(const preset::Preset& preset, const glm::dvec3& light) {
       environment::near_directions(light, static_cast<int>(task.directions.size()));
   Bake whole = task.empty_bake();
   whole.directions = task.directions;
-  whole.baked.resize(task.directions.size());
-  whole.light.assign(whole.direction_items() * task.directions.size(), 0);
-  whole.ways.assign(whole.direction_texels() * task.directions.size(), 0);
+  whole.resize(task.directions.size());
   std::vector<glm::dvec3> wanted;
   for (const environment::NearDirection& direction : near)
     wanted.push_back(task.directions[static_cast<std::size_t>(direction.direction)]);
   const Bake made = bake_of(preset, wanted);
-  const auto copy = [&](const std::vector<std::uint16_t>& from, std::vector<std::uint16_t>& to, std::size_t items) {
+  const auto copy = [&](const auto& from, auto& to) {
+    const std::size_t items = from.size() / near.size();
     for (std::size_t i = 0; i < near.size(); ++i)
       std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(i * items), items,
                   to.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(near[i].direction) * items));
   };
-  copy(made.light, whole.light, made.direction_items());
-  copy(made.ways, whole.ways, made.direction_texels());
+  copy(made.texels, whole.texels);
+  copy(made.blocks, whole.blocks);
   return whole;
 }
 

@@ -125,6 +125,18 @@ def thesis_scenes(s, name):
     s.keep(name, pictures, 4, 0, **SIDE)
 
 
+def thesis_caustics(s, name):
+    """Figures 3.10 and 3.17 as in the thesis; the last one by our occlusion."""
+    air = [f"environment.extinction={extinction}" for extinction in (0, 0.1)]
+    runs = [("figure-3-10-lamp", value) for value in air] + [("figure-3-10", value) for value in air]
+    runs += [("figure-3-17", f"environment.occlusion={occlusion}") for occlusion in ("thesis", "surface")]
+    pictures = [
+        s.render(f"caustics-{i}", f"environment/thesis/{preset}", value, size=(SIZE, SIZE), passes=8)
+        for i, (preset, value) in enumerate(runs)
+    ]
+    s.keep(name, pictures, 3, 0, **SIDE)
+
+
 def smoothing(s, name):
     """Caustics of the bunny after 8 seconds of each way, and after 120 passes."""
     e = Experiments(s.program, s.folder)
@@ -272,6 +284,7 @@ MAKERS = {
     "pictures.jpg": pictures,
     "camera.jpg": camera,
     "thesis-scenes.jpg": thesis_scenes,
+    "thesis-caustics.jpg": thesis_caustics,
     "smoothing.jpg": smoothing,
     "inverse-sets.jpg": inverse_sets,
     "environment-shaded.png": environment_shaded,

@@ -40,7 +40,7 @@ SUITES = [
     "physics.Indirect:DiffuseFurnace", "physics.HalvesOfTheFilm:LowDiscrepancy:WholeClusters:WavelengthJitter",
     "physics.PhotonMaps:MapEstimators", "physics.MapBands", "physics.SmoothReceiver", "physics.SpectralDifferentials",
     "physics.NormalMaps:RoughnessTextures:TintTextures",
-    "kernels.Relighting", "physics.EnvironmentLight:HotTexel", "environment.Bake",
+    "kernels.Relighting", "physics.EnvironmentLight:HotTexel", "environment.Bake:Caustics",
     "inverse.DeviceFacetsTest:Judge:Colours:Assignment",
 ]
 

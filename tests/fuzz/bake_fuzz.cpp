@@ -23,7 +23,7 @@ std::string hashed(std::string bytes) {
 
 void read(std::string_view input) {
   std::string bytes(input);
-  const std::uint64_t begin[] = {4, hash_of(version()), identity.kernels,
+  const std::uint64_t begin[] = {5, hash_of(version()), identity.kernels,
                                  identity.key}; // after the file's eight letters
   if (bytes.size() > 8 + sizeof begin) std::memcpy(bytes.data() + 8, begin, sizeof begin);
   const fs::path file = write("fuzz.bake", hashed(bytes));
@@ -39,9 +39,7 @@ std::vector<std::string> seeds() {
   bake.map.side = 2;
   bake.radii = {1, 2};
   bake.directions = environment::light_directions(26);
-  bake.baked.resize(26);
-  bake.light.resize(26 * bake.direction_items());
-  bake.ways.resize(26 * bake.direction_texels());
+  bake.resize(26);
   environment::write_bake(folder() / "seed.bake", identity, bake);
   const std::string file = read_file(folder() / "seed.bake");
   return {file.substr(0, file.size() - sizeof(std::uint64_t))};

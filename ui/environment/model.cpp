@@ -3,6 +3,7 @@
 
 #include "environment/segment/irradiance.h"
 #include "environment/settings.h"
+#include "environment/view/render_task.h"
 #include "image/display.h"
 #include "scene/environment.h"
 
@@ -51,10 +52,7 @@ WantedMap wanted_map(const preset::Preset& preset, const MapPictureSize& picture
   wanted.source.environment.radiance = 1;
   wanted.source.environment.rotate_deg = 0;
   wanted.source.environment.lights = false;
-  if (&preset.settings.type() == &environment::settings_type()) {
-    const environment::Settings& s = environment::settings(preset);
-    wanted.segments = SegmentSettings{.lights = s.lights, .method = s.segmentation, .threshold = s.threshold};
-  }
+  if (&preset.settings.type() == &environment::settings_type()) wanted.segments = environment::segment_settings(preset);
   return wanted;
 }
 

@@ -4,6 +4,8 @@
 #include "base/build_info.h"
 #include "base/files.h"
 #include "base/hashed_bytes.h"
+#include "base/parallel.h"
+#include "kernels/environment/render_types.h"
 
 #include <algorithm>
 #include <array>
@@ -25,27 +27,30 @@ glm::dvec2 with_signs(const glm::dvec2& size, const glm::dvec2& signs) {
 
 constexpr std::array<int, 3> counts{26, 98, 386};
 
-/// The header of NAME.bake. Then come radii, where light went, light, ways, and a hash of all of these.
+/// The header of NAME.bake. Then come radii, where light went, texels, blocks, and a hash of all of these.
 struct Header {
   std::array<char, 8> magic{'N', 'E', 'P', 'H', 'B', 'A', 'K', 'E'};
-  std::uint64_t format = 4;
+  std::uint64_t format = 5;
   std::uint64_t program = 0, kernels = 0, key = 0;
   std::uint64_t directions = 0, spheres = 0, side = 0, channels = 0;
   double size = 0;
 };
 static_assert(sizeof(Header) == 80, "the header has no padding: it is written as it is");
 
-template <class T>
-void read_items(ByteSource& from, std::vector<T>& items, std::uint64_t count) {
-  items.resize(count);
-  from.read(std::as_writable_bytes(std::span(items)));
+/// Without what its vectors hold. Only of a header that is possible.
+Bake bake_of(const Header& h) {
+  Bake bake;
+  bake.map.side = static_cast<int>(h.side);
+  bake.channels = static_cast<int>(h.channels);
+  bake.size = h.size;
+  bake.radii.resize(h.spheres);
+  bake.directions = light_directions(static_cast<int>(h.directions));
+  return bake;
 }
-
-std::uint64_t texels_of(const Header& h) { return h.directions * h.spheres * (h.side + 2) * (h.side + 2); }
 
 std::uint64_t length_of(const Header& h) {
   return sizeof h + h.spheres * sizeof(double) + h.directions * sizeof(BakedDirection) +
-         texels_of(h) * (h.channels + 1) * sizeof(std::uint16_t) + sizeof(std::uint64_t);
+         bake_of(h).bytes(h.directions) + sizeof(std::uint64_t);
 }
 
 /// Whether a bake can have the header's sizes. The length alone does not tell, because products wrap around.
@@ -72,6 +77,33 @@ std::string fault_of(ByteSource& file, const BakeIdentity& identity, Header& hea
   if (length != length_of(header))
     return fmt::format("has {} bytes, and {} are expected: it was cut short", length, length_of(header));
   return {};
+}
+
+// A texel's brightness and its block's colour, as kernels/environment/render_types.h has them.
+
+double brightness(const glm::dvec3& rgb) { return (rgb.x + 2 * rgb.y + rgb.z) / 4; }
+
+double step_of(std::uint16_t code) { return double{std::bit_cast<float>(std::uint32_t{code} << 16)}; }
+
+/// The least step by which a brightness of `most` fits 8 bits.
+std::uint16_t step_code(double most) {
+  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(most / 255));
+  return static_cast<std::uint16_t>((bits + 0xffff) >> 16);
+}
+
+glm::dvec3 colour_of(std::uint16_t code) {
+  const double red = ((code & 255) - double{COLOUR_ZERO}) / double{COLOUR_STEPS},
+               blue = ((code >> 8) - double{COLOUR_ZERO}) / double{COLOUR_STEPS};
+  return {red, 2 - (red + blue) / 2, blue};
+}
+
+std::uint16_t colour_code(const glm::dvec3& rgb) {
+  const double sum = brightness(rgb);
+  const auto code = [&](double channel) {
+    const double part = sum > 0 ? channel / sum : 1;
+    return static_cast<unsigned>(std::clamp(std::round(part * double{COLOUR_STEPS} + double{COLOUR_ZERO}), 0.0, 255.0));
+  };
+  return static_cast<std::uint16_t>(code(rgb.x) | code(rgb.z) << 8);
 }
 
 void remove_oldest(const fs::path& kept, std::uint64_t most) {
@@ -119,22 +151,21 @@ std::size_t SphereMap::stored_texel(std::size_t texel) const {
   return (texel / n + 1) * (n + 2) + texel % n + 1;
 }
 
-std::vector<std::size_t> SphereMap::texels_of_stored() const {
-  std::vector<std::size_t> texels;
-  const int last = side - 1;
-  for (int row = -1; row <= side; ++row)
-    for (int column = -1; column <= side; ++column) {
-      const bool across = column < 0 || column > last, down = row < 0 || row > last;
-      const int x = std::clamp(column, 0, last), y = std::clamp(row, 0, last);
-      texels.push_back(static_cast<std::size_t>(across ? last - y : y) * static_cast<std::size_t>(side) +
-                       static_cast<std::size_t>(down ? last - x : x));
-    }
-  return texels;
+std::size_t SphereMap::texel_of_stored(std::size_t stored) const {
+  const int stride = side + 2, last = side - 1, column = static_cast<int>(stored) % stride - 1,
+            row = static_cast<int>(stored) / stride - 1;
+  const bool across = column < 0 || column > last, down = row < 0 || row > last;
+  const int x = std::clamp(column, 0, last), y = std::clamp(row, 0, last);
+  return static_cast<std::size_t>(across ? last - y : y) * static_cast<std::size_t>(side) +
+         static_cast<std::size_t>(down ? last - x : x);
 }
 
-std::uint16_t upper_half(double value) {
-  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
-  return static_cast<std::uint16_t>((bits + 0x7fff + (bits >> 16 & 1)) >> 16); // rounds to the nearest, ties to even
+std::size_t SphereMap::blocks() const { return static_cast<std::size_t>(BLOCKS_ACROSS(side) * BLOCKS_DOWN(side)); }
+
+std::size_t SphereMap::block(std::size_t stored) const {
+  const auto stride = static_cast<std::size_t>(side + 2);
+  return (stored / stride >> BLOCK_DOWN_BITS) * static_cast<std::size_t>(BLOCKS_ACROSS(side)) +
+         (stored % stride >> BLOCK_ACROSS_BITS);
 }
 
 std::span<const int> direction_counts() { return counts; }
@@ -155,14 +186,58 @@ std::vector<glm::dvec3> light_directions(int count) {
   return directions;
 }
 
+std::uint64_t Bake::bytes(std::size_t direction_count) const {
+  return std::uint64_t{direction_count} * radii.size() *
+         (map.stored_texels() * sizeof(std::uint8_t) + map_blocks() * sizeof(std::uint16_t));
+}
+
+void Bake::resize(std::size_t direction_count) {
+  baked.resize(direction_count);
+  texels.resize(direction_count * radii.size() * map.stored_texels());
+  blocks.resize(direction_count * radii.size() * map_blocks());
+}
+
 glm::dvec3 Bake::at(std::size_t direction, std::size_t sphere, std::size_t texel) const {
-  const std::size_t map_number = direction * radii.size() + sphere,
-                    first = (map_number * map.stored_texels() + map.stored_texel(texel)) *
-                            static_cast<std::size_t>(channels);
-  const auto channel = [&](std::size_t c) {
-    return static_cast<double>(std::bit_cast<float>(std::uint32_t{light[first + c]} << 16));
+  const std::size_t map_number = direction * radii.size() + sphere, stored = map.stored_texel(texel);
+  const std::uint16_t* const step = &blocks[map_number * map_blocks() + map.blocks() + map.block(stored)];
+  const double brightness = step_of(*step) * texels[map_number * map.stored_texels() + stored];
+  return brightness * (channels == 1 ? glm::dvec3(1) : colour_of(step[map.blocks()]));
+}
+
+void Bake::store(std::size_t direction, std::size_t sphere, std::span<const TexelLight> light) {
+  const std::size_t map_number = direction * radii.size() + sphere, stride = static_cast<std::size_t>(map.side) + 2;
+  std::uint8_t* const codes = &texels[map_number * map.stored_texels()];
+  std::uint16_t *const ways = &blocks[map_number * map_blocks()], *const steps = ways + map.blocks(),
+                       *const colours = steps + map.blocks();
+  const auto store_block = [&](std::size_t column, std::size_t row) {
+    TexelLight sum;
+    double most = 0;
+    const auto each_texel = [&](const auto& use) {
+      for (std::size_t y = row; y < std::min(row + (1 << BLOCK_DOWN_BITS), stride); ++y)
+        for (std::size_t x = column; x < std::min(column + (1 << BLOCK_ACROSS_BITS), stride); ++x)
+          use(y * stride + x, light[map.texel_of_stored(y * stride + x)]);
+    };
+    each_texel([&](std::size_t, const TexelLight& texel) {
+      sum.light += texel.light;
+      sum.way += texel.way;
+      most = std::max(most, brightness(texel.light));
+    });
+    const std::size_t first = row * stride + column, block = map.block(first);
+    if (sum.way == glm::dvec3(0)) sum.way = map.direction(map.texel_of_stored(first)); // straight away from the middle
+    ways[block] = static_cast<std::uint16_t>(way_map.texel(sum.way));
+    steps[block] = step_code(most);
+    if (channels == 3) colours[block] = colour_code(sum.light);
+    if (most == 0) return;
+    each_texel([&](std::size_t stored, const TexelLight& texel) {
+      const double code = std::round(brightness(texel.light) / step_of(steps[block]));
+      codes[stored] = static_cast<std::uint8_t>(std::clamp(code, 0.0, 255.0));
+    });
   };
-  return channels == 3 ? glm::dvec3(channel(0), channel(1), channel(2)) : glm::dvec3(channel(0));
+  for_ranges((stride + 1) >> BLOCK_DOWN_BITS, 16, [&](std::size_t, const Range& rows) {
+    for (std::size_t row = rows.begin; row < rows.end; ++row)
+      for (std::size_t column = 0; column < stride; column += 1 << BLOCK_ACROSS_BITS)
+        store_block(column, row << BLOCK_DOWN_BITS);
+  });
 }
 
 fs::path bake_path(std::uint64_t key) {
@@ -186,15 +261,13 @@ Bake read_bake(const fs::path& file, const BakeIdentity& identity) {
   HashedSource from(*source, file);
   Header header;
   if (const std::string fault = fault_of(from, identity, header); !fault.empty()) throw bad_input(file, fault);
-  Bake bake;
-  bake.map.side = static_cast<int>(header.side);
-  bake.channels = static_cast<int>(header.channels);
-  bake.size = header.size;
-  read_items(from, bake.radii, header.spheres);
-  read_items(from, bake.baked, header.directions);
-  bake.directions = light_directions(static_cast<int>(header.directions));
-  read_items(from, bake.light, texels_of(header) * header.channels);
-  read_items(from, bake.ways, texels_of(header));
+  Bake bake = bake_of(header);
+  bake.resize(header.directions);
+  const auto read = [&](auto& items) { from.read(std::as_writable_bytes(std::span(items))); };
+  read(bake.radii);
+  read(bake.baked);
+  read(bake.texels);
+  read(bake.blocks);
   std::uint64_t hash = 0;
   source->value(hash);
   if (hash != from.hash()) throw bad_input(file, "is damaged: its checksum is wrong");
@@ -221,8 +294,8 @@ void write_bake(const fs::path& file, const BakeIdentity& identity, const Bake& 
     to.value(header);
     to.write(std::as_bytes(std::span(bake.radii)));
     to.write(std::as_bytes(std::span(bake.baked)));
-    to.write(std::as_bytes(std::span(bake.light)));
-    to.write(std::as_bytes(std::span(bake.ways)));
+    to.write(std::as_bytes(std::span(bake.texels)));
+    to.write(std::as_bytes(std::span(bake.blocks)));
     sink.value(to.hash());
   });
   try {

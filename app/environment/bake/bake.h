@@ -2,10 +2,10 @@
 // Caustic spheres: what an object does to parallel light from each of several directions (thesis 3.1).
 //
 // A texel of a sphere stores the power through it over its solid angle, for light of 1 W/m^2. This is E r^2, where E is
-// the irradiance on the sphere itself, that is on a surface that faces the middle. The texel also stores the mean way
-// that its light goes. A surface with another normal gets E cos(its normal, way) / cos(the sphere's normal, way), which
-// is exact where all light of a texel goes one way. (The thesis takes all light to come from the middle. Under a low
-// sun `environment/bunny` then has 30 % too much light on its floor.)
+// the irradiance on the sphere itself, that is on a surface that faces the middle. A block of texels also stores the
+// mean way that their light goes. A surface with another normal gets E cos(its normal, way) / cos(the sphere's normal,
+// way), which is exact where all light of a block goes one way. (The thesis takes all light to come from the middle.
+// Under a low sun `environment/bunny` then has 30 % too much light on its floor.)
 #pragma once
 #include <glm/glm.hpp>
 
@@ -37,12 +37,20 @@ struct SphereMap {
   /// square goes on at the same edge, from its other end. So lookups between texels need no branch.
   std::size_t stored_texels() const { return static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2); }
   std::size_t stored_texel(std::size_t texel) const; ///< where a texel is in the stored form
-  /// The texel that each texel of the stored form repeats: texel_of_stored of kernels/environment/spheres.h, for all.
-  std::vector<std::size_t> texels_of_stored() const;
+  /// The texel that a texel of the stored form repeats: texel_of_stored of kernels/environment/spheres.h.
+  std::size_t texel_of_stored(std::size_t stored) const;
+
+  /// The stored form is divided into blocks, whose texels share a way, a step of brightness and a colour
+  /// (kernels/environment/render_types.h).
+  std::size_t blocks() const;
+  std::size_t block(std::size_t stored) const; ///< the block of a texel of the stored form
 };
 
-/// The upper 16 bits of the nearest float, which maps hold. The photons' noise leaves less than their nine bits.
-std::uint16_t upper_half(double value);
+/// What a texel of a sphere has.
+struct TexelLight {
+  glm::dvec3 light{0}; ///< E r^2 over size^2, linear sRGB
+  glm::dvec3 way{0};   ///< the mean way of its light, as long as there is light across it
+};
 
 /// The numbers of directions that light may be baked from. These are points of a cube's surface, towards its middle
 /// (thesis 3.1). Each face is a square grid whose points on edges and corners it shares with its neighbours: 3 x 3
@@ -69,17 +77,21 @@ struct Bake {
   std::vector<glm::dvec3> directions; ///< all directions to bake: unit, the way the light goes
   std::vector<BakedDirection> baked;  ///< for the directions done so far, the first ones
 
-  // The layout is that of devices: [baked direction][sphere][texel of the stored form].
-  std::vector<std::uint16_t> light; ///< for each, [channel]: upper_half() of E r^2 over size^2
-  std::vector<std::uint16_t> ways;  ///< texels of way_map: the mean way of the light, weighted by its power
+  // The layout is that of devices (Maps of kernels/environment/spheres.h): [baked direction][sphere], then
+  std::vector<std::uint8_t> texels;  ///< [texel of the stored form]: its brightness, in steps of its block
+  std::vector<std::uint16_t> blocks; ///< [block]: a texel of way_map, the mean way of its light; [block]: its step; of
+                                     ///< 3 channels [block]: its colour
 
-  /// The unit vectors that `ways` numbers, about 0.8 degrees apart.
+  /// The unit vectors that are ways, about 0.8 degrees apart.
   static constexpr SphereMap way_map{256};
 
-  std::size_t direction_texels() const { return map.stored_texels() * radii.size(); } ///< in the stored form
-  std::size_t direction_items() const { return direction_texels() * static_cast<std::size_t>(channels); }
-  /// E r^2 over size^2 in a texel, linear sRGB.
+  std::size_t map_blocks() const { return map.blocks() * (channels == 3 ? 3 : 2); } ///< numbers of a sphere in `blocks`
+  std::uint64_t bytes(std::size_t direction_count) const;
+  void resize(std::size_t direction_count); ///< to that many baked directions
+  /// E r^2 over size^2 in a texel, linear sRGB, as it is stored.
   glm::dvec3 at(std::size_t direction, std::size_t sphere, std::size_t texel) const;
+  /// light: [texel of the map].
+  void store(std::size_t direction, std::size_t sphere, std::span<const TexelLight> light);
 };
 
 /// A bake kept in the folder of caches under the name of its key. It is written whole, and used only where this version

@@ -65,15 +65,13 @@ Baker::Baker(const BakeTask& task, const mpi::RankContext& context, std::size_t 
       world_(tracing::make_world(context, task.caster.scene, task.bvh, task.tables, task.defines, task.seed)),
       light_rgb_(compute::Buffer(context, "white light", white_light())),
       radii_(compute::Buffer(context, "radii", std::vector<float>(task.radii.begin(), task.radii.end()))),
-      bake_(task.empty_bake()), texels_(bake_.map.texels_of_stored()) {
-  for (std::size_t i = 0; i < bake_.map.texels(); ++i)
-    outward_.push_back(static_cast<std::uint16_t>(Bake::way_map.texel(bake_.map.direction(i))));
+      bake_(task.empty_bake()) {
   // kernels/tracing/emission.h spreads photons over the discs of all targets, which may overlap.
   double discs = 0;
   for (const scene::Sphere& target : task.tables.spheres) discs += std::numbers::pi * target.radius * target.radius;
   watts_ = discs * std::pow(task.caster.scene.metres_per_unit, 2); // 1 W/m^2
-  bake_.light.reserve(bake_.direction_items() * task.directions.size());
-  bake_.ways.reserve(bake_.direction_texels() * task.directions.size());
+  bake_.resize(task.directions.size());                            // takes all its memory now
+  bake_.resize(0);
   film_ = world_.zeroed("spheres of one direction", task.radii.size() * task.sums_a_sphere());
   energy_ = world_.zeroed("energy", OUTCOME_COUNT);
   kernel_ = compute::Program(context, "environment/bake.cl", world_.photon_defines()).kernel("bake");
@@ -117,21 +115,17 @@ std::optional<double> Baker::seconds_left() const {
 }
 
 void Baker::finish_sphere(std::size_t direction, std::size_t sphere, double scale) {
-  const std::size_t channels = task_.sums_a_texel() - 3,
-                    first = (direction * task_.radii.size() + sphere) * texels_.size();
+  const std::size_t channels = task_.sums_a_texel() - 3;
   std::vector<std::int64_t> sums(task_.sums_a_sphere());
   const std::size_t bytes = sums.size() * sizeof(std::int64_t);
   film_.RawBuffer::read(sums.data(), bytes, sphere * bytes);
-  for_ranges(texels_.size(), 1 << 14, [&](std::size_t, const Range& range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      const std::int64_t* const texel_sums = &sums[texels_[i] * task_.sums_a_texel()];
-      for (std::size_t c = 0; c < channels; ++c)
-        bake_.light[(first + i) * channels + c] = upper_half(scale * static_cast<double>(texel_sums[c]));
-      const glm::dvec3 way(texel_sums[channels], texel_sums[channels + 1], texel_sums[channels + 2]);
-      bake_.ways[first + i] =
-          way == glm::dvec3(0) ? outward_[texels_[i]] : static_cast<std::uint16_t>(Bake::way_map.texel(way));
-    }
-  });
+  std::vector<TexelLight> light(bake_.map.texels());
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const std::int64_t *const texel = &sums[i * task_.sums_a_texel()], *const way = texel + channels;
+    for (int c = 0; c < 3; ++c) light[i].light[c] = scale * static_cast<double>(texel[channels == 3 ? c : 0]);
+    light[i].way = {way[0], way[1], way[2]};
+  }
+  bake_.store(direction, sphere, light);
 }
 
 BakedDirection Baker::finish_direction(std::size_t direction) {
@@ -149,16 +143,14 @@ void Baker::finish_directions() {
   const Communicator& communicator = world_.context.communicator();
   const std::size_t before = bake_.baked.size(), after = before + at_once(),
                     own = before + static_cast<std::size_t>(communicator.rank());
-  bake_.light.resize(after * bake_.direction_items());
-  bake_.ways.resize(after * bake_.direction_texels());
-  bake_.baked.resize(after);
+  bake_.resize(after);
   if (own < after) bake_.baked[own] = finish_direction(own);
   const auto join = [&](auto& items) { // all ranks get all directions
     const std::size_t each = items.size() / after;
     communicator.all_reduce_or(std::as_writable_bytes(std::span(items).subspan(before * each)));
   };
-  join(bake_.light);
-  join(bake_.ways);
+  join(bake_.texels);
+  join(bake_.blocks);
   join(bake_.baked);
   clear();
   const auto now = std::chrono::steady_clock::now();
@@ -182,12 +174,10 @@ void Baker::serialize(tracing::Archive& archive) {
   archive.value(baked);
   if (archive.is_read() && (baked > task_.directions.size() || sent >= task_.photons))
     throw bad_input("checkpoint", "is of another run");
-  bake_.baked.resize(baked);
-  bake_.light.resize(baked * bake_.direction_items());
-  bake_.ways.resize(baked * bake_.direction_texels());
+  bake_.resize(baked);
   archive.items(std::span(bake_.baked));
-  archive.items(std::span(bake_.light));
-  archive.items(std::span(bake_.ways));
+  archive.items(std::span(bake_.texels));
+  archive.items(std::span(bake_.blocks));
   if (sent > 0) {
     archive.buffer(film_);
     archive.buffer(energy_);
@@ -238,8 +228,8 @@ void Baking::read() {
   if (!is_from_file_ || communicator.is_alone()) return;
   if (!bake_) bake_ = task_->empty_bake();
   bake_->baked = communicator.broadcast(std::move(bake_->baked));
-  bake_->light = communicator.broadcast(std::move(bake_->light));
-  bake_->ways = communicator.broadcast(std::move(bake_->ways));
+  bake_->texels = communicator.broadcast(std::move(bake_->texels));
+  bake_->blocks = communicator.broadcast(std::move(bake_->blocks));
 }
 
 void Baking::keep() {

@@ -42,11 +42,7 @@ struct BakeTask {
   std::size_t sums_a_sphere() const { return sums_a_texel() * SphereMap{resolution}.texels(); }
   std::uint64_t film_bytes() const { return radii.size() * sums_a_sphere() * sizeof(std::int64_t); }
   /// The memory that the bake of all directions takes.
-  std::uint64_t bytes() const {
-    const Bake bake = empty_bake();
-    return static_cast<std::uint64_t>(bake.direction_items() + bake.direction_texels()) * directions.size() *
-           sizeof(std::uint16_t);
-  }
+  std::uint64_t bytes() const { return empty_bake().bytes(directions.size()); }
 };
 
 /// Throws bad_input as make_caster and sphere_radii do.
@@ -94,8 +90,6 @@ private:
   std::uint32_t sent_ = 0; ///< photons, for each direction in hand
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(); ///< when the direction in hand began
   std::optional<double> seconds_a_direction_; ///< how long the direction before it took
-  std::vector<std::size_t> texels_;           ///< SphereMap::texels_of_stored
-  std::vector<std::uint16_t> outward_;        ///< [texel]: its direction's texel in Bake::way_map
 };
 
 class Baking {

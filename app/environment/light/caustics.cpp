@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t group = 32;
 
-/// [number in Bake::ways]: the unit way.
+/// [texel of Bake::way_map]: the unit way.
 std::vector<shared::float4> all_ways() {
   std::vector<shared::float4> ways;
   for (std::size_t i = 0; i < Bake::way_map.texels(); ++i)
@@ -16,8 +16,8 @@ std::vector<shared::float4> all_ways() {
   return ways;
 }
 
-/// The sets in groups of eight. direction_texels: how many stored texels a direction has.
-std::vector<shared::DeviceEightSets> eights_of(const std::vector<TurnedSet>& sets, std::size_t direction_texels) {
+/// The sets in groups of eight. spheres: how many a direction has.
+std::vector<shared::DeviceEightSets> eights_of(const std::vector<TurnedSet>& sets, std::size_t spheres) {
   std::vector<shared::DeviceEightSets> eights;
   for (std::size_t i = 0; i < (sets.size() + 7) / 8 * 8; ++i) {
     const bool missing = i >= sets.size();
@@ -28,7 +28,7 @@ std::vector<shared::DeviceEightSets> eights_of(const std::vector<TurnedSet>& set
     for (int k = 0; k < 9; ++k)
       eight.to_bake[k][lane] = static_cast<float>(set.to_bake[k % 3][k / 3]); // glm has columns
     for (int c = 0; c < 3; ++c) eight.flux[c][lane] = missing ? 0.0F : static_cast<float>(set.flux[c]);
-    eight.first[lane] = static_cast<std::size_t>(set.direction) * direction_texels;
+    eight.first[lane] = static_cast<std::size_t>(set.direction) * spheres;
   }
   return eights;
 }
@@ -43,17 +43,12 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context)
       way_of_(compute::Buffer(context, "ways", all_ways())),
       radii_(compute::Buffer(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end()))),
       sets_(context, "turned sets", 1) {
-  stored_ = compute::Buffer<std::uint16_t>::wrapping_host_memory(context, "caustic spheres", bake.light);
-  ways_ = compute::Buffer<std::uint16_t>::wrapping_host_memory(context, "ways through spheres", bake.ways);
+  texels_ = compute::Buffer<std::uint8_t>::wrapping_host_memory(context, "caustic spheres", bake.texels);
+  blocks_ = compute::Buffer<std::uint16_t>::wrapping_host_memory(context, "ways through spheres", bake.blocks);
   const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(bake.channels)}};
   const compute::Program program(context, "environment/cast.cl", defines);
   cast_ = program.kernel("cast");
   compile_air_ = program.kernel("compile_air");
-}
-
-std::uint64_t Caustics::bytes(const Bake& bake) {
-  return sizeof(std::uint16_t) * bake.directions.size() * bake.direction_texels() *
-         (static_cast<std::size_t>(bake.channels) + 1);
 }
 
 std::uint64_t Caustics::air_bytes(const Bake& bake, int side) {
@@ -61,15 +56,14 @@ std::uint64_t Caustics::air_bytes(const Bake& bake, int side) {
 }
 
 std::vector<compute::Argument> Caustics::arguments() const {
-  return {{"stored", stored_}, {"ways", ways_},          {"way_of", way_of_},  {"radii", radii_},
+  return {{"texels", texels_}, {"blocks", blocks_},      {"way_of", way_of_},  {"radii", radii_},
           {"sets", sets_},     {"eights", used_eights_}, {"spheres", spheres_}};
 }
 
 void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation) {
   seconds_ += tracing::seconds_of([&] {
     const std::vector<TurnedSet> sets = turned_sets(lights, rotation, directions_);
-    const std::vector<shared::DeviceEightSets> eights =
-        eights_of(sets, SphereMap{spheres_.side}.stored_texels() * static_cast<std::size_t>(spheres_.count));
+    const std::vector<shared::DeviceEightSets> eights = eights_of(sets, static_cast<std::size_t>(spheres_.count));
     if (eights.size() > sets_.size())
       sets_ = compute::Buffer<shared::DeviceEightSets>(context_, "turned sets", eights.size());
     if (!eights.empty()) sets_.write(eights);

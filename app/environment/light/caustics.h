@@ -28,7 +28,6 @@ public:
   /// bake outlives it. Throws failed where the device has not enough memory.
   Caustics(const Bake& bake, const compute::Context& context);
 
-  static std::uint64_t bytes(const Bake& bake);
   /// Memory of what compile_air() makes.
   static std::uint64_t air_bytes(const Bake& bake, int side);
 
@@ -60,7 +59,8 @@ private:
   compute::Context context_;
   int directions_; ///< how many the bake has
   shared::DeviceSpheres spheres_{};
-  compute::Buffer<std::uint16_t> stored_, ways_;
+  compute::Buffer<std::uint8_t> texels_;
+  compute::Buffer<std::uint16_t> blocks_;
   compute::Buffer<shared::float4> way_of_; ///< [number of Bake::way_map]
   compute::Buffer<float> radii_;
   Air air_;

@@ -10,7 +10,12 @@
 namespace nephroid::environment {
 namespace {
 
-constexpr std::size_t surface_point_count = 1024;
+/// placement: the object's in the scene.
+std::vector<glm::dvec3> viewpoints_of(const preset::Preset& preset, const scene::Scene& scene, const Caster& caster,
+                                      const Placement& placement) {
+  if (settings(preset).occlusion == Settings::Occlusion::thesis) return {placement.middle};
+  return surface_points(scene, caster.objects, 1024);
+}
 
 bool shines(const scene::Scene& scene) { return scene.environment && !scene.environment->is_black(); }
 
@@ -46,7 +51,7 @@ bool is_cut_evenly(const preset::Preset& preset, const CubeMap& cube) {
 
 SegmentSettings segment_settings(const preset::Preset& preset) {
   const Settings& s = settings(preset);
-  return {.lights = s.lights, .method = s.segmentation, .threshold = s.threshold};
+  return {.lights = s.lights, .method = s.segmentation, .weights = s.weights, .threshold = s.threshold};
 }
 
 Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube) {
@@ -62,7 +67,7 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
   task.bvh = std::make_shared<const scene::Bvh>(bvh);
   task.lamps = lamps(scene);
   task.placement = placement(preset, caster, scene);
-  task.surface_points = surface_points(scene, caster.objects, surface_point_count);
+  task.viewpoints = viewpoints_of(preset, scene, caster, task.placement);
   task.tables = tracing::make_scene_tables(*task.scene, {optics::all_wavelengths()}, leave_out);
   task.coloured = is_coloured(task.tables.wavelengths);
   task.defines = tracing::code_omissions(leave_out, *task.scene, task.tables.wavelengths.attenuator_count).defines;
@@ -90,7 +95,7 @@ std::optional<MovedObjects> move_objects(const RenderTask& loaded, const preset:
   MovedObjects moved;
   moved.camera = tracing::device_camera(scene->camera, Location(now.source) / "scene" / "camera");
   moved.placement = placement(now, caster, *scene);
-  moved.surface_points = surface_points(*scene, caster.objects, surface_point_count);
+  moved.viewpoints = viewpoints_of(now, *scene, caster, moved.placement);
   for (std::size_t i = 0; i < now.scene.objects.size() && !moved.surroundings; ++i)
     if (!std::ranges::count(caster.objects, i) && now.scene.objects[i].transform != shown.scene.objects[i].transform)
       moved.surroundings = without_caster(*scene, caster.objects);

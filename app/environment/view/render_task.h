@@ -21,10 +21,10 @@ struct RenderTask {
   std::shared_ptr<const scene::Scene> scene; ///< its environment is a light
   std::shared_ptr<const scene::Bvh> bvh;     ///< the scene's tree
   tracing::SceneTables tables;
-  compute::Defines defines;               ///< for kernels that trace the scene
-  bool coloured = false;                  ///< paths from the eye have one wavelength each
-  Placement placement;                    ///< the bake's
-  std::vector<glm::dvec3> surface_points; ///< points of the object, from surface_points()
+  compute::Defines defines;           ///< for kernels that trace the scene
+  bool coloured = false;              ///< paths from the eye have one wavelength each
+  Placement placement;                ///< the bake's
+  std::vector<glm::dvec3> viewpoints; ///< in the scene: from where it is seen what hides a light
 
   bool has_surroundings = false; ///< whether there is more in the scene than the object
   scene::Scene surroundings;     ///< the scene without the object
@@ -41,7 +41,7 @@ struct RenderTask {
 struct MovedObjects {
   std::shared_ptr<const scene::Scene> scene;
   Placement placement;
-  std::vector<glm::dvec3> surface_points;
+  std::vector<glm::dvec3> viewpoints;
   shared::DeviceCamera camera{};
   std::optional<scene::Scene> surroundings; ///< empty where only the caster moves
 };

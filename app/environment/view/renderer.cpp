@@ -94,15 +94,17 @@ void Renderer::find_around() {
 void Renderer::light_up() {
   world_.scene.sky_size.turns = texels_size_.turns = static_cast<float>(rotate_deg_ / 360);
   visible_ = occlusion_ && surroundings_
-                 ? occlusion_->visible_lights(surroundings_->world, rotate_deg_, task_.surface_points)
+                 ? occlusion_->visible_lights(surroundings_->world, rotate_deg_, task_.viewpoints)
                  : whole_lights(task_.segmentation);
+  if (task_.settings.occlusion == Settings::Occlusion::thesis)
+    for (std::size_t i = 0; i < visible_.size(); ++i) visible_[i].direction = task_.segmentation.lights[i].direction;
   std::vector<shared::float4> sky_lights;
   for (const DistantLight& light : environment_lights(whole_lights(task_.segmentation), rotate_deg_))
     sky_lights.insert(sky_lights.end(), {tracing::to_float4(-light.direction), tracing::to_float4(light.irradiance)});
   sky_lights_ = compute::Buffer(context_, "lights of the environment", sky_lights);
   std::vector<DistantLight> lights = environment_lights(visible_, rotate_deg_);
   const std::vector<DistantLight> lamps =
-      surroundings_ ? seen_lights(task_.lamps, surroundings_->world, task_.surface_points) : task_.lamps;
+      surroundings_ ? seen_lights(task_.lamps, surroundings_->world, task_.viewpoints) : task_.lamps;
   lights.insert(lights.end(), lamps.begin(), lamps.end());
   if (caustics_) caustics_->set_lights(lights, task_.placement.turn);
   air_side_ = 0;
@@ -301,7 +303,7 @@ void Renderer::set_camera(const scene::Camera& camera, const Location& where) {
 void Renderer::move_objects(MovedObjects moved) {
   task_.scene = std::move(moved.scene);
   task_.placement = moved.placement;
-  task_.surface_points = std::move(moved.surface_points);
+  task_.viewpoints = std::move(moved.viewpoints);
   task_.tables.camera = moved.camera;
   scene::Bvh bvh = *task_.bvh;
   scene::refit(bvh, task_.scene->geometry);

@@ -18,6 +18,7 @@ preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& 
   const Settings& o = settings(other);
   s.lights = o.lights;
   s.segmentation = o.segmentation;
+  s.weights = o.weights;
   s.threshold = o.threshold;
   return result;
 }
