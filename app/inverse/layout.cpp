@@ -204,7 +204,7 @@ Layout make_layout(const preset::Preset& preset) {
            .smoothing = s.smoothing_normals / s.smoothing_pictures};
   check_tool(l, s, own);
   check_constraints(l, s, own);
-  l.light = make_illumination(l, s.light, s, own / "light");
+  l.light = make_illumination(l, s.light, own / "light", s);
   add_own_lights(l, s, own);
   check_room(l, own);
   check_aim(l, own);

@@ -171,7 +171,7 @@ Incoming incoming_at(const Layout& layout, const glm::dvec2& middle) {
   return in;
 }
 
-Illumination make_illumination(Layout layout, const Light& light, const Settings& settings, const Location& where) {
+Illumination make_illumination(Layout layout, const Light& light, const Location& where, const Settings& settings) {
   if (light.type == Light::Type::sun) {
     const glm::dvec2 sines = sines_of_sun(light, settings, where / "place");
     Light straight = light;
@@ -226,7 +226,7 @@ void add_own_lights(Layout& layout, const Settings& settings, const Location& ow
       if (index == lights.size()) {
         lights.push_back(&*light);
         own_lights.push_back(
-            make_illumination(receiver_alone(layout, j), *light, settings, own / "receivers" / j / "light"));
+            make_illumination(receiver_alone(layout, j), *light, own / "receivers" / j / "light", settings));
       }
       ++index;
     }

@@ -15,7 +15,8 @@ static inline Beam flat_beam(global const DeviceLayout* layout, DeviceReceiver r
   const float distance = receiver.distance;
   const float wide = (axis == 0 ? layout->facet_x : layout->facet_y) * (1.0f + distance * receiver.spreads),
               sun = 0.5f * layout->sun_radius,
-              blur = distance * sqrt(12.0f * (sun * sun + layout->scatter * layout->scatter + receiver.lamp * receiver.lamp));
+              blur = distance * sqrt(12.0f * (sun * sun + layout->scatter * layout->scatter +
+                                              receiver.lamp * receiver.lamp));
   const float cell = axis == 0 ? layout->cell_x : layout->cell_y;
   return beam_of(0.5f, wide / cell, blur / cell);
 }
