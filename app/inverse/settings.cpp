@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace nephroid::inverse {
@@ -122,6 +123,13 @@ void check(const preset::Preset& preset, const Where& where) {
   if (s.frames > 0 && s.receivers.size() == 1)
     refuse("frames", fmt::format("is {}, and there is one receiver", s.frames),
            "expected two or more, between which a screen can move", "add a receiver, or take 'frames' away");
+  const auto is_lamp = [&](const Receiver& r) {
+    const Light::Type type = r.light ? r.light->type : s.light.type;
+    return type == Light::Type::point || type == Light::Type::area;
+  };
+  if (s.frames > 0 && std::ranges::any_of(s.receivers, is_lamp) && !std::ranges::all_of(s.receivers, is_lamp))
+    refuse("frames", fmt::format("is {}, and receivers are lit by lamps and by parallel light", s.frames),
+           "expected lights between which there is a way", "take 'frames' away");
   if (s.index.type == preset::Dispersion::Type::constant && s.index.n == 1)
     refuse("index", "is 1, which bends no light", "expected another index, such as 1.5");
   if (free_heights && s.method == Method::thesis)

@@ -140,6 +140,7 @@ TEST(OwnLights, BadLightIsRefused) {
               testing::HasSubstr("same place in the same light"));
   EXPECT_THAT(refusal({"inverse.method=thesis"}), testing::HasSubstr("the method 'thesis' has one light"));
   EXPECT_THAT(refusal({"inverse.receivers.0.light.spectrum=D65"}), testing::HasSubstr("/receivers/0/light/spectrum"));
+  EXPECT_THAT(refusal({"inverse.frames=3"}), testing::HasSubstr("lit by lamps and by parallel light"));
   EXPECT_THAT(refusal({"inverse.receivers.0.light.type=area", "inverse.sun_deg=0.5"}),
               testing::HasSubstr("a lamp has its size_mm"));
 }
