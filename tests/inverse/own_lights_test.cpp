@@ -19,7 +19,8 @@ constexpr const char* two_lamps = R"({"engine": "inverse", "inverse": {
   "facets": [32, 32], "cells": [16, 16], "receivers": [
     {"distance_mm": 250, "light": {"type": "point", "distance_mm": 600, "offset_mm": [-150, 0]},
      "picture": {"type": "ring"}},
-    {"distance_mm": 250, "light": {"type": "parallel", "tilt_deg": 12, "turn_deg": 70}, "picture": {"type": "disc"}}]}})";
+    {"distance_mm": 250, "light": {"type": "parallel", "tilt_deg": 12, "turn_deg": 70},
+     "picture": {"type": "disc"}}]}})";
 
 Layout layout_of(const preset::Overrides& overrides = {}) {
   return make_layout(preset::parse_preset(two_lamps, "own.json", overrides));
