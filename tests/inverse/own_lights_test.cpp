@@ -10,6 +10,9 @@
 #include "tests/support/render.h"
 #include "tests/support/test.h"
 
+#include <numeric>
+#include <random>
+
 namespace nephroid::own_lights_test {
 
 using namespace inverse;
