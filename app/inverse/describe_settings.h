@@ -27,7 +27,16 @@ inline constexpr Choice<inverse::Picture::Fit> choices<inverse::Picture::Fit>[] 
 template <>
 inline constexpr Choice<inverse::Light::Type> choices<inverse::Light::Type>[] = {
     {inverse::Light::Type::parallel, "parallel", "As the sun's: from one direction."},
-    {inverse::Light::Type::point, "point", "A lamp: from one place."}};
+    {inverse::Light::Type::point, "point", "A lamp: from one place."},
+    {inverse::Light::Type::area, "area", "A lamp of some size, parallel to the front; each place of it is a point."},
+    {inverse::Light::Type::sun, "sun",
+     "The sun as it stands at a place and an hour; the front looks to "
+     "front_azimuth_deg and front_elevation_deg."}};
+
+template <>
+inline constexpr Choice<inverse::Light::Shape> choices<inverse::Light::Shape>[] = {
+    {inverse::Light::Shape::disc, "disc", "A disc, or ellipse."},
+    {inverse::Light::Shape::rectangle, "rectangle", "A rectangle."}};
 
 template <>
 inline constexpr Choice<inverse::Settings::Method> choices<inverse::Settings::Method>[] = {
@@ -109,6 +118,32 @@ inline void describe(preset::Fields& v, Picture& p) {
           {.bounds = preset::within(0, 0.99)});
 }
 
+inline void describe(preset::Fields& v, Light& l) {
+  v.about("InverseLight", "What falls on the front of the object.");
+  v.type("type", "Where the light comes from.", l.type);
+  if (l.type == Light::Type::parallel) {
+    v.field("tilt_deg", "Between the light and the front's normal; receivers stay where they are.", l.tilt_deg,
+            {.unit = "degrees", .bounds = preset::within(-360, 360)});
+    v.field("turn_deg", "The side to which tilted light goes: 0 is to the right, 90 up.", l.turn_deg,
+            {.unit = "degrees", .bounds = preset::within(-360, 360)});
+  } else if (l.type == Light::Type::sun) {
+    v.field("place", "Where and when the sun is seen.", l.place, {.required = true});
+  } else {
+    v.field("distance_mm", "From the front.", l.distance_mm, {.unit = "mm", .bounds = preset::within(-1e6, 1e6)});
+    v.field("offset_mm", "Beside the middle of the object: to the right and up.", l.offset_mm,
+            {.unit = "mm", .bounds = preset::within(-1e5, 1e5)});
+    if (l.type == Light::Type::area) {
+      v.field("shape", "What the lamp looks like from the object.", l.shape);
+      v.field("size_mm", "Width and height of the lamp, which blur the pictures.", l.size_mm,
+              {.unit = "mm", .bounds = preset::within(0.001, 1e5)});
+    }
+  }
+  v.field("spectrum",
+          "Its colours: a CIE illuminant by name, or an object. Luminance counts then, and pictures are judged in "
+          "colours. Without it the light is of wavelength_nm and band_nm, energy counts, and pictures are grey.",
+          l.spectrum);
+}
+
 inline void describe(preset::Fields& v, Receiver& r) {
   v.about("InverseReceiver", "A screen across the light, and its picture.");
   v.field("distance_mm", "From the object's facets, against which it is parallel.", r.distance_mm,
@@ -121,25 +156,11 @@ inline void describe(preset::Fields& v, Receiver& r) {
   v.field("weight",
           "How much its picture counts beside the others'; the costs that are reported are of all pictures alike.",
           r.weight, {.bounds = preset::within(0.01, 100)});
-}
-
-inline void describe(preset::Fields& v, Light& l) {
-  v.about("InverseLight", "What falls on the front of the object.");
-  v.type("type", "Where the light comes from.", l.type);
-  if (l.type == Light::Type::parallel) {
-    v.field("tilt_deg", "Between the light and the front's normal; receivers stay where they are.", l.tilt_deg,
-            {.unit = "degrees", .bounds = preset::within(-360, 360)});
-    v.field("turn_deg", "The side to which tilted light goes: 0 is to the right, 90 up.", l.turn_deg,
-            {.unit = "degrees", .bounds = preset::within(-360, 360)});
-  } else {
-    v.field("distance_mm", "From the front.", l.distance_mm, {.unit = "mm", .bounds = preset::within(-1e6, 1e6)});
-    v.field("offset_mm", "Beside the middle of the object: to the right and up.", l.offset_mm,
-            {.unit = "mm", .bounds = preset::within(-1e5, 1e5)});
-  }
-  v.field("spectrum",
-          "Its colours: a CIE illuminant by name, or an object. Luminance counts then, and pictures are judged in "
-          "colours. Without it the light is of wavelength_nm and band_nm, energy counts, and pictures are grey.",
-          l.spectrum);
+  v.field(
+      "light",
+      "What falls on the front while this picture is seen: another light for another picture. Without, the light of "
+      "all. Only with the method 'assign'.",
+      r.light);
 }
 
 inline void describe(preset::Fields& v, Thesis& t) {
@@ -225,6 +246,16 @@ inline void describe(preset::Fields& v, Settings& s) {
       "Width of the light's band about wavelength_nm: its colours leave the object apart, which blurs the pictures.",
       s.band_nm, {.unit = "nm", .bounds = within(0, 400)});
   v.field("light", "What falls on the front.", s.light);
+  v.field(
+      "front_azimuth_deg",
+      "Where the front looks, for a light of type sun: 0 is north, 90 east, 180 south. To the right is then west to "
+      "east for a front that looks south, as seen along the light.",
+      s.front_azimuth_deg, {.unit = "degrees", .bounds = within(-360, 360)});
+  v.field(
+      "front_elevation_deg",
+      "How far the front looks above the horizon: 0 is an upright pane, 90 a plate that lies with its front up; up on "
+      "the plate is then away from front_azimuth_deg.",
+      s.front_elevation_deg, {.unit = "degrees", .bounds = within(0, 90)});
   v.field("sun_deg", "Diameter of the light's disc, which blurs the pictures; the sun's own is 0.53.", s.sun_deg,
           {.unit = "degrees", .bounds = within(0, 20)});
   v.field("scatter_deg", "How far a rough surface turns light, as a standard deviation; it blurs the pictures.",

@@ -81,7 +81,9 @@ bool adoptable(const preset::Preset& before, const preset::Preset& now) {
   same.name = before.name;
   same.description = before.description;
   same.scene.camera = before.scene.camera;
-  if (settings(before).method == Settings::Method::assign) {
+  const auto same_light = [](const Receiver& a, const Receiver& b) { return a.light == b.light; };
+  if (settings(before).method == Settings::Method::assign &&
+      std::ranges::equal(settings(before).receivers, settings(now).receivers, same_light)) {
     same.stop = before.stop;
     settings(same).receivers = settings(before).receivers;
   }

@@ -44,13 +44,14 @@ std::uint32_t part_step(int parts) {
   return static_cast<std::uint32_t>(step);
 }
 
+/// `l` has the light as that of all.
 shared::DeviceFront front_of(const Layout& l, std::size_t screens) {
   const auto number = [](double value) { return static_cast<float>(value); };
   return {.direction = four(light_ray(l, {0, 0, l.thickness}).direction),
           .lamp = four(l.light.lamp.value_or(glm::dvec3(0))),
           .lamp_weight = l.light.lamp ? number(lamp_weight(l)) : 0,
           .n = number(l.n),
-          .sun_radius = number(l.sun_radius),
+          .sun_radius = number(l.light.lamp_half.x > 0 ? 0 : l.sun_radius),
           .scatter = number(l.scatter),
           .size_x = number(l.size.x),
           .size_y = number(l.size.y),
@@ -67,14 +68,25 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens) {
           .cells_y = l.cells.y,
           .screens = static_cast<int>(screens),
           .part_step = l.spectrum ? part_step(rays_along(l) * rays_along(l)) : 0,
-          .is_round = l.round ? 1 : 0};
+          .is_round = l.round ? 1 : 0,
+          .lamp_x = number(l.light.lamp_half.x),
+          .lamp_y = number(l.light.lamp_half.y),
+          .lamp_is_round = l.light.lamp_is_round ? 1 : 0,
+          .padding = 0};
 }
 
 /// The receivers, then the frames between them.
 std::vector<shared::DeviceReceiver> screens_of(const Layout& l) {
   std::vector<shared::DeviceReceiver> screens;
   const auto add = [&](double distance, const glm::dvec2& middle) {
-    screens.push_back({static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(distance), 1});
+    screens.push_back({.x = static_cast<float>(middle.x),
+                       .y = static_cast<float>(middle.y),
+                       .distance = static_cast<float>(distance),
+                       .weight = 1,
+                       .light = 0,
+                       .spreads = 0,
+                       .lamp = 0,
+                       .padding = 0});
   };
   for (std::size_t j = 0; j < l.distances.size(); ++j) add(l.distances[j], l.offset(j));
   for (std::size_t k = 0; k < l.frames.size(); ++k) {
@@ -83,6 +95,19 @@ std::vector<shared::DeviceReceiver> screens_of(const Layout& l) {
         glm::mix(l.offset(j), l.offset(j + 1), static_cast<double>(k % each + 1) / static_cast<double>(each + 1)));
   }
   return screens;
+}
+
+/// A light between two: a part of the way from one to the other.
+Illumination between(const Illumination& a, const Illumination& b, double part) {
+  Illumination made = a;
+  made.facets.reset();
+  if (a.lamp && b.lamp) made.lamp = glm::mix(*a.lamp, *b.lamp, part);
+  made.lamp_half = glm::mix(a.lamp_half, b.lamp_half, part);
+  const auto direction = [](const Illumination& l) {
+    return glm::dvec3(l.sines, std::sqrt(1 - glm::dot(l.sines, l.sines)));
+  };
+  made.sines = glm::dvec2(glm::normalize(glm::mix(direction(a), direction(b), part)));
+  return made;
 }
 
 /// The spectrum's parts as the kernel has them, each over its share of the rays.
@@ -162,23 +187,56 @@ Judge::Judge(const mpi::RankContext& context, const Layout& layout, const Solid&
     : context_(context), layout_(layout), targets_(targets),
       solid_(context, solid, layout.blurs(), layout.coloured()), seed_{static_cast<std::uint32_t>(seed),
                                                                        static_cast<std::uint32_t>(seed >> 32)} {
-  const std::vector<shared::DeviceReceiver> screens = screens_of(layout);
-  front_ = front_of(layout, screens.size());
-  parts_ = compute::Buffer(context, "parts of the spectrum", parts_of(layout, front_.along * front_.along));
-  screens_ = compute::Buffer(context, "screens", screens);
-  for (auto& half : light_on_screens_)
-    half = compute::zeroed<std::int64_t>(context, "light on the screens",
-                                         layout.cell_count() * screens.size() * channels(layout));
-  outcomes_ =
-      compute::zeroed<std::int64_t>(context, "where the light goes", std::size_t{RAY_OUTCOMES} * RAY_OUTCOME_SUMS);
+  screens_ = screens_of(layout);
+  along_ = rays_along(layout);
+  parts_ = compute::Buffer(context, "parts of the spectrum", parts_of(layout, along_ * along_));
   judge_ = solid_.program->kernel("judge");
-  light_.assign(screens.size(), std::vector<double>(layout.cell_count()));
+  light_.assign(screens_.size(), std::vector<double>(layout.cell_count()));
   halves_.fill(light_);
+  std::vector<std::size_t> some(layout.own_lights.empty() ? screens_.size() : layout.distances.size());
+  std::iota(some.begin(), some.end(), std::size_t{0});
+  for (std::size_t k = 0; k <= layout.own_lights.size(); ++k) add_light(layout.numbered(k), some);
+  if (layout.own_lights.empty() || layout.frames.empty()) return;
+  const std::size_t each = layout.frames.size() / (layout.distances.size() - 1);
+  for (std::size_t f = 0; f < layout.frames.size(); ++f)
+    add_light(between(layout.light_on(f / each), layout.light_on(f / each + 1),
+                      static_cast<double>(f % each + 1) / static_cast<double>(each + 1)),
+              {layout.distances.size() + f});
+}
+
+void Judge::add_light(const Illumination& light, std::vector<std::size_t> screens) {
+  Layout lit = layout_;
+  lit.light = light;
+  lit.own_lights.clear();
+  OneLight one;
+  one.front = front_of(lit, screens.size());
+  std::vector<shared::DeviceReceiver> receivers;
+  for (const std::size_t screen : screens) receivers.push_back(screens_[screen]);
+  one.receivers = compute::Buffer(context_, "screens", receivers);
+  for (auto& half : one.sums)
+    half = compute::zeroed<std::int64_t>(context_, "light on the screens",
+                                         layout_.cell_count() * screens.size() * channels(layout_));
+  one.outcomes =
+      compute::zeroed<std::int64_t>(context_, "where the light goes", std::size_t{RAY_OUTCOMES} * RAY_OUTCOME_SUMS);
+  one.light.assign(screens.size(), std::vector<double>(layout_.cell_count()));
+  one.halves.fill(one.light);
+  one.screens = std::move(screens);
+  lights_.push_back(std::move(one));
+}
+
+std::size_t Judge::lamp_of(std::size_t screen) const {
+  if (layout_.own_lights.empty()) return 0;
+  const std::size_t receivers = layout_.distances.size();
+  return screen < receivers ? layout_.light_index(screen) : layout_.own_lights.size() + 1 + screen - receivers;
+}
+
+std::size_t Judge::place_of(std::size_t screen) const {
+  return layout_.own_lights.empty() || screen < layout_.distances.size() ? screen : 0;
 }
 
 double Judge::fraction_done() const {
   const int rounds = std::max(least_rounds, (round_ + 2) / 2 * 2);
-  return finished_ ? 1 : (round_ + static_cast<double>(row_) / layout_.facets.y) / rounds;
+  return finished_ ? 1 : (round_ + static_cast<double>(row_) / (layout_.facets.y * lights_.size())) / rounds;
 }
 
 std::uint64_t rays_of(const Layout& layout) {
@@ -187,35 +245,36 @@ std::uint64_t rays_of(const Layout& layout) {
 }
 
 void Judge::advance() {
-  const int rays_a_row = layout_.facets.x * front_.along * front_.along;
+  const int rays_a_row = layout_.facets.x * along_ * along_, rows_a_light = layout_.facets.y, row = row_ % rows_a_light;
   const Communicator& communicator = context_.communicator();
-  const int rows = std::min(layout_.facets.y - row_, std::max(1, rays_a_slice / rays_a_row) * communicator.size());
+  const int rows = std::min(rows_a_light - row, std::max(1, rays_a_slice / rays_a_row) * communicator.size());
   const auto turn = static_cast<std::uint32_t>(round_);
-  Partition(communicator, layout_.facets.y).for_own(row_, rows, [&](std::int64_t first_row, std::int64_t own) {
-    judge_rows(static_cast<std::uint32_t>(first_row), static_cast<std::uint32_t>(own * rays_a_row), turn);
+  OneLight& light = lights_[static_cast<std::size_t>(row_ / rows_a_light)];
+  Partition(communicator, rows_a_light).for_own(row, rows, [&](std::int64_t first_row, std::int64_t own) {
+    judge_rows(light, static_cast<std::uint32_t>(first_row), static_cast<std::uint32_t>(own * rays_a_row), turn);
   });
   context_.finish();
   row_ += rows;
-  if (row_ < layout_.facets.y) return;
+  if (row_ < rows_a_light * static_cast<int>(lights_.size())) return;
   row_ = 0;
   if (++round_ % 2 == 0) end_pair();
 }
 
-void Judge::judge_rows(std::uint32_t first, std::uint32_t count, std::uint32_t turn) {
+void Judge::judge_rows(OneLight& light, std::uint32_t first, std::uint32_t count, std::uint32_t turn) {
   judge_.run(count, work_group,
              {{"nodes", solid_.nodes},
               {"blocks", solid_.blocks},
               {"root", solid_.root},
               {"normals", solid_.normals},
-              {"front", front_},
+              {"front", light.front},
               {"parts", parts_},
-              {"screens", screens_},
+              {"screens", light.receivers},
               {"seed", seed_},
               {"turn", turn},
               {"first_row", first},
               {"count", count},
-              {"light", light_on_screens_[turn % 2]},
-              {"outcomes", outcomes_}});
+              {"light", light.sums[turn % 2]},
+              {"outcomes", light.outcomes}});
 }
 
 void Judge::end_pair() {
@@ -227,29 +286,38 @@ void Judge::end_pair() {
 }
 
 void Judge::read_sums() {
+  for (OneLight& light : lights_) read_sums(light);
+  for (std::size_t screen = 0; screen < screens_.size(); ++screen) {
+    const OneLight& light = lights_[lamp_of(screen)];
+    light_[screen] = light.light[place_of(screen)];
+    for (std::size_t half = 0; half < 2; ++half) halves_[half][screen] = light.halves[half][place_of(screen)];
+  }
+  if (finished()) solid_ = {}; // no ray follows
+}
+
+void Judge::read_sums(OneLight& light) {
   const std::size_t cells = layout_.cell_count(), screen = cells * channels(layout_);
   for (std::size_t half = 0; half < 2; ++half) {
-    const std::vector<std::int64_t> light = context_.all_reduced_sum(light_on_screens_[half]);
-    for (std::size_t j = 0; j < light_.size(); ++j)
+    const std::vector<std::int64_t> sums = context_.all_reduced_sum(light.sums[half]);
+    for (std::size_t j = 0; j < light.light.size(); ++j)
       for (std::size_t c = 0; c < cells; ++c)
-        halves_[half][j][c] = static_cast<double>(light[j * screen + c]) / RAY_QUANTA * 2 / round_;
+        light.halves[half][j][c] = static_cast<double>(sums[j * screen + c]) / RAY_QUANTA * 2 / round_;
   }
-  for (std::size_t j = 0; j < light_.size(); ++j)
-    for (std::size_t c = 0; c < cells; ++c) light_[j][c] = (halves_[0][j][c] + halves_[1][j][c]) / 2;
-  const std::vector<std::int64_t> outcomes = context_.all_reduced_sum(outcomes_);
+  for (std::size_t j = 0; j < light.light.size(); ++j)
+    for (std::size_t c = 0; c < cells; ++c) light.light[j][c] = (light.halves[0][j][c] + light.halves[1][j][c]) / 2;
+  const std::vector<std::int64_t> outcomes = context_.all_reduced_sum(light.outcomes);
   std::array<std::int64_t, RAY_OUTCOMES> sums{};
   for (std::size_t i = 0; i < outcomes.size(); ++i) sums[i % RAY_OUTCOMES] += outcomes[i];
   const auto facets = [&](int outcome) {
     return static_cast<double>(sums[static_cast<std::size_t>(outcome)]) / RAY_QUANTA / round_;
   };
-  sum_ = {facets(RAY_REFLECTED), facets(RAY_LOST), facets(RAY_SENT), facets(RAY_BY_WALLS)};
-  if (finished()) solid_ = {}; // no ray follows
+  light.sum = {facets(RAY_REFLECTED), facets(RAY_LOST), facets(RAY_SENT), facets(RAY_BY_WALLS)};
 }
 
-std::vector<glm::dvec3> Judge::colours(std::size_t screen) const {
-  const std::size_t cells = layout_.cell_count();
+std::vector<glm::dvec3> Judge::colours(std::size_t which_screen) const {
+  const std::size_t cells = layout_.cell_count(), screen = place_of(which_screen);
   std::vector<glm::dvec3> xyz(cells);
-  for (const auto& half : light_on_screens_) {
+  for (const auto& half : lights_[lamp_of(which_screen)].sums) {
     const std::vector<std::int64_t> light = context_.all_reduced_sum(half);
     const auto channel = [&](std::size_t which, std::size_t c) {
       return static_cast<double>(light[(3 * screen + which) * cells + c]) / RAY_QUANTA / round_;
@@ -260,17 +328,31 @@ std::vector<glm::dvec3> Judge::colours(std::size_t screen) const {
 }
 
 RayOutcomes Judge::outcomes() const {
-  const double all = static_cast<double>(layout_.facet_count());
-  return {sum_.reflected / all, sum_.lost / all, sum_.sent / all, sum_.by_walls / all};
+  const std::size_t receivers = layout_.distances.size();
+  const double all = static_cast<double>(layout_.facet_count()) * static_cast<double>(receivers);
+  RayOutcomes mean;
+  for (std::size_t j = 0; j < receivers; ++j) {
+    const RayOutcomes& sum = lights_[lamp_of(j)].sum;
+    mean.reflected += sum.reflected / all;
+    mean.lost += sum.lost / all;
+    mean.sent += sum.sent / all;
+    mean.by_walls += sum.by_walls / all;
+  }
+  return mean;
 }
 
-std::vector<Cost> Judge::costs(const std::vector<Target>& targets) const {
-  return costs_of(targets, light_, sum_.sent);
+std::vector<Cost> Judge::costs_by(const std::vector<Target>& targets,
+                                  const std::vector<std::vector<double>>& light) const {
+  std::vector<double> sent;
+  for (std::size_t j = 0; j < targets.size(); ++j) sent.push_back(lights_[lamp_of(j)].sum.sent);
+  return costs_of(targets, light, sent);
 }
+
+std::vector<Cost> Judge::costs(const std::vector<Target>& targets) const { return costs_by(targets, light_); }
 
 std::vector<Cost> Judge::noise(const std::vector<Target>& targets) const {
   std::vector<Cost> noise = costs(targets);
-  const std::vector<Cost> a = costs_of(targets, halves_[0], sum_.sent), b = costs_of(targets, halves_[1], sum_.sent);
+  const std::vector<Cost> a = costs_by(targets, halves_[0]), b = costs_by(targets, halves_[1]);
   for (std::size_t j = 0; j < noise.size(); ++j)
     noise[j] = {noise_of(noise[j].cost, a[j].cost, b[j].cost),
                 noise_of(noise[j].cost_all, a[j].cost_all, b[j].cost_all),
@@ -282,15 +364,16 @@ void Judge::serialize(Archive& archive) {
   archive.value(row_);
   archive.value(round_);
   archive.value(finished_);
-  for (auto& half : light_on_screens_) {
-    std::vector<std::int64_t> light = context_.all_reduced_sum(half);
-    archive.items(light);
-    if (archive.is_read()) write_sum(half, light, context_.communicator());
+  for (OneLight& one : lights_) {
+    const auto put = [&](compute::Buffer<std::int64_t>& sums) {
+      std::vector<std::int64_t> sum = context_.all_reduced_sum(sums);
+      archive.items(sum);
+      if (archive.is_read()) write_sum(sums, sum, context_.communicator());
+    };
+    for (auto& half : one.sums) put(half);
+    put(one.outcomes);
   }
-  std::vector<std::int64_t> outcomes = context_.all_reduced_sum(outcomes_);
-  archive.items(outcomes);
   if (!archive.is_read()) return;
-  write_sum(outcomes_, outcomes, context_.communicator());
   if (finished_) read_sums();
 }
 

@@ -62,11 +62,16 @@ public:
   void advance(); ///< judges a few rows of facets; light and outcomes are there once it has finished
   bool finished() const { return finished_; }
   double fraction_done() const; ///< the part done of the rounds that are planned so far
-  /// Each cell's luminance, or energy without colours, in facets' incident light. Screens: receivers, then frames.
+  /// Each cell's luminance, or energy without colours, in facets' incident light. Screens: receivers, then frames, each
+  /// in its own light; a frame's is between those of the receivers before and behind it.
   const std::vector<double>& light(std::size_t screen) const { return light_[screen]; }
+  /// A receiver in another's light.
+  const std::vector<double>& light_under(std::size_t receiver, std::size_t other) const {
+    return lights_[lamp_of(other)].light[receiver];
+  }
   /// The XYZ of each cell of coloured light; y is light().
   std::vector<glm::dvec3> colours(std::size_t screen) const;
-  RayOutcomes outcomes() const;
+  RayOutcomes outcomes() const;                                      ///< the mean over the receivers' lights
   std::vector<Cost> costs(const std::vector<Target>& targets) const; ///< a cost for each receiver
   /// The noise in each figure. Without it, a figure would be the root of the difference of the squares.
   std::vector<Cost> noise(const std::vector<Target>& targets) const;
@@ -76,7 +81,25 @@ public:
 private:
   static inline const std::vector<Target> no_targets{};
 
-  void judge_rows(std::uint32_t first, std::uint32_t count, std::uint32_t turn);
+  /// One light, and what it casts on some screens.
+  struct OneLight {
+    shared::DeviceFront front{};
+    std::vector<std::size_t> screens;                  ///< numbers among the judge's
+    compute::Buffer<shared::DeviceReceiver> receivers; ///< the same
+    std::array<compute::Buffer<std::int64_t>, 2> sums; ///< even and odd rounds: [screen][y, x, z][cell]
+    compute::Buffer<std::int64_t> outcomes;
+    RayOutcomes sum;                                        ///< in facets; over all rows and rounds
+    std::vector<std::vector<double>> light;                 ///< [screen][cell], in facets
+    std::array<std::vector<std::vector<double>>, 2> halves; ///< light of even and of odd rounds
+  };
+
+  void judge_rows(OneLight& light, std::uint32_t first, std::uint32_t count, std::uint32_t turn);
+  void add_light(const Illumination& light, std::vector<std::size_t> screens);
+  void read_sums(OneLight& light);
+  /// The place among lights_ of the one on a screen, and the screen's place there.
+  std::size_t lamp_of(std::size_t screen) const;
+  std::size_t place_of(std::size_t screen) const;
+  std::vector<Cost> costs_by(const std::vector<Target>& targets, const std::vector<std::vector<double>>& light) const;
   void end_pair();
   void read_sums();
 
@@ -85,15 +108,13 @@ private:
   const std::vector<Target>& targets_;
   SolidOnDevice solid_;
   shared::uint2 seed_;
-  shared::DeviceFront front_{};
-  compute::Buffer<shared::float4> parts_;                         ///< the spectrum's parts: index and XYZ
-  compute::Buffer<shared::DeviceReceiver> screens_;               ///< the receivers, then the frames
-  std::array<compute::Buffer<std::int64_t>, 2> light_on_screens_; ///< even and odd rounds: [screen][y, x, z][cell]
-  compute::Buffer<std::int64_t> outcomes_;
+  compute::Buffer<shared::float4> parts_;       ///< the spectrum's parts: index and XYZ
+  std::vector<shared::DeviceReceiver> screens_; ///< the receivers, then the frames
+  std::vector<OneLight> lights_;                ///< the receivers' lights, then those of frames in lights between them
   compute::Kernel judge_;
-  int row_ = 0, round_ = 0;
+  int along_ = 1;           ///< rays along one side of a facet
+  int row_ = 0, round_ = 0; ///< row: of the facets in one light after the other
   bool finished_ = false;
-  RayOutcomes sum_;                                        ///< in facets; over all rows and rounds
   std::vector<std::vector<double>> light_;                 ///< [screen][cell], in facets
   std::array<std::vector<std::vector<double>>, 2> halves_; ///< light_ of even and of odd rounds
 };

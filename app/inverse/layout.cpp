@@ -204,7 +204,8 @@ Layout make_layout(const preset::Preset& preset) {
            .smoothing = s.smoothing_normals / s.smoothing_pictures};
   check_tool(l, s, own);
   check_constraints(l, s, own);
-  l.light = make_illumination(l, s.light, own / "light");
+  l.light = make_illumination(l, s.light, own / "light", s);
+  add_own_lights(l, s, own);
   check_room(l, own);
   check_aim(l, own);
   return l;
@@ -230,7 +231,8 @@ void check_reach(const Layout& layout, const std::vector<Target>& targets, const
   for (std::size_t j = 0; j < targets.size(); ++j) {
     const double distance = layout.distances[j];
     const std::array<glm::dvec2, 16> lit = farthest_lit(layout, targets[j], j);
-    const auto turn = [&](const glm::dvec2& to, double over) { return least_turn(layout, to, over); };
+    const Layout alone = receiver_alone(layout, j);
+    const auto turn = [&](const glm::dvec2& to, double over) { return least_turn(alone, to, over); };
     const glm::dvec2 place = *std::max_element(lit.begin(), lit.end(), [&](const glm::dvec2& a, const glm::dvec2& b) {
       return turn(a, distance) < turn(b, distance);
     });

@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -25,7 +26,9 @@ struct Incoming {
 /// Where the light comes from, and how much of it falls on the facets.
 struct Illumination {
   glm::dvec2 sines{0};            ///< parallel light: x and y of its unit direction before the front
-  std::optional<glm::dvec3> lamp; ///< a point light's place
+  std::optional<glm::dvec3> lamp; ///< a point light's place, or the middle of an area
+  glm::dvec2 lamp_half{0};        ///< half of an area light's width and height, in a plane along the front
+  bool lamp_is_round = false;
   /// The light on each facet. None: parallel light falls straight on a rectangle and is the same on all facets.
   std::optional<std::vector<Incoming>> facets;
 };
@@ -59,10 +62,22 @@ struct Layout {
   double draft = 0;     ///< tangent of the least angle between a wall and the light straight on
   double smoothing = 0; ///< thesis (6.1): alpha_N over alpha_P
 
+  /// Lights that receivers have of their own. A facet's slope is always that of `light` behind it.
+  std::vector<Illumination> own_lights{};
+  std::vector<std::size_t>
+      light_of{}; ///< for each receiver: 0 is `light`, k own_lights[k - 1]; empty: all have `light`
+
+  std::size_t light_index(std::size_t receiver_index) const { return light_of.empty() ? 0 : light_of[receiver_index]; }
+  const Illumination& numbered(std::size_t index) const { return index == 0 ? light : own_lights[index - 1]; }
+  const Illumination& light_on(std::size_t receiver_index) const { return numbered(light_index(receiver_index)); }
+
   /// Whether p is outside a round object's outline.
   bool is_beside(const glm::dvec2& p) const { return round && glm::length(p / size) > 0.5; }
   /// Whether light has a width, or many wavelengths.
-  bool blurs() const { return sun_radius > 0 || scatter > 0 || spectrum; }
+  bool blurs() const { return sun_radius > 0 || scatter > 0 || spectrum || has_area(); }
+  bool has_area() const {
+    return light.lamp_half.x > 0 || std::ranges::any_of(own_lights, [](const auto& l) { return l.lamp_half.x > 0; });
+  }
   /// Whether light counts as luminance, else as energy.
   bool coloured() const { return spectrum && spectrum->coloured; }
   std::span<const LightPart> parts() const { return spectrum ? spectrum->parts : std::span<const LightPart>(); }

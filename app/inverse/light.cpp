@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "inverse/bending.h"
 #include "optics/fresnel.h"
+#include "scene/sky.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -93,6 +94,26 @@ Layout with_tilt(Layout layout, double tilt_deg, double turn_deg) {
   return layout;
 }
 
+/// Light of the sun onto the front. Throws bad_input where it does not reach the front.
+glm::dvec2 sines_of_sun(const Light& light, const Settings& s, const Location& where) {
+  const scene::SunPlace at = scene::sun_place(light.place);
+  if (at.elevation_deg <= 0)
+    throw bad_input(
+        where / "hour",
+        fmt::format("is {:g}, when the sun is {:.1f} degrees below the horizon", light.place.hour, -at.elevation_deg),
+        "expected an hour of daylight", "choose another hour or date, or see to utc_offset_h");
+  const glm::dvec3 z = scene::to_sky({s.front_elevation_deg, s.front_azimuth_deg}),
+                   y = scene::to_sky({s.front_elevation_deg + 90, s.front_azimuth_deg}), sun = scene::to_sky(at);
+  if (const double facing = glm::dot(sun, z); facing <= 0)
+    throw bad_input(where / "hour",
+                    fmt::format("is {:g}, when the sun stands at azimuth {:.0f}, {:.0f} degrees high, {:.1f} degrees "
+                                "behind the front",
+                                light.place.hour, at.azimuth_deg, at.elevation_deg, glm::degrees(std::asin(-facing))),
+                    "expected an hour at which it shines on the front",
+                    "choose another hour, front_azimuth_deg or front_elevation_deg");
+  return -glm::dvec2(glm::dot(sun, glm::cross(y, z)), glm::dot(sun, y));
+}
+
 Layout with_lamp(Layout layout, double distance, const std::array<double, 2>& offset) {
   layout.light.lamp = {offset[0], offset[1], layout.thickness + distance};
   return layout;
@@ -150,9 +171,21 @@ Incoming incoming_at(const Layout& layout, const glm::dvec2& middle) {
   return in;
 }
 
-Illumination make_illumination(Layout layout, const Light& light, const Location& where) {
-  layout = light.type == Light::Type::point ? lit_by_lamp(layout, light, where / "distance_mm")
-                                            : tilted(layout, light, where / "tilt_deg");
+Illumination make_illumination(Layout layout, const Light& light, const Location& where, const Settings& settings) {
+  if (light.type == Light::Type::sun) {
+    const glm::dvec2 sines = sines_of_sun(light, settings, where / "place");
+    Light straight = light;
+    straight.tilt_deg = glm::degrees(std::asin(glm::length(sines)));
+    straight.turn_deg = glm::degrees(std::atan2(sines.y, sines.x));
+    layout = tilted(layout, straight, where / "place" / "hour");
+  } else if (light.type == Light::Type::parallel)
+    layout = tilted(layout, light, where / "tilt_deg");
+  else
+    layout = lit_by_lamp(layout, light, where / "distance_mm");
+  if (light.type == Light::Type::area) {
+    layout.light.lamp_half = glm::dvec2(light.size_mm[0], light.size_mm[1]) / 2.0;
+    layout.light.lamp_is_round = light.shape == Light::Shape::disc;
+  }
   layout.light.facets = light_on_facets(layout);
   const std::span<const Incoming> facets = layout.incoming();
   if (layout.light.facets && std::ranges::none_of(facets, [](const Incoming& in) { return in.power > 0; }))
@@ -165,8 +198,10 @@ Illumination make_illumination(Layout layout, const Light& light, const Location
   return layout.light;
 }
 
-std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout) {
-  if (!layout.light.lamp && layout.light.sines == glm::dvec2(0) && !layout.round) return std::nullopt;
+namespace {
+
+/// The light on each facet, over its mean.
+std::vector<Incoming> facets_lit(const Layout& layout) {
   std::vector<Incoming> facets(layout.facet_count());
   for_ranges(facets.size(), 1024, [&](std::size_t, const Range& range) {
     for (std::size_t i = range.begin; i < range.end; ++i) facets[i] = incoming_at(layout, layout.middle(i));
@@ -175,6 +210,78 @@ std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout) {
   for (const Incoming& in : facets) sum += in.power;
   for (Incoming& in : facets) in.power *= static_cast<double>(facets.size()) / sum;
   return facets;
+}
+
+} // namespace
+
+void add_own_lights(Layout& layout, const Settings& settings, const Location& own) {
+  std::vector<const Light*> lights;
+  std::vector<std::size_t> light_of;
+  std::vector<Illumination> own_lights;
+  for (std::size_t j = 0; j < settings.receivers.size(); ++j) {
+    const std::optional<Light>& light = settings.receivers[j].light;
+    std::size_t index = 0;
+    if (light && *light != settings.light) {
+      while (index < lights.size() && *lights[index] != *light) ++index;
+      if (index == lights.size()) {
+        lights.push_back(&*light);
+        own_lights.push_back(
+            make_illumination(receiver_alone(layout, j), *light, own / "receivers" / j / "light", settings));
+      }
+      ++index;
+    }
+    light_of.push_back(index);
+  }
+  if (lights.empty()) return;
+  layout.own_lights = std::move(own_lights);
+  layout.light_of = std::move(light_of);
+  const auto fill = [&](Illumination& light) {
+    Layout lit = layout;
+    lit.light = light;
+    if (!light.facets) light.facets = facets_lit(lit);
+  };
+  fill(layout.light);
+  for (Illumination& light : layout.own_lights) fill(light);
+}
+
+Layout receiver_alone(const Layout& layout, std::size_t receiver) {
+  Layout alone = layout;
+  alone.light = layout.light_on(receiver);
+  alone.own_lights.clear();
+  alone.light_of.clear();
+  alone.distances = {layout.distances[receiver]};
+  if (layout.offsets) alone.offsets = {layout.offset(receiver)};
+  if (layout.weights) alone.weights = {(*layout.weights)[receiver]};
+  alone.frames.clear();
+  return alone;
+}
+
+LitFacet lit_facet(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver) {
+  LitFacet lit;
+  if (layout.light.facets) lit.in = layout.incoming()[facet];
+  lit.slope = slope;
+  lit.gradient = facet_gradient(slope, layout.n, lit.in.sines);
+  if (layout.light_index(receiver) == 0) return lit;
+  lit.in = (*layout.light_on(receiver).facets)[facet];
+  lit.slope = facet_slope(lit.gradient, layout.n, lit.in.sines);
+  const double along = glm::dot(light_inside(lit.in.sines, layout.n), glm::normalize(glm::dvec3(lit.gradient, -1)));
+  lit.goes = along > 0 && 1 - layout.n * layout.n + along * along > 0;
+  return lit;
+}
+
+glm::dvec2 slope_towards(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver) {
+  if (layout.light_index(receiver) == 0) return slope;
+  const glm::dvec2 sines = (*layout.light_on(receiver).facets)[facet].sines;
+  return facet_slope(facet_gradient(slope, layout.n, sines), layout.n, layout.sines_on(facet));
+}
+
+glm::dvec2 lamp_deviation(const Illumination& light) {
+  return light.lamp_half * (light.lamp_is_round ? 0.5 : 1 / std::sqrt(3.0));
+}
+
+std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout) {
+  if (!layout.light.lamp && layout.light.sines == glm::dvec2(0) && !layout.round) return std::nullopt;
+  return facets_lit(layout);
 }
 
 std::size_t facet_at(const Layout& layout, const glm::dvec2& p) {

@@ -53,9 +53,10 @@ std::vector<plan::Decision> decisions_of(const Settings& s, const Layout& l, std
                           : "inverse.heights is flat: nothing is solved"},
           {"transport", lens, lens ? what : chosen},
           {"incoming", !straight,
-           straight  ? "parallel light straight on: one direction for all facets"
-           : l.round ? "a direction and a power of its own for each facet: none beside the round outline"
-                     : "a direction of its own for each facet"},
+           !l.own_lights.empty() ? "a direction of its own for each facet, in each of several lights"
+           : straight            ? "parallel light straight on: one direction for all facets"
+           : l.round             ? "a direction and a power of its own for each facet: none beside the round outline"
+                                 : "a direction of its own for each facet"},
           {"mesh", true,
            fmt::format("some {:.2g} million triangles, an STL of {}", static_cast<double>(triangles) / 1e6,
                        plan::readable_bytes(stl_bytes(triangles)))},
@@ -99,13 +100,13 @@ InversePlan make_plan(const preset::Preset& preset) {
   const std::uint64_t with_errors = (cut > 0 ? triangle_bytes : copied_triangle_bytes) * (triangles << cut) +
                                     light_channels * sizeof(std::int64_t) * l.cell_count() * l.distances.size();
   plan.buffers = {
-      {"light on the facets (host)", 2 * sizeof(Incoming) * l.incoming().size(), true},
+      {"light on the facets (host)", 2 * sizeof(Incoming) * (1 + l.own_lights.size()) * l.incoming().size(), true},
       {"light on the receivers (host)", 8 * sizeof(double) * l.cell_count() * l.distances.size(), true},
       {"facets and what the pictures lack", s.method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
       {"a lens's fine grids (host)", s.method == Settings::Method::lens ? Lens::bytes(l) : 0, true},
       {"light on the frames (host)", 5 * sizeof(double) * l.cell_count() * l.frames.size(), true},
-      {"the judge's light",
-       light_channels * sizeof(std::int64_t) * l.cell_count() * (l.distances.size() + l.frames.size())},
+      {"the judge's light", light_channels * sizeof(std::int64_t) * l.cell_count() *
+                                ((1 + l.own_lights.size()) * l.distances.size() + l.frames.size())},
       {"the facets and their pictures (host)", facet_bytes * l.facet_count(), true},
       {"the solid and its tree (host)", triangle_bytes * triangles, true},
       {"a solid with errors (host)", s.tolerances ? with_errors : 0, true}};

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace nephroid::inverse {
 namespace {
@@ -21,6 +23,54 @@ void add(job::Snapshot& snapshot, const std::string& group,
 
 void add_cost(job::Snapshot& snapshot, const std::string& group, const Cost& c) {
   add(snapshot, group, {{"cost", c.cost}, {"cost_all", c.cost_all}, {"rel_l2", c.rel_l2}, {"missed", c.missed}});
+}
+
+/// Receivers that show this one's picture in another light, once it is judged.
+std::vector<std::size_t> other_lights(const RunState& run, std::size_t receiver) {
+  std::vector<std::size_t> others, lights{run.layout.light_index(receiver)};
+  for (std::size_t k = 0; k < run.targets.size() && run.is_judged(); ++k)
+    if (const std::size_t light = run.layout.light_index(k); std::ranges::find(lights, light) == lights.end()) {
+      lights.push_back(light);
+      others.push_back(k);
+    }
+  return others;
+}
+
+/// What the receiver's brightest cell has where the picture is as it is wanted, in facets.
+double most_of(const RunState& run, std::size_t receiver) {
+  const std::vector<double>& light = run.judgement->judge().light(receiver);
+  return std::accumulate(light.begin(), light.end(), 0.0) * run.brightest(receiver);
+}
+
+/// The correlation of a picture with light, cell by cell: 1 is the picture itself, 0 has nothing of it.
+double likeness(const Target& target, const std::vector<double>& light) {
+  const double count = static_cast<double>(target.size());
+  const double t = std::accumulate(target.begin(), target.end(), 0.0) / count,
+               z = std::accumulate(light.begin(), light.end(), 0.0) / count;
+  double both = 0, tt = 0, zz = 0;
+  for (std::size_t c = 0; c < target.size(); ++c) {
+    both += (target[c] - t) * (light[c] - z);
+    tt += (target[c] - t) * (target[c] - t);
+    zz += (light[c] - z) * (light[c] - z);
+  }
+  return tt > 0 && zz > 0 ? both / std::sqrt(tt * zz) : 0;
+}
+
+double part_of(const std::vector<double>& light, const std::vector<double>& whole) {
+  const double all = std::accumulate(whole.begin(), whole.end(), 0.0);
+  return all > 0 ? std::accumulate(light.begin(), light.end(), 0.0) / all : 0;
+}
+
+/// What a picture's words say of its light, where receivers have lights of their own.
+std::string in_light_of(const RunState& run, std::size_t receiver) {
+  if (run.layout.own_lights.empty()) return "";
+  const Settings& s = settings(run.preset);
+  const Light& light = s.receivers[receiver].light ? *s.receivers[receiver].light : s.light;
+  if (light.type == Light::Type::sun)
+    return fmt::format(", {:02}:{:02}", static_cast<int>(light.place.hour),
+                       static_cast<int>(light.place.hour * 60) % 60);
+  if (light.type == Light::Type::parallel) return fmt::format(", tilt {:g}", light.tilt_deg);
+  return fmt::format(", lamp at {:g}, {:g}", light.offset_mm[0], light.offset_mm[1]);
 }
 
 void add_costs(job::Snapshot& snapshot, const RunState& run) {
@@ -36,6 +86,18 @@ void add_costs(job::Snapshot& snapshot, const RunState& run) {
          {"believed_rel_l2", believed[j].rel_l2},
          {"diffraction_cells", diffraction_cells(settings(run.preset), run.layout, j)}});
     if (!judged.empty()) add_cost(snapshot, receiver_group(j), judged[j]);
+    if (const std::vector<std::size_t> others = other_lights(run, j); !others.empty()) {
+      double alike = 0, bright = 0;
+      for (const std::size_t other : others) {
+        const std::vector<double>& light = run.judgement->judge().light_under(j, other);
+        alike = std::max(alike, likeness(run.targets[j], light));
+        bright = std::max(bright, part_of(light, run.judgement->judge().light(j)));
+      }
+      add(snapshot, receiver_group(j),
+          {{"likeness", likeness(run.targets[j], run.judgement->judge().light(j))},
+           {"likeness_in_others", alike},
+           {"brightness_in_others", bright}});
+    }
   }
   if (judged.empty()) return;
   const Cost noise = mean(run.judgement->judge().noise(run.targets));
@@ -103,7 +165,7 @@ std::vector<std::shared_ptr<const job::Picture>> add_pictures(job::Snapshot& sna
     const double brightest = run.brightest(j);
     const auto wanted = grey_picture(run.targets[j], 1 / brightest, run.layout.cells),
                received = run.picture_of(j, brightest);
-    columns.push_back({{wanted, fmt::format("wanted at {} mm", run.layout.distances[j])},
+    columns.push_back({{wanted, fmt::format("wanted at {} mm{}", run.layout.distances[j], in_light_of(run, j))},
                        {received, fmt::format("cast: cost {:.3f}", costs[j].cost)},
                        {difference_picture(*wanted, *received), "red: too much, blue: too little"}});
     const char* const names[] = {"target", "receiver", "difference"};
@@ -112,6 +174,10 @@ std::vector<std::shared_ptr<const job::Picture>> add_pictures(job::Snapshot& sna
     snapshot.pictures.push_back(
         {fmt::format("best_{}", j + 1), grey_picture(run.best[j], 1 / brightest, run.layout.cells)});
     receivers.push_back(received);
+    for (const std::size_t other : other_lights(run, j))
+      snapshot.pictures.push_back(
+          {fmt::format("receiver_{}_light_{}", j + 1, other + 1),
+           grey_picture(run.judgement->judge().light_under(j, other), 1 / most_of(run, j), run.layout.cells)});
   }
   snapshot.pictures.push_back({"slopes", slopes_picture(run.method.slopes(), run.method.heights(), run.layout)});
   const auto& [width, height] = run.preset.scene.camera.resolution;
@@ -155,7 +221,7 @@ void add_files(job::Snapshot& snapshot, const RunState& run) {
   add("facets.json", write_facets);
   add("heights.exr", write_height_exr);
   add("heights.png", write_height_png);
-  if (!run.layout.light.lamp)
+  if (!run.layout.light.lamp && run.layout.own_lights.empty())
     snapshot.files.push_back({glass_view_file, [view = glass_view(run.layout, run.targets, run.preset)](ByteSink& to) {
                                 to.write(std::as_bytes(std::span(view)));
                               }});

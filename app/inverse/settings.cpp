@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace nephroid::inverse {
@@ -47,6 +48,15 @@ void check_picture(const Picture& p, const std::string& pointer, const Where& wh
                     "expected a star of at least 2 points");
 }
 
+void check_light(const Light& light, const Settings& s, const std::string& pointer, const Where& where) {
+  if (light.type == Light::Type::area && s.sun_deg > 0)
+    throw bad_input(where("/inverse/sun_deg"), fmt::format("is {} degrees, and a lamp has its size_mm", s.sun_deg),
+                    "expected 0 with a light of type area", "remove it");
+  if (light.type == Light::Type::sun && !preset::days_since_2000(light.place.date))
+    throw bad_input(where(preset::child(preset::child(pointer, "place"), "date")),
+                    fmt::format("is \"{}\"", light.place.date), "expected a day of 1950 to 2050 as \"2026-06-21\"");
+}
+
 void check_receivers(const Settings& s, const std::string& pointer, const Where& where) {
   for (std::size_t j = 0; j < s.receivers.size(); ++j) {
     const std::string at = preset::child(pointer, j);
@@ -59,16 +69,29 @@ void check_receivers(const Settings& s, const std::string& pointer, const Where&
       throw bad_input(where(preset::child(at, "offset_mm")),
                       "is not for the method 'thesis', which has all pictures before the object", "expected [0, 0]",
                       "or choose the method 'assign', or 'lens' for one picture");
+    if (s.receivers[j].light && s.method != Settings::Method::assign)
+      throw bad_input(where(preset::child(at, "light")),
+                      fmt::format("is of its own, and the method '{}' has one light", preset::word(s.method)),
+                      "expected none", "or choose the method 'assign'");
+    if (s.receivers[j].light) check_light(*s.receivers[j].light, s, preset::child(at, "light"), where);
+    if (s.receivers[j].light && s.receivers[j].light->spectrum)
+      throw bad_input(where(preset::child(preset::child(at, "light"), "spectrum")),
+                      "is of one receiver, and all lights have the spectrum of inverse.light", "expected none",
+                      "give inverse.light the spectrum");
     if (j == 0) continue;
     const double before = s.receivers[j - 1].distance_mm, now = s.receivers[j].distance_mm;
     if (now < before)
       throw bad_input(where(preset::child(at, "distance_mm")),
                       fmt::format("is {} mm, and the receiver before stands at {} mm", now, before),
                       "expected receivers in the order of their distance", "sort them, the nearest first");
-    if (now == before && s.receivers[j].offset_mm == s.receivers[j - 1].offset_mm)
-      throw bad_input(where(preset::child(at, "distance_mm")),
-                      fmt::format("is {} mm, and the receiver before stands at the same place", now),
-                      "expected each at its own", "choose another distance_mm or offset_mm");
+    for (std::size_t k = 0; k < j; ++k)
+      if (const Receiver& other = s.receivers[k];
+          other.distance_mm == now && other.offset_mm == s.receivers[j].offset_mm &&
+          other.light.value_or(s.light) == s.receivers[j].light.value_or(s.light))
+        throw bad_input(where(preset::child(at, "distance_mm")),
+                        fmt::format("is {} mm, and {} stands at the same place in the same light", now,
+                                    k + 1 == j ? "the receiver before" : fmt::format("receiver {}", k + 1)),
+                        "expected each at its own", "choose another distance_mm, offset_mm or light");
   }
 }
 
@@ -95,10 +118,18 @@ void check(const preset::Preset& preset, const Where& where) {
   };
   const bool lens = s.method == Method::lens, free_heights = s.heights == Settings::Heights::free;
   check_scene(preset, where);
+  check_light(s.light, s, "/inverse/light", where);
   check_receivers(s, "/inverse/receivers", where);
   if (s.frames > 0 && s.receivers.size() == 1)
     refuse("frames", fmt::format("is {}, and there is one receiver", s.frames),
            "expected two or more, between which a screen can move", "add a receiver, or take 'frames' away");
+  const auto is_lamp = [&](const Receiver& r) {
+    const Light::Type type = r.light ? r.light->type : s.light.type;
+    return type == Light::Type::point || type == Light::Type::area;
+  };
+  if (s.frames > 0 && std::ranges::any_of(s.receivers, is_lamp) && !std::ranges::all_of(s.receivers, is_lamp))
+    refuse("frames", fmt::format("is {}, and receivers are lit by lamps and by parallel light", s.frames),
+           "expected lights between which there is a way", "take 'frames' away");
   if (s.index.type == preset::Dispersion::Type::constant && s.index.n == 1)
     refuse("index", "is 1, which bends no light", "expected another index, such as 1.5");
   if (free_heights && s.method == Method::thesis)

@@ -57,25 +57,30 @@ struct Picture {
   bool operator==(const Picture&) const = default;
 };
 
+/// What falls on the front.
+struct Light {
+  enum class Type { parallel, point, area, sun };
+  enum class Shape { disc, rectangle };
+  Type type = Type::parallel;
+  double tilt_deg = 0;                   ///< parallel: between the light and the front's normal
+  double turn_deg = 0;                   ///< parallel: the side to which tilted light goes, counterclockwise from +x
+  double distance_mm = 1000;             ///< point and area: from the front
+  std::array<double, 2> offset_mm{0, 0}; ///< point and area: beside the middle of the object
+  Shape shape = Shape::disc;             ///< area: parallel to the front
+  std::array<double, 2> size_mm{10, 10}; ///< area: width and height
+  preset::PlaceAndTime place{};          ///< sun: where and when it is seen
+  /// With a spectrum, luminance counts and the judge sees colours. Without one, the light is a wavelength or a band.
+  std::optional<preset::LightSpectrum> spectrum{};
+  bool operator==(const Light&) const = default;
+};
+
 struct Receiver {
   double distance_mm = 100;              ///< from the facets
   std::array<double, 2> offset_mm{0, 0}; ///< the receiver's middle, from the object's; not thesis
   Picture picture;
-  double weight = 1; ///< weight of its squared differences beside the other receivers'
+  double weight = 1;            ///< weight of its squared differences beside the other receivers'
+  std::optional<Light> light{}; ///< what it is seen in; without, Settings::light. Only assign has it
   bool operator==(const Receiver&) const = default;
-};
-
-/// What falls on the front.
-struct Light {
-  enum class Type { parallel, point };
-  Type type = Type::parallel;
-  double tilt_deg = 0;                   ///< parallel: between the light and the front's normal
-  double turn_deg = 0;                   ///< parallel: the side to which tilted light goes, counterclockwise from +x
-  double distance_mm = 1000;             ///< point: from the front
-  std::array<double, 2> offset_mm{0, 0}; ///< point: beside the middle of the object
-  /// With a spectrum, luminance counts and the judge sees colours. Without one, the light is a wavelength or a band.
-  std::optional<preset::LightSpectrum> spectrum{};
-  bool operator==(const Light&) const = default;
 };
 
 struct Settings {
@@ -101,8 +106,10 @@ struct Settings {
   double wavelength_nm = 550;         ///< at which the index is taken, without light.spectrum
   double band_nm = 0;                 ///< width of the light's band about it
   Light light;
-  double sun_deg = 0;     ///< diameter of the sun's disc
-  double scatter_deg = 0; ///< standard deviation of the directions that a rough surface gives one ray
+  double front_azimuth_deg = 180; ///< where the front looks, for a light of type sun: 0 is north, 90 east
+  double front_elevation_deg = 0; ///< above the horizon: 0 is an upright pane, 90 a plate that lies with its front up
+  double sun_deg = 0;             ///< diameter of the sun's disc
+  double scatter_deg = 0;         ///< standard deviation of the directions that a rough surface gives one ray
   std::optional<std::array<double, 2>> receiver_mm{}; ///< size of every receiver; without: the object's
   std::array<int, 2> cells{64, 64};                   ///< cells of every receiver, across and down
   int frames = 0;                                     ///< pictures between a receiver and the next one

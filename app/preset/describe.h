@@ -22,6 +22,7 @@ namespace nephroid::preset {
 
 void describe(Fields& v, Dispersion& d);
 void describe(Fields& v, LightSpectrum& s);
+void describe(Fields& v, PlaceAndTime& p);
 void describe(Fields& v, Scene& s);
 void describe(Fields& v, Preset& p);
 

@@ -31,7 +31,7 @@ typedef struct {
   float usable;   // largest slope of light that falls straight on
   float one_over_straight; // one over the part of the light that a facet lets through without bending it
   float sun_radius, scatter;
-  float spreads; // a lamp: one over its distance, as light sees it in the object; 0: parallel light
+  float spreads; // a lamp: one over its distance, as light sees it in the object; 0: no light is a lamp's
   int free_heights;
   // The beams that stand for light with a band or a width.
   float index_spread;                       // the largest index minus the least
@@ -48,13 +48,18 @@ typedef struct {
   float x, y; // the receiver's middle
   float distance;
   float weight; // weight of the receiver's squares
+  int light;    // of its own, from 1 on; 0: that of all
+  float spreads; // of its light: DeviceLayout
+  float lamp;    // standard deviation of the slope, along each axis, that the size of its lamp gives a flat facet
+  int padding;
 } DeviceReceiver;
 
-// Light that falls on a facet: inverse::Incoming.
+// Light that falls on a facet: inverse::Incoming. The facets of the light of all, then those of the receivers' own.
 typedef struct {
   float sines[2], around[2];
   float spread[4]; // column by column
   float power;
+  float lamp[2]; // standard deviation of a lamp's places, along x and y
   int padding;
 } DeviceIncoming;
 
@@ -87,6 +92,8 @@ typedef struct {
   int cells_x, cells_y, screens;
   uint part_step; // from a ray's part of the spectrum to the next one's; 0: one index
   int is_round; // 1: light falls on the ellipse within the front
+  float lamp_x, lamp_y; // half of the lamp's size; 0: a point
+  int lamp_is_round, padding;
 } DeviceFront;
 
 // How a ray leaves the object.
@@ -99,8 +106,8 @@ typedef struct {
 } DeviceWayOut;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DeviceFront) == 112 && sizeof(DeviceWayOut) == 48);
-static_assert(sizeof(DeviceLayout) == 472 && sizeof(DeviceReceiver) == 16 && sizeof(DeviceIncoming) == 40);
+static_assert(sizeof(DeviceFront) == 128 && sizeof(DeviceWayOut) == 48);
+static_assert(sizeof(DeviceLayout) == 472 && sizeof(DeviceReceiver) == 32 && sizeof(DeviceIncoming) == 48);
 } // namespace nephroid::shared
 #endif
 

@@ -8,6 +8,11 @@
 #define NEPHROID_INCOMING 1
 #endif
 
+// 1: receivers have lights of their own.
+#ifndef NEPHROID_LIGHTS
+#define NEPHROID_LIGHTS 1
+#endif
+
 // 0: light has one direction and one wavelength.
 #ifndef NEPHROID_SPREAD
 #define NEPHROID_SPREAD 1
@@ -74,9 +79,19 @@ typedef struct {
   int column, row;
   float2 middle, sines;
   float4 spread; // column by column
+  float2 lamp;   // DeviceIncoming
   float power, height;
   global const DeviceIncoming* all; // light on all facets
 } Facet;
+
+#if NEPHROID_INCOMING
+static inline void put_light(Facet* facet, DeviceIncoming in) {
+  facet->sines = (float2)(in.sines[0], in.sines[1]);
+  facet->spread = (float4)(in.spread[0], in.spread[1], in.spread[2], in.spread[3]);
+  facet->lamp = (float2)(in.lamp[0], in.lamp[1]);
+  facet->power = in.power;
+}
+#endif
 
 static inline Facet facet_at(global const DeviceLayout* layout, global const DeviceIncoming* incoming,
                              global const float* heights, uint index) {
@@ -85,14 +100,12 @@ static inline Facet facet_at(global const DeviceLayout* layout, global const Dev
                  middle_of_facet(layout, index),
                  (float2)(0.0f),
                  (float4)(0.0f),
+                 (float2)(0.0f),
                  1.0f,
                  heights[index],
                  incoming};
 #if NEPHROID_INCOMING
-  const DeviceIncoming in = incoming[index];
-  facet.sines = (float2)(in.sines[0], in.sines[1]);
-  facet.spread = (float4)(in.spread[0], in.spread[1], in.spread[2], in.spread[3]);
-  facet.power = in.power;
+  put_light(&facet, incoming[index]);
 #endif
   return facet;
 }
@@ -160,7 +173,7 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
 #if NEPHROID_INCOMING
   const float2 inside = slope_inside(facet->sines, n);
   if (!layout->free_heights) beams.lit = lit_part(layout, facet, inside, slope, g);
-  beams.power *= facet->power * (1.0f + dot(inside, g)) * beams.lit.size.x * beams.lit.size.y;
+  beams.power *= facet->power * fmax(0.0f, 1.0f + dot(inside, g)) * beams.lit.size.x * beams.lit.size.y;
 #endif
 #if NEPHROID_SPREAD || NEPHROID_INCOMING
   const SlopeChange change = slope_change(slope, n, facet->sines);
@@ -183,9 +196,53 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
         (float4)(s.x * m.x + s.z * m.y, s.y * m.x + s.w * m.y, s.x * m.z + s.z * m.w, s.y * m.z + s.w * m.w);
     beams.map_by_distance = (float4)(change.by_sine_x * around.x + change.by_sine_y * around.y,
                                      change.by_sine_x * around.z + change.by_sine_y * around.w);
+#if NEPHROID_SPREAD
+    const float2 a = facet->lamp.x * (change.by_sine_x * s.x + change.by_sine_y * s.y), // of the lamp's width
+                 b = facet->lamp.y * (change.by_sine_x * s.z + change.by_sine_y * s.w);
+    beams.covariance += (float3)(a.x * a.x + b.x * b.x, a.x * a.y + b.x * b.y, a.y * a.y + b.y * b.y);
+#endif
   }
 #endif
   return beams;
+}
+
+#if NEPHROID_LIGHTS
+// The slope of light with these sines behind a facet of this gradient, and 0 where it is reflected totally.
+static inline float3 slope_behind(float2 g, float n, float2 sines) {
+  const float3 in = light_inside(sines, n), normal = (float3)(g, -1.0f) * rsqrt(1.0f + dot(g, g));
+  const float along = dot(in, normal), square = 1.0f - n * n + along * along;
+  const float3 out = in - (along - sqrt(fmax(0.0f, square))) * normal;
+  return (float3)(out.xy / fmax(-out.z, 1e-3f), along > 0.0f && square > 0.0f && out.z < 0.0f);
+}
+
+static inline Facet in_light(global const DeviceLayout* layout, const Facet* facet, int light) {
+  Facet lit = *facet;
+  put_light(&lit, facet->all[(light * layout->rows + facet->row) * layout->columns + facet->column]);
+  return lit;
+}
+
+// The slope in the light of all that gives that of a receiver this one.
+static inline float2 slope_in_light_of_all(global const DeviceLayout* layout, const Facet* facet, int light,
+                                           float2 slope) {
+  if (light == 0) return slope;
+  const Facet lit = in_light(layout, facet, light);
+  return slope_behind(facet_gradient(slope, layout->n, lit.sines), layout->n, facet->sines).xy;
+}
+#endif
+
+// A facet's beams in the light of a receiver: `beams`, which are those in the light of all, or made in `room`.
+static inline const Beams* beams_to(global const DeviceLayout* layout, const Facet* facet, const Beams* beams,
+                                    DeviceReceiver receiver, Beams* room) {
+#if NEPHROID_LIGHTS
+  if (receiver.light == 0) return beams;
+  const Facet lit = in_light(layout, facet, receiver.light);
+  const float3 slope = slope_behind(facet_gradient(beams->slope, layout->n, facet->sines), layout->n, lit.sines);
+  *room = beams_of(layout, &lit, slope.xy);
+  room->power *= slope.z;
+  return room;
+#else
+  return beams;
+#endif
 }
 
 #if NEPHROID_SPREAD

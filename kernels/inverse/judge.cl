@@ -107,7 +107,16 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
   float3 direction = front.direction.xyz;
   float part = 1.0f / (float)rays; // what a ray has of a facet's light
   if (front.lamp_weight > 0.0f) {
-    const float3 way = place - front.lamp.xyz;
+    float3 lamp = front.lamp.xyz;
+#if NEPHROID_SPREAD
+    if (front.lamp_x > 0.0f) {
+      const float4 begin = random4(seed, 0u, facet, 4u * turn + 1u, STREAM_JUDGE);
+      const float2 even = (float2)(even_number(begin.x, ray, 3785032107u), even_number(begin.y, ray, 3335640777u));
+      lamp.xy += (float2)(front.lamp_x, front.lamp_y) *
+                 (front.lamp_is_round ? on_circle(sqrt(even.x), even.y) : 2.0f * even - 1.0f);
+    }
+#endif
+    const float3 way = place - lamp;
     const float distance = length(way);
     direction = way / distance;
     part *= front.lamp_weight * -way.z / (distance * distance * distance);

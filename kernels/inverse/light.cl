@@ -14,10 +14,12 @@ __kernel void add_light(__global const DeviceLayout* layout, __global const Devi
   const Facet facet = facet_at(layout, incoming, heights, index);
   const Beams beams = beams_of(layout, &facet, slopes[index]);
   for (int j = 0; j < layout->receivers; ++j) {
-    const Footprint print = footprint(layout, &facet, &beams, receivers[j]);
+    Beams room;
+    const Beams* to = beams_to(layout, &facet, &beams, receivers[j], &room);
+    const Footprint print = footprint(layout, &facet, to, receivers[j]);
     Tile tile;
     FOR_CELLS(layout, print, tile)
-      add_exactly(light + cell_at(layout, j, x, y), quanta_of(beams.power * PART_ON(print, tile, x, y)));
+      add_exactly(light + cell_at(layout, j, x, y), quanta_of(to->power * PART_ON(print, tile, x, y)));
   }
 }
 
@@ -70,6 +72,26 @@ static inline float2 along_lack(global const DeviceLayout* layout, const Footpri
   return sum;
 }
 
+#if NEPHROID_LIGHTS
+// Of a gradient by the slope in a receiver's light, in cells, that by the slope in the light of all.
+static inline float2 by_slope_of_all(global const DeviceLayout* layout, const Facet* facet, const Beams* beams,
+                                     DeviceReceiver receiver, float2 along) {
+  if (receiver.light == 0) return along;
+  const float little = 1e-3f, n = layout->n;
+  const float2 sines = in_light(layout, facet, receiver.light).sines;
+  const float2 size = (float2)(layout->cell_x, -layout->cell_y);
+  float2 result;
+  for (int axis = 0; axis < 2; ++axis) {
+    const float2 step = little * (float2)(axis == 0, axis == 1);
+    const float2 change = slope_behind(facet_gradient(beams->slope + step, n, facet->sines), n, sines).xy -
+                          slope_behind(facet_gradient(beams->slope - step, n, facet->sines), n, sines).xy;
+    const float sum = dot(along, change / size) / (2.0f * little);
+    if (axis == 0) result.x = sum * size.x; else result.y = sum * size.y;
+  }
+  return result;
+}
+#endif
+
 // The gradient of the weighted squares by the slopes of facets first .. first + count - 1. That a footprint's size and
 // light change with the slope too is left out: less than a hundredth where a facet is small beside the distances.
 __kernel void find_gradient(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
@@ -82,8 +104,16 @@ __kernel void find_gradient(__global const DeviceLayout* layout, __global const 
   const Beams beams = beams_of(layout, &facet, slopes[index]);
   float2 sum = (float2)(0.0f);
   for (int j = 0; j < layout->receivers; ++j) {
-    const Footprint print = footprint(layout, &facet, &beams, receivers[j]);
+    Beams room;
+    const Beams* to = beams_to(layout, &facet, &beams, receivers[j], &room);
+    const Footprint print = footprint(layout, &facet, to, receivers[j]);
+#if NEPHROID_LIGHTS
+    sum += to->power / fmax(1e-6f, beams.power) * (receivers[j].distance + facet.height) *
+           by_slope_of_all(layout, &facet, &beams, receivers[j],
+                           along_lack(layout, &print, lack + cell_at(layout, j, 0, 0)));
+#else
     sum += (receivers[j].distance + facet.height) * along_lack(layout, &print, lack + cell_at(layout, j, 0, 0));
+#endif
   }
   gradient[index] = beams.power * sum / (float2)(layout->cell_x, -layout->cell_y);
 }

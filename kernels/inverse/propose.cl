@@ -11,10 +11,12 @@ static inline size_t rimmed_at(global const DeviceLayout* layout, int receiver, 
 }
 
 // The beam of a flat facet on the middle of cell 0, along one axis.
-static inline Beam flat_beam(global const DeviceLayout* layout, float distance, int axis) {
-  const float wide = (axis == 0 ? layout->facet_x : layout->facet_y) * (1.0f + distance * layout->spreads),
+static inline Beam flat_beam(global const DeviceLayout* layout, DeviceReceiver receiver, int axis) {
+  const float distance = receiver.distance;
+  const float wide = (axis == 0 ? layout->facet_x : layout->facet_y) * (1.0f + distance * receiver.spreads),
               sun = 0.5f * layout->sun_radius,
-              blur = distance * sqrt(12.0f * (sun * sun + layout->scatter * layout->scatter));
+              blur = distance * sqrt(12.0f * (sun * sun + layout->scatter * layout->scatter +
+                                              receiver.lamp * receiver.lamp));
   const float cell = axis == 0 ? layout->cell_x : layout->cell_y;
   return beam_of(0.5f, wide / cell, blur / cell);
 }
@@ -26,7 +28,7 @@ __kernel void smear_y(__global const DeviceLayout* layout, __global const Device
   const int row = (int)work_item(), cells_x = layout->cells_x, cells_y = layout->cells_y;
   if (row >= cells_y * layout->receivers) return;
   const int y = row % cells_y;
-  const Beam beam = flat_beam(layout, receivers[row / cells_y].distance, 1);
+  const Beam beam = flat_beam(layout, receivers[row / cells_y], 1);
   const int reach = (int)fmin(ceil(beam.reach - 0.5f), (float)cells_y);
   lack += (size_t)row * (size_t)cells_x;
   along_y += (size_t)row * (size_t)cells_x;
@@ -40,7 +42,7 @@ __kernel void smear_x(__global const DeviceLayout* layout, __global const Device
                       __global const float* along_y, __global float* smeared) {
   const int row = (int)work_item(), cells_x = layout->cells_x, cells_y = layout->cells_y;
   if (row >= cells_y * layout->receivers) return;
-  const Beam beam = flat_beam(layout, receivers[row / cells_y].distance, 0);
+  const Beam beam = flat_beam(layout, receivers[row / cells_y], 0);
   const int reach = (int)fmin(ceil(beam.reach - 0.5f), (float)cells_x);
   along_y += (size_t)row * (size_t)cells_x;
   smeared += rimmed_at(layout, row / cells_y, 0, row % cells_y);
@@ -61,6 +63,31 @@ typedef struct {
   float8 lowest, x, y;
 } Eight;
 
+typedef struct {
+  float8 x, y;
+} EightSlopes;
+
+#if NEPHROID_LIGHTS
+// facet_gradient() and slope_behind() of eight; light that is reflected totally goes far beside all receivers.
+static inline EightSlopes gradients(float8 x, float8 y, float n, float2 sines) {
+  const float8 out = rsqrt(1.0f + x * x + y * y);
+  const float8 over = 1.0f / (sqrt(n * n - dot(sines, sines)) - out);
+  const EightSlopes made = {(sines.x - x * out) * over, (sines.y - y * out) * over};
+  return made;
+}
+static inline EightSlopes slopes_behind(EightSlopes g, float n, float2 sines) {
+  const float inside = sqrt(n * n - dot(sines, sines));
+  const float8 length = rsqrt(1.0f + g.x * g.x + g.y * g.y),
+               along = (sines.x * g.x + sines.y * g.y + inside) * length, square = 1.0f - n * n + along * along,
+               turn = (along - sqrt(fmax(square, 0.0f))) * length, down = inside - turn;
+  const int8 goes = square > 0.0f && along > 0.0f && down > 0.0f;
+  const float8 over = 1.0f / fmax(down, 1e-3f), far = (float8)(1e6f);
+  const EightSlopes made = {select(far, (sines.x - turn * g.x) * over, goes),
+                            select(far, (sines.y - turn * g.y) * over, goes)};
+  return made;
+}
+#endif
+
 // Tries slopes on a lattice, `count` across and down from x and y on: by the sum of what lacks where light falls.
 static SEPARATE void try_lattice(const FacetSearch* s, global const float* smeared, float8 x_from, float8 y_from,
                                  float2 step, int2 count, Eight* best) {
@@ -72,15 +99,22 @@ static SEPARATE void try_lattice(const FacetSearch* s, global const float* smear
     for (int i = 0; i < count.x; ++i) {
       const float8 x = x_begin + (float)i * step.x, y = y_begin + (float)k * step.y;
       float8 sum = (float8)(0.0f);
+#if NEPHROID_LIGHTS
+      const EightSlopes g = gradients(x, y, layout->n, s->facet.sines);
+#endif
       ROLLED
       for (int j = 0; j < layout->receivers; ++j) {
         const DeviceReceiver receiver = s->receivers[j];
         const float way = receiver.distance + s->facet.height;
         const float2 on_axis = in_cells(layout, receiver, s->facet.middle),
                      per_slope = way / (float2)(layout->cell_x, -layout->cell_y);
+        EightSlopes to = {x, y};
+#if NEPHROID_LIGHTS
+        if (receiver.light > 0) to = slopes_behind(g, layout->n, in_light(layout, &s->facet, receiver.light).sines);
+#endif
         int8 at = (layout->cells_x + 2) *
-                  convert_int8(clamp(floor(on_axis.y + per_slope.y * y), -1.0f, (float)layout->cells_y));
-        at += convert_int8(clamp(floor(on_axis.x + per_slope.x * x), -1.0f, (float)layout->cells_x));
+                  convert_int8(clamp(floor(on_axis.y + per_slope.y * to.y), -1.0f, (float)layout->cells_y));
+        at += convert_int8(clamp(floor(on_axis.x + per_slope.x * to.x), -1.0f, (float)layout->cells_x));
         global const float* cells = smeared + rimmed_at(layout, j, 0, 0);
         sum += GATHER(cells, at);
       }

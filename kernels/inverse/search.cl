@@ -20,23 +20,26 @@ static SEPARATE float score(const FacetSearch* s, float2 slope) {
   for (int j = 0; j < layout->receivers; ++j) {
     const DeviceReceiver receiver = s->receivers[j];
     const float weight = receiver.weight;
-    const Footprint print = footprint(layout, &s->facet, &beams, receiver);
+    Beams room, now_room;
+    const Beams *to = beams_to(layout, &s->facet, &beams, receiver, &room),
+                *now = beams_to(layout, &s->facet, &s->now, receiver, &now_room);
+    const Footprint print = footprint(layout, &s->facet, to, receiver);
     const float2 away =
-        fabs(slope - s->now.slope) * (receiver.distance + s->facet.height) / (float2)(layout->cell_x, layout->cell_y);
+        fabs(to->slope - now->slope) * (receiver.distance + s->facet.height) / (float2)(layout->cell_x, layout->cell_y);
     const float2 reach = reach_of(&print);
     bool near = away.x < 4.0f * reach.x + 4.0f && away.y < 4.0f * reach.y + 4.0f; // for sure, or it counts little
     Footprint own;
     if (near) {
-      own = footprint(layout, &s->facet, &s->now, receiver);
+      own = footprint(layout, &s->facet, now, receiver);
       const int4 a = cells_of(layout, &print), b = cells_of(layout, &own);
       near = a.x < b.z && b.x < a.z && a.y < b.w && b.y < a.w;
     }
     Tile tile, own_tile;
     FOR_CELLS(layout, print, tile) {
       if (near && x == at.x && y == at.y) fill_tile(layout, &own, at.xy, own_tile);
-      const float light = beams.power * PART_ON(print, tile, x, y);
+      const float light = to->power * PART_ON(print, tile, x, y);
       float there = s->lack[cell_at(layout, j, x, y)] + weight * light;
-      if (near) there -= 2.0f * weight * s->now.power * PART_ON(own, own_tile, x, y);
+      if (near) there -= 2.0f * weight * now->power * PART_ON(own, own_tile, x, y);
       sum += light * there;
     }
   }
@@ -125,8 +128,11 @@ __kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, ui
   const Facet facet = facet_at(layout, incoming, heights, index);
   const Beams now = beams_of(layout, &facet, slopes[index]), then = beams_of(layout, &facet, found[i]);
   for (int j = 0; j < layout->receivers; ++j) {
-    const Footprint before = footprint(layout, &facet, &now, receivers[j]),
-                    after = footprint(layout, &facet, &then, receivers[j]);
+    Beams room, then_room;
+    const Footprint before =
+                        footprint(layout, &facet, beams_to(layout, &facet, &now, receivers[j], &room), receivers[j]),
+                    after = footprint(layout, &facet, beams_to(layout, &facet, &then, receivers[j], &then_room),
+                                      receivers[j]);
     claim_cells(layout, &before, j, claims, key);
     claim_cells(layout, &after, j, claims, key);
   }
@@ -166,8 +172,11 @@ __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long
   const Facet facet = facet_at(layout, incoming, heights, index);
   const Beams now = beams_of(layout, &facet, slopes[index]), then = beams_of(layout, &facet, found[i]);
   for (int j = 0; j < layout->receivers; ++j) {
-    const Footprint before = footprint(layout, &facet, &now, receivers[j]),
-                    after = footprint(layout, &facet, &then, receivers[j]);
+    Beams room, then_room;
+    const Footprint before =
+                        footprint(layout, &facet, beams_to(layout, &facet, &now, receivers[j], &room), receivers[j]),
+                    after = footprint(layout, &facet, beams_to(layout, &facet, &then, receivers[j], &then_room),
+                                      receivers[j]);
     if (!holds_cells(layout, &before, j, claims, key) || !holds_cells(layout, &after, j, claims, key)) return;
   }
 #if NEPHROID_SMOOTHS
@@ -180,10 +189,13 @@ __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long
   const FacetSearch s = search_of(layout, receivers, incoming, heights, slopes, lack, smoothing, index);
   if (!(score(&s, found[i]) < score(&s, slopes[index]))) return;
   for (int j = 0; j < layout->receivers; ++j) {
-    const Footprint before = footprint(layout, &facet, &now, receivers[j]),
-                    after = footprint(layout, &facet, &then, receivers[j]);
-    move_light(layout, &before, -now.power, j, light);
-    move_light(layout, &after, then.power, j, light);
+    Beams room, then_room;
+    const Beams *from = beams_to(layout, &facet, &now, receivers[j], &room),
+                *to = beams_to(layout, &facet, &then, receivers[j], &then_room);
+    const Footprint before = footprint(layout, &facet, from, receivers[j]),
+                    after = footprint(layout, &facet, to, receivers[j]);
+    move_light(layout, &before, -from->power, j, light);
+    move_light(layout, &after, to->power, j, light);
     note_lack(layout, &before, receivers[j].weight, j, light, wanted, lack);
     note_lack(layout, &after, receivers[j].weight, j, light, wanted, lack);
   }

@@ -76,7 +76,15 @@ static inline Lattice lattice_of(global const DeviceLayout* layout, global const
   const float far = to.distance + facet->height;
   Lattice made;
   made.step = size / (LATTICE * far);
-  made.corner = random.xy * made.step + ((float2)(to.x, to.y) - 0.5f * size - facet->middle) / far;
+  float2 low = ((float2)(to.x, to.y) - 0.5f * size - facet->middle) / far;
+#if NEPHROID_LIGHTS
+  if (to.light > 0) {
+    const float2 high = slope_in_light_of_all(layout, facet, to.light, low + LATTICE * made.step);
+    low = slope_in_light_of_all(layout, facet, to.light, low);
+    made.step = fmax((high - low) / LATTICE, 0.25f * made.step);
+  }
+#endif
+  made.corner = random.xy * made.step + low;
   made.fine = clamp((int2)(layout->cells_x, layout->cells_y) / LATTICE, 1, MOST_FINE);
   made.fine_step = made.step / convert_float2(made.fine);
   return made;

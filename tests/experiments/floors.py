@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """How well can any object cast several pictures? Prints the table "Past the conflict" of docs/notebook/inverse.md.
 
-    tests/experiments/floors.py [bars|star...]
+    tests/experiments/floors.py [bars|star|lights...]
+
+"lights" prints the table "A picture for each light" instead: pictures at one distance, each in a light of its own. To
+the rays that is a picture beside the others by what its light moves them along.
 
 Light is a sum of rays, each from a place of the object in a direction; a ray meets every receiver. Their powers are
 what least squares ask for, at each picture's own brightness (multiplicative steps, as ISRA has them: Daube-Witherspoon
@@ -92,7 +95,23 @@ def error(distances, pictures, size=SIDE, light="even", offsets=None, room=75.0)
     return off, [t.sum() / power.sum() for t in there]
 
 
+def lights():
+    """Bars, lying and upright in turn. Light from another direction moves all that is cast along by `step`, as thin
+    glass turns it as far: the receiver is met as one that stands so much further to the other side."""
+    print("| step over the receiver's side | 2 pictures | 5 pictures |\n|---|---|---|")
+    for step in (0.125, 0.25, 0.5, 0.75, 1.0):
+        row = []
+        for count in (2, 5):
+            offsets = [(-(j - (count - 1) / 2) * step * SIDE, 0) for j in range(count)]
+            off, part = error(np.full(count, 400.0), [bar(j % 2 == 1) for j in range(count)], offsets=offsets,
+                              room=max(75.0, 75 + (count - 1) / 2 * step * SIDE))
+            row.append(f"{np.mean(off):.3f} ({np.mean(part):.2f})")
+        print(f"| {step} | " + " | ".join(row) + " |", flush=True)
+
+
 def main():
+    if sys.argv[1:] == ["lights"]:
+        return lights()
     for name in sys.argv[1:] or SETS:
         distances, pictures = SETS[name]
         apart = 100 * 2.0 ** np.linspace(0, 3, len(distances))

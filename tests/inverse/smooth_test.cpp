@@ -7,6 +7,8 @@
 #include "tests/inverse/sound.h"
 #include "tests/support/render.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <complex>
 #include <numeric>
 

@@ -4,6 +4,7 @@
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
 #include "inverse/facets/heights.h"
+#include "inverse/light.h"
 #include "inverse/uniform.h"
 
 #include <algorithm>
@@ -19,10 +20,11 @@ Assignment::Assignment(const mpi::RankContext& context, const Layout& layout, co
   std::mt19937_64 random(seed_);
   std::vector<glm::dvec2> slopes(layout.facet_count());
   for (std::size_t i = 0; i < slopes.size(); ++i) {
-    const std::size_t j = layout.distances.size() - 1 - i % (layout.offsets ? layout.distances.size() : 1);
+    const std::size_t j =
+        layout.distances.size() - 1 - i % (layout.offsets || !layout.light_of.empty() ? layout.distances.size() : 1);
     const glm::dvec2 to = layout.offset(j) + (glm::dvec2(uniform(random), uniform(random)) - 0.5) * layout.receiver;
-    slopes[i] =
-        nearest_reachable((to - layout.middle(i)) / layout.distances[j], layout.n, layout.sines_on(i), layout.steepest);
+    slopes[i] = nearest_reachable(slope_towards(layout, i, (to - layout.middle(i)) / layout.distances[j], j), layout.n,
+                                  layout.sines_on(i), layout.steepest);
   }
   put(slopes);
   settle();
@@ -32,8 +34,10 @@ Assignment::Assignment(const mpi::RankContext& context, const Layout& layout, co
 
 void Assignment::relight() {
   Illumination light = std::move(layout_.light);
+  std::vector<Illumination> own = std::move(layout_.own_lights);
   layout_ = given_;
   layout_.light = std::move(light);
+  layout_.own_lights = std::move(own);
   aim();
   put(std::vector(slopes()));
   settle();
@@ -75,6 +79,7 @@ void Assignment::settle() {
       Incoming& in = (*layout_.light.facets)[i];
       in.around = facet_gradient(now[i], layout_.n, in.sines);
     }
+    share_neighbours();
     facets_.set_incoming(layout_);
     put(now);
   }
@@ -85,6 +90,12 @@ void Assignment::settle() {
                          std::accumulate(light.begin(), light.end(), 0.0) / static_cast<double>(layout_.facet_count()));
   }
   aim();
+}
+
+/// Neighbours look the same in every light.
+void Assignment::share_neighbours() {
+  for (Illumination& light : layout_.own_lights)
+    for (std::size_t i = 0; i < light.facets->size(); ++i) (*light.facets)[i].around = layout_.incoming()[i].around;
 }
 
 /// The weight of one facet's Cost_N in the sum: both costs are means, one over the facets, one over all cells.
@@ -149,7 +160,9 @@ double Assignment::fraction_done() const {
                      : static_cast<double>(next_) / static_cast<double>(layout_.facet_count());
 }
 
-std::vector<Cost> Assignment::costs() const { return costs_of(targets_, all_light(), light_sent(layout_, slopes())); }
+std::vector<Cost> Assignment::costs() const {
+  return costs_of(targets_, all_light(), light_sent_to_each(layout_, slopes()));
+}
 
 void Assignment::serialize(Archive& archive) {
   archive.value(sweeps_);
@@ -172,6 +185,7 @@ void Assignment::serialize(Archive& archive) {
   if (refines && archive.is_read()) refinement_.emplace(layout_, wanted_, weights_, heights_);
   if (refines) refinement_->serialize(archive);
   if (!archive.is_read()) return;
+  share_neighbours();
   facets_.set_incoming(layout_);
   forget();
   begin_sweep();

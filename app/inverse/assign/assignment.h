@@ -42,6 +42,7 @@ public:
 private:
   void begin_sweep();
   void settle();
+  void share_neighbours();
   void aim();
   void put(const std::vector<glm::dvec2>& slopes);
   void refine();

@@ -5,6 +5,7 @@
 #include "inverse/assign/cost.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
+#include "inverse/light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +48,7 @@ std::vector<double> ConflictSearch::facet_conflicts() const {
 double ConflictSearch::change(std::size_t facet, const glm::dvec2& slope, std::size_t receiver) const {
   std::vector<std::pair<std::size_t, double>> moves; // a cell, and how much it gets
   const auto move = [&](const glm::dvec2& to, double sign) {
-    const double power = sign * facet_power(layout_, facet, to);
+    const double power = sign * facet_power(layout_, facet, to, receiver);
     for_cells(layout_, footprint(layout_, facet, to, receiver, heights_[facet]), [&](std::size_t cell, double part) {
       const auto known = std::find_if(moves.begin(), moves.end(), [&](const auto& m) { return m.first == cell; });
       if (known == moves.end())
@@ -68,9 +69,9 @@ double ConflictSearch::change(std::size_t facet, const glm::dvec2& slope, std::s
 std::vector<glm::dvec2> ConflictSearch::best_places(std::size_t receiver) const {
   const glm::ivec2 cells = layout_.cells, step = (cells + 63) / 64;
   const double distance = layout_.distances[receiver],
-               lamp = layout_.light.lamp
-                          ? distance / (layout_.light.lamp->z - layout_.thickness + layout_.thickness / layout_.n)
-                          : 0;
+               lamp = layout_.light_on(receiver).lamp ? distance / (layout_.light_on(receiver).lamp->z -
+                                                                    layout_.thickness + layout_.thickness / layout_.n)
+                                                      : 0;
   const auto parts = [&](int axis, int at) { // a beam on the middle of a cell: its first cell, and its part on each
     const double cell = layout_.cell()[axis], width = layout_.facet()[axis] * (1 + lamp) / cell,
                  blur = blur_width(layout_, distance) / cell;
@@ -104,11 +105,11 @@ std::vector<glm::dvec2> ConflictSearch::best_places(std::size_t receiver) const 
 
 Conflicts ConflictSearch::picture_conflicts() const {
   const std::size_t count = light_.size();
-  const double sent = light_sent(layout_, slopes_);
+  const std::vector<double> sent = light_sent_to_each(layout_, slopes_);
   Conflicts conflicts{std::vector<double>(count), std::vector<std::vector<double>>(count, std::vector<double>(count))};
   for (std::size_t i = 0; i < slopes_.size(); ++i)
     for (std::size_t j = 0; j < count; ++j)
-      conflicts.misplaced[j] += misplaced(i, j) * facet_power(layout_, i, slopes_[i]) / sent;
+      conflicts.misplaced[j] += misplaced(i, j) * facet_power(layout_, i, slopes_[i], j) / sent[j];
   if (count == 1) return conflicts;
 
   const std::vector<std::size_t> facets = some_facets(layout_, 32);
@@ -119,7 +120,8 @@ Conflicts ConflictSearch::picture_conflicts() const {
     for (std::size_t i = range.begin; i < range.end; ++i)
       for (std::size_t j = 0; j < count; ++j) {
         const auto slope_to = [&](const glm::dvec2& to) {
-          return (to - layout_.middle(facets[i])) / (layout_.distances[j] + heights_[facets[i]]);
+          return slope_towards(layout_, facets[i],
+                               (to - layout_.middle(facets[i])) / (layout_.distances[j] + heights_[facets[i]]), j);
         };
         const auto can = [&](const glm::dvec2& to) {
           return reachable(slope_to(to), layout_.n, layout_.sines_on(facets[i]), layout_.steepest);
@@ -131,15 +133,16 @@ Conflicts ConflictSearch::picture_conflicts() const {
         double all = 0;
         for (std::size_t k = 0; k < count; ++k)
           if (k != j) all += parts[i][j][k] = std::max(0.0, change(facets[i], wish, k));
-        const double light = misplaced(facets[i], j) * facet_power(layout_, facets[i], slopes_[facets[i]]);
+        const double light = misplaced(facets[i], j) * facet_power(layout_, facets[i], slopes_[facets[i]], j);
         for (double& loss : parts[i][j]) loss *= all > 0 ? light / all : 0;
       }
   });
-  double some_sent = 0;
-  for (const std::size_t facet : facets) some_sent += facet_power(layout_, facet, slopes_[facet]);
+  std::vector<double> some_sent(count);
+  for (std::size_t j = 0; j < count; ++j)
+    for (const std::size_t facet : facets) some_sent[j] += facet_power(layout_, facet, slopes_[facet], j);
   for (const auto& part : parts)
     for (std::size_t j = 0; j < count; ++j)
-      for (std::size_t k = 0; k < count; ++k) conflicts.between[j][k] += part[j][k] / some_sent;
+      for (std::size_t k = 0; k < count; ++k) conflicts.between[j][k] += part[j][k] / some_sent[j];
   return conflicts;
 }
 

@@ -45,9 +45,9 @@ Cost cost_of(const Target& t, std::span<const double> z, double sent) {
 }
 
 std::vector<Cost> costs_of(const std::vector<Target>& targets, const std::vector<std::vector<double>>& light,
-                           double sent) {
+                           std::span<const double> sent) {
   std::vector<Cost> costs;
-  for (std::size_t j = 0; j < targets.size(); ++j) costs.push_back(cost_of(targets[j], light[j], sent));
+  for (std::size_t j = 0; j < targets.size(); ++j) costs.push_back(cost_of(targets[j], light[j], sent[j]));
   return costs;
 }
 

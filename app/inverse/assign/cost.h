@@ -18,9 +18,9 @@ struct Cost {
 /// `sent` is the light that left the object, in the unit of z.
 Cost cost_of(const Target& t, std::span<const double> z, double sent);
 
-/// A cost for each target. `light` is [receiver][cell], with more at its end.
+/// A cost for each target. `light` is [receiver][cell], with more at its end; `sent` is for each receiver.
 std::vector<Cost> costs_of(const std::vector<Target>& targets, const std::vector<std::vector<double>>& light,
-                           double sent);
+                           std::span<const double> sent);
 
 Cost mean(std::span<const Cost> costs);
 

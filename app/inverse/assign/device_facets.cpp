@@ -3,8 +3,10 @@
 
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
+#include "inverse/light.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace nephroid::inverse {
 static_assert(BEAMS == Beams::most && DISC_BEAMS == disc_beams);
@@ -27,13 +29,23 @@ std::vector<glm::dvec2> wide(const std::vector<Pair>& pairs) {
   return values;
 }
 
+/// One over a lamp's distance, as light sees it in the object.
+double spreads(const Layout& l, const Illumination& light) {
+  return light.lamp ? 1 / (light.lamp->z - l.thickness + l.thickness / l.n) : 0;
+}
+
 std::vector<shared::DeviceReceiver> receivers_of(const Layout& layout, std::span<const double> weights) {
   std::vector<shared::DeviceReceiver> receivers;
   for (std::size_t j = 0; j < layout.distances.size(); ++j)
     receivers.push_back({.x = static_cast<float>(layout.offset(j).x),
                          .y = static_cast<float>(layout.offset(j).y),
                          .distance = static_cast<float>(layout.distances[j]),
-                         .weight = static_cast<float>(weights[j])});
+                         .weight = static_cast<float>(weights[j]),
+                         .light = static_cast<int>(layout.light_index(j)),
+                         .spreads = static_cast<float>(spreads(layout, layout.light_on(j))),
+                         .lamp = static_cast<float>(spreads(layout, layout.light_on(j)) *
+                                                    glm::length(lamp_deviation(layout.light_on(j))) / std::sqrt(2.0)),
+                         .padding = 0});
   return receivers;
 }
 
@@ -64,12 +76,21 @@ std::size_t batch_of(const Layout& l) {
   std::size_t touched = 0;
   const std::size_t facet = index_at(l.facets.x / 2, l.facets.y / 2, l.facets.x);
   for (std::size_t j = 0; j < l.distances.size(); ++j) {
-    const Footprint print = footprint(
-        l, facet, nearest_reachable((l.offset(j) - l.middle(facet)) / l.distances[j], l.n, l.sines_on(facet)), j);
+    const Footprint print =
+        footprint(l, facet,
+                  nearest_reachable(slope_towards(l, facet, (l.offset(j) - l.middle(facet)) / l.distances[j], j), l.n,
+                                    l.sines_on(facet)),
+                  j);
     touched = std::max(touched, static_cast<std::size_t>(print.columns) * static_cast<std::size_t>(print.rows));
   }
   const std::size_t most = std::clamp<std::size_t>(l.facet_count() / 16, 1, DeviceFacets::most_in_a_batch);
   return std::clamp<std::size_t>(l.cell_count() / std::max<std::size_t>(128, 8 * touched), 1, most);
+}
+
+double most_spread(const Layout& l) {
+  double most = spreads(l, l.light);
+  for (const Illumination& light : l.own_lights) most = std::max(most, spreads(l, light));
+  return most;
 }
 
 /// The layout in the kernels' form.
@@ -94,8 +115,7 @@ shared::DeviceLayout device_layout(const Layout& l) {
                             .one_over_straight = number(1 / transmitted({0, 0}, l.n)),
                             .sun_radius = number(l.sun_radius),
                             .scatter = number(l.scatter),
-                            .spreads =
-                                l.light.lamp ? number(1 / (l.light.lamp->z - l.thickness + l.thickness / l.n)) : 0,
+                            .spreads = number(most_spread(l)),
                             .free_heights = l.free_heights,
                             .index_spread = number(index_spread(l)),
                             .index_levels = 1,
@@ -128,9 +148,10 @@ shared::DeviceLayout device_layout(const Layout& l) {
 
 std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout) {
   std::vector<shared::DeviceIncoming> incoming;
-  incoming.reserve(layout.incoming().size());
-  for (const Incoming& in : layout.incoming()) {
+  const auto add = [&](const Incoming& in, const glm::dvec2& lamp) {
     shared::DeviceIncoming made{};
+    made.lamp[0] = static_cast<float>(lamp.x);
+    made.lamp[1] = static_cast<float>(lamp.y);
     for (int i = 0; i < 2; ++i) {
       made.sines[i] = static_cast<float>(in.sines[i]);
       made.around[i] = static_cast<float>(in.around[i]);
@@ -138,7 +159,10 @@ std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout) {
     }
     made.power = static_cast<float>(in.power);
     incoming.push_back(made);
-  }
+  };
+  for (std::size_t k = 0; k <= layout.own_lights.size(); ++k)
+    if (const Illumination& light = layout.numbered(k); light.facets)
+      for (const Incoming& in : *light.facets) add(in, lamp_deviation(light));
   return incoming;
 }
 
@@ -146,6 +170,7 @@ std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout) {
 
 compute::Defines facet_defines(const Layout& layout) {
   return {{"NEPHROID_INCOMING", layout.light.facets ? "1" : "0"},
+          {"NEPHROID_LIGHTS", layout.own_lights.empty() ? "0" : "1"},
           {"NEPHROID_SPREAD", layout.blurs() ? "1" : "0"},
           {"NEPHROID_SMOOTHS", layout.smoothing > 0 ? "1" : "0"}};
 }
@@ -299,7 +324,8 @@ std::vector<glm::dvec2> DeviceFacets::gradient() {
 std::uint64_t DeviceFacets::bytes(const Layout& l) {
   const std::uint64_t cells = l.cell_count() * l.distances.size();
   return l.facet_count() * (sizeof(float) + 2 * sizeof(Pair) + 2 * sizeof(std::uint32_t)) +
-         l.incoming().size() * sizeof(shared::DeviceIncoming) + cells * (sizeof(std::int64_t) + 5 * sizeof(float));
+         (1 + l.own_lights.size()) * l.incoming().size() * sizeof(shared::DeviceIncoming) +
+         cells * (sizeof(std::int64_t) + 5 * sizeof(float));
 }
 
 void DeviceFacets::serialize(Archive& archive) {

@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "inverse/bending.h"
+#include "inverse/light.h"
 
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_access.hpp>
@@ -97,15 +98,19 @@ void part_disc(const glm::dmat2& spread, int points, Blur& blur) {
 }
 
 /// `fine` is a cell as a slope.
-Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, double fine) {
+Blur blur_of(const Layout& layout, const Illumination& light, const Incoming& in, const glm::dvec2& slope,
+             double fine) {
   Blur blur;
-  if (!(layout.scatter > 0 || layout.sun_radius > 0 || layout.spectrum)) return blur;
+  if (!layout.blurs()) return blur;
   const SlopeChange change = slope_change(slope, layout.n, in.sines);
   // The disc is across the light: of its radius r, sines have the covariance r^2 / 4 (1 - sines sines^T).
   const double sun = layout.sun_radius / 2, cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
   const glm::dmat2 disc =
       sun * change.by_sines * (glm::dmat2(1) - glm::outerProduct(in.sines, in.sines) / (1 + cosine));
-  const glm::dmat2 both = disc * glm::transpose(disc) + glm::dmat2(layout.scatter * layout.scatter); // covariance
+  const glm::dvec2 deviation = lamp_deviation(light);
+  const glm::dmat2 lamp = change.by_sines * in.spread * glm::dmat2(deviation.x, 0, 0, deviation.y);
+  const glm::dmat2 both = disc * glm::transpose(disc) + lamp * glm::transpose(lamp) +
+                          glm::dmat2(layout.scatter * layout.scatter); // covariance
   const bool is_wide = std::sqrt(12 * (both[0][0] + both[1][1]) / 2) > wide_in_cells * fine;
   if (layout.spectrum)
     part_colours(layout, change.by_index, piece_in_cells * fine, is_wide ? Beams::most / 4 : Beams::most, blur);
@@ -185,17 +190,18 @@ double blur_width(const Layout& layout, double distance) {
   return std::sqrt(12 * (sun * sun + rough * rough));
 }
 
-Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height) {
-  const Incoming in = layout.light.facets ? layout.incoming()[facet] : Incoming{};
-  const glm::dvec2 g = facet_gradient(slope, layout.n, in.sines), size = layout.facet(), cell = layout.cell();
+Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& of_all, std::size_t receiver, double height) {
+  const LitFacet lit_now = lit_facet(layout, facet, of_all, receiver);
+  const Incoming& in = lit_now.in;
+  const glm::dvec2 slope = lit_now.slope, g = lit_now.gradient, size = layout.facet(), cell = layout.cell();
   const double distance = layout.distances[receiver] + height;
-  const Blur blur = blur_of(layout, in, slope, std::min(cell.x, cell.y) / distance);
+  const Blur blur = blur_of(layout, layout.light_on(receiver), in, slope, std::min(cell.x, cell.y) / distance);
   glm::dmat2 map = glm::dmat2(1) + glm::outerProduct(slope, g);
   LitPart lit;
   if (layout.light.facets) {
     const glm::dvec2 inside = slope_inside(in.sines, layout.n);
     if (!layout.free_heights) lit = lit_part(layout, facet, inside, slope, g);
-    if (layout.light.lamp)
+    if (layout.light_on(receiver).lamp)
       map += distance * slope_change(slope, layout.n, in.sines).by_sines * in.spread *
              (glm::dmat2(1) + glm::outerProduct(inside, g));
   }
@@ -252,13 +258,15 @@ Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& s
   return print;
 }
 
-double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& slope) {
+double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& of_all, std::size_t receiver) {
   const double n = layout.n;
-  if (!layout.light.facets) return transmitted(slope, n) / transmitted({0, 0}, n);
-  const Incoming& in = layout.incoming()[facet];
-  const glm::dvec2 g = facet_gradient(slope, n, in.sines), inside = slope_inside(in.sines, n);
+  if (!layout.light.facets) return transmitted(of_all, n) / transmitted({0, 0}, n);
+  const LitFacet light = lit_facet(layout, facet, of_all, receiver);
+  if (!light.goes) return 0;
+  const Incoming& in = light.in;
+  const glm::dvec2 slope = light.slope, g = light.gradient, inside = slope_inside(in.sines, n);
   const glm::dvec2 lit = layout.free_heights ? glm::dvec2(1) : lit_part(layout, facet, inside, slope, g).size;
-  return in.power * (1 + glm::dot(inside, g)) * lit.x * lit.y * transmitted(slope, n, in.sines) /
+  return in.power * std::max(0.0, 1 + glm::dot(inside, g)) * lit.x * lit.y * transmitted(slope, n, in.sines) /
          transmitted({0, 0}, n);
 }
 
@@ -267,7 +275,7 @@ std::vector<std::vector<double>> light_of_all(const Layout& layout, const std::v
   std::vector<std::vector<double>> light(layout.distances.size(), std::vector<double>(layout.cell_count()));
   for_blocks(light.size(), [&](std::size_t j) {
     for (std::size_t i = 0; i < slopes.size(); ++i) {
-      const double power = facet_power(layout, i, slopes[i]);
+      const double power = facet_power(layout, i, slopes[i], j);
       for_cells(layout, footprint(layout, i, slopes[i], j, heights[i]),
                 [&](std::size_t cell, double part) { light[j][cell] += power * part; });
     }
@@ -275,10 +283,17 @@ std::vector<std::vector<double>> light_of_all(const Layout& layout, const std::v
   return light;
 }
 
-double light_sent(const Layout& layout, const std::vector<glm::dvec2>& slopes) {
+double light_sent(const Layout& layout, const std::vector<glm::dvec2>& slopes, std::size_t receiver) {
   double sum = 0;
-  for (std::size_t i = 0; i < slopes.size(); ++i) sum += facet_power(layout, i, slopes[i]);
+  for (std::size_t i = 0; i < slopes.size(); ++i) sum += facet_power(layout, i, slopes[i], receiver);
   return sum;
+}
+
+std::vector<double> light_sent_to_each(const Layout& layout, const std::vector<glm::dvec2>& slopes) {
+  std::vector<double> sent(layout.distances.size());
+  for (std::size_t j = 0; j < sent.size(); ++j)
+    sent[j] = j > 0 && layout.light_index(j) == layout.light_index(j - 1) ? sent[j - 1] : light_sent(layout, slopes, j);
+  return sent;
 }
 
 } // namespace nephroid::inverse

@@ -47,12 +47,12 @@ struct Beams {
   std::array<double, most> parts{1};
 };
 
-/// The beams of a facet that sends light with this slope; `height` is z of its middle. From the point p of a facet with
-/// gradient g, light starts at z = g . p and meets a plane at (1 + slope g^T) p from where the middle's does: a
-/// parallelogram. Its projections on x and y are exact; how they depend on each other is not kept. A lamp's light has
-/// another slope at each p. A spectrum is a line along the change of the slope with the index: as many beams as make
-/// its pieces short, 16 at most. The sun's disc and roughness, where they are wide, are 8 beams, or 4 for each of up to
-/// 4 pieces of a spectrum. What is left of a blur is a box along each axis with its variance.
+/// The beams of a facet that sends the light of all with this slope; `height` is z of its middle. From the point p of a
+/// facet with gradient g, light starts at z = g . p and meets a plane at (1 + slope g^T) p from where the middle's
+/// does: a parallelogram. Its projections on x and y are exact; how they depend on each other is not kept. A lamp's
+/// light has another slope at each p. A spectrum is a line along the change of the slope with the index: as many beams
+/// as make its pieces short, 16 at most. The sun's disc and roughness, where they are wide, are 8 beams, or 4 for each
+/// of up to 4 pieces of a spectrum. What is left of a blur is a box along each axis with its variance.
 Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver,
                double height = 0);
 
@@ -70,7 +70,7 @@ Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& s
 /// facet lies in shadow, more or less of it along the edge, as g and h differ there. In the same way a wall stops light
 /// that leaves with slope s within s (g + h) / 2 / (1 + s . g) of the other edge. Neighbours do not count for light
 /// straight on, nor for facets of free heights, whose edges nearly meet.
-double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& slope);
+double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver = 0);
 
 /// Calls f(cell, part of the facet's light) for every cell of a footprint.
 template <class F>
@@ -85,6 +85,8 @@ std::vector<std::vector<double>> light_of_all(const Layout& layout, const std::v
                                               const std::vector<double>& heights);
 
 /// The light that all facets send, wherever it goes, in the unit of facet_power().
-double light_sent(const Layout& layout, const std::vector<glm::dvec2>& slopes);
+double light_sent(const Layout& layout, const std::vector<glm::dvec2>& slopes, std::size_t receiver = 0);
+/// The same in the light of each receiver.
+std::vector<double> light_sent_to_each(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 
 } // namespace nephroid::inverse

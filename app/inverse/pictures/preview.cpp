@@ -41,14 +41,15 @@ AxisBlur smears_of(const Layout& layout, std::size_t receiver) {
   const glm::dvec2 to = layout.middle_of_cell(index_at(at.x, at.y, layout.cells.x));
   const auto turn = [&](std::size_t facet) {
     return glm::distance((to + layout.offset(receiver) - layout.middle(facet)) / layout.distances[receiver],
-                         flat_slope(layout.sines_on(facet)));
+                         flat_slope(lit_facet(layout, facet, {}, receiver).in.sines));
   };
   const std::vector<std::size_t> facets = some_facets(layout, 64);
   const std::size_t facet =
       *std::min_element(facets.begin(), facets.end(), [&](std::size_t a, std::size_t b) { return turn(a) < turn(b); });
-  const glm::dvec2 slope =
-      nearest_reachable((to + layout.offset(receiver) - layout.middle(facet)) / layout.distances[receiver], layout.n,
-                        layout.sines_on(facet));
+  const glm::dvec2 slope = nearest_reachable(
+      slope_towards(layout, facet, (to + layout.offset(receiver) - layout.middle(facet)) / layout.distances[receiver],
+                    receiver),
+      layout.n, layout.sines_on(facet));
   const Footprint print = footprint(layout, facet, slope, receiver);
   AxisBlur smears{{print.x0 - at.x, std::vector<double>(static_cast<std::size_t>(print.columns))},
                   {print.y0 - at.y, std::vector<double>(static_cast<std::size_t>(print.rows))}};

@@ -220,7 +220,9 @@ std::uint64_t Pipeline::tried() const {
   return static_cast<std::uint64_t>(trials_) * layout_.facet_count() + (trial_ ? trial_->tried() : 0);
 }
 
-std::vector<Cost> Pipeline::costs() const { return costs_of(targets_, light_, light_sent(layout_, best_.slopes)); }
+std::vector<Cost> Pipeline::costs() const {
+  return costs_of(targets_, light_, light_sent_to_each(layout_, best_.slopes));
+}
 
 void Pipeline::show(job::Snapshot& snapshot) const {
   static constexpr const char* names[stages] = {"sampling", "annealing_1", "annealing_2", "correction"};

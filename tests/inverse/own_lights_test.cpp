@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture for each light, and lamps of some size: against rays through the solid, and the host against the device.
+#include "inverse/assign/device_facets.h"
+#include "inverse/bending.h"
+#include "inverse/judge.h"
+#include "inverse/light.h"
+#include "inverse/plan.h"
+#include "preset/read.h"
+#include "tests/inverse/searches.h"
+#include "tests/support/render.h"
+#include "tests/support/test.h"
+
+#include <numeric>
+#include <random>
+
+namespace nephroid::own_lights_test {
+
+using namespace inverse;
+using test::ring_and_disc;
+
+constexpr const char* two_lamps = R"({"engine": "inverse", "inverse": {
+  "facets": [32, 32], "cells": [16, 16], "receivers": [
+    {"distance_mm": 250, "light": {"type": "point", "distance_mm": 600, "offset_mm": [-150, 0]},
+     "picture": {"type": "ring"}},
+    {"distance_mm": 250, "light": {"type": "parallel", "tilt_deg": 12, "turn_deg": 70},
+     "picture": {"type": "disc"}}]}})";
+
+Layout layout_of(const preset::Overrides& overrides = {}) {
+  return make_layout(preset::parse_preset(two_lamps, "own.json", overrides));
+}
+
+std::string refusal(const preset::Overrides& overrides) {
+  return test::refusal_of([&] { make_plan(preset::parse_preset(two_lamps, "own.json", overrides)); });
+}
+
+std::vector<glm::dvec2> slopes_of(const Layout& layout) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-0.2, 0.2);
+  std::vector<glm::dvec2> slopes(layout.facet_count());
+  for (glm::dvec2& slope : slopes) slope = {uniform(random), uniform(random)};
+  return slopes;
+}
+
+double apart(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0, all = 0;
+  for (std::size_t c = 0; c < a.size(); ++c) {
+    sum += std::abs(a[c] - b[c]);
+    all += a[c];
+  }
+  return sum / all;
+}
+
+// A facet that is one prism: a ray in each receiver's light leaves it with the slope that lit_facet says.
+TEST(OwnLights, AFacetBendsEachLightAsARayGoes) {
+  const Layout layout = layout_of({"inverse.facets=[1, 1]", "inverse.size_mm=[1.2, 1.2]", "inverse.thickness_mm=1",
+                                   "inverse.receiver_mm=[100, 100]"});
+  const glm::dvec2 slope{0.1, -0.15};
+  const Solid solid = make_solid(layout, {slope});
+  for (const std::size_t j : {0u, 1u}) {
+    const LitFacet lit = lit_facet(layout, 0, slope, j);
+    const glm::dvec3 k = light_inside(lit.in.sines, layout.n);
+    const glm::dvec3 front{layout.thickness / k.z * lit.in.sines + glm::dvec2(1e-3, 5e-4), layout.thickness};
+    const glm::dvec3 direction = light_ray(receiver_alone(layout, j), front).direction;
+    const WayOut way = follow(test::shared_context(), solid, layout.n, {{front - 1e-3 * direction, direction}}).front();
+    EXPECT_NEAR(glm::length(glm::dvec2(way.direction) / -way.direction.z - lit.slope), 0, 1e-4) << j;
+    EXPECT_GT(glm::length(lit.slope - slope), 0.1) << j;
+    EXPECT_NEAR(glm::length(slope_towards(layout, 0, lit.slope, j) - slope), 0, 1e-9) << j;
+  }
+}
+
+TEST(OwnLights, DeviceAndHostSendTheSameLight) {
+  for (const preset::Overrides& of : {preset::Overrides{}, {"inverse.sun_deg=0.53"}}) {
+    const Layout l = layout_of(of);
+    const std::vector<Target> targets = ring_and_disc(l);
+    DeviceFacets facets(test::shared_context(), l, targets, picture_weights(l, targets));
+    const std::vector<double> z(l.facet_count());
+    facets.put(slopes_of(l), z);
+    const auto truth = light_of_all(l, facets.slopes(), z), light = facets.light();
+    for (const std::size_t j : {0u, 1u}) EXPECT_LT(apart(truth[j], light[j]), 2e-4) << j;
+  }
+}
+
+// The search believes what the judge then finds, and each picture is there in its own light alone.
+TEST(OwnLights, EachPictureIsThereInItsOwnLightAlone) {
+  const Layout l = layout_of();
+  const std::vector<Target> targets = ring_and_disc(l);
+  Assignment search(test::shared_context(), l, targets, 1);
+  test::sweep(search, 5);
+  Judge judge(test::shared_context(), l, search.solid(), 1, targets);
+  while (!judge.finished()) judge.advance();
+  const std::vector<Cost> judged = judge.costs(targets);
+  for (const std::size_t j : {0u, 1u}) {
+    EXPECT_NEAR(judged[j].cost, search.costs()[j].cost, 0.1) << j;
+    EXPECT_LT(judged[j].rel_l2, 0.15) << j;
+    EXPECT_GT(cost_of(targets[j], judge.light_under(j, 1 - j), 1).rel_l2, 0.4) << j;
+  }
+}
+
+// Facets in random directions; the lamp's width is ten cells on the receiver and more.
+TEST(OwnLights, ALampsSizeBlursAsRaysSay) {
+  for (const char* shape : {"disc", "rectangle"}) {
+    const std::string light =
+        R"({"type": "area", "distance_mm": 500, "shape": ")" + std::string(shape) + R"(", "size_mm": [60, 30]})";
+    const Layout l = layout_of({"inverse.light=" + light, "inverse.receivers.0.light=null",
+                                "inverse.receivers.1.light=null", "inverse.receivers.1.distance_mm=300"});
+    ASSERT_TRUE(l.own_lights.empty());
+    const std::vector<glm::dvec2> slopes(l.facet_count(), glm::dvec2(0.02, 0));
+    Layout point = l;
+    point.light.lamp_half = {0, 0};
+    const std::vector<double> z(l.facet_count());
+    Judge judge(test::shared_context(), l, make_solid(l, slopes), 1);
+    while (!judge.finished()) judge.advance();
+    const auto believed = light_of_all(l, slopes, z), sharp = light_of_all(point, slopes, z);
+    for (const std::size_t j : {0u, 1u}) {
+      std::vector<double> of_rays = judge.light(j);
+      for (double& cell : of_rays)
+        cell *= std::accumulate(believed[j].begin(), believed[j].end(), 0.0) /
+                std::accumulate(judge.light(j).begin(), judge.light(j).end(), 0.0);
+      EXPECT_LT(apart(believed[j], of_rays), 0.03) << shape << j;
+      EXPECT_GT(apart(sharp[j], of_rays), 2 * apart(believed[j], of_rays)) << shape << j;
+    }
+  }
+}
+
+std::string sun(const char* hour) {
+  return std::string(R"(inverse.light={"type": "sun", "place": {"latitude_deg": 52.5, "longitude_deg": 13.4, )") +
+         R"("date": "2026-03-20", "utc_offset_h": 1, "hour": )" + hour + "}}";
+}
+
+// At the equinox the sun stands 90 - 52.5 degrees high at local noon, .89 h - .12 h before the clock's by longitude and
+// the equation of time.
+TEST(OwnLights, TheNoonSunFallsStraightOnAFrontThatFacesIt) {
+  const Layout l = layout_of({sun("12.23"), "inverse.front_elevation_deg=37.5"});
+  EXPECT_LT(glm::length(l.light.sines), 0.01);
+  EXPECT_LT(layout_of({sun("11.23"), "inverse.front_elevation_deg=37.5"}).light.sines.x, -0.2); // goes to the west
+  EXPECT_LT(layout_of({sun("12.23"), "inverse.front_elevation_deg=15"}).light.sines.y, -0.3);   // and down
+}
+
+TEST(OwnLights, BadLightIsRefused) {
+  EXPECT_NO_THROW(layout_of({sun("12")}));
+  EXPECT_THAT(refusal({sun("3")}), testing::HasSubstr("below the horizon"));
+  EXPECT_THAT(refusal({sun("12"), "inverse.front_azimuth_deg=0"}), testing::HasSubstr("behind the front"));
+  EXPECT_THAT(refusal({"inverse.receivers.0.light=null", "inverse.receivers.1.light=null"}),
+              testing::HasSubstr("same place in the same light"));
+  EXPECT_THAT(refusal({"inverse.method=thesis"}), testing::HasSubstr("the method 'thesis' has one light"));
+  EXPECT_THAT(refusal({"inverse.receivers.0.light.spectrum=D65"}), testing::HasSubstr("all lights have the spectrum"));
+  EXPECT_THAT(refusal({"inverse.frames=3"}), testing::HasSubstr("lit by lamps and by parallel light"));
+  EXPECT_THAT(refusal({"inverse.receivers.0.light.type=area", "inverse.sun_deg=0.5"}),
+              testing::HasSubstr("a lamp has its size_mm"));
+}
+
+} // namespace nephroid::own_lights_test
