@@ -41,6 +41,8 @@ public:
     if (plan.photons) photons_.begin(preset, renderer()->scene(), renderer()->bvh(), *plan.photons);
   }
 
+  void begin_with(const job::Beginning& beginning) override { photons_.begin_with(beginning); }
+
   void advance() override {
     if (renderer()) renderer()->renew_tree();
     const bool photons_next = wants_photons(),
@@ -230,7 +232,7 @@ private:
     picture->rgb.resize(layers.front().rgb.size());
     for (Renderer::Layer& layer : layers) {
       std::ranges::transform(picture->rgb, layer.rgb, picture->rgb.begin(), std::plus());
-      picture->layers.push_back({layer.name, std::move(layer.rgb)});
+      picture->layers.push_back({layer.name, std::move(layer.rgb), std::move(layer.error_draw)});
     }
     return picture;
   }

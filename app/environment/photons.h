@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace nephroid::environment {
@@ -29,6 +30,8 @@ public:
   /// preset, plan: those of the renderer's scene.
   void begin(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
              const photons::RunPlan& plan);
+  /// See job::Job.
+  void begin_with(const job::Beginning& beginning);
   /// Ends the photons' job. Their next turn begins with a plan of its own.
   void end();
   bool has_begun() const { return run_ != nullptr; }
@@ -56,6 +59,7 @@ private:
   mpi::RankContext context_;
   std::unique_ptr<photons::PhotonJob> run_; ///< null: there are no photons, or they have not begun
   bool has_planned_ = false;                ///< whether run_ is null because there are none
+  std::optional<job::Beginning> beginning_;
 };
 
 } // namespace nephroid::environment

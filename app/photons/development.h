@@ -4,12 +4,19 @@
 #include "photons/block_smoothing.h"
 #include "photons/passes.h"
 
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace nephroid::photons {
+
+/// A layer as its stages developed it, which is kept only for a mixture, and smoothed.
+struct Developed {
+  LayerEstimate plain, smooth;
+};
 
 class Development {
 public:
@@ -33,17 +40,25 @@ public:
   /// The seconds of all pictures since the program began. They are not part of the run's work.
   double smoothing_seconds() const { return smoothing_seconds_; }
 
+  /// See job::Job::begin_with; null: there is no frame before.
+  void begin_with(std::shared_ptr<const job::Picture> before) {
+    is_frame_ = true;
+    before_ = std::move(before);
+  }
+
   /// See PhotonJob::set_estimate.
   void set_estimate(std::vector<float> direct) { estimate_ = std::move(direct); }
 
 private:
+  /// Puts the mixture with the frame before in the place of the smoothed layer. Returns a draw of its whole error.
+  std::vector<float> mix_with_before(const std::string& name, Developed& layer);
   /// A picture without layers, with room for a draw of its error where films have halves.
   job::Picture black(const Blocks& blocks) const;
   job::Picture black() const { return black({world_.tables.camera.width, world_.tables.camera.height, 1}); }
   /// The preview of a stage's layer, smoothed, [pixel][3].
   LayerEstimate preview_of(Stage& stage);
-  LayerEstimate layer_of(std::size_t stage);
-  LayerEstimate caustics();
+  Developed layer_of(std::size_t stage);
+  Developed caustics();
   void smooth(LayerEstimate& caustics);
   template <class Work>
   void timed(const Work& work) {
@@ -56,6 +71,8 @@ private:
   std::optional<BlockSmoothing> smoothing_;
   bool smooths_splats_, smooths_paths_;
   std::vector<float> estimate_; ///< PhotonJob::set_estimate
+  bool is_frame_ = false;       ///< of an animation
+  std::shared_ptr<const job::Picture> before_;
   double smoothing_seconds_ = 0;
 };
 

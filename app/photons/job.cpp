@@ -156,6 +156,11 @@ public:
     return true;
   }
 
+  void begin_with(const job::Beginning& beginning) override {
+    world_.seed = tracing::seed_words(beginning.seed);
+    development_.begin_with(beginning.before);
+  }
+
   void set_estimate(std::vector<float> direct) override { development_.set_estimate(std::move(direct)); }
   void set_white(double white) override { world_.white = white; }
   double passes() const override { return passes_.with_fraction(); }

@@ -2,6 +2,7 @@
 #include "run/prepare.h"
 
 #include "engine/engine.h"
+#include "run/afterimage.h"
 #include "run/content.h"
 #include "run/memory.h"
 
@@ -60,7 +61,8 @@ std::unique_ptr<plan::Plan> make_plan(const preset::Preset& preset, const Loaded
 
 } // namespace
 
-Prepared prepare(const preset::Preset& preset, const Prepared* previous, const Watch& watch) {
+Prepared prepare(const preset::Preset& preset, const Prepared* previous, const Watch& watch,
+                 std::shared_ptr<const Afterimage> before) {
   const bool lends_scene = previous && same_but_camera(preset, previous->preset);
   // Hashed before the files are loaded. If one is written in between, the hash is of its old contents, and no resume
   // goes on with the new ones.
@@ -70,8 +72,10 @@ Prepared prepare(const preset::Preset& preset, const Prepared* previous, const W
   watch.begin("making the plan");
   std::unique_ptr<plan::Plan> plan = make_plan(preset, *loaded);
   plan->inputs = std::move(inputs);
+  if (!plan->mixes_frames) before.reset();
+  if (before) plan->inputs.push_back(before->input);
   plan->notes.insert(plan->notes.begin(), preset.provenance.notes.begin(), preset.provenance.notes.end());
-  return {preset, std::move(loaded), std::move(plan)};
+  return {preset, std::move(loaded), std::move(plan), std::move(before)};
 }
 
 Prepared with_scene(const Prepared& prepared, scene::Scene scene, const std::string& smaller) {
