@@ -7,6 +7,7 @@
 #include "preset/animation.h"
 #include "preset/origins.h"
 #include "preset/read.h"
+#include "run/afterimage.h"
 #include "run/animation.h"
 #include "run/folder.h"
 #include "run/prepare.h"
@@ -101,9 +102,6 @@ private:
     const Communicator communicator(series_.ranks);
     if (communicator.broadcast(communicator.is_root() && keeps(frame, target))) return;
     if (!communicator.broadcast(!target.frame_before.empty())) target.frame_before.clear();
-    if (mixes_frames_ && frame > 0 && target.frame_before.empty())
-      target.preset.provenance.notes.push_back(
-          fmt::format("frame {} begins by itself: there is nothing of frame {}", frame, frame - 1));
     preset::at_origins(target.preset, [&] { render(options_, target, interrupted_, series_); });
     ++rendered_;
     std::error_code ignored; // the next frame begins with this one

@@ -80,6 +80,7 @@ public:
     if (!renderer() || renderer()->passes() > 0 || finished()) // would hold up the first picture
       spheres_.update(baking_.bake(), width_, height_, sphere_white_);
     snapshot.picture = renderer() ? picture() : spheres_.all();
+    if (estimates_error()) snapshot.left = photons_.left();
     snapshot.stands_in = view_ && !renderer();
     snapshot.caption = caption();
     snapshot.pictures = spheres_.directions();
@@ -232,7 +233,7 @@ private:
     picture->rgb.resize(layers.front().rgb.size());
     for (Renderer::Layer& layer : layers) {
       std::ranges::transform(picture->rgb, layer.rgb, picture->rgb.begin(), std::plus());
-      picture->layers.push_back({layer.name, std::move(layer.rgb), std::move(layer.error_draw)});
+      picture->layers.push_back({layer.name, std::move(layer.rgb)});
     }
     return picture;
   }

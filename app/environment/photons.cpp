@@ -76,13 +76,11 @@ std::vector<float> JoinedPhotons::join(std::vector<Renderer::Layer>& layers, std
     return {};
   }
   run_->set_estimate(std::move(smooth));
-  const std::shared_ptr<const job::Picture> sent = run_->snapshot().picture;
-  for (const job::Layer& layer : sent->layers) {
-    Renderer::Layer& replaced = *std::ranges::find(layers, layer.name, &Renderer::Layer::name);
-    replaced.rgb = layer.rgb;
-    replaced.error_draw = layer.error_draw;
-  }
-  return sent->error_draw;
+  job::Snapshot sent = run_->snapshot();
+  left_ = std::move(sent.left);
+  for (const job::Layer& layer : sent.picture->layers)
+    std::ranges::find(layers, layer.name, &Renderer::Layer::name)->rgb = layer.rgb;
+  return sent.picture->error_draw;
 }
 
 void JoinedPhotons::serialize(tracing::Archive& archive, const SceneView& view) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace nephroid::environment {
@@ -53,6 +54,9 @@ public:
   /// "direct".
   std::vector<float> join(std::vector<Renderer::Layer>& layers, std::vector<float> smooth);
 
+  /// What the picture of the last join() leaves for the next frame (job::Snapshot::left).
+  std::vector<job::Layer> left() { return std::exchange(left_, {}); }
+
   void serialize(tracing::Archive& archive, const SceneView& view);
 
 private:
@@ -60,6 +64,7 @@ private:
   std::unique_ptr<photons::PhotonJob> run_; ///< null: there are no photons, or they have not begun
   bool has_planned_ = false;                ///< whether run_ is null because there are none
   std::optional<job::Beginning> beginning_;
+  std::vector<job::Layer> left_;
 };
 
 } // namespace nephroid::environment

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <string_view>
-#include <utility>
 
 namespace nephroid::photons {
 namespace {
@@ -23,55 +22,28 @@ void add(const std::vector<float>& more, std::vector<float>& sum) {
 }
 
 /// Several stages may add to one layer. The picture's sum comes last.
-void add(const std::string& name, const LayerEstimate& layer, job::Picture& picture) {
+void add(const char* name, const LayerEstimate& layer, job::Picture& picture) {
   if (layer.draw.empty()) picture.error_draw.clear();
   add(layer.draw, picture.error_draw);
   std::vector<float>& sum = tracing::layer_of(picture, name).rgb;
   add(layer.rgb, sum);
 }
 
-void add(const LayerEstimate& more, LayerEstimate& sum) {
-  if (more.draw.empty()) sum.draw.clear();
-  add(more.draw, sum.draw);
-  add(more.rgb, sum.rgb);
-}
-
-void add(const std::string& name, Developed more, std::vector<std::pair<std::string, Developed>>& layers) {
-  const auto same = std::ranges::find(layers, name, &std::pair<std::string, Developed>::first);
-  if (same == layers.end()) {
-    layers.emplace_back(name, std::move(more));
-    return;
-  }
-  add(more.plain, same->second.plain);
-  add(more.smooth, same->second.smooth);
-}
-
 } // namespace
 
 job::Picture Development::picture() {
   job::Picture picture = black();
-  std::vector<std::pair<std::string, Developed>> layers;
+  left_.clear();
   bool has_caustics = false;
   for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
     const TimedStage& stage = passes_.stages()[s];
-    if (stage.caustics() && std::exchange(has_caustics, true)) continue;
-    add(stage.layer, stage.caustics() ? caustics() : layer_of(s), layers);
-  }
-  for (auto& [name, layer] : layers) {
-    std::vector<float> draw = layer.smooth.draw;
-    if (before_ && !layer.plain.draw.empty() && !draw.empty()) timed([&] { draw = mix_with_before(name, layer); });
-    add(name, {layer.smooth.rgb, std::move(draw)}, picture);
-    if (is_frame_) picture.layers.back().error_draw = std::move(layer.smooth.draw);
+    if (!stage.caustics())
+      add(stage.layer, layer_of(s), picture);
+    else if (!std::exchange(has_caustics, true))
+      add(stage.layer, caustics(), picture);
   }
   for (const job::Layer& layer : picture.layers) add(layer.rgb, picture.rgb);
   return picture;
-}
-
-std::vector<float> Development::mix_with_before(const std::string& name, Developed& layer) {
-  const auto before = std::ranges::find(before_->layers, name, &job::Layer::name);
-  if (before == before_->layers.end() || before->error_draw.empty()) return layer.smooth.draw;
-  return mix_before(layer.plain.rgb, layer.plain.draw, {before->rgb, before->error_draw}, light_of(layer.plain.rgb),
-                    world_.tables.camera.width, world_.tables.camera.height, layer.smooth.rgb, layer.smooth.draw);
 }
 
 job::Picture Development::black(const Blocks& blocks) const {
@@ -92,6 +64,17 @@ void Development::smooth(LayerEstimate& caustics) {
   smoothing_->spread(caustics);
   for (std::size_t i = 0; i < plain.rgb.size(); ++i)
     if (!world_.pixels.may_show_glass[i / 3]) caustics.rgb[i] = plain.rgb[i], caustics.draw[i] = plain.draw[i];
+}
+
+void Development::mix_with_before(const std::string& name, LayerEstimate& layer) {
+  if (!is_frame_ || layer.draw.empty()) return;
+  const auto before = before_ ? std::ranges::find(*before_, name, &job::Layer::name) : decltype(before_->end())();
+  std::vector<float> draw = layer.draw;
+  if (before_ && before != before_->end())
+    draw = mix_before({before->rgb, before->error_draw}, world_.tables.camera.width, world_.tables.camera.height,
+                      layer.rgb, layer.draw);
+  left_.push_back({name, layer.rgb, std::move(layer.draw)});
+  layer.draw = std::move(draw);
 }
 
 void Development::share_work() {
@@ -157,23 +140,23 @@ LayerEstimate Development::preview_of(Stage& stage) {
   return pixels;
 }
 
-Developed Development::layer_of(std::size_t s) {
+LayerEstimate Development::layer_of(std::size_t s) {
   Stage& stage = *passes_.stages()[s].stage;
   const bool is_estimated = !estimate_.empty() && passes_.stages()[s].layer == std::string_view("direct");
   const bool whole = passes_.complete() > 0 || passes_.had_turn(s);
   const bool is_previewed = preview_.has_picture() && !passes_.has_halves(s) && (!whole || smoothing_);
   LayerEstimate preview = is_previewed ? preview_of(stage) : LayerEstimate();
   if (is_estimated && !passes_.has_halves(s)) {
-    if (preview.rgb.empty()) return {{}, {estimate_, {}}};
+    if (preview.rgb.empty()) return {estimate_, {}};
     for (std::size_t i = 0; i < estimate_.size(); ++i)
       if (!world_.pixels.may_show_glass[i / 3]) preview.rgb[i] = estimate_[i];
-    return {{}, std::move(preview)};
+    return preview;
   }
-  if (!preview.rgb.empty() && !whole) return {{}, std::move(preview)};
+  if (!preview.rgb.empty() && !whole) return preview;
   job::Picture picture = black();
   stage.develop(passes_.complete(), passes_.had_turn(s), picture);
   LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
-  LayerEstimate plain = before_ ? layer : LayerEstimate();
+  if (preview.rgb.empty()) timed([&] { mix_with_before(stage.name(), layer); });
   if (!preview.rgb.empty()) { // a single sample of each pixel: it shows all of a wall, and little of glass
     for (std::size_t i = 0; i < layer.rgb.size(); ++i)
       if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = preview.rgb[i];
@@ -186,10 +169,10 @@ Developed Development::layer_of(std::size_t s) {
   } else if (is_previewed) { // photons of a stage that has no preview of its own
     layer = between(world_.preview.blocks, means(world_.preview.blocks, layer));
   }
-  return {std::move(plain), std::move(layer)};
+  return layer;
 }
 
-Developed Development::caustics() {
+LayerEstimate Development::caustics() {
   LayerEstimate preview; // of stages that come after all photons of a pass
   job::Picture picture = black();
   tracing::layer_of(picture, "caustic");
@@ -206,12 +189,11 @@ Developed Development::caustics() {
     }
   }
   LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
-  LayerEstimate plain = before_ ? layer : LayerEstimate();
+  timed([&] { mix_with_before("caustic", layer); });
   if (smoothing_ && !layer.draw.empty()) timed([&] { smooth(layer); });
   add(preview.rgb, layer.rgb);
   add(preview.draw, layer.draw);
-  if (!preview.rgb.empty()) add(preview, plain);
-  return {std::move(plain), std::move(layer)};
+  return layer;
 }
 
 } // namespace nephroid::photons

@@ -13,11 +13,6 @@
 
 namespace nephroid::photons {
 
-/// A layer as its stages developed it, which is kept only for a mixture, and smoothed.
-struct Developed {
-  LayerEstimate plain, smooth;
-};
-
 class Development {
 public:
   /// smoothing is for caustics that glass and mirrors show, with smooths_splats for all, with smooths_paths also for
@@ -40,26 +35,29 @@ public:
   /// The seconds of all pictures since the program began. They are not part of the run's work.
   double smoothing_seconds() const { return smoothing_seconds_; }
 
-  /// See job::Job::begin_with; null: there is no frame before.
-  void begin_with(std::shared_ptr<const job::Picture> before) {
+  /// See job::Job::begin_with.
+  void begin_with(std::shared_ptr<const std::vector<job::Layer>> before) {
     is_frame_ = true;
     before_ = std::move(before);
   }
+  /// What the last picture leaves for the next frame (job::Snapshot::left).
+  std::vector<job::Layer> left() const { return left_; }
 
   /// See PhotonJob::set_estimate.
   void set_estimate(std::vector<float> direct) { estimate_ = std::move(direct); }
 
 private:
-  /// Puts the mixture with the frame before in the place of the smoothed layer. Returns a draw of its whole error.
-  std::vector<float> mix_with_before(const std::string& name, Developed& layer);
   /// A picture without layers, with room for a draw of its error where films have halves.
   job::Picture black(const Blocks& blocks) const;
   job::Picture black() const { return black({world_.tables.camera.width, world_.tables.camera.height, 1}); }
   /// The preview of a stage's layer, smoothed, [pixel][3].
   LayerEstimate preview_of(Stage& stage);
-  Developed layer_of(std::size_t stage);
-  Developed caustics();
+  LayerEstimate layer_of(std::size_t stage);
+  LayerEstimate caustics();
   void smooth(LayerEstimate& caustics);
+  /// Mixes what a stage has developed with what the frame before left of it, before it is smoothed: then it has less
+  /// noise, and smoothing blurs less.
+  void mix_with_before(const std::string& name, LayerEstimate& layer);
   template <class Work>
   void timed(const Work& work) {
     smoothing_seconds_ += tracing::seconds_of(work);
@@ -70,9 +68,10 @@ private:
   const Preview& preview_;
   std::optional<BlockSmoothing> smoothing_;
   bool smooths_splats_, smooths_paths_;
-  std::vector<float> estimate_; ///< PhotonJob::set_estimate
-  bool is_frame_ = false;       ///< of an animation
-  std::shared_ptr<const job::Picture> before_;
+  std::vector<float> estimate_;                           ///< PhotonJob::set_estimate
+  bool is_frame_ = false;                                 ///< of an animation
+  std::shared_ptr<const std::vector<job::Layer>> before_; ///< may be null
+  std::vector<job::Layer> left_;
   double smoothing_seconds_ = 0;
 };
 

@@ -103,6 +103,7 @@ public:
   job::Snapshot snapshot() override {
     job::Snapshot snapshot;
     snapshot.picture = std::make_shared<const job::Picture>(development_.picture());
+    snapshot.left = development_.left();
     for (const TimedStage& s : passes_.stages()) snapshot.phases.emplace_back(s.stage->name(), s.seconds);
     if (development_.smooths()) snapshot.phases.emplace_back("smoothing", development_.smoothing_seconds());
     snapshot.progress = progress();

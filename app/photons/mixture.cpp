@@ -149,9 +149,8 @@ void mix(std::span<const float> picture, std::span<const float> picture_draw, co
   });
 }
 
-std::vector<float> mix_before(std::span<const float> picture, std::span<const float> picture_draw,
-                              const Estimate& before, std::span<const double> light, int width, int height,
-                              std::vector<float>& rgb, std::vector<float>& error_draw) {
+std::vector<float> mix_before(const Estimate& before, int width, int height, std::vector<float>& rgb,
+                              std::vector<float>& error_draw) {
   const std::vector<float> own = rgb, own_draw = error_draw;
   std::vector<float> difference(rgb.size()), draw(rgb.size());
   for (std::size_t c = 0; c < rgb.size(); ++c)
@@ -159,13 +158,15 @@ std::vector<float> mix_before(std::span<const float> picture, std::span<const fl
       difference[c] = before.rgb[c] - own[c];
       draw[c] = before.error_draw[c] - own_draw[c];
     }
+  std::vector<double> light(rgb.size() / 3);
+  for (std::size_t c = 0; c < rgb.size(); ++c) light[c / 3] += std::max(double{own[c]}, 0.0) / 3;
   const Changes changes(difference, draw, width, height);
   std::vector<float> estimate(rgb.size()), estimate_draw(rgb.size());
   for (std::size_t c = 0; c < rgb.size(); ++c) {
     estimate[c] = own[c] + changes.usual(c / 3) * difference[c];
     estimate_draw[c] = own_draw[c] + changes.usual(c / 3) * draw[c];
   }
-  mix(picture, picture_draw, {estimate, estimate_draw}, light, width, height, rgb, error_draw);
+  mix(own, own_draw, {estimate, estimate_draw}, light, width, height, rgb, error_draw);
   keep_light(own, own_draw, width, height, rgb, error_draw);
 
   // What the mixture has moved beyond the noise of that is light of the frame before.

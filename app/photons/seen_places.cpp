@@ -120,10 +120,11 @@ SeenPlaces seen_places(const scene::Scene& scene, const scene::Bvh& bvh) {
   return seen;
 }
 
-bool have_same_parts(const SeenPlaces& a, const SeenPlaces& b) {
-  return a.camera.width == b.camera.width && a.camera.height == b.camera.height &&
-         a.positions.size() == b.positions.size() && a.ellipsoids.size() == b.ellipsoids.size() &&
-         a.object_of_primitive == b.object_of_primitive;
+bool has_parts_of(const scene::Scene& scene, const SeenPlaces& before) {
+  return scene.camera.width == before.camera.width && scene.camera.height == before.camera.height &&
+         scene.geometry.positions.size() == before.positions.size() &&
+         scene.geometry.ellipsoids.size() == before.ellipsoids.size() &&
+         scene.object_of_primitive == before.object_of_primitive;
 }
 
 std::vector<Taps> taps_before(const SeenPlaces& now, const scene::Mesh& geometry, const SeenPlaces& before) {

@@ -39,8 +39,9 @@ struct SeenPlaces {
 /// Sends one ray through the middle of every pixel, on every core, through glass and by way of mirrors.
 SeenPlaces seen_places(const scene::Scene& scene, const scene::Bvh& bvh);
 
-/// Whether two have pictures of one size and the same objects with as many vertices and primitives, moved or not.
-bool have_same_parts(const SeenPlaces& a, const SeenPlaces& b);
+/// Whether a scene has a picture of the same size, and the same objects with as many vertices and primitives, moved or
+/// not.
+bool has_parts_of(const scene::Scene& scene, const SeenPlaces& before);
 
 /// The pixels of a picture between which a place lies, with weights whose sum is 1; all 0: the picture does not show
 /// it.
@@ -50,8 +51,8 @@ struct Taps {
 };
 
 /// [pixel] of `now`: where its place is in the picture of `before`, between the pixels there that show the same object
-/// near that place. What is seen in glass or mirrors is looked for in the same pixel only. geometry: of `now`. Both
-/// have the same parts.
+/// near that place. What is seen in glass or mirrors is looked for in the same pixel only. geometry: of `now`, with the
+/// parts of `before`.
 std::vector<Taps> taps_before(const SeenPlaces& now, const scene::Mesh& geometry, const SeenPlaces& before);
 
 /// A picture of the frame before, [pixel][3], as the frame now sees it; NaN where it does not show the place.

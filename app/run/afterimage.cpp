@@ -67,10 +67,8 @@ std::shared_ptr<const Afterimage> read_afterimage(const fs::path& frame_folder) 
 }
 
 void write_afterimage(const fs::path& frame_folder, const Prepared& prepared, const photons::SeenPlaces& seen,
-                      const job::Picture& picture) {
-  Afterimage left{seen, prepared.preset.white.value(), {}, {}};
-  for (const job::Layer& layer : picture.layers)
-    if (!layer.error_draw.empty()) left.layers.push_back(layer);
+                      const std::vector<job::Layer>& layers) {
+  Afterimage left{seen, prepared.preset.white.value(), layers, {}};
   write_file_whole(frame_folder / afterimage_file, [&](ByteSink& to) {
     HashedSink hashed(to);
     Archive archive(hashed);
@@ -84,15 +82,12 @@ job::Beginning beginning_of(const Prepared& prepared, const photons::SeenPlaces&
   if (!prepared.before) return beginning;
   const Afterimage& left = *prepared.before;
   beginning.seed = hash_of(fmt::format("{} {}", prepared.preset.seed, left.input.content));
-  if (!have_same_parts(seen, left.seen)) return beginning;
   const std::vector<photons::Taps> taps = taps_before(seen, prepared.loaded->scene.geometry, left.seen);
   const auto scale = static_cast<float>(left.white / prepared.preset.white.value());
-  auto before = std::make_shared<job::Picture>();
-  before->width = seen.camera.width;
-  before->height = seen.camera.height;
+  auto before = std::make_shared<std::vector<job::Layer>>();
   for (const job::Layer& layer : left.layers) {
     job::Layer& there =
-        before->layers.emplace_back(job::Layer{layer.name, moved(layer.rgb, taps), moved(layer.error_draw, taps)});
+        before->emplace_back(job::Layer{layer.name, moved(layer.rgb, taps), moved(layer.error_draw, taps)});
     for (std::vector<float>* const values : {&there.rgb, &there.error_draw})
       for (float& value : *values) value *= scale;
   }

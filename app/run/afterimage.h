@@ -18,7 +18,7 @@ inline constexpr const char* afterimage_file = "afterimage.bin";
 struct Afterimage {
   photons::SeenPlaces seen;
   double white = 1;
-  std::vector<job::Layer> layers; ///< that have a draw of their noise
+  std::vector<job::Layer> layers; ///< job::Snapshot::left
   plan::Input input;              ///< its name from the next frame's folder, and its hash
 };
 
@@ -27,7 +27,7 @@ std::shared_ptr<const Afterimage> read_afterimage(const std::filesystem::path& f
 
 /// Written whole. seen: of the prepared scene.
 void write_afterimage(const std::filesystem::path& frame_folder, const Prepared& prepared,
-                      const photons::SeenPlaces& seen, const job::Picture& picture);
+                      const photons::SeenPlaces& seen, const std::vector<job::Layer>& layers);
 
 /// What a frame begins with. seen: of the prepared scene; Prepared::before may be null.
 job::Beginning beginning_of(const Prepared& prepared, const photons::SeenPlaces& seen);

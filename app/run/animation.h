@@ -2,7 +2,6 @@
 // An animation in its folder: frame_0003.png and frame_0003.exr of each frame, the run that made it in frames/0003,
 // figures of all frames in frames.csv, the video animation.mp4.
 #pragma once
-#include "run/afterimage.h"
 #include "run/folder.h"
 
 #include <filesystem>

@@ -6,6 +6,8 @@
 #include "run/content.h"
 #include "run/memory.h"
 
+#include <fmt/format.h>
+
 #include <cstring>
 #include <utility>
 
@@ -72,8 +74,14 @@ Prepared prepare(const preset::Preset& preset, const Prepared* previous, const W
   watch.begin("making the plan");
   std::unique_ptr<plan::Plan> plan = make_plan(preset, *loaded);
   plan->inputs = std::move(inputs);
-  if (!plan->mixes_frames) before.reset();
+  if (before && !(plan->mixes_frames && has_parts_of(loaded->scene, before->seen))) before.reset();
   if (before) plan->inputs.push_back(before->input);
+  if (preset.provenance.frame && plan->mixes_frames) {
+    plan->buffers.push_back(held_of_frame_before(*plan, loaded->scene.camera.width, loaded->scene.camera.height));
+    if (const int frame = *preset.provenance.frame; frame > 0 && !before)
+      plan->notes.push_back(fmt::format(
+          "frame {} begins by itself: of frame {} there is nothing, or it has other objects", frame, frame - 1));
+  }
   plan->notes.insert(plan->notes.begin(), preset.provenance.notes.begin(), preset.provenance.notes.end());
   return {preset, std::move(loaded), std::move(plan), std::move(before)};
 }

@@ -5,11 +5,14 @@
 #include "job/observer.h"
 #include "measure/measured_job.h"
 #include "mpi/ranks.h"
-#include "photons/seen_places.h"
 #include "run/folder.h"
 
 #include <chrono>
 #include <stop_token>
+
+namespace nephroid::photons {
+struct SeenPlaces;
+}
 
 namespace nephroid::run {
 

@@ -83,11 +83,7 @@ public:
     }
     std::vector<float> mixed = own_, mixed_draw = draw;
     said_ = draw;
-    if (!mixed_.empty()) {
-      std::vector<double> light;
-      for (std::size_t i = 0; i < values; i += 3) light.push_back(own_[i]);
-      said_ = photons::mix_before(own_, draw, {mixed_, draw_}, light, side, side, mixed, mixed_draw);
-    }
+    if (!mixed_.empty()) said_ = photons::mix_before({mixed_, draw_}, side, side, mixed, mixed_draw);
     mixed_ = std::move(mixed), draw_ = std::move(mixed_draw);
   }
   const std::vector<float>& own() const { return own_; }

@@ -35,7 +35,7 @@ struct Frame {
 
 /// What the frame now sees of a picture before whose red is the column and whose green is the row.
 std::vector<float> columns_and_rows(const Frame& now, const Frame& before) {
-  EXPECT_TRUE(have_same_parts(now.seen, before.seen));
+  EXPECT_TRUE(has_parts_of(now.scene, before.seen));
   std::vector<float> picture;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) picture.insert(picture.end(), {static_cast<float>(x), static_cast<float>(y), 1});
@@ -143,9 +143,9 @@ TEST(SeenPlaces, AreWrittenAndRead) {
   Archive again(second);
   read.serialize(again);
   EXPECT_EQ(first.bytes(), second.bytes());
-  EXPECT_TRUE(have_same_parts(frame.seen, read));
+  EXPECT_TRUE(has_parts_of(frame.scene, read));
   read.positions.pop_back();
-  EXPECT_FALSE(have_same_parts(frame.seen, read));
+  EXPECT_FALSE(has_parts_of(frame.scene, read));
 }
 
 } // namespace nephroid::photons::seen_places_test

@@ -42,7 +42,6 @@ public:
   struct Layer {
     const char* name = "";
     std::vector<float> rgb;
-    std::vector<float> error_draw = {}; ///< as job::Layer's
   };
   /// Places in layers(). smooth: direct without noise, with the shadows of a few lights. volume: only in a medium.
   enum : std::size_t { background, direct, caustic, smooth, volume };
