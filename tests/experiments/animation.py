@@ -3,7 +3,8 @@
 """Measures what frames of an animation gain where each begins with the one before, and prints the tables of
 docs/notebook/animation.md.
 
-    tests/experiments/animation.py PROGRAM OUT [FILM...] [--frames N] [--measured M] [--passes P...] [--reference-passes R]
+    tests/experiments/animation.py PROGRAM OUT [FILM...] [--frames N] [--measured M] [--passes P...] [--alone P...]
+    [--photons N] [--size W H] [--reference-passes R] [--seeds]
 
 A frame by itself is one of --frames NUMBER in a folder of its own, where there is no frame before. The reference is of
 many passes and another seed. Errors are root mean squares of all pixels and channels over the reference's mean; flicker
@@ -50,8 +51,9 @@ class Film:
         folder = self.out / folder
         if not (folder / "frames.csv").exists():
             settings = {"scene.camera.resolution": self.size, "stop.seconds": None, "stop.passes": passes,
-                        "spectral.photons_per_pass": self.photons,
                         **self.settings, "animation.frames": self.frames}
+            if not self.preset.startswith("environment/"):
+                settings["spectral.photons_per_pass"] = self.photons
             sets = [word for key, value in settings.items() for word in ("--set", f"{key}={json.dumps(value)}")]
             done = subprocess.run([self.program, "run", self.preset, "-o", folder, *map(str, words), *sets],
                                   capture_output=True, text=True)
