@@ -21,6 +21,7 @@ constexpr int part_radius = 24;
 /// a factor of what was mixed.
 void keep_light(std::span<const float> own, std::span<const float> own_draw, int width, int height,
                 std::vector<float>& rgb, std::vector<float>& draw) {
+  constexpr double most = 0.1; // what a single bright peak may add to the light around it
   const std::vector<float> mixed = rgb;
   for (std::size_t c = 0; c < 3; ++c) {
     const auto at = [c](std::size_t pixel) { return 3 * pixel + c; };
@@ -30,13 +31,19 @@ void keep_light(std::span<const float> own, std::span<const float> own_draw, int
     const SummedArea lacks(width, height, [&](std::size_t i) { return double{own[at(i)]} - mixed[at(i)]; });
     const SummedArea lacks_of_draw(width, height, [&](std::size_t i) { return double{own_draw[at(i)]} - draw[at(i)]; });
     const SummedArea carriers(width, height, carrier);
+    const auto factor = [&](const SummedArea& lack, std::size_t i) {
+      const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+      const double sum = carriers.sum(x, y, part_radius);
+      return sum > 0 ? std::clamp(lack.sum(x, y, part_radius) / sum, -most, most) : 0.0;
+    };
+    // The mean of the factors around has no edges where parts end.
+    const SummedArea factors(width, height, [&](std::size_t i) { return factor(lacks, i); });
+    const SummedArea factors_of_draw(width, height, [&](std::size_t i) { return factor(lacks_of_draw, i); });
     for_ranges(mixed.size() / 3, std::size_t{1} << 12, [&](std::size_t, Range range) {
       for (std::size_t i = range.begin; i < range.end; ++i) {
         const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-        const double sum = carriers.sum(x, y, part_radius), lack = lacks.sum(x, y, part_radius);
-        if (carrier(i) == 0 || std::abs(lack) > 0.5 * sum) continue;
-        rgb[at(i)] += static_cast<float>(carrier(i) / sum * lack);
-        draw[at(i)] += static_cast<float>(carrier(i) / sum * lacks_of_draw.sum(x, y, part_radius));
+        rgb[at(i)] += static_cast<float>(carrier(i) * factors.mean(x, y, part_radius));
+        draw[at(i)] += static_cast<float>(carrier(i) * factors_of_draw.mean(x, y, part_radius));
       }
     });
   }

@@ -80,7 +80,8 @@ class Film:
 
     def frame(self, folder, n):
         seconds = json.loads((folder / f"frames/{n:04}/run.json").read_text())["work_seconds"]
-        return read_layer(folder / f"frame_{n:04}.exr", ""), seconds
+        picture = folder / f"frame_{n:04}.exr"
+        return read_layer(picture, ""), seconds, read_layer(picture, "caustic")
 
 
 def rms(picture):
@@ -88,17 +89,18 @@ def rms(picture):
 
 
 def figures(film, reference):
-    """Error, Lab error, flicker, light with its standard error, seconds of work a frame."""
-    errors, labs, flickers, light = [], [], [], []
+    """Error, that of the caustic layer, Lab error, flicker, light with its standard error, seconds of work a frame."""
+    errors, caustics, labs, flickers, light = [], [], [], [], []
     for n in range(1, len(film)):
-        (ours, _), (truth, _) = film[n], reference[n]
+        (ours, _, caustic), (truth, _, true_caustic) = film[n], reference[n]
+        caustics.append(rms(caustic - true_caustic) / true_caustic.mean())
         errors.append(rms(ours - truth) / truth.mean())
         labs.append(float(np.mean(np.linalg.norm(lab(np.clip(ours, 0, None)) - lab(np.clip(truth, 0, None)), axis=-1))))
         light.append(ours.mean() / truth.mean())
         before, truth_before = film[n - 1][0], reference[n - 1][0]
         flickers.append(rms((ours - before) - (truth - truth_before)) / truth.mean())
-    return [np.mean(errors), np.mean(labs), np.mean(flickers), np.mean(light),
-            np.std(light) / max(len(light) - 1, 1) ** .5, np.mean([seconds for _, seconds in film[1:]])]
+    return [np.mean(errors), np.mean(caustics), np.mean(labs), np.mean(flickers), np.mean(light),
+            np.std(light) / max(len(light) - 1, 1) ** .5, np.mean([seconds for _, seconds, _ in film[1:]])]
 
 
 def main():
@@ -115,7 +117,8 @@ def main():
     parser.add_argument("--reference-passes", type=int, default=128)
     parser.add_argument("--seeds", action="store_true", help="also frames by themselves with a seed each")
     options = parser.parse_args()
-    print("| film | passes | frames | error | CIELAB | flicker | light | seconds |\n|---|---|---|---|---|---|---|---|")
+    print("| film | passes | frames | error | of caustics | CIELAB | flicker | light | seconds |\n"
+          "|---|---|---|---|---|---|---|---|---|")
     for name in options.films:
         film = Film(options.program, options.out, name, options)
         reference = film.alone(options.reference_passes, seed=4711)
@@ -124,8 +127,8 @@ def main():
             ways += [("alone, a seed each", p, film.alone(p, seed_a_frame=True)) for p in options.passes]
         ways += [("together", p, film.together(p)) for p in options.passes]
         for way, passes, pictures in ways:
-            error, colour, flicker, light, spread, seconds = figures(pictures, reference)
-            print(f"| {name} | {passes} | {way} | {error:.4f} | {colour:.2f} | {flicker:.4f} | "
+            error, caustic, colour, flicker, light, spread, seconds = figures(pictures, reference)
+            print(f"| {name} | {passes} | {way} | {error:.3f} | {caustic:.3f} | {colour:.2f} | {flicker:.3f} | "
                   f"{light:.4f} ± {spread:.4f} | {seconds:.2f} |", flush=True)
         chosen = [film.frames - 2, film.frames - 1]
         passes = options.passes[0]
