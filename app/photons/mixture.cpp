@@ -188,9 +188,10 @@ std::vector<float> mix_before(const Estimate& before, int width, int height, std
   for (std::size_t i = 0; i < light.size(); ++i) {
     const double bias_square =
         std::max(beyond.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, error_radius), 0.0);
-    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
-      with_bias[c] =
-          static_cast<float>(std::copysign(std::sqrt(std::pow(error_draw[c], 2) + bias_square), error_draw[c]));
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) { // no more than a pixel was moved
+      const double bias = std::min(bias_square, std::pow(static_cast<double>(rgb[c]) - own[c], 2));
+      with_bias[c] = static_cast<float>(std::copysign(std::sqrt(std::pow(error_draw[c], 2) + bias), error_draw[c]));
+    }
   }
   return with_bias;
 }
