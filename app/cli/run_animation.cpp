@@ -7,6 +7,7 @@
 #include "preset/animation.h"
 #include "preset/origins.h"
 #include "preset/read.h"
+#include "run/afterimage.h"
 #include "run/animation.h"
 #include "run/folder.h"
 #include "run/prepare.h"
@@ -50,10 +51,11 @@ public:
     for (int frame = range_.first; frame <= range_.second; ++frame)
       preset::at_frame(target_.preset, frame); // throws at once for a frame that cannot be
     begin();
-    if (ranks_)
+    if (ranks_) require_shared(*ranks_, target_.folder / "preset.json");
+    if (ranks_ && !mixes_frames_)
       distribute_frames();
     else
-      for (int frame = range_.first; frame <= range_.second; ++frame) render_one(frame);
+      render_in_order();
     if (is_root()) end();
   }
 
@@ -62,7 +64,6 @@ private:
 
   /// Each rank renders the next frame, alone, when it is free.
   void distribute_frames() {
-    require_shared(*ranks_, target_.folder / "preset.json");
     ranks_->distribute(range_.second - range_.first + 1,
                        [&](std::int64_t number) { render_one(range_.first + static_cast<int>(number)); });
     std::int64_t rendered = rendered_;
@@ -70,11 +71,18 @@ private:
     rendered_ = static_cast<int>(rendered);
   }
 
+  /// Each frame begins with the one before: so all ranks render it together.
+  void render_in_order() {
+    series_.ranks = ranks_;
+    for (int frame = range_.first; frame <= range_.second; ++frame) render_one(frame);
+  }
+
   /// The folder holds the animation's preset and the plan of frame 0.
   void begin() {
     preset::at_origins(target_.preset, [&] {
       run::ReadyRun& run = series_.run;
       const run::Prepared& prepared = run::prepare_next(run, target_.preset, {interrupted_, {}});
+      mixes_frames_ = prepared.plan->mixes_frames;
       if (ranks_) run::require_same(*ranks_, prepared, run.device.context());
       run::require_memory(prepared, run.device.context(), ranks_); // throws before a folder is made
     });
@@ -89,19 +97,33 @@ private:
 
   void render_one(int frame) {
     const std::filesystem::path own = run::frame_folder(target_.folder, frame);
-    const Target target{preset::at_frame(target_.preset, frame), own, fmt::format("{}/{:04}", target_.label, frame),
-                        target_.folder};
-    const auto done = options_.resume ? run::finished_frame(target_.folder, frame, target.preset) : std::nullopt;
-    if (done && done->changed.empty()) {
-      if (done->is_shown_otherwise) run::show_anew(own, target.preset);
-      run::show_frame(target_.folder, frame);
-      if (options_.json) report_result(options_, target, done->progress, true);
-      return;
-    }
-    if (done && series_.notes.insert(done->changed).second)
-      fmt::print(stderr, "note: {}: {}: finished frames start anew\n", target_.label, done->changed);
+    Target target{preset::at_frame(target_.preset, frame), own, fmt::format("{}/{:04}", target_.label, frame),
+                  target_.folder, mixes_frames_ ? run::frame_before(target_.folder, frame, target_.preset) : ""};
+    const Communicator communicator(series_.ranks);
+    if (communicator.broadcast(communicator.is_root() && keeps(frame, target))) return;
+    if (!communicator.broadcast(!target.frame_before.empty())) target.frame_before.clear();
     preset::at_origins(target.preset, [&] { render(options_, target, interrupted_, series_); });
     ++rendered_;
+    std::error_code ignored; // the next frame begins with this one
+    if (is_root() && frame > 0)
+      std::filesystem::remove(run::frame_folder(target_.folder, frame - 1) / run::afterimage_file, ignored);
+  }
+
+  /// Whether the frame is finished and stays. It is not where the frame before is now another one.
+  bool keeps(int frame, const Target& target) {
+    if (!options_.resume) return false;
+    const auto before = target.frame_before.empty() ? nullptr : run::read_afterimage(target.frame_before);
+    const auto done = run::finished_frame(target_.folder, frame, target.preset, before.get());
+    if (!done) return false;
+    if (!done->changed.empty()) {
+      if (series_.notes.insert(done->changed).second)
+        fmt::print(stderr, "note: {}: {}: finished frames start anew\n", target_.label, done->changed);
+      return false;
+    }
+    if (done->is_shown_otherwise) run::show_anew(target.folder, target.preset);
+    run::show_frame(target_.folder, frame);
+    if (options_.json) report_result(options_, target, done->progress, true);
+    return true;
   }
 
   void end() const {
@@ -138,6 +160,7 @@ private:
   const preset::Animation& animation_;
   std::shared_ptr<mpi::Ranks> ranks_; ///< null: this process renders all frames alone
   std::pair<int, int> range_;
+  bool mixes_frames_ = false; ///< Plan::mixes_frames
   int rendered_ = 0;
   std::optional<run::ClaimedFolder> claimed_;
 };

@@ -77,8 +77,12 @@ void make_ready(const RunOptions& options, const Target& target, const std::stop
                 RunSeries& series) {
   const bool is_root = Communicator(series.ranks).is_root();
   LiveLine activity; // shown before there are figures
-  run::ReadyOptions ready{
-      .watch = {interrupted, {}}, .ranks = series.ranks, .folder = target.folder, .resume = options.resume};
+  run::ReadyOptions ready{.watch = {interrupted, {}},
+                          .ranks = series.ranks,
+                          .folder = target.folder,
+                          .is_frame = is_frame(target),
+                          .frame_before = target.frame_before,
+                          .resume = options.resume};
   ready.watch.tell = [&](const std::string& doing) {
     if (progress_style(options.json) == ProgressStyle::live) activity.show(target.label + "  " + doing);
   };
@@ -247,7 +251,7 @@ void render(const RunOptions& options, const Target& target, const std::stop_tok
   if (is_frame(target) && console.is_finished())
     run::show_frame(target.animation, target.preset.provenance.frame.value());
   say_end(options, target, *run.job, console);
-  if (!is_frame(target)) run.job.reset(); // frees its memory for the next run
+  if (!is_frame(target) || series.ranks) run.job.reset(); // frees its memory for the next run, and the other ranks
   run.claimed.reset();
 }
 

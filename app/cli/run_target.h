@@ -30,8 +30,9 @@ struct RunOptions {
 struct Target {
   preset::Preset preset;
   std::filesystem::path folder;
-  std::string label;               ///< the name in progress and notes
-  std::filesystem::path animation; ///< a frame's folder of all frames; else empty
+  std::string label;                       ///< the name in progress and notes
+  std::filesystem::path animation;         ///< a frame's folder of all frames; else empty
+  std::filesystem::path frame_before = {}; ///< as run::ReadyOptions has it
 };
 
 /// What a command keeps from one run to the next.

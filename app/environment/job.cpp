@@ -41,6 +41,8 @@ public:
     if (plan.photons) photons_.begin(preset, renderer()->scene(), renderer()->bvh(), *plan.photons);
   }
 
+  void begin_with(const job::Beginning& beginning) override { photons_.begin_with(beginning); }
+
   void advance() override {
     if (renderer()) renderer()->renew_tree();
     const bool photons_next = wants_photons(),
@@ -78,6 +80,7 @@ public:
     if (!renderer() || renderer()->passes() > 0 || finished()) // would hold up the first picture
       spheres_.update(baking_.bake(), width_, height_, sphere_white_);
     snapshot.picture = renderer() ? picture() : spheres_.all();
+    if (estimates_error()) snapshot.left = photons_.left();
     snapshot.stands_in = view_ && !renderer();
     snapshot.caption = caption();
     snapshot.pictures = spheres_.directions();

@@ -38,6 +38,12 @@ void JoinedPhotons::begin(const preset::Preset& preset, const scene::Scene& scen
                           const photons::RunPlan& plan) {
   run_ = make_photons(preset, scene, bvh, plan, context_);
   has_planned_ = true;
+  if (run_ && beginning_) run_->begin_with(*beginning_);
+}
+
+void JoinedPhotons::begin_with(const job::Beginning& beginning) {
+  beginning_ = beginning;
+  if (run_) run_->begin_with(beginning);
 }
 
 void JoinedPhotons::end() {
@@ -70,10 +76,11 @@ std::vector<float> JoinedPhotons::join(std::vector<Renderer::Layer>& layers, std
     return {};
   }
   run_->set_estimate(std::move(smooth));
-  const std::shared_ptr<const job::Picture> sent = run_->snapshot().picture;
-  for (const job::Layer& layer : sent->layers)
+  job::Snapshot sent = run_->snapshot();
+  left_ = std::move(sent.left);
+  for (const job::Layer& layer : sent.picture->layers)
     std::ranges::find(layers, layer.name, &Renderer::Layer::name)->rgb = layer.rgb;
-  return sent->error_draw;
+  return sent.picture->error_draw;
 }
 
 void JoinedPhotons::serialize(tracing::Archive& archive, const SceneView& view) {

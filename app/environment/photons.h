@@ -7,6 +7,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace nephroid::environment {
@@ -29,6 +31,8 @@ public:
   /// preset, plan: those of the renderer's scene.
   void begin(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
              const photons::RunPlan& plan);
+  /// See job::Job.
+  void begin_with(const job::Beginning& beginning);
   /// Ends the photons' job. Their next turn begins with a plan of its own.
   void end();
   bool has_begun() const { return run_ != nullptr; }
@@ -50,12 +54,17 @@ public:
   /// "direct".
   std::vector<float> join(std::vector<Renderer::Layer>& layers, std::vector<float> smooth);
 
+  /// What the picture of the last join() leaves for the next frame (job::Snapshot::left).
+  std::vector<job::Layer> left() { return std::exchange(left_, {}); }
+
   void serialize(tracing::Archive& archive, const SceneView& view);
 
 private:
   mpi::RankContext context_;
   std::unique_ptr<photons::PhotonJob> run_; ///< null: there are no photons, or they have not begun
   bool has_planned_ = false;                ///< whether run_ is null because there are none
+  std::optional<job::Beginning> beginning_;
+  std::vector<job::Layer> left_;
 };
 
 } // namespace nephroid::environment

@@ -49,6 +49,8 @@ public:
     }
   }
 
+  /// The other ranks begin with the same, on their own.
+  void begin_with(const Beginning& beginning) override { job_->begin_with(beginning); }
   void advance() override {
     call(Call::advance);
     job_->advance();

@@ -11,8 +11,9 @@
 namespace nephroid::job {
 
 struct Layer {
-  std::string name;       ///< "direct", "caustic", ...
-  std::vector<float> rgb; ///< linear sRGB, 3 a pixel, row 0 at the top, divided by the preset's white
+  std::string name;                   ///< "direct", "caustic", ...
+  std::vector<float> rgb;             ///< linear sRGB, 3 a pixel, row 0 at the top, divided by the preset's white
+  std::vector<float> error_draw = {}; ///< as Picture::error_draw; only in Snapshot::left and Beginning
 };
 
 struct Picture {
@@ -75,6 +76,7 @@ struct Snapshot {
   std::vector<Scalar> scalars;
   std::vector<Curve> curves;
   std::vector<ExtraFile> files;
+  std::vector<Layer> left; ///< by an animation's frame for the next: what is noisy, not yet smoothed, with its draws
   std::vector<std::string> warnings;                  ///< what makes the picture doubtful, a sentence each
   std::vector<std::pair<std::string, double>> phases; ///< seconds a phase, e.g. {"photons", 3.2}
   std::shared_ptr<const History> history;             ///< its error's so far; null where nothing is measured
@@ -88,9 +90,20 @@ inline double scalar(const Snapshot& snapshot, std::string_view group, std::stri
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+/// What an animation's frame begins with.
+struct Beginning {
+  /// Snapshot::left of the frame before, moved to this frame's pixels, over this frame's white. A pixel whose place the
+  /// frame before did not show is NaN. Null: there is none.
+  std::shared_ptr<const std::vector<Layer>> before;
+  std::uint64_t seed = 0; ///< of this frame's photons and paths: their noise must not be that of `before`
+};
+
 class Job {
 public:
   virtual ~Job() = default;
+  /// Makes the job a frame of an animation, before its first advance(), or after adopt(). Its pictures become the best
+  /// mixtures of its own and the one before, and it leaves something for the next. What has no noise takes no notice.
+  virtual void begin_with(const Beginning&) {}
   /// One short piece of work, about 30 ms. Never called once finished() is true.
   virtual void advance() = 0;
   virtual bool finished() const = 0;

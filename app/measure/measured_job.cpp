@@ -107,6 +107,7 @@ public:
   }
 
   bool estimates_error() const override { return job_->estimates_error(); }
+  void begin_with(const job::Beginning& beginning) override { job_->begin_with(beginning); }
   bool finished() const override { return target_reached() || (job_->finished() && !is_due()); }
 
   void advance() override {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photons/development.h"
 
+#include "photons/mixture.h"
 #include "tracing/film.h"
 
 #include <algorithm>
@@ -32,6 +33,7 @@ void add(const char* name, const LayerEstimate& layer, job::Picture& picture) {
 
 job::Picture Development::picture() {
   job::Picture picture = black();
+  left_.clear();
   bool has_caustics = false;
   for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
     const TimedStage& stage = passes_.stages()[s];
@@ -62,6 +64,17 @@ void Development::smooth(LayerEstimate& caustics) {
   smoothing_->spread(caustics);
   for (std::size_t i = 0; i < plain.rgb.size(); ++i)
     if (!world_.pixels.may_show_glass[i / 3]) caustics.rgb[i] = plain.rgb[i], caustics.draw[i] = plain.draw[i];
+}
+
+void Development::mix_with_before(const std::string& name, LayerEstimate& layer) {
+  if (!is_frame_ || layer.draw.empty()) return;
+  const auto before = before_ ? std::ranges::find(*before_, name, &job::Layer::name) : decltype(before_->end())();
+  std::vector<float> draw = layer.draw;
+  if (before_ && before != before_->end())
+    draw = mix_before({before->rgb, before->error_draw}, world_.tables.camera.width, world_.tables.camera.height,
+                      layer.rgb, layer.draw);
+  left_.push_back({name, layer.rgb, std::move(layer.draw)});
+  layer.draw = std::move(draw);
 }
 
 void Development::share_work() {
@@ -143,6 +156,7 @@ LayerEstimate Development::layer_of(std::size_t s) {
   job::Picture picture = black();
   stage.develop(passes_.complete(), passes_.had_turn(s), picture);
   LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
+  if (preview.rgb.empty()) timed([&] { mix_with_before(stage.name(), layer); });
   if (!preview.rgb.empty()) { // a single sample of each pixel: it shows all of a wall, and little of glass
     for (std::size_t i = 0; i < layer.rgb.size(); ++i)
       if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = preview.rgb[i];
@@ -175,6 +189,7 @@ LayerEstimate Development::caustics() {
     }
   }
   LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
+  timed([&] { mix_with_before("caustic", layer); });
   if (smoothing_ && !layer.draw.empty()) timed([&] { smooth(layer); });
   add(preview.rgb, layer.rgb);
   add(preview.draw, layer.draw);

@@ -4,8 +4,10 @@
 #include "photons/block_smoothing.h"
 #include "photons/passes.h"
 
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -33,6 +35,14 @@ public:
   /// The seconds of all pictures since the program began. They are not part of the run's work.
   double smoothing_seconds() const { return smoothing_seconds_; }
 
+  /// See job::Job::begin_with.
+  void begin_with(std::shared_ptr<const std::vector<job::Layer>> before) {
+    is_frame_ = true;
+    before_ = std::move(before);
+  }
+  /// What the last picture leaves for the next frame (job::Snapshot::left).
+  std::vector<job::Layer> left() const { return left_; }
+
   /// See PhotonJob::set_estimate.
   void set_estimate(std::vector<float> direct) { estimate_ = std::move(direct); }
 
@@ -45,6 +55,9 @@ private:
   LayerEstimate layer_of(std::size_t stage);
   LayerEstimate caustics();
   void smooth(LayerEstimate& caustics);
+  /// Mixes what a stage has developed with what the frame before left of it, before it is smoothed: then it has less
+  /// noise, and smoothing blurs less.
+  void mix_with_before(const std::string& name, LayerEstimate& layer);
   template <class Work>
   void timed(const Work& work) {
     smoothing_seconds_ += tracing::seconds_of(work);
@@ -55,7 +68,10 @@ private:
   const Preview& preview_;
   std::optional<BlockSmoothing> smoothing_;
   bool smooths_splats_, smooths_paths_;
-  std::vector<float> estimate_; ///< PhotonJob::set_estimate
+  std::vector<float> estimate_;                           ///< PhotonJob::set_estimate
+  bool is_frame_ = false;                                 ///< of an animation
+  std::shared_ptr<const std::vector<job::Layer>> before_; ///< may be null
+  std::vector<job::Layer> left_;
   double smoothing_seconds_ = 0;
 };
 

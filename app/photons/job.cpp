@@ -103,6 +103,7 @@ public:
   job::Snapshot snapshot() override {
     job::Snapshot snapshot;
     snapshot.picture = std::make_shared<const job::Picture>(development_.picture());
+    snapshot.left = development_.left();
     for (const TimedStage& s : passes_.stages()) snapshot.phases.emplace_back(s.stage->name(), s.seconds);
     if (development_.smooths()) snapshot.phases.emplace_back("smoothing", development_.smoothing_seconds());
     snapshot.progress = progress();
@@ -154,6 +155,11 @@ public:
     world_.white = preset.white.value();
     passes_.begin_energy();
     return true;
+  }
+
+  void begin_with(const job::Beginning& beginning) override {
+    world_.seed = tracing::seed_words(beginning.seed);
+    development_.begin_with(beginning.before);
   }
 
   void set_estimate(std::vector<float> direct) override { development_.set_estimate(std::move(direct)); }

@@ -13,6 +13,96 @@ namespace {
 /// The radii around a pixel, in pixels, of the means of its errors and of its light.
 constexpr int error_radius = 8, light_radius = 7;
 
+/// The radius of the part of a picture whose mean light is the frame's own. 49 x 49 pixels have little noise together.
+constexpr int part_radius = 24;
+
+/// Weights follow the noise: where more photons fell by chance there is more of it, and more is taken from the frame
+/// before. So bright peaks would go and dark holes stay. Gives each part of the mixture the frame's own light again, as
+/// a factor of what was mixed.
+void keep_light(std::span<const float> own, std::span<const float> own_draw, int width, int height,
+                std::vector<float>& rgb, std::vector<float>& draw) {
+  constexpr double most = 0.1; // what a single bright peak may add to the light around it
+  const std::vector<float> mixed = rgb;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto at = [c](std::size_t pixel) { return 3 * pixel + c; };
+    const auto carrier = [&](std::size_t i) {
+      return mixed[at(i)] == own[at(i)] ? 0.0 : std::max(double{mixed[at(i)]}, 0.0);
+    };
+    const SummedArea lacks(width, height, [&](std::size_t i) { return double{own[at(i)]} - mixed[at(i)]; });
+    const SummedArea lacks_of_draw(width, height, [&](std::size_t i) { return double{own_draw[at(i)]} - draw[at(i)]; });
+    const SummedArea carriers(width, height, carrier);
+    const auto factor = [&](const SummedArea& lack, std::size_t i) {
+      const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+      const double sum = carriers.sum(x, y, part_radius);
+      return sum > 0 ? std::clamp(lack.sum(x, y, part_radius) / sum, -most, most) : 0.0;
+    };
+    // The mean of the factors around has no edges where parts end.
+    const SummedArea factors(width, height, [&](std::size_t i) { return factor(lacks, i); });
+    const SummedArea factors_of_draw(width, height, [&](std::size_t i) { return factor(lacks_of_draw, i); });
+    for_ranges(mixed.size() / 3, std::size_t{1} << 12, [&](std::size_t, Range range) {
+      for (std::size_t i = range.begin; i < range.end; ++i) {
+        const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+        rgb[at(i)] += static_cast<float>(carrier(i) * factors.mean(x, y, part_radius));
+        draw[at(i)] += static_cast<float>(carrier(i) * factors_of_draw.mean(x, y, part_radius));
+      }
+    });
+  }
+}
+
+/// How much of a difference noise explains, 0..1 by pixel, as a draw of that noise tells: noise of few photons has
+/// peaks that no deviation knows of, but its draw has them, too.
+class Changes {
+public:
+  Changes(std::span<const float> difference, std::span<const float> draw, int width, int height)
+      : width_(width), height_(height), usual_(difference.size() / 3, 1.0f) {
+    for (const int radius : {0, 1, 3}) look(difference, draw, radius);
+  }
+  float usual(std::size_t pixel) const { return usual_[pixel]; }
+
+private:
+  /// Compares the mean of the pixels within the radius with the largest one of the draw around.
+  void look(std::span<const float> difference, std::span<const float> draw, int radius) {
+    const std::vector<float> squares = squares_of_means(difference, radius),
+                             usual = largest_around(squares_of_means(draw, radius));
+    constexpr float margin = 2; // squared: else the peaks of the noise itself would pass for changes, and stay
+    for (std::size_t i = 0; i < usual_.size(); ++i)
+      if (squares[i] > margin * usual[i]) usual_[i] = std::min(usual_[i], margin * usual[i] / squares[i]);
+  }
+
+  std::vector<float> squares_of_means(std::span<const float> values, int radius) const {
+    std::vector<float> squares(usual_.size());
+    for (std::size_t c = 0; c < 3; ++c) {
+      const SummedArea sums(width_, height_, [&](std::size_t i) { return values[3 * i + c]; });
+      for_ranges(squares.size(), std::size_t{1} << 12, [&](std::size_t, Range range) {
+        for (std::size_t i = range.begin; i < range.end; ++i)
+          squares[i] += static_cast<float>(
+              std::pow(sums.mean(static_cast<int>(i) % width_, static_cast<int>(i) / width_, radius), 2));
+      });
+    }
+    return squares;
+  }
+
+  /// The largest value of the square about each pixel, along rows and then along columns.
+  std::vector<float> largest_around(std::vector<float> values) const {
+    const auto along = [&](const std::vector<float>& from, int count, int step, int lines, int line_step) {
+      std::vector<float> largest(from.size());
+      for_blocks(static_cast<std::size_t>(lines), [&](std::size_t line) {
+        const int begin = static_cast<int>(line) * line_step;
+        for (int i = 0; i < count; ++i) {
+          float& most = largest[static_cast<std::size_t>(begin + i * step)];
+          for (int j = std::max(i - error_radius, 0); j < std::min(i + error_radius + 1, count); ++j)
+            most = std::max(most, from[static_cast<std::size_t>(begin + j * step)]);
+        }
+      });
+      return largest;
+    };
+    return along(along(values, width_, 1, height_, width_), height_, width_, width_, 1);
+  }
+
+  int width_, height_;
+  std::vector<float> usual_;
+};
+
 } // namespace
 
 double least_light(std::span<const double> light) {
@@ -64,6 +154,46 @@ void mix(std::span<const float> picture, std::span<const float> picture_draw, co
       }
     }
   });
+}
+
+std::vector<float> mix_before(const Estimate& before, int width, int height, std::vector<float>& rgb,
+                              std::vector<float>& error_draw) {
+  const std::vector<float> own = rgb, own_draw = error_draw;
+  std::vector<float> difference(rgb.size()), draw(rgb.size());
+  for (std::size_t c = 0; c < rgb.size(); ++c)
+    if (!std::isnan(before.rgb[c])) {
+      difference[c] = before.rgb[c] - own[c];
+      draw[c] = before.error_draw[c] - own_draw[c];
+    }
+  std::vector<double> light(rgb.size() / 3);
+  for (std::size_t c = 0; c < rgb.size(); ++c) light[c / 3] += std::max(double{own[c]}, 0.0) / 3;
+  const Changes changes(difference, draw, width, height);
+  std::vector<float> estimate(rgb.size()), estimate_draw(rgb.size());
+  for (std::size_t c = 0; c < rgb.size(); ++c) {
+    estimate[c] = own[c] + changes.usual(c / 3) * difference[c];
+    estimate_draw[c] = own_draw[c] + changes.usual(c / 3) * draw[c];
+  }
+  mix(own, own_draw, {estimate, estimate_draw}, light, width, height, rgb, error_draw);
+  keep_light(own, own_draw, width, height, rgb, error_draw);
+
+  // What the mixture has moved beyond the noise of that is light of the frame before.
+  const SummedArea beyond(width, height, [&](std::size_t i) {
+    double sum = 0;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
+      sum += std::pow(static_cast<double>(rgb[c]) - own[c], 2) -
+             std::pow(static_cast<double>(error_draw[c]) - own_draw[c], 2);
+    return sum / 3;
+  });
+  std::vector<float> with_bias = error_draw;
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const double bias_square =
+        std::max(beyond.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, error_radius), 0.0);
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) { // no more than a pixel was moved
+      const double bias = std::min(bias_square, std::pow(static_cast<double>(rgb[c]) - own[c], 2));
+      with_bias[c] = static_cast<float>(std::copysign(std::sqrt(std::pow(error_draw[c], 2) + bias), error_draw[c]));
+    }
+  }
+  return with_bias;
 }
 
 } // namespace nephroid::photons

@@ -32,4 +32,13 @@ double least_light(std::span<const double> light);
 void mix(std::span<const float> picture, std::span<const float> picture_draw, const Estimate& estimate,
          std::span<const double> light, int width, int height, std::vector<float>& rgb, std::vector<float>& error_draw);
 
+/// Mixes a picture with that of an animation's frame before, whose draw is of other random numbers; rgb and error_draw
+/// become those of the mixture. The places of `before` where it is NaN count for nothing. A difference beyond the
+/// largest that its noise has around there, of a pixel or of a few pixels, is a change of the scene: there the estimate
+/// gives way by the inverse square, so that neither light nor shadow stays behind that stands out from the frame's own
+/// noise. Returns a draw of the mixture's error with the light in it that is not this frame's; error_draw is of the
+/// noise alone, for the next frame.
+std::vector<float> mix_before(const Estimate& before, int width, int height, std::vector<float>& rgb,
+                              std::vector<float>& error_draw);
+
 } // namespace nephroid::photons

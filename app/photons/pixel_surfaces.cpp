@@ -20,6 +20,7 @@ using Type = scene::Material::Type;
 struct SurfaceHit {
   int object;
   glm::dvec3 position, geometric, shading; ///< outward unit normals; alike unless the object is smooth
+  std::uint32_t primitive;
 };
 
 class CameraRay {
@@ -65,12 +66,12 @@ private:
     const auto object = static_cast<int>(scene_.object_of_primitive[primitive]);
     if (primitive >= triangles) {
       const glm::dvec3 normal = normal_at(scene_.geometry.ellipsoids[primitive - triangles], from_);
-      return {object, from_, normal, normal};
+      return {object, from_, normal, normal, primitive};
     }
     const glm::uvec3 corner = scene_.geometry.triangles[primitive];
     const std::vector<glm::vec3>&at = scene_.geometry.positions, &normals = scene_.geometry.normals;
     const glm::dvec3 a(at[corner.x]), b(at[corner.y]), c(at[corner.z]), across = glm::cross(b - a, c - a);
-    SurfaceHit hit{object, from_, glm::normalize(across), {}};
+    SurfaceHit hit{object, from_, glm::normalize(across), {}, primitive};
     hit.shading = hit.geometric;
     if (!scene_.objects[static_cast<std::size_t>(hit.object)].smooth) return hit;
     const double u = glm::dot(glm::cross(a - c, from_ - c), across) / glm::dot(across, across),
@@ -216,7 +217,7 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
     const scene::Object& receiver = scene.objects[static_cast<std::size_t>(camera.receiver)];
     const glm::dvec3 corner = scene.geometry.positions[scene::triangles_of(scene, receiver).front().x];
     const double distance = glm::dot(corner - eye, glm::dvec3(camera.forward));
-    surfaces.first = surfaces.last = {glm::vec3(eye + distance * way), -camera.forward, camera.receiver};
+    surfaces.first = surfaces.last = {glm::vec3(eye + distance * way), -camera.forward, camera.receiver, 0};
     surfaces.way = glm::vec3(glm::normalize(way));
     surfaces.spacing = static_cast<float>(spacing * glm::length(way) * distance);
     return surfaces;
@@ -236,7 +237,7 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
       ray.reflect(*hit);
     const bool is_first = surfaces.first.object < 0;
     if (is_first || is_matt(type)) {
-      surfaces.last = {glm::vec3(hit->position), glm::vec3(hit->geometric), hit->object};
+      surfaces.last = {glm::vec3(hit->position), glm::vec3(hit->geometric), hit->object, hit->primitive};
       surfaces.way = glm::vec3(arrives);
       surfaces.spacing = static_cast<float>(spacing * (camera.orthographic ? 1 : ray.length()));
     }

@@ -17,6 +17,7 @@ struct PixelSurfaces {
   struct Surface {
     glm::vec3 position{0}, normal{0}; ///< scene units; unit vector, the triangle's
     int object = -1;                  ///< -1: the ray meets none
+    std::uint32_t primitive = 0;      ///< as in Scene::object_of_primitive
   };
   Surface first;     ///< the first one; glass without a texture that bends nothing does not count
   Surface last;      ///< the diffuse one at the end; `first` where there is none

@@ -24,9 +24,9 @@ struct PlannedBuffer {
   bool on_host = false; ///< in the program's own memory, not on the device
 };
 
-/// A file that the preset names.
+/// A file that the run is made of.
 struct Input {
-  std::string file;    ///< as the preset names it
+  std::string file;    ///< as the preset names it; a frame's, what the one before left, from its folder
   std::string content; ///< a hash of what it held when the plan was made; empty where it could not be read
 };
 
@@ -49,6 +49,7 @@ struct Plan {
   int layers = 0;                          ///< pictures that the run makes and adds up
   std::uint64_t picture_bytes_a_pixel = 0; ///< on this machine, while a picture is made, beside it
   std::string smaller = {};     ///< what to choose where the memory is too small for it; empty: a smaller picture
+  bool mixes_frames = false;    ///< an animation's frame begins with what the one before left (job::Job::begin_with)
   bool estimates_error = false; ///< films are kept in two halves, whose difference tells the error
 };
 

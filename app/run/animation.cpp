@@ -7,6 +7,7 @@
 #include "measure/run_files.h"
 #include "preset/animation.h"
 #include "preset/read.h"
+#include "run/afterimage.h"
 #include "run/content.h"
 
 #include <fmt/format.h>
@@ -148,11 +149,19 @@ void hide_frame(const fs::path& folder, int frame) {
   for (const char* name : of_all_frames) fs::remove(folder / name, ignored);
 }
 
-std::optional<FinishedRun> finished_frame(const fs::path& folder, int frame, const preset::Preset& preset) {
+std::optional<FinishedRun> finished_frame(const fs::path& folder, int frame, const preset::Preset& preset,
+                                          const Afterimage* before) {
   const fs::path own = frame_folder(folder, frame);
   auto done = finished_run(own, preset);
   if (!done || !can_be_read(own / "image.exr") || !can_be_read(own / "image.png")) return std::nullopt;
+  if (before && done->changed.empty()) done->changed = changed_input(own, {before->input});
   return done;
+}
+
+fs::path frame_before(const fs::path& folder, int frame, const preset::Preset& animation) {
+  if (frame == 0 || !is_there(frame_folder(folder, frame - 1) / afterimage_file)) return {};
+  const auto done = finished_frame(folder, frame - 1, preset::at_frame(animation, frame - 1), nullptr);
+  return done && done->changed.empty() ? frame_folder(folder, frame - 1) : fs::path();
 }
 
 std::vector<int> finished_frames(const fs::path& folder, const preset::Preset& preset) {

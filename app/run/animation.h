@@ -21,8 +21,12 @@ void show_frame(const std::filesystem::path& folder, int frame);
 /// Takes them away again, and animation.mp4 with them: before the frame is rendered another time.
 void hide_frame(const std::filesystem::path& folder, int frame);
 
-/// The frame's run, if it is the finished run of exactly this preset and its pictures can be read.
-std::optional<FinishedRun> finished_frame(const std::filesystem::path& folder, int frame, const preset::Preset& preset);
+/// The frame's run, if it is the finished run of exactly this preset and its pictures can be read. before: what the
+/// frame before left, or null; its `changed` says so where the run began with something else of that frame.
+std::optional<FinishedRun> finished_frame(const std::filesystem::path& folder, int frame, const preset::Preset& preset,
+                                          const Afterimage* before);
+/// The folder of the frame before, where that is finished and left something to begin with; else empty.
+std::filesystem::path frame_before(const std::filesystem::path& folder, int frame, const preset::Preset& animation);
 /// The frames of the preset's animation whose runs are finished and of the files as they are, in order.
 std::vector<int> finished_frames(const std::filesystem::path& folder, const preset::Preset& preset);
 

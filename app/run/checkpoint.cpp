@@ -8,6 +8,7 @@
 #include "base/hashed_bytes.h"
 #include "engine/engine.h"
 #include "preset/settings_type.h"
+#include "run/afterimage.h"
 #include "run/content.h"
 
 #include <fmt/format.h>
@@ -51,6 +52,7 @@ Header header_of(const Prepared& prepared, const compute::Context& context) {
   header.device = hash_of(device_of(context));
   header.kernels = hash_of(compute::kernel_sources(context, engine) + compute::kernel_sources(context, "photons"));
   header.content = content_hash(prepared.preset, prepared.plan->inputs);
+  if (prepared.before) header.content = hash_of(prepared.before->input.content, header.content);
   return header;
 }
 

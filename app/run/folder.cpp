@@ -2,6 +2,7 @@
 #include "run/folder.h"
 
 #include "preset/read.h"
+#include "run/afterimage.h"
 #include "run/animation.h"
 #include "run/content.h"
 #include "run/write_run.h"
@@ -17,7 +18,8 @@ namespace nephroid::run {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array results{"image.exr", "image.png", "run.json", "history.csv", "report.html", "checkpoint.bin"};
+constexpr std::array results{"image.exr",   "image.png",      "run.json",     "history.csv",
+                             "report.html", "checkpoint.bin", afterimage_file};
 
 /// Ours are the folders with all of these files, and those with nothing but what a killed writer left.
 bool is_ours(const fs::path& folder, const std::vector<std::string>& files) {

@@ -39,6 +39,14 @@ plan::PlannedBuffer picture_and_files(const plan::Plan& plan, int width, int hei
           true};
 }
 
+plan::PlannedBuffer held_of_frame_before(const plan::Plan& plan, int width, int height) {
+  // Bytes a pixel: light and draw of each layer, as it was left, moved, mixed and copied; places and taps; what is in
+  // hand while one layer is mixed.
+  const std::uint64_t layers = 4 * 24 * static_cast<std::uint64_t>(plan.layers), places = 2 * 28 + 32, mixing = 160;
+  const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  return {"frame before (host)", pixels * (layers + places + mixing), true};
+}
+
 std::optional<std::uint64_t> available_memory_bytes() {
   std::ifstream file("/proc/meminfo"); // "MemAvailable:   12345 kB"; it may not be mounted
   std::string key;

@@ -17,6 +17,9 @@ void require_memory(const Prepared& prepared, const compute::Context& context);
 /// What the program itself needs at most to make a picture of width x height pixels, measure it and write its files.
 plan::PlannedBuffer picture_and_files(const plan::Plan& plan, int width, int height);
 
+/// What an animation's frame needs for the frame before it, and for what it leaves itself.
+plan::PlannedBuffer held_of_frame_before(const plan::Plan& plan, int width, int height);
+
 /// What the system says can be allocated without swapping, in bytes; empty where it does not say.
 std::optional<std::uint64_t> available_memory_bytes();
 

@@ -2,8 +2,11 @@
 #include "run/prepare.h"
 
 #include "engine/engine.h"
+#include "run/afterimage.h"
 #include "run/content.h"
 #include "run/memory.h"
+
+#include <fmt/format.h>
 
 #include <cstring>
 #include <utility>
@@ -61,7 +64,8 @@ std::unique_ptr<plan::Plan> make_plan(const preset::Preset& preset, const Loaded
 
 } // namespace
 
-Prepared prepare(const preset::Preset& preset, const Prepared* previous, const Watch& watch) {
+Prepared prepare(const preset::Preset& preset, const Prepared* previous, const Watch& watch,
+                 std::shared_ptr<const Afterimage> before) {
   const bool lends_scene = previous && same_but_camera(preset, previous->preset);
   // Hashed before the files are loaded. If one is written in between, the hash is of its old contents, and no resume
   // goes on with the new ones.
@@ -71,8 +75,16 @@ Prepared prepare(const preset::Preset& preset, const Prepared* previous, const W
   watch.begin("making the plan");
   std::unique_ptr<plan::Plan> plan = make_plan(preset, *loaded);
   plan->inputs = std::move(inputs);
+  if (before && !(plan->mixes_frames && has_parts_of(loaded->scene, before->seen))) before.reset();
+  if (before) plan->inputs.push_back(before->input);
+  if (preset.provenance.frame && plan->mixes_frames) {
+    plan->buffers.push_back(held_of_frame_before(*plan, loaded->scene.camera.width, loaded->scene.camera.height));
+    if (const int frame = *preset.provenance.frame; frame > 0 && !before)
+      plan->notes.push_back(fmt::format(
+          "frame {} begins by itself: of frame {} there is nothing, or it has other objects", frame, frame - 1));
+  }
   plan->notes.insert(plan->notes.begin(), preset.provenance.notes.begin(), preset.provenance.notes.end());
-  return {preset, std::move(loaded), std::move(plan)};
+  return {preset, std::move(loaded), std::move(plan), std::move(before)};
 }
 
 Prepared with_scene(const Prepared& prepared, scene::Scene scene, const std::string& smaller) {

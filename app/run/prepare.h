@@ -23,17 +23,21 @@ struct LoadedScene {
   std::shared_ptr<const scene::Bvh> bvh; ///< never null; shared by scenes with the same triangles
 };
 
+struct Afterimage;
+
 /// A preset made ready: files read, plan made, nothing on a device yet.
 struct Prepared {
   preset::Preset preset;
   std::shared_ptr<const LoadedScene> loaded;
-  std::shared_ptr<const plan::Plan> plan; ///< never null
+  std::shared_ptr<const plan::Plan> plan;             ///< never null
+  std::shared_ptr<const Afterimage> before = nullptr; ///< what the frame before left (run/afterimage.h); null: nothing
 };
 
 /// Reads what the preset names and makes the plan. `previous`, if given, lends its scene where only the camera or the
 /// engine's settings differ (files are not read again then), and its tree where the triangles are the same. Throws
 /// bad_input as the loaders do, and interrupted where `watch` asks for it.
-Prepared prepare(const preset::Preset& preset, const Prepared* previous = nullptr, const Watch& watch = {});
+Prepared prepare(const preset::Preset& preset, const Prepared* previous = nullptr, const Watch& watch = {},
+                 std::shared_ptr<const Afterimage> before = nullptr);
 
 /// The same preset of another scene with the same triangles, seen by that one's camera. smaller: what the plan says to
 /// do where it does not fit (plan::Plan::smaller).

@@ -3,6 +3,7 @@
 
 #include "engine/engine.h"
 #include "job/distributed_job.h"
+#include "run/afterimage.h"
 #include "run/checkpoint.h"
 #include "run/content.h"
 #include "run/exposure.h"
@@ -32,6 +33,15 @@ std::shared_ptr<const measure::Reference> reference_of(const Prepared& prepared,
   if (auto reference = find_reference(prepared, context); reference || !prepared.preset.reference) return reference;
   options.watch.begin("rendering the reference");
   return make_reference(prepared, context, options.watch.stop, [](double, double) {});
+}
+
+void begin_frame(ReadyRun& run, const ReadyOptions& options) {
+  const Prepared& prepared = *run.prepared;
+  if (!options.is_frame || !prepared.plan->mixes_frames) return;
+  options.watch.begin("finding what the pixels show");
+  run.seen =
+      std::make_shared<const photons::SeenPlaces>(photons::seen_places(prepared.loaded->scene, *prepared.loaded->bvh));
+  run.job->begin_with(beginning_of(prepared, *run.seen));
 }
 
 /// False where there is no checkpoint to go on from.
@@ -64,9 +74,11 @@ void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& option
     run.job.reset();
     preset.white = fitted_white(preset, run.prepared, run.device, options.watch);
   }
-  Prepared next = prepare(preset, run.prepared ? &*run.prepared : nullptr, options.watch);
+  Prepared next = prepare(preset, run.prepared ? &*run.prepared : nullptr, options.watch,
+                          options.frame_before.empty() ? nullptr : read_afterimage(options.frame_before));
   run.job = taken_over(run, next);
   const Prepared& prepared = run.prepared.emplace(std::move(next));
+  run.seen.reset();
   if (options.planned) options.planned(prepared);
   const compute::Context& context = run.device.context(options.watch);
   if (options.ranks) require_same(*options.ranks, prepared, context);
@@ -74,6 +86,7 @@ void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& option
   const Communicator communicator(options.ranks);
   if (!communicator.is_root()) {
     run.job = make_job(prepared, {context, communicator});
+    begin_frame(run, options);
     return;
   }
   const compute::TellOfCompiling telling(context, [&] { options.watch.begin("compiling kernels"); });
@@ -86,6 +99,7 @@ void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& option
     run.job = measure::measured(std::move(run.job), preset, run.reference, options.began, options.measure_at);
     run.name_in_job = preset.name;
   }
+  begin_frame(run, options);
   if (!options.folder.empty()) begin_or_resume(run, context, options);
 }
 

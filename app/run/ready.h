@@ -10,6 +10,10 @@
 #include <chrono>
 #include <stop_token>
 
+namespace nephroid::photons {
+struct SeenPlaces;
+}
+
 namespace nephroid::run {
 
 /// A run on its device. What is left of one makes the next one ready sooner.
@@ -21,6 +25,7 @@ struct ReadyRun {
   std::shared_ptr<mpi::Ranks> ranks;                   ///< that compute it together; null: this process alone
   std::shared_ptr<const measure::Reference> reference; ///< null where it is measured against none
   std::unique_ptr<ClaimedFolder> claimed;              ///< null where it writes no files
+  std::shared_ptr<const photons::SeenPlaces> seen;     ///< of a frame that leaves something for the next; else null
   bool resumed = false;                                ///< it goes on from a checkpoint
   std::unique_ptr<job::Job> job;                       ///< measures itself; on other ranks it follows that of rank 0
   std::string name_in_job;                             ///< the name of the preset that the job was made of
@@ -29,10 +34,12 @@ struct ReadyRun {
 /// What a front end adds to making a run ready. What is left out is not done.
 struct ReadyOptions {
   Watch watch;
-  std::shared_ptr<mpi::Ranks> ranks = {}; ///< as ReadyRun::ranks
-  std::filesystem::path folder = {};      ///< that the run writes into; empty: into none
-  bool resume = false;                    ///< from the folder's checkpoint, with the white of the run in there
-  std::vector<double> measure_at = {};    ///< as measure::measured takes it
+  std::shared_ptr<mpi::Ranks> ranks = {};  ///< as ReadyRun::ranks
+  std::filesystem::path folder = {};       ///< that the run writes into; empty: into none
+  bool is_frame = false;                   ///< of an animation
+  std::filesystem::path frame_before = {}; ///< the folder of the frame that it begins with; empty: with none
+  bool resume = false;                     ///< from the folder's checkpoint, with the white of the run in there
+  std::vector<double> measure_at = {};     ///< as measure::measured takes it
   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
   /// Hears the plan before anything is on the device.
   std::function<void(const Prepared&)> planned = {};

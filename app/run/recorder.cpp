@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/recorder.h"
 
+#include "run/afterimage.h"
 #include "run/checkpoint.h"
 #include "run/write_run.h"
 
@@ -34,6 +35,7 @@ void Recorder::advanced(job::Job& job) {
 void Recorder::ended(job::Job& job) {
   last_ = job.snapshot();
   is_finished_ = job.finished() && !last_.stands_in;
+  if (run_.seen && is_finished_) write_afterimage(options_.folder, *run_.prepared, *run_.seen, last_.left);
   write_run(options_.folder, *run_.prepared, run_.device.opened().device(), last_, run_.reference.get(), is_finished_);
   last_.picture.reset(); // the report reads the files
   if (options_.is_frame && is_finished_) {

@@ -98,7 +98,7 @@ World make_world(const mpi::RankContext& context, const scene::Scene& scene, con
                  const SceneTables& tables, const compute::Defines& defines, std::uint64_t seed) {
   World world{context, upload(context, scene, bvh, tables), tables.scene, defines, {}};
   world.scene.root = bvh.root;
-  world.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+  world.seed = seed_words(seed);
   return world;
 }
 

@@ -88,6 +88,11 @@ struct World {
   }
 };
 
+/// A preset's seed as kernels take it.
+inline shared::uint2 seed_words(std::uint64_t seed) {
+  return {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+}
+
 /// Copies the scene and tree to the device; they need not outlive the call. defines: the plan's. Throws as upload does.
 World make_world(const mpi::RankContext& context, const scene::Scene& scene, const scene::Bvh& bvh,
                  const SceneTables& tables, const compute::Defines& defines, std::uint64_t seed);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Animations as the program renders them: each frame has the bits of a run of its own, killed ones go on at the missing
-// frame, the video is asked for as ffmpeg wants it, and what cannot be is a clear line.
+// Animations as the program renders them: each frame begins with the one before, one that is rendered by itself has the
+// bits of a run of its own, killed ones go on at the missing frame, the video is asked for as ffmpeg wants it, and what
+// cannot be is a clear line.
 #include "image/image.h"
 #include "tests/support/plate_runs.h"
 #include "tests/support/program_test.h"
@@ -40,12 +41,21 @@ protected:
   }
 };
 
-TEST_F(Animations, HaveTheBitsOfSingleRunsAndEveryFile) {
-  const Ended ended = run("film", turned(3, {"--passes", "2"}));
+// Each into the film's folder from the last one on: none of them has a frame before.
+TEST_F(Animations, ByThemselvesHaveTheBitsOfSingleRunsAndEveryFile) {
+  Ended ended;
+  for (const char* number : {"2", "1", "0"}) {
+    ended = run("film", turned(3, {"--passes", "2", "--frames", number}));
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(ended.err.find("note: frame 2 begins by itself: of frame 1 there is nothing") != std::string::npos,
+              *number == '2');
+  }
+  EXPECT_THAT(read_file(own("film", 2, "plan.json")), HasSubstr("begins by itself"));
+  ended = run("film", turned(3, {"--passes", "2", "--resume", "--json"}));
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(json_lines(ended.out).back()["rendered"], 0) << "whole pictures stay";
   for (int i = 0; i < 3; ++i) {
     SCOPED_TRACE(i);
-    EXPECT_THAT(ended.out, HasSubstr(frame("film", i, ".png").string() + ": 2 passes"));
     for (const char* which : {"run.json", "preset.json", "plan.json", "history.csv"})
       EXPECT_TRUE(fs::exists(own("film", i, which))) << which;
     EXPECT_FALSE(fs::exists(own("film", i, "checkpoint.bin"))) << "it would fill the disk";
@@ -104,6 +114,43 @@ TEST_F(Animations, KilledAndResumedEqualUninterruptedOnes) {
       EXPECT_EQ(line["passes"], 60);
     }
   EXPECT_THAT(results, testing::ElementsAre(0, 1, 2, 3, 4));
+}
+
+// Frame 1 of the film that stands still has less noise than frame 0, which has the bits of a run of its own.
+TEST_F(Animations, BeginWithTheFrameBefore) {
+  const auto film = [&](const std::string& name, std::vector<std::string> more) {
+    const Ended ended = run(name, turned(4, std::move(more)));
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    return ended;
+  };
+  film("film", {"--passes", "2"});
+  film("single", {"--passes", "2", "--frames", "0"});
+  EXPECT_TRUE(read_file(frame("film", 0)) == read_file(frame("single", 0)));
+  film("single", {"--passes", "2", "--frames", "2"});
+  EXPECT_FALSE(read_file(frame("film", 2)) == read_file(frame("single", 2))) << "it begins by itself";
+  film("single", {"--passes", "2", "--frames", "1-3"});
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(read_file(frame("film", i)) == read_file(frame("single", i))) << i;
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(fs::exists(own("film", i, "afterimage.bin")), i == 3) << i;
+  EXPECT_THAT(read_file(own("film", 2, "plan.json")), HasSubstr("../0001/afterimage.bin"));
+
+  // Of another film, cut, or with a bit that has turned over it is not begun with.
+  film("single", {"--passes", "3", "--frames", "3"});
+  EXPECT_THAT(read_file(own("single", 3, "plan.json")), HasSubstr("begins by itself"));
+  film("damaged", {"--passes", "2", "--frames", "0"});
+  std::string left = read_file(own("damaged", 0, "afterimage.bin"));
+  left[left.size() / 2] = static_cast<char>(left[left.size() / 2] ^ 1);
+  write_file_whole(own("damaged", 0, "afterimage.bin"), left);
+  film("damaged", {"--passes", "2", "--frames", "1"});
+  EXPECT_THAT(read_file(own("damaged", 1, "plan.json")), HasSubstr("begins by itself"));
+
+  // Frames that began with what is still there stay; those after another one start anew.
+  const auto rendered = [&] {
+    return json_lines(film("film", {"--passes", "2", "--resume", "--json"}).out).back()["rendered"];
+  };
+  film("film", {"--passes", "2", "--frames", "0-1"});
+  EXPECT_EQ(rendered(), 0);
+  film("film", {"--passes", "2", "--frames", "1"});
+  EXPECT_EQ(rendered(), 2) << "frame 1 began by itself this time";
 }
 
 TEST_F(Animations, AskFfmpegForAVideo) {

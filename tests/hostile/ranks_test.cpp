@@ -176,20 +176,20 @@ TEST_F(Ranks, TakeTheNextRunOfASweep) {
   EXPECT_EQ(read_file(scratch.path() / "dealt/sweep.json"), read_file(scratch.path() / "alone/sweep.json"));
 }
 
-TEST_F(Ranks, TakeTheNextFrameOfAnAnimation) {
+TEST_F(Ranks, RenderEachFrameOfAnAnimationTogether) {
   const std::string tracks =
       R"([{"path": "scene.lights.0.power_w", "keys": [{"frame": 0, "value": 100}, {"frame": 3, "value": 200}]}])";
   const std::vector<std::string> arguments{"first-light",
                                            "--passes",
-                                           "1",
+                                           "2",
                                            "--set",
                                            "scene.camera.resolution=[40,30]",
                                            "--set",
                                            R"(animation={"frames": 4, "tracks": )" + tracks + "}"};
-  const Ended ended = run(2, arguments, "dealt");
+  const Ended ended = run(3, arguments, "together");
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   ASSERT_EQ(run(1, arguments, "alone").exit_code, 0);
-  expect_same("dealt", "alone");
+  expect_same("together", "alone");
 }
 
 TEST_F(Ranks, HaveToBelongTogether) {

@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Measures what frames of an animation gain where each begins with the one before, and prints the tables of
+docs/notebook/animation.md.
+
+    tests/experiments/animation.py PROGRAM OUT [FILM...] [--frames N] [--measured M] [--passes P...] [--alone P...]
+    [--photons N] [--size W H] [--reference-passes R] [--seeds]
+
+A frame by itself is one of --frames NUMBER in a folder of its own, where there is no frame before. The reference is of
+many passes and another seed. Errors are root mean squares of all pixels and channels over the reference's mean; flicker
+is the same of what changes from frame to frame and should not. Both are means over the last frames (--measured).
+OUT/FILM.png shows frames of the reference, by themselves and after one another. What is in OUT is not made again.
+Needs numpy and ImageMagick.
+"""
+import argparse
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+from layers import lab, read_layer, side_by_side
+
+
+
+def animation(path, first, last):
+    return {"animation": {"fps": 12, "tracks": [{"path": path, "keys": [{"frame": 0, "value": first},
+                                                                       {"frame": 24, "value": last}]}]}}
+
+
+FILMS = {
+    "turning-sky": ("environment/turning-sky", {}),
+    "turning-prism": ("spectral/turning-prism", {}),
+    "passing-card": ("environment/passing-card", {}),
+    "still": ("first-light", animation("scene.camera.fov_deg", 38, 38)),
+    "camera": ("first-light", animation("scene.camera.position.0", 1.2, 1.8)),
+    "glass": ("first-light", animation("scene.objects.0.transform.translate.0", -.6, -.35)),
+    "fast-glass": ("first-light", animation("scene.objects.0.transform.rotate_deg.1", 20, 260)),
+}
+
+
+class Film:
+    def __init__(self, program, out, name, options):
+        self.program, self.out, self.name = program, Path(out) / name, name
+        self.frames, self.count, self.size, self.photons = (options.frames, options.measured, options.size,
+                                                            options.photons)
+        self.out.mkdir(parents=True, exist_ok=True)
+        self.preset, self.settings = FILMS[name]
+
+    def run(self, folder, passes, *words):
+        folder = self.out / folder
+        if not (folder / "frames.csv").exists():
+            settings = {"scene.camera.resolution": self.size, "stop.seconds": None, "stop.passes": passes,
+                        **self.settings, "animation.frames": self.frames}
+            if not self.preset.startswith("environment/"):
+                settings["spectral.photons_per_pass"] = self.photons
+            sets = [word for key, value in settings.items() for word in ("--set", f"{key}={json.dumps(value)}")]
+            done = subprocess.run([self.program, "run", self.preset, "-o", folder, *map(str, words), *sets],
+                                  capture_output=True, text=True)
+            if done.returncode:
+                sys.exit(done.stderr.splitlines()[-1])
+        return folder
+
+    def measured(self):
+        """The last frames, and the one before them."""
+        return range(self.frames - self.count - 1, self.frames)
+
+    def together(self, passes):
+        folder = self.run(f"together-{passes}", passes)
+        return [self.frame(folder, n) for n in self.measured()]
+
+    def alone(self, passes, seed=None, seed_a_frame=False):
+        name = f"alone-{passes}" + ("" if seed is None else f"-{seed}") + ("-seeds" if seed_a_frame else "")
+        pictures = []
+        for n in self.measured():
+            of = n + 1000 if seed_a_frame else seed
+            folder = self.run(f"{name}/{n:04}", passes, "--frames", n, *([] if of is None else ["--seed", of]))
+            pictures.append(self.frame(folder, n))
+        return pictures
+
+    def frame(self, folder, n):
+        seconds = json.loads((folder / f"frames/{n:04}/run.json").read_text())["work_seconds"]
+        picture = folder / f"frame_{n:04}.exr"
+        return read_layer(picture, ""), seconds, read_layer(picture, "caustic")
+
+
+def rms(picture):
+    return float(np.sqrt(np.mean(picture ** 2)))
+
+
+def figures(film, reference):
+    """Error, that of the caustic layer, Lab error, flicker, light with its standard error, seconds of work a frame."""
+    errors, caustics, labs, flickers, light = [], [], [], [], []
+    for n in range(1, len(film)):
+        (ours, _, caustic), (truth, _, true_caustic) = film[n], reference[n]
+        caustics.append(rms(caustic - true_caustic) / true_caustic.mean())
+        errors.append(rms(ours - truth) / truth.mean())
+        labs.append(float(np.mean(np.linalg.norm(lab(np.clip(ours, 0, None)) - lab(np.clip(truth, 0, None)), axis=-1))))
+        light.append(ours.mean() / truth.mean())
+        before, truth_before = film[n - 1][0], reference[n - 1][0]
+        flickers.append(rms((ours - before) - (truth - truth_before)) / truth.mean())
+    return [np.mean(errors), np.mean(caustics), np.mean(labs), np.mean(flickers), np.mean(light),
+            np.std(light) / max(len(light) - 1, 1) ** .5, np.mean([seconds for _, seconds, _ in film[1:]])]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("out")
+    parser.add_argument("films", nargs="*", default=list(FILMS))
+    parser.add_argument("--frames", type=int, default=12)
+    parser.add_argument("--measured", type=int, default=3)
+    parser.add_argument("--photons", type=int, default=32768, help="a pass of engine 1")
+    parser.add_argument("--passes", type=int, nargs="+", default=[2, 4, 8])
+    parser.add_argument("--alone", type=int, nargs="*", default=None)
+    parser.add_argument("--size", type=int, nargs=2, default=[128, 96])
+    parser.add_argument("--reference-passes", type=int, default=128)
+    parser.add_argument("--seeds", action="store_true", help="also frames by themselves with a seed each")
+    options = parser.parse_args()
+    print("| film | passes | frames | error | of caustics | CIELAB | flicker | light | seconds |\n"
+          "|---|---|---|---|---|---|---|---|---|")
+    for name in options.films:
+        film = Film(options.program, options.out, name, options)
+        reference = film.alone(options.reference_passes, seed=4711)
+        ways = [("alone", p, film.alone(p)) for p in (options.alone or options.passes)]
+        if options.seeds:
+            ways += [("alone, a seed each", p, film.alone(p, seed_a_frame=True)) for p in options.passes]
+        ways += [("together", p, film.together(p)) for p in options.passes]
+        for way, passes, pictures in ways:
+            error, caustic, colour, flicker, light, spread, seconds = figures(pictures, reference)
+            print(f"| {name} | {passes} | {way} | {error:.3f} | {caustic:.3f} | {colour:.2f} | {flicker:.3f} | "
+                  f"{light:.4f} ± {spread:.4f} | {seconds:.2f} |", flush=True)
+        chosen = [film.frames - 2, film.frames - 1]
+        passes = options.passes[0]
+        files = [film.out / f"{folder.format(n)}/frame_{n:04}.png" for n in chosen
+                 for folder in (f"alone-{options.reference_passes}-4711/{{:04}}", f"alone-{passes}/{{:04}}",
+                                f"together-{passes}")]
+        side_by_side(files, 3, 384, Path(options.out) / f"{name}.png")
+
+
+if __name__ == "__main__":
+    main()
