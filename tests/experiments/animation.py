@@ -14,6 +14,7 @@ Needs numpy and ImageMagick.
 """
 import argparse
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -22,13 +23,66 @@ import numpy as np
 from layers import lab, read_layer, side_by_side
 
 
-
 def animation(path, first, last):
     return {"animation": {"fps": 12, "tracks": [{"path": path, "keys": [{"frame": 0, "value": first},
                                                                        {"frame": 24, "value": last}]}]}}
 
 
+def write_mesh(file, vertices, faces):
+    lines = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in vertices] + ["f " + " ".join(map(str, face)) for face in faces]
+    file.write_text("\n".join(lines) + "\n")
+
+
+def deforming(out, vertices, faces, states, transform):
+    """Settings of first-light with this mesh in the bunny's place. It goes to each of its states and back, one after
+    the other within 24 frames."""
+    write_mesh(out / "rest.obj", vertices, faces)
+    tracks = []
+    for i, state in enumerate(states):
+        write_mesh(out / f"state-{i}.obj", state, faces)
+        keys = [{"frame": round(24 * (i + k / 2) / len(states)), "value": k % 2} for k in range(3)]
+        tracks.append({"path": f"scene.objects.0.states.{i}.weight", "interpolation": "smooth", "keys": keys})
+    return {"scene.objects.0.mesh": str(out / "rest.obj"), "scene.objects.0.transform": transform,
+            "scene.objects.0.states": [{"mesh": str(out / f"state-{i}.obj")} for i in range(len(states))],
+            "animation": {"fps": 12, "tracks": tracks}}
+
+
+def torus(out):
+    """Becomes an oval, then a saddle."""
+    around, across = 128, 64
+    a, b = np.meshgrid(np.arange(around) * 2 * np.pi / around, np.arange(across) * 2 * np.pi / across, indexing="ij")
+    rest = np.stack([(1 + .36 * np.cos(b)) * np.cos(a), .36 * np.sin(b), -(1 + .36 * np.cos(b)) * np.sin(a)], -1)
+    oval = rest * [1.3, 1, .7]
+    saddle = rest + np.stack([0 * a, .45 * np.cos(2 * a), 0 * a], -1)
+    at = lambda i, j: i % around * across + j % across + 1
+    faces = [(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)) for i in range(around) for j in range(across)]
+    return deforming(out, rest.reshape(-1, 3), faces, [oval.reshape(-1, 3), saddle.reshape(-1, 3)],
+                     {"rotate_deg": [15, 0, 20], "translate": [.3, 1.6, 0]})
+
+
+def jelly(out):
+    """The bunny of first-light sinks, then leans."""
+    file = next(path for folder in os.environ.get("XDG_DATA_DIRS", "/usr/local/share:/usr/share").split(":")
+                if (path := Path(folder) / "glmark2/models/bunny.obj").exists())
+    lines = [line.split() for line in file.read_text().splitlines() if line.strip()]
+    rest = np.array([line[1:4] for line in lines if line[0] == "v"], float)
+    faces = [[corner.split("/")[0] for corner in line[1:]] for line in lines if line[0] == "f"]
+    low, high = rest.min(0), rest.max(0)
+    up = (rest[:, 1:2] - low[1]) / (high[1] - low[1])
+    middle = (low + high) / 2
+    sunk = np.concatenate([middle[:1] + (rest[:, :1] - middle[0]) * (1 + .25 * up * (1 - up)),
+                           low[1] + .8 * (rest[:, 1:2] - low[1]),
+                           middle[2:] + (rest[:, 2:] - middle[2]) * (1 + .25 * up * (1 - up))], 1)
+    leaning = rest + .3 * (high[1] - low[1]) * up ** 2 * np.array([1, -.3, 0])
+    return deforming(out, rest, faces, [sunk, leaning],
+                     {"scale": [2, 2, 2], "rotate_deg": [0, 20, 0], "translate": [-.6, 1.983, -.8]})
+
+
+# A preset, and what is set in it or what makes that in a folder.
 FILMS = {
+    "water": ("spectral/pool", {}),
+    "torus": ("first-light", torus),
+    "jelly": ("first-light", jelly),
     "turning-sky": ("environment/turning-sky", {}),
     "turning-prism": ("spectral/turning-prism", {}),
     "passing-card": ("environment/passing-card", {}),
@@ -46,6 +100,8 @@ class Film:
                                                             options.photons)
         self.out.mkdir(parents=True, exist_ok=True)
         self.preset, self.settings = FILMS[name]
+        if callable(self.settings):
+            self.settings = self.settings(self.out.resolve())
 
     def run(self, folder, passes, *words):
         folder = self.out / folder

@@ -89,6 +89,7 @@ inline preset::Preset random_preset(std::uint64_t seed) {
   for (Object& o : p.scene.objects) {
     o.material = p.scene.materials.begin()->first;
     if (o.mesh.has_value() == o.shape.has_value()) o.mesh = "a.obj", o.shape.reset();
+    if (o.shape) o.states.clear();
     for (double& s : o.transform.scale) s = std::abs(s) < 1e-6 ? 1 : s;
   }
   Camera& camera = p.scene.camera;
