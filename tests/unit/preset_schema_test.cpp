@@ -155,7 +155,7 @@ protected:
 
 TEST_F(PresetDocs, EveryPresetIsRead) {
   const std::vector<Block> all = blocks(page, "json");
-  EXPECT_EQ(all.size(), 7u);
+  EXPECT_EQ(all.size(), 8u);
   for (const Block& block : all) {
     const fs::path file = folder.path() / (block.file.empty() ? "unnamed.json" : block.file);
     write_file_whole(file, block.text);
@@ -176,7 +176,7 @@ TEST_F(PresetDocs, EveryCommandMeansSomething) {
       runs.push_back(read(w[2], overrides).size());
     }
   }
-  EXPECT_THAT(runs, ElementsAre(1, 1, 1, 1, 1, 3, 1, 4, 1, 1, 1, 1, 1));
+  EXPECT_THAT(runs, ElementsAre(1, 1, 1, 1, 1, 3, 1, 4, 1, 1, 1, 1, 1, 1));
 }
 
 TEST_F(PresetDocs, InheritanceIsAsThePageSays) {
