@@ -7,8 +7,9 @@ docs/notebook/animation.md.
     [--photons N] [--size W H] [--reference-passes R] [--seeds]
 
 A frame by itself is one of --frames NUMBER in a folder of its own, where there is no frame before. The reference is of
-many passes and another seed. Errors are root mean squares of all pixels and channels over the reference's mean; flicker
-is the same of what changes from frame to frame and should not. Both are means over the last frames (--measured).
+many passes and another seed. Errors are root mean squares of all pixels and channels, clipped to 0 to 1, over the reference's
+mean: a single pixel of 100 in glass would be all of the error else. Flicker is the same of what changes from frame to
+frame and should not. Both are means over the last frames (--measured).
 OUT/FILM.png shows frames of the reference, by themselves and after one another. What is in OUT is not made again.
 Needs numpy and ImageMagick.
 """
@@ -150,10 +151,11 @@ def figures(film, reference):
     for n in range(1, len(film)):
         (ours, _, caustic), (truth, _, true_caustic) = film[n], reference[n]
         caustics.append(rms(caustic - true_caustic) / true_caustic.mean())
-        errors.append(rms(ours - truth) / truth.mean())
-        labs.append(float(np.mean(np.linalg.norm(lab(np.clip(ours, 0, None)) - lab(np.clip(truth, 0, None)), axis=-1))))
         light.append(ours.mean() / truth.mean())
         before, truth_before = film[n - 1][0], reference[n - 1][0]
+        ours, truth, before, truth_before = (np.clip(picture, 0, 1) for picture in (ours, truth, before, truth_before))
+        errors.append(rms(ours - truth) / truth.mean())
+        labs.append(float(np.mean(np.linalg.norm(lab(ours) - lab(truth), axis=-1))))
         flickers.append(rms((ours - before) - (truth - truth_before)) / truth.mean())
     return [np.mean(errors), np.mean(caustics), np.mean(labs), np.mean(flickers), np.mean(light),
             np.std(light) / max(len(light) - 1, 1) ** .5, np.mean([seconds for _, seconds, _ in film[1:]])]
