@@ -7,10 +7,10 @@ docs/notebook/animation.md.
     [--photons N] [--size W H] [--reference-passes R] [--seeds]
 
 A frame by itself is one of --frames NUMBER in a folder of its own, where there is no frame before. The reference is of
-many passes and another seed. Errors are root mean squares of all pixels and channels, clipped to 0 to 1, over the reference's
-mean: a single pixel of 100 in glass would be all of the error else. Flicker is the same of what changes from frame to
-frame and should not. Both are means over the last frames (--measured).
-OUT/FILM.png shows frames of the reference, by themselves and after one another. What is in OUT is not made again.
+many passes and another seed. Errors are root mean squares of all pixels and channels, clipped to 0 to 1, over the
+reference's mean: a single pixel of 100 in glass would be all of the error else. Flicker is the same of what changes
+from frame to frame and should not. Both are means over the last frames (--measured). OUT/FILM.png shows frames of the
+reference, by themselves and after one another. What is in OUT is not made again.
 Needs numpy and ImageMagick.
 """
 import argparse
