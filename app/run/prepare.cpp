@@ -26,11 +26,11 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// The tree that the lender's becomes for another mesh. Null where that has other triangles or any ellipsoid.
+/// The tree that the lender's becomes for another mesh. Null where that has other primitives.
 std::shared_ptr<const scene::Bvh> lent_tree(const LoadedScene& lender, const scene::Mesh& mesh) {
   const scene::Mesh& lent = lender.scene.geometry;
   if (!same_bytes(lent.triangles, mesh.triangles) || lent.ellipsoids.size() != mesh.ellipsoids.size()) return nullptr;
-  if (mesh.ellipsoids.empty() && same_bytes(lent.positions, mesh.positions)) return lender.bvh;
+  if (lent.ellipsoids == mesh.ellipsoids && same_bytes(lent.positions, mesh.positions)) return lender.bvh;
   return std::make_shared<const scene::Bvh>(scene::refitted(*lender.bvh, mesh));
 }
 

@@ -26,6 +26,7 @@ struct Ellipsoid {
   glm::vec3 centre{0};
   std::array<glm::vec3, 3> half_axes{}; ///< perpendicular to each other, from the centre to the surface
   bool inwards = false;                 ///< the normals look towards the centre
+  bool operator==(const Ellipsoid&) const = default;
 };
 
 /// The places u, v of a triangle's corners in a texture. (0, 0) is its lower left, (1, 1) its upper right.

@@ -16,6 +16,7 @@ ImageMagick puts pictures side by side; pictures of the window are taken under X
 """
 
 import argparse
+import json
 import os
 import shutil
 import subprocess
@@ -24,6 +25,7 @@ import tempfile
 from functools import partial
 from pathlib import Path
 
+from animation import FILMS
 from studio import ROOT, Studio
 from thesis import BRUTE, OURS, PLAIN, THESIS, Experiments
 from tours import TOURS
@@ -179,6 +181,29 @@ def inverse_glass(s, name):
     )
 
 
+def inverse_sundial(s, name):
+    s.keep(name, [s.run("sundial", "inverse/sundial") / "image.png"])
+
+
+def films(s, name):
+    """Water, a torus and a jelly bunny, each at four moments of a film."""
+    shown = [
+        s.render(f"water-{i}", "spectral/pool", "animation=null", f"scene.objects.0.shape.time_s={i / 4}", seconds=90)
+        for i in range(4)
+    ]
+    for film in ("torus", "jelly"):
+        folder = s.folder / f"{film}-states"
+        folder.mkdir(exist_ok=True)
+        preset, make = FILMS[film]
+        settings = make(folder.resolve())
+        settings.pop("animation")
+        sets = [f"{key}={json.dumps(value)}" for key, value in settings.items()]
+        for i, weights in enumerate([(0, 0), (1, 0), (0.5, 0.5), (0, 1)]):
+            weighted = [f"scene.objects.0.states.{k}.weight={weight}" for k, weight in enumerate(weights)]
+            shown.append(s.render(f"{film}-{i}", preset, *sets, *weighted, size=(384, 256), seconds=60))
+    s.keep(name, shown, 4, 1, geometry="288x192")
+
+
 def inverse_sets(s, name):
     s.script("inverse.py", s.folder / "inverse", "pictures")
     s.keep(name, [s.folder / "inverse" / "inverse-sets.jpg"])
@@ -287,6 +312,8 @@ MAKERS = {
     "thesis-caustics.jpg": thesis_caustics,
     "smoothing.jpg": smoothing,
     "inverse-sets.jpg": inverse_sets,
+    "inverse-sundial.png": inverse_sundial,
+    "films.jpg": films,
     "environment-shaded.png": environment_shaded,
     "environment-turning.png": partial(environment_film, film="turning"),
     "environment-card.png": partial(environment_film, film="card"),

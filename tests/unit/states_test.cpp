@@ -83,6 +83,20 @@ TEST_F(States, ShapesHaveNone) {
       HasSubstr("/scene/objects/0/states: is of a mesh only"));
 }
 
+/// Of spheres no triangle tells that they have changed.
+TEST_F(States, TheTreeFollowsASphereThatGrows) {
+  preset::Preset ball = preset_;
+  ball.scene.objects[0].mesh.reset();
+  ball.scene.objects[0].shape.emplace().radius = 1;
+  const run::Prepared first = run::prepare(ball), same = run::prepare(ball, &first);
+  EXPECT_EQ(same.loaded->bvh, first.loaded->bvh);
+  ball.scene.objects[0].shape->radius = 2;
+  const run::Prepared larger = run::prepare(ball, &first);
+  const auto hit = scene::closest_hit(*larger.loaded->bvh, {0, 5, 0}, {0, -1, 0});
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->t, 3, 1e-5);
+}
+
 /// Waves move a little: the tree is fitted to them. A mesh that is stretched by far has a new one. Rays meet the same.
 TEST_F(States, TheTreeIsRefittedAndRebuiltWhereItsCostHasGrown) {
   preset::Preset water = preset_;
