@@ -97,11 +97,12 @@ private:
 
   void render_one(int frame) {
     const std::filesystem::path own = run::frame_folder(target_.folder, frame);
-    Target target{preset::at_frame(target_.preset, frame), own, fmt::format("{}/{:04}", target_.label, frame),
-                  target_.folder, mixes_frames_ ? run::frame_before(target_.folder, frame, target_.preset) : ""};
-    const Communicator communicator(series_.ranks);
+    const Communicator communicator(series_.ranks); // rank 0 alone looks at what is there
+    const bool begins_with_another = communicator.broadcast(
+        communicator.is_root() && mixes_frames_ && !run::frame_before(target_.folder, frame, target_.preset).empty());
+    const Target target{preset::at_frame(target_.preset, frame), own, fmt::format("{}/{:04}", target_.label, frame),
+                        target_.folder, begins_with_another ? run::frame_folder(target_.folder, frame - 1) : ""};
     if (communicator.broadcast(communicator.is_root() && keeps(frame, target))) return;
-    if (!communicator.broadcast(!target.frame_before.empty())) target.frame_before.clear();
     preset::at_origins(target.preset, [&] { render(options_, target, interrupted_, series_); });
     ++rendered_;
     std::error_code ignored; // the next frame begins with this one
@@ -129,6 +130,10 @@ private:
   void end() const {
     const std::vector<int> finished = run::finished_frames(target_.folder, target_.preset);
     run::write_frame_figures(target_.folder, finished);
+    std::error_code ignored;
+    for (std::size_t i = 1; i < finished.size(); ++i) // what the next frame has used
+      if (finished[i - 1] + 1 == finished[i])
+        std::filesystem::remove(run::frame_folder(target_.folder, finished[i - 1]) / run::afterimage_file, ignored);
     const auto missing = static_cast<std::size_t>(animation_.frames) - finished.size();
     const std::optional<std::string> why_none =
         missing > 0 ? counted(missing, "frame") + (missing == 1 ? " is" : " are") + " missing; go on with --resume"

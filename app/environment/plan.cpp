@@ -135,7 +135,7 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   if (has_light(scene))
     plan.render = std::make_shared<const RenderTask>(make_render_task(preset, scene, bvh, task.caster));
   if (plan.render && s.refine) plan.photons = plan_photons(preset, *plan.render->scene, *plan.render->bvh);
-  plan.mixes_frames = plan.photons && plan.photons->mixes_frames;
+  plan.mixes_frames = plan.photons && plan.photons->mixes_frames && !plan.render->has_medium;
   plan.engine = "environment";
   plan.key = bake_key(preset, task.caster);
   plan.bake_file = bake_path(plan.key);

@@ -172,6 +172,7 @@ Incoming incoming_at(const Layout& layout, const glm::dvec2& middle) {
 }
 
 Illumination make_illumination(Layout layout, const Light& light, const Location& where, const Settings& settings) {
+  layout.light = {};
   if (light.type == Light::Type::sun) {
     const glm::dvec2 sines = sines_of_sun(light, settings, where / "place");
     Light straight = light;
@@ -221,8 +222,8 @@ void add_own_lights(Layout& layout, const Settings& settings, const Location& ow
   for (std::size_t j = 0; j < settings.receivers.size(); ++j) {
     const std::optional<Light>& light = settings.receivers[j].light;
     std::size_t index = 0;
-    if (light && *light != settings.light) {
-      while (index < lights.size() && *lights[index] != *light) ++index;
+    if (light && !is_same_but_spectrum(*light, settings.light)) {
+      while (index < lights.size() && !is_same_but_spectrum(*lights[index], *light)) ++index;
       if (index == lights.size()) {
         lights.push_back(&*light);
         own_lights.push_back(
@@ -265,7 +266,10 @@ LitFacet lit_facet(const Layout& layout, std::size_t facet, const glm::dvec2& sl
   lit.in = (*layout.light_on(receiver).facets)[facet];
   lit.slope = facet_slope(lit.gradient, layout.n, lit.in.sines);
   const double along = glm::dot(light_inside(lit.in.sines, layout.n), glm::normalize(glm::dvec3(lit.gradient, -1)));
-  lit.goes = along > 0 && 1 - layout.n * layout.n + along * along > 0;
+  const double square = 1 - layout.n * layout.n + along * along;
+  const double out = light_inside(lit.in.sines, layout.n).z +
+                     (along - std::sqrt(std::max(square, 0.0))) / glm::length(glm::dvec3(lit.gradient, -1));
+  lit.goes = along > 0 && square > 0 && out < 0; // as slope_behind of kernels/inverse/footprint.h
   return lit;
 }
 

@@ -66,11 +66,12 @@ std::string in_light_of(const RunState& run, std::size_t receiver) {
   if (run.layout.own_lights.empty()) return "";
   const Settings& s = settings(run.preset);
   const Light& light = s.receivers[receiver].light ? *s.receivers[receiver].light : s.light;
-  if (light.type == Light::Type::sun)
-    return fmt::format(", {:02}:{:02}", static_cast<int>(light.place.hour),
-                       static_cast<int>(light.place.hour * 60) % 60);
+  if (light.type == Light::Type::sun) {
+    const long minutes = std::lround(60 * light.place.hour);
+    return fmt::format(", {:02}:{:02}", minutes / 60, minutes % 60);
+  }
   if (light.type == Light::Type::parallel) return fmt::format(", tilt {:g}", light.tilt_deg);
-  return fmt::format(", lamp at {:g}, {:g}", light.offset_mm[0], light.offset_mm[1]);
+  return fmt::format(", lamp at {:g}, {:g}, {:g}", light.offset_mm[0], light.offset_mm[1], light.distance_mm);
 }
 
 void add_costs(job::Snapshot& snapshot, const RunState& run) {

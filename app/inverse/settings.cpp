@@ -87,7 +87,7 @@ void check_receivers(const Settings& s, const std::string& pointer, const Where&
     for (std::size_t k = 0; k < j; ++k)
       if (const Receiver& other = s.receivers[k];
           other.distance_mm == now && other.offset_mm == s.receivers[j].offset_mm &&
-          other.light.value_or(s.light) == s.receivers[j].light.value_or(s.light))
+          is_same_but_spectrum(other.light.value_or(s.light), s.receivers[j].light.value_or(s.light)))
         throw bad_input(where(preset::child(at, "distance_mm")),
                         fmt::format("is {} mm, and {} stands at the same place in the same light", now,
                                     k + 1 == j ? "the receiver before" : fmt::format("receiver {}", k + 1)),

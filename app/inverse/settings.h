@@ -83,6 +83,12 @@ struct Receiver {
   bool operator==(const Receiver&) const = default;
 };
 
+/// Whether their light comes the same way: all lights have the spectrum of Settings::light.
+inline bool is_same_but_spectrum(Light a, const Light& b) {
+  a.spectrum = b.spectrum;
+  return a == b;
+}
+
 struct Settings {
   enum class Method { assign, thesis, lens };
   enum class Heights { flat, free };

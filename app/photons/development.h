@@ -40,8 +40,8 @@ public:
     is_frame_ = true;
     before_ = std::move(before);
   }
-  /// What the last picture leaves for the next frame (job::Snapshot::left).
-  std::vector<job::Layer> left() const { return left_; }
+  /// Takes what the last picture leaves for the next frame (job::Snapshot::left).
+  std::vector<job::Layer> left() { return std::exchange(left_, {}); }
 
   /// See PhotonJob::set_estimate.
   void set_estimate(std::vector<float> direct) { estimate_ = std::move(direct); }

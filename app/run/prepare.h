@@ -20,7 +20,7 @@ namespace nephroid::run {
 /// A loaded scene with its tree: what stays the same while only the camera, the light or the engine's settings change.
 struct LoadedScene {
   scene::Scene scene;
-  std::shared_ptr<const scene::Bvh> bvh; ///< never null; shared by scenes with the same triangles
+  std::shared_ptr<const scene::Bvh> bvh; ///< never null; shared by scenes with the same primitives in the same places
 };
 
 struct Afterimage;
@@ -34,8 +34,8 @@ struct Prepared {
 };
 
 /// Reads what the preset names and makes the plan. `previous`, if given, lends its scene where only the camera or the
-/// engine's settings differ (files are not read again then), and its tree where the triangles are the same. Throws
-/// bad_input as the loaders do, and interrupted where `watch` asks for it.
+/// engine's settings differ (files are not read again then), and its tree where the triangles are the same, refitted
+/// where they have moved. Throws bad_input as the loaders do, and interrupted where `watch` asks for it.
 Prepared prepare(const preset::Preset& preset, const Prepared* previous = nullptr, const Watch& watch = {},
                  std::shared_ptr<const Afterimage> before = nullptr);
 

@@ -35,9 +35,10 @@ void Recorder::advanced(job::Job& job) {
 void Recorder::ended(job::Job& job) {
   last_ = job.snapshot();
   is_finished_ = job.finished() && !last_.stands_in;
-  if (run_.seen && is_finished_) write_afterimage(options_.folder, *run_.prepared, *run_.seen, last_.left);
+  if (run_.seen && is_finished_) write_for_next_frame();
   write_run(options_.folder, *run_.prepared, run_.device.opened().device(), last_, run_.reference.get(), is_finished_);
   last_.picture.reset(); // the report reads the files
+  last_.left.clear();
   if (options_.is_frame && is_finished_) {
     std::filesystem::remove(options_.folder / "checkpoint.bin");
     return;
@@ -80,6 +81,14 @@ bool Recorder::write_due_pictures(job::Job& job) {
     });
   }
   return true;
+}
+
+void Recorder::write_for_next_frame() {
+  try {
+    write_afterimage(options_.folder, *run_.prepared, *run_.seen, last_.left);
+  } catch (const Error& error) {
+    warn("the next frame begins by itself: " + error.line());
+  }
 }
 
 /// Where a report cannot be made there is one file less.

@@ -48,6 +48,7 @@ private:
   void write_new_history(const job::Job& job);
   bool write_due_pictures(job::Job& job);
   void write_last_report();
+  void write_for_next_frame();
 
   const ReadyRun& run_;
   RecorderOptions options_;

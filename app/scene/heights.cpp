@@ -176,13 +176,19 @@ private:
 };
 
 /// shortest: the wavelength below which there is none, m.
-std::vector<Wave> waves_of(const preset::Shape& water, double depth, double shortest) {
+std::vector<Wave> waves_of(const preset::Shape& water, double depth, double shortest, const std::string& label,
+                           std::vector<std::string>& warnings) {
   constexpr int frequencies = 32, directions = 6;
   std::vector<Wave> waves;
   if (water.wind_m_s == 0) return waves;
   const Sea sea(water.wind_m_s, water.fetch_m, depth);
   // Bins of one ratio from below the peak to where the slopes end, each with one frequency of its own a direction.
   const double low = 0.6 * sea.peak(), high = std::min(sea.end(low), frequency_of(2 * pi / shortest, depth));
+  if (high < sea.peak())
+    warnings.push_back(
+        fmt::format("{}: the longest waves of this wind are {:.2g} m long, shorter than 4 of its squares: "
+                    "take more segments, or a longer fetch_m",
+                    label, 2 * pi / wave_number_of(sea.peak(), depth)));
   if (!(high > low)) return waves;
   const double wind = water.wind_deg * pi / 180;
   std::mt19937_64 random(water.seed);
@@ -241,10 +247,11 @@ void raise(Grid& grid, const std::vector<Wave>& waves, const preset::Shape& wate
   });
 }
 
-Mesh make_water(const preset::Shape& water, double metres_per_unit, const Location& where) {
+Mesh make_water(const preset::Shape& water, double metres_per_unit, const Location& where, const std::string& label,
+                std::vector<std::string>& warnings) {
   Grid grid(water.size, water.segments);
-  const double square = water.size[0] / grid.columns * metres_per_unit;
-  const auto waves = waves_of(water, water.size[1] * metres_per_unit, 4 * square);
+  const double square = std::max(water.size[0] / grid.columns, water.size[2] / grid.rows) * metres_per_unit;
+  const auto waves = waves_of(water, water.size[1] * metres_per_unit, 4 * square, label, warnings);
   raise(grid, waves, water, metres_per_unit);
   const double lowest = *std::ranges::min_element(grid.height);
   if (!(-lowest < water.size[1]))
@@ -254,12 +261,12 @@ Mesh make_water(const preset::Shape& water, double metres_per_unit, const Locati
   return box_under(grid, water.size);
 }
 
-Mesh make_relief(const preset::Shape& relief, const FileFinder& finder, const Location& where) {
+Mesh make_relief(const preset::Shape& relief, const FileFinder& finder, const Location& where, const std::string& label,
+                 std::vector<std::string>& warnings) {
   preset::Texture texture;
   texture.file = relief.picture;
   texture.wrap = preset::Texture::Wrap::clamp;
-  std::vector<std::string> warnings;
-  const Texture picture = make_texture(texture, Texels::numbers, finder, where / "picture", {}, warnings);
+  const Texture picture = make_texture(texture, Texels::numbers, finder, where / "picture", label, warnings);
   Grid grid(relief.size, relief.segments);
   const auto texel = [&](int x, int y) {
     x = std::clamp(x, 0, picture.width - 1);
@@ -291,9 +298,10 @@ Mesh make_relief(const preset::Shape& relief, const FileFinder& finder, const Lo
 
 } // namespace
 
-Mesh make_heights(const preset::Shape& shape, double metres_per_unit, const FileFinder& finder, const Location& where) {
-  Mesh mesh = shape.type == preset::Shape::Type::water ? make_water(shape, metres_per_unit, where)
-                                                       : make_relief(shape, finder, where);
+Mesh make_heights(const preset::Shape& shape, double metres_per_unit, const FileFinder& finder, const Location& where,
+                  const std::string& label, std::vector<std::string>& warnings) {
+  Mesh mesh = shape.type == preset::Shape::Type::water ? make_water(shape, metres_per_unit, where, label, warnings)
+                                                       : make_relief(shape, finder, where, label, warnings);
   if (shape.inwards) turn_round(mesh);
   return mesh;
 }

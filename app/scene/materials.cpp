@@ -155,10 +155,11 @@ Material make_material(const std::string& name, const preset::Material& material
     if (const std::string note = optics::outside_note(curve, outside); !note.empty())
       warnings.push_back(fmt::format("material '{}': {}", name, note));
   };
+  const std::string owner = fmt::format("material '{}'", name);
   const auto pictured = [&](const std::optional<preset::Texture>& texture, Texels texels, const char* field) {
-    return !texture
-               ? nullptr
-               : std::make_shared<const Texture>(make_texture(*texture, texels, finder, where / field, name, warnings));
+    return !texture ? nullptr
+                    : std::make_shared<const Texture>(
+                          make_texture(*texture, texels, finder, where / field, owner, warnings));
   };
   if (is_specular(material.type) && !is_plastic(result) && material.roughness_texture) {
     if (!is_rough(result))
@@ -168,7 +169,7 @@ Material make_material(const std::string& name, const preset::Material& material
   }
   if (material.type == Material::Type::diffuse && material.normal_map)
     result.normal_map = std::make_shared<const Texture>(
-        make_normal_map(*material.normal_map, material.normal_scale, finder, where / "normal_map", name, warnings));
+        make_normal_map(*material.normal_map, material.normal_scale, finder, where / "normal_map", owner, warnings));
   preset::Dispersion metal;
   metal.type = preset::Dispersion::Type::file;
   metal.file = material.metal;

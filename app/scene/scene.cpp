@@ -30,6 +30,10 @@ void check_names(const std::vector<preset::Object>& objects, const Location& whe
   }
 }
 
+std::string label_of(const preset::Object& object, std::size_t index) {
+  return object.name.empty() ? fmt::format("object {}", index) : fmt::format("object '{}'", object.name);
+}
+
 /// An object on its way: still in its own coordinates.
 struct Pending {
   std::shared_ptr<const Mesh> mesh;
@@ -75,8 +79,7 @@ void tell_damages(Scene& scene, const std::vector<Damage>& damages, preset::Scen
 
 void add_object(Scene& scene, const preset::Object& object, const Pending& pending,
                 preset::Scene::DamagedMeshes damaged) {
-  const std::string label =
-      object.name.empty() ? fmt::format("object {}", scene.objects.size()) : fmt::format("object '{}'", object.name);
+  const std::string label = label_of(object, scene.objects.size());
   const Material& material = scene.materials[static_cast<std::size_t>(pending.material)];
   const bool dielectric = is_body(material);
   PlacedMesh placed = place(*pending.mesh, pending.placement, scene.origin, dielectric, pending.where);
@@ -203,9 +206,11 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
   check_names(preset.scene.objects, where / "objects");
   // Each file is read once, however many objects name it and however large it is.
   std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes;
-  const auto mesh_of = [&](const preset::Object& object, const Location& at) {
+  const auto mesh_of = [&](const preset::Object& object, std::size_t index) {
+    const Location at = where / "objects" / index;
     if (object.shape && has_heights(*object.shape))
-      return std::make_shared<const Mesh>(make_heights(*object.shape, scene.metres_per_unit, finder, at / "shape"));
+      return std::make_shared<const Mesh>(make_heights(*object.shape, scene.metres_per_unit, finder, at / "shape",
+                                                       label_of(object, index), scene.warnings));
     if (object.shape) return std::make_shared<const Mesh>(make_shape(*object.shape));
     return deformed_mesh(object, at, [&](const std::string& name, const Location& place) {
       const std::filesystem::path file = finder.find(name, place);
@@ -219,7 +224,7 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
     const Location object_where = where / "objects" / i;
     const auto material =
         std::ranges::find(scene.materials, object.material, &Material::name) - scene.materials.begin();
-    const std::shared_ptr<const Mesh> mesh = mesh_of(object, object_where);
+    const std::shared_ptr<const Mesh> mesh = mesh_of(object, i);
     pending.push_back({mesh, make_placement(object.transform, *mesh), static_cast<int>(material), object_where});
   }
   watch.begin("looking at the objects");

@@ -81,20 +81,31 @@ void check_turned(const Morph& morph, const Mesh& deformed, const Location& wher
                     "its vertices go through each other on the way; add a state between");
 }
 
+std::size_t bytes_of(const Morph& morph) {
+  std::size_t vertices = 0, triangles = morph.own.triangles.size();
+  for (const auto& mesh : morph.meshes) {
+    vertices += mesh->positions.size() + morph.own.positions.size();
+    triangles += mesh->triangles.size();
+  }
+  return 2 * sizeof(glm::vec3) * vertices + sizeof(glm::uvec3) * triangles;
+}
+
 /// The last objects' are kept, as long as load_mesh_once() gives the same meshes: an animation goes through them again
 /// and again.
 std::shared_ptr<const Morph> morph_of(const Meshes& meshes) {
   static std::mutex mutex;
   static std::vector<std::shared_ptr<const Morph>> kept; // the last used first
-  constexpr std::size_t most = 4;
+  constexpr std::size_t most_bytes = std::size_t{256} << 20;
   const std::lock_guard lock(mutex);
   const auto same = std::ranges::find_if(kept, [&](const auto& morph) { return morph->meshes == meshes; });
   if (same != kept.end())
     std::rotate(kept.begin(), same, same + 1);
   else
     kept.insert(kept.begin(), std::make_shared<const Morph>(make_morph(meshes)));
-  if (kept.size() > most) kept.pop_back();
-  return kept.front();
+  std::size_t sum = 0;
+  const auto morph = kept.front();
+  std::erase_if(kept, [&](const auto& one) { return (sum += bytes_of(*one)) > most_bytes; });
+  return morph;
 }
 
 } // namespace

@@ -105,7 +105,7 @@ std::shared_ptr<const Picture> read_picture_once(const std::filesystem::path& fi
 } // namespace
 
 Texture make_texture(const preset::Texture& texture, Texels texels, const FileFinder& finder, const Location& where,
-                     const std::string& name, std::vector<std::string>& warnings) {
+                     const std::string& owner, std::vector<std::string>& warnings) {
   Texture result;
   const double angle = texture.rotate_deg * std::numbers::pi / 180;
   const glm::dmat2 turn(std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle));
@@ -116,7 +116,7 @@ Texture make_texture(const preset::Texture& texture, Texels texels, const FileFi
     const std::filesystem::path file = finder.find(texture.file, where / "file");
     const std::shared_ptr<const Picture> picture = read_picture_once(file, texels);
     for (const std::string& note : picture->notes)
-      warnings.push_back(fmt::format("material '{}': texture {}: {}", name, file.filename().string(), note));
+      warnings.push_back(fmt::format("{}: texture {}: {}", owner, file.filename().string(), note));
     result.width = picture->width;
     result.height = picture->height;
     result.grey = picture->grey;
@@ -133,8 +133,8 @@ Texture make_texture(const preset::Texture& texture, Texels texels, const FileFi
 }
 
 Texture make_normal_map(const preset::Texture& texture, double scale, const FileFinder& finder, const Location& where,
-                        const std::string& name, std::vector<std::string>& warnings) {
-  Texture map = make_texture(texture, Texels::numbers, finder, where, name, warnings);
+                        const std::string& owner, std::vector<std::string>& warnings) {
+  Texture map = make_texture(texture, Texels::numbers, finder, where, owner, warnings);
   if (map.grey)
     throw bad_input(where, "is a grey picture", "expected a map of normals, which is mostly light blue",
                     "make one of a map of heights in another program");

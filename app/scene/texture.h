@@ -35,14 +35,14 @@ image::Image read_texels(const std::filesystem::path& file);
 enum class Texels { colours, numbers };
 
 /// Integers of colours are decoded as image/image.h says. Values outside of 0..1 are clipped, and alpha is left out;
-/// warnings say so, after `name`, the material's. where: FILE#/scene/materials/NAME/texture. Throws bad_input there for
-/// a file that is not there, and at the file for what is no picture, too large, or has a value that is not finite.
+/// warnings say so, after `owner`: "material 'wall'". where: FILE#/scene/materials/NAME/texture. Throws bad_input there
+/// for a file that is not there, and at the file for what is no picture, too large, or has a value that is not finite.
 Texture make_texture(const preset::Texture& texture, Texels texels, const FileFinder& finder, const Location& where,
-                     const std::string& name, std::vector<std::string>& warnings);
+                     const std::string& owner, std::vector<std::string>& warnings);
 
 /// The same of a map of normals whose x and y are multiplied by `scale`: (1 + normal) / 2 as red, green and blue, of
 /// any length. Throws bad_input at the file, too, where it is grey.
 Texture make_normal_map(const preset::Texture& texture, double scale, const FileFinder& finder, const Location& where,
-                        const std::string& name, std::vector<std::string>& warnings);
+                        const std::string& owner, std::vector<std::string>& warnings);
 
 } // namespace nephroid::scene

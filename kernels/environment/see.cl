@@ -58,7 +58,8 @@ static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, 
 // Marks the receivers' texels that shade.cl will read.
 static inline void want(const DeviceEnd* end, float4 middle, int size, __global int* states) {
   if (end->throughput.w != (float)END_SURFACE) return;
-  const CubeTexels four = cube_texels(end->place.xyz - middle.xyz, size);
+  const float3 way = end->place.xyz - middle.xyz;
+  const CubeTexels four = cube_texels(way / length(way), size); // rounded as in shade.cl
   for (int i = 0; i < 4; ++i)
     if (states[four.texels[i]] == RECEIVER_UNSEEN)
       states[four.texels[i]] = RECEIVER_WANTED; // other items may write the same

@@ -108,12 +108,15 @@ __kernel void find_gradient(__global const DeviceLayout* layout, __global const 
     const Beams* to = beams_to(layout, &facet, &beams, receivers[j], &room);
     const Footprint print = footprint(layout, &facet, to, receivers[j]);
 #if NEPHROID_LIGHTS
-    sum += to->power / fmax(1e-6f, beams.power) * (receivers[j].distance + facet.height) *
+    sum += to->power * (receivers[j].distance + facet.height) *
            by_slope_of_all(layout, &facet, &beams, receivers[j],
                            along_lack(layout, &print, lack + cell_at(layout, j, 0, 0)));
 #else
     sum += (receivers[j].distance + facet.height) * along_lack(layout, &print, lack + cell_at(layout, j, 0, 0));
 #endif
   }
-  gradient[index] = beams.power * sum / (float2)(layout->cell_x, -layout->cell_y);
+#if !NEPHROID_LIGHTS
+  sum *= beams.power;
+#endif
+  gradient[index] = sum / (float2)(layout->cell_x, -layout->cell_y);
 }

@@ -50,6 +50,19 @@ double apart(const std::vector<double>& a, const std::vector<double>& b) {
   return sum / all;
 }
 
+// Whatever the light of all is: a lamp, or tilted.
+TEST(OwnLights, HaveNothingOfTheLightOfAll) {
+  const Layout plain = layout_of();
+  for (const preset::Overrides& of : {preset::Overrides{R"(inverse.light={"type": "point", "distance_mm": 400})"},
+                                      {R"(inverse.light={"type": "area", "distance_mm": 400})"},
+                                      {R"(inverse.light={"type": "parallel", "tilt_deg": 5})"}}) {
+    const Layout layout = layout_of(of);
+    EXPECT_FALSE(layout.light_on(1).lamp);
+    EXPECT_EQ(layout.light_on(0).lamp_half, glm::dvec2(0));
+    for (const std::size_t j : {0u, 1u}) EXPECT_EQ(layout.light_on(j).sines, plain.light_on(j).sines) << j;
+  }
+}
+
 // A facet that is one prism: a ray in each receiver's light leaves it with the slope that lit_facet says.
 TEST(OwnLights, AFacetBendsEachLightAsARayGoes) {
   const Layout layout = layout_of({"inverse.facets=[1, 1]", "inverse.size_mm=[1.2, 1.2]", "inverse.thickness_mm=1",

@@ -15,9 +15,12 @@ using preset::Shape;
 using scene::Mesh;
 using std::numbers::pi;
 
+std::vector<std::string> warnings;
+
 Mesh made(const Shape& shape, double metres = 1) {
+  warnings.clear();
   return scene::make_heights(shape, metres, FileFinder(std::filesystem::path()),
-                             Location("a.json", "/scene/objects/0/shape"));
+                             Location("a.json", "/scene/objects/0/shape"), "object 'pool'", warnings);
 }
 
 Shape pool() { return {.type = Shape::Type::water, .size = {4, 1, 3}, .segments = 128}; }
@@ -145,6 +148,20 @@ TEST(Heights, WavesThatReachTheBottomAreRefused) {
   shape.wind_m_s = 20;
   EXPECT_THAT(test::refusal_of([&] { made(shape); }),
               HasSubstr("a.json#/scene/objects/0/shape/size/1: is 0.02, and the waves' lowest trough is"));
+}
+
+TEST(Heights, WhatIsLeftOutIsSaid) {
+  Shape lake = pool();
+  made(lake);
+  EXPECT_THAT(warnings, IsEmpty());
+  lake.size = {400, 10, 400};
+  made(lake);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("object 'pool': the longest waves of this wind are 0.2")));
+  test::TemporaryFolder folder;
+  image::write_exr(folder.path() / "mm.exr", {.width = 2, .height = 1, .channels = {"Y"}, .data = {0, 3}});
+  Shape relief{.type = Shape::Type::relief, .picture = (folder.path() / "mm.exr").string()};
+  made(relief);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("object 'pool': texture mm.exr: 3 values are outside of 0 to 1")));
 }
 
 TEST(Heights, AReliefHasTheHeightsOfItsPicture) {

@@ -3,7 +3,6 @@
 
 #include "base/error.h"
 #include "base/hashed_bytes.h"
-#include "base/parallel.h"
 #include "environment/colours.h"
 #include "tracing/omissions.h"
 

@@ -32,6 +32,7 @@ Receivers::Receivers(const mpi::RankContext& context, int size)
 
 void Receivers::forget() {
   states_.fill_zero();
+  distances_.write(std::vector<float>(distances_.size(), std::numeric_limits<float>::infinity()));
   list_on_host_.clear();
   known_ = lit_ = shared_ = 0;
 }

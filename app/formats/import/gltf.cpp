@@ -113,7 +113,10 @@ private:
       if (animated == weights_.end()) continue;
       const WeightKeys& keys = animated->second;
       const std::size_t width = keys.weights.size() / keys.seconds.size();
-      for (std::size_t i = 0; k < width && i < keys.seconds.size(); ++i)
+      if (width != targets.size())
+        throw bad_input(node.value.where(),
+                        fmt::format("has {} weights a key of {} morph targets", width, targets.size()));
+      for (std::size_t i = 0; i < keys.seconds.size(); ++i)
         state.keys.push_back({keys.seconds[i], keys.weights[i * width + k]});
     }
     return states;
