@@ -130,10 +130,6 @@ private:
   void end() const {
     const std::vector<int> finished = run::finished_frames(target_.folder, target_.preset);
     run::write_frame_figures(target_.folder, finished);
-    std::error_code ignored;
-    for (std::size_t i = 1; i < finished.size(); ++i) // what the next frame has used
-      if (finished[i - 1] + 1 == finished[i])
-        std::filesystem::remove(run::frame_folder(target_.folder, finished[i - 1]) / run::afterimage_file, ignored);
     const auto missing = static_cast<std::size_t>(animation_.frames) - finished.size();
     const std::optional<std::string> why_none =
         missing > 0 ? counted(missing, "frame") + (missing == 1 ? " is" : " are") + " missing; go on with --resume"

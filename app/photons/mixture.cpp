@@ -84,19 +84,22 @@ private:
 
   /// The largest value of the square about each pixel, along rows and then along columns.
   std::vector<float> largest_around(std::vector<float> values) const {
-    const auto along = [&](const std::vector<float>& from, int count, int step, int lines, int line_step) {
+    const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
+    const auto along = [](const std::vector<float>& from, std::size_t count, std::size_t step, std::size_t lines,
+                          std::size_t line_step) {
+      constexpr std::size_t radius = error_radius;
       std::vector<float> largest(from.size());
-      for_blocks(static_cast<std::size_t>(lines), [&](std::size_t line) {
-        const int begin = static_cast<int>(line) * line_step;
-        for (int i = 0; i < count; ++i) {
-          float& most = largest[static_cast<std::size_t>(begin + i * step)];
-          for (int j = std::max(i - error_radius, 0); j < std::min(i + error_radius + 1, count); ++j)
-            most = std::max(most, from[static_cast<std::size_t>(begin + j * step)]);
+      for_blocks(lines, [&](std::size_t line) {
+        const std::size_t begin = line * line_step;
+        for (std::size_t i = 0; i < count; ++i) {
+          float& most = largest[begin + i * step];
+          for (std::size_t j = i - std::min(i, radius); j < std::min(i + radius + 1, count); ++j)
+            most = std::max(most, from[begin + j * step]);
         }
       });
       return largest;
     };
-    return along(along(values, width_, 1, height_, width_), height_, width_, width_, 1);
+    return along(along(values, width, 1, height, width), height, width, width, 1);
   }
 
   int width_, height_;

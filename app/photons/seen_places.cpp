@@ -143,7 +143,8 @@ std::vector<float> moved(const std::vector<float>& picture, const std::vector<Ta
     for (std::size_t c = 0; c < 3 && taps[i].weights != std::array<float, 4>{}; ++c) {
       float sum = 0;
       for (std::size_t tap = 0; tap < 4; ++tap)
-        if (const float weight = taps[i].weights[tap]; weight > 0) sum += weight * picture[3 * taps[i].pixels[tap] + c];
+        if (const float weight = taps[i].weights[tap]; weight > 0)
+          sum += weight * picture[std::size_t{3} * taps[i].pixels[tap] + c];
       now[3 * i + c] = sum;
     }
   return now;

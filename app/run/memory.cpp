@@ -42,7 +42,8 @@ plan::PlannedBuffer picture_and_files(const plan::Plan& plan, int width, int hei
 plan::PlannedBuffer held_of_frame_before(const plan::Plan& plan, int width, int height) {
   // Bytes a pixel: light and draw of each layer, as it was left, moved, mixed and copied; places and taps; what is in
   // hand while one layer is mixed.
-  const std::uint64_t layers = 4 * 24 * static_cast<std::uint64_t>(plan.layers), places = 2 * 28 + 32, mixing = 160;
+  const std::uint64_t layers = std::uint64_t{4} * 24 * static_cast<std::uint64_t>(plan.layers), places = 88,
+                      mixing = 160;
   const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   return {"frame before (host)", pixels * (layers + places + mixing), true};
 }

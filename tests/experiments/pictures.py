@@ -188,7 +188,7 @@ def inverse_sundial(s, name):
 def films(s, name):
     """Water, a torus and a jelly bunny, each at four moments of a film."""
     shown = [
-        s.render(f"water-{i}", "spectral/pool", "animation=null", f"scene.objects.0.shape.time_s={i / 4}", seconds=90)
+        s.render(f"water-{i}", "spectral/pool", "animation=null", f"scene.objects.0.shape.time_s={i / 4}", seconds=30)
         for i in range(4)
     ]
     for film in ("torus", "jelly"):
@@ -200,7 +200,7 @@ def films(s, name):
         sets = [f"{key}={json.dumps(value)}" for key, value in settings.items()]
         for i, weights in enumerate([(0, 0), (1, 0), (0.5, 0.5), (0, 1)]):
             weighted = [f"scene.objects.0.states.{k}.weight={weight}" for k, weight in enumerate(weights)]
-            shown.append(s.render(f"{film}-{i}", preset, *sets, *weighted, size=(384, 256), seconds=60))
+            shown.append(s.render(f"{film}-{i}", preset, *sets, *weighted, size=(384, 256), seconds=30))
     s.keep(name, shown, 4, 1, geometry="288x192")
 
 

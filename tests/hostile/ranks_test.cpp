@@ -192,6 +192,25 @@ TEST_F(Ranks, RenderEachFrameOfAnAnimationTogether) {
   expect_same("together", "alone");
 }
 
+/// Frames that begin with no other one are divided.
+TEST_F(Ranks, TakeTheNextFrameOfAnInverseAnimation) {
+  const std::string tracks =
+      R"([{"path": "inverse.receivers.0.distance_mm", "keys": [{"frame": 0, "value": 80}, {"frame": 3, "value": 95}]}])";
+  const std::vector<std::string> arguments{"inverse/shapes",
+                                           "--passes",
+                                           "1",
+                                           "--set",
+                                           "inverse.facets=[16,16]",
+                                           "--set",
+                                           "inverse.cells=[16,16]",
+                                           "--set",
+                                           R"(animation={"frames": 4, "tracks": )" + tracks + "}"};
+  const Ended ended = run(2, arguments, "dealt");
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  ASSERT_EQ(run(1, arguments, "alone").exit_code, 0);
+  expect_same("dealt", "alone");
+}
+
 TEST_F(Ranks, HaveToBelongTogether) {
   // First-light on two ranks, the second of which is given something else.
   const auto run_apart = [this](const std::vector<std::string>& first, const std::vector<std::string>& second) {

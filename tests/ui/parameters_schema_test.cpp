@@ -193,7 +193,7 @@ protected:
       if (pointer.empty() && !panel().draft().value().contains(name)) continue; // of the file, not of the preset
       // A preset and its reference have settings of the run's engine only; a scene's environment is no settings.
       if (owner != "Scene" && is_engine(name) && name != drafted("/engine").get<std::string>()) continue;
-      if (owner == "Object" && name == "states" && drafted(child_of(pointer, name)).empty()) continue; // of a mesh
+      if (name == "states" && drafted(child_of(pointer, name)).empty()) continue; // of a mesh
       visit(property, child_of(pointer, name), owner, owner + "." + name);
     }
   }
@@ -252,8 +252,9 @@ protected:
       if (owner == "Environment.sky") { // which takes a place or a direction
         search(dotted(pointer) + ".place");
         click(pointer + "/place:given");
-        enter(pointer + "/place/date", "2026-06-21");
       }
+      if (owner == "Environment.sky" || (owner.starts_with("InverseLight") && word == "sun"))
+        enter(pointer + "/place/date", "2026-06-21");
       if (!problems().empty()) fill(type["properties"], pointer, owner);
       if (HasFatalFailure()) return;
       EXPECT_EQ(at(pointer + "/type"), word);
@@ -281,7 +282,8 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes) {
   if (HasFatalFailure()) return;
   preset["scene"]["objects"][0] = {{"mesh", "a.obj"}, {"states", {{{"mesh", "b.obj"}}}}, {"material", "wall"}};
   open(preset.dump());
-  visit(schema["$defs"]["Object"]["properties"]["states"], "/scene/objects/0/states", "Object", "Object.states");
+  visit(schema["$defs"]["ObjectItem"]["properties"]["states"], "/scene/objects/0/states", "ObjectItem",
+        "ObjectItem.states");
   if (HasFatalFailure()) return;
   runs.adopts = false; // fake jobs do so as engine 1 does
   open(R"({"engine": "inverse", "unit": "mm", "scene": {"camera": {}}, "inverse": {"facets": [8, 8], "receivers": [

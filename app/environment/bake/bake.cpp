@@ -163,7 +163,7 @@ std::size_t SphereMap::texel_of_stored(std::size_t stored) const {
 std::size_t SphereMap::blocks() const { return static_cast<std::size_t>(BLOCKS_ACROSS(side) * BLOCKS_DOWN(side)); }
 
 std::size_t SphereMap::block(std::size_t stored) const {
-  const auto stride = static_cast<std::size_t>(side + 2);
+  const std::size_t stride = static_cast<std::size_t>(side) + 2;
   return (stored / stride >> BLOCK_DOWN_BITS) * static_cast<std::size_t>(BLOCKS_ACROSS(side)) +
          (stored % stride >> BLOCK_ACROSS_BITS);
 }
