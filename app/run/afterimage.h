@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // afterimage.bin: what a frame of an animation leaves for the next one, its noisy layers and the places that its pixels
-// show. It goes when the next frame has been rendered after it. It ends in a hash, and so tells one frame's from another's.
+// show. It goes when the next frame has been rendered after it. It ends in a hash, and so tells one frame's from
+// another's.
 #pragma once
 #include "job/job.h"
 #include "photons/seen_places.h"
