@@ -176,39 +176,30 @@ TEST_F(Ranks, TakeTheNextRunOfASweep) {
   EXPECT_EQ(read_file(scratch.path() / "dealt/sweep.json"), read_file(scratch.path() / "alone/sweep.json"));
 }
 
-TEST_F(Ranks, RenderEachFrameOfAnAnimationTogether) {
-  const std::string tracks =
-      R"([{"path": "scene.lights.0.power_w", "keys": [{"frame": 0, "value": 100}, {"frame": 3, "value": 200}]}])";
-  const std::vector<std::string> arguments{"first-light",
-                                           "--passes",
-                                           "2",
-                                           "--set",
-                                           "scene.camera.resolution=[40,30]",
-                                           "--set",
-                                           R"(animation={"frames": 4, "tracks": )" + tracks + "}"};
-  const Ended ended = run(3, arguments, "together");
-  ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  ASSERT_EQ(run(1, arguments, "alone").exit_code, 0);
-  expect_same("together", "alone");
+/// A film of four frames by several ranks is that of one. Its one track goes from one number to another.
+class RanksFilms : public Ranks {
+protected:
+  void expect_same_film(int ranks, std::vector<std::string> arguments, const std::string& path, int from, int to) {
+    arguments.insert(arguments.end(),
+                     {"--set", fmt::format(R"(animation={{"frames": 4, "tracks": [{{"path": "{}", "keys": [
+                         {{"frame": 0, "value": {}}}, {{"frame": 3, "value": {}}}]}}]}})",
+                                           path, from, to)});
+    const Ended ended = run(ranks, arguments, "by-many");
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    ASSERT_EQ(run(1, arguments, "alone").exit_code, 0);
+    expect_same("by-many", "alone");
+  }
+};
+
+TEST_F(RanksFilms, RenderEachFrameTogether) {
+  expect_same_film(3, {"first-light", "--passes", "2", "--set", "scene.camera.resolution=[40,30]"},
+                   "scene.lights.0.power_w", 100, 200);
 }
 
-/// Frames that begin with no other one are divided.
-TEST_F(Ranks, TakeTheNextFrameOfAnInverseAnimation) {
-  const std::string tracks =
-      R"([{"path": "inverse.receivers.0.distance_mm", "keys": [{"frame": 0, "value": 80}, {"frame": 3, "value": 95}]}])";
-  const std::vector<std::string> arguments{"inverse/shapes",
-                                           "--passes",
-                                           "1",
-                                           "--set",
-                                           "inverse.facets=[16,16]",
-                                           "--set",
-                                           "inverse.cells=[16,16]",
-                                           "--set",
-                                           R"(animation={"frames": 4, "tracks": )" + tracks + "}"};
-  const Ended ended = run(2, arguments, "dealt");
-  ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  ASSERT_EQ(run(1, arguments, "alone").exit_code, 0);
-  expect_same("dealt", "alone");
+TEST_F(RanksFilms, TakeTheNextFrameWhereNoneBeginsWithAnother) {
+  expect_same_film(
+      2, {"inverse/shapes", "--passes", "1", "--set", "inverse.facets=[16,16]", "--set", "inverse.cells=[16,16]"},
+      "inverse.receivers.0.distance_mm", 80, 95);
 }
 
 TEST_F(Ranks, HaveToBelongTogether) {
