@@ -329,14 +329,14 @@ std::vector<glm::dvec3> Judge::colours(std::size_t which_screen) const {
 
 RayOutcomes Judge::outcomes() const {
   const std::size_t receivers = layout_.distances.size();
-  const double all = static_cast<double>(layout_.facet_count()) * static_cast<double>(receivers);
+  const double rays = static_cast<double>(layout_.facet_count()) * static_cast<double>(receivers);
   RayOutcomes mean;
   for (std::size_t j = 0; j < receivers; ++j) {
     const RayOutcomes& sum = lights_[lamp_of(j)].sum;
-    mean.reflected += sum.reflected / all;
-    mean.lost += sum.lost / all;
-    mean.sent += sum.sent / all;
-    mean.by_walls += sum.by_walls / all;
+    mean.reflected += sum.reflected / rays;
+    mean.lost += sum.lost / rays;
+    mean.sent += sum.sent / rays;
+    mean.by_walls += sum.by_walls / rays;
   }
   return mean;
 }

@@ -57,8 +57,8 @@ double likeness(const Target& target, const std::vector<double>& light) {
 }
 
 double part_of(const std::vector<double>& light, const std::vector<double>& whole) {
-  const double all = std::accumulate(whole.begin(), whole.end(), 0.0);
-  return all > 0 ? std::accumulate(light.begin(), light.end(), 0.0) / all : 0;
+  const double sum = std::accumulate(whole.begin(), whole.end(), 0.0);
+  return sum > 0 ? std::accumulate(light.begin(), light.end(), 0.0) / sum : 0;
 }
 
 /// What a picture's words say of its light, where receivers have lights of their own.
