@@ -69,6 +69,7 @@ struct Layout {
 
   std::size_t light_index(std::size_t receiver_index) const { return light_of.empty() ? 0 : light_of[receiver_index]; }
   const Illumination& numbered(std::size_t index) const { return index == 0 ? light : own_lights[index - 1]; }
+  Illumination& numbered(std::size_t index) { return index == 0 ? light : own_lights[index - 1]; }
   const Illumination& light_on(std::size_t receiver_index) const { return numbered(light_index(receiver_index)); }
 
   /// Whether p is outside a round object's outline.

@@ -126,13 +126,14 @@ Layout tilted(const Layout& layout, const Light& light, const Location& where) {
     throw bad_input(where, fmt::format("is {} degrees, and light would not enter through the front", light.tilt_deg),
                     fmt::format("expected less than {:.4g}", most));
   const auto good = [&](double tilt) { return worst_shadow(with_tilt(layout, tilt, light.turn_deg)) <= most_shadow; };
-  if (!good(light.tilt_deg))
-    throw bad_input(
-        where,
-        fmt::format("is {} degrees, and facets that bend such light to the receivers stand in each other's shadow",
-                    light.tilt_deg),
-        fmt::format("expected at most {:.3g}", std::abs(last_good(0.0, light.tilt_deg, 40, good))),
-        "tilt it less, or move the receivers away");
+  if (const double worst = worst_shadow(with_tilt(layout, light.tilt_deg, light.turn_deg)); worst > most_shadow)
+    throw bad_input(where,
+                    fmt::format("is {} degrees, and {}", light.tilt_deg,
+                                std::isinf(worst)
+                                    ? "facets that bend such light to the receivers reflect all of it"
+                                    : "facets that bend such light to the receivers stand in each other's shadow"),
+                    fmt::format("expected at most {:.3g}", std::abs(last_good(0.0, light.tilt_deg, 40, good))),
+                    "tilt it less, or move the receivers away");
   return with_tilt(layout, light.tilt_deg, light.turn_deg);
 }
 
@@ -143,13 +144,13 @@ Layout lit_by_lamp(const Layout& layout, const Light& light, const Location& whe
   const auto good = [&](double distance) {
     return worst_shadow(with_lamp(layout, distance, light.offset_mm)) <= most_shadow;
   };
-  if (!good(light.distance_mm)) {
+  if (const double worst = worst_shadow(with_lamp(layout, light.distance_mm, light.offset_mm)); worst > most_shadow) {
     double far = 2 * light.distance_mm;
     while (!good(far) && far < 1e9) far *= 2;
     throw bad_input(where,
-                    fmt::format("is {} mm, so near that facets at the rim, to bend its light to the receivers, stand "
-                                "in each other's shadow",
-                                light.distance_mm),
+                    fmt::format("is {} mm, so near that facets at the rim, to bend its light to the receivers, {}",
+                                light.distance_mm,
+                                std::isinf(worst) ? "reflect all of it" : "stand in each other's shadow"),
                     fmt::format("expected at least {:.4g} mm", last_good(far, light.distance_mm, 40, good)),
                     "move the light away, or make the object smaller");
   }

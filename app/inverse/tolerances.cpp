@@ -15,13 +15,14 @@ namespace {
 
 struct MakingError {
   std::string_view what;
-  double waves_mm = 0, turn_deg = 0, farther = 0;
+  double waves_mm = 0, turn_deg = 0, light_deg = 0, farther = 0;
 };
 constexpr std::array<MakingError, Tolerances::count> errors{
     MakingError{.what = "heights off by 1 um", .waves_mm = 0.001},
     MakingError{.what = "heights off by 5 um", .waves_mm = 0.005},
     MakingError{.what = "heights off by 20 um", .waves_mm = 0.02},
     MakingError{.what = "turned by 1 degree", .turn_deg = 1},
+    MakingError{.what = "light 1 degree aside", .light_deg = 1},
     MakingError{.what = "receivers 1 % farther", .farther = 0.01}};
 
 /// Turns the solid about the x axis through its middle. Rays begin in front of what is turned towards them.
@@ -33,6 +34,17 @@ void turn(double radians, Layout& layout, Solid& solid) {
     p.z = static_cast<float>(pivot + sine * y + cosine * z);
   }
   layout.thickness += std::abs(sine) * layout.size.y / 2;
+}
+
+/// Turns light about the y axis through the front's middle. The judge's rays need no more than where it comes from.
+void turn(double radians, double front, Illumination& light) {
+  const double sine = std::sin(radians), cosine = std::cos(radians);
+  const double x = light.sines.x, z = -std::sqrt(1 - glm::dot(light.sines, light.sines));
+  light.sines.x = cosine * x + sine * z;
+  if (!light.lamp) return;
+  const double aside = light.lamp->x, before = light.lamp->z - front;
+  light.lamp->x = cosine * aside + sine * before;
+  light.lamp->z = front + cosine * before - sine * aside;
 }
 
 /// Each triangle as four, by the middles of its edges, which two triangles share: what is closed stays closed.
@@ -98,6 +110,8 @@ void Tolerances::begin() {
   changed_layout_ = layout_;
   changed_layout_.frames.clear();
   for (double& distance : changed_layout_.distances) distance *= 1 + wrong.farther;
+  for (std::size_t k = 0; k <= layout_.own_lights.size(); ++k)
+    turn(glm::radians(wrong.light_deg), layout_.thickness, changed_layout_.numbered(k));
   changed_ = wrong.waves_mm > 0 ? with_waves(layout_, solid_, wrong.waves_mm, seed_) : solid_;
   if (wrong.turn_deg != 0) turn(glm::radians(wrong.turn_deg), changed_layout_, changed_);
   judge_.emplace(context_, changed_layout_, changed_, seed_, targets_);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photons/pixel_surfaces.h"
 
+#include "base/parallel.h"
 #include "scene/ray.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <mutex>
 #include <numbers>
 #include <optional>
 
@@ -173,7 +176,7 @@ public:
       }
   }
 
-  const std::vector<bool>& marked() const { return marked_; }
+  const std::vector<std::uint8_t>& marked() const { return marked_; }
 
 private:
   /// A margin in pixels, as kernels decide in single precision which pixel a path belongs to.
@@ -197,11 +200,11 @@ private:
     if (right + margin < 0 || left - margin > camera_.width) return;
     const auto first = static_cast<std::ptrdiff_t>(row) * camera_.width;
     std::fill(marked_.begin() + first + index(left - margin, camera_.width),
-              marked_.begin() + first + index(right + margin, camera_.width) + 1, true);
+              marked_.begin() + first + index(right + margin, camera_.width) + 1, std::uint8_t{1});
   }
 
   const scene::Camera& camera_;
-  std::vector<bool> marked_;
+  std::vector<std::uint8_t> marked_; ///< a pixel; not zero: it is
   std::vector<Seen> points_;
 };
 
@@ -249,20 +252,30 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
 
 std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene) {
   if (scene.camera.receiver >= 0) return {};
-  Marks marks(scene.camera);
+  std::vector<std::uint8_t> marked(scene.camera.pixels());
+  std::mutex mutex;
+  const auto take = [&](const Marks& marks) {
+    const std::lock_guard lock(mutex);
+    std::ranges::transform(marked, marks.marked(), marked.begin(), std::bit_or());
+  };
   for (const scene::Object& object : scene.objects) {
     if (!is_specular(material_of(scene, object).type)) continue;
-    for (const glm::uvec3& triangle : scene::triangles_of(scene, object)) {
-      std::array<Seen, 3> corners;
-      for (int c = 0; c < 3; ++c)
-        corners[static_cast<std::size_t>(c)] = marks.see(scene.geometry.positions[triangle[c]]);
-      marks.mark(corners);
-    }
+    const auto triangles = scene::triangles_of(scene, object);
+    for_ranges(triangles.size(), 1 << 16, [&](std::size_t, Range range) {
+      Marks marks(scene.camera);
+      for (std::size_t i = range.begin; i < range.end; ++i) {
+        const auto seen = [&](std::uint32_t vertex) { return marks.see(scene.geometry.positions[vertex]); };
+        marks.mark(std::array{seen(triangles[i].x), seen(triangles[i].y), seen(triangles[i].z)});
+      }
+      take(marks);
+    });
+    Marks marks(scene.camera);
     for (const scene::Ellipsoid& ellipsoid : scene::ellipsoids_of(scene, object)) marks.mark(ellipsoid);
+    take(marks);
   }
   std::vector<std::uint32_t> pixels;
-  for (std::size_t i = 0; i < marks.marked().size(); ++i)
-    if (marks.marked()[i] || !scene.camera.inside.empty() || !scene.camera.is_plain())
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    if (marked[i] != 0 || !scene.camera.inside.empty() || !scene.camera.is_plain())
       pixels.push_back(static_cast<std::uint32_t>(i));
   return pixels;
 }

@@ -3,13 +3,18 @@
 // of their differences are exact or nearly so.
 #include "scene/mesh.h"
 
+#include "base/parallel.h"
+#include "base/recent.h"
 #include "scene/mesh_parts.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 namespace nephroid::scene {
 namespace {
@@ -80,6 +85,31 @@ void count_edges(const std::vector<std::uint64_t>& edges, MeshReport& report) {
     else if (end - begin > 2 || edges[begin] == edges[begin + 1])
       ++report.crowded_edges;
   }
+}
+
+/// What of a mesh stays while its vertices move and none of them come to lie in one place.
+struct Topology {
+  std::vector<glm::uvec3> triangles;
+  std::vector<std::uint32_t> joined; ///< first_equal_vertex
+  std::vector<char> duplicate;       ///< find_duplicates
+  MeshReport report;                 ///< what of it depends on nothing else
+};
+
+/// The last ones are kept: sorting is most of the work, and the frames of an animation have the same one.
+std::shared_ptr<const Topology> topology_of(const Mesh& mesh) {
+  static std::mutex mutex;
+  static Recent<Topology> recent(std::uint64_t{64} << 20);
+  std::vector<std::uint32_t> joined = first_equal_vertex(mesh, false);
+  const std::lock_guard lock(mutex);
+  if (auto same =
+          recent.find([&](const Topology& kept) { return kept.joined == joined && kept.triangles == mesh.triangles; }))
+    return same;
+  Topology topology{mesh.triangles, std::move(joined), {}, {}};
+  topology.duplicate = find_duplicates(mesh, topology.joined);
+  topology.report.duplicated = static_cast<std::uint32_t>(std::ranges::count(topology.duplicate, 1));
+  count_edges(directed_edges(mesh, topology.joined, topology.duplicate), topology.report);
+  const std::uint64_t bytes = mesh.triangles.size() * (sizeof(glm::uvec3) + 1) + mesh.positions.size() * 4;
+  return recent.add(std::move(topology), bytes);
 }
 
 /// Six times the tetrahedron's volume; summed over a closed surface it does not depend on `apex`, but its rounding
@@ -162,33 +192,57 @@ bool has_area(const Mesh& mesh) {
 }
 
 MeshReport inspect(const Mesh& mesh) {
-  const std::vector<std::uint32_t> joined = first_equal_vertex(mesh, false);
-  const std::vector<char> duplicate = find_duplicates(mesh, joined);
-  MeshReport report;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (duplicate[i])
-      ++report.duplicated;
-    else if (is_degenerate(mesh, mesh.triangles[i]))
-      ++report.degenerate;
+  const std::shared_ptr<const Topology> topology = topology_of(mesh);
+  MeshReport report = topology->report;
+  struct Sum {
+    std::uint32_t degenerate = 0;
+    double six_volumes = 0;
+  };
+  constexpr std::size_t block_size = 1 << 14;
+  std::vector<Sum> sums(mesh.triangles.size() / block_size + 1);
+  for_ranges(mesh.triangles.size(), block_size, [&](std::size_t block, Range range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      if (topology->duplicate[i]) continue;
+      sums[block].degenerate += is_degenerate(mesh, mesh.triangles[i]);
+      sums[block].six_volumes += six_volumes(mesh, mesh.triangles[i], mesh.positions[mesh.triangles[0].x]);
+    }
+  });
+  for (const Sum& sum : sums) {
+    report.degenerate += sum.degenerate;
+    report.signed_volume += sum.six_volumes / 6;
   }
-  count_edges(directed_edges(mesh, joined, duplicate), report);
-  double sum = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (!duplicate[i]) sum += six_volumes(mesh, mesh.triangles[i], mesh.positions[mesh.triangles[0].x]);
-  report.signed_volume = sum / 6;
   return report;
 }
 
 void drop_useless(Mesh& mesh) {
-  const std::vector<char> duplicate = find_duplicates(mesh, first_equal_vertex(mesh, false));
+  const std::shared_ptr<const Topology> topology = topology_of(mesh);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (duplicate[i] || is_degenerate(mesh, mesh.triangles[i])) continue;
+    if (topology->duplicate[i] || is_degenerate(mesh, mesh.triangles[i])) continue;
     if (!mesh.texcoords.empty()) mesh.texcoords[kept] = mesh.texcoords[i];
     mesh.triangles[kept++] = mesh.triangles[i];
   }
   mesh.triangles.resize(kept);
   if (!mesh.texcoords.empty()) mesh.texcoords.resize(kept);
+  std::vector<std::uint32_t> same(mesh.positions.size());
+  std::iota(same.begin(), same.end(), 0);
+  keep_used_vertices(mesh, same);
+}
+
+void keep_used_vertices(Mesh& mesh, const std::vector<std::uint32_t>& same) {
+  constexpr std::uint32_t unused = ~0u;
+  std::vector<std::uint32_t> new_index(mesh.positions.size(), unused);
+  const std::vector<glm::vec3> positions = std::exchange(mesh.positions, {}), normals = std::exchange(mesh.normals, {});
+  for (glm::uvec3& triangle : mesh.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t old = same[triangle[i]];
+      if (new_index[old] == unused) {
+        new_index[old] = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.push_back(positions[old]);
+        if (!normals.empty()) mesh.normals.push_back(normals[old]);
+      }
+      triangle[i] = new_index[old];
+    }
 }
 
 void turn_triangles(Mesh& mesh) {
@@ -287,21 +341,32 @@ std::vector<glm::vec3> extreme_points(const Mesh& mesh) {
 Sphere enclosing_sphere(const Mesh& mesh, std::span<const glm::uvec3> triangles,
                         std::span<const Ellipsoid> ellipsoids) {
   glm::vec3 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
-  for (const glm::uvec3& triangle : triangles)
-    for (int i = 0; i < 3; ++i) {
-      low = glm::min(low, mesh.positions[triangle[i]]);
-      high = glm::max(high, mesh.positions[triangle[i]]);
-    }
+  constexpr std::size_t block_size = 1 << 14;
+  std::vector<std::array<glm::vec3, 2>> boxes(triangles.size() / block_size + 1, {low, high});
+  for_ranges(triangles.size(), block_size, [&](std::size_t block, Range range) {
+    auto& [least, most] = boxes[block];
+    for (const glm::uvec3& triangle : triangles.subspan(range.begin, range.end - range.begin))
+      for (int i = 0; i < 3; ++i) {
+        least = glm::min(least, mesh.positions[triangle[i]]);
+        most = glm::max(most, mesh.positions[triangle[i]]);
+      }
+  });
+  for (const auto& [least, most] : boxes) low = glm::min(low, least), high = glm::max(high, most);
   for (const Ellipsoid& ellipsoid : ellipsoids) {
     const glm::vec3 half(half_extent(ellipsoid));
     low = glm::min(low, ellipsoid.centre - half);
     high = glm::max(high, ellipsoid.centre + half);
   }
   Sphere sphere{0.5f * low + 0.5f * high, 0};
-  double radius = 0;
-  for (const glm::uvec3& triangle : triangles)
-    for (int i = 0; i < 3; ++i)
-      radius = std::max(radius, glm::distance(glm::dvec3(mesh.positions[triangle[i]]), glm::dvec3(sphere.centre)));
+  std::vector<double> squares(boxes.size());
+  for_ranges(triangles.size(), block_size, [&](std::size_t block, Range range) {
+    for (const glm::uvec3& triangle : triangles.subspan(range.begin, range.end - range.begin))
+      for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 way = glm::dvec3(mesh.positions[triangle[i]]) - glm::dvec3(sphere.centre);
+        squares[block] = std::max(squares[block], glm::dot(way, way));
+      }
+  });
+  double radius = std::sqrt(std::ranges::max(squares));
   for (const Ellipsoid& ellipsoid : ellipsoids)
     radius = std::max(radius, glm::distance(glm::dvec3(ellipsoid.centre), glm::dvec3(sphere.centre)) +
                                   longest_half_axis(ellipsoid));

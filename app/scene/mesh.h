@@ -33,7 +33,7 @@ struct Ellipsoid {
 using Texcoords = std::array<glm::vec2, 3>;
 
 struct Mesh {
-  std::vector<glm::vec3> positions;  ///< from the middle
+  std::vector<glm::vec3> positions;  ///< from the middle; each is a corner of a triangle, but in a file's raw mesh
   glm::dvec3 middle{0};              ///< in the file's coordinates; the origin itself unless that is far away
   std::vector<glm::vec3> normals;    ///< one a position, unit; or empty
   std::vector<glm::uvec3> triangles; ///< counter-clockwise seen from outside
@@ -74,13 +74,15 @@ struct MeshReport {
   double signed_volume = 0;        ///< negative: inside out
   bool closed() const { return open_edges == 0 && crowded_edges == 0; }
 };
+/// Safe from several threads. Takes a fifth of the time where the mesh has but moved since one of the last calls.
 MeshReport inspect(const Mesh& mesh);
 
 /// Whether a triangle is left that is not degenerate.
 bool has_area(const Mesh& mesh);
 
-/// Removes the triangles that inspect() counts as degenerate or duplicated; positions stay. Degenerate: no higher than
-/// 2^-24 of the longest edge, which is the spacing of floats, so that its normal would be made of rounding errors.
+/// Removes the triangles that inspect() counts as degenerate or duplicated, and the vertices that no other one uses.
+/// Degenerate: no higher than 2^-24 of the longest edge, which is the spacing of floats, so that its normal would be
+/// made of rounding errors.
 void drop_useless(Mesh& mesh);
 
 /// Exchanges two corners of every triangle: it faces the other way.

@@ -4,6 +4,7 @@
 // anything.
 #include "base/files.h"
 #include "base/hashed_bytes.h"
+#include "base/recent.h"
 #include "scene/mesh_parts.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
-#include <list>
 #include <mutex>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -120,12 +120,10 @@ bool take_items(std::FILE* from, Items& items, std::uint64_t most) {
   return true;
 }
 
-constexpr std::uint64_t most_bytes = std::uint64_t{256} << 20;
-
 struct CachedMesh {
   std::filesystem::path file;
   std::uint64_t bytes = 0, hash = 0; ///< the file's
-  std::shared_ptr<const Mesh> mesh;
+  Mesh mesh;
 };
 
 std::uint64_t bytes_of(const Mesh& mesh) {
@@ -209,24 +207,21 @@ bool has_further_files(const std::filesystem::path& file) {
 std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file, const Watch& watch) {
   watch.begin("reading " + file.filename().string());
   static std::mutex mutex;
-  static std::list<CachedMesh> all; // the last used first
+  static Recent<CachedMesh> recent(std::uint64_t{256} << 20);
   if (has_further_files(file)) return std::make_shared<const Mesh>(load_mesh(file, watch.stop));
   const std::lock_guard lock(mutex);
   const std::string bytes = read_file(file);
   PieceHash hash;
   hash.add(std::as_bytes(std::span(bytes)));
-  CachedMesh wanted{file, bytes.size(), hash.value(), nullptr};
-  for (auto kept = all.begin(); kept != all.end(); ++kept)
-    if (kept->file == wanted.file && kept->bytes == wanted.bytes && kept->hash == wanted.hash) {
-      all.splice(all.begin(), all, kept);
-      return kept->mesh;
-    }
-  wanted.mesh = std::make_shared<const Mesh>(load_mesh(file, watch.stop));
-  all.remove_if([&](const CachedMesh& kept) { return kept.file == file; });
-  all.push_front(wanted);
-  std::uint64_t sum = 0;
-  all.remove_if([&](const CachedMesh& kept) { return (sum += bytes_of(*kept.mesh)) > most_bytes; });
-  return wanted.mesh;
+  std::shared_ptr<const CachedMesh> cached = recent.find([&](const CachedMesh& kept) {
+    return kept.file == file && kept.bytes == bytes.size() && kept.hash == hash.value();
+  });
+  if (!cached) {
+    Mesh mesh = load_mesh(file, watch.stop);
+    const std::uint64_t size = bytes_of(mesh);
+    cached = recent.add({file, bytes.size(), hash.value(), std::move(mesh)}, size);
+  }
+  return {cached, &cached->mesh};
 }
 
 void write_ply(const Mesh& mesh, ByteSink& to, std::string_view comment) {

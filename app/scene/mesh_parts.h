@@ -21,6 +21,9 @@ bool is_within_reach(const glm::vec3& place);
 /// and normal.
 std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, bool compare_normals);
 
+/// Makes each vertex the one that `same` has for it, and removes those that no triangle uses then.
+void keep_used_vertices(Mesh& mesh, const std::vector<std::uint32_t>& same);
+
 /// Without an area that single precision can tell from 0: see drop_useless().
 bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle);
 

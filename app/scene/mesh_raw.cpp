@@ -37,27 +37,7 @@ glm::dvec3 move_to_middle(RawMesh& mesh) {
 }
 
 /// Joins equal vertices and removes those that no triangle uses.
-void join_vertices(Mesh& mesh) {
-  const std::vector<std::uint32_t> first = first_equal_vertex(mesh, true);
-  constexpr std::uint32_t unused = ~0u;
-  std::vector<std::uint32_t> new_index(mesh.positions.size(), unused);
-  Mesh joined;
-  joined.middle = mesh.middle;
-  joined.texcoords = std::move(mesh.texcoords);
-  for (glm::uvec3 triangle : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t old = first[triangle[i]];
-      if (new_index[old] == unused) {
-        new_index[old] = static_cast<std::uint32_t>(joined.positions.size());
-        joined.positions.push_back(mesh.positions[old]);
-        if (!mesh.normals.empty()) joined.normals.push_back(mesh.normals[old]);
-      }
-      triangle[i] = new_index[old];
-    }
-    joined.triangles.push_back(triangle);
-  }
-  mesh = std::move(joined);
-}
+void join_vertices(Mesh& mesh) { keep_used_vertices(mesh, first_equal_vertex(mesh, true)); }
 
 /// A file's normal that is missing, or lies on the other side of the surface than its triangles say, would bend light
 /// the wrong way: the mean of the triangles at that vertex takes its place.

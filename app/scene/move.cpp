@@ -32,18 +32,6 @@ int touching_axis(const Bounds& glass, const Bounds& other, double tolerance) {
   return -1;
 }
 
-/// Calls change(index) for every vertex of the object. Those that its triangles use follow each other and are its own
-/// (scene.cpp).
-template <class Change>
-void change_vertices(const Scene& scene, const Object& object, const Change& change) {
-  std::uint32_t first = ~0u, end = 0;
-  for_each_corner_index(scene, object, [&](std::uint32_t vertex) {
-    first = std::min(first, vertex);
-    end = std::max(end, vertex + 1);
-  });
-  for (std::uint32_t v = first; v < end; ++v) change(v);
-}
-
 /// An ellipsoid meets what it touches in one point, where nothing is lost; only two of them can lie in one place.
 bool can_coincide(const Object& a, const Bounds& at_a, const Object& b, const Bounds& at_b, double tolerance) {
   if (a.ellipsoid_count + b.ellipsoid_count == 0) return true;
@@ -67,11 +55,10 @@ void part(Scene& scene, const Object& glass, const Bounds& bounds, const Bounds&
     for (glm::vec3& half_axis : ellipsoid.half_axes) half_axis *= static_cast<float>(1 - std::min(gap / half, 0.125));
   if (glass.triangle_count == 0) return;
   const double away = distance_of(bounds.low[axis]) < distance_of(bounds.high[axis]) ? gap : -gap;
-  change_vertices(scene, glass, [&](std::uint32_t vertex) {
-    const double at = scene.geometry.positions[vertex][axis];
-    scene.geometry.positions[vertex][axis] =
-        static_cast<float>(half >= 8 * gap ? middle + (at - middle) * (1 - gap / half) : at + away);
-  });
+  for (glm::vec3& p : std::span(scene.geometry.positions).subspan(glass.first_vertex, glass.vertex_count)) {
+    const double at = p[axis];
+    p[axis] = static_cast<float>(half >= 8 * gap ? middle + (at - middle) * (1 - gap / half) : at + away);
+  }
 }
 
 std::string label(const Scene& scene, std::size_t object) {
@@ -143,10 +130,10 @@ std::optional<Scene> move_objects(const Scene& loaded, const preset::Preset& bef
     if (from == to) continue;
     Object& object = scene.objects[i];
     const Motion move = motion(from, to, scene.origin);
-    change_vertices(scene, object, [&](std::uint32_t v) {
+    for (std::size_t v = object.first_vertex; v < std::size_t{object.first_vertex} + object.vertex_count; ++v) {
       scene.geometry.positions[v] = move(scene.geometry.positions[v]);
       scene.geometry.normals[v] = glm::normalize(move.turn * glm::dvec3(scene.geometry.normals[v]));
-    });
+    }
     move_ellipsoids(scene, object, move);
     object.bounds = enclosing_sphere(scene.geometry, triangles_of(scene, object), ellipsoids_of(scene, object));
   }

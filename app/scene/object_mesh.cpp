@@ -3,6 +3,7 @@
 
 #include "base/counted.h"
 #include "base/error.h"
+#include "base/parallel.h"
 
 #include <fmt/format.h>
 
@@ -33,10 +34,14 @@ Mesh transformed(const Mesh& mesh, const Placement& placement, const glm::dvec3&
   const glm::dvec3 offset = placement.offset - origin;
   const glm::dmat3 normal_transform = glm::transpose(glm::inverse(placement.linear));
   Mesh result;
-  result.positions.reserve(mesh.positions.size());
-  result.normals.reserve(mesh.normals.size());
-  for (const glm::vec3& p : mesh.positions) result.positions.emplace_back(placement.linear * glm::dvec3(p) + offset);
-  for (const glm::vec3& n : mesh.normals) result.normals.emplace_back(glm::normalize(normal_transform * glm::dvec3(n)));
+  result.positions.resize(mesh.positions.size());
+  result.normals.resize(mesh.normals.size());
+  for_ranges(mesh.positions.size(), 1 << 14, [&](std::size_t, Range range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      result.positions[i] = placement.linear * glm::dvec3(mesh.positions[i]) + offset;
+      if (!mesh.normals.empty()) result.normals[i] = glm::normalize(normal_transform * glm::dvec3(mesh.normals[i]));
+    }
+  });
   result.triangles = mesh.triangles;
   result.texcoords = mesh.texcoords;
   result.mended_normals = mesh.mended_normals;
@@ -46,9 +51,7 @@ Mesh transformed(const Mesh& mesh, const Placement& placement, const glm::dvec3&
   return result;
 }
 
-void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, const Location& where,
-                  PlacedMesh& placed) {
-  const Bounds bounds = placed_bounds(mesh, placement, where);
+void check_extent(const Bounds& bounds, const glm::dvec3& origin, const Location& where, PlacedMesh& placed) {
   const glm::dvec3 edges = bounds.high - bounds.low;
   const double farthest = largest_coordinate({bounds.low - origin, bounds.high - origin}),
                extent = std::max({edges.x, edges.y, edges.z});
@@ -173,8 +176,7 @@ Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Locatio
       if (!(std::abs(p[axis]) < 1e30))
         throw bad_input(where, fmt::format("has a vertex at {:g}", p[axis]), "less than 1e30", "use a smaller scale");
   };
-  for (const glm::uvec3& triangle : mesh.triangles)
-    for (int i = 0; i < 3; ++i) add(placement.linear * glm::dvec3(mesh.positions[triangle[i]]) + placement.offset);
+  for (const glm::vec3& p : mesh.positions) add(placement.linear * glm::dvec3(p) + placement.offset);
   for (const Ellipsoid& ellipsoid : mesh.ellipsoids) {
     const Bounds box = bounds_of(transformed(ellipsoid, placement, placement.offset));
     add(box.low);
@@ -183,10 +185,10 @@ Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Locatio
   return bounds;
 }
 
-PlacedMesh place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric,
-                 const Location& where) {
+PlacedMesh place(const Mesh& mesh, const Placement& placement, const Bounds& bounds, const glm::dvec3& origin,
+                 bool dielectric, const Location& where) {
   PlacedMesh placed;
-  check_extent(mesh, placement, origin, where, placed);
+  check_extent(bounds, origin, where, placed);
   placed.mesh = transformed(mesh, placement, origin);
   const MeshReport report = inspect(placed.mesh);
   check_surface(report, dielectric, placed);

@@ -35,10 +35,10 @@ Placement make_placement(const preset::Transform& transform, const Mesh& mesh);
 /// In the preset's coordinates. Throws bad_input at where: they leave single precision.
 Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Location& where);
 
-/// origin: the scene's, in the preset's coordinates. dielectric: closedness and orientation matter then.
-/// Throws bad_input at where: too large, too small or too far away for single precision.
-PlacedMesh place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric,
-                 const Location& where);
+/// bounds: placed_bounds. origin: the scene's, in the preset's coordinates. dielectric: closedness and orientation
+/// matter then. Throws bad_input at where: too large, too small or too far away for single precision.
+PlacedMesh place(const Mesh& mesh, const Placement& placement, const Bounds& bounds, const glm::dvec3& origin,
+                 bool dielectric, const Location& where);
 
 /// The largest distance of a side from a coordinate plane.
 double largest_coordinate(const Bounds& bounds);

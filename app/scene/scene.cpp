@@ -38,6 +38,7 @@ std::string label_of(const preset::Object& object, std::size_t index) {
 struct Pending {
   std::shared_ptr<const Mesh> mesh;
   Placement placement;
+  Bounds bounds; ///< in the preset's coordinates
   int material = 0;
   Location where;
 };
@@ -46,10 +47,9 @@ struct Pending {
 glm::dvec3 choose_origin(const std::vector<Pending>& pending, const Scene& scene, const preset::Camera& camera) {
   std::optional<Bounds> bending, all;
   for (const Pending& object : pending) {
-    const Bounds bounds = placed_bounds(*object.mesh, object.placement, object.where);
-    all = all ? enclosing(*all, bounds) : bounds;
+    all = all ? enclosing(*all, object.bounds) : object.bounds;
     if (!is_matt(scene.materials[static_cast<std::size_t>(object.material)].type))
-      bending = bending ? enclosing(*bending, bounds) : bounds;
+      bending = bending ? enclosing(*bending, object.bounds) : object.bounds;
   }
   if (bending) return 0.5 * bending->low + 0.5 * bending->high;
   return all ? 0.5 * all->low + 0.5 * all->high : to_dvec3(camera.target);
@@ -82,7 +82,7 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
   const std::string label = label_of(object, scene.objects.size());
   const Material& material = scene.materials[static_cast<std::size_t>(pending.material)];
   const bool dielectric = is_body(material);
-  PlacedMesh placed = place(*pending.mesh, pending.placement, scene.origin, dielectric, pending.where);
+  PlacedMesh placed = place(*pending.mesh, pending.placement, pending.bounds, scene.origin, dielectric, pending.where);
   for (const std::string& warning : placed.warnings) scene.warnings.push_back(fmt::format("{}: {}", label, warning));
   tell_damages(scene, placed.damages, damaged, label, pending.where);
   if (scene.geometry.triangles.size() + placed.mesh.triangles.size() > max_triangles)
@@ -99,6 +99,8 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
   result.material = pending.material;
   result.priority = object.priority;
   result.smooth = object.normals == preset::Object::Normals::smooth && !placed.mesh.triangles.empty();
+  result.first_vertex = static_cast<std::uint32_t>(scene.geometry.positions.size());
+  result.vertex_count = static_cast<std::uint32_t>(placed.mesh.positions.size());
   result.first_triangle = static_cast<std::uint32_t>(scene.geometry.triangles.size());
   result.triangle_count = static_cast<std::uint32_t>(placed.mesh.triangles.size());
   result.first_ellipsoid = static_cast<std::uint32_t>(scene.geometry.ellipsoids.size());
@@ -225,7 +227,9 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
     const auto material =
         std::ranges::find(scene.materials, object.material, &Material::name) - scene.materials.begin();
     const std::shared_ptr<const Mesh> mesh = mesh_of(object, i);
-    pending.push_back({mesh, make_placement(object.transform, *mesh), static_cast<int>(material), object_where});
+    const Placement placement = make_placement(object.transform, *mesh);
+    pending.push_back(
+        {mesh, placement, placed_bounds(*mesh, placement, object_where), static_cast<int>(material), object_where});
   }
   watch.begin("looking at the objects");
   scene.origin = choose_origin(pending, scene, preset.scene.camera);
@@ -262,6 +266,13 @@ std::span<const glm::uvec3> triangles_of(const Scene& scene, const Object& objec
   return all.subspan(object.first_triangle, object.triangle_count);
 }
 
+std::span<const glm::vec3> vertices_of(const Scene& scene, const Object& object) {
+  const std::span<const glm::vec3> positions = scene.geometry.positions;
+  if (object.first_vertex > positions.size() || object.vertex_count > positions.size() - object.first_vertex)
+    throw failed(scene.source, fmt::format("object '{}' has vertices that the scene does not hold", object.name));
+  return positions.subspan(object.first_vertex, object.vertex_count);
+}
+
 std::span<const Ellipsoid> ellipsoids_of(const Scene& scene, const Object& object) {
   const std::span<const Ellipsoid> all = scene.geometry.ellipsoids;
   if (object.first_ellipsoid + object.ellipsoid_count > all.size())
@@ -278,10 +289,7 @@ Bounds bounds_of(const Ellipsoid& ellipsoid) {
 
 Bounds bounds_of(const Scene& scene, const Object& object) {
   Bounds bounds;
-  for_each_corner_index(scene, object, [&](std::uint32_t vertex) {
-    const glm::dvec3 corner = scene.geometry.positions[vertex];
-    bounds = enclosing(bounds, {corner, corner});
-  });
+  for (const glm::dvec3 p : vertices_of(scene, object)) bounds = enclosing(bounds, {p, p});
   for (const Ellipsoid& ellipsoid : ellipsoids_of(scene, object)) bounds = enclosing(bounds, bounds_of(ellipsoid));
   return bounds;
 }

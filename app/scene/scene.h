@@ -85,7 +85,8 @@ struct Object {
   std::string name;
   int material = 0; ///< index into Scene::materials
   int priority = 0;
-  bool smooth = false; ///< interpolate vertex normals
+  bool smooth = false;                              ///< interpolate vertex normals
+  std::uint32_t first_vertex = 0, vertex_count = 0; ///< of its triangles, and of no other object's
   std::uint32_t first_triangle = 0, triangle_count = 0;
   std::uint32_t first_ellipsoid = 0, ellipsoid_count = 0;
   Sphere bounds;                     ///< encloses all of it
@@ -200,19 +201,14 @@ std::span<const glm::uvec3> triangles_of(const Scene& scene, const Object& objec
 /// Throws as triangles_of.
 std::span<const Ellipsoid> ellipsoids_of(const Scene& scene, const Object& object);
 
-/// Calls visit(index of a vertex) for every corner of every triangle. Throws as triangles_of.
-template <class Visit>
-void for_each_corner_index(const Scene& scene, const Object& object, const Visit& visit) {
-  for (const glm::uvec3& triangle : triangles_of(scene, object))
-    for (int corner = 0; corner < 3; ++corner) visit(triangle[corner]);
-}
+/// The corners of its triangles. Throws as triangles_of.
+std::span<const glm::vec3> vertices_of(const Scene& scene, const Object& object);
 
-/// Calls visit(glm::dvec3) for every corner of every triangle, and of a box about every ellipsoid along its axes:
-/// points whose convex hull holds all of the object. In the scene's coordinates. Throws as triangles_of.
+/// Calls visit(glm::dvec3) for every vertex, and for the corners of a box about every ellipsoid along its axes: points
+/// whose convex hull holds all of the object. In the scene's coordinates. Throws as triangles_of.
 template <class Visit>
 void for_each_corner(const Scene& scene, const Object& object, const Visit& visit) {
-  for_each_corner_index(scene, object,
-                        [&](std::uint32_t vertex) { visit(glm::dvec3(scene.geometry.positions[vertex])); });
+  for (const glm::vec3& p : vertices_of(scene, object)) visit(glm::dvec3(p));
   for (const Ellipsoid& ellipsoid : ellipsoids_of(scene, object))
     for (unsigned i = 0; i < 8; ++i) {
       glm::dvec3 corner = ellipsoid.centre;

@@ -4,6 +4,7 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/recent.h"
 
 #include <fmt/format.h>
 
@@ -94,18 +95,12 @@ std::size_t bytes_of(const Morph& morph) {
 /// and again.
 std::shared_ptr<const Morph> morph_of(const Meshes& meshes) {
   static std::mutex mutex;
-  static std::vector<std::shared_ptr<const Morph>> kept; // the last used first
-  constexpr std::size_t most_bytes = std::size_t{256} << 20;
+  static Recent<Morph> recent(std::uint64_t{256} << 20);
   const std::lock_guard lock(mutex);
-  const auto same = std::ranges::find_if(kept, [&](const auto& morph) { return morph->meshes == meshes; });
-  if (same != kept.end())
-    std::rotate(kept.begin(), same, same + 1);
-  else
-    kept.insert(kept.begin(), std::make_shared<const Morph>(make_morph(meshes)));
-  std::size_t sum = 0;
-  const auto morph = kept.front();
-  std::erase_if(kept, [&](const auto& one) { return (sum += bytes_of(*one)) > most_bytes; });
-  return morph;
+  if (auto same = recent.find([&](const Morph& morph) { return morph.meshes == meshes; })) return same;
+  Morph morph = make_morph(meshes);
+  const std::size_t bytes = bytes_of(morph);
+  return recent.add(std::move(morph), bytes);
 }
 
 } // namespace

@@ -33,12 +33,21 @@ std::pair<Piece, Piece> halves(const scene::Mesh& mesh, Triangles triangles) {
     low = glm::min(low, centroid(mesh, t)), high = glm::max(high, centroid(mesh, t));
   const glm::vec3 extent = high - low;
   const int axis = extent.x > extent.y ? (extent.x > extent.z ? 0 : 2) : (extent.y > extent.z ? 1 : 2);
-  const auto middle = triangles.begin() + static_cast<std::ptrdiff_t>(triangles.size() / 2);
-  std::nth_element(triangles.begin(), middle, triangles.end(), [&](const glm::uvec3& a, const glm::uvec3& b) {
-    const float at_a = centroid(mesh, a)[axis], at_b = centroid(mesh, b)[axis];
+  struct Placed {
+    float at;
+    glm::uvec3 triangle;
+  };
+  std::vector<Placed> placed;
+  placed.reserve(triangles.size());
+  for (const glm::uvec3& t : triangles) placed.push_back({centroid(mesh, t)[axis], t});
+  const auto half = static_cast<std::ptrdiff_t>(triangles.size() / 2);
+  std::nth_element(placed.begin(), placed.begin() + half, placed.end(), [](const Placed& a, const Placed& b) {
     // Ties are broken by the corners, so that the halves do not depend on the library's way of sorting.
-    return std::tuple(at_a, a.x, a.y, a.z) < std::tuple(at_b, b.x, b.y, b.z);
+    return std::tuple(a.at, a.triangle.x, a.triangle.y, a.triangle.z) <
+           std::tuple(b.at, b.triangle.x, b.triangle.y, b.triangle.z);
   });
+  std::ranges::transform(placed, triangles.begin(), &Placed::triangle);
+  const auto middle = triangles.begin() + half;
   Piece first{{triangles.begin(), middle}, {}}, second{{middle, triangles.end()}, {}};
   first.sphere = enclosing_sphere(mesh, first.triangles);
   second.sphere = enclosing_sphere(mesh, second.triangles);

@@ -177,8 +177,13 @@ TEST(Inspect, CountsWhatIsWrong) {
   EXPECT_EQ(inspect(mesh).degenerate, 1u);
   EXPECT_TRUE(inspect(mesh).closed());
   EXPECT_DOUBLE_EQ(inspect(mesh).signed_volume, 8);
+  mesh.positions.emplace_back(3, 3, 3);
   drop_useless(mesh);
-  EXPECT_EQ(mesh.triangles, cube().triangles);
+  ASSERT_EQ(mesh.triangles.size(), cube().triangles.size());
+  EXPECT_EQ(mesh.positions.size(), cube().positions.size()) << "a vertex that no triangle uses";
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(mesh.positions[mesh.triangles[i][k]], cube().positions[cube().triangles[i][k]]);
 
   mesh = cube();
   std::swap(mesh.triangles[4].y, mesh.triangles[4].z); // one triangle faces inwards
@@ -192,6 +197,19 @@ TEST(Inspect, CountsWhatIsWrong) {
   EXPECT_EQ(inspect(mesh).open_edges, 2u);
 
   EXPECT_TRUE(inspect(Mesh{}).closed());
+}
+
+// A mesh that has but moved is looked at anew: its volume, triangles without area, vertices that come together.
+TEST(Inspect, OfAMeshThatMoves) {
+  Mesh mesh = cube();
+  EXPECT_DOUBLE_EQ(inspect(mesh).signed_volume, 8);
+  for (glm::vec3& p : mesh.positions) p.y *= 0.5f;
+  EXPECT_DOUBLE_EQ(inspect(mesh).signed_volume, 4);
+  EXPECT_TRUE(inspect(mesh).closed());
+  for (glm::vec3& p : mesh.positions) p.y = 0;
+  EXPECT_GT(inspect(mesh).duplicated + inspect(mesh).degenerate, 0u);
+  EXPECT_DOUBLE_EQ(inspect(cube()).signed_volume, 8);
+  EXPECT_EQ(inspect(cube()).duplicated + inspect(cube()).degenerate, 0u);
 }
 
 // A sliver across the middle of an edge closes the surface between triangles of different fineness: dropping it must

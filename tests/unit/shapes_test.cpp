@@ -28,6 +28,10 @@ void expect_sound(const Mesh& mesh) {
   EXPECT_EQ(report.degenerate, 0u);
   EXPECT_EQ(report.duplicated, 0u);
   ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+  std::vector<bool> is_used(mesh.positions.size());
+  for (const glm::uvec3& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i) is_used[t[i]] = true;
+  EXPECT_THAT(is_used, Each(true));
   for (const glm::uvec3& t : mesh.triangles)
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(glm::length(mesh.normals[t[i]]), 1, 1e-6);

@@ -27,8 +27,7 @@ scene::Bounds box_of(const scene::Scene& scene, const scene::Object& object, con
   const glm::dvec3 shift = scene.origin - placed.offset;
   scene::Bounds box;
   const auto add = [&](const glm::dvec3& p) { box = scene::enclosing(box, {p, p}); };
-  scene::for_each_corner_index(
-      scene, object, [&](std::uint32_t vertex) { add(back * (glm::dvec3(scene.geometry.positions[vertex]) + shift)); });
+  for (const glm::vec3& p : scene::vertices_of(scene, object)) add(back * (glm::dvec3(p) + shift));
   for (const scene::Ellipsoid& ellipsoid : scene::ellipsoids_of(scene, object)) {
     const glm::dvec3 centre = back * (glm::dvec3(ellipsoid.centre) + shift);
     glm::dvec3 squares(0);

@@ -2,50 +2,33 @@
 #include "environment/occlusion/occlusion.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace nephroid::environment {
 namespace {
 
 double sum(const glm::dvec3& v) { return v.x + v.y + v.z; }
 
-/// Adds objects to a scene, each with the vertices that its triangles use.
-class Copier {
-public:
-  Copier(const scene::Scene& from, scene::Scene& to)
-      : from_(from), to_(to), places_(from.geometry.positions.size(), nowhere) {}
-
-  void add(const scene::Object& object) {
-    scene::Object added = object;
-    added.first_triangle = static_cast<std::uint32_t>(to_.geometry.triangles.size());
-    added.first_ellipsoid = static_cast<std::uint32_t>(to_.geometry.ellipsoids.size());
-    added.first_texcoords = static_cast<std::uint32_t>(to_.geometry.texcoords.size());
-    if (has_pictures(material_of(from_, object)))
-      for (std::uint32_t i = 0; i < object.triangle_count; ++i)
-        to_.geometry.texcoords.push_back(from_.geometry.texcoords[object.first_texcoords + i]);
-    for (const glm::uvec3& triangle : triangles_of(from_, object))
-      to_.geometry.triangles.emplace_back(place_of(triangle.x), place_of(triangle.y), place_of(triangle.z));
-    for (const scene::Ellipsoid& ellipsoid : ellipsoids_of(from_, object)) to_.geometry.ellipsoids.push_back(ellipsoid);
-    to_.objects.push_back(added);
-  }
-
-private:
-  static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
-
-  std::uint32_t place_of(std::uint32_t vertex) {
-    std::uint32_t& place = places_[vertex];
-    if (place == nowhere) {
-      place = static_cast<std::uint32_t>(to_.geometry.positions.size());
-      to_.geometry.positions.push_back(from_.geometry.positions[vertex]);
-      to_.geometry.normals.push_back(from_.geometry.normals[vertex]);
-    }
-    return place;
-  }
-
-  const scene::Scene& from_;
-  scene::Scene& to_;
-  std::vector<std::uint32_t> places_; ///< each vertex's index in the new scene
-};
+/// Adds one of the objects of another scene.
+void add_object(const scene::Scene& from, const scene::Object& object, scene::Scene& to) {
+  const auto append = [](auto& values, const auto& others, std::uint32_t first, std::uint32_t count) {
+    values.insert(values.end(), others.begin() + first, others.begin() + first + count);
+  };
+  const scene::Mesh& mesh = from.geometry;
+  scene::Mesh& result = to.geometry;
+  scene::Object added = object;
+  added.first_vertex = static_cast<std::uint32_t>(result.positions.size());
+  added.first_triangle = static_cast<std::uint32_t>(result.triangles.size());
+  added.first_ellipsoid = static_cast<std::uint32_t>(result.ellipsoids.size());
+  added.first_texcoords = static_cast<std::uint32_t>(result.texcoords.size());
+  append(result.positions, mesh.positions, object.first_vertex, object.vertex_count);
+  append(result.normals, mesh.normals, object.first_vertex, object.vertex_count);
+  for (const glm::uvec3& triangle : triangles_of(from, object))
+    result.triangles.push_back(triangle - object.first_vertex + added.first_vertex);
+  append(result.ellipsoids, mesh.ellipsoids, object.first_ellipsoid, object.ellipsoid_count);
+  if (has_pictures(material_of(from, object)))
+    append(result.texcoords, mesh.texcoords, object.first_texcoords, object.triangle_count);
+  to.objects.push_back(added);
+}
 
 bool is_one_of(const std::vector<std::size_t>& caster, std::size_t object) {
   return std::ranges::count(caster, object) > 0;
@@ -138,9 +121,8 @@ scene::Scene without_caster(const scene::Scene& scene, const std::vector<std::si
   result.camera = scene.camera;
   result.camera.inside = renumbered(scene.camera.inside, caster);
   result.materials = scene.materials;
-  Copier copier(scene, result);
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    if (!is_one_of(caster, i)) copier.add(scene.objects[i]);
+    if (!is_one_of(caster, i)) add_object(scene, scene.objects[i], result);
   for (const auto count : {&scene::Object::triangle_count, &scene::Object::ellipsoid_count})
     for (std::uint32_t i = 0; i < result.objects.size(); ++i)
       result.object_of_primitive.insert(result.object_of_primitive.end(), result.objects[i].*count, i);

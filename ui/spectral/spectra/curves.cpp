@@ -76,7 +76,7 @@ void read_materials(const preset::Preset& preset, scene::Scene& outline) {
       throw bad_input({}, fmt::format("there is no material '{}'", object.material));
     scene::Object scene_object;
     scene_object.material = static_cast<int>(std::distance(preset.scene.materials.begin(), found));
-    scene_object.triangle_count = 1; // nobody looks at it here
+    scene_object.triangle_count = scene_object.vertex_count = 1; // nobody looks at them here
     outline.objects.push_back(scene_object);
   }
 }
