@@ -29,8 +29,9 @@ public:
         height_(preset.scene.camera.resolution[1]), sphere_white_(plan.render ? 0.2 : preset.white.value()),
         stop_(preset.stop),
         // Without light the job only bakes, and the preset's passes are directions.
-        baking_(plan.task, plan.key, plan.bake_file, !plan.bakes,
-                !plan.render && stop_.passes ? static_cast<std::size_t>(*stop_.passes) : plan.task->directions.size(),
+        baking_(plan.task, plan.baked,
+                !plan.render && stop_.passes ? static_cast<std::size_t>(*stop_.passes)
+                                             : plan.baked.size() * plan.task->directions.size(),
                 context),
         photons_(context) {
     if (!plan.render) return;
@@ -103,11 +104,15 @@ public:
     archive.value(bake_seconds_);
     archive.value(render_seconds_);
     archive.value(complete);
-    if (!complete) baking_.serialize(archive);
+    if (!complete) {
+      auto shape = std::uint64_t{baking_.shape()};
+      archive.value(shape);
+      baking_.serialize(archive);
+    }
     if (renderer()) state_of_picture(archive);
   }
 
-  /// A complete bake is in its file; without the file it is baked again.
+  /// Complete bakes are in their files; without its file a bake is made again, and all that came after.
   void load(ByteSource& source) override {
     tracing::Archive archive(source, context_.communicator());
     double bake_seconds = 0, render_seconds = 0;
@@ -117,9 +122,12 @@ public:
     archive.value(complete);
     if (complete && !baking_.is_complete()) return read_to_end(source);
     if (!complete) {
-      if (baking_.is_complete()) { // another run has completed it since
+      std::uint64_t shape = 0;
+      archive.value(shape);
+      if (shape > baking_.shape()) return read_to_end(source);
+      if (shape < baking_.shape()) { // another run has completed it since
         if (view_) view_->end();
-        baking_.begin_anew();
+        baking_.begin_anew(shape);
         if (refines()) begin_view();
       }
       baking_.serialize(archive);
@@ -201,7 +209,7 @@ private:
   }
 
   void add_bake(job::Progress& p) const {
-    const auto directions = static_cast<std::int64_t>(baking_.task().directions.size());
+    const auto directions = static_cast<std::int64_t>(baking_.bake().directions.size());
     p.steps = stop_.passes ? std::min<std::int64_t>(directions, *stop_.passes) : directions;
     p.step = baking_.directions();
     p.work = baking_.photons();
@@ -212,12 +220,14 @@ private:
   /// The caption of a picture that lacks light, or spheres that are to come.
   std::string caption() const {
     if (!view_) return "There is no light: the object's caustic spheres, as far as they are baked";
-    if (!renderer()) return "The object is baked first: its caustic spheres, as far as they are";
+    const std::string which =
+        baking_.shapes() > 1 ? fmt::format(", bake {} of {}", baking_.shape() + 1, baking_.shapes()) : "";
+    if (!renderer()) return fmt::format("The object is baked first{}: its caustic spheres, as far as they are", which);
     if (baking_.is_complete()) return "";
     const std::optional<double> left = baking_.seconds_left();
     return fmt::format(
-        "Photons alone: the caustic spheres of {} show each change at once when they are baked, {:.0f} % are{}",
-        baking_.task().caster.name, 100 * baking_.fraction_done(),
+        "Photons alone: the caustic spheres of {} show each change at once when they are baked, {:.0f} % are{}{}",
+        baking_.task().caster.name, 100 * baking_.fraction_done(), which,
         left ? fmt::format("; {:.0f} s left", std::ceil(*left)) : "");
   }
 
