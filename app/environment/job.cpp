@@ -36,7 +36,7 @@ public:
         photons_(context) {
     if (!plan.render) return;
     if (stop_.passes || !stop_.seconds) passes_ = stop_.passes.value_or(preset::default_passes);
-    view_.emplace(preset, plan.render, plan.task->caster, context);
+    view_.emplace(preset, plan.render, context);
     if (!refines() && !baking_.is_complete()) return;
     begin_view();
     if (plan.photons) photons_.begin(preset, renderer()->scene(), renderer()->bvh(), *plan.photons);
@@ -145,9 +145,17 @@ public:
     const bool relit =
         turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
     if (relit && !has_light(scene::load_scene(preset))) return false; // without light only the bake is shown
-    if (renderer() && view_->show(preset)) {                          // begins another picture
+    std::shared_ptr<const BakeTask> task;                             // of another shape
+    if (with_weights_of(preset_, preset) != preset_) task = std::make_shared<const BakeTask>(make_task(preset));
+    if (renderer() && view_->show(preset, task ? task->caster : baking_.task().caster)) { // begins another picture
       photons_.end();
       bake_seconds_ = render_seconds_ = photon_seconds_ = 0;
+    }
+    if (task) {
+      std::vector<double> weights;
+      for (const BakedShape& shape : baked_shapes(preset)) weights.push_back(shape.weight);
+      baking_.set_shape(std::move(task), std::move(weights));
+      if (renderer() && baking_.is_complete()) view_->set_bake(baking_.bake());
     }
     photons_.set_white(preset.white.value());
     preset_ = preset;
@@ -187,7 +195,7 @@ private:
 
   void begin_view() {
     if (!view_) return;
-    if (!renderer()) view_->begin(preset_);
+    if (!renderer()) view_->begin(preset_, baking_.task().caster);
     if (baking_.is_complete()) view_->set_bake(baking_.bake());
   }
 

@@ -31,7 +31,8 @@ std::string ball(double radius, double longer = 1) {
 class EnvironmentStates : public EnvironmentJobs {
 protected:
   EnvironmentStates() {
-    for (const auto& [name, obj] : {std::pair("rest", ball(1)), {"large", ball(2)}, {"long", ball(1, 1.5)}})
+    for (const auto& [name, obj] :
+         {std::pair("rest", ball(1)), {"large", ball(2)}, {"huge", ball(3)}, {"long", ball(1, 1.5)}})
       cache.write(std::string(name) + ".obj", obj);
   }
   preset::Preset deformed(const std::string& states, const preset::Overrides& more = {}) const {
@@ -65,7 +66,7 @@ TEST_F(EnvironmentStates, TheShapesAreTheCornersOfTheCell) {
   const auto shapes = [&](const std::string& states, int steps) {
     std::vector<std::vector<double>> all;
     for (const environment::BakedShape& shape :
-         baked_shapes(deformed(states, {fmt::format("environment.weight_steps={}", steps)}))) {
+         environment::baked_shapes(deformed(states, {fmt::format("environment.weight_steps={}", steps)}))) {
       all.push_back({shape.weight});
       for (const preset::State& of : shape.preset.scene.objects[0].states) all.back().push_back(of.weight);
     }
@@ -168,7 +169,7 @@ TEST_F(EnvironmentStates, GoesOnWithTheSameBits) {
     const auto resumed = job_of(p);
     load(*resumed, bytes);
     EXPECT_EQ(resumed->progress().step, from);
-    if (from > 0) EXPECT_EQ(resumed->progress().work, progress.work);
+    EXPECT_EQ(resumed->progress().work, from > 0 ? progress.work : 0);
     EXPECT_EQ(run(*resumed).picture->rgb, whole.picture->rgb);
     EXPECT_EQ(read_file(bakes()[1].file), second);
   };
@@ -178,6 +179,27 @@ TEST_F(EnvironmentStates, GoesOnWithTheSameBits) {
   std::filesystem::remove(bakes()[0].file);
   std::filesystem::remove(bakes()[1].file);
   go_on(0);
+}
+
+// Within a cell a run goes on, also while it bakes. On a step and beyond it another one begins.
+TEST_F(EnvironmentStates, AdoptsWeightsBetweenTheSameSteps) {
+  const auto at = [&](double weight, const preset::Overrides& more = {}) {
+    return lit(deformed(state("long", weight), more));
+  };
+  for (const double weight : {0.25, 0.5, 0.6, 0.2}) EXPECT_FALSE(environment::adoptable(at(0.3), at(weight))) << weight;
+  EXPECT_FALSE(
+      environment::adoptable(at(0.3, {"environment.weight_steps=0"}), at(0.4, {"environment.weight_steps=0"})));
+  ASSERT_TRUE(environment::adoptable(at(0.3), at(0.4)));
+  const auto job = job_of(at(0.3));
+  for (int i = 0; i < 3; ++i) job->advance();
+  ASSERT_TRUE(job->adopt(at(0.35)));
+  const std::vector<float> between = layer_rgb(run(*job), "caustic"), own = layer_rgb(run(at(0.35)), "caustic");
+  EXPECT_EQ(between, own);
+  ASSERT_TRUE(job->adopt(at(0.4)));
+  const job::Snapshot later = run(*job), fresh = run(at(0.4));
+  EXPECT_EQ(later.picture->rgb, fresh.picture->rgb);
+  EXPECT_NE(layer_rgb(later, "caustic"), own);
+  EXPECT_EQ(job::scalar(later, "bake", "size"), job::scalar(fresh, "bake", "size"));
 }
 
 TEST_F(EnvironmentStates, SaysWhichBakeIsInHand) {
@@ -200,8 +222,8 @@ TEST_F(EnvironmentStates, BadInput) {
   EXPECT_NO_THROW(plan_of(deformed(states, {"environment.weight_steps=10"})));
   EXPECT_THAT(refusal_of([&] { deformed("", {"environment.weight_steps=-1"}); }), HasSubstr("from 0 to 64"));
   // Fine at the weight itself, inside out at the step beyond.
-  EXPECT_NO_THROW(plan_of(deformed(state("large", -0.9), {"environment.weight_steps=0"})));
-  EXPECT_THAT(refusal_of([&] { plan_of(deformed(state("large", -0.9), {"environment.weight_steps=1"})); }),
+  EXPECT_NO_THROW(plan_of(deformed(state("huge", -0.45), {"environment.weight_steps=0"})));
+  EXPECT_THAT(refusal_of([&] { plan_of(deformed(state("huge", -0.45), {"environment.weight_steps=1"})); }),
               AllOf(HasSubstr("own.json#/scene/objects/0"), HasSubstr("at a step of a state's weight")));
 }
 

@@ -26,6 +26,7 @@ GLASS = {"type": "dielectric", "dispersion": 1.5}
 SHAPES = {"torus": (torus, 1, {"translate": [0, .85, 0], "scale": [.9, .9, .9]}),
           "jelly": (jelly, 1, {"translate": [0, 1, 0], "scale": [1, 1, 1]})}
 STEPS = (1, 2, 4, 8)
+ERRORS = ("lab_mean", "rel_l2")
 SECONDS = (1, 4)
 
 
@@ -44,9 +45,13 @@ class Deformed(Bench):
     def run(self, preset, name, settings, *words):
         return super().run(preset, name, {**self.shape, **settings}, *words)
 
+    def errors(self, run, truth, mask):
+        found = dict(zip(METRICS, super().errors(run, truth, mask)))
+        return [found[metric] for metric in ERRORS]
+
 
 def seconds_of(run):
-    return json.loads((run / "run.json").read_text())["phases"]["bake"]
+    return json.loads((run / "run.json").read_text())["phase_seconds"]["bake"]
 
 
 def mixed(bench, steps, settings, name, *words):
@@ -67,13 +72,13 @@ def measure(options, shape):
             baking.setdefault(label, []).append(seconds_of(run))
             pictures.append(run / "image.png")
     head(f"{shape}: spheres alone, {bench.size} x {bench.size}, weights {options.weights}",
-         [*METRICS, "seconds of baking, by weight"])
+         [*ERRORS, "seconds of baking, by weight"])
     for label, values in errors.items():
         print(f"| {label} | " + " | ".join(f"{v:.3g}" for v in np.mean(values, axis=0)) + " | " +
               ", ".join(f"{s:.1f}" for s in baking.get(label, [])) + " |", flush=True)
     side_by_side(pictures, len(ways), bench.size, Path(options.out) / f"{shape}.png")
 
-    head(f"{shape}: whole pictures some seconds after the shape is new", ["seconds", *METRICS])
+    head(f"{shape}: whole pictures some seconds after the shape is new", ["seconds", *ERRORS])
     for seconds in SECONDS:
         for steps, label in ((0, "a bake of its own, which is not there"), (4, "5 shapes, which are")):
             values = []

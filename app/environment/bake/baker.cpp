@@ -222,6 +222,14 @@ void Baking::advance() {
   go_on();
 }
 
+void Baking::set_shape(std::shared_ptr<const BakeTask> task, std::vector<double> weights) {
+  Bake& bake = baker_ ? baker_->bake() : bake_;
+  bake.size = task->caster.size;
+  bake.radii = task->radii;
+  bake.weights = std::move(weights);
+  task_ = std::move(task);
+}
+
 void Baking::begin_anew(std::size_t shape) {
   if (baker_) bake_ = baker_->take();
   baker_.reset();

@@ -66,6 +66,7 @@ public:
   std::optional<double> seconds_left(std::size_t more = 0) const;
   std::uint64_t photons() const { return done() * std::uint64_t{task_.photons} + at_once() * std::uint64_t{sent_}; }
   const Bake& bake() const { return bake_; }
+  Bake& bake() { return bake_; }
   Bake take() { return std::move(bake_); }
 
   void serialize(tracing::Archive& archive);
@@ -119,6 +120,8 @@ public:
 
   /// Bakes for one slice of about 30 ms. Only for a bake that is not complete.
   void advance();
+  /// The object has another shape between the same ones. task: of this. weights: Bake's.
+  void set_shape(std::shared_ptr<const BakeTask> task, std::vector<double> weights);
   /// Drops the bakes from that one on, because a state in which it was in hand is about to be loaded.
   void begin_anew(std::size_t shape);
 

@@ -292,6 +292,14 @@ std::vector<BakedShape> baked_shapes(const preset::Preset& preset) {
   return shapes;
 }
 
+bool mixes_alike(const preset::Preset& a, const preset::Preset& b) {
+  try {
+    return std::ranges::equal(baked_shapes(a), baked_shapes(b), {}, &BakedShape::preset, &BakedShape::preset);
+  } catch (const Error&) {
+    return false; // whoever begins with it says why
+  }
+}
+
 std::vector<double> sphere_radii(const Settings& settings, const Caster& caster, const std::string& source) {
   const double largest = settings.reach * caster.size,
                smallest = std::max(1.001 * caster.extent.nearest, 0.05 * caster.size);

@@ -58,6 +58,9 @@ struct BakedShape {
 /// corners.
 std::vector<BakedShape> baked_shapes(const preset::Preset& preset);
 
+/// Whether the caster's spheres are mixed of the same bakes in both presets, which differ at most in weights of states.
+bool mixes_alike(const preset::Preset& a, const preset::Preset& b);
+
 /// Where the baked spheres stand in the scene: from the bake's coordinates (Caster::scene and Bake, with (0, 0, 0) in
 /// the middle of the spheres) to the scene's (scene::Scene::origin), both in units of the preset.
 struct Placement {
