@@ -6,9 +6,10 @@
     [--reference-seconds S]
 
 The caustic layer where the camera sees a receiver, spheres alone, against engine 1 with the same shape: a bake of its
-own at each weight, and spheres mixed between shapes baked at 2, 3, 5 and 9 weights from 0 to 1. Then whole pictures of
-both ways, spheres with photons, some seconds after the shape is new. Errors are means over the weights. Bakes are kept
-in OUT/cache, and what is in OUT is not made again. Needs numpy and ImageMagick.
+own at each weight, and spheres mixed between shapes baked at 2, 3, 5 and 9 weights from 0 to 1; how far these are from
+its own bake, and how far that is from one of another seed. Then whole pictures of both ways, spheres with photons, some
+seconds after the shape is new. Errors are means over the weights. Bakes are kept in OUT/cache, and what is in OUT is
+not made again. Needs numpy and ImageMagick.
 """
 import argparse
 import json
@@ -65,14 +66,20 @@ def measure(options, shape):
         bench = Deformed(options, shape, weight)
         truth, other = (bench.reference("ring", seed) for seed in SEEDS)
         mask = bench.mask("ring", truth)
-        errors.setdefault("another reference", []).append(bench.errors(other, truth, mask))
+        errors.setdefault("another reference", []).append(
+            [*bench.errors(other, truth, mask), np.nan])
+        own = mixed(bench, 0, {**ONE, "stop.passes": 8}, "spheres")
+        other = mixed(bench, 0, {**ONE, "stop.passes": 8, "seed": 2}, "spheres-of-another-seed")
+        errors.setdefault("a bake of another seed", []).append(
+            [*bench.errors(other, truth, mask), bench.errors(other, own, mask)[-1]])
         for steps, label in ways.items():
             run = mixed(bench, steps, {**ONE, "stop.passes": 8}, "spheres")
-            errors.setdefault(label, []).append(bench.errors(run, truth, mask))
+            errors.setdefault(label, []).append(
+                [*bench.errors(run, truth, mask), bench.errors(run, own, mask)[-1]])
             baking.setdefault(label, []).append(seconds_of(run))
             pictures.append(run / "image.png")
     head(f"{shape}: spheres alone, {bench.size} x {bench.size}, weights {options.weights}",
-         [*ERRORS, "seconds of baking, by weight"])
+         [*ERRORS, "rel_l2 from its own bake", "seconds of baking, by weight"])
     for label, values in errors.items():
         print(f"| {label} | " + " | ".join(f"{v:.3g}" for v in np.mean(values, axis=0)) + " | " +
               ", ".join(f"{s:.1f}" for s in baking.get(label, [])) + " |", flush=True)
