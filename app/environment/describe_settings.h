@@ -58,6 +58,11 @@ inline void describe(preset::Fields& v, Settings& s) {
           "512 x 256.",
           s.resolution, {.bounds = within(8, 1024)});
   v.field("photons", "Photons from each direction.", s.photons, {.bounds = within(1, 1 << 30)});
+  v.field(
+      "weight_steps",
+      "Steps of a state's weight from 0 to 1 at which a mesh that deforms is baked; between them spheres are mixed. "
+      "0: it is baked at each weight.",
+      s.weight_steps, {.bounds = within(0, 64)});
   v.field("lights", "Directional lights that the environment is cut into.", s.lights, {.bounds = within(6, 4096)});
   v.field("segmentation", "How the environment is cut into lights.", s.segmentation);
   v.field("weights", "How much a texel of the environment counts where it is cut.", s.weights);

@@ -29,13 +29,14 @@ public:
         height_(preset.scene.camera.resolution[1]), sphere_white_(plan.render ? 0.2 : preset.white.value()),
         stop_(preset.stop),
         // Without light the job only bakes, and the preset's passes are directions.
-        baking_(plan.task, plan.key, plan.bake_file, !plan.bakes,
-                !plan.render && stop_.passes ? static_cast<std::size_t>(*stop_.passes) : plan.task->directions.size(),
+        baking_(plan.task, plan.baked,
+                !plan.render && stop_.passes ? static_cast<std::size_t>(*stop_.passes)
+                                             : plan.baked.size() * plan.task->directions.size(),
                 context),
         photons_(context) {
     if (!plan.render) return;
     if (stop_.passes || !stop_.seconds) passes_ = stop_.passes.value_or(preset::default_passes);
-    view_.emplace(preset, plan.render, plan.task->caster, context);
+    view_.emplace(preset, plan.render, context);
     if (!refines() && !baking_.is_complete()) return;
     begin_view();
     if (plan.photons) photons_.begin(preset, renderer()->scene(), renderer()->bvh(), *plan.photons);
@@ -103,11 +104,15 @@ public:
     archive.value(bake_seconds_);
     archive.value(render_seconds_);
     archive.value(complete);
-    if (!complete) baking_.serialize(archive);
+    if (!complete) {
+      auto shape = std::uint64_t{baking_.shape()};
+      archive.value(shape);
+      baking_.serialize(archive);
+    }
     if (renderer()) state_of_picture(archive);
   }
 
-  /// A complete bake is in its file; without the file it is baked again.
+  /// Complete bakes are in their files; without its file a bake is made again, and all that came after.
   void load(ByteSource& source) override {
     tracing::Archive archive(source, context_.communicator());
     double bake_seconds = 0, render_seconds = 0;
@@ -117,9 +122,12 @@ public:
     archive.value(complete);
     if (complete && !baking_.is_complete()) return read_to_end(source);
     if (!complete) {
-      if (baking_.is_complete()) { // another run has completed it since
+      std::uint64_t shape = 0;
+      archive.value(shape);
+      if (shape > baking_.shape()) return read_to_end(source);
+      if (shape < baking_.shape()) { // another run has completed it since
         if (view_) view_->end();
-        baking_.begin_anew();
+        baking_.begin_anew(shape);
         if (refines()) begin_view();
       }
       baking_.serialize(archive);
@@ -137,9 +145,17 @@ public:
     const bool relit =
         turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
     if (relit && !has_light(scene::load_scene(preset))) return false; // without light only the bake is shown
-    if (renderer() && view_->show(preset)) {                          // begins another picture
+    std::shared_ptr<const BakeTask> task;                             // of another shape
+    if (with_weights_of(preset_, preset) != preset_) task = std::make_shared<const BakeTask>(make_task(preset));
+    if (renderer() && view_->show(preset, task ? task->caster : baking_.task().caster)) { // begins another picture
       photons_.end();
       bake_seconds_ = render_seconds_ = photon_seconds_ = 0;
+    }
+    if (task) {
+      std::vector<double> weights;
+      for (const BakedShape& shape : baked_shapes(preset)) weights.push_back(shape.weight);
+      baking_.set_shape(std::move(task), std::move(weights));
+      if (renderer() && baking_.is_complete()) view_->set_bake(baking_.bake());
     }
     photons_.set_white(preset.white.value());
     preset_ = preset;
@@ -179,7 +195,7 @@ private:
 
   void begin_view() {
     if (!view_) return;
-    if (!renderer()) view_->begin(preset_);
+    if (!renderer()) view_->begin(preset_, baking_.task().caster);
     if (baking_.is_complete()) view_->set_bake(baking_.bake());
   }
 
@@ -201,7 +217,7 @@ private:
   }
 
   void add_bake(job::Progress& p) const {
-    const auto directions = static_cast<std::int64_t>(baking_.task().directions.size());
+    const auto directions = static_cast<std::int64_t>(baking_.bake().directions.size());
     p.steps = stop_.passes ? std::min<std::int64_t>(directions, *stop_.passes) : directions;
     p.step = baking_.directions();
     p.work = baking_.photons();
@@ -212,12 +228,14 @@ private:
   /// The caption of a picture that lacks light, or spheres that are to come.
   std::string caption() const {
     if (!view_) return "There is no light: the object's caustic spheres, as far as they are baked";
-    if (!renderer()) return "The object is baked first: its caustic spheres, as far as they are";
+    const std::string which =
+        baking_.shapes() > 1 ? fmt::format(", bake {} of {}", baking_.shape() + 1, baking_.shapes()) : "";
+    if (!renderer()) return fmt::format("The object is baked first{}: its caustic spheres, as far as they are", which);
     if (baking_.is_complete()) return "";
     const std::optional<double> left = baking_.seconds_left();
     return fmt::format(
-        "Photons alone: the caustic spheres of {} show each change at once when they are baked, {:.0f} % are{}",
-        baking_.task().caster.name, 100 * baking_.fraction_done(),
+        "Photons alone: the caustic spheres of {} show each change at once when they are baked, {:.0f} % are{}{}",
+        baking_.task().caster.name, 100 * baking_.fraction_done(), which,
         left ? fmt::format("; {:.0f} s left", std::ceil(*left)) : "");
   }
 

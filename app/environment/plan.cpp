@@ -10,6 +10,7 @@
 #include "tracing/world.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -19,14 +20,23 @@
 namespace nephroid::environment {
 namespace {
 
-/// fault: from bake_file_fault().
-plan::Decision bake_decision(const EnvironmentPlan& plan, const Settings& s, const std::optional<std::string>& fault) {
-  if (!fault)
-    return {"bake", false, fmt::format("{} has it: the same object, material and settings", plan.bake_file.string())};
-  return {"bake", true,
-          fmt::format("{}{}: {} photons from each of {} directions onto {} spheres with {} radii",
-                      fault->empty() ? "" : "anew, ", plan.task->caster.name, s.photons, s.directions, s.spheres,
-                      preset::word(s.radii))};
+/// anew: whether there is a file that cannot be used.
+plan::Decision bake_decision(const EnvironmentPlan& plan, const Settings& s, bool anew) {
+  const auto missing = std::ranges::count(plan.baked, false, &PlannedBake::reads);
+  if (missing == 0) {
+    std::vector<std::string> files;
+    for (const PlannedBake& bake : plan.baked) files.push_back(bake.file.string());
+    return {"bake", false,
+            fmt::format("{} {} it: the same object, material and settings", fmt::join(files, ", "),
+                        files.size() == 1 ? "has" : "have")};
+  }
+  return {
+      "bake", true,
+      fmt::format("{}{}: {} photons from each of {} directions onto {} spheres with {} radii{}", anew ? "anew, " : "",
+                  plan.task->caster.name, s.photons, s.directions, s.spheres, preset::word(s.radii),
+                  plan.baked.size() == 1 ? ""
+                                         : fmt::format(", for {} of the {} shapes that its states' weights are between",
+                                                       missing, plan.baked.size()))};
 }
 
 plan::Decision colours_decision(const BakeTask& task) {
@@ -97,13 +107,13 @@ std::vector<plan::Decision> photon_decisions(const Settings& s, const photons::R
           {"photon maps", maps.runs, maps.reason}};
 }
 
-std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake) {
+std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake, std::size_t bakes) {
   const scene::Scene& s = *render.scene;
   const std::uint64_t sky = s.environment ? tracing::bytes_of(s.environment->rgb) : 0;
   std::uint64_t whole = 0;
   for (const plan::PlannedBuffer& buffer : tracing::planned_buffers(s, *render.bvh, render.tables))
     whole += buffer.bytes;
-  return {{"caustic spheres", bake.bytes()},
+  return {{"caustic spheres", bakes * bake.bytes()},
           {"whole scene", whole},
           {"environment", sky},
           {"receivers", Renderer::receiver_bytes()},
@@ -112,17 +122,38 @@ std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const Ba
           {"environment (host)", 2 * sky + tracing::bytes_of(render.cube.flux), true}};
 }
 
-std::vector<plan::PlannedBuffer> buffers_of(const BakeTask& task, const scene::Scene& scene, bool bakes) {
-  const std::uint64_t sums = task.film_bytes() / task.radii.size(),
-                      meshes = tracing::mesh_bytes(scene) + tracing::mesh_bytes(task.caster.scene);
-  std::vector<plan::PlannedBuffer> list{{"scene (host)", meshes + tracing::tree_bytes(task.bvh), true},
-                                        {"caustic spheres (host)", task.bytes(), true},
-                                        {"pictures of spheres (host)", picture_bytes(task), true}};
-  if (!bakes) return list;
+std::vector<plan::PlannedBuffer> buffers_of(const EnvironmentPlan& plan, const scene::Scene& scene) {
+  const BakeTask& task = *plan.task;
+  const std::uint64_t sums = task.film_bytes() / task.radii.size(), object = tracing::mesh_bytes(task.caster.scene),
+                      bakes = plan.baked.size(), several = bakes > 1 ? 1 : 0;
+  // Of several bakes one is copied when it is read or written. The object as it stands is none of theirs.
+  std::vector<plan::PlannedBuffer> list{
+      {"scene (host)", tracing::mesh_bytes(scene) + (bakes + several) * (object + tracing::tree_bytes(task.bvh)), true},
+      {"caustic spheres (host)", (bakes + several) * task.bytes(), true},
+      {"pictures of spheres (host)", picture_bytes(task), true}};
+  if (!plan.bakes) return list;
   list.push_back({"one sphere's sums (host)", sums, true});
   std::ranges::move(tracing::planned_buffers(task.caster.scene, task.bvh, task.tables), std::back_inserter(list));
   list.push_back({"spheres of one direction", task.film_bytes()});
   return list;
+}
+
+/// Without keys and files. own: the task of the object as it stands.
+std::vector<PlannedBake> planned_bakes(const preset::Preset& preset, const std::shared_ptr<const BakeTask>& own) {
+  const std::vector<BakedShape> shapes = baked_shapes(preset);
+  std::vector<PlannedBake> bakes(shapes.size());
+  bakes.front().task = own;
+  if (bakes.size() == 1) return bakes;
+  for (std::size_t i = 0; i < bakes.size(); ++i) try {
+      bakes[i].task = std::make_shared<const BakeTask>(make_task(shapes[i].preset));
+      bakes[i].weight = shapes[i].weight;
+    } catch (const Error& error) {
+      throw error.noting(
+          fmt::format("this is so at a step of a state's weight, where the object is baked: there are {} "
+                      "from 0 to 1 (environment.weight_steps)",
+                      settings(preset).weight_steps));
+    }
+  return bakes;
 }
 
 } // namespace
@@ -137,19 +168,26 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   if (plan.render && s.refine) plan.photons = plan_photons(preset, *plan.render->scene, *plan.render->bvh);
   plan.mixes_frames = plan.photons && plan.photons->mixes_frames && !plan.render->has_medium;
   plan.engine = "environment";
-  plan.key = bake_key(preset, task.caster);
-  plan.bake_file = bake_path(plan.key);
-  const std::optional<std::string> fault = bake_file_fault(plan.bake_file, {plan.key, 0});
-  plan.bakes = fault.has_value();
-  plan.decisions = {bake_decision(plan, s, fault), colours_decision(task)};
+  plan.baked = planned_bakes(preset, plan.task);
+  std::vector<std::string> damaged;
+  for (PlannedBake& bake : plan.baked) {
+    bake.key = bake_key(preset, bake.task->caster);
+    bake.file = bake_path(bake.key);
+    const std::optional<std::string> fault = bake_file_fault(bake.file, {bake.key, 0});
+    bake.reads = !fault;
+    if (fault && !fault->empty())
+      damaged.push_back(fmt::format("{}: {}; it is baked again", bake.file.string(), *fault));
+  }
+  plan.bakes = !std::ranges::all_of(plan.baked, &PlannedBake::reads);
+  plan.decisions = {bake_decision(plan, s, !damaged.empty()), colours_decision(task)};
   const auto append = [](auto more, auto& list) { std::ranges::move(more, std::back_inserter(list)); };
   append(view_decisions(preset, plan.render.get()), plan.decisions);
   if (plan.render && scene.environment && !scene.environment->about.empty())
     plan.decisions.push_back({"sky", true, scene.environment->about, "/scene/environment", true});
   if (plan.render) append(photon_decisions(s, plan.photons ? &*plan.photons : nullptr), plan.decisions);
   append(code_decisions(preset, task), plan.decisions);
-  plan.buffers = buffers_of(task, scene, plan.bakes);
-  if (plan.render) append(view_buffers(*plan.render, task), plan.buffers);
+  plan.buffers = buffers_of(plan, scene);
+  if (plan.render) append(view_buffers(*plan.render, task, plan.baked.size()), plan.buffers);
   if (plan.photons && plan.photons->layers > 0)
     for (const bool on_host : {false, true}) {
       plan::PlannedBuffer all{on_host ? "photons (host)" : "photons", 0, on_host};
@@ -162,8 +200,7 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   plan.smaller = "choose a smaller scene.camera.resolution, fewer environment.directions or environment.spheres, or a "
                  "smaller environment.resolution";
   plan.notes = scene.warnings;
-  if (fault && !fault->empty())
-    plan.notes.push_back(fmt::format("{}: {}; it is baked again", plan.bake_file.string(), *fault));
+  append(std::move(damaged), plan.notes);
   if (!plan.render && (scene.environment || !scene.lights.empty()))
     plan.notes.push_back("the scene's lights are black: the picture is a sheet of the baked spheres");
   if (plan.render && plan.render->cube.size > 0 && plan.render->segmentation.lights.empty())

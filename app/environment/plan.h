@@ -5,17 +5,16 @@
 #include "environment/view/render_task.h"
 #include "photons/plan.h"
 
-#include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace nephroid::environment {
 
 struct EnvironmentPlan : plan::Plan {
-  std::shared_ptr<const BakeTask> task;
-  std::uint64_t key = 0;                    ///< the bake's key
-  std::filesystem::path bake_file;          ///< the file that keeps the bake
-  bool bakes = true;                        ///< false: the file is there and looks right
+  std::shared_ptr<const BakeTask> task;     ///< of the object as it stands
+  std::vector<PlannedBake> baked;           ///< of the shapes that it is between; of itself alone where it is on a step
+  bool bakes = true;                        ///< false: their files are there and look right
   std::shared_ptr<const RenderTask> render; ///< null where there is no light: then only the bake is shown
   std::optional<photons::RunPlan> photons;  ///< empty where there is no light, or photons do not join
 };

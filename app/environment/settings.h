@@ -18,6 +18,7 @@ struct Settings {
   double reach = 4;                   ///< the largest radius, in largest sides of the box about the object
   int resolution = 360;               ///< texels across and down the map of a sphere: 360 are as many as 512 x 256
   int photons = 160000;               ///< photons from each direction
+  int weight_steps = 4;               ///< of a state's weight from 0 to 1: at them it is baked; 0: at each weight
   int lights = 24;                    ///< q: how many lights the map is cut into
   SegmentMethod segmentation = SegmentMethod::variance;
   SegmentWeights weights = SegmentWeights::solid_angle; ///< how much a texel counts where the map is cut

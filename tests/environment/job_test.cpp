@@ -44,7 +44,7 @@ TEST_F(EnvironmentJob, BakesAndShowsItsSpheres) {
 TEST_F(EnvironmentJob, ShowsWhatIsThere) {
   for (const char* size : {"[1, 1]", "[3, 700]", "[2000, 16]"}) {
     const preset::Preset p = small({std::string("scene.camera.resolution=") + size});
-    std::filesystem::remove(plan_of(p).bake_file); // the size before has it
+    std::filesystem::remove(plan_of(p).baked[0].file); // the size before has it
     const auto job = job_of(p, plan_of(p));
     EXPECT_THAT(job->snapshot().pictures, IsEmpty());
     EXPECT_EQ(job->progress().fraction, 0);
@@ -82,7 +82,7 @@ TEST_F(EnvironmentJob, ASecondStartReads) {
 TEST_F(EnvironmentJob, ADamagedFileIsNeverUsed) {
   const preset::Preset p = small();
   const std::vector<float> picture = run(p).picture->rgb;
-  const std::filesystem::path file = plan_of(p).bake_file;
+  const std::filesystem::path file = plan_of(p).baked[0].file;
   const std::string good = read_file(file);
   const auto changed = [&](std::size_t at) {
     std::string bytes = good;
@@ -129,7 +129,7 @@ TEST_F(EnvironmentJob, ADamagedFileIsNeverUsed) {
 TEST_F(EnvironmentJob, AnotherObjectsFileIsNotUsed) {
   const preset::Preset p = small(), other = small({"scene.objects.0.shape.radius=2"});
   run(other);
-  std::filesystem::rename(plan_of(other).bake_file, plan_of(p).bake_file);
+  std::filesystem::rename(plan_of(other).baked[0].file, plan_of(p).baked[0].file);
   const EnvironmentPlan plan = plan_of(p);
   EXPECT_TRUE(plan.bakes);
   EXPECT_THAT(plan.notes, ElementsAre(HasSubstr("is of another object or of other settings; it is baked again")));
@@ -164,9 +164,9 @@ TEST_F(EnvironmentJob, GoesOnWithTheSameBits) {
   const preset::Preset p = small();
   const EnvironmentPlan plan = plan_of(p);
   run(*job_of(p, plan));
-  const std::string whole = read_file(plan.bake_file);
+  const std::string whole = read_file(plan.baked[0].file);
   for (const std::int64_t directions : {0, 7}) {
-    std::filesystem::remove(plan.bake_file);
+    std::filesystem::remove(plan.baked[0].file);
     const auto begun = job_of(p, plan);
     while (begun->progress().step < directions) begun->advance();
     begun->advance(); // a part of a direction
@@ -176,7 +176,7 @@ TEST_F(EnvironmentJob, GoesOnWithTheSameBits) {
     EXPECT_TRUE(load(*resumed, bytes));
     EXPECT_EQ(resumed->progress().work, sent);
     run(*resumed);
-    EXPECT_EQ(read_file(plan.bake_file), whole) << directions;
+    EXPECT_EQ(read_file(plan.baked[0].file), whole) << directions;
     for (const std::size_t cut : {std::size_t{0}, std::size_t{10}, bytes.size() / 2, bytes.size() - 1}) {
       const auto third = job_of(p, plan);
       EXPECT_THAT(refusal_of([&] { load(*third, std::span(bytes).first(cut)); }), HasSubstr("checkpoint"));
@@ -192,7 +192,7 @@ TEST_F(EnvironmentJob, StopsWhereItIsTold) {
   EXPECT_EQ(made.progress.step, 2);
   EXPECT_EQ(made.progress.steps, 2);
   EXPECT_EQ(made.progress.fraction, 1);
-  EXPECT_FALSE(is_there(plan.bake_file));
+  EXPECT_FALSE(is_there(plan.baked[0].file));
   const preset::Preset timed = small({"stop.seconds=0.01"});
   EXPECT_LT(run(*job_of(timed, plan_of(timed))).progress.step, 26);
 }

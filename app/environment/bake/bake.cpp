@@ -197,6 +197,16 @@ void Bake::resize(std::size_t direction_count) {
   blocks.resize(direction_count * radii.size() * map_blocks());
 }
 
+void Bake::append(const Bake& more, std::size_t first) {
+  const auto join = [&](auto& items, const auto& others) {
+    const std::size_t each = others.size() / more.baked.size();
+    items.insert(items.end(), others.begin() + static_cast<std::ptrdiff_t>(first * each), others.end());
+  };
+  join(texels, more.texels);
+  join(blocks, more.blocks);
+  join(baked, more.baked);
+}
+
 glm::dvec3 Bake::at(std::size_t direction, std::size_t sphere, std::size_t texel) const {
   const std::size_t map_number = direction * radii.size() + sphere, stored = map.stored_texel(texel);
   const std::uint16_t* const step = &blocks[map_number * map_blocks() + map.blocks() + map.block(stored)];

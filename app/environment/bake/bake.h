@@ -74,7 +74,8 @@ struct Bake {
   int channels = 1;                   ///< 3: a texel is linear sRGB under white light; 1: its three channels are equal
   double size = 1;                    ///< largest side of the box about the object
   std::vector<double> radii;          ///< the spheres' radii, ascending
-  std::vector<glm::dvec3> directions; ///< all directions to bake: unit, the way the light goes
+  std::vector<glm::dvec3> directions; ///< all directions to bake, shape after shape: unit, the way the light goes
+  std::vector<double> weights{1};     ///< how much each shape counts that the object is between; they sum to 1
   std::vector<BakedDirection> baked;  ///< for the directions done so far, the first ones
 
   // The layout is that of devices (Maps of kernels/environment/spheres.h): [baked direction][sphere], then
@@ -88,6 +89,8 @@ struct Bake {
   std::size_t map_blocks() const { return map.blocks() * (channels == 3 ? 3 : 2); } ///< numbers of a sphere in `blocks`
   std::uint64_t bytes(std::size_t direction_count) const;
   void resize(std::size_t direction_count); ///< to that many baked directions
+  /// Adds another shape's baked directions from that one on. Its radii and size may be others.
+  void append(const Bake& more, std::size_t first = 0);
   /// E r^2 over size^2 in a texel, linear sRGB, as it is stored.
   glm::dvec3 at(std::size_t direction, std::size_t sphere, std::size_t texel) const;
   /// light: [texel of the map].

@@ -59,18 +59,18 @@ BakeTask make_task(const preset::Preset& preset) {
   return task;
 }
 
-Baker::Baker(const BakeTask& task, const mpi::RankContext& context, std::size_t wanted)
-    : task_(task), wanted_(std::min(wanted, task.directions.size())),
+Baker::Baker(const BakeTask& task, const mpi::RankContext& context, std::size_t wanted, Bake before)
+    : task_(task), first_(before.baked.size()), wanted_(std::min(wanted, first_ + task.directions.size())),
       world_(tracing::make_world(context, task.caster.scene, task.bvh, task.tables, task.defines, task.seed)),
       light_rgb_(compute::Buffer(context, "white light", white_light())),
       radii_(compute::Buffer(context, "radii", std::vector<float>(task.radii.begin(), task.radii.end()))),
-      bake_(task.empty_bake()) {
+      bake_(std::move(before)) {
   // kernels/tracing/emission.h spreads photons over the discs of all targets, which may overlap.
   double discs = 0;
   for (const scene::Sphere& target : task.tables.spheres) discs += std::numbers::pi * target.radius * target.radius;
   watts_ = discs * std::pow(task.caster.scene.metres_per_unit, 2); // 1 W/m^2
-  bake_.resize(task.directions.size());                            // takes all its memory now
-  bake_.resize(0);
+  bake_.resize(bake_.directions.size());                           // takes all its memory now
+  bake_.resize(first_);
   film_ = world_.zeroed("spheres of one direction", task.radii.size() * task.sums_a_sphere());
   energy_ = world_.zeroed("energy", OUTCOME_COUNT);
   kernel_ = compute::Program(context, "environment/bake.cl", world_.photon_defines()).kernel("bake");
@@ -84,7 +84,7 @@ void Baker::advance() {
   const Communicator& communicator = world_.context.communicator();
   const auto count = static_cast<std::uint32_t>(std::clamp<std::int64_t>(
       std::llround(photons_a_slice_.amount(communicator)), 1, std::int64_t{task_.photons} - sent_));
-  const auto rank = static_cast<std::size_t>(communicator.rank()), number = bake_.baked.size() + rank;
+  const auto rank = static_cast<std::size_t>(communicator.rank()), number = done() + rank;
   // The unit of the tables' light is power_unit W/m^2.
   const auto scale = static_cast<float>(quanta_of_photon / watts_ * task_.tables.power_unit);
   photons_a_slice_.timed(count, [&] {
@@ -108,9 +108,9 @@ void Baker::advance() {
   if (sent_ == task_.photons) finish_directions();
 }
 
-std::optional<double> Baker::seconds_left() const {
+std::optional<double> Baker::seconds_left(std::size_t more) const {
   if (!seconds_a_direction_) return std::nullopt;
-  return *seconds_a_direction_ * (static_cast<double>(task_.directions.size() - bake_.baked.size()) - fraction_done());
+  return *seconds_a_direction_ * (static_cast<double>(task_.directions.size() - done() + more) - fraction_done());
 }
 
 void Baker::finish_sphere(std::size_t direction, std::size_t sphere, double scale) {
@@ -167,16 +167,19 @@ void Baker::clear() {
 void Baker::serialize(tracing::Archive& archive) {
   // The directions in hand are baked again, so that any number of ranks may go on.
   const bool is_alone = world_.context.communicator().is_alone();
-  std::uint64_t baked = bake_.baked.size();
+  std::uint64_t baked = done();
   std::uint32_t sent = is_alone ? sent_ : 0;
   archive.value(sent);
   archive.value(baked);
   if (archive.is_read() && (baked > task_.directions.size() || sent >= task_.photons))
     throw bad_input("checkpoint", "is of another run");
-  bake_.resize(baked);
-  archive.items(std::span(bake_.baked));
-  archive.items(std::span(bake_.texels));
-  archive.items(std::span(bake_.blocks));
+  bake_.resize(first_ + baked);
+  const auto own = [&](auto& items) {
+    return std::span(items).subspan(baked > 0 ? items.size() / bake_.baked.size() * first_ : items.size());
+  };
+  archive.items(own(bake_.baked));
+  archive.items(own(bake_.texels));
+  archive.items(own(bake_.blocks));
   if (sent > 0) {
     archive.buffer(film_);
     archive.buffer(energy_);
@@ -186,55 +189,101 @@ void Baker::serialize(tracing::Archive& archive) {
   sent_ = is_alone ? sent : 0;
 }
 
-Baking::Baking(std::shared_ptr<const BakeTask> task, std::uint64_t key, std::filesystem::path file, bool reads,
-               std::size_t directions, const mpi::RankContext& context)
-    : task_(std::move(task)), context_(context),
-      file_(std::move(file)), identity_{key, hash_of(compute::kernel_source(context, "environment/bake.cl"))},
-      wanted_(directions) {
-  if (context.communicator().broadcast(reads)) read();
-  if (!bake_) baker_.emplace(*task_, context_, wanted_);
+Baking::Baking(std::shared_ptr<const BakeTask> task, std::vector<PlannedBake> bakes, std::size_t directions,
+               const mpi::RankContext& context)
+    : task_(std::move(task)), context_(context), bakes_(std::move(bakes)),
+      kernels_(hash_of(compute::kernel_source(context, "environment/bake.cl"))), wanted_(directions),
+      bake_(task_->empty_bake()) {
+  bake_.weights.clear();
+  bake_.directions.clear();
+  for (const PlannedBake& bake : bakes_) {
+    bake_.weights.push_back(bake.weight);
+    bake_.directions.insert(bake_.directions.end(), bake.task->directions.begin(), bake.task->directions.end());
+  }
+  if (bakes_.size() > 1) bake_.resize(bake_.directions.size()); // takes all its memory now
+  bake_.resize(0);
+  go_on();
+}
+
+/// Goes past bakes that are in their files, to the first one that has to be made.
+void Baking::go_on() {
+  while (!is_complete() && read()) ++shape_;
+  if (!is_complete()) baker_.emplace(*bakes_[shape_].task, context_, wanted_, std::move(bake_));
 }
 
 void Baking::advance() {
   baker_->advance();
   if (!baker_->finished()) return;
-  photons_ = baker_->photons();
+  photons_ += baker_->photons();
   bake_ = baker_->take();
   baker_.reset(); // frees its device memory for others
   keep();
+  ++shape_;
+  go_on();
 }
 
-void Baking::begin_anew() {
-  bake_.reset();
-  baker_.emplace(*task_, context_, wanted_);
+void Baking::set_shape(std::shared_ptr<const BakeTask> task, std::vector<double> weights) {
+  Bake& bake = baker_ ? baker_->bake() : bake_;
+  bake.size = task->caster.size;
+  bake.radii = task->radii;
+  bake.weights = std::move(weights);
+  task_ = std::move(task);
+}
+
+void Baking::begin_anew(std::size_t shape) {
+  if (baker_) bake_ = baker_->take();
+  baker_.reset();
+  bake_.resize(shape * task_->directions.size());
+  shape_ = shape;
+  baker_.emplace(*bakes_[shape_].task, context_, wanted_, std::move(bake_));
 }
 
 double Baking::fraction_done() const {
-  return bake_ ? 1.0
-               : (static_cast<double>(directions()) + baker_->fraction_done()) /
-                     static_cast<double>(task_->directions.size());
+  return is_complete() ? 1.0
+                       : (static_cast<double>(directions()) + baker_->fraction_done()) /
+                             static_cast<double>(bake().directions.size());
 }
 
-/// All ranks get rank 0's bake.
-void Baking::read() {
+std::optional<double> Baking::seconds_left() const {
+  std::size_t more = 0;
+  for (std::size_t i = shape_ + 1; i < bakes_.size(); ++i) more += bakes_[i].reads ? 0 : task_->directions.size();
+  return baker_->seconds_left(more);
+}
+
+/// Adds the bake in hand from its file; false where that has none. All ranks get rank 0's.
+bool Baking::read() {
   const Communicator& communicator = context_.communicator();
+  const PlannedBake& planned = bakes_[shape_];
+  if (!communicator.broadcast(planned.reads)) return false;
+  Bake bake;
   try {
-    if (communicator.is_root()) bake_ = read_bake(file_, identity_);
+    if (communicator.is_root()) bake = read_bake(planned.file, identity());
   } catch (const Error& error) {
     warnings_.push_back(error.line() + "; it is baked again");
   }
-  is_from_file_ = communicator.broadcast(bake_.has_value());
-  if (!is_from_file_ || communicator.is_alone()) return;
-  if (!bake_) bake_ = task_->empty_bake();
-  bake_->baked = communicator.broadcast(std::move(bake_->baked));
-  bake_->texels = communicator.broadcast(std::move(bake_->texels));
-  bake_->blocks = communicator.broadcast(std::move(bake_->blocks));
+  if (!communicator.broadcast(!bake.baked.empty())) return false;
+  if (!communicator.is_alone()) {
+    bake.baked = communicator.broadcast(std::move(bake.baked));
+    bake.texels = communicator.broadcast(std::move(bake.texels));
+    bake.blocks = communicator.broadcast(std::move(bake.blocks));
+  }
+  if (bakes_.size() == 1)
+    bake_ = std::move(bake);
+  else
+    bake_.append(bake);
+  return true;
 }
 
+/// Writes the bake in hand, which is complete.
 void Baking::keep() {
   if (!context_.communicator().is_root()) return;
+  std::optional<Bake> part; // one bake alone needs no copy
+  if (bakes_.size() > 1) {
+    part = bakes_[shape_].task->empty_bake();
+    part->append(bake_, shape_ * task_->directions.size());
+  }
   try {
-    write_bake(file_, identity_, *bake_);
+    write_bake(bakes_[shape_].file, identity(), part ? *part : bake_);
   } catch (const Error& error) {
     warnings_.push_back(error.line() + "; the bake is not kept, and the next start bakes again");
   }

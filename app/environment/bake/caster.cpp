@@ -265,6 +265,41 @@ Caster make_caster(const preset::Preset& preset) {
   return caster;
 }
 
+std::vector<BakedShape> baked_shapes(const preset::Preset& preset) {
+  constexpr std::size_t most = 8;
+  const int steps = settings(preset).weight_steps;
+  std::vector<BakedShape> shapes{{preset}};
+  if (steps == 0) return shapes;
+  for (const std::size_t object : caster_objects(preset))
+    for (std::size_t state = 0; state < preset.scene.objects[object].states.size(); ++state) {
+      const double place = preset.scene.objects[object].states[state].weight * steps, lower = std::floor(place + 1e-9),
+                   part = place - lower;
+      if (part < 1e-9) continue;
+      if (shapes.size() == most)
+        throw bad_input(Location(preset.source) / "environment" / "weight_steps",
+                        fmt::format("is {}, and more than 3 weights of states are between steps", steps),
+                        fmt::format("expected at most {} shapes to bake, two for each such weight, multiplied", most),
+                        "put weights on steps; or take 0, and each weight has a bake of its own");
+      std::vector<BakedShape> corners;
+      for (const BakedShape& shape : shapes)
+        for (const bool up : {false, true}) {
+          BakedShape& corner = corners.emplace_back(shape);
+          corner.preset.scene.objects[object].states[state].weight = (lower + (up ? 1 : 0)) / steps;
+          corner.weight *= up ? part : 1 - part;
+        }
+      shapes = std::move(corners);
+    }
+  return shapes;
+}
+
+bool mixes_alike(const preset::Preset& a, const preset::Preset& b) {
+  try {
+    return std::ranges::equal(baked_shapes(a), baked_shapes(b), {}, &BakedShape::preset, &BakedShape::preset);
+  } catch (const Error&) {
+    return false; // whoever begins with it says why
+  }
+}
+
 std::vector<double> sphere_radii(const Settings& settings, const Caster& caster, const std::string& source) {
   const double largest = settings.reach * caster.size,
                smallest = std::max(1.001 * caster.extent.nearest, 0.05 * caster.size);

@@ -46,6 +46,21 @@ std::vector<double> sphere_radii(const Settings& settings, const Caster& caster,
 /// A hash of what a bake's photons depend on, the program apart: geometry, material, settings, seed.
 std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster);
 
+/// A shape that is baked.
+struct BakedShape {
+  preset::Preset preset; ///< with the weights of states at which the shape is baked
+  double weight = 1;     ///< how much its spheres count, above 0
+};
+
+/// The shapes between which the baked objects are by the weights of their states: the corners of a cell of the grid of
+/// Settings::weight_steps, with multilinear weights, which sum to 1. It is the preset's own shape alone where its
+/// weights are on the grid, and where there is none. Throws bad_input at FILE#/environment/weight_steps for more than 8
+/// corners.
+std::vector<BakedShape> baked_shapes(const preset::Preset& preset);
+
+/// Whether the caster's spheres are mixed of the same bakes in both presets, which differ at most in weights of states.
+bool mixes_alike(const preset::Preset& a, const preset::Preset& b);
+
 /// Where the baked spheres stand in the scene: from the bake's coordinates (Caster::scene and Bake, with (0, 0, 0) in
 /// the middle of the spheres) to the scene's (scene::Scene::origin), both in units of the preset.
 struct Placement {

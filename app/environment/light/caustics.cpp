@@ -36,10 +36,9 @@ std::vector<shared::DeviceEightSets> eights_of(const std::vector<TurnedSet>& set
 } // namespace
 
 Caustics::Caustics(const Bake& bake, const compute::Context& context)
-    : context_(context),
-      directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()),
-                                                                      bake.map.side,
-                                                                      static_cast<float>(bake.size * bake.size), 0},
+    : context_(context), directions_(static_cast<int>(bake.directions.size() / bake.weights.size())),
+      weights_(bake.weights), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
+                                       static_cast<float>(bake.size * bake.size), 0},
       way_of_(compute::Buffer(context, "ways", all_ways())),
       radii_(compute::Buffer(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end()))),
       sets_(context, "turned sets", 1) {
@@ -62,7 +61,7 @@ std::vector<compute::Argument> Caustics::arguments() const {
 
 void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation) {
   seconds_ += tracing::seconds_of([&] {
-    const std::vector<TurnedSet> sets = turned_sets(lights, rotation, directions_);
+    const std::vector<TurnedSet> sets = turned_sets(lights, rotation, directions_, weights_);
     const std::vector<shared::DeviceEightSets> eights = eights_of(sets, static_cast<std::size_t>(spheres_.count));
     if (eights.size() > sets_.size())
       sets_ = compute::Buffer<shared::DeviceEightSets>(context_, "turned sets", eights.size());

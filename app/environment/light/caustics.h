@@ -57,7 +57,8 @@ private:
   std::vector<compute::Argument> arguments() const;
 
   compute::Context context_;
-  int directions_; ///< how many the bake has
+  int directions_;              ///< how many a shape of the bake has
+  std::vector<double> weights_; ///< the bake's
   shared::DeviceSpheres spheres_{};
   compute::Buffer<std::uint8_t> texels_;
   compute::Buffer<std::uint16_t> blocks_;

@@ -80,7 +80,8 @@ glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to) {
   return glm::mat3_cast(glm::normalize(glm::rotation(from, to)));
 }
 
-std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count) {
+std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
+                                   const std::vector<double>& weights) {
   const glm::dmat3 to_object = glm::transpose(rotation);
   const std::vector<glm::dvec3> baked = light_directions(count);
   std::vector<TurnedSet> sets;
@@ -90,7 +91,9 @@ std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, cons
     for (const NearDirection& near : near_directions(travel, count)) {
       const glm::dmat3 to_bake =
           glm::transpose(shortest_turn(baked[static_cast<std::size_t>(near.direction)], travel)) * to_object;
-      sets.push_back({to_bake, near.weight * light.irradiance, near.direction});
+      for (std::size_t shape = 0; shape < weights.size(); ++shape)
+        sets.push_back({to_bake, near.weight * weights[shape] * light.irradiance,
+                        static_cast<int>(shape) * count + near.direction});
     }
   }
   return sets;

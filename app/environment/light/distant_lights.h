@@ -45,7 +45,9 @@ std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count);
 /// The shortest turn from one unit vector to another; opposite ones take half a turn about some axis across them.
 glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to);
 
-/// The sets of all lights that are not black. rotation: from the bake's coordinates to the scene's.
-std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count);
+/// The sets of all lights that are not black. rotation: from the bake's coordinates to the scene's. count: of
+/// directions of a shape. weights: Bake's.
+std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
+                                   const std::vector<double>& weights = {1});
 
 } // namespace nephroid::environment

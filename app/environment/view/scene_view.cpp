@@ -4,6 +4,8 @@
 #include "base/error.h"
 #include "scene/scene.h"
 
+#include <algorithm>
+
 namespace nephroid::environment {
 
 preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other) {
@@ -32,10 +34,20 @@ preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset
   return result;
 }
 
-void SceneView::begin(const preset::Preset& preset) {
+preset::Preset with_weights_of(const preset::Preset& preset, const preset::Preset& other) {
+  preset::Preset result = preset;
+  for (std::size_t i = 0; i < result.scene.objects.size(); ++i) {
+    const std::vector<preset::State>& states = other.scene.objects[i].states;
+    for (std::size_t k = 0; k < std::min(states.size(), result.scene.objects[i].states.size()); ++k)
+      result.scene.objects[i].states[k].weight = states[k].weight;
+  }
+  return result;
+}
+
+void SceneView::begin(const preset::Preset& preset, const Caster& caster) {
   make_renderer(preset);
   shown_ = loaded_;
-  go_on_with(preset);
+  go_on_with(preset, caster);
 }
 
 void SceneView::end() {
@@ -44,11 +56,11 @@ void SceneView::end() {
   caustics_seconds_before_ = 0;
 }
 
-bool SceneView::show(const preset::Preset& preset) {
+bool SceneView::show(const preset::Preset& preset, const Caster& caster) {
   const double seconds = caustics_ ? caustics_->seconds() : 0;
   bool begins = false;
   try {
-    begins = go_on_with(preset);
+    begins = go_on_with(preset, caster);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::bad_input) renderer_.reset(); // it is changed in part
     throw;
@@ -62,6 +74,7 @@ bool SceneView::show(const preset::Preset& preset) {
 
 void SceneView::set_bake(const Bake& bake) {
   caustics_.emplace(bake, context_);
+  caustics_seconds_before_ = 0;
   renderer_->set_caustics(*caustics_);
 }
 
@@ -75,27 +88,28 @@ void SceneView::make_renderer(const preset::Preset& preset) {
   if (caustics_) renderer_->set_caustics(*caustics_);
 }
 
-bool SceneView::show_anew(const preset::Preset& preset) {
+bool SceneView::show_anew(const preset::Preset& preset, const Caster& caster) {
   const scene::Scene scene = scene::load_scene(preset);
   task_ = std::make_shared<const RenderTask>(
-      make_render_task(preset, scene, scene::build_bvh(scene.geometry), caster_, task_.get()));
+      make_render_task(preset, scene, scene::build_bvh(scene.geometry), caster, task_.get()));
   loaded_ = preset;
+  if (with_weights_of(shown_, preset) != shown_) caustics_.reset();
   make_renderer(preset);
   shown_ = preset;
   return true;
 }
 
-bool SceneView::go_on_with(const preset::Preset& preset) {
+bool SceneView::go_on_with(const preset::Preset& preset, const Caster& caster) {
   const auto& sky = preset.scene.environment;
   const bool turns_a_sun = sky && sky->type == preset::Environment::Type::sky &&
                            sky->rotate_deg != shown_.scene.environment.value_or(*sky).rotate_deg;
   if (!(with_view_of(with_places_of(shown_, preset), preset) == preset) || turns_a_sun ||
       is_plain(preset.scene.camera) != is_plain(shown_.scene.camera)) // it takes other programs
-    return show_anew(preset);
+    return show_anew(preset, caster);
   bool begins = false;
   if (!(with_places_of(shown_, preset) == shown_)) {
-    std::optional<MovedObjects> moved = move_objects(*task_, loaded_, shown_, preset, caster_);
-    if (!moved) return show_anew(preset);
+    std::optional<MovedObjects> moved = move_objects(*task_, loaded_, shown_, preset, caster);
+    if (!moved) return show_anew(preset, caster);
     renderer_->move_objects(std::move(*moved));
     begins = true;
   } else if (!(preset.scene.camera == shown_.scene.camera)) {

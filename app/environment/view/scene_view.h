@@ -18,23 +18,27 @@ preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& 
 /// The preset with objects turned and moved as in another preset.
 preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset& other);
 
+/// The preset with weights of states as in another preset, which has as many objects.
+preset::Preset with_weights_of(const preset::Preset& preset, const preset::Preset& other);
+
 class SceneView {
 public:
-  /// task: the preset's, made with this caster. caster outlives the view.
-  SceneView(const preset::Preset& preset, std::shared_ptr<const RenderTask> task, const Caster& caster,
-            const mpi::RankContext& context)
-      : shown_(preset), loaded_(preset), task_(std::move(task)), caster_(caster), context_(context) {}
+  /// task: the preset's.
+  SceneView(const preset::Preset& preset, std::shared_ptr<const RenderTask> task, const mpi::RankContext& context)
+      : shown_(preset), loaded_(preset), task_(std::move(task)), context_(context) {}
 
   bool has_medium() const { return task_->has_medium; }
   /// Null before begin() and after a show() that failed.
   Renderer* renderer() { return renderer_ ? &*renderer_ : nullptr; }
   const Renderer* renderer() const { return renderer_ ? &*renderer_ : nullptr; }
-  void begin(const preset::Preset& preset);
+  /// caster: the preset's, as for show().
+  void begin(const preset::Preset& preset, const Caster& caster);
   /// Drops the renderer and the caustics until begin().
   void end();
 
   /// Goes on with an adoptable preset. True: another picture begins. After anything but bad_input there is no renderer.
-  bool show(const preset::Preset& preset);
+  /// Where states have other weights there are no caustics before the next set_bake().
+  bool show(const preset::Preset& preset, const Caster& caster);
   const preset::Preset& shown() const { return shown_; }
   double backdrop_rotate_deg() const { return shown_.scene.environment ? shown_.scene.environment->rotate_deg : 0; }
 
@@ -48,14 +52,13 @@ public:
   void set_caustics_seconds(double seconds);
 
 private:
-  bool show_anew(const preset::Preset& preset);
-  bool go_on_with(const preset::Preset& preset);
+  bool show_anew(const preset::Preset& preset, const Caster& caster);
+  bool go_on_with(const preset::Preset& preset, const Caster& caster);
   void make_renderer(const preset::Preset& preset);
 
   preset::Preset shown_;  ///< the preset that the renderer shows
   preset::Preset loaded_; ///< the preset that task_ was made for
   std::shared_ptr<const RenderTask> task_;
-  const Caster& caster_;
   mpi::RankContext context_;
   std::optional<Caustics> caustics_;
   double caustics_seconds_before_ = 0; ///< Caustics::seconds() when the picture began
