@@ -7,14 +7,13 @@
 OUT: the folder of `inverse.py PROGRAM OUT stages`, which has the costs of figure 5.20. Without it that one is left out.
 Needs ImageMagick.
 """
-import csv
 import json
 import subprocess
 import sys
 from math import radians, sin, sqrt
 from pathlib import Path
 
-from inverse import SETS
+from inverse import SETS, STAGES
 
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 440, 330, 52, 12, 34, 44
 COLOURS = ["#1f5fbf", "#c8442b", "#2c8a4b", "#8b4fae", "#b8860b", "#444444"]
@@ -51,12 +50,13 @@ def importance(program):
 
 
 def history(out):
-    """The cost of the thesis' pipeline after each trial; stages end at 101 and 201."""
+    """The lowest cost of the thesis' pipeline, of its own kind, at the end of each stage."""
     curves = {}
     for name in SETS:
-        with (out / f"{name}-convergence-251" / "cost.csv").open() as file:
-            curves[name] = [(int(row["trial"]), float(row["cost"])) for row in csv.DictReader(file)][1:]
-    return "5.20: cost of the thesis' pipeline", "trial", curves
+        ended = json.loads((out / f"{name}-convergence-251" / "run.json").read_text())
+        costs = [value for key, value in ended["thesis"].items() if key.startswith("cost_")]
+        curves[name] = list(zip([*STAGES][:3] + [ended["trials"]], costs))
+    return "5.20: own cost of the pipeline after each stage", "trial", curves
 
 
 def panel(at, title, below, curves):
