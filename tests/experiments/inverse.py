@@ -8,11 +8,18 @@ Runs of one table follow each other, so that their seconds can be compared.
 """
 import csv
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
+from statistics import mean
 
 SETS = ["words", "shapes", "bars", "star", "faces", "qr"]
+# The thesis' pipeline after so many trials: figures 5.10, 5.14 and 5.20.
+STAGES = {1: "drawn (5.1)", 101: "annealing 1", 201: "annealing 2", 251: "correction"}
+PIPELINED = SETS[:-1]  # the second annealing of qr takes over ten minutes
+DRAWS = 8  # of every facet, a cost; 32 in the thesis
+RING = {"distance_mm": 100, "picture": {"type": "ring", "radius": 0.3, "inner": 0.15}}  # of figure 5.18
 LIGHTS = ["point", "tilted", "sun", "wide", "dispersion", "lens"]
 
 
@@ -124,11 +131,76 @@ class Experiments:
                     print(f"   believed {metric} {goal[metric]:.3f}: reached by assign within "
                           f"{float(first['seconds']):.2f} s (row {first['sweep']})")
 
+    def pipeline(self, preset, name, *sets, seed=1, stages=tuple(STAGES)):
+        """The thesis' pipeline, judged after each of `stages`; returns the folders."""
+        folders = [self.out / f"{preset}-{name}-{trials}" for trials in stages]
+        for i, (trials, folder) in enumerate(zip(stages, folders)):
+            if (folder / "run.json").exists():
+                continue
+            if i > 0:
+                shutil.copytree(folders[i - 1], folder, dirs_exist_ok=True)
+            options = [word for value in ("method=thesis", f"thesis.draws={DRAWS}", *sets)
+                       for word in ("--set", f"inverse.{value}")]
+            subprocess.run([self.program, "run", f"inverse/{preset}", "-o", str(folder), "--seed", str(seed),
+                            "--passes", str(trials), *options, *(["--resume"] if i > 0 else [])],
+                           check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        return folders
+
+    def seen_row(self, name, way, folder):
+        """IW-SSIM and FLIP are of the pictures cast beside the wanted ones, a cell enlarged to 4 x 4 pixels, as a sheet
+        shows them: means over the pictures. Needs ImageMagick."""
+        r = json.loads((folder / "run.json").read_text())
+        seen = []
+        for j in range(1, len(r["inverse"]["receivers"]) + 1):
+            enlarged = [folder / f"enlarged-{kind}.png" for kind in ("receiver", "target")]
+            for kind, target in zip(("receiver", "target"), enlarged):
+                subprocess.run(["convert", str(folder / f"{kind}_{j}.png"), "-sample", "400%", str(target)], check=True)
+            done = subprocess.run([self.program, "compare", "--json", *map(str, enlarged)], check=True,
+                                  capture_output=True, text=True)
+            seen.append(json.loads(done.stdout))
+        own = [value for key, value in r.get("thesis", {}).items() if key.startswith("cost_")]
+        print(f"| `{name}` | {way} | {f'{own[-1]:.3f}' if own else '-'} | {r['judged']['cost']:.3f} | "
+              f"{r['judged']['rel_l2']:.3f} | {mean(s['iw_ssim'] for s in seen):.3f} | "
+              f"{mean(s['flip'] for s in seen):.3f} |", flush=True)
+
+    def stages(self):
+        """Figures 5.9, 5.10, 5.14 and 5.20, and the surveys of appendix B by metrics in place of people."""
+        print("| set | after | its own cost | judged cost | rel_l2 | IW-SSIM | FLIP |\n" + "|---" * 7 + "|")
+        for name in SETS:
+            if name in PIPELINED:
+                for way, folder in zip(STAGES.values(), self.pipeline(name, "convergence")):
+                    self.seen_row(name, way, folder)
+                self.seen_row(name, "annealing 1, `each`",
+                              self.pipeline(name, "each", "thesis.adjust=each", stages=(101,))[0])
+            self.run(name)
+            self.seen_row(name, "`assign`", self.out / f"{name}--")
+
+    def again(self):
+        """Figure 5.21: the pipeline from other random numbers."""
+        print("| set | seed | its own cost | judged cost | rel_l2 | IW-SSIM | FLIP |\n" + "|---" * 7 + "|")
+        for seed in (1, 2):
+            name = f"seed-{seed}" if seed > 1 else "convergence"
+            self.seen_row("shapes", seed, self.pipeline("shapes", name, seed=seed)[-1])
+
+    def one_picture(self):
+        """Figure 5.18: one picture of 64 x 64 cells, by as many facets and by four times as many."""
+        print("| set | facets | its own cost | judged cost | rel_l2 | IW-SSIM | FLIP |\n" + "|---" * 7 + "|")
+        for facets in (64, 128):
+            sets = [f"facets=[{facets},{facets}]", f"receivers=[{json.dumps(RING)}]"]
+            self.seen_row("shapes", f"{facets}, pipeline", self.pipeline("shapes", f"ring-{facets}", *sets,
+                                                                         stages=(251,))[0])
+            folder = self.out / f"ring-{facets}-assign"
+            subprocess.run([self.program, "run", "inverse/shapes", "-o", str(folder),
+                            *(word for value in sets for word in ("--set", f"inverse.{value}"))], check=True,
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            self.seen_row("shapes", f"{facets}, `assign`", folder)
+
 
 def main():
     program, out, *names = sys.argv[1:]
     experiments = Experiments(program, out)
-    for name in names or ["sets", "lights", "pictures", "seeds", "relief", "smoothing", "speed", "thesis"]:
+    for name in names or ["sets", "lights", "pictures", "seeds", "relief", "smoothing", "speed", "thesis", "stages",
+                          "again", "one_picture"]:
         print(f"\n## {name}\n", flush=True)
         getattr(experiments, name)()
 

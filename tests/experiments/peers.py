@@ -3,7 +3,8 @@
 """Renders the same scenes with Nephroid, Mitsuba 3, LuxCore and POV-Ray, and designs the same lens with another tool:
 error against processor time.
 
-    tests/experiments/peers.py PROGRAM OUT [SCENE...]     of these scenes, or of all: ball, bunny, sky, room, lens
+    tests/experiments/peers.py PROGRAM OUT [SCENE...]     of these scenes, or of all: ball, bunny, sky, room, lens,
+                                                          objects
 
 Mitsuba, LuxCore and Open Image Denoise are installed from PyPI into OUT/venv; POV-Ray is Debian's package povray,
 ImageMagick and glmark2-data are asked for too. Each program has the settings that do best at the scene, of those that
@@ -195,12 +196,13 @@ if __name__ == "__main__":
     if sys.argv[1:2] == ["--work"]:
         work(sys.argv[2])
         sys.exit()
-    names = [*BEST, "lens"]
+    names = [*BEST, "lens", "objects"]
     if len(sys.argv) < 3 or not Path(sys.argv[1]).is_file() or not set(sys.argv[3:]) <= set(names):
         sys.exit(f"usage: peers.py PROGRAM OUT [SCENE...], PROGRAM being the program, as build/release/bin/nephroid; "
                  f"scenes: {', '.join(names)}")
     nephroid_program, target = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).absolute()
-    missing = [program for program in ("povray", "convert") if not shutil.which(program)]
+    tools = ["convert"] if sys.argv[3:] == ["objects"] else ["convert", "povray"]
+    missing = [tool for tool in tools if not shutil.which(tool)]
     if missing:
         sys.exit(f"there is no {' and no '.join(missing)}: apt install povray imagemagick glmark2-data libllvm19")
     in_venv(target)
@@ -208,5 +210,8 @@ if __name__ == "__main__":
         if scene_name == "lens":
             from peers_lens import measure_lens
             measure_lens(nephroid_program, target)
+        elif scene_name == "objects":
+            from peers_objects import measure_objects
+            measure_objects(nephroid_program, target)
         else:
             measure(nephroid_program, target, scene_name)

@@ -27,7 +27,7 @@ from pathlib import Path
 
 from animation import FILMS
 from studio import ROOT, Studio
-from thesis import BRUTE, OURS, PLAIN, THESIS, Experiments
+from thesis import BRUTE, DIFFERENCE_SCENES, OURS, PLAIN, SPEED_SIZE, THESIS, Experiments
 from tours import TOURS
 
 SIZE = 256
@@ -54,6 +54,17 @@ PEERS = {
     "sky": ["mitsuba-path", "luxcore-path"],
     "room": ["mitsuba-path", "luxcore-path", "pov-ray-radiosity"],
 }
+DIFFERENCES = [
+    "importance-brute-force-4",
+    "radziszewski-brute-force-4",
+    "threshold-0.5-threshold-0.1",
+    "threshold-0.1-threshold-0.05",
+    "threshold-0.05-threshold-0.01",
+    "brute-force-1-brute-force-2",
+    "brute-force-2-brute-force-4",
+    "brute-force-4-brute-force-6",
+]
+OBJECTS = ["shapes", "words"]  # of peers_objects.py
 SIDE = {"geometry": f"{SIZE}x{SIZE}"}
 
 
@@ -139,6 +150,26 @@ def thesis_caustics(s, name):
     s.keep(name, pictures, 3, 0, **SIDE)
 
 
+def thesis_differences(s, name):
+    """A row for each scene of figure 4.13: its pictures, their differences (4.14), those of 4.6 and of 4.9."""
+    s.script("thesis.py", s.folder / "chapter-4", "differences")
+    pictures = []
+    for scene in DIFFERENCE_SCENES:
+        folder = s.folder / "chapter-4" / "differences" / scene
+        pictures += [folder / way / "image.png" for way in ("brute-force-4", "importance", "radziszewski")]
+        for pair in DIFFERENCES:
+            pictures.append(folder / f"cut-{pair}.png")  # without the scale
+            cut = ["-crop", f"{SPEED_SIZE}x{SPEED_SIZE}+0+0", "+repage"]
+            s.call("convert", folder / f"{pair}.png", *cut, pictures[-1])
+    s.keep(name, pictures, 11, 1, quality=80, geometry="128x128")
+
+
+def thesis_curves(s, name):
+    s.script("inverse.py", s.folder / "chapter-5", "stages")
+    s.script("thesis_curves.py", s.folder / "curves.png", s.folder / "chapter-5")
+    s.keep(name, [s.folder / "curves.png"])
+
+
 def smoothing(s, name):
     """Caustics of the bunny after 8 seconds of each way, and after 120 passes."""
     e = Experiments(s.program, s.folder)
@@ -202,6 +233,11 @@ def films(s, name):
             weighted = [f"scene.objects.0.states.{k}.weight={weight}" for k, weight in enumerate(weights)]
             shown.append(s.render(f"{film}-{i}", preset, *sets, *weighted, size=(384, 256), seconds=30))
     s.keep(name, shown, 4, 1, geometry="288x192")
+
+
+def inverse_mitsuba(s, name):
+    s.script("peers.py", s.folder / "peers", "objects")
+    s.keep(name, [s.folder / "peers" / "objects" / f"{preset}.png" for preset in OBJECTS], 2, quality=85)
 
 
 def inverse_sets(s, name):
@@ -310,8 +346,11 @@ MAKERS = {
     "camera.jpg": camera,
     "thesis-scenes.jpg": thesis_scenes,
     "thesis-caustics.jpg": thesis_caustics,
+    "thesis-differences.jpg": thesis_differences,
+    "thesis-curves.png": thesis_curves,
     "smoothing.jpg": smoothing,
     "inverse-sets.jpg": inverse_sets,
+    "inverse-mitsuba.jpg": inverse_mitsuba,
     "inverse-sundial.png": inverse_sundial,
     "films.jpg": films,
     "environment-shaded.png": environment_shaded,

@@ -9,6 +9,7 @@ Every run of a table is made in one go, one after the other; references are made
 """
 import csv
 import json
+import shutil
 import subprocess
 import sys
 from functools import partial
@@ -31,8 +32,9 @@ class Experiments:
     def __init__(self, program, out):
         self.program, self.out, self.size = program, Path(out), SIZE  # None: the preset's own size
 
-    def run(self, name, preset, spectral, passes=None, seconds=None, seed=1, reference=None, extra=()):
-        """One run; returns its run.json, its history and its folder."""
+    def run(self, name, preset, spectral, passes=None, seconds=None, seed=1, reference=None, extra=(), after=None):
+        """One run; returns its run.json, its history and its folder. `after`: the folder of a run that had fewer
+        passes, which it goes on from."""
         folder = self.out / name
         sets = ["sweep=null", "spectral.direct=false", f"stop.passes={passes or 'null'}",
                 f"stop.seconds={seconds or 'null'}", *extra]
@@ -46,6 +48,9 @@ class Experiments:
         command = [self.program, "run", preset, "--seed", str(seed), "-o", str(folder)]
         for item in sets:
             command += ["--set", item]
+        if after:
+            shutil.copytree(after, folder)
+            command.append("--resume")
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode:
             sys.exit(done.stderr.splitlines()[-1])
@@ -187,6 +192,46 @@ def figure_4_12(e):
                 {"brute force": SPLAT | {"method": "brute_force"}, "clusters": SPLAT | {"method": "thesis"}}, 128)
 
 
+DIFFERENCE_SCENES = ("bunny", "bunny-arbitrary-2", "diamond-arbitrary-1")
+ITERATIONS = 4  # in place of the thesis' 2000
+SCALE = 40.0  # distance in CIELAB at which the colours of a difference picture end
+
+
+def figure_differences(e):
+    """Figures 4.6, 4.9, 4.13 and 4.14 with photon maps as in the thesis, all of the light, 1/500 of its iterations.
+    Each pair's difference picture is OUT/differences/SCENE/PAIR.png. Noise is that of brute force, between two
+    seeds."""
+    e.size = SPEED_SIZE
+    print("\nfigures 4.6, 4.9 and 4.14\n\n| scene | figure | pair | lab_mean | lab_rms | rel_l2 | IW-SSIM |\n"
+          "|---|---|---|---|---|---|---|")
+    for scene in DIFFERENCE_SCENES:
+        def picture(name, spectral, passes=ITERATIONS, **more):
+            folder = e.out / "differences" / scene / name
+            if not (folder / "run.json").exists():
+                e.run(f"differences/{scene}/{name}", f"spectral/thesis/{scene}", spectral, passes,
+                      extra=["spectral.direct=true"], **more)
+            return folder
+        brute, last = {}, None
+        for part in (1, 2, 4, 6):  # of 500 in the thesis
+            last = brute[part] = picture(f"brute-force-{part}", BRUTE, part * ITERATIONS // 4, after=last)
+        clusters = {t: picture(f"threshold-{t}", THESIS | {"effort": "equal", "threshold_deg": t})
+                    for t in (0.5, 0.1, 0.05, 0.01)}
+        pairs = [("4.6", f"{a} to {b} degrees", clusters[a], clusters[b])
+                 for a, b in ((0.5, 0.1), (0.1, 0.05), (0.05, 0.01))]
+        pairs += [("4.9", f"{a * ITERATIONS // 4} to {b * ITERATIONS // 4} iterations", brute[a], brute[b])
+                  for a, b in ((1, 2), (2, 4), (4, 6))]
+        pairs += [("4.14", f"{name} to brute force", picture(effort, THESIS | {"effort": effort}), brute[4])
+                  for name, effort in (("(4.15)", "importance"), ("Radziszewski et al.", "radziszewski"))]
+        pairs.append(("noise", "brute force, another seed", picture("brute-force-seed-2", BRUTE, seed=2), brute[4]))
+        for figure, name, a, b in pairs:
+            subprocess.run([e.program, "compare", str(a / "image.exr"), str(b / "image.exr"), "--scale", str(SCALE),
+                            "-o", str(e.out / "differences" / scene / f"{a.name}-{b.name}.png")], check=True,
+                           stdout=subprocess.DEVNULL)
+            m = e.compare(a, b)
+            print(f"| {scene} | {figure} | {name} | {m['lab_mean']:.2f} | {m['lab_rms']:.2f} | {m['rel_l2']:.3f} | "
+                  f"{m['iw_ssim']:.3f} |", flush=True)
+
+
 def figure_1_5(e):
     print("\nfigure-1-5\n\n| wavelengths | iterations | seconds | lab_mean | rel_l2 | noise floor "
           "|\n|---|---|---|---|---|---|")
@@ -243,7 +288,8 @@ EXPERIMENTS = {"speed": speed, "speed-bunny-arbitrary-2": partial(speed, scene="
                "speed-diamond-arbitrary-1": partial(speed, scene="diamond-arbitrary-1"),
                "figure-4-6": figure_4_6, "figure-4-9": figure_4_9, "figure-4-10": figure_4_10,
                "figure-4-11": figure_4_11,
-               "figure-4-12": figure_4_12, "figure-1-5": figure_1_5, "beyond": beyond,
+               "figure-4-12": figure_4_12, "figure-1-5": figure_1_5, "differences": figure_differences,
+               "beyond": beyond,
                "smoothing": smoothing}
 
 if __name__ == "__main__":
