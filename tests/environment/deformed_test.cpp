@@ -173,9 +173,9 @@ TEST_F(EnvironmentStates, GoesOnWithTheSameBits) {
     EXPECT_EQ(run(*resumed).picture->rgb, whole.picture->rgb);
     EXPECT_EQ(read_file(bakes()[1].file), second);
   };
-  go_on(30);
+  go_on(progress.step);
   std::filesystem::remove(bakes()[1].file);
-  go_on(30);
+  go_on(progress.step);
   std::filesystem::remove(bakes()[0].file);
   std::filesystem::remove(bakes()[1].file);
   go_on(0);
