@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-namespace nephroid::job_test {
+namespace nephroid::deformed_test {
 
 /// A ball about (0, 0, 0) of triangles, longer along x.
 std::string ball(double radius, double longer = 1) {
@@ -173,9 +173,9 @@ TEST_F(EnvironmentStates, GoesOnWithTheSameBits) {
     EXPECT_EQ(run(*resumed).picture->rgb, whole.picture->rgb);
     EXPECT_EQ(read_file(bakes()[1].file), second);
   };
-  go_on(30);
+  go_on(progress.step);
   std::filesystem::remove(bakes()[1].file);
-  go_on(30);
+  go_on(progress.step);
   std::filesystem::remove(bakes()[0].file);
   std::filesystem::remove(bakes()[1].file);
   go_on(0);
@@ -227,4 +227,4 @@ TEST_F(EnvironmentStates, BadInput) {
               AllOf(HasSubstr("own.json#/scene/objects/0"), HasSubstr("at a step of a state's weight")));
 }
 
-} // namespace nephroid::job_test
+} // namespace nephroid::deformed_test
