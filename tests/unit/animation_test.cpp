@@ -5,6 +5,8 @@
 #include "preset/read.h"
 #include "tests/support/test.h"
 
+#include <nlohmann/json.hpp>
+
 namespace nephroid::animation_test {
 
 using preset::Preset;
