@@ -299,7 +299,7 @@ TEST_F(PanelPictures, AMetalIsChosen) {
 }
 
 TEST_F(PanelPictures, AnAnimationIsScrubbed) {
-  const std::string file = NEPHROID_SOURCE_DIR "/presets/spectral/pool.json";
+  const std::string file = NEPHROID_SOURCE_DIR "/presets/spectral/turning-prism.json";
   Pixel bar;
   {
     test::HeadlessWindow<test::SceneRuns> like(tall, "runs", file);

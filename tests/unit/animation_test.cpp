@@ -205,7 +205,8 @@ TEST(AnimationEdits, TracksGoWithTheirItems) {
     {"path": "scene.materials.glass.dispersion.n", "keys": [{"frame": 0, "value": 1.5}]})"));
   const auto paths = [&](const std::function<void(preset::Json&)>& edit) {
     std::vector<std::string> all;
-    for (const preset::Json& track : keyed(p, edit)["animation"]["tracks"]) {
+    const preset::Json now = keyed(p, edit);
+    for (const preset::Json& track : now["animation"]["tracks"]) {
       all.push_back(track["path"]);
       EXPECT_THAT(track["keys"], SizeIs(1)) << "no key of another item's value";
     }
