@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table, with all menus but the long ones, "Select", "View" and "Pictures".
+// The table, with all menus but those that have files of their own: "Select", "Animation", "View" and "Pictures".
 #include "ui/actions/table.h"
 
 #include "base/error.h"
