@@ -151,7 +151,7 @@ void distribute_runs(const RunOptions& options, std::vector<Target>& targets, co
     fs::create_directories(folder);
     write_order(targets);
   }
-  require_shared(*ranks, folder / report::sweep_file);
+  run::require_shared(*ranks, folder / report::sweep_file);
   ranks->distribute(static_cast<std::int64_t>(targets.size()), [&](std::int64_t number) {
     run_one(options, targets[static_cast<std::size_t>(number)], interrupted, series);
   });

@@ -229,15 +229,6 @@ std::function<compute::Context()> device_opener(compute::DeviceOptions device) {
   };
 }
 
-void require_shared(mpi::Ranks& ranks, const fs::path& file) {
-  ranks.wait_for_root();
-  std::optional<Error> error;
-  if (!is_there(file))
-    error = bad_input(ranks.name(), fmt::format("does not see {}, which rank 0 has written", file.string()),
-                      "expected an output folder that all nodes share", "choose another one with -o");
-  mpi::require_all(ranks, error);
-}
-
 void render(const RunOptions& options, const Target& target, const std::stop_token& interrupted, RunSeries& series) {
   run::ReadyRun& run = series.run;
   make_ready(options, target, interrupted, series);

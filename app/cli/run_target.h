@@ -46,9 +46,6 @@ struct RunSeries {
 /// Opens the device, and prints a note if compiled kernels cannot be kept.
 std::function<compute::Context()> device_opener(compute::DeviceOptions device);
 
-/// Throws bad_input on a rank that does not see a file that the root has written before.
-void require_shared(mpi::Ranks& ranks, const std::filesystem::path& file);
-
 /// Renders the target into its folder. Throws interrupted after its picture and a checkpoint are saved.
 void render(const RunOptions& options, const Target& target, const std::stop_token& interrupted, RunSeries& series);
 

@@ -11,6 +11,7 @@
 #include "preset/walks.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -187,6 +188,46 @@ void check_values(const Preset& preset, const Stage& unchanged, const std::vecto
   }
 }
 
+/// The key or index in `after` of the item that `before` has at `key`: an edit may have moved or renamed it, or made it
+/// another one in its place. Nothing where it is gone.
+std::optional<std::string> followed(const Json& before, const Json& after, const std::string& key) {
+  const Json* item = find(before, {key});
+  if (!item || before.type() != after.type()) return key;
+  if (before.is_object()) {
+    if (after.contains(key)) return key;
+    for (const auto& [name, value] : after.items())
+      if (value == *item && !before.contains(name)) return name;
+    return std::nullopt;
+  }
+  const Json* there = find(after, {key});
+  if (!item->is_object() || (there && *there == *item)) return key;
+  if (const auto moved = std::find(after.begin(), after.end(), *item); moved != after.end())
+    return std::to_string(moved - after.begin());
+  return after.size() < before.size() ? std::nullopt : std::optional(key);
+}
+
+/// A track's path after an edit; nothing where what it leads to is gone.
+std::optional<Path> followed(const Json& before, const Json& after, const Path& path) {
+  const Json *old = &before, *now = &after;
+  Path to;
+  for (const std::string& key : path) {
+    auto there = old && now ? followed(*old, *now, key) : std::optional(key);
+    if (!there) return std::nullopt;
+    to.push_back(*std::move(there));
+    old = old ? find(*old, {key}) : nullptr;
+    now = now ? find(*now, {to.back()}) : nullptr;
+  }
+  return to;
+}
+
+void set_key(Json& keys, int frame, const Json& value) {
+  const auto at = std::find_if(keys.begin(), keys.end(), [&](const Json& key) { return key.at("frame") >= frame; });
+  if (at != keys.end() && at->at("frame") == frame)
+    at->at("value") = value;
+  else
+    keys.insert(at, Json{{"frame", frame}, {"value", value}});
+}
+
 } // namespace
 
 std::vector<double> value_at(const Track& track, int frame) {
@@ -230,6 +271,34 @@ Preset at_start(const Preset& preset) {
   check_overlaps(preset, paths);
   check_values(preset, stage, paths);
   return made_at(preset, 0);
+}
+
+Preset shown_at(const Preset& preset, int frame) {
+  Preset shown = made_at(preset, frame);
+  shown.provenance.frame = frame;
+  return shown;
+}
+
+Json with_keys(const Json& before, Json edited, int frame, const std::string& source) {
+  const Json::json_pointer place("/animation/tracks");
+  if (!before.contains(place) || !edited.contains(place) || before["animation"] != edited["animation"]) return edited;
+  Json tracks = Json::array();
+  for (Json track : edited[place]) {
+    const Path path = split_path(track.at("path").get<std::string>());
+    const auto now = followed(before, edited, path);
+    if (!now) continue;
+    track["path"] = fmt::format("{}", fmt::join(*now, "."));
+    const Json *old_value = find(before, path), *value = find(edited, *now);
+    if (value && (!old_value || *value != *old_value)) {
+      if (!is_numbers(*value))
+        throw bad_input(Location(source, pointer_of(*now)), "changes with the frames, and no key can be this",
+                        "expected numbers", "take its track out of 'animation' first");
+      set_key(track["keys"], frame, *value);
+    }
+    tracks.push_back(std::move(track));
+  }
+  edited[place] = std::move(tracks);
+  return edited;
 }
 
 } // namespace nephroid::preset

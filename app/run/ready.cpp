@@ -11,6 +11,8 @@
 #include "run/reference.h"
 #include "run/write_run.h"
 
+#include <fmt/format.h>
+
 namespace nephroid::run {
 namespace {
 
@@ -133,6 +135,15 @@ void require_memory(const Prepared& prepared, const compute::Context& context,
     lack = error;
   }
   mpi::require_all(*ranks, lack);
+}
+
+void require_shared(mpi::Ranks& ranks, const std::filesystem::path& file) {
+  ranks.wait_for_root();
+  std::optional<Error> error;
+  if (!is_there(file))
+    error = bad_input(ranks.name(), fmt::format("does not see {}, which rank 0 has written", file.string()),
+                      "expected an output folder that all nodes share", "choose another one with -o");
+  mpi::require_all(ranks, error);
 }
 
 void require_same(mpi::Ranks& ranks, const Prepared& prepared, const compute::Context& context) {

@@ -68,6 +68,9 @@ const Prepared& prepare_next(ReadyRun& run, const preset::Preset& preset, const 
 void require_memory(const Prepared& prepared, const compute::Context& context,
                     const std::shared_ptr<mpi::Ranks>& ranks);
 
+/// Throws bad_input on a rank that does not see a file that rank 0 has written before.
+void require_shared(mpi::Ranks& ranks, const std::filesystem::path& file);
+
 /// Throws bad_input on the ranks that would compute other bits than rank 0.
 void require_same(mpi::Ranks& ranks, const Prepared& prepared, const compute::Context& context);
 

@@ -322,6 +322,7 @@ def by_tour(s, name, make):
 
 
 WINDOW = [
+    "animation",
     "annealing-facet",
     "compared",
     "dispersion-dragged",

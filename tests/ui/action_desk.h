@@ -17,6 +17,8 @@ public:
     EXPECT_TRUE(until([&] { return workbench.run().scene_facts().view && workbench.run().error_history(); }));
   }
 
+  ~Desk() { runs.opens_device = true; }
+
   const preset::Preset& preset() const { return *workbench.preset(); }
   const preset::Scene& scene() const { return preset().scene; }
   const ui::ViewState& view_state() const { return workbench.view_state(); }

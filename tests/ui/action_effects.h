@@ -135,6 +135,31 @@ inline void add_select_and_camera(Effects& all) {
                                               [i](Desk& d) { return d.scene().camera.position[2] == 10 + i; }};
 }
 
+/// The lamp brightens over 8 frames; frame 3 is shown.
+inline void animate(Desk& d) {
+  d.HeadlessWindow::edit([](preset::Preset& p) {
+    p.animation = {8, 24, {{"scene.lights.0.power_w", {}, {{0, {1}}, {7, {8}}}}}};
+  });
+  d.apply(command::ShowFrame{3});
+}
+inline Effect shows_frame(int frame) {
+  return {animate, [frame](Desk& d) { return d.workbench.edits()->frame() == frame; }};
+}
+
+inline void add_animation(Effects& all) {
+  all["Play"] = {animate, [](Desk& d) { return d.workbench.playback().playing(); }};
+  all["Next frame"] = shows_frame(4);
+  all["Frame before"] = shows_frame(2);
+  all["First frame"] = shows_frame(0);
+  all["Record the film..."] = {animate, asks(Question::record)};
+  all["Stop recording"] = {[](Desk& d) {
+                             d.runs.opens_device = false; // so that it lasts
+                             animate(d);
+                             d.apply(command::RecordFilm{d.folder.path() / "film"});
+                           },
+                           [](Desk& d) { return d.workbench.film().summary() == "stopping"; }};
+}
+
 inline Effect moves_pixel(int x, int y) {
   return {inspect_pixel, [x, y](Desk& d) { return d.view_state().pixel == std::optional(std::array{20 + x, 20 + y}); }};
 }
@@ -278,6 +303,7 @@ inline Effects action_effects() {
   Effects all;
   effects::add_file_and_edit(all);
   effects::add_select_and_camera(all);
+  effects::add_animation(all);
   effects::add_run_and_view(all);
   effects::add_window_and_help(all);
   return all;

@@ -121,6 +121,12 @@ public:
     seen_beside = preset;
     return std::make_unique<FakeJob>(preset, beside);
   }
+  std::function<compute::Context()> device_opener() const override {
+    return [this]() -> compute::Context {
+      while (!opens_device) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      throw bad_input("device", "there is none here");
+    };
+  }
   void reread_files() override { ++reread; }
   void reopen_device() override { ++reopened; }
   bool take_changed() override { return changed.exchange(false); }
@@ -131,6 +137,7 @@ public:
   std::optional<double> white = {};                    ///< in place of "auto"
   std::atomic<int> made{0}, reread{0}, reopened{0};
   std::atomic<bool> changed{false}, broken{false}; ///< the kernels
+  std::atomic<bool> opens_device{true};            ///< for a film: it does not come to that
   std::atomic<bool> reads_on{false};               ///< runs do not come to the end of a file
   FakeSettings beside;                             ///< of small pictures
   std::atomic<int> made_beside{0};

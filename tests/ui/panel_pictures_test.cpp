@@ -298,6 +298,25 @@ TEST_F(PanelPictures, AMetalIsChosen) {
   EXPECT_EQ(preset::read_preset(file).scene.materials.at("metal").metal, "silver");
 }
 
+TEST_F(PanelPictures, AnAnimationIsScrubbed) {
+  const std::string file = NEPHROID_SOURCE_DIR "/presets/spectral/turning-prism.json";
+  Pixel bar;
+  {
+    test::HeadlessWindow<test::SceneRuns> like(tall, "runs", file);
+    bar = pixel(like.view().place_of("frame").value());
+  }
+  test::PlayedWindow window(file, {"--layout", "runs", "--size", fmt::format("{}x{}", tall[0], tall[1])},
+                            folder.path());
+  const image::Image before = window.picture("before.png");
+  window.click(bar);
+  taken(window, "window-animation.png", "another frame's picture", [&](const image::Image& picture) {
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < picture.data.size(); ++i) other += std::abs(picture.data[i] - before.data[i]) > 0.05f;
+    return other > picture.data.size() / 50;
+  });
+  EXPECT_EQ(window.quit().exit_code, 0);
+}
+
 class GizmoWindowTest : public test::PicturedWindow {};
 
 TEST_F(GizmoWindowTest, AnArrowMovesABall) {

@@ -69,6 +69,14 @@ TEST_F(ParametersTest, NumbersAreReadAsPeopleTypeThem) {
   EXPECT_THAT(problem("/seed"), HasSubstr("expected a whole number"));
 }
 
+TEST_F(ParametersTest, WhatNoFieldHasIsSaid) {
+  open();
+  search("camera");
+  EXPECT_FALSE(panel().place_of("nothing"));
+  search("no such words");
+  EXPECT_TRUE(panel().place_of("nothing"));
+}
+
 TEST_F(ParametersTest, WhileItIsTypedItIsSaidAlready) {
   open();
   const std::string before = text();

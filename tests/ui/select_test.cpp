@@ -47,6 +47,19 @@ TEST_F(Select, AClickSelectsWhatIsThere) {
   EXPECT_EQ(undo(), "") << "a click is no edit";
 }
 
+TEST_F(Select, AnEscapeThatClosesAListDoesNothingElse) {
+  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard; // as the real window has it
+  open();
+  select(ball);
+  click_in(view(), "tone", 2);
+  ASSERT_TRUE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup));
+  press(ImGuiKey_Escape);
+  EXPECT_FALSE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup));
+  EXPECT_EQ(selected(), ball);
+  press(ImGuiKey_Escape);
+  EXPECT_EQ(selected(), nothing);
+}
+
 TEST_F(Select, ADragOrbitsAndSelectsNothing) {
   open();
   drag_by(at(-0.5, 0, 0), 40);

@@ -5,6 +5,8 @@
 #include "preset/read.h"
 #include "tests/support/test.h"
 
+#include <nlohmann/json.hpp>
+
 namespace nephroid::animation_test {
 
 using preset::Preset;
@@ -165,6 +167,64 @@ TEST(Animation, SaysWhichFrameCannotBe) {
   EXPECT_NO_THROW(preset::at_frame(p, 4));
   EXPECT_EQ(refusal_of([&] { preset::at_frame(p, 5); }),
             "a.json#/animation/tracks/0: has no length; expected a direction; in frame 5");
+}
+
+/// The JSON of the preset after an edit in frame 5.
+preset::Json keyed(const Preset& before, const std::function<void(preset::Json&)>& edit) {
+  preset::Json edited = preset::as_json(before);
+  edit(edited);
+  return preset::with_keys(preset::as_json(before), edited, 5, "a.json");
+}
+
+TEST(AnimationEdits, AreKeysOfTheFieldsThatMove) {
+  const Preset p = preset::shown_at(
+      read(tracks(
+          R"({"path": "scene.objects.0.transform.translate", "keys": [{"frame": 0, "value": [0, 0, 0]}, {"frame": 10, "value": [10, 0, 0]}]},
+        {"path": "scene.materials.glass.dispersion.n", "keys": [{"frame": 8, "value": 1.5}]})")),
+      5);
+  EXPECT_EQ(p.scene.objects[0].transform.translate, (preset::Vec3{5, 0, 0}));
+  const preset::Json same = keyed(p, [](preset::Json& json) { json["seed"] = 7; });
+  EXPECT_EQ(same["animation"], preset::as_json(p)["animation"]);
+  const preset::Json moved = keyed(p, [](preset::Json& json) {
+    json["scene"]["objects"][0]["transform"]["translate"] = {5, 1, 0};
+    json["scene"]["materials"]["glass"]["dispersion"]["n"] = 1.6;
+  });
+  const Preset now = preset::shown_at(preset::read_json(moved, "a.json"), 5);
+  EXPECT_EQ(now.animation->tracks[0].keys,
+            (std::vector<preset::Key>{{0, {0, 0, 0}}, {5, {5, 1, 0}}, {10, {10, 0, 0}}}));
+  EXPECT_EQ(now.animation->tracks[1].keys, (std::vector<preset::Key>{{5, {1.6}}, {8, {1.5}}}));
+  EXPECT_EQ(now.scene.objects[0].transform.translate, (preset::Vec3{5, 1, 0}));
+  EXPECT_THAT(refusal_of([&] {
+                keyed(p, [](preset::Json& json) { json["scene"]["objects"][0]["transform"]["translate"] = nullptr; });
+              }),
+              HasSubstr("a.json#/scene/objects/0/transform/translate: changes with the frames"));
+}
+
+TEST(AnimationEdits, TracksGoWithTheirItems) {
+  const Preset p = read(tracks(R"({"path": "scene.lights.1.position", "keys": [{"frame": 0, "value": [0, 3, 0]}]},
+    {"path": "scene.materials.glass.dispersion.n", "keys": [{"frame": 0, "value": 1.5}]})"));
+  const auto paths = [&](const std::function<void(preset::Json&)>& edit) {
+    std::vector<std::string> all;
+    const preset::Json now = keyed(p, edit);
+    for (const preset::Json& track : now["animation"]["tracks"]) {
+      all.push_back(track["path"]);
+      EXPECT_THAT(track["keys"], SizeIs(1)) << "no key of another item's value";
+    }
+    return all;
+  };
+  const std::string index = "scene.materials.glass.dispersion.n";
+  const auto lights = [](preset::Json& json) -> preset::Json& { return json["scene"]["lights"]; };
+  EXPECT_THAT(paths([&](preset::Json& json) { lights(json).erase(0); }), ElementsAre("scene.lights.0.position", index));
+  EXPECT_THAT(paths([&](preset::Json& json) { lights(json).erase(1); }), ElementsAre(index));
+  EXPECT_THAT(paths([&](preset::Json& json) { std::swap(lights(json)[0], lights(json)[1]); }),
+              ElementsAre("scene.lights.0.position", index));
+  EXPECT_THAT(paths([](preset::Json& json) {
+                preset::Json& materials = json["scene"]["materials"];
+                const preset::Json glass = materials["glass"];
+                materials.erase("glass");
+                materials["crown"] = glass;
+              }),
+              ElementsAre("scene.lights.1.position", "scene.materials.crown.dispersion.n"));
 }
 
 } // namespace nephroid::animation_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table, with all menus but the long ones, "Select", "View" and "Pictures".
+// The table, with all menus but those that have files of their own: "Select", "Animation", "View" and "Pictures".
 #include "ui/actions/table.h"
 
 #include "base/error.h"
@@ -83,7 +83,7 @@ void reset_camera(C c) {
 /// What cannot be said is said as a message, at the preset's own place.
 void copy_command_line(C c) {
   try {
-    ImGui::SetClipboardText(preset::command_line(*c.preset()).c_str());
+    ImGui::SetClipboardText(preset::command_line(*c.edits->kept()).c_str());
     c.note("copied the command line");
   } catch (const Error& error) {
     c.push(command::Report{error.line()});
@@ -245,6 +245,7 @@ std::span<const Action> actions() {
     add("Edit", edit_actions());
     add("Select", select_actions());
     add("Camera", camera_actions());
+    add("Animation", animation_actions());
     add("Run", run_actions());
     add("View", view_actions());
     add("Pictures", picture_actions());

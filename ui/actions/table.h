@@ -8,6 +8,7 @@
 namespace nephroid::ui {
 
 std::vector<Action> select_actions();
+std::vector<Action> animation_actions();
 std::vector<Action> view_actions();
 std::vector<Action> picture_actions();
 

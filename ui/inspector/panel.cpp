@@ -204,7 +204,8 @@ void InspectorPanel::offer_spectra(const Context& context, const job::PixelSpect
   if (none.remedy.empty()) return;
   if (places_.button("Keep spectra", "keep spectra",
                      "Sets " + none.remedy + ", which starts the run again; one edit to undo"))
-    context.push(command::Edit{"keep spectra", preset::with_overrides(*context.preset(), {none.remedy})});
+    context.push(command::Edit{
+        .label = "keep spectra", .preset = preset::with_overrides(*context.preset(), {none.remedy}), .was_read = true});
 }
 
 void InspectorPanel::draw_region(const Context& context) {

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/location.h"
+#include "preset/animation.h"
 #include "preset/read.h"
 #include "scene/materials.h"
 
@@ -55,6 +56,7 @@ bool is_inside(const std::string& pointer, const std::string& root) {
 }
 
 void Draft::follow(const preset::Preset& preset) {
+  frame_ = preset.provenance.frame.value_or(0);
   if (!base_.is_null() && preset == preset_) return;
   preset::Preset here = preset; // as it was opened or saved, under whatever name
   here.source = preset_.source;
@@ -83,9 +85,10 @@ Json Draft::with(const Edits& edits) const {
 /// The preset with these edits, or why the one at `pointer` waits.
 std::variant<preset::Preset, Problem> Draft::read(const Edits& edits, const std::string& pointer) const {
   try {
-    preset::Preset edited = preset::read_json(with(edits), preset_.source);
+    preset::Preset edited =
+        preset::read_json(preset::with_keys(base_, with(edits), frame_, preset_.source), preset_.source);
     check_loads(preset_, edited);
-    return edited;
+    return edited.animation && frame_ > 0 ? preset::shown_at(edited, frame_) : edited;
   } catch (const Error& error) {
     const Location& location = error.location();
     const bool in_preset = location.name == preset_.source && location.pointer;

@@ -48,6 +48,7 @@ private:
   std::variant<preset::Preset, Problem> read(const Edits& edits, const std::string& pointer) const;
 
   preset::Preset preset_; ///< as it is outside
+  int frame_ = 0;         ///< of its animation, in which edits are keys
   Json base_, value_;     ///< that as JSON; with the edits that wait
   Edits waiting_;
   std::map<std::string, Problem> problems_;

@@ -91,6 +91,12 @@ bool Form::wants(const Outline& o, const Json& value, const std::string& pointer
                      [&](const auto& item) { return wants_any(o, item.value(), child_of(pointer, item.key())); });
 }
 
+bool Form::finds_any() const {
+  const auto fields = preset::outline(draft.value());
+  return std::any_of(fields.begin(), fields.end(),
+                     [&](const Outline& f) { return wants(f, part(draft.value(), f), child_of("", f.field.name)); });
+}
+
 bool Form::wants_any(const Outline& o, const Json& object, const std::string& pointer) const {
   const auto fields = o.fields(object);
   return std::any_of(fields.begin(), fields.end(),
@@ -292,8 +298,12 @@ void ValueWidgets::draw_file_choice(const std::string& pointer) {
   ImGui::SameLine();
   if (ImGui::Button("Shipped")) files_.begin(presets_folder(), {}, *form_.tasks);
   if (files_.draw(34 * em(), 16 * em()) != FileList::Picked::nothing) {
-    const fs::path near = files_.picked().lexically_relative(beside);
-    form_.ask(dotted(pointer), pointer, (near.empty() || *near.begin() == ".." ? files_.picked() : near).string());
+    // As a preset names it: beside itself, else among the shipped files.
+    fs::path name = files_.picked();
+    for (const fs::path& place : {presets_folder(), beside})
+      if (const fs::path near = files_.picked().lexically_relative(place); !near.empty() && *near.begin() != "..")
+        if (place == beside || !is_there(beside / near)) name = near;
+    form_.ask(dotted(pointer), pointer, name.string());
     ImGui::CloseCurrentPopup();
   }
   ImGui::EndPopup();

@@ -32,6 +32,8 @@ public:
   bool searching() const { return !search.empty() || only_changed; }
   /// Whether a field is drawn: what is looked for is in it or, in an object, in a field of it.
   bool wants(const preset::Outline& field, const Json& value, const std::string& pointer) const;
+  /// Whether any field of the preset is.
+  bool finds_any() const;
   /// Whether a field of an object is, which may be an item of `field`.
   bool wants_any(const preset::Outline& field, const Json& object, const std::string& pointer) const;
 

@@ -29,6 +29,11 @@ void ParametersPanel::draw(const Context& context) {
       rows_.draw_fields(preset::outline(form_.draft.value()), form_.draft.value(), "");
       ImGui::EndTable();
     }
+    if (!form_.finds_any()) {
+      draw_wrapped(colour::quiet_text, form_.search.empty() ? "Every field is as it is by default."
+                                                            : "No name, unit or help has these words.");
+      form_.note("nothing");
+    }
     ImGui::PopID();
   }
   ImGui::EndChild();

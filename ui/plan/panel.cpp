@@ -151,7 +151,9 @@ void PlanPanel::draw_box(const Context& context, const plan::Decision& decision,
   if (ImGui::Checkbox("##computed", &computed)) {
     const std::string label = (computed ? "compute " : "leave out ") + decision.name;
     context.push(command::Edit{
-        label, with_field(*context.preset(), decision.field, computed ? decision.run_value : !decision.run_value)});
+        .label = label,
+        .preset = with_field(*context.preset(), decision.field, computed ? decision.run_value : !decision.run_value),
+        .was_read = true});
   }
   places_.note(decision.name,
                fmt::format("Computed whatever the scene needs: {} = {}. Without the check the scene decides.",

@@ -52,6 +52,7 @@ const DialogKind& kind_of_dialog(Question question) {
       {Question::save_preset, "Save the preset as", "-edited.nephroid.json", {".json"}},
       {Question::save_picture, "Save the picture as", ".png", {".png", ".exr"}},
       {Question::save_report, "Write a report over the runs", "-report.html", {".html"}},
+      {Question::record, "Record the film", "-film", {".json"}},
       {Question::unsaved, "Unsaved changes", "", {}}};
   return *std::ranges::find(kinds, question, &DialogKind::question);
 }
@@ -111,6 +112,8 @@ void Dialogs::draw(Workbench& workbench, Commands& commands) {
     draw_unsaved(workbench, commands);
   else if (kind_of_dialog(shown_).open)
     draw_open_file(commands);
+  else if (shown_ == Question::record)
+    draw_record(commands);
   else
     draw_save(commands);
   if (!open) commands.push_back(command::Ask{Question::none});
@@ -181,6 +184,17 @@ void Dialogs::draw_save(Commands& commands) {
     ImGui::TextDisabled("One page that opens in a browser; runs that are in no folder are kept in one beside it");
   if (folder) ImGui::TextDisabled("This is a folder: the name of a file in it is wanted.");
   if (there) ImGui::TextDisabled("This file is there already: Enter twice, or the button, replaces it.");
+}
+
+void Dialogs::draw_record(Commands& commands) {
+  if (choose_name("folder", 41 * em(), name_, "Record", !name_.empty())) commands.push_back(command::RecordFilm{name_});
+  places_.note("record");
+  pick_file();
+  if (ImGui::Button("A folder in this one"))
+    name_ = (files_.folder() / std::filesystem::path(name_).filename()).string();
+  tooltip("The name above, in the folder that is shown");
+  ImGui::TextDisabled("frame_0000.png and .exr, ..., frames.csv, and animation.mp4 where ffmpeg is installed.");
+  ImGui::TextDisabled("Frames of this film that are finished there already stay.");
 }
 
 void Dialogs::draw_unsaved(const Workbench& workbench, Commands& commands) {

@@ -20,6 +20,7 @@ private:
   void draw_open(Commands& commands);
   void draw_open_file(Commands& commands);
   void draw_save(Commands& commands);
+  void draw_record(Commands& commands);
   void draw_unsaved(const Workbench& workbench, Commands& commands);
 
   Question shown_ = Question::none;

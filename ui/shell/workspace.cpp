@@ -88,7 +88,8 @@ Commands Workspace::draw(Workbench& workbench) {
       draw_toolbar(context, places_);
       ImGui::EndMainMenuBar();
     }
-    run_shortcuts(context, workbench.questions().question() != Question::none, workbench.setup().help_shown());
+    run_shortcuts(context, list_was_open_ || workbench.questions().question() != Question::none,
+                  workbench.setup().help_shown());
   });
   guarded("status line", commands, [&] {
     strip("status", ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y,
@@ -111,6 +112,7 @@ Commands Workspace::draw(Workbench& workbench) {
   if (workbench.setup().help_shown()) guarded("help", commands, [&] { draw_help(context); });
   guarded("dialog", commands, [&] { dialogs_.draw(workbench, commands); });
   guarded("commands", commands, [&] { palette_.draw(context, workbench.questions().question() == Question::command); });
+  list_was_open_ = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
   return commands;
 }
 

@@ -58,6 +58,7 @@ private:
   PlotContext plots_;          ///< before the panels, which plot with it
   WavelengthAxis wavelengths_; ///< before the panels that share it
   std::vector<Open> panels_;
+  bool list_was_open_ = false; ///< in the last frame: an Escape that closes it is for nothing else
   Dialogs dialogs_;
   Palette palette_;
   StartPage start_page_;

@@ -85,7 +85,8 @@ enum class Question {
   save_picture,
   unsaved,
   command,
-  save_report
+  save_report,
+  record
 };
 
 namespace command {
@@ -107,20 +108,35 @@ struct New {
   std::string preset; ///< as JSON
   bool sure = false;
 };
-/// Sets the preset. Edits of one gesture (same number, not 0) make one entry to undo. live: the gesture still lasts, so
-/// a run may first show a picture before the next one replaces it.
+/// Sets the preset. Where the edit changes a field that the animation has a track of, that has a key in the shown frame
+/// then (preset::with_keys). Edits of one gesture (same number, not 0) make one entry to undo. live: the gesture still
+/// lasts, so a run may first show a picture before the next one replaces it.
 struct Edit {
   std::string label;
   preset::Preset preset;
   std::uint64_t gesture = 0;
   bool live = false;
-  bool was_read = false; ///< the reader of presets has accepted it, so nothing is left to refuse
+  bool was_read = false; ///< the reader of presets has made it: nothing is left to refuse, and keys are in its tracks
 };
 /// Sets the sweep. It can be undone; the run goes on, as its preset is the same.
 struct SetSweep {
   std::string label;
   preset::Sweep sweep;
 };
+/// Shows another frame of the animation, the nearest that there is. live: as Edit has it.
+struct ShowFrame {
+  int frame = 0;
+  bool live = false;
+};
+/// Shows frame after frame at the animation's pace, from the shown one on, round and round.
+struct Play {
+  bool on = true;
+};
+/// Renders all frames into a folder, as `nephroid run --resume` does, or ends that.
+struct RecordFilm {
+  std::filesystem::path folder;
+};
+struct StopFilm {};
 /// Starts or stops the sweep's runs, which take the place of the run in hand one after the other (sweep_queue.h).
 struct StartSweep {};
 struct StopSweep {};
@@ -276,17 +292,17 @@ struct Quit {
 } // namespace command
 
 using Command =
-    std::variant<command::Open, command::OpenMap, command::New, command::Edit, command::SetSweep, command::StartSweep,
-                 command::StopSweep, command::EndGesture, command::Undo, command::Redo, command::Restart,
-                 command::Cancel, command::Pause, command::SetViewSettings, command::Flip, command::CompareWith,
-                 command::ShowPicture, command::Arrange, command::MoveSplit, command::ShowDifference,
-                 command::ShowLayer, command::InspectPixel, command::SelectRegion, command::ShowLines, command::PinRun,
-                 command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial,
-                 command::LoadDispersion, command::Select, command::SetHandles, command::Nudged, command::SetBookmarks,
-                 command::Ask, command::SavePreset, command::SavePicture, command::OpenResult, command::WriteReport,
-                 command::Dismiss, command::ReopenSession, command::ReloadPreset, command::ToggleHelp,
-                 command::ResetLayout, command::KeepLayout, command::ShowPanel, command::SetAppearance, command::Report,
-                 command::Quit>;
+    std::variant<command::Open, command::OpenMap, command::New, command::Edit, command::SetSweep, command::ShowFrame,
+                 command::Play, command::RecordFilm, command::StopFilm, command::StartSweep, command::StopSweep,
+                 command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel, command::Pause,
+                 command::SetViewSettings, command::Flip, command::CompareWith, command::ShowPicture, command::Arrange,
+                 command::MoveSplit, command::ShowDifference, command::ShowLayer, command::InspectPixel,
+                 command::SelectRegion, command::ShowLines, command::PinRun, command::PinFile, command::ChangePin,
+                 command::Unpin, command::ChooseMetric, command::ChooseMaterial, command::LoadDispersion,
+                 command::Select, command::SetHandles, command::Nudged, command::SetBookmarks, command::Ask,
+                 command::SavePreset, command::SavePicture, command::OpenResult, command::WriteReport, command::Dismiss,
+                 command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout,
+                 command::KeepLayout, command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

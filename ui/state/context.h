@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a panel reads, and where its commands go. A new one is made for every frame.
 #pragma once
+#include "ui/state/film_recording.h"
 #include "ui/state/material_balls.h"
+#include "ui/state/playback.h"
 #include "ui/state/recent_files.h"
 #include "ui/state/sweep_queue.h"
 #include "ui/state/tone.h"
@@ -18,6 +20,8 @@ struct Context {
   Commands& commands;
   const RecentFiles& recent;
   const SweepQueue& sweep;
+  const Playback& playback;
+  const FilmRecording& film;
   TaskQueue& tasks;     ///< for work that takes longer than a frame
   MaterialBalls& balls; ///< pictures of the materials that panels show
 

@@ -25,6 +25,9 @@ public:
   NewRun make(const preset::Preset& preset, const Watch& watch) override;
   /// On a queue of its own.
   std::unique_ptr<job::Job> make_beside(const preset::Preset& preset, const Watch& watch) override;
+  std::function<compute::Context()> device_opener() const override {
+    return [options = options_] { return compute::Context::open(options); };
+  }
   void reread_files() override { reread_ = true; }
   void reopen_device() override { reopen_ = true; }
   /// True once after a file in the kernels folder has changed since the newest run was built.

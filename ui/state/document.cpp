@@ -4,10 +4,13 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "engine/engine.h"
+#include "preset/animation.h"
 #include "preset/change_engine.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 namespace nephroid::ui {
 namespace {
@@ -47,7 +50,7 @@ void Document::close() {
 
 bool Document::take_over(preset::WithSweep read) {
   const std::string source = edits_->current().source;
-  const bool is_other_run = read.preset != edits_->current();
+  const bool is_other_run = read.preset != *edits_->kept();
   if (!is_other_run && read.sweep == edits_->sweep()) return false; // as after a save by this window
   edits_->push("reload " + std::filesystem::path(source).filename().string(), std::move(read.preset),
                std::move(read.sweep));
@@ -122,9 +125,19 @@ void Document::edit(const command::Edit& c) {
   services_.messages.dismiss(refused_edit_); // a drag of the mouse makes a new one at every move
   preset::Preset edited = c.preset;
   edited.provenance = {}; // errors from now on are about what was typed here, not about the file or an option
-  if (!c.was_read) preset::with_overrides(edited, {});
+  std::string label = c.label;
+  if (!c.was_read) {
+    if (const preset::Preset& now = edits_->current(); now.animation && edited.animation == now.animation) {
+      edited = preset::read_json(
+          preset::with_keys(preset::as_json(now), preset::as_json(edited), edits_->frame(), edited.source),
+          edited.source);
+      edited.provenance = {};
+      if (edited.animation != now.animation) label += fmt::format(", a key at frame {}", edits_->frame());
+    } else
+      preset::with_overrides(edited, {});
+  }
   if (edited.settings.engine() != edits_->current().settings.engine()) note_left_out(edited.settings.engine());
-  edits_->push(c.label, std::move(edited), c.gesture);
+  edits_->push(std::move(label), std::move(edited), c.gesture);
   run_.follow_edit(*edits_, c.live);
 }
 
@@ -137,7 +150,7 @@ void Document::note_left_out(std::string_view engine) {
 
 void Document::carry_out(const command::SetSweep& c) {
   if (!edits_ || c.sweep == edits_->sweep()) return;
-  edits_->push(c.label, edits_->current(), c.sweep);
+  edits_->push(c.label, *edits_->kept(), c.sweep);
 }
 
 /// Undoes or redoes. The run follows, unless only the sweep changed.
@@ -145,6 +158,17 @@ void Document::step(bool (UndoStack::*by)()) {
   if (!edits_) return;
   const preset::Preset before = edits_->current();
   if ((*edits_.*by)() && before != edits_->current()) run_.adopt_or_start(*edits_);
+}
+
+/// Throws bad_input where the preset cannot be in this frame.
+void Document::carry_out(const command::ShowFrame& c) {
+  if (!edits_ || !edits_->kept()->animation) return;
+  const int frame = std::clamp(c.frame, 0, edits_->kept()->animation->frames - 1);
+  if (frame == edits_->frame()) return;
+  preset::at_frame(*edits_->kept(), frame);
+  const preset::Preset before = edits_->current();
+  edits_->show(frame);
+  if (before != edits_->current()) run_.follow_edit(*edits_, c.live);
 }
 
 void Document::carry_out(const command::Restart&) {

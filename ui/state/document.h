@@ -38,6 +38,7 @@ public:
   void carry_out(const command::SetSweep& c);
   void carry_out(const command::Undo&) { step(&UndoStack::undo); }
   void carry_out(const command::Redo&) { step(&UndoStack::redo); }
+  void carry_out(const command::ShowFrame& c);
   void carry_out(const command::Restart&);
   void carry_out(const command::Select& c);
   void carry_out(const command::InspectPixel& c);

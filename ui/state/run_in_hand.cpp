@@ -4,6 +4,8 @@
 #include "engine/engine.h"
 #include "preset/read.h"
 
+#include <fmt/format.h>
+
 namespace nephroid::ui {
 namespace {
 
@@ -52,6 +54,7 @@ void RunInHand::take_over(const UndoStack& edits) {
   preset_ = std::make_shared<const preset::Preset>(edits.current());
   const std::string edit = edits.undo_label();
   name_ = preset_->name.empty() ? preset::stem_of(preset_->source) : preset_->name;
+  if (preset_->animation) name_ += fmt::format(", frame {}", edits.frame());
   if (!edit.empty()) name_ += ": " + edit;
 }
 

@@ -42,6 +42,8 @@ public:
   /// Makes the job of a small picture that goes beside the runs. Called on one thread only, which is another one than
   /// make()'s and may be here at the same time. Throws as make().
   virtual std::unique_ptr<job::Job> make_beside(const preset::Preset& preset, const Watch& watch) = 0;
+  /// Opens the device for a film, once more beside the runs; it may be called when this is gone.
+  virtual std::function<compute::Context()> device_opener() const = 0;
   /// Both return at once, from any thread. The next make() then reads every file again, or opens the device again,
   /// which a run may have lost.
   virtual void reread_files() {}

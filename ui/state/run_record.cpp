@@ -8,6 +8,7 @@
 #include "image/image.h"
 #include "measure/run_curves.h"
 #include "measure/run_files.h"
+#include "preset/animation.h"
 #include "preset/read.h"
 #include "report/report.h"
 #include "run/prepare.h"
@@ -106,6 +107,10 @@ PinnedRun run_now(const RunInHand& run) {
   if (const RunOrigin& origin = run.snapshot_origin(); origin.preset && origin.plan) {
     auto record = std::make_shared<RunRecord>(*now.record);
     record->origin = origin;
+    if (origin.preset->animation) { // the picture is of one frame, and so is what its folder will say
+      record->preset = record->origin->preset = std::make_shared<const preset::Preset>(
+          preset::at_frame(*origin.preset, origin.preset->provenance.frame.value_or(0)));
+    }
     auto kept = std::make_shared<job::Snapshot>(*run.snapshot());
     kept->picture.reset();
     kept->files.clear(); // a mesh can be as large as the memory

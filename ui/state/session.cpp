@@ -72,7 +72,7 @@ Bookmark read_bookmark(const Json& value) {
 /// Keeps the entries around the current one.
 UndoStack::State trimmed(UndoStack::State state) {
   constexpr std::size_t most = Session::most_entries;
-  auto& [opened, entries, index, saved] = state;
+  auto& [opened, entries, index, saved, frame] = state;
   if (entries.size() <= most) return state;
   const std::size_t first = std::min(entries.size() - most, index - std::min(index, most / 2));
   const auto begin = entries.begin() + static_cast<std::ptrdiff_t>(first);
@@ -116,6 +116,7 @@ UndoStack::State read_edits(const Json& value) {
     return static_cast<std::size_t>(within(json, 0, static_cast<double>(state.entries.size()) - 1));
   };
   state.index = index_of(value.at("index"));
+  state.frame = static_cast<int>(within(value.value("frame", Json(0)), 0, preset::max_frames));
   if (!value.at("saved").is_null()) state.saved = index_of(value.at("saved"));
   return state;
 }
@@ -225,6 +226,7 @@ std::string SessionText::of(const Session& session) {
     edits["opened_source"] = state.opened->source;
     edits["opened"] = known(state.opened, nullptr)->json;
     edits["index"] = state.index;
+    edits["frame"] = state.frame;
     edits["saved"] = state.saved ? Json(*state.saved) : Json();
     std::shared_ptr<const Known> before;
     for (const UndoStack::Entry& entry : state.entries) {

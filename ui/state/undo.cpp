@@ -1,48 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/undo.h"
 
+#include "preset/animation.h"
 #include "preset/differences.h"
 
+#include <algorithm>
+
 namespace nephroid::ui {
+namespace {
+
+std::shared_ptr<const preset::Preset> in_frame(const std::shared_ptr<const preset::Preset>& preset, int frame) {
+  const int now = preset->provenance.frame.value_or(0);
+  return preset->animation && frame != now ? std::make_shared<const preset::Preset>(preset::shown_at(*preset, frame))
+                                           : preset;
+}
+
+} // namespace
 
 UndoStack::UndoStack(preset::Preset opened, preset::Sweep sweep) {
   state_.opened = std::make_shared<const preset::Preset>(std::move(opened));
   state_.entries = {{"", state_.opened, 0, std::move(sweep)}};
   state_.saved = 0;
+  show_again();
+}
+
+int UndoStack::frame() const {
+  const auto& animation = kept()->animation;
+  return animation ? std::clamp(state_.frame, 0, animation->frames - 1) : 0;
+}
+
+void UndoStack::show(int frame) {
+  state_.frame = frame;
+  shown_ = in_frame(kept(), this->frame());
 }
 
 void UndoStack::push(std::string label, preset::Preset preset, preset::Sweep sweep) {
-  const std::shared_ptr<const preset::Preset> before = shared();
+  const std::shared_ptr<const preset::Preset> before = kept();
   push(std::move(label), std::move(preset));
   Entry& entry = state_.entries[state_.index];
   entry.sweep = std::move(sweep);
   if (*entry.preset == *before) entry.preset = before; // equal presets share one object
+  show_again();
 }
 
 void UndoStack::push(std::string label, preset::Preset preset, std::uint64_t gesture) {
-  auto& [opened, entries, index, saved] = state_;
+  auto& [opened, entries, index, saved, frame] = state_;
   entries.resize(index + 1);
   if (saved && *saved > index) saved.reset();
+  // Whatever frame the fields are of: its tracks say what they are.
+  if (preset.animation) preset = preset::shown_at(preset, 0);
+  preset.provenance.frame.reset();
   auto pushed = std::make_shared<const preset::Preset>(std::move(preset));
   if (gesture != 0 && entries.back().gesture == gesture) {
     entries.back().preset = std::move(pushed);
     if (saved == index) saved.reset();
-    return;
+    return show_again();
   }
   entries.push_back({std::move(label), std::move(pushed), gesture, entries.back().sweep});
   ++index;
-  if (entries.size() <= limit) return;
-  entries.pop_front();
-  --index;
-  if (saved) saved = *saved > 0 ? std::optional(*saved - 1) : std::nullopt;
+  if (entries.size() > limit) {
+    entries.pop_front();
+    --index;
+    if (saved) saved = *saved > 0 ? std::optional(*saved - 1) : std::nullopt;
+  }
+  show_again();
 }
 
 bool UndoStack::step(int by) {
-  auto& [opened, entries, index, saved] = state_;
+  auto& [opened, entries, index, saved, frame] = state_;
   const std::size_t to = index + static_cast<std::size_t>(by); // wraps around before the first entry
   if (to >= entries.size()) return false;
   entries[index].gesture = entries[to].gesture = 0; // a gesture that goes on after undo makes a new entry
   index = to;
+  show_again();
   return true;
 }
 
@@ -53,6 +83,7 @@ void UndoStack::fit_white(double white) {
     fitted.white = white;
     entry.preset = std::make_shared<const preset::Preset>(std::move(fitted));
   }
+  show_again();
 }
 
 void UndoStack::mark_saved(const std::string& source) {
@@ -62,6 +93,7 @@ void UndoStack::mark_saved(const std::string& source) {
     entry.preset = std::make_shared<const preset::Preset>(std::move(saved));
   }
   state_.saved = state_.index;
+  show_again();
 }
 
 } // namespace nephroid::ui

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Undo and redo: a stack of presets with their sweeps, because these are the whole state. Each gesture is one entry.
+// Undo and redo: a stack of presets with their sweeps, because these are the whole state. Each gesture is one entry. Of
+// an animation entries are frame 0, as files are; the preset in hand is that of the frame which is shown.
 #pragma once
 #include "preset/preset.h"
 #include "preset/read.h"
@@ -23,13 +24,14 @@ public:
     std::deque<Entry> entries; ///< at least one
     std::size_t index = 0;     ///< the current entry's
     std::optional<std::size_t> saved;
+    int frame = 0; ///< that is shown, where the preset has an animation that long
     bool operator==(const State&) const = default;
   };
 
   /// Begins with one preset, which counts as saved.
   explicit UndoStack(preset::Preset opened, preset::Sweep sweep = {});
   /// Restores what state() returned.
-  explicit UndoStack(State state) : state_(std::move(state)) {}
+  explicit UndoStack(State state) : state_(std::move(state)) { show(state_.frame); }
   /// Adds a state after the current one; what could be redone is dropped. The current entry's gesture (not 0) replaces
   /// that entry instead. The sweep stays.
   void push(std::string label, preset::Preset preset, std::uint64_t gesture = 0);
@@ -38,9 +40,16 @@ public:
   /// Goes one entry back or forth; false where there is none.
   bool undo() { return step(-1); }
   bool redo() { return step(1); }
-  const preset::Preset& current() const { return *shared(); }
+  /// Shows another frame of the animation from now on, the nearest that there is. This is no entry.
+  void show(int frame);
+  /// The shown frame; 0 without an animation.
+  int frame() const;
+  /// The preset in the shown frame.
+  const preset::Preset& current() const { return *shown_; }
   /// Another preset is another object.
-  const std::shared_ptr<const preset::Preset>& shared() const { return state_.entries[state_.index].preset; }
+  const std::shared_ptr<const preset::Preset>& shared() const { return shown_; }
+  /// The preset as its file would have it, in frame 0.
+  const std::shared_ptr<const preset::Preset>& kept() const { return state_.entries[state_.index].preset; }
   const preset::Sweep& sweep() const { return state_.entries[state_.index].sweep; }
   /// The preset as it was read.
   const preset::Preset& opened() const { return *state_.opened; }
@@ -59,9 +68,11 @@ public:
 
 private:
   bool step(int by);
+  void show_again() { show(state_.frame); }
 
   static constexpr std::size_t limit = 1000; ///< the most entries; a preset is a few kilobytes
   State state_;
+  std::shared_ptr<const preset::Preset> shown_;
 };
 
 } // namespace nephroid::ui

@@ -28,8 +28,8 @@ void Workbench::carry_out_with_follow_ups(const Command& command) {
   try {
     std::visit(
         [this](const auto& c) {
-          hand_over(c, *this, document_, document_files_, run_, sweep_, comparing_, view_state_, files_, questions_,
-                    setup_, services_.messages);
+          hand_over(c, *this, document_, document_files_, run_, sweep_, playback_, film_, comparing_, view_state_,
+                    files_, questions_, setup_, services_.messages);
         },
         command);
   } catch (const std::exception& error) {
@@ -131,6 +131,8 @@ void Workbench::update(Clock::time_point now) {
   document_.update();
   balls_.update(preset(), run_);
   sweep_.update();
+  playback_.update(now);
+  film_.update();
   files_.update();
   services_.tasks.collect(services_.messages);
   carry_out_follow_ups();

@@ -6,6 +6,8 @@
 #include "ui/state/context.h"
 #include "ui/state/file_watch.h"
 #include "ui/state/file_writer.h"
+#include "ui/state/film_recording.h"
+#include "ui/state/playback.h"
 #include "ui/state/session.h"
 
 namespace nephroid::ui {
@@ -15,7 +17,8 @@ public:
   using Clock = std::chrono::steady_clock;
 
   /// source outlives the workbench.
-  explicit Workbench(RunSource& source) : run_(source, services_.messages), balls_(source) {}
+  explicit Workbench(RunSource& source)
+      : run_(source, services_.messages), balls_(source), film_(document_, run_, source, services_) {}
 
   /// Carries out commands in their order. Errors become messages; nothing is thrown.
   void apply(const Commands& commands);
@@ -28,8 +31,19 @@ public:
 
   /// What panels read in one frame; their commands go to `commands`.
   Context context(Commands& commands) {
-    return {edits(),         run_,   comparing_, view_state_, setup_.settings(), has_earlier_session_, commands,
-            files_.recent(), sweep_, tasks(),    balls_};
+    return {edits(),
+            run_,
+            comparing_,
+            view_state_,
+            setup_.settings(),
+            has_earlier_session_,
+            commands,
+            files_.recent(),
+            sweep_,
+            playback_,
+            film_,
+            tasks(),
+            balls_};
   }
   /// Both are null before a preset is opened.
   const preset::Preset* preset() const { return document_.preset(); }
@@ -37,6 +51,8 @@ public:
   const RunInHand& run() const { return run_; }
   const Comparing& comparing() const { return comparing_; }
   const SweepQueue& sweep() const { return sweep_; }
+  const Playback& playback() const { return playback_; }
+  const FilmRecording& film() const { return film_; }
   const ViewState& view_state() const { return view_state_; }
   const std::vector<Message>& messages() const { return services_.messages.all(); }
   const MaterialBalls& balls() const { return balls_; }
@@ -74,6 +90,8 @@ private:
   ViewState view_state_;
   Document document_{run_, view_state_, services_};
   SweepQueue sweep_{document_, run_, comparing_};
+  Playback playback_{document_, run_, services_.messages};
+  FilmRecording film_;
   DocumentFiles document_files_{document_, run_, sweep_, services_.messages};
   Questions questions_{document_, services_.follow_ups};
   FileWriter files_{document_, run_, comparing_, view_state_, questions_, services_};

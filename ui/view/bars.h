@@ -27,6 +27,9 @@ void draw_metrics(const Context& context, WidgetPlaces& places);
 /// Draws what is selected, the tools that move it, and bookmarks of cameras, where the preset has a scene. places:
 /// "selected", "cameras" and, in the list of bookmarks, "go 0", "name 0", "delete 0" and so on.
 void draw_selection_bar(const Context& context, WidgetPlaces& places);
+/// Draws which frame is shown, and what plays and records the film, where the preset has an animation. places: "frame",
+/// "frame number".
+void draw_time_bar(const Context& context, WidgetPlaces& places);
 /// Edits the preset in hand, where its camera differs from the bookmark. index: into ViewState::bookmarks.
 void go_to_bookmark(const Context& context, std::size_t index);
 

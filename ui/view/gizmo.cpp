@@ -243,6 +243,7 @@ void Gizmo::follow(const Context& context, const glm::mat4& matrix) {
   std::string text = edit(edited, matrix);
   if (edited.scene == drag_->newest.scene || !make_pinhole(edited.scene.camera, {}, {1, 1})) return;
   drag_->newest = edited;
+  edited.animation = context.preset()->animation; // has a key of this drag
   drag_->text = std::move(text);
   context.push(command::Edit{fmt::format("{} {}", verb(drag_->tool), name_of(edited, drag_->selection)),
                              std::move(edited), gestures_.number(), true});

@@ -133,6 +133,7 @@ void ViewPanel::draw(const Context& context) {
     bars_.bar([&] { draw_view_bar(context, first_.tone, places_); });
     bars_.bar([&] { draw_comparison_bar(context, places_); });
     bars_.bar([&] { draw_selection_bar(context, places_); });
+    if (context.preset()->animation) bars_.bar([&] { draw_time_bar(context, places_); });
     draw_metrics(context, places_);
   }
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();

@@ -100,7 +100,7 @@ ShownPicture shown_picture(const Context& context) {
     if (is_run && !context.run.snapshot()->caption.empty()) shown.label = context.run.snapshot()->caption;
     if (!is_run || comparison.arrangement != Arrangement::single)
       shown.label = comparing.name() + (shown.label.empty() ? "" : ": " + shown.label);
-    if (is_run && context.run.snapshot_is_previous())
+    if (is_run && context.run.snapshot_is_previous() && !context.playback.playing())
       shown.label = "Previous picture" + (shown.label.empty() ? "" : ": " + shown.label);
   } else if (const HeldPicture other = comparing.other_picture(); !other.owner)
     shown.hint = "Nothing to compare with: " + comparing.why_not();
