@@ -281,6 +281,10 @@ TEST(Lights, ThatCannotBeAreRefused) {
   };
   EXPECT_NO_THROW(with(layout, tilted(offered(steep, "expected at most ") - 0.1, 0)));
   EXPECT_NO_THROW(with(layout, lamp(offered(near, "expected at least ") + 0.1)));
+  layout.distances = {100};
+  layout.offsets = {{-105, 0}};
+  EXPECT_NO_THROW(with(layout, tilted(0, 0)));
+  EXPECT_THAT(refusal(tilted(40, 0)), HasSubstr("facets that bend such light to the receivers reflect all of it"));
 }
 
 } // namespace nephroid::lights_test
