@@ -17,12 +17,14 @@ namespace nephroid::run {
 namespace {
 
 /// The job of the run before, where it can be the next one's; else it is gone, with its memory.
-std::unique_ptr<job::Job> taken_over(ReadyRun& run, const Prepared& next) {
+std::unique_ptr<job::Job> taken_over(ReadyRun& run, const Prepared& next, const ReadyOptions& options) {
   std::unique_ptr<job::Job> job = std::move(run.job);
   if (!job || next.preset.reference) return nullptr; // a reference is of one preset
   if (!changed_input(run.prepared->plan->inputs, next.plan->inputs).empty()) return nullptr;
   preset::Preset before = run.prepared->preset, now = next.preset;
   before.name = now.name = run.name_in_job; // names change nothing
+  // What a job moves is where a scene that is loaded has it but for rounding, and a film has the same bits resumed.
+  if (options.is_frame && before.scene.objects != now.scene.objects) return nullptr;
   if (!engine::adoptable(before, now) || !job->adopt(now)) return nullptr;
   const job::Progress progress = job->progress();
   if (progress.step != 0 || progress.work != 0 || progress.work_seconds != 0) return nullptr;
@@ -78,7 +80,7 @@ void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& option
   }
   Prepared next = prepare(preset, run.prepared ? &*run.prepared : nullptr, options.watch,
                           options.frame_before.empty() ? nullptr : read_afterimage(options.frame_before));
-  run.job = taken_over(run, next);
+  run.job = taken_over(run, next, options);
   const Prepared& prepared = run.prepared.emplace(std::move(next));
   run.seen.reset();
   if (options.planned) options.planned(prepared);

@@ -81,6 +81,25 @@ TEST_F(EnvironmentRun, GoesOnWhereItStopped) {
             nephroid::image::read_image(folder / "whole/image.exr").data);
 }
 
+TEST_F(EnvironmentRun, AFilmOfAnObjectThatMovesHasTheSameBitsResumed) {
+  const auto film = [&](const std::string& name, const std::string& option, const std::string& value) {
+    const Ended ended =
+        run_to("ball", name,
+               {"--passes", "1", "--set",
+                R"(animation={"frames":4,"tracks":[{"path":"scene.objects.0.transform.translate.0","keys":[)"
+                R"({"frame":0,"value":0},{"frame":4,"value":0.37}]}]})",
+                option, value});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  };
+  film("whole", "--set", "stop.seconds=null");
+  film("parts", "--frames", "0-1");
+  film("parts", "--frames", "2-3");
+  for (int i = 0; i < 4; ++i) {
+    const std::string picture = fmt::format("/frame_{:04}.exr", i);
+    EXPECT_TRUE(bytes("whole" + picture) == bytes("parts" + picture)) << i;
+  }
+}
+
 class EndedEarly : public test::ProgramTest {
 protected:
   EndedEarly() {

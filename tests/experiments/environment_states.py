@@ -7,8 +7,8 @@
 
 The caustic layer where the camera sees a receiver, spheres alone, against engine 1 with the same shape: a bake of its
 own at each weight, and spheres mixed between shapes baked at 2, 3, 5 and 9 weights from 0 to 1; how far these are from
-its own bake, and how far that is from one of another seed. Then whole pictures of both ways, spheres with photons, some
-seconds after the shape is new. Errors are means over the weights. Bakes are kept in OUT/cache, and what is in OUT is
+its own bake, and how far that is from one of another seed. OUT/SHAPE.png shows the layers, a weight a row. Then whole
+pictures of both ways, spheres with photons, some seconds after the shape is new. Errors are means over the weights. Bakes are kept in OUT/cache, and what is in OUT is
 not made again. Needs numpy and ImageMagick.
 """
 import argparse
@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 from animation import jelly, torus
 from environment import METRICS, ONE, SEEDS, Bench, head, row
-from layers import side_by_side
+from layers import read_layer, side_by_side, write_png
 
 GLASS = {"type": "dielectric", "dispersion": 1.5}
 # What makes the shape, which of its states it goes to, and where it stands.
@@ -29,6 +29,7 @@ SHAPES = {"torus": (torus, 1, {"translate": [0, .85, 0], "scale": [.9, .9, .9]})
 STEPS = (1, 2, 4, 8)
 ERRORS = ("lab_mean", "rel_l2")
 SECONDS = (1, 4)
+WHITE = 1  # what of the caustic layer is shown white
 
 
 class Deformed(Bench):
@@ -51,6 +52,13 @@ class Deformed(Bench):
         return [found[metric] for metric in ERRORS]
 
 
+def caustics_of(run):
+    """A picture of the caustic layer; its file."""
+    picture = run / "caustics.png"
+    write_png(picture, read_layer(run / "image.exr", "caustic") / WHITE)
+    return picture
+
+
 def seconds_of(run):
     return json.loads((run / "run.json").read_text())["phase_seconds"]["bake"]
 
@@ -66,6 +74,7 @@ def measure(options, shape):
         bench = Deformed(options, shape, weight)
         truth, other = (bench.reference("ring", seed) for seed in SEEDS)
         mask = bench.mask("ring", truth)
+        pictures.append(caustics_of(truth))
         errors.setdefault("another reference", []).append(
             [*bench.errors(other, truth, mask), np.nan])
         own = mixed(bench, 0, {**ONE, "stop.passes": 8}, "spheres")
@@ -77,13 +86,13 @@ def measure(options, shape):
             errors.setdefault(label, []).append(
                 [*bench.errors(run, truth, mask), bench.errors(run, own, mask)[-1]])
             baking.setdefault(label, []).append(seconds_of(run))
-            pictures.append(run / "image.png")
+            pictures.append(caustics_of(run))
     head(f"{shape}: spheres alone, {bench.size} x {bench.size}, weights {options.weights}",
          [*ERRORS, "rel_l2 from its own bake", "seconds of baking, by weight"])
     for label, values in errors.items():
         print(f"| {label} | " + " | ".join(f"{v:.3g}" for v in np.mean(values, axis=0)) + " | " +
               ", ".join(f"{s:.1f}" for s in baking.get(label, [])) + " |", flush=True)
-    side_by_side(pictures, len(ways), bench.size, Path(options.out) / f"{shape}.png")
+    side_by_side(pictures, 1 + len(ways), bench.size, Path(options.out) / f"{shape}.png")
 
     head(f"{shape}: whole pictures some seconds after the shape is new", ["seconds", *ERRORS])
     for seconds in SECONDS:

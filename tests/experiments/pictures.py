@@ -255,6 +255,11 @@ def environment_film(s, name, film):
     s.keep(name, [s.folder / "films" / f"{film}-sheet.png"])
 
 
+def environment_states(s, name):
+    s.script("environment_states.py", s.folder / "states", "--shapes", "torus")
+    s.keep(name, [s.folder / "states" / "torus.png"])
+
+
 def medium(s, name):
     s.call(
         tests_of(s, "environment"),
@@ -357,6 +362,7 @@ MAKERS = {
     "environment-shaded.png": environment_shaded,
     "environment-turning.png": partial(environment_film, film="turning"),
     "environment-card.png": partial(environment_film, film="card"),
+    "environment-states.jpg": environment_states,
     "medium.png": medium,
     "python-spectral.png": python_spectral,
     "first-pictures.jpg": first_pictures,
