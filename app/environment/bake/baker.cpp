@@ -255,7 +255,7 @@ bool Baking::read() {
   const Communicator& communicator = context_.communicator();
   const PlannedBake& planned = bakes_[shape_];
   if (!communicator.broadcast(planned.reads)) return false;
-  Bake bake;
+  Bake bake = planned.task->empty_bake();
   try {
     if (communicator.is_root()) bake = read_bake(planned.file, identity());
   } catch (const Error& error) {
