@@ -6,10 +6,10 @@
     [--reference-seconds S]
 
 The caustic layer where the camera sees a receiver, spheres alone, against engine 1 with the same shape: a bake of its
-own at each weight, and spheres mixed between shapes baked at 2, 3, 5 and 9 weights from 0 to 1; how far these are from
-its own bake, and how far that is from one of another seed. OUT/SHAPE.png shows the layers, a weight a row. Then whole
-pictures of both ways, spheres with photons, some seconds after the shape is new. Errors are means over the weights. Bakes are kept in OUT/cache, and what is in OUT is
-not made again. Needs numpy and ImageMagick.
+own at each weight, and spheres mixed between shapes baked at 2, 3, 5 and 9 weights from 0 to 1; how far these are
+from its own bake, and how far that is from one of another seed. OUT/SHAPE.png shows the layers, a weight a row. Then
+whole pictures of both ways, spheres with photons, some seconds after the shape is new. Errors are means over the
+weights. Bakes are kept in OUT/cache, and what is in OUT is not made again. Needs numpy and ImageMagick.
 """
 import argparse
 import json
