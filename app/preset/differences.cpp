@@ -2,6 +2,7 @@
 #include "preset/differences.h"
 
 #include "base/files.h"
+#include "preset/animation.h"
 #include "preset/describe.h"
 #include "preset/document.h"
 #include "preset/walks.h"
@@ -159,12 +160,20 @@ Json nameless(const Preset& preset) {
 /// What a child file of this parent has to say.
 Json child_of(const Preset& preset, const std::string& parent, const fs::path& file, const Json& sweep) {
   const Read base = read_without_sweep(Json{{"parent", parent}}.dump(), file);
+  Preset inherited = base.preset;
+  if (preset.animation) try { // what its tracks say of the parent's fields need not be said again
+      inherited.animation = preset.animation;
+      inherited = at_start(inherited);
+      inherited.animation = base.preset.animation;
+    } catch (const Error&) {
+      inherited = base.preset; // a track leads to what the parent has not
+    }
   Json child{{"parent", parent}};
   // The parent's own name and description are not inherited; without a name it is the file's.
   if (preset.name != stem_of(file)) child["name"] = preset.name;
   if (!preset.description.empty()) child["description"] = preset.description;
   if (base.sweep != sweep) child["sweep"] = sweep;
-  for (const Edit& edit : Comparison(false).edits(nameless(base.preset), nameless(preset), base.document.value())) {
+  for (const Edit& edit : Comparison(false).edits(nameless(inherited), nameless(preset), base.document.value())) {
     Json* slot = &child;
     for (const std::string& key : edit.path) slot = &(*slot)[key];
     *slot = edit.value;

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <system_error>
 
 namespace nephroid::run {
@@ -21,8 +22,7 @@ public:
       : run_(run), animation_(animation), options_(options) {}
 
   FilmResult make() {
-    for (int frame = options_.first; frame <= options_.last; ++frame)
-      preset::at_frame(animation_, frame); // throws at once for a frame that cannot be
+    check_frames();
     begin();
     if (options_.ranks) require_shared(*options_.ranks, options_.folder / "preset.json");
     if (options_.ranks && !mixes_frames_)
@@ -35,6 +35,18 @@ public:
 
 private:
   bool is_root() const { return !options_.ranks || options_.ranks->rank() == 0; }
+
+  /// Throws at once for a frame that cannot be. Whether a shape can be in a frame shows where it is made.
+  void check_frames() const {
+    const bool deforms = std::ranges::any_of(animation_.animation->tracks, [](const preset::Track& track) {
+      return track.path.starts_with("scene.objects.") && track.path.find(".transform.") == std::string::npos;
+    });
+    std::optional<Prepared> before;
+    for (int frame = options_.first; frame <= options_.last; ++frame) {
+      const preset::Preset of = preset::at_frame(animation_, frame);
+      if (deforms) preset::at_origins(of, [&] { before = prepare(of, before ? &*before : nullptr, options_.watch); });
+    }
+  }
 
   /// Each rank renders the next frame, alone, when it is free.
   void distribute_frames() {

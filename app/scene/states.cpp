@@ -7,9 +7,11 @@
 #include "base/recent.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <mutex>
+#include <ranges>
 
 namespace nephroid::scene {
 namespace {
@@ -75,10 +77,14 @@ Morph make_morph(Meshes meshes) {
 }
 
 /// What is open has no volume that its sign would tell.
-void check_turned(const Morph& morph, const Mesh& deformed, const Location& where) {
+void check_turned(const Morph& morph, const Mesh& deformed, const std::vector<preset::State>& states,
+                  const Location& where) {
   const auto count = static_cast<std::uint32_t>(deformed.triangles.size());
   if (morph.report.closed() && morph.report.signed_volume * signed_volume(deformed, 0, count) < 0)
-    throw bad_input(where, "turn the mesh inside out", "expected weights at which it stays as it is",
+    throw bad_input(where,
+                    fmt::format("weights of {:g} turn the mesh inside out",
+                                fmt::join(states | std::views::transform(&preset::State::weight), ", ")),
+                    "expected weights at which it stays as it is",
                     "its vertices go through each other on the way; add a state between");
 }
 
@@ -135,7 +141,7 @@ deformed_mesh(const preset::Object& object, const Location& where,
         mesh->normals[i] = length > 0 ? mesh->normals[i] / length : morph->own.normals[i];
       }
   });
-  check_turned(*morph, *mesh, where / "states");
+  check_turned(*morph, *mesh, object.states, where / "states");
   return mesh;
 }
 

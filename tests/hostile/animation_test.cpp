@@ -211,6 +211,11 @@ TEST_F(Animations, AreRefusedBeforeTheFirstFrame) {
       {"--set",
        R"(animation={"frames":3,"tracks":[{"path":"scene.lights.0.direction","keys":[{"frame":0,"value":[-1,-1,0]},{"frame":2,"value":[1,1,0]}]}]})"},
       "has no length; expected a direction; in frame 1");
+  refused(
+      {"--set", "unit=m", "--set",
+       R"(scene.objects.0.shape={"type":"water","size":[3,0.03,3],"segments":32,"fetch_m":500,"wind_m_s":0})", "--set",
+       R"(animation={"frames":3,"tracks":[{"path":"scene.objects.0.shape.wind_m_s","keys":[{"frame":0,"value":0},{"frame":2,"value":40}]}]})"},
+      "expected water that is deeper than its waves; take less wind_m_s or fetch_m, or deeper water; in frame 1");
 }
 
 } // namespace nephroid::animation_test

@@ -202,6 +202,18 @@ TEST(PresetDifferences, AChildHoldsOnlyWhatDiffers) {
             Json::parse(R"({"parent":"first-light","seed":7,"scene":{"camera":{"fov_deg":30.0}}})"));
 }
 
+// A track says of its field what it is: the list that the field is in stays the parent's.
+TEST(PresetDifferences, AChildWithTracksHoldsNoFieldsOfThem) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("mine.json", R"({"parent":"first-light","animation":{"frames":4,"tracks":[
+    {"path":"scene.objects.0.transform.translate.0","keys":[{"frame":0,"value":0.25},{"frame":4,"value":1}]}]}})");
+  Preset p = preset::read_preset(file);
+  p.seed = 7;
+  const preset::FileText text = preset::file_text(p, "first-light", file);
+  EXPECT_FALSE(Json::parse(text.json).contains("scene")) << text.json;
+  EXPECT_TRUE(same(preset::parse_preset(text.json, file), p));
+}
+
 TEST(PresetDifferences, ListsThatTheParentHasOtherwiseAreWrittenWholeAndWhatIsTakenAwayIsNull) {
   const test::TemporaryFolder folder;
   folder.write("parent.json", R"({"engine":"spectral","stop":{"seconds":5},"sweep":{"seed":[1,2]},

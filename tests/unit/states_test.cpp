@@ -70,7 +70,7 @@ TEST_F(States, WeightsThatTurnTheMeshInsideOutAreRefused) {
   EXPECT_THAT(test::refusal_of([&] {
                 loaded({{"tall.obj", -1.5}});
               }),
-              HasSubstr("a.json#/scene/objects/0/states: turn the mesh inside out"));
+              HasSubstr("a.json#/scene/objects/0/states: weights of -1.5 turn the mesh inside out"));
 }
 
 TEST_F(States, ShapesHaveNone) {
