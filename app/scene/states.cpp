@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <mutex>
-#include <ranges>
 
 namespace nephroid::scene {
 namespace {
@@ -80,12 +79,12 @@ Morph make_morph(Meshes meshes) {
 void check_turned(const Morph& morph, const Mesh& deformed, const std::vector<preset::State>& states,
                   const Location& where) {
   const auto count = static_cast<std::uint32_t>(deformed.triangles.size());
-  if (morph.report.closed() && morph.report.signed_volume * signed_volume(deformed, 0, count) < 0)
-    throw bad_input(where,
-                    fmt::format("weights of {:g} turn the mesh inside out",
-                                fmt::join(states | std::views::transform(&preset::State::weight), ", ")),
-                    "expected weights at which it stays as it is",
-                    "its vertices go through each other on the way; add a state between");
+  if (!morph.report.closed() || morph.report.signed_volume * signed_volume(deformed, 0, count) >= 0) return;
+  std::vector<double> weights;
+  for (const preset::State& state : states) weights.push_back(state.weight);
+  throw bad_input(where, fmt::format("weights of {:g} turn the mesh inside out", fmt::join(weights, ", ")),
+                  "expected weights at which it stays as it is",
+                  "its vertices go through each other on the way; add a state between");
 }
 
 std::size_t bytes_of(const Morph& morph) {
