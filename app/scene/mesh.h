@@ -74,7 +74,7 @@ struct MeshReport {
   double signed_volume = 0;        ///< negative: inside out
   bool closed() const { return open_edges == 0 && crowded_edges == 0; }
 };
-/// Safe from several threads. Takes a fifth of the time where the mesh has but moved since one of the last calls.
+/// Safe from several threads. Takes a quarter of the time where the mesh has but moved since one of the last calls.
 MeshReport inspect(const Mesh& mesh);
 
 /// Whether a triangle is left that is not degenerate.
