@@ -155,8 +155,8 @@ public:
       std::vector<double> weights;
       for (const BakedShape& shape : baked_shapes(preset)) weights.push_back(shape.weight);
       baking_.set_shape(std::move(task), std::move(weights));
-      if (renderer() && baking_.is_complete()) view_->set_bake(baking_.bake());
     }
+    if (renderer() && baking_.is_complete() && !view_->has_caustics()) view_->set_bake(baking_.bake());
     photons_.set_white(preset.white.value());
     preset_ = preset;
     return true;

@@ -118,15 +118,18 @@ void SpherePictures::update(const Bake& bake, int width, int height, double whit
 void add_figures(const Bake& bake, job::Snapshot& snapshot) {
   snapshot.curves.push_back({"directions", {"direction", "x", "y", "z", "met", "sent", "absorbed", "lost"}, {}});
   BakedDirection sum;
+  double weights = 0;
   for (std::size_t i = 0; i < bake.baked.size(); ++i) {
     const BakedDirection& d = bake.baked[i];
     const glm::dvec3& way = bake.directions[i];
     snapshot.curves.back().rows.push_back(
         {static_cast<double>(i + 1), way.x, way.y, way.z, d.met, d.sent, d.absorbed, d.lost});
-    sum.met += d.met;
-    sum.sent += d.sent;
-    sum.absorbed += d.absorbed;
-    sum.lost += d.lost;
+    const double weight = bake.weights[i / (bake.directions.size() / bake.weights.size())];
+    weights += weight;
+    sum.met += weight * d.met;
+    sum.sent += weight * d.sent;
+    sum.absorbed += weight * d.absorbed;
+    sum.lost += weight * d.lost;
   }
   snapshot.scalars.insert(snapshot.scalars.end(),
                           {{"bake", "size", bake.size},
@@ -135,7 +138,7 @@ void add_figures(const Bake& bake, job::Snapshot& snapshot) {
                            {"bake", "channels", static_cast<double>(bake.channels)},
                            {"bake", "bytes", static_cast<double>(bake.bytes(bake.baked.size()))}});
   if (sum.met <= 0) return;
-  snapshot.scalars.insert(snapshot.scalars.end(), {{"energy", "met", sum.met / static_cast<double>(bake.baked.size())},
+  snapshot.scalars.insert(snapshot.scalars.end(), {{"energy", "met", sum.met / weights},
                                                    {"energy", "sent", sum.sent / sum.met},
                                                    {"energy", "absorbed", sum.absorbed / sum.met},
                                                    {"energy", "lost", sum.lost / sum.met}});

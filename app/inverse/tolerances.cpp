@@ -22,7 +22,7 @@ constexpr std::array<MakingError, Tolerances::count> errors{
     MakingError{.what = "heights off by 5 um", .waves_mm = 0.005},
     MakingError{.what = "heights off by 20 um", .waves_mm = 0.02},
     MakingError{.what = "turned by 1 degree", .turn_deg = 1},
-    MakingError{.what = "light 1 degree aside", .light_deg = 1},
+    MakingError{.what = "light turned by 1 degree", .light_deg = 1},
     MakingError{.what = "receivers 1 % farther", .farther = 0.01}};
 
 /// Turns the solid about the x axis through its middle. Rays begin in front of what is turned towards them.

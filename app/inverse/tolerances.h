@@ -6,9 +6,9 @@
 namespace nephroid::inverse {
 
 /// Judges the object with one error at a time: heights that are off by 1, 5 and 20 micrometres, the object turned by a
-/// degree about a level line through its middle, light that comes from a degree further aside, and receivers that are
-/// 1 % too far. Milling and polishing leave
-/// heights off in waves along the surface, wave_mm long; the figure is their root mean square.
+/// degree about a level line through its middle, the light turned by a degree about an upright one, and receivers that
+/// are 1 % too far. Milling and polishing leave heights off in waves along the surface, wave_mm long; the figure is
+/// their root mean square.
 class Tolerances {
 public:
   static constexpr int count = 6; ///< the number of errors

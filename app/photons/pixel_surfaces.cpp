@@ -12,6 +12,7 @@
 #include <mutex>
 #include <numbers>
 #include <optional>
+#include <span>
 
 namespace nephroid::photons {
 namespace {
@@ -258,21 +259,28 @@ std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene) {
     const std::lock_guard lock(mutex);
     std::ranges::transform(marked, marks.marked(), marked.begin(), std::bit_or());
   };
+  Marks few(scene.camera);
+  const auto mark = [&](Marks& marks, std::span<const glm::uvec3> triangles) {
+    for (const glm::uvec3& triangle : triangles) {
+      const auto seen = [&](std::uint32_t vertex) { return marks.see(scene.geometry.positions[vertex]); };
+      marks.mark(std::array{seen(triangle.x), seen(triangle.y), seen(triangle.z)});
+    }
+  };
   for (const scene::Object& object : scene.objects) {
     if (!is_specular(material_of(scene, object).type)) continue;
-    const auto triangles = scene::triangles_of(scene, object);
-    for_ranges(triangles.size(), 1 << 16, [&](std::size_t, Range range) {
-      Marks marks(scene.camera);
-      for (std::size_t i = range.begin; i < range.end; ++i) {
-        const auto seen = [&](std::uint32_t vertex) { return marks.see(scene.geometry.positions[vertex]); };
-        marks.mark(std::array{seen(triangles[i].x), seen(triangles[i].y), seen(triangles[i].z)});
-      }
-      take(marks);
-    });
-    Marks marks(scene.camera);
-    for (const scene::Ellipsoid& ellipsoid : scene::ellipsoids_of(scene, object)) marks.mark(ellipsoid);
-    take(marks);
+    const std::span triangles = scene::triangles_of(scene, object);
+    constexpr std::size_t block_size = 1 << 16;
+    if (triangles.size() <= block_size)
+      mark(few, triangles);
+    else
+      for_ranges(triangles.size(), block_size, [&](std::size_t, Range range) {
+        Marks marks(scene.camera);
+        mark(marks, triangles.subspan(range.begin, range.end - range.begin));
+        take(marks);
+      });
+    for (const scene::Ellipsoid& ellipsoid : scene::ellipsoids_of(scene, object)) few.mark(ellipsoid);
   }
+  take(few);
   std::vector<std::uint32_t> pixels;
   for (std::size_t i = 0; i < marked.size(); ++i)
     if (marked[i] != 0 || !scene.camera.inside.empty() || !scene.camera.is_plain())

@@ -192,7 +192,9 @@ void check_values(const Preset& preset, const Stage& unchanged, const std::vecto
 /// another one in its place. Nothing where it is gone.
 std::optional<std::string> followed(const Json& before, const Json& after, const std::string& key) {
   const Json* item = find(before, {key});
-  if (!item || before.type() != after.type()) return key;
+  if (!item) return key;
+  if (after.is_null()) return std::nullopt;
+  if (before.type() != after.type()) return key;
   if (before.is_object()) {
     if (after.contains(key)) return key;
     for (const auto& [name, value] : after.items())

@@ -77,7 +77,7 @@ Prepared prepare(const preset::Preset& preset, const Prepared* previous, const W
   plan->inputs = std::move(inputs);
   if (before && !(plan->mixes_frames && has_parts_of(loaded->scene, before->seen))) before.reset();
   if (before) plan->inputs.push_back(before->input);
-  if (preset.provenance.frame && plan->mixes_frames) {
+  if (preset.provenance.frame && !preset.animation && plan->mixes_frames) { // a film's, not one that a window shows
     plan->buffers.push_back(held_of_frame_before(*plan, loaded->scene.camera.width, loaded->scene.camera.height));
     if (const int frame = *preset.provenance.frame; frame > 0 && !before)
       plan->notes.push_back(fmt::format(

@@ -11,7 +11,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -97,10 +96,8 @@ struct Topology {
 
 /// The last ones are kept: sorting is most of the work, and the frames of an animation have the same one.
 std::shared_ptr<const Topology> topology_of(const Mesh& mesh) {
-  static std::mutex mutex;
   static Recent<Topology> recent(std::uint64_t{64} << 20);
   std::vector<std::uint32_t> joined = first_equal_vertex(mesh, false);
-  const std::lock_guard lock(mutex);
   if (auto same =
           recent.find([&](const Topology& kept) { return kept.joined == joined && kept.triangles == mesh.triangles; }))
     return same;

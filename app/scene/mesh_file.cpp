@@ -16,7 +16,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
-#include <mutex>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -206,10 +205,8 @@ bool has_further_files(const std::filesystem::path& file) {
 
 std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file, const Watch& watch) {
   watch.begin("reading " + file.filename().string());
-  static std::mutex mutex;
   static Recent<CachedMesh> recent(std::uint64_t{256} << 20);
   if (has_further_files(file)) return std::make_shared<const Mesh>(load_mesh(file, watch.stop));
-  const std::lock_guard lock(mutex);
   const std::string bytes = read_file(file);
   PieceHash hash;
   hash.add(std::as_bytes(std::span(bytes)));

@@ -10,7 +10,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <mutex>
 
 namespace nephroid::scene {
 namespace {
@@ -99,9 +98,7 @@ std::size_t bytes_of(const Morph& morph) {
 /// The last objects' are kept, as long as load_mesh_once() gives the same meshes: an animation goes through them again
 /// and again.
 std::shared_ptr<const Morph> morph_of(const Meshes& meshes) {
-  static std::mutex mutex;
   static Recent<Morph> recent(std::uint64_t{256} << 20);
-  const std::lock_guard lock(mutex);
   if (auto same = recent.find([&](const Morph& morph) { return morph.meshes == meshes; })) return same;
   Morph morph = make_morph(meshes);
   const std::size_t bytes = bytes_of(morph);

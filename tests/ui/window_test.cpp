@@ -149,7 +149,7 @@ TEST_F(WindowEvents, AreFollowed) {
 class KilledWindow : public test::RealWindow {
 protected:
   /// Edits that the newest session has kept; -1 while there is none.
-  int kept() const {
+  int in_file() const {
     int edits = -1;
     fs::file_time_type newest = fs::file_time_type::min();
     std::error_code ignored;
@@ -178,7 +178,7 @@ TEST_F(KilledWindow, ComesBackWithItsEdits) {
     test::PlayedWindow window(arguments, folder.path(), folder.path());
     // As it was before: the first has its file, the others begin with nothing but the session.
     window.until("the session is kept",
-                 [&] { return kept() >= kept_before && window.title().find("Test") != std::string::npos; });
+                 [&] { return in_file() >= kept_before && window.title().find("Test") != std::string::npos; });
     const int edits = 1 + static_cast<int>(random() % 3);
     window.move({300, 400});
     for (int edit = 0; edit < edits;
@@ -186,12 +186,12 @@ TEST_F(KilledWindow, ComesBackWithItsEdits) {
       window.turn_wheel();
       std::this_thread::sleep_for(std::chrono::milliseconds(700));
     }
-    if (i % 2 == 0) window.until("an edit is kept", [&] { return kept() > kept_before; });
+    if (i % 2 == 0) window.until("an edit is kept", [&] { return in_file() > kept_before; });
     std::this_thread::sleep_for(std::chrono::milliseconds(random() % 1500));
     EXPECT_EQ(window.kill().signal, SIGKILL);
-    EXPECT_GE(kept(), kept_before) << "nothing that was kept is lost";
-    EXPECT_LE(kept(), kept_before + edits);
-    kept_before = kept();
+    EXPECT_GE(in_file(), kept_before) << "nothing that was kept is lost";
+    EXPECT_LE(in_file(), kept_before + edits);
+    kept_before = in_file();
     arguments.clear();
   }
   EXPECT_GT(kept_before, 0);

@@ -83,7 +83,7 @@ void reset_camera(C c) {
 /// What cannot be said is said as a message, at the preset's own place.
 void copy_command_line(C c) {
   try {
-    ImGui::SetClipboardText(preset::command_line(*c.edits->kept()).c_str());
+    ImGui::SetClipboardText(preset::command_line(*c.edits->in_file()).c_str());
     c.note("copied the command line");
   } catch (const Error& error) {
     c.push(command::Report{error.line()});

@@ -152,7 +152,7 @@ void SweepSection::draw(const Context& context, WidgetPlaces& places) {
   const bool open = ImGui::CollapsingHeader((heading(context) + "###sweep").c_str());
   places.note("sweep");
   if (!open) return;
-  if (const auto& now = context.edits->kept(); std::exchange(of_, now) != now) fields_ = number_fields(*now);
+  if (const auto& now = context.edits->in_file(); std::exchange(of_, now) != now) fields_ = number_fields(*now);
   draw_fields(context, places);
   draw_choice(places);
   draw_values(context, places);

@@ -50,7 +50,7 @@ void Document::close() {
 
 bool Document::take_over(preset::WithSweep read) {
   const std::string source = edits_->current().source;
-  const bool is_other_run = read.preset != *edits_->kept();
+  const bool is_other_run = read.preset != *edits_->in_file();
   if (!is_other_run && read.sweep == edits_->sweep()) return false; // as after a save by this window
   edits_->push("reload " + std::filesystem::path(source).filename().string(), std::move(read.preset),
                std::move(read.sweep));
@@ -132,7 +132,9 @@ void Document::edit(const command::Edit& c) {
           preset::with_keys(preset::as_json(now), preset::as_json(edited), edits_->frame(), edited.source),
           edited.source);
       edited.provenance = {};
-      if (edited.animation != now.animation) label += fmt::format(", a key at frame {}", edits_->frame());
+      const std::vector<preset::Track>&tracks = edited.animation->tracks, &before = now.animation->tracks;
+      const bool same_fields = std::ranges::equal(tracks, before, {}, &preset::Track::path, &preset::Track::path);
+      if (same_fields && tracks != before) label += fmt::format(", a key at frame {}", edits_->frame());
     } else
       preset::with_overrides(edited, {});
   }
@@ -150,7 +152,7 @@ void Document::note_left_out(std::string_view engine) {
 
 void Document::carry_out(const command::SetSweep& c) {
   if (!edits_ || c.sweep == edits_->sweep()) return;
-  edits_->push(c.label, *edits_->kept(), c.sweep);
+  edits_->push(c.label, *edits_->in_file(), c.sweep);
 }
 
 /// Undoes or redoes. The run follows, unless only the sweep changed.
@@ -162,10 +164,10 @@ void Document::step(bool (UndoStack::*by)()) {
 
 /// Throws bad_input where the preset cannot be in this frame.
 void Document::carry_out(const command::ShowFrame& c) {
-  if (!edits_ || !edits_->kept()->animation) return;
-  const int frame = std::clamp(c.frame, 0, edits_->kept()->animation->frames - 1);
+  if (!edits_ || !edits_->in_file()->animation) return;
+  const int frame = std::clamp(c.frame, 0, edits_->in_file()->animation->frames - 1);
   if (frame == edits_->frame()) return;
-  preset::at_frame(*edits_->kept(), frame);
+  preset::at_frame(*edits_->in_file(), frame);
   const preset::Preset before = edits_->current();
   edits_->show(frame);
   if (before != edits_->current()) run_.follow_edit(*edits_, c.live);

@@ -79,7 +79,7 @@ void DocumentFiles::follow_own_file() {
     if (!document_.modified()) {
       if (document_.take_over(std::move(read)))
         messages_.note(file.filename().string() + " was changed on disk and is taken over");
-    } else if (read.preset != *document_.edits()->kept() || read.sweep != document_.edits()->sweep())
+    } else if (read.preset != *document_.edits()->in_file() || read.sweep != document_.edits()->sweep())
       messages_.error(file.string() + ": another program changed this file, and the preset has edits that are not "
                                       "saved; save them under another name, or take the preset from its file (File)");
   } catch (const std::exception& error) {
@@ -89,7 +89,7 @@ void DocumentFiles::follow_own_file() {
 
 void DocumentFiles::update() {
   const UndoStack* edits = document_.edits();
-  if (const auto& now = edits ? edits->kept() : nullptr; now != watched_) {
+  if (const auto& now = edits ? edits->in_file() : nullptr; now != watched_) {
     watched_ = now;
     const auto opened = edits ? edits->state().opened : nullptr;
     watch_.watch(now, std::exchange(opened_, opened) != opened);

@@ -49,8 +49,8 @@ void FileWriter::update() {
 void FileWriter::carry_out(const command::SavePreset& c) {
   const UndoStack* edits = document_.edits();
   if (!edits) return;
-  const std::string parent = c.keep_parent ? parent_to_keep(*edits->kept()) : std::string();
-  const preset::FileText text = preset::file_text(*edits->kept(), parent, c.file, edits->sweep());
+  const std::string parent = c.keep_parent ? parent_to_keep(*edits->in_file()) : std::string();
+  const preset::FileText text = preset::file_text(*edits->in_file(), parent, c.file, edits->sweep());
   write_file_whole(c.file, text.json);
   document_.mark_saved(c.file);
   services_.messages.note("saved " + c.file.string());

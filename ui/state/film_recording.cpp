@@ -73,17 +73,17 @@ std::string FilmRecording::summary() const {
 
 void FilmRecording::carry_out(const command::RecordFilm& c) {
   if (!document_.edits() || active()) return;
-  const preset::Preset& preset = *document_.edits()->kept();
+  const preset::Preset& preset = *document_.edits()->in_file();
   if (!preset.animation)
     throw bad_input(preset.source + "#/animation", "is not there", "expected the frames of a film");
   if (!preset.white)
     throw bad_input(preset.source + "#/white", "is \"auto\" until the first picture is there", "", "wait for that");
+  const std::filesystem::path folder = std::filesystem::absolute(c.folder);
   const job::State state = run_.status().state;
   paused_run_ = state == job::State::running || state == job::State::preparing;
   if (paused_run_) run_.carry_out(command::Pause{true});
   state_ = std::make_shared<State>();
   state_->frames = preset.animation->frames;
-  const std::filesystem::path folder = std::filesystem::absolute(c.folder);
   services_.tasks.start(
       key_, {"recording " + folder.string(), TaskKind::request},
       [animation = preset, folder, device = source_.device_opener(), state = state_](TaskControl& control) {

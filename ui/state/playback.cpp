@@ -13,16 +13,24 @@ constexpr int least_a_round = 8; ///< pictures of a round, however slow the mach
 
 void Playback::carry_out(const command::Play& c) {
   const UndoStack* edits = document_.edits();
-  playing_ = c.on && edits && edits->kept()->animation;
+  playing_ = c.on && edits && edits->in_file()->animation;
   if (!playing_) return;
-  kept_ = edits->kept();
+  kept_ = edits->in_file();
   frame_ = edits->frame();
   since_.reset();
 }
 
-bool Playback::goes_on() const {
+bool Playback::goes_on() {
   const UndoStack* edits = document_.edits();
-  if (!edits || edits->kept() != kept_ || edits->frame() != frame_) return false;
+  if (!edits || edits->frame() != frame_) return false;
+  if (edits->in_file() != kept_) { // a white that was fitted and a file that was saved are no edits
+    preset::Preset same = *kept_;
+    same.white = edits->in_file()->white;
+    same.source = edits->in_file()->source;
+    same.provenance = edits->in_file()->provenance;
+    if (same != *edits->in_file()) return false;
+    kept_ = edits->in_file();
+  }
   const job::State state = run_.status().state;
   return state != job::State::paused && state != job::State::cancelled && state != job::State::failed;
 }

@@ -24,7 +24,7 @@ public:
   void update(Clock::time_point now);
 
 private:
-  bool goes_on() const;
+  bool goes_on();
 
   Document& document_;
   const RunInHand& run_;

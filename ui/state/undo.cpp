@@ -25,17 +25,17 @@ UndoStack::UndoStack(preset::Preset opened, preset::Sweep sweep) {
 }
 
 int UndoStack::frame() const {
-  const auto& animation = kept()->animation;
+  const auto& animation = in_file()->animation;
   return animation ? std::clamp(state_.frame, 0, animation->frames - 1) : 0;
 }
 
 void UndoStack::show(int frame) {
   state_.frame = frame;
-  shown_ = in_frame(kept(), this->frame());
+  shown_ = in_frame(in_file(), this->frame());
 }
 
 void UndoStack::push(std::string label, preset::Preset preset, preset::Sweep sweep) {
-  const std::shared_ptr<const preset::Preset> before = kept();
+  const std::shared_ptr<const preset::Preset> before = in_file();
   push(std::move(label), std::move(preset));
   Entry& entry = state_.entries[state_.index];
   entry.sweep = std::move(sweep);

@@ -49,7 +49,7 @@ public:
   /// Another preset is another object.
   const std::shared_ptr<const preset::Preset>& shared() const { return shown_; }
   /// The preset as its file would have it, in frame 0.
-  const std::shared_ptr<const preset::Preset>& kept() const { return state_.entries[state_.index].preset; }
+  const std::shared_ptr<const preset::Preset>& in_file() const { return state_.entries[state_.index].preset; }
   const preset::Sweep& sweep() const { return state_.entries[state_.index].sweep; }
   /// The preset as it was read.
   const preset::Preset& opened() const { return *state_.opened; }

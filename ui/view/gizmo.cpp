@@ -211,11 +211,14 @@ void Gizmo::draw(const Context& context, const Pinhole& pinhole, const Canvas& c
         *context.preset(), *context.preset(), selection, *grip, frame, tool, own_axes, ImGuizmo::GetActiveHandleType(),
         {mouse.x, mouse.y}};
     drag_->matrix = matrix;
+    drag_->shown = context.edits->frame();
+    context.push(command::Play{false});
     gestures_.begin();
   }
   if (!drag_) return;
   drag_->snaps = snaps;
   follow(context, matrix);
+  if (!drag_) return;
   const double beside = 0.6 * em();
   if (!drag_->text.empty()) draw_overlay(vec({(*places_)[0][0] + beside, (*places_)[0][1] + beside}), drag_->text);
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) end_drag(context);
@@ -233,6 +236,7 @@ void Gizmo::end_drag(const Context& context) {
 }
 
 void Gizmo::follow(const Context& context, const glm::mat4& matrix) {
+  if (drag_->shown != context.edits->frame()) return end_drag(context); // its start is of another frame
   // Near the horizon of a plane a pixel can be any length, and beyond it there is no point.
   if (drag_->tool != Tool::scale) {
     const std::span values(glm::value_ptr(matrix), 16);

@@ -46,6 +46,7 @@ private:
     glm::mat4 matrix{1};   ///< the matrix that ImGuizmo continues from
     bool snaps = false;    ///< whether it snaps now
     std::string text = {}; ///< the drag so far, in words
+    int shown = 0;         ///< the animation's frame that it began in
   };
   void end_drag(const Context& context);
   void follow(const Context& context, const glm::mat4& matrix);
