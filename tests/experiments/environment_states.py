@@ -105,10 +105,12 @@ def measure(options, shape):
                 aside = bakes.with_name("aside")
                 if steps == 0:
                     bakes.rename(aside)
-                run = mixed(bench, steps, {}, f"whole-{seconds}", "--seconds", seconds)
-                if steps == 0:
-                    shutil.rmtree(bakes, ignore_errors=True)
-                    aside.rename(bakes)
+                try:
+                    run = mixed(bench, steps, {}, f"whole-{seconds}", "--seconds", seconds)
+                finally:
+                    if steps == 0:
+                        shutil.rmtree(bakes, ignore_errors=True)
+                        aside.rename(bakes)
                 values.append(bench.errors(run, truth, bench.mask("ring", truth)))
             row(label, [seconds, *np.mean(values, axis=0)])
 

@@ -76,4 +76,3 @@ def measure_objects(program, out):
                 pictures.append((row, j, file))
         side_by_side([file for _, _, file in sorted(pictures)], len(run["inverse"]["receivers"]), 192,
                      out / "objects" / f"{preset}.png")
-
