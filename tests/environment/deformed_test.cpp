@@ -64,13 +64,13 @@ protected:
 
 TEST_F(EnvironmentStates, TheShapesAreTheCornersOfTheCell) {
   const auto shapes = [&](const std::string& states, int steps) {
-    std::vector<std::vector<double>> all;
+    std::vector<std::vector<double>> corners;
     for (const environment::BakedShape& shape :
          environment::baked_shapes(deformed(states, {fmt::format("environment.weight_steps={}", steps)}))) {
-      all.push_back({shape.weight});
-      for (const preset::State& of : shape.preset.scene.objects[0].states) all.back().push_back(of.weight);
+      corners.push_back({shape.weight});
+      for (const preset::State& of : shape.preset.scene.objects[0].states) corners.back().push_back(of.weight);
     }
-    return all;
+    return corners;
   };
   using Shapes = std::vector<std::vector<double>>;
   EXPECT_EQ(shapes("", 4), (Shapes{{1}}));
@@ -141,15 +141,15 @@ TEST_F(EnvironmentStates, AGrowingBallIsTheBallBetween) {
 // The sets of a light are those of each shape, by its weight.
 TEST_F(EnvironmentStates, LightIsSharedByWeight) {
   const std::vector<environment::DistantLight> light{{glm::normalize(glm::dvec3(0.3, -1, 0.2)), glm::dvec3(1, 2, 3)}};
-  const auto one = environment::turned_sets(light, glm::dmat3(1), 26),
-             two = environment::turned_sets(light, glm::dmat3(1), 26, {0.75, 0.25});
-  ASSERT_EQ(two.size(), 2 * one.size());
-  for (std::size_t i = 0; i < one.size(); ++i)
+  const auto alone = environment::turned_sets(light, glm::dmat3(1), 26, {1}),
+             mixed = environment::turned_sets(light, glm::dmat3(1), 26, {0.75, 0.25});
+  ASSERT_EQ(mixed.size(), 2 * alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i)
     for (const std::size_t shape : {0, 1}) {
-      const environment::TurnedSet& set = two[2 * i + shape];
-      EXPECT_EQ(set.direction, one[i].direction + 26 * static_cast<int>(shape));
-      EXPECT_EQ(set.to_bake, one[i].to_bake);
-      EXPECT_NEAR(glm::distance(set.flux, (shape == 0 ? 0.75 : 0.25) * one[i].flux), 0, 1e-12);
+      const environment::TurnedSet& set = mixed[2 * i + shape];
+      EXPECT_EQ(set.direction, alone[i].direction + 26 * static_cast<int>(shape));
+      EXPECT_EQ(set.to_bake, alone[i].to_bake);
+      EXPECT_NEAR(glm::distance(set.flux, (shape == 0 ? 0.75 : 0.25) * alone[i].flux), 0, 1e-12);
     }
 }
 

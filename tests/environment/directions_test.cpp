@@ -203,7 +203,7 @@ TEST(TurnedSets, TakeTheLightToItsBakedDirections) {
     for (int i = 0; i < some; ++i) {
       const DistantLight light{scene::even_direction(i, some), {1, 2, 0.5}};
       glm::dvec3 flux(0);
-      for (const TurnedSet& set : turned_sets({light}, rotation, count)) {
+      for (const TurnedSet& set : turned_sets({light}, rotation, count, {1})) {
         EXPECT_LT(glm::distance(set.to_bake * light.direction, baked[static_cast<std::size_t>(set.direction)]), 1e-6);
         EXPECT_LT(off_a_rotation(set.to_bake), 1e-6);
         flux += set.flux;
@@ -217,7 +217,7 @@ TEST(TurnedSets, TakeTheLightToItsBakedDirections) {
 TEST(TurnedSets, ABakedLightIsNotTurned) {
   const std::vector<glm::dvec3> baked = light_directions(26);
   for (const glm::dvec3& direction : baked)
-    for (const TurnedSet& set : turned_sets({{direction, glm::dvec3(1)}}, glm::dmat3(1), 26)) {
+    for (const TurnedSet& set : turned_sets({{direction, glm::dvec3(1)}}, glm::dmat3(1), 26, {1})) {
       if (set.flux.x < 1e-6) continue;
       EXPECT_EQ(glm::dvec3(set.flux.x), glm::dvec3(1));
       for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
@@ -230,8 +230,8 @@ TEST(TurnedSets, TheObjectTurnedWithItsLight) {
   const glm::dmat3 turn = scene::rotation({-40, 15, 77}), before = scene::rotation({5, 50, 0});
   for (int i = 0; i < some; ++i) {
     const glm::dvec3 direction = scene::even_direction(i, some);
-    const auto a = turned_sets({{direction, glm::dvec3(1)}}, before, 98),
-               b = turned_sets({{turn * direction, glm::dvec3(1)}}, turn * before, 98);
+    const auto a = turned_sets({{direction, glm::dvec3(1)}}, before, 98, {1}),
+               b = turned_sets({{turn * direction, glm::dvec3(1)}}, turn * before, 98, {1});
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k) {
       EXPECT_EQ(a[k].direction, b[k].direction);
@@ -245,8 +245,8 @@ TEST(TurnedSets, TheObjectTurnedWithItsLight) {
 }
 
 TEST(TurnedSets, BlackLightsHaveNone) {
-  EXPECT_TRUE(turned_sets({{{0, -1, 0}, glm::dvec3(0)}}, glm::dmat3(1), 26).empty());
-  EXPECT_FALSE(turned_sets({{{0, -1, 0}, {0, 0, 1}}}, glm::dmat3(1), 26).empty());
+  EXPECT_TRUE(turned_sets({{{0, -1, 0}, glm::dvec3(0)}}, glm::dmat3(1), 26, {1}).empty());
+  EXPECT_FALSE(turned_sets({{{0, -1, 0}, {0, 0, 1}}}, glm::dmat3(1), 26, {1}).empty());
 }
 
 } // namespace nephroid::directions_test

@@ -87,18 +87,16 @@ void FilmRecording::carry_out(const command::RecordFilm& c) {
   services_.tasks.start(
       key_, {"recording " + folder.string(), TaskKind::request},
       [animation = preset, folder, device = source_.device_opener(), state = state_](TaskControl& control) {
+        const struct AtEnd {
+          State& state;
+          ~AtEnd() { state.ended = true; }
+        } at_end{*state};
         try {
-          std::string made = record(animation, folder, device, *state, control);
-          state->ended = true;
-          return made;
+          return record(animation, folder, device, *state, control);
         } catch (const Error& error) {
-          state->ended = true;
           if (error.kind() != ErrorKind::interrupted) throw;
           return fmt::format("the recording is stopped at frame {} of {}; recording into {} again goes on there",
                              state->frame + 1, state->frames, folder.string());
-        } catch (...) {
-          state->ended = true;
-          throw;
         }
       },
       [this](const std::string& note) { services_.messages.note(note); });

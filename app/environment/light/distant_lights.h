@@ -48,6 +48,6 @@ glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to);
 /// The sets of all lights that are not black. rotation: from the bake's coordinates to the scene's. count: of
 /// directions of a shape. weights: Bake's.
 std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
-                                   const std::vector<double>& weights = {1});
+                                   const std::vector<double>& weights);
 
 } // namespace nephroid::environment
