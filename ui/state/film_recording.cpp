@@ -9,22 +9,30 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 namespace nephroid::ui {
 namespace {
 
 /// Writes a frame's files and asks between slices whether it shall go on.
 class FrameRecorder final : public run::Recorder {
 public:
-  FrameRecorder(const run::ReadyRun& run, const std::filesystem::path& folder, std::function<void(double)> advanced)
-      : Recorder(run, {.folder = folder, .is_frame = true}), advanced_(std::move(advanced)) {}
+  /// notes: what it finds to say, each sentence once.
+  FrameRecorder(const run::ReadyRun& run, const std::filesystem::path& folder, std::function<void(double)> advanced,
+                std::set<std::string>& notes)
+      : Recorder(run, {.folder = folder, .is_frame = true}), advanced_(std::move(advanced)), notes_(notes) {}
 
   void advanced(job::Job& job) override {
     Recorder::advanced(job);
     advanced_(job.progress().fraction);
   }
 
+  void note(const std::string& text) override { notes_.insert(text); }
+  void warn(const std::string& text) override { notes_.insert(text); }
+
 private:
   std::function<void(double)> advanced_;
+  std::set<std::string>& notes_;
 };
 
 } // namespace
@@ -33,23 +41,28 @@ std::string FilmRecording::record(const preset::Preset& animation, const std::fi
                                   const std::function<compute::Context()>& open_device, State& state,
                                   TaskControl& control) {
   run::ReadyRun run(open_device);
+  std::set<std::string> notes;
   const auto stop_if_cancelled = [&] {
     if (control.cancelled()) state.stop.request_stop();
   };
   const Watch watch{state.stop.get_token(), [&](const std::string&) { stop_if_cancelled(); }};
   const auto render = [&](const run::FilmFrame& of) {
     state.frame = of.frame;
-    run::make_ready(run, of.preset,
-                    {.watch = watch,
-                     .folder = of.folder,
-                     .is_frame = true,
-                     .frame_before = of.frame_before,
-                     .resume = true,
-                     .bad_checkpoint = [](const Error&) {}}); // the frame begins anew
-    FrameRecorder recorder(run, of.folder, [&](double part) {
-      control.progress((of.frame + part) / state.frames);
-      stop_if_cancelled();
-    });
+    run::make_ready(
+        run, of.preset,
+        {.watch = watch,
+         .folder = of.folder,
+         .is_frame = true,
+         .frame_before = of.frame_before,
+         .resume = true,
+         .bad_checkpoint = [&](const Error& error) { notes.insert(error.line() + "; the frame began anew"); }});
+    FrameRecorder recorder(
+        run, of.folder,
+        [&](double part) {
+          control.progress((of.frame + part) / state.frames);
+          stop_if_cancelled();
+        },
+        notes);
     run::hide_frame(folder, of.frame);
     run::drive(run, recorder, watch.stop);
     run.claimed.reset();
@@ -59,11 +72,22 @@ std::string FilmRecording::record(const preset::Preset& animation, const std::fi
     throw failed(of.folder.string(), "the run ended before its first picture", "",
                  "let `stop` of the preset give a frame more time");
   };
-  const run::FilmResult film = run::make_film(
-      run, animation, {.folder = folder, .last = state.frames - 1, .resume = true, .watch = watch, .render = render});
-  return film.why_no_video ? fmt::format("recorded {} in {}; there is no video: {}",
-                                         counted(film.finished.size(), "frame"), folder.string(), *film.why_no_video)
-                           : "recorded " + (folder / "animation.mp4").string();
+  const auto starts_anew = [&](const std::string& changed) {
+    notes.insert(changed + ": finished frames were rendered anew");
+  };
+  const run::FilmResult film = run::make_film(run, animation,
+                                              {.folder = folder,
+                                               .last = state.frames - 1,
+                                               .resume = true,
+                                               .watch = watch,
+                                               .render = render,
+                                               .starts_anew = starts_anew});
+  std::string said = film.why_no_video
+                         ? fmt::format("recorded {} in {}; there is no video: {}",
+                                       counted(film.finished.size(), "frame"), folder.string(), *film.why_no_video)
+                         : "recorded " + (folder / "animation.mp4").string();
+  for (const std::string& note : notes) said += "\n" + note;
+  return said;
 }
 
 std::string FilmRecording::summary() const {
