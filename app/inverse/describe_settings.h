@@ -29,6 +29,7 @@ inline constexpr Choice<inverse::Light::Type> choices<inverse::Light::Type>[] = 
     {inverse::Light::Type::parallel, "parallel", "As the sun's: from one direction."},
     {inverse::Light::Type::point, "point", "A lamp: from one place."},
     {inverse::Light::Type::area, "area", "A lamp of some size, parallel to the front; each place of it is a point."},
+    {inverse::Light::Type::mesh, "mesh", "A lamp with the shape of a mesh, such as a tube or a letter."},
     {inverse::Light::Type::sun, "sun",
      "The sun as it stands at a place and an hour; the front looks to "
      "front_azimuth_deg and front_elevation_deg."}};
@@ -132,6 +133,12 @@ inline void describe(preset::Fields& v, Light& l) {
     v.field("distance_mm", "From the front.", l.distance_mm, {.unit = "mm", .bounds = preset::within(-1e6, 1e6)});
     v.field("offset_mm", "Beside the middle of the object: to the right and up.", l.offset_mm,
             {.unit = "mm", .bounds = preset::within(-1e5, 1e5)});
+    if (l.type == Light::Type::mesh)
+      v.field(
+          "file",
+          "The lamp's mesh in millimetres, its origin at the distance and offset: x to the right, y up, z away from "
+          "the object. It is as bright everywhere.",
+          l.file, {.text = preset::Text::file, .required = true});
     if (l.type == Light::Type::area) {
       v.field("shape", "What the lamp looks like from the object.", l.shape);
       v.field("size_mm", "Width and height of the lamp, which blur the pictures.", l.size_mm,

@@ -51,7 +51,7 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens) {
           .lamp = four(l.light.lamp.value_or(glm::dvec3(0))),
           .lamp_weight = l.light.lamp ? number(lamp_weight(l)) : 0,
           .n = number(l.n),
-          .sun_radius = number(l.light.lamp_half.x > 0 ? 0 : l.sun_radius),
+          .sun_radius = number(l.light.lamp_places.empty() ? l.sun_radius : 0),
           .scatter = number(l.scatter),
           .size_x = number(l.size.x),
           .size_y = number(l.size.y),
@@ -69,10 +69,8 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens) {
           .screens = static_cast<int>(screens),
           .part_step = l.spectrum ? part_step(rays_along(l) * rays_along(l)) : 0,
           .is_round = l.round ? 1 : 0,
-          .lamp_x = number(l.light.lamp_half.x),
-          .lamp_y = number(l.light.lamp_half.y),
-          .lamp_is_round = l.light.lamp_is_round ? 1 : 0,
-          .padding = 0};
+          .lamp_places = static_cast<std::uint32_t>(l.light.lamp_places.size()),
+          .padding = {}};
 }
 
 /// The receivers, then the frames between them.
@@ -102,7 +100,10 @@ Illumination between(const Illumination& a, const Illumination& b, double part) 
   Illumination made = a;
   made.facets.reset();
   if (a.lamp && b.lamp) made.lamp = glm::mix(*a.lamp, *b.lamp, part);
-  made.lamp_half = glm::mix(a.lamp_half, b.lamp_half, part);
+  made.lamp_places.resize(std::max(a.lamp_places.size(), b.lamp_places.size()), {0, 0, 0, 1});
+  for (std::size_t i = 0; i < made.lamp_places.size(); ++i)
+    made.lamp_places[i] =
+        glm::mix(made.lamp_places[i], b.lamp_places.empty() ? glm::dvec4(0, 0, 0, 1) : b.lamp_places[i], part);
   const auto direction = [](const Illumination& l) {
     return glm::dvec3(l.sines, std::sqrt(1 - glm::dot(l.sines, l.sines)));
   };
@@ -213,6 +214,9 @@ void Judge::add_light(const Illumination& light, std::vector<std::size_t> screen
   std::vector<shared::DeviceReceiver> receivers;
   for (const std::size_t screen : screens) receivers.push_back(screens_[screen]);
   one.receivers = compute::Buffer(context_, "screens", receivers);
+  std::vector<shared::float4> places;
+  for (const glm::dvec4& place : light.lamp_places) places.push_back(four(glm::dvec3(place), place.w));
+  one.lamp_places = compute::Buffer(context_, "places of the lamp", places);
   for (auto& half : one.sums)
     half = compute::zeroed<std::int64_t>(context_, "light on the screens",
                                          layout_.cell_count() * screens.size() * channels(layout_));
@@ -268,6 +272,7 @@ void Judge::judge_rows(OneLight& light, std::uint32_t first, std::uint32_t count
               {"normals", solid_.normals},
               {"front", light.front},
               {"parts", parts_},
+              {"lamp_places", light.lamp_places},
               {"screens", light.receivers},
               {"seed", seed_},
               {"turn", turn},

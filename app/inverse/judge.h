@@ -86,6 +86,7 @@ private:
     shared::DeviceFront front{};
     std::vector<std::size_t> screens;                  ///< numbers among the judge's
     compute::Buffer<shared::DeviceReceiver> receivers; ///< the same
+    compute::Buffer<shared::float4> lamp_places;       ///< Illumination
     std::array<compute::Buffer<std::int64_t>, 2> sums; ///< even and odd rounds: [screen][y, x, z][cell]
     compute::Buffer<std::int64_t> outcomes;
     RayOutcomes sum;                                        ///< in facets; over all rows and rounds

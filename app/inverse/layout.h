@@ -25,10 +25,10 @@ struct Incoming {
 
 /// Where the light comes from, and how much of it falls on the facets.
 struct Illumination {
-  glm::dvec2 sines{0};            ///< parallel light: x and y of its unit direction before the front
-  std::optional<glm::dvec3> lamp; ///< a point light's place, or the middle of an area
-  glm::dvec2 lamp_half{0};        ///< half of an area light's width and height, in a plane along the front
-  bool lamp_is_round = false;
+  glm::dvec2 sines{0};                 ///< parallel light: x and y of its unit direction before the front
+  std::optional<glm::dvec3> lamp;      ///< a point light's place, or the middle of one of some size
+  std::vector<glm::dvec4> lamp_places; ///< Lamp::places; empty: a point, or parallel light
+  glm::dmat2 lamp_root{0};             ///< lower_root of covariance_of_places
   /// The light on each facet. None: parallel light falls straight on a rectangle and is the same on all facets.
   std::optional<std::vector<Incoming>> facets;
 };
@@ -77,7 +77,8 @@ struct Layout {
   /// Whether light has a width, or many wavelengths.
   bool blurs() const { return sun_radius > 0 || scatter > 0 || spectrum || has_area(); }
   bool has_area() const {
-    return light.lamp_half.x > 0 || std::ranges::any_of(own_lights, [](const auto& l) { return l.lamp_half.x > 0; });
+    return !light.lamp_places.empty() ||
+           std::ranges::any_of(own_lights, [](const Illumination& l) { return !l.lamp_places.empty(); });
   }
   /// Whether light counts as luminance, else as energy.
   bool coloured() const { return spectrum && spectrum->coloured; }

@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "inverse/bending.h"
+#include "inverse/lamp.h"
 #include "optics/fresnel.h"
 #include "scene/sky.h"
 
@@ -114,8 +115,8 @@ glm::dvec2 sines_of_sun(const Light& light, const Settings& s, const Location& w
   return -glm::dvec2(glm::dot(sun, glm::cross(y, z)), glm::dot(sun, y));
 }
 
-Layout with_lamp(Layout layout, double distance, const std::array<double, 2>& offset) {
-  layout.light.lamp = {offset[0], offset[1], layout.thickness + distance};
+Layout with_lamp(Layout layout, const glm::dvec3& middle, double further = 0) {
+  layout.light.lamp = middle + glm::dvec3(0, 0, further);
   return layout;
 }
 
@@ -139,22 +140,30 @@ Layout tilted(const Layout& layout, const Light& light, const Location& where) {
 
 Layout lit_by_lamp(const Layout& layout, const Light& light, const Location& where) {
   if (light.distance_mm <= 0)
-    throw bad_input(where, fmt::format("is {} mm, and the light would stand behind the front", light.distance_mm),
+    throw bad_input(where / "distance_mm",
+                    fmt::format("is {} mm, and the light would stand behind the front", light.distance_mm),
                     "expected more than 0 mm");
+  const glm::dvec3 at(light.offset_mm[0], light.offset_mm[1], layout.thickness + light.distance_mm);
+  Lamp lamp{at, {}};
+  if (light.type == Light::Type::area) lamp = flat_lamp(light, at);
+  if (light.type == Light::Type::mesh) lamp = mesh_lamp(light, at, layout.thickness, where);
   const auto good = [&](double distance) {
-    return worst_shadow(with_lamp(layout, distance, light.offset_mm)) <= most_shadow;
+    return worst_shadow(with_lamp(layout, lamp.middle, distance - light.distance_mm)) <= most_shadow;
   };
-  if (const double worst = worst_shadow(with_lamp(layout, light.distance_mm, light.offset_mm)); worst > most_shadow) {
+  if (const double worst = worst_shadow(with_lamp(layout, lamp.middle)); worst > most_shadow) {
     double far = 2 * light.distance_mm;
     while (!good(far) && far < 1e9) far *= 2;
-    throw bad_input(where,
+    throw bad_input(where / "distance_mm",
                     fmt::format("is {} mm, so near that facets at the rim, to bend its light to the receivers, {}",
                                 light.distance_mm,
                                 std::isinf(worst) ? "reflect all of it" : "stand in each other's shadow"),
                     fmt::format("expected at least {:.4g} mm", last_good(far, light.distance_mm, 40, good)),
                     "move the light away, or make the object smaller");
   }
-  return with_lamp(layout, light.distance_mm, light.offset_mm);
+  Layout lit = with_lamp(layout, lamp.middle);
+  if (!lamp.places.empty()) lit.light.lamp_root = lower_root(covariance_of_places(lamp, layout.thickness));
+  lit.light.lamp_places = std::move(lamp.places);
+  return lit;
 }
 
 } // namespace
@@ -183,11 +192,7 @@ Illumination make_illumination(Layout layout, const Light& light, const Location
   } else if (light.type == Light::Type::parallel)
     layout = tilted(layout, light, where / "tilt_deg");
   else
-    layout = lit_by_lamp(layout, light, where / "distance_mm");
-  if (light.type == Light::Type::area) {
-    layout.light.lamp_half = glm::dvec2(light.size_mm[0], light.size_mm[1]) / 2.0;
-    layout.light.lamp_is_round = light.shape == Light::Shape::disc;
-  }
+    layout = lit_by_lamp(layout, light, where);
   layout.light.facets = light_on_facets(layout);
   const std::span<const Incoming> facets = layout.incoming();
   if (layout.light.facets && std::ranges::none_of(facets, [](const Incoming& in) { return in.power > 0; }))
@@ -278,10 +283,6 @@ glm::dvec2 slope_towards(const Layout& layout, std::size_t facet, const glm::dve
   if (layout.light_index(receiver) == 0) return slope;
   const glm::dvec2 sines = (*layout.light_on(receiver).facets)[facet].sines;
   return facet_slope(facet_gradient(slope, layout.n, sines), layout.n, layout.sines_on(facet));
-}
-
-glm::dvec2 lamp_deviation(const Illumination& light) {
-  return light.lamp_half * (light.lamp_is_round ? 0.5 : 1 / std::sqrt(3.0));
 }
 
 std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout) {

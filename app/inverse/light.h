@@ -30,9 +30,6 @@ LitFacet lit_facet(const Layout& layout, std::size_t facet, const glm::dvec2& sl
 /// The slope in the light of all with which light goes to a receiver with this one, or the nearest one.
 glm::dvec2 slope_towards(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver);
 
-/// x and y of the standard deviation of an area light's places.
-glm::dvec2 lamp_deviation(const Illumination& light);
-
 /// The light at a facet's middle. `power`: over that straight on, or in a lamp's intensity over a square millimetre.
 Incoming incoming_at(const Layout& layout, const glm::dvec2& middle);
 

@@ -49,9 +49,9 @@ void check_picture(const Picture& p, const std::string& pointer, const Where& wh
 }
 
 void check_light(const Light& light, const Settings& s, const std::string& pointer, const Where& where) {
-  if (light.type == Light::Type::area && s.sun_deg > 0)
-    throw bad_input(where("/inverse/sun_deg"), fmt::format("is {} degrees, and a lamp has its size_mm", s.sun_deg),
-                    "expected 0 with a light of type area", "remove it");
+  if ((light.type == Light::Type::area || light.type == Light::Type::mesh) && s.sun_deg > 0)
+    throw bad_input(where("/inverse/sun_deg"), fmt::format("is {} degrees, and a lamp has a size", s.sun_deg),
+                    fmt::format("expected 0 with a light of type {}", preset::word(light.type)), "remove it");
   if (light.type == Light::Type::sun && !preset::days_since_2000(light.place.date))
     throw bad_input(where(preset::child(preset::child(pointer, "place"), "date")),
                     fmt::format("is \"{}\"", light.place.date), "expected a day of 1950 to 2050 as \"2026-06-21\"");
@@ -125,7 +125,7 @@ void check(const preset::Preset& preset, const Where& where) {
            "expected two or more, between which a screen can move", "add a receiver, or take 'frames' away");
   const auto is_lamp = [&](const Receiver& r) {
     const Light::Type type = r.light ? r.light->type : s.light.type;
-    return type == Light::Type::point || type == Light::Type::area;
+    return type != Light::Type::parallel && type != Light::Type::sun;
   };
   if (s.frames > 0 && std::ranges::any_of(s.receivers, is_lamp) && !std::ranges::all_of(s.receivers, is_lamp))
     refuse("frames", fmt::format("is {}, and receivers are lit by lamps and by parallel light", s.frames),

@@ -59,15 +59,16 @@ struct Picture {
 
 /// What falls on the front.
 struct Light {
-  enum class Type { parallel, point, area, sun };
+  enum class Type { parallel, point, area, mesh, sun };
   enum class Shape { disc, rectangle };
   Type type = Type::parallel;
   double tilt_deg = 0;                   ///< parallel: between the light and the front's normal
   double turn_deg = 0;                   ///< parallel: the side to which tilted light goes, counterclockwise from +x
-  double distance_mm = 1000;             ///< point and area: from the front
-  std::array<double, 2> offset_mm{0, 0}; ///< point and area: beside the middle of the object
+  double distance_mm = 1000;             ///< of a lamp, or of a mesh's origin, from the front
+  std::array<double, 2> offset_mm{0, 0}; ///< the same, beside the middle of the object
   Shape shape = Shape::disc;             ///< area: parallel to the front
   std::array<double, 2> size_mm{10, 10}; ///< area: width and height
+  std::string file;                      ///< mesh: in millimetres; x is to the right, y up, z away from the object
   preset::PlaceAndTime place{};          ///< sun: where and when it is seen
   /// With a spectrum, luminance counts and the judge sees colours. Without one, the light is a wavelength or a band.
   std::optional<preset::LightSpectrum> spectrum{};

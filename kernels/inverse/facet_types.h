@@ -59,8 +59,7 @@ typedef struct {
   float sines[2], around[2];
   float spread[4]; // column by column
   float power;
-  float lamp[2]; // standard deviation of a lamp's places, along x and y
-  int padding;
+  float lamp[3]; // root of the covariance of a lamp's places: xx, xy, yy of a lower triangle
 } DeviceIncoming;
 
 // The part of a triangle of the solid: inverse::Part.
@@ -92,8 +91,8 @@ typedef struct {
   int cells_x, cells_y, screens;
   uint part_step; // from a ray's part of the spectrum to the next one's; 0: one index
   int is_round; // 1: light falls on the ellipse within the front
-  float lamp_x, lamp_y; // half of the lamp's size; 0: a point
-  int lamp_is_round, padding;
+  uint lamp_places; // how many points stand for it; 0: it is one itself
+  int padding[3];
 } DeviceFront;
 
 // How a ray leaves the object.

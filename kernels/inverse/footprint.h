@@ -79,7 +79,7 @@ typedef struct {
   int column, row;
   float2 middle, sines;
   float4 spread; // column by column
-  float2 lamp;   // DeviceIncoming
+  float3 lamp;   // DeviceIncoming
   float power, height;
   global const DeviceIncoming* all; // light on all facets
 } Facet;
@@ -88,7 +88,7 @@ typedef struct {
 static inline void put_light(Facet* facet, DeviceIncoming in) {
   facet->sines = (float2)(in.sines[0], in.sines[1]);
   facet->spread = (float4)(in.spread[0], in.spread[1], in.spread[2], in.spread[3]);
-  facet->lamp = (float2)(in.lamp[0], in.lamp[1]);
+  facet->lamp = (float3)(in.lamp[0], in.lamp[1], in.lamp[2]);
   facet->power = in.power;
 }
 #endif
@@ -100,7 +100,7 @@ static inline Facet facet_at(global const DeviceLayout* layout, global const Dev
                  middle_of_facet(layout, index),
                  (float2)(0.0f),
                  (float4)(0.0f),
-                 (float2)(0.0f),
+                 (float3)(0.0f),
                  1.0f,
                  heights[index],
                  incoming};
@@ -197,8 +197,9 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
     beams.map_by_distance = (float4)(change.by_sine_x * around.x + change.by_sine_y * around.y,
                                      change.by_sine_x * around.z + change.by_sine_y * around.w);
 #if NEPHROID_SPREAD
-    const float2 a = facet->lamp.x * (change.by_sine_x * s.x + change.by_sine_y * s.y), // of the lamp's width
-                 b = facet->lamp.y * (change.by_sine_x * s.z + change.by_sine_y * s.w);
+    const float2 by_x = change.by_sine_x * s.x + change.by_sine_y * s.y, // of the lamp's places
+                 by_y = change.by_sine_x * s.z + change.by_sine_y * s.w;
+    const float2 a = facet->lamp.x * by_x + facet->lamp.y * by_y, b = facet->lamp.z * by_y;
     beams.covariance += (float3)(a.x * a.x + b.x * b.x, a.x * a.y + b.x * b.y, a.y * a.y + b.y * b.y);
 #endif
   }

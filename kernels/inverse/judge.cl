@@ -89,10 +89,12 @@ static inline void add_ray_outcome(global long* outcomes, uint item, int outcome
 }
 
 // Rays first .. first + count - 1 of a round: a jittered lattice on each facet, one facet after the other. Each ray of
-// a facet takes one of `parts`, an index and a colour of the spectrum. light: [screen][y, x, z][cell].
+// a facet takes one of `parts`, an index and a colour of the spectrum, and one of a lamp's places, from its middle, with
+// its power as w. light: [screen][y, x, z][cell].
 __kernel void judge(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals,
-                    DeviceFront front, __global const float4* parts, __global const DeviceReceiver* screens, uint2 seed,
-                    uint turn, uint first_row, uint count, __global long* light, __global long* outcomes) {
+                    DeviceFront front, __global const float4* parts, __global const float4* lamp_places,
+                    __global const DeviceReceiver* screens, uint2 seed, uint turn, uint first_row, uint count,
+                    __global long* light, __global long* outcomes) {
   const uint item = work_item();
   if (item >= count) return;
   const uint along = (uint)front.along, rays = along * along, facet = first_row * (uint)front.columns + item / rays,
@@ -109,11 +111,11 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
   if (front.lamp_weight > 0.0f) {
     float3 lamp = front.lamp.xyz;
 #if NEPHROID_SPREAD
-    if (front.lamp_x > 0.0f) {
+    if (front.lamp_places > 0u) {
       const float4 begin = random4(seed, 0u, facet, 4u * turn + 1u, STREAM_JUDGE);
-      const float2 even = (float2)(even_number(begin.x, ray, 3785032107u), even_number(begin.y, ray, 3335640777u));
-      lamp.xy += (float2)(front.lamp_x, front.lamp_y) *
-                 (front.lamp_is_round ? on_circle(sqrt(even.x), even.y) : 2.0f * even - 1.0f);
+      const float4 at = lamp_places[(uint)(even_number(begin.x, ray, 3785032107u) * (float)front.lamp_places)];
+      lamp += at.xyz;
+      part *= at.w;
     }
 #endif
     const float3 way = place - lamp;

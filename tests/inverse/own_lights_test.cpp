@@ -10,6 +10,9 @@
 #include "tests/support/render.h"
 #include "tests/support/test.h"
 
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+
 #include <numeric>
 #include <random>
 
@@ -58,7 +61,7 @@ TEST(OwnLights, HaveNothingOfTheLightOfAll) {
                                       {R"(inverse.light={"type": "parallel", "tilt_deg": 5})"}}) {
     const Layout layout = layout_of(of);
     EXPECT_FALSE(layout.light_on(1).lamp);
-    EXPECT_EQ(layout.light_on(0).lamp_half, glm::dvec2(0));
+    EXPECT_TRUE(layout.light_on(0).lamp_places.empty());
     for (const std::size_t j : {0u, 1u}) EXPECT_EQ(layout.light_on(j).sines, plain.light_on(j).sines) << j;
   }
 }
@@ -81,8 +84,60 @@ TEST(OwnLights, AFacetBendsEachLightAsARayGoes) {
   }
 }
 
+struct LampMesh {
+  std::string obj;
+  test::TemporaryFolder folder{};
+  std::string light(double distance_mm = 500) const {
+    const std::filesystem::path file = folder.write("lamp.obj", obj);
+    return fmt::format(R"({{"type": "mesh", "file": "{}", "distance_mm": {}}})", file.string(), distance_mm);
+  }
+};
+
+/// A bar in a plane along the front, from one corner of a rectangle to the other.
+LampMesh bar() { return {"v -30 -15 0\nv -25 -15 0\nv 30 15 0\nv 25 15 0\nf 1 2 3 4\n"}; }
+
+LampMesh ball(double radius) {
+  std::string obj;
+  constexpr int around = 96, down = 48;
+  for (int i = 0; i <= down; ++i)
+    for (int k = 0; k < around; ++k) {
+      const double theta = glm::pi<double>() * i / down, phi = 2 * glm::pi<double>() * k / around;
+      obj += fmt::format("v {} {} {}\n", radius * std::sin(theta) * std::cos(phi),
+                         radius * std::sin(theta) * std::sin(phi), radius * std::cos(theta));
+    }
+  for (int i = 0; i < down; ++i)
+    for (int k = 0; k < around; ++k) {
+      const int next = (k + 1) % around, row = around * i + 1;
+      obj += fmt::format("f {} {} {}\nf {} {} {}\n", row + k, row + around + k, row + next, row + next,
+                         row + around + k, row + around + next);
+    }
+  return {obj};
+}
+
+// A ball is a disc at whatever distance it is looked at: R = D tan(asin(r / 500)), with a variance of R^2 / 4.
+TEST(OwnLights, AMeshIsALampOfItsOutline) {
+  const auto lamp_of = [](const std::string& light) { return layout_of({"inverse.light=" + light}).light; };
+  const LampMesh square{"v -30 -15 0\nv 30 -15 0\nv 30 15 0\nv -30 15 0\nf 1 2 3 4\n"};
+  const Illumination mesh = lamp_of(square.light()),
+                     flat =
+                         lamp_of(R"({"type": "area", "distance_mm": 500, "shape": "rectangle", "size_mm": [60, 30]})");
+  ASSERT_EQ(mesh.lamp_places.size(), flat.lamp_places.size());
+  EXPECT_LT(glm::distance(*mesh.lamp, *flat.lamp), 0.01);
+  for (std::size_t i = 0; i < mesh.lamp_places.size(); ++i)
+    EXPECT_LT(glm::distance(mesh.lamp_places[i], flat.lamp_places[i]), 0.5) << i;
+  for (const int k : {0, 1}) EXPECT_NEAR(mesh.lamp_root[k][k] / flat.lamp_root[k][k], 1, 1e-3) << k;
+  const double r = 100;
+  const Illumination sphere = lamp_of(ball(r).light());
+  const double outline = (sphere.lamp->z - 10) * std::tan(std::asin(r / 500));
+  for (const int k : {0, 1}) EXPECT_NEAR(sphere.lamp_root[k][k] / (outline / 2), 1, 3e-3) << k;
+  EXPECT_NEAR(sphere.lamp_root[0][1] / outline, 0, 1e-3);
+}
+
 TEST(OwnLights, DeviceAndHostSendTheSameLight) {
-  for (const preset::Overrides& of : {preset::Overrides{}, {"inverse.sun_deg=0.53"}}) {
+  const LampMesh lamp = bar();
+  for (const preset::Overrides& of : {preset::Overrides{},
+                                      {"inverse.sun_deg=0.53"},
+                                      {"inverse.light=" + lamp.light(), "inverse.receivers.0.light=null"}}) {
     const Layout l = layout_of(of);
     const std::vector<Target> targets = ring_and_disc(l);
     DeviceFacets facets(test::shared_context(), l, targets, picture_weights(l, targets));
@@ -111,15 +166,18 @@ TEST(OwnLights, EachPictureIsThereInItsOwnLightAlone) {
 
 // Facets in random directions; the lamp's width is ten cells on the receiver and more.
 TEST(OwnLights, ALampsSizeBlursAsRaysSay) {
-  for (const char* shape : {"disc", "rectangle"}) {
-    const std::string light =
-        R"({"type": "area", "distance_mm": 500, "shape": ")" + std::string(shape) + R"(", "size_mm": [60, 30]})";
+  const auto flat = [](const char* shape) {
+    return R"({"type": "area", "distance_mm": 500, "shape": ")" + std::string(shape) + R"(", "size_mm": [60, 30]})";
+  };
+  const LampMesh askew = bar(), round = ball(25);
+  for (const std::string& light : {flat("disc"), flat("rectangle"), askew.light(), round.light()}) {
     const Layout l = layout_of({"inverse.light=" + light, "inverse.receivers.0.light=null",
                                 "inverse.receivers.1.light=null", "inverse.receivers.1.distance_mm=300"});
     ASSERT_TRUE(l.own_lights.empty());
     const std::vector<glm::dvec2> slopes(l.facet_count(), glm::dvec2(0.02, 0));
     Layout point = l;
-    point.light.lamp_half = {0, 0};
+    point.light.lamp_places.clear();
+    point.light.lamp_root = glm::dmat2(0);
     const std::vector<double> z(l.facet_count());
     Judge judge(test::shared_context(), l, make_solid(l, slopes), 1);
     while (!judge.finished()) judge.advance();
@@ -129,8 +187,8 @@ TEST(OwnLights, ALampsSizeBlursAsRaysSay) {
       for (double& cell : of_rays)
         cell *= std::accumulate(believed[j].begin(), believed[j].end(), 0.0) /
                 std::accumulate(judge.light(j).begin(), judge.light(j).end(), 0.0);
-      EXPECT_LT(apart(believed[j], of_rays), 0.03) << shape << j;
-      EXPECT_GT(apart(sharp[j], of_rays), 2 * apart(believed[j], of_rays)) << shape << j;
+      EXPECT_LT(apart(believed[j], of_rays), 0.03) << light << j;
+      EXPECT_GT(apart(sharp[j], of_rays), 2 * apart(believed[j], of_rays)) << light << j;
     }
   }
 }
@@ -159,7 +217,11 @@ TEST(OwnLights, BadLightIsRefused) {
   EXPECT_THAT(refusal({"inverse.receivers.0.light.spectrum=D65"}), testing::HasSubstr("all lights have the spectrum"));
   EXPECT_THAT(refusal({"inverse.frames=3"}), testing::HasSubstr("lit by lamps and by parallel light"));
   EXPECT_THAT(refusal({"inverse.receivers.0.light.type=area", "inverse.sun_deg=0.5"}),
-              testing::HasSubstr("a lamp has its size_mm"));
+              testing::HasSubstr("a lamp has a size"));
+  const LampMesh large = ball(40), edge{"v 0 -9 0\nv 0 9 0\nv 0 0 20\nf 1 2 3\n"};
+  EXPECT_THAT(refusal({"inverse.light=" + large.light(30)}),
+              testing::HasSubstr("#/inverse/light/distance_mm: is 30 mm, and the lamp reaches 10 mm behind the front"));
+  EXPECT_THAT(refusal({"inverse.light=" + edge.light()}), testing::HasSubstr("sees only an edge"));
 }
 
 } // namespace nephroid::own_lights_test

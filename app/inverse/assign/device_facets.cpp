@@ -34,18 +34,24 @@ double spreads(const Layout& l, const Illumination& light) {
   return light.lamp ? 1 / (light.lamp->z - l.thickness + l.thickness / l.n) : 0;
 }
 
+/// Standard deviation of a lamp's places, the same along each axis.
+double along_an_axis(const Illumination& light) {
+  const glm::dmat2& root = light.lamp_root;
+  return std::sqrt((glm::dot(root[0], root[0]) + glm::dot(root[1], root[1])) / 2);
+}
+
 std::vector<shared::DeviceReceiver> receivers_of(const Layout& layout, std::span<const double> weights) {
   std::vector<shared::DeviceReceiver> receivers;
   for (std::size_t j = 0; j < layout.distances.size(); ++j)
-    receivers.push_back({.x = static_cast<float>(layout.offset(j).x),
-                         .y = static_cast<float>(layout.offset(j).y),
-                         .distance = static_cast<float>(layout.distances[j]),
-                         .weight = static_cast<float>(weights[j]),
-                         .light = static_cast<int>(layout.light_index(j)),
-                         .spreads = static_cast<float>(spreads(layout, layout.light_on(j))),
-                         .lamp = static_cast<float>(spreads(layout, layout.light_on(j)) *
-                                                    glm::length(lamp_deviation(layout.light_on(j))) / std::sqrt(2.0)),
-                         .padding = 0});
+    receivers.push_back(
+        {.x = static_cast<float>(layout.offset(j).x),
+         .y = static_cast<float>(layout.offset(j).y),
+         .distance = static_cast<float>(layout.distances[j]),
+         .weight = static_cast<float>(weights[j]),
+         .light = static_cast<int>(layout.light_index(j)),
+         .spreads = static_cast<float>(spreads(layout, layout.light_on(j))),
+         .lamp = static_cast<float>(spreads(layout, layout.light_on(j)) * along_an_axis(layout.light_on(j))),
+         .padding = 0});
   return receivers;
 }
 
@@ -148,10 +154,11 @@ shared::DeviceLayout device_layout(const Layout& l) {
 
 std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout) {
   std::vector<shared::DeviceIncoming> incoming;
-  const auto add = [&](const Incoming& in, const glm::dvec2& lamp) {
+  const auto add = [&](const Incoming& in, const glm::dmat2& lamp) {
     shared::DeviceIncoming made{};
-    made.lamp[0] = static_cast<float>(lamp.x);
-    made.lamp[1] = static_cast<float>(lamp.y);
+    made.lamp[0] = static_cast<float>(lamp[0][0]);
+    made.lamp[1] = static_cast<float>(lamp[0][1]);
+    made.lamp[2] = static_cast<float>(lamp[1][1]);
     for (int i = 0; i < 2; ++i) {
       made.sines[i] = static_cast<float>(in.sines[i]);
       made.around[i] = static_cast<float>(in.around[i]);
@@ -162,7 +169,7 @@ std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout) {
   };
   for (std::size_t k = 0; k <= layout.own_lights.size(); ++k)
     if (const Illumination& light = layout.numbered(k); light.facets)
-      for (const Incoming& in : *light.facets) add(in, lamp_deviation(light));
+      for (const Incoming& in : *light.facets) add(in, light.lamp_root);
   return incoming;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "inverse/bending.h"
+#include "inverse/lamp.h"
 #include "inverse/light.h"
 
 #include <glm/gtc/constants.hpp>
@@ -107,19 +108,14 @@ Blur blur_of(const Layout& layout, const Illumination& light, const Incoming& in
   const double sun = layout.sun_radius / 2, cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
   const glm::dmat2 disc =
       sun * change.by_sines * (glm::dmat2(1) - glm::outerProduct(in.sines, in.sines) / (1 + cosine));
-  const glm::dvec2 deviation = lamp_deviation(light);
-  const glm::dmat2 lamp = change.by_sines * in.spread * glm::dmat2(deviation.x, 0, 0, deviation.y);
+  const glm::dmat2 lamp = change.by_sines * in.spread * light.lamp_root;
   const glm::dmat2 both = disc * glm::transpose(disc) + lamp * glm::transpose(lamp) +
                           glm::dmat2(layout.scatter * layout.scatter); // covariance
   const bool is_wide = std::sqrt(12 * (both[0][0] + both[1][1]) / 2) > wide_in_cells * fine;
   if (layout.spectrum)
     part_colours(layout, change.by_index, piece_in_cells * fine, is_wide ? Beams::most / 4 : Beams::most, blur);
   if (is_wide) {
-    glm::dmat2 root(0); // root root^T is the covariance
-    root[0][0] = std::sqrt(both[0][0]);
-    root[0][1] = both[0][1] / root[0][0];
-    root[1][1] = std::sqrt(std::max(0.0, both[1][1] - root[0][1] * root[0][1]));
-    part_disc(root, blur.count == 1 ? disc_beams : 4, blur);
+    part_disc(lower_root(both), blur.count == 1 ? disc_beams : 4, blur);
   } else
     blur.variance += glm::dvec2(both[0][0], both[1][1]);
   return blur;
