@@ -89,8 +89,8 @@ static inline void add_ray_outcome(global long* outcomes, uint item, int outcome
 }
 
 // Rays first .. first + count - 1 of a round: a jittered lattice on each facet, one facet after the other. Each ray of
-// a facet takes one of `parts`, an index and a colour of the spectrum, and one of a lamp's places, from its middle, with
-// its power as w. light: [screen][y, x, z][cell].
+// a facet takes one of `parts`, an index and a colour of the spectrum, and one of a lamp's places, with its power as w.
+// light: [screen][y, x, z][cell].
 __kernel void judge(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals,
                     DeviceFront front, __global const float4* parts, __global const float4* lamp_places,
                     __global const DeviceReceiver* screens, uint2 seed, uint turn, uint first_row, uint count,
