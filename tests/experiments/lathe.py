@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the turned meshes of presets: a drinking glass, the water in it, a finger ring, a hoop, a bottle.
+"""Writes the turned meshes of presets: a drinking glass, the water in it, a finger ring, straight and bent, a hoop, a
+bottle.
 
 usage: lathe.py [FOLDER]    (presets)
 
@@ -57,19 +58,27 @@ def bottle():
             arc((1.1, 12.5), 0.2, -60, 90, 5) + [(0.6, 12.7), (0, 12.7)])
 
 
-def turn(profile, segments, closes):
-    """OBJ text. closes: the profile's end joins its begin; else it begins and ends on the axis."""
+def bent(x, y, z):
+    """Pressed to an oval whose long ends curl up."""
+    return 1.25 * x, y + 0.3 * x * x, 0.75 * z
+
+
+def turn(profile, segments, closes, place=lambda *at: at):
+    """OBJ text. closes: the profile's end joins its begin; else it begins and ends on the axis. place moves a point."""
+    def vertex(*at):
+        return "v {:.5g} {:.5g} {:.5g}".format(*place(*at))
+
     lines, rows = [], []
     count = 0
     for radius, height in profile:
         if radius == 0:
-            lines.append(f"v 0 {height:.5g} 0")
+            lines.append(vertex(0, height, 0))
             rows.append([count + 1] * segments)
             count += 1
             continue
         for k in range(segments):
             angle = 2 * math.pi * k / segments
-            lines.append(f"v {radius * math.cos(angle):.5g} {height:.5g} {radius * math.sin(angle):.5g}")
+            lines.append(vertex(radius * math.cos(angle), height, radius * math.sin(angle)))
         rows.append([count + 1 + k for k in range(segments)])
         count += segments
     for i in range(len(rows) if closes else len(rows) - 1):
@@ -80,14 +89,18 @@ def turn(profile, segments, closes):
     return "\n".join(lines) + "\n"
 
 
+def write(folder, name, text):
+    (folder / f"{name}.obj").write_text("# made by tests/experiments/lathe.py\n" + text)
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "presets")
     for name, profile, segments, closes in [("environment/drinking-glass", drinking_glass(), 96, False),
                                             ("environment/water", water(), 96, False),
                                             ("environment/ring", ring(), 96, True), ("spectral/hoop", hoop(), 96, True),
                                             ("spectral/bottle", bottle(), 64, False)]:
-        text = "# made by tests/experiments/lathe.py\n" + turn(profile, segments, closes)
-        (folder / f"{name}.obj").write_text(text)
+        write(folder, name, turn(profile, segments, closes))
+    write(folder, "environment/bent-ring", turn(ring(), 96, True, bent))
 
 
 if __name__ == "__main__":
