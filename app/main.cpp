@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program's entry: gives the command line to cli/, and the window's options to ui/ where the build has a window.
+#include "base/memory.h"
 #include "cli/verb.h"
 
 #ifdef NEPHROID_UI
@@ -36,6 +37,7 @@ void add_window_options(CLI::App& program, nephroid::ui::Options& options) {
 #endif
 
 int main(int argc, char** argv) {
+  nephroid::keep_freed_memory();
   nephroid::cli::Window window;
 #ifdef NEPHROID_UI
   const auto options = std::make_shared<nephroid::ui::Options>();

@@ -9,6 +9,7 @@
 // preset. "previous": it is still the one before the edit. FOLDER gets a PNG of each. The second makes so many edits,
 // EDIT and back, .3 to .9 s of work apart, and prints the seconds from an edit to its first picture: the median and the
 // most. tests/experiments/after_edits.py makes tables of both.
+#include "base/memory.h"
 #include "image/image.h"
 #include "measure/read_picture.h"
 #include "ui/state/device_runs.h"
@@ -129,6 +130,7 @@ void print_errors(const std::vector<Shown>& shown, const measure::LinearPicture&
 
 int main(int count, char** arguments) {
   if (count < 6) return fmt::print(stderr, "nephroid_after_edit NUMBER TRUTH FOLDER PRESET EDIT [SET...]\n"), 2;
+  nephroid::keep_freed_memory();
   try {
     const double number = std::atof(arguments[1]);
     const std::string truth_file = arguments[2];
