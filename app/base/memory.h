@@ -9,7 +9,7 @@
 namespace nephroid {
 
 /// Keeps up to 512 MiB of freed memory for what is allocated next. Else each array over a few megabytes gets new pages
-/// from the kernel, which takes a sixth of the time from an edit of a large mesh to its picture. Before any thread is.
+/// from the kernel, which takes a fifth of the time from an edit of a large mesh to its picture. Before threads begin.
 inline void keep_freed_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 256 << 20);

@@ -112,6 +112,7 @@ private:
   compute::Buffer<shared::float4> parts_;       ///< the spectrum's parts: index and XYZ
   std::vector<shared::DeviceReceiver> screens_; ///< the receivers, then the frames
   std::vector<OneLight> lights_;                ///< the receivers' lights, then those of frames in lights between them
+  std::size_t left_out_ = 0;                    ///< 1: no receiver has the light of all, which is left out
   compute::Kernel judge_;
   int along_ = 1;           ///< rays along one side of a facet
   int row_ = 0, round_ = 0; ///< row: of the facets in one light after the other
