@@ -17,6 +17,7 @@ namespace nephroid::inverse {
 namespace {
 
 constexpr std::uint32_t places_across = 64, lookouts_across = 256;
+constexpr std::size_t place_count = std::size_t{places_across} * places_across;
 
 /// The middle of cell i of a unit square along Morton's curve, so that cells which follow each other are neighbours.
 glm::dvec2 on_curve(std::uint32_t i, std::uint32_t cells_across) {
@@ -41,7 +42,7 @@ glm::dvec2 to_disc(const glm::dvec2& p) {
 Lamp flat_lamp(const Light& light, const glm::dvec3& middle) {
   Lamp lamp{middle, {}};
   const glm::dvec2 half = glm::dvec2(light.size_mm[0], light.size_mm[1]) / 2.0;
-  for (std::uint32_t i = 0; i < places_across * places_across; ++i) {
+  for (std::uint32_t i = 0; i < place_count; ++i) {
     const glm::dvec2 p = 2.0 * on_curve(i, places_across) - 1.0;
     lamp.places.emplace_back(half * (light.shape == Light::Shape::disc ? to_disc(p) : p), 0, 1);
   }
@@ -77,8 +78,8 @@ Lamp mesh_lamp(const Light& light, const glm::dvec3& origin, double thickness, c
   for (const glm::dvec3& p : seen) lamp.middle += p / static_cast<double>(seen.size());
   // Equal parts of the outline give the same light from wherever on their way they come.
   const double distance = lamp.middle.z - thickness;
-  for (std::size_t i = 0; i < places_across * places_across; ++i) {
-    const glm::dvec3& p = seen[(2 * i + 1) * seen.size() / (2 * places_across * places_across)];
+  for (std::size_t i = 0; i < place_count; ++i) {
+    const glm::dvec3& p = seen[(2 * i + 1) * seen.size() / (2 * place_count)];
     lamp.places.emplace_back(p - lamp.middle, std::pow((p.z - thickness) / distance, 2));
   }
   return lamp;
