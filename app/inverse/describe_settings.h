@@ -137,7 +137,7 @@ inline void describe(preset::Fields& v, Light& l) {
       v.field(
           "file",
           "The lamp's mesh in millimetres, its origin at the distance and offset: x to the right, y up, z away from "
-          "the object. It is as bright everywhere.",
+          "the object. It is equally bright everywhere.",
           l.file, {.text = preset::Text::file, .required = true});
     if (l.type == Light::Type::area) {
       v.field("shape", "What the lamp looks like from the object.", l.shape);

@@ -16,17 +16,25 @@
 namespace nephroid::inverse {
 namespace {
 
-constexpr std::uint32_t places_across = 64, lookouts_across = 256;
+constexpr int places_across = 64;
 constexpr std::size_t place_count = std::size_t{places_across} * places_across;
+/// So many places of a mesh are looked at.
+constexpr std::size_t looks = std::size_t{1} << 16;
 
-/// The middle of cell i of a unit square along Morton's curve, so that cells which follow each other are neighbours.
-glm::dvec2 on_curve(std::uint32_t i, std::uint32_t cells_across) {
-  std::uint32_t x = 0, y = 0;
-  for (std::uint32_t bit = 0; bit < 16; ++bit) {
-    x |= (i >> (2 * bit) & 1) << bit;
-    y |= (i >> (2 * bit + 1) & 1) << bit;
-  }
-  return (glm::dvec2(x, y) + 0.5) / static_cast<double>(cells_across);
+/// Orders places along Morton's curve by x and y, so that those which follow each other are neighbours.
+void order(std::vector<glm::dvec4>& places) {
+  glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
+  for (const glm::dvec4& place : places)
+    low = glm::min(low, glm::dvec2(place)), high = glm::max(high, glm::dvec2(place));
+  const glm::dvec2 cell = glm::max(high - low, glm::dvec2(1e-300)) / 65535.0;
+  const auto number = [&](const glm::dvec4& place) {
+    const glm::uvec2 at((glm::dvec2(place) - low) / cell);
+    std::uint64_t bits = 0;
+    for (std::uint32_t bit = 0; bit < 16; ++bit)
+      bits |= (std::uint64_t{at.x >> bit & 1} << (2 * bit)) | (std::uint64_t{at.y >> bit & 1} << (2 * bit + 1));
+    return bits;
+  };
+  std::ranges::stable_sort(places, {}, number);
 }
 
 /// Maps a square of -1..1 to the unit disc, areas to equal parts (Shirley and Chiu 1997).
@@ -37,51 +45,73 @@ glm::dvec2 to_disc(const glm::dvec2& p) {
   return r * glm::dvec2(std::cos(phi), std::sin(phi));
 }
 
+/// Where one looks at a mesh from the origin, as it stands `to_mesh` from there: its triangles get looks by how large
+/// they are as seen, and what something else hides falls away.
+std::vector<glm::dvec3> places_seen(const scene::Mesh& mesh, const glm::dvec3& to_mesh) {
+  const auto seen_at = [&](std::uint32_t vertex) {
+    const glm::dvec3 p = glm::dvec3(mesh.positions[vertex]) + to_mesh;
+    return glm::dvec2(p) / p.z;
+  };
+  std::vector<double> up_to; // the sizes of the triangles before each one and of itself
+  double sum = 0;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::dvec2 a = seen_at(t.x), b = seen_at(t.y) - a, c = seen_at(t.z) - a;
+    up_to.push_back(sum += std::abs(b.x * c.y - b.y * c.x));
+  }
+  std::vector<glm::dvec3> places;
+  if (sum == 0) return places;
+  const scene::Bvh bvh = scene::build_bvh(mesh);
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < looks; ++k) {
+    const double at = (static_cast<double>(k) + 0.5) / static_cast<double>(looks) * sum;
+    while (up_to[i] < at && i + 1 < up_to.size()) ++i;
+    const double before = i > 0 ? up_to[i - 1] : 0, along = std::sqrt((at - before) / (up_to[i] - before)),
+                 across = glm::fract(static_cast<double>(k) * glm::golden_ratio<double>());
+    const glm::uvec3& t = mesh.triangles[i];
+    const glm::dvec3 way((1 - along) * seen_at(t.x) + along * glm::mix(seen_at(t.y), seen_at(t.z), across), 1);
+    if (const auto hit = scene::closest_hit(bvh, -to_mesh, way); hit && hit->primitive == i)
+      places.push_back(hit->t * way);
+  }
+  return places;
+}
+
 } // namespace
 
 Lamp flat_lamp(const Light& light, const glm::dvec3& middle) {
   Lamp lamp{middle, {}};
   const glm::dvec2 half = glm::dvec2(light.size_mm[0], light.size_mm[1]) / 2.0;
-  for (std::uint32_t i = 0; i < place_count; ++i) {
-    const glm::dvec2 p = 2.0 * on_curve(i, places_across) - 1.0;
-    lamp.places.emplace_back(half * (light.shape == Light::Shape::disc ? to_disc(p) : p), 0, 1);
-  }
+  for (int y = 0; y < places_across; ++y)
+    for (int x = 0; x < places_across; ++x) {
+      const glm::dvec2 p = (2.0 * glm::dvec2(x, y) + 1.0) / static_cast<double>(places_across) - 1.0;
+      lamp.places.emplace_back(half * (light.shape == Light::Shape::disc ? to_disc(p) : p), 0, 1);
+    }
+  order(lamp.places);
   return lamp;
 }
 
 Lamp mesh_lamp(const Light& light, const glm::dvec3& origin, double thickness, const Location& where) {
   const std::shared_ptr<const scene::Mesh> mesh = scene::load_mesh_once(light.file);
   const glm::dvec3 front(0, 0, thickness), to_mesh = origin + mesh->middle - front;
-  glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const glm::vec3& position : mesh->positions) {
-    const glm::dvec3 p = glm::dvec3(position) + to_mesh;
-    nearest = std::min(nearest, p.z);
-    low = glm::min(low, glm::dvec2(p) / p.z);
-    high = glm::max(high, glm::dvec2(p) / p.z);
-  }
+  for (const glm::vec3& position : mesh->positions) nearest = std::min(nearest, double{position.z} + to_mesh.z);
   if (nearest <= 0)
     throw bad_input(where / "distance_mm",
                     fmt::format("is {} mm, and the lamp reaches {:.4g} mm behind the front of the object",
                                 light.distance_mm, -nearest),
                     fmt::format("expected more than {:.4g} mm", light.distance_mm - nearest));
-  const scene::Bvh bvh = scene::build_bvh(*mesh);
-  std::vector<glm::dvec3> seen;
-  for (std::uint32_t i = 0; i < lookouts_across * lookouts_across; ++i) {
-    const glm::dvec3 way(glm::mix(low, high, on_curve(i, lookouts_across)), 1);
-    if (const auto hit = scene::closest_hit(bvh, -to_mesh, way)) seen.push_back(front + hit->t * way);
-  }
+  const std::vector<glm::dvec3> seen = places_seen(*mesh, to_mesh);
   if (seen.empty())
     throw bad_input(where / "file", "is a mesh of which the object sees only an edge",
                     "expected one that turns a face to the object", "turn it in its file");
-  Lamp lamp;
-  for (const glm::dvec3& p : seen) lamp.middle += p / static_cast<double>(seen.size());
+  glm::dvec3 middle(0);
+  for (const glm::dvec3& p : seen) middle += p / static_cast<double>(seen.size());
   // Equal parts of the outline give the same light from wherever on their way they come.
-  const double distance = lamp.middle.z - thickness;
-  for (std::size_t i = 0; i < place_count; ++i) {
-    const glm::dvec3& p = seen[(2 * i + 1) * seen.size() / (2 * place_count)];
-    lamp.places.emplace_back(p - lamp.middle, std::pow((p.z - thickness) / distance, 2));
-  }
+  std::vector<glm::dvec4> places;
+  for (const glm::dvec3& p : seen) places.emplace_back(p - middle, (p.z / middle.z) * (p.z / middle.z));
+  order(places);
+  Lamp lamp{front + middle, {}};
+  for (std::size_t i = 0; i < place_count; ++i)
+    lamp.places.push_back(places[(2 * i + 1) * places.size() / (2 * place_count)]);
   return lamp;
 }
 

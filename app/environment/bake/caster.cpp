@@ -277,9 +277,9 @@ std::vector<BakedShape> baked_shapes(const preset::Preset& preset) {
       if (part < 1e-9) continue;
       if (shapes.size() == most)
         throw bad_input(Location(preset.source) / "environment" / "weight_steps",
-                        fmt::format("is {}, and more than 3 weights of states are between steps", steps),
+                        fmt::format("is {}, and more than 3 states have weights between such steps", steps),
                         fmt::format("expected at most {} shapes to bake, two for each such weight, multiplied", most),
-                        "put weights on steps; or take 0, and each weight has a bake of its own");
+                        "put weights on steps; or choose a weight_steps of 0, and each weight has a bake of its own");
       std::vector<BakedShape> corners;
       for (const BakedShape& shape : shapes)
         for (const bool up : {false, true}) {
