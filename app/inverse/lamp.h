@@ -6,8 +6,8 @@
 namespace nephroid::inverse {
 
 /// The places of a flat lamp or of a mesh, from the middle of all. w: a place's power over that of one in the middle.
-/// Of a mesh they are what the middle of the front sees, equal parts of its outline: it is equally bright everywhere, by the
-/// cosine law.
+/// Of a mesh they are what the middle of the front sees, equal parts of its outline: it is equally bright everywhere,
+/// by the cosine law.
 struct Lamp {
   glm::dvec3 middle{0};
   std::vector<glm::dvec4> places;
