@@ -8,8 +8,9 @@
 
 namespace nephroid {
 
-/// Keeps up to 512 MiB of freed memory for what is allocated next. Else each array over a few megabytes gets new pages
-/// from the kernel, which takes a fifth of the time from an edit of a large mesh to its picture. Before threads begin.
+/// Keeps freed memory for what is allocated next, with the GNU C library. Without this call each large array gets new
+/// pages from the system, which takes a fifth of the time from an edit of a large mesh to its picture. Call it before
+/// any thread starts.
 inline void keep_freed_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 256 << 20);

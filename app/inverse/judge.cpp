@@ -196,8 +196,8 @@ Judge::Judge(const mpi::RankContext& context, const Layout& layout, const Solid&
   halves_.fill(light_);
   std::vector<std::size_t> some(layout.own_lights.empty() ? screens_.size() : layout.distances.size());
   std::iota(some.begin(), some.end(), std::size_t{0});
-  left_out_ = !layout.light_of.empty() && std::ranges::count(layout.light_of, 0u) == 0 ? 1 : 0;
-  for (std::size_t k = left_out_; k <= layout.own_lights.size(); ++k) add_light(layout.numbered(k), some);
+  first_light_ = !layout.light_of.empty() && std::ranges::count(layout.light_of, 0u) == 0 ? 1 : 0;
+  for (std::size_t k = first_light_; k <= layout.own_lights.size(); ++k) add_light(layout.numbered(k), some);
   if (layout.own_lights.empty() || layout.frames.empty()) return;
   const std::size_t each = layout.frames.size() / (layout.distances.size() - 1);
   for (std::size_t f = 0; f < layout.frames.size(); ++f)
@@ -233,7 +233,7 @@ std::size_t Judge::lamp_of(std::size_t screen) const {
   if (layout_.own_lights.empty()) return 0;
   const std::size_t receivers = layout_.distances.size();
   return (screen < receivers ? layout_.light_index(screen) : layout_.own_lights.size() + 1 + screen - receivers) -
-         left_out_;
+         first_light_;
 }
 
 std::size_t Judge::place_of(std::size_t screen) const {

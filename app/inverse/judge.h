@@ -11,7 +11,8 @@
 
 namespace nephroid::inverse {
 
-/// Where the light that falls on the front goes. `reflected`, `lost` and `sent` sum to 1; for a lamp, apart from noise.
+/// Where the light that falls on the front goes. `reflected`, `lost` and `sent` sum to 1, apart from noise
+/// for a lamp, and for one of some size nearly: not all of its places see the front as the middle does.
 struct RayOutcomes {
   double reflected = 0; ///< by a surface that lets some of it through, the front first; it is not followed
   double lost = 0;      ///< on the object's sides, backwards, or after too many surfaces
@@ -86,7 +87,7 @@ private:
     shared::DeviceFront front{};
     std::vector<std::size_t> screens;                  ///< numbers among the judge's
     compute::Buffer<shared::DeviceReceiver> receivers; ///< the same
-    compute::Buffer<shared::float4> lamp_places;       ///< Illumination
+    compute::Buffer<shared::float4> lamp_places;       ///< Illumination::lamp_places
     std::array<compute::Buffer<std::int64_t>, 2> sums; ///< even and odd rounds: [screen][y, x, z][cell]
     compute::Buffer<std::int64_t> outcomes;
     RayOutcomes sum;                                        ///< in facets; over all rows and rounds
@@ -112,7 +113,7 @@ private:
   compute::Buffer<shared::float4> parts_;       ///< the spectrum's parts: index and XYZ
   std::vector<shared::DeviceReceiver> screens_; ///< the receivers, then the frames
   std::vector<OneLight> lights_;                ///< the receivers' lights, then those of frames in lights between them
-  std::size_t left_out_ = 0;                    ///< 1: no receiver has the light of all, which is left out
+  std::size_t first_light_ = 0;                 ///< number of the first light that some receiver has, 0 or 1
   compute::Kernel judge_;
   int along_ = 1;           ///< rays along one side of a facet
   int row_ = 0, round_ = 0; ///< row: of the facets in one light after the other

@@ -45,8 +45,8 @@ glm::dvec2 to_disc(const glm::dvec2& p) {
   return r * glm::dvec2(std::cos(phi), std::sin(phi));
 }
 
-/// Where one looks at a mesh from the origin, as it stands `to_mesh` from there: its triangles get looks by how large
-/// they are as seen, and what something else hides falls away.
+/// Places of the mesh, moved by `to_mesh`, that the origin sees: the more of them are on a triangle the larger it
+/// looks.
 std::vector<glm::dvec3> places_seen(const scene::Mesh& mesh, const glm::dvec3& to_mesh) {
   const auto seen_at = [&](std::uint32_t vertex) {
     const glm::dvec3 p = glm::dvec3(mesh.positions[vertex]) + to_mesh;
@@ -93,21 +93,32 @@ Lamp mesh_lamp(const Light& light, const glm::dvec3& origin, double thickness, c
   const std::shared_ptr<const scene::Mesh> mesh = scene::load_mesh_once(light.file);
   const glm::dvec3 front(0, 0, thickness), to_mesh = origin + mesh->middle - front;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const glm::vec3& position : mesh->positions) nearest = std::min(nearest, double{position.z} + to_mesh.z);
+  for (const glm::uvec3& t : mesh->triangles)
+    for (const std::uint32_t vertex : {t.x, t.y, t.z})
+      nearest = std::min(nearest, double{mesh->positions[vertex].z} + to_mesh.z);
   if (nearest <= 0)
     throw bad_input(where / "distance_mm",
                     fmt::format("is {} mm, and the lamp reaches {:.4g} mm behind the front of the object",
-                                light.distance_mm, -nearest),
+                                light.distance_mm, 0 - nearest),
                     fmt::format("expected more than {:.4g} mm", light.distance_mm - nearest));
   const std::vector<glm::dvec3> seen = places_seen(*mesh, to_mesh);
   if (seen.empty())
     throw bad_input(where / "file", "is a mesh of which the object sees only an edge",
                     "expected one that turns a face to the object", "turn it in its file");
-  glm::dvec3 middle(0);
-  for (const glm::dvec3& p : seen) middle += p / static_cast<double>(seen.size());
-  // Equal parts of the outline give the same light from wherever on their way they come.
+  // With the mean of the ways and the harmonic mean of the distances light comes from the middle on average, on all
+  // facets.
+  double over = 0;
+  glm::dvec2 way(0);
+  for (const glm::dvec3& p : seen) {
+    over += 1 / p.z / static_cast<double>(seen.size());
+    way += glm::dvec2(p) / p.z / static_cast<double>(seen.size());
+  }
+  const double distance = 1 / over;
+  const glm::dvec3 middle = distance * glm::dvec3(way, 1);
+  // An equal part of the outline gives the same light at whatever distance it is, by its cosine to the front's normal.
   std::vector<glm::dvec4> places;
-  for (const glm::dvec3& p : seen) places.emplace_back(p - middle, (p.z / middle.z) * (p.z / middle.z));
+  for (const glm::dvec3& p : seen)
+    places.emplace_back(p - middle, std::pow(p.z / distance, 3) * glm::length(middle) / glm::length(p));
   order(places);
   Lamp lamp{front + middle, {}};
   for (std::size_t i = 0; i < place_count; ++i)
@@ -115,22 +126,27 @@ Lamp mesh_lamp(const Light& light, const glm::dvec3& origin, double thickness, c
   return lamp;
 }
 
-glm::dmat2 covariance_of_places(const Lamp& lamp, double thickness) {
+glm::dmat3 covariance_of_places(const Lamp& lamp, double thickness) {
   const double distance = lamp.middle.z - thickness, each = 1.0 / static_cast<double>(lamp.places.size());
-  const glm::dvec2 middle(lamp.middle);
-  glm::dvec2 mean(0);
-  glm::dmat2 squares(0);
+  glm::dvec3 mean(0);
+  glm::dmat3 squares(0);
   for (const glm::dvec4& place : lamp.places) {
-    const glm::dvec2 p = (middle + glm::dvec2(place)) * distance / (distance + place.z) - middle;
+    const glm::dvec3 p = glm::dvec3(place) * distance / (distance + place.z);
     mean += each * p;
     squares += each * glm::outerProduct(p, p);
   }
   return squares - glm::outerProduct(mean, mean);
 }
 
+glm::dmat2 root_of_places(const Illumination& light, const glm::dvec2& sines) {
+  const glm::dvec2 t = sines / std::sqrt(1 - glm::dot(sines, sines));
+  const glm::dmat3x2 seen(1, 0, 0, 1, t.x, t.y); // moves a place along the light to the distance of the middle
+  return lower_root(seen * light.lamp_covariance * glm::transpose(seen));
+}
+
 glm::dmat2 lower_root(const glm::dmat2& covariance) {
   glm::dmat2 root(0);
-  root[0][0] = std::sqrt(covariance[0][0]);
+  root[0][0] = std::sqrt(std::max(0.0, covariance[0][0]));
   if (root[0][0] > 0) root[0][1] = covariance[0][1] / root[0][0];
   root[1][1] = std::sqrt(std::max(0.0, covariance[1][1] - root[0][1] * root[0][1]));
   return root;

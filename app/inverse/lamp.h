@@ -5,22 +5,26 @@
 
 namespace nephroid::inverse {
 
-/// The places of a flat lamp or of a mesh, from the middle of all. w: a place's power over that of one in the middle.
-/// Of a mesh they are what the middle of the front sees, equal parts of its outline: it is equally bright everywhere,
-/// by the cosine law.
+/// The 4096 places of a lamp, in millimetres from its middle. w: a place's power over that of one in the middle. Those
+/// of a mesh are equal parts of what the middle of the front sees of it; it is equally bright everywhere, by the cosine
+/// law.
 struct Lamp {
-  glm::dvec3 middle{0};
+  glm::dvec3 middle{0}; ///< in the layout's millimetres, as all that follows
   std::vector<glm::dvec4> places;
 };
 
-/// Type area: parallel to the front. `middle` is in the layout's millimetres.
+/// Type area: parallel to the front.
 Lamp flat_lamp(const Light& light, const glm::dvec3& middle);
-/// Type mesh: its origin at `origin`. Throws bad_input at `where` for what load_mesh refuses and for a mesh that
-/// reaches the front or is only seen edge on.
+/// Type mesh: its origin at `origin`; light.file is a path. Throws as load_mesh, and bad_input at `where` for a mesh
+/// that reaches the front and for one of which the object sees only an edge.
 Lamp mesh_lamp(const Light& light, const glm::dvec3& origin, double thickness, const Location& where);
 
-/// Along x and y, as the middle of the front sees them at the distance of the lamp's middle.
-glm::dmat2 covariance_of_places(const Lamp& lamp, double thickness);
+/// In square millimetres: of the places, each scaled from the front's middle to the distance of the lamp's middle.
+glm::dmat3 covariance_of_places(const Lamp& lamp, double thickness);
+
+/// lower_root of the covariance along x and y of the light's lamp, as a facet sees it that gets the light at its middle
+/// with these sines.
+glm::dmat2 root_of_places(const Illumination& light, const glm::dvec2& sines);
 
 /// The lower triangle L with L L^T = covariance.
 glm::dmat2 lower_root(const glm::dmat2& covariance);

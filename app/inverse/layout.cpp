@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/layout.h"
 
+#include "base/files.h"
 #include "inverse/bending.h"
 #include "inverse/light.h"
 
@@ -171,11 +172,24 @@ std::optional<std::vector<glm::dvec2>> offsets_of(const Settings& s) {
   return offsets;
 }
 
+/// The settings, where a lamp's mesh is the file that was found. Throws bad_input where there is none.
+Settings with_found_meshes(const preset::Preset& preset, const Location& own) {
+  const FileFinder finder(std::filesystem::path(preset.source).parent_path());
+  const auto find = [&](Light& light, const Location& where) {
+    if (light.type == Light::Type::mesh) light.file = finder.find(light.file, where / "file").string();
+  };
+  Settings s = settings(preset);
+  find(s.light, own / "light");
+  for (std::size_t j = 0; j < s.receivers.size(); ++j)
+    if (s.receivers[j].light) find(*s.receivers[j].light, own / "receivers" / j / "light");
+  return s;
+}
+
 } // namespace
 
 Layout make_layout(const preset::Preset& preset) {
-  const Settings& s = settings(preset);
   const Location own = Location(preset.source) / "inverse";
+  const Settings s = with_found_meshes(preset, own);
   const glm::dvec2 size(s.size_mm[0], s.size_mm[1]);
   const glm::ivec2 facets(s.facets[0], s.facets[1]);
   const Refraction refraction = make_refraction(preset);

@@ -139,7 +139,7 @@ Layout tilted(const Layout& layout, const Light& light, const Location& where) {
 }
 
 Layout lit_by_lamp(const Layout& layout, const Light& light, const Location& where) {
-  if (light.distance_mm <= 0)
+  if (light.distance_mm <= 0 && light.type != Light::Type::mesh)
     throw bad_input(where / "distance_mm",
                     fmt::format("is {} mm, and the light would stand behind the front", light.distance_mm),
                     "expected more than 0 mm");
@@ -151,7 +151,7 @@ Layout lit_by_lamp(const Layout& layout, const Light& light, const Location& whe
     return worst_shadow(with_lamp(layout, lamp.middle, distance - light.distance_mm)) <= most_shadow;
   };
   if (const double worst = worst_shadow(with_lamp(layout, lamp.middle)); worst > most_shadow) {
-    double far = 2 * light.distance_mm;
+    double far = light.distance_mm + lamp.middle.z - layout.thickness;
     while (!good(far) && far < 1e9) far *= 2;
     throw bad_input(where / "distance_mm",
                     fmt::format("is {} mm, so near that facets at the rim, to bend its light to the receivers, {}",
@@ -161,7 +161,7 @@ Layout lit_by_lamp(const Layout& layout, const Light& light, const Location& whe
                     "move the light away, or make the object smaller");
   }
   Layout lit = with_lamp(layout, lamp.middle);
-  if (!lamp.places.empty()) lit.light.lamp_root = lower_root(covariance_of_places(lamp, layout.thickness));
+  if (!lamp.places.empty()) lit.light.lamp_covariance = covariance_of_places(lamp, layout.thickness);
   lit.light.lamp_places = std::move(lamp.places);
   return lit;
 }

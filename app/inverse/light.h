@@ -7,7 +7,8 @@ namespace nephroid::inverse {
 
 /// The illumination of a layout whose light is not known yet. `settings` say where the front looks, for the sun.
 /// Throws bad_input, naming a tilt or distance that works,
-/// for light from behind the front, where facets would stand in each other's light, and where none reaches a facet.
+/// for light from behind the front, for meshes that mesh_lamp() refuses, where facets would stand in each other's
+/// light, and where none reaches a facet.
 Illumination make_illumination(Layout layout, const Light& light, const Location& where, const Settings& settings = {});
 
 /// Adds each receiver's light, where it is not that of all. Throws as make_illumination.

@@ -45,6 +45,8 @@ void turn(double radians, double front, Illumination& light) {
   const double aside = light.lamp->x, before = light.lamp->z - front;
   light.lamp->x = cosine * aside + sine * before;
   light.lamp->z = front + cosine * before - sine * aside;
+  for (glm::dvec4& place : light.lamp_places)
+    place = {cosine * place.x + sine * place.z, place.y, cosine * place.z - sine * place.x, place.w};
 }
 
 /// Each triangle as four, by the middles of its edges, which two triangles share: what is closed stays closed.

@@ -106,16 +106,18 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
   const float3 place =
       (float3)(at.x * front.facet_x - 0.5f * front.size_x, 0.5f * front.size_y - at.y * front.facet_y, front.thickness);
   if (front.is_round && length(place.xy / (float2)(front.size_x, front.size_y)) > 0.5f) return;
+#if NEPHROID_SPREAD
+  const float4 begin = random4(seed, 0u, facet, 4u * turn + 1u, STREAM_JUDGE);
+#endif
   float3 direction = front.direction.xyz;
   float part = 1.0f / (float)rays; // what a ray has of a facet's light
   if (front.lamp_weight > 0.0f) {
     float3 lamp = front.lamp.xyz;
 #if NEPHROID_SPREAD
     if (front.lamp_places > 0u) {
-      const float4 begin = random4(seed, 0u, facet, 4u * turn + 1u, STREAM_JUDGE);
-      const float4 at = lamp_places[(uint)(even_number(begin.x, ray, 3785032107u) * (float)front.lamp_places)];
-      lamp += at.xyz;
-      part *= at.w;
+      const float4 seen = lamp_places[(uint)(even_number(begin.x, ray, 3785032107u) * (float)front.lamp_places)];
+      lamp += seen.xyz;
+      part *= seen.w;
     }
 #endif
     const float3 way = place - lamp;
@@ -127,8 +129,7 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
   float n = front.n;
   float4 colour = (float4)(1.0f);
 #if NEPHROID_SPREAD
-  const float4 begin = random4(seed, 0u, facet, 4u * turn + 1u, STREAM_JUDGE),
-               more = random4(seed, 0u, facet, 4u * turn + 2u, STREAM_JUDGE);
+  const float4 more = random4(seed, 0u, facet, 4u * turn + 2u, STREAM_JUDGE);
   if (front.sun_radius > 0.0f)
     direction = beside(direction, front.sun_radius * on_circle(sqrt(even_number(begin.x, ray, 3785032107u)),
                                                                even_number(begin.y, ray, 3335640777u)));

@@ -96,6 +96,8 @@ struct LampMesh {
 /// A bar in a plane along the front, from one corner of a rectangle to the other.
 LampMesh bar() { return {"v -30 -15 0\nv -25 -15 0\nv 30 15 0\nv 25 15 0\nf 1 2 3 4\n"}; }
 
+LampMesh strip() { return {"v 0 -5 -200\nv 40 -5 200\nv 40 5 200\nv 0 5 -200\nf 1 2 3 4\n"}; }
+
 LampMesh ball(double radius) {
   std::string obj;
   constexpr int around = 96, down = 48;
@@ -125,17 +127,30 @@ TEST(OwnLights, AMeshIsALampOfItsOutline) {
   EXPECT_LT(glm::distance(*mesh.lamp, *flat.lamp), 0.01);
   for (std::size_t i = 0; i < mesh.lamp_places.size(); ++i)
     EXPECT_TRUE(std::abs(mesh.lamp_places[i].x) < 30.01 && std::abs(mesh.lamp_places[i].y) < 15.01) << i;
-  for (const int k : {0, 1}) EXPECT_NEAR(mesh.lamp_root[k][k] / flat.lamp_root[k][k], 1, 3e-3) << k;
+  for (const int k : {0, 1}) EXPECT_NEAR(mesh.lamp_covariance[k][k] / flat.lamp_covariance[k][k], 1, 5e-3) << k;
   // Of two narrow parts far apart neither is overlooked: .2 and .18 mm wide, 99.81 mm between their middles.
   const Illumination parts = lamp_of(LampMesh{"v -50 -2 0\nv -49.8 -2 0\nv -49.8 2 0\nv -50 2 0\n"
                                               "v 49.82 -2 0\nv 50 -2 0\nv 50 2 0\nv 49.82 2 0\nf 1 2 3 4\nf 5 6 7 8\n"}
                                          .light());
-  EXPECT_NEAR(parts.lamp_root[0][0], 99.81 * std::sqrt(0.2 * 0.18) / 0.38, 0.05);
+  EXPECT_NEAR(std::sqrt(parts.lamp_covariance[0][0]), 99.81 * std::sqrt(0.2 * 0.18) / 0.38, 0.05);
+  // A strip that leads away, from z = 300 to 700 mm: the nearer, the larger it looks. The mean of x / z is the integral
+  // of s z^-4 over that of z^-3, with x = 40 s and z = 300 + 400 s.
+  const Illumination leads = lamp_of(strip().light());
+  EXPECT_NEAR(leads.lamp->x / (leads.lamp->z - 10), 0.024762, 2e-5);
   const double r = 100;
   const Illumination sphere = lamp_of(ball(r).light());
   const double outline = (sphere.lamp->z - 10) * std::tan(std::asin(r / 500));
-  for (const int k : {0, 1}) EXPECT_NEAR(sphere.lamp_root[k][k] / (outline / 2), 1, 3e-3) << k;
-  EXPECT_NEAR(sphere.lamp_root[0][1] / outline, 0, 1e-3);
+  for (const int k : {0, 1}) EXPECT_NEAR(std::sqrt(sphere.lamp_covariance[k][k]) / (outline / 2), 1, 3e-3) << k;
+  EXPECT_NEAR(sphere.lamp_covariance[0][1] / (outline * outline), 0, 1e-3);
+}
+
+TEST(OwnLights, AMeshIsFoundBesideThePreset) {
+  const LampMesh square = bar();
+  square.light();
+  const std::string preset = square.folder.write("own.json", two_lamps);
+  const Layout layout = make_layout(
+      preset::read_preset(preset, {R"(inverse.light={"type": "mesh", "file": "lamp.obj", "distance_mm": 500})"}));
+  EXPECT_EQ(layout.light.lamp_places.size(), 4096);
 }
 
 TEST(OwnLights, DeviceAndHostSendTheSameLight) {
@@ -174,15 +189,15 @@ TEST(OwnLights, ALampsSizeBlursAsRaysSay) {
   const auto flat = [](const char* shape) {
     return R"({"type": "area", "distance_mm": 500, "shape": ")" + std::string(shape) + R"(", "size_mm": [60, 30]})";
   };
-  const LampMesh askew = bar(), round = ball(25);
-  for (const std::string& light : {flat("disc"), flat("rectangle"), askew.light(), round.light()}) {
+  const LampMesh askew = bar(), round = ball(25), away = strip();
+  for (const std::string& light : {flat("disc"), flat("rectangle"), askew.light(), round.light(), away.light()}) {
     const Layout l = layout_of({"inverse.light=" + light, "inverse.receivers.0.light=null",
                                 "inverse.receivers.1.light=null", "inverse.receivers.1.distance_mm=300"});
     ASSERT_TRUE(l.own_lights.empty());
     const std::vector<glm::dvec2> slopes(l.facet_count(), glm::dvec2(0.02, 0));
     Layout point = l;
     point.light.lamp_places.clear();
-    point.light.lamp_root = glm::dmat2(0);
+    point.light.lamp_covariance = glm::dmat3(0);
     const std::vector<double> z(l.facet_count());
     Judge judge(test::shared_context(), l, make_solid(l, slopes), 1);
     while (!judge.finished()) judge.advance();
@@ -227,6 +242,8 @@ TEST(OwnLights, BadLightIsRefused) {
   EXPECT_THAT(refusal({"inverse.light=" + large.light(30)}),
               testing::HasSubstr("#/inverse/light/distance_mm: is 30 mm, and the lamp reaches 10 mm behind the front"));
   EXPECT_THAT(refusal({"inverse.light=" + edge.light()}), testing::HasSubstr("sees only an edge"));
+  EXPECT_THAT(refusal({R"(inverse.light={"type": "mesh", "file": "no.obj"})"}),
+              testing::HasSubstr("#/inverse/light/file: "));
 }
 
 } // namespace nephroid::own_lights_test

@@ -3,6 +3,7 @@
 
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
+#include "inverse/lamp.h"
 #include "inverse/light.h"
 
 #include <algorithm>
@@ -34,10 +35,9 @@ double spreads(const Layout& l, const Illumination& light) {
   return light.lamp ? 1 / (light.lamp->z - l.thickness + l.thickness / l.n) : 0;
 }
 
-/// Standard deviation of a lamp's places, the same along each axis.
-double along_an_axis(const Illumination& light) {
-  const glm::dmat2& root = light.lamp_root;
-  return std::sqrt((glm::dot(root[0], root[0]) + glm::dot(root[1], root[1])) / 2);
+/// Root of the mean variance of a lamp's places along x and y, in millimetres.
+double mean_deviation(const Illumination& light) {
+  return std::sqrt((light.lamp_covariance[0][0] + light.lamp_covariance[1][1]) / 2);
 }
 
 std::vector<shared::DeviceReceiver> receivers_of(const Layout& layout, std::span<const double> weights) {
@@ -50,7 +50,7 @@ std::vector<shared::DeviceReceiver> receivers_of(const Layout& layout, std::span
          .weight = static_cast<float>(weights[j]),
          .light = static_cast<int>(layout.light_index(j)),
          .spreads = static_cast<float>(spreads(layout, layout.light_on(j))),
-         .lamp = static_cast<float>(spreads(layout, layout.light_on(j)) * along_an_axis(layout.light_on(j))),
+         .lamp = static_cast<float>(spreads(layout, layout.light_on(j)) * mean_deviation(layout.light_on(j))),
          .padding = 0});
   return receivers;
 }
@@ -169,7 +169,7 @@ std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout) {
   };
   for (std::size_t k = 0; k <= layout.own_lights.size(); ++k)
     if (const Illumination& light = layout.numbered(k); light.facets)
-      for (const Incoming& in : *light.facets) add(in, light.lamp_root);
+      for (const Incoming& in : *light.facets) add(in, root_of_places(light, in.sines));
   return incoming;
 }
 

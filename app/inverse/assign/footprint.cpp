@@ -108,7 +108,7 @@ Blur blur_of(const Layout& layout, const Illumination& light, const Incoming& in
   const double sun = layout.sun_radius / 2, cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
   const glm::dmat2 disc =
       sun * change.by_sines * (glm::dmat2(1) - glm::outerProduct(in.sines, in.sines) / (1 + cosine));
-  const glm::dmat2 lamp = change.by_sines * in.spread * light.lamp_root;
+  const glm::dmat2 lamp = change.by_sines * in.spread * root_of_places(light, in.sines);
   const glm::dmat2 both = disc * glm::transpose(disc) + lamp * glm::transpose(lamp) +
                           glm::dmat2(layout.scatter * layout.scatter); // covariance
   const bool is_wide = std::sqrt(12 * (both[0][0] + both[1][1]) / 2) > wide_in_cells * fine;
