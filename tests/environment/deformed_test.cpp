@@ -217,7 +217,7 @@ TEST_F(EnvironmentStates, BadInput) {
   std::string states;
   for (const double weight : {0.1, 0.2, 0.3, 0.4}) states += (states.empty() ? "" : ", ") + state("long", weight);
   EXPECT_THAT(refusal_of([&] { plan_of(deformed(states)); }),
-              AllOf(HasSubstr("own.json#/environment/weight_steps: is 4, and more than 3 weights"),
+              AllOf(HasSubstr("own.json#/environment/weight_steps: is 4, and more than 3 states"),
                     HasSubstr("at most 8 shapes")));
   EXPECT_NO_THROW(plan_of(deformed(states, {"environment.weight_steps=10"})));
   EXPECT_THAT(refusal_of([&] { deformed("", {"environment.weight_steps=-1"}); }), HasSubstr("from 0 to 64"));
