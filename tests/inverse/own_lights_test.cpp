@@ -213,6 +213,24 @@ TEST(OwnLights, ALampsSizeBlursAsRaysSay) {
   }
 }
 
+// Half way between a lamp of 4 mm and one of 60 mm light is that of one of 32 mm. Neither is the light of all.
+TEST(OwnLights, AFrameIsInALampBetweenThoseOfItsReceivers) {
+  const auto judged = [](const char* first, const char* second) {
+    const auto light = [](const char* size) {
+      return R"({"type": "area", "distance_mm": 500, "size_mm": )" + std::string(size) + "}";
+    };
+    const Layout l =
+        layout_of({"inverse.receivers.0.light=" + light(first), "inverse.receivers.1.light=" + light(second),
+                   "inverse.receivers.1.distance_mm=250.01", "inverse.receiver_mm=[200, 200]", "inverse.frames=1"});
+    Judge judge(test::shared_context(), l, make_solid(l, std::vector<glm::dvec2>(l.facet_count())), 1);
+    while (!judge.finished()) judge.advance();
+    return std::vector<std::vector<double>>{judge.light(0), judge.light(1), judge.light(2)};
+  };
+  const auto mixed = judged("[4, 4]", "[60, 60]"), plain = judged("[32, 32]", "[32.01, 32.01]");
+  EXPECT_LT(apart(plain[0], mixed[2]), 0.005);
+  for (const std::size_t end : {0u, 1u}) EXPECT_GT(apart(plain[0], mixed[end]), 0.03) << end;
+}
+
 std::string sun(const char* hour) {
   return std::string(R"(inverse.light={"type": "sun", "place": {"latitude_deg": 52.5, "longitude_deg": 13.4, )") +
          R"("date": "2026-03-20", "utc_offset_h": 1, "hour": )" + hour + "}}";
