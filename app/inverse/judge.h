@@ -11,8 +11,8 @@
 
 namespace nephroid::inverse {
 
-/// Where the light that falls on the front goes. `reflected`, `lost` and `sent` sum to 1, apart from noise
-/// for a lamp, and for one of some size nearly: not all of its places see the front as the middle does.
+/// Where the light that falls on the front goes. `reflected`, `lost` and `sent` sum to 1. For a lamp that is true apart
+/// from noise, and for one of some size nearly, because its places see the front otherwise than its middle does.
 struct RayOutcomes {
   double reflected = 0; ///< by a surface that lets some of it through, the front first; it is not followed
   double lost = 0;      ///< on the object's sides, backwards, or after too many surfaces
