@@ -80,7 +80,7 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
   const Settings& s = task.settings = settings(preset);
   task.has_medium = s.extinction > 0 && s.albedo > 0;
   if (shines(scene)) {
-    task.cube = before && same_light(*before->scene->environment, *scene.environment)
+    task.cube = before && shines(*before->scene) && same_light(*before->scene->environment, *scene.environment)
                     ? before->cube
                     : make_cube_map(*scene.environment);
     task.segmentation = segment_by(preset, task.cube);
