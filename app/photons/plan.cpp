@@ -21,10 +21,6 @@
 namespace nephroid::photons {
 namespace {
 
-bool has_size(const scene::Light& light) {
-  return light.type == preset::Light::Type::area || light.object >= 0 || scene::has_disc(light);
-}
-
 /// The part that every run has.
 PlanPart plan_scene(const PlanInput& input) {
   const std::uint64_t environment = input.scene.environment ? tracing::bytes_of(input.scene.environment->rgb) : 0;
@@ -189,7 +185,7 @@ std::string why_points(const Settings& wanted, const scene::Scene& scene) {
     return "spectral.method, effort, jitter or low_discrepancy ask for points";
   if (scene.environment && scene.environment->lights && !scene.environment->is_black())
     return "an environment has too many directions: a lattice for each would be coarse";
-  if (std::ranges::any_of(scene.lights, has_size))
+  if (std::ranges::any_of(scene.lights, scene::has_size))
     return "a lamp of a size has too many places: a lattice for each would be coarse";
   if (tracing::count_objects(scene).mirrors > 0) return "mirrors spread a cell too far";
   if (tracing::may_see_glass_or_mirror(scene)) return "the camera sees glass: photon maps have more noise than splats";
@@ -290,13 +286,6 @@ void add(PlanPart part, plan::Plan& plan) {
   std::ranges::move(part.notes, std::back_inserter(plan.notes));
 }
 
-/// The default of Settings::pixel_samples. Where all lamps are points, only edges within pixels need samples.
-int enough_samples(const scene::Scene& scene) {
-  const bool all_points = std::ranges::all_of(
-      scene.lights, [](const scene::Light& light) { return !scene::is_environment(light) && !has_size(light); });
-  return all_points ? 64 : 4096;
-}
-
 } // namespace
 
 plan::Decision not_asked_for(const std::string& name, const std::string& field) {
@@ -330,7 +319,7 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const sc
   refuse_what_cameras_cannot(wanted, scene, Location(preset.source) / "spectral");
   RunPlan plan;
   plan.settings = wanted;
-  if (!plan.settings.pixel_samples) plan.settings.pixel_samples = enough_samples(scene);
+  plan.settings.pixel_samples = pixel_samples(wanted, scene);
   const plan::Decision tiles = tiles_decision(wanted, scene);
   if (wanted.estimator == Settings::Estimator::automatic)
     plan.settings.estimator = tiles.runs ? Settings::Estimator::tiles : Settings::Estimator::points;

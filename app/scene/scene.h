@@ -123,6 +123,11 @@ inline double radiometric(const Light& light) { return light.power_w + light.irr
 /// Whether directional light comes from more than a point.
 inline bool has_disc(const Light& light) { return light.one_minus_cos > 0; }
 
+/// Whether a lamp's light comes from more than a point: of a rectangle, an object or a disc.
+inline bool has_size(const Light& light) {
+  return light.type == preset::Light::Type::area || light.object >= 0 || has_disc(light);
+}
+
 inline bool is_environment(const Light& light) { return !light.primaries.empty(); }
 
 /// right, up, forward: orthonormal. With a = (2 (x + .5) / width - 1) tan_x, b = (1 - 2 (y + .5) / height) tan_y a

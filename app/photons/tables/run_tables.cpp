@@ -41,7 +41,7 @@ std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, con
 /// A surface that the light reaches from the scene's radius gets 2^24 quanta of the direct film, and a lamp's own
 /// surface 2^40 at most, which no sample of it exceeds. The limit is one that
 /// the pixel's samples cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches.
-void set_scales(const scene::Scene& scene, int pixel_samples, RunTables& tables) {
+void set_scales(const scene::Scene& scene, int samples, RunTables& tables) {
   const double metres = scene.metres_per_unit, radius = tracing::scene_bounds(scene).radius;
   tables.caustic_scale = tracing::splat_scale(scene, tables.photons_per_batch, tables.light_towards_targets_w);
   double irradiance = 0;
@@ -52,7 +52,7 @@ void set_scales(const scene::Scene& scene, int pixel_samples, RunTables& tables)
       irradiance =
           std::max(irradiance, light.radiometric * tables.power_unit / (light.solid_angle * metres * metres) * 0x1p-16);
   tables.direct_scale = tracing::power_of_two_below(std::exp2(24) * pi / irradiance);
-  tables.direct_limit = std::exp2(62) / pixel_samples;
+  tables.direct_limit = std::exp2(62) / samples;
   tables.energy_scale = tracing::energy_scale(tables.light_towards_targets_w);
 }
 
@@ -76,6 +76,12 @@ void leave_peaks_to_photons(RunTables& tables) {
 
 } // namespace
 
+int pixel_samples(const Settings& settings, const scene::Scene& scene) {
+  const bool all_points = std::ranges::all_of(
+      scene.lights, [](const scene::Light& light) { return !scene::is_environment(light) && !scene::has_size(light); });
+  return settings.pixel_samples.value_or(all_points ? 64 : 4096);
+}
+
 RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
                           const tracing::LeaveOut& leave_out) {
   RunTables tables;
@@ -91,7 +97,7 @@ RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, c
   tables.eye_paths = eye_paths_a_pass(scene, bvh, tables.photons_per_pass());
   tables.scene.max_surfaces = settings.max_surfaces;
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
-  set_scales(scene, *settings.pixel_samples, tables);
+  set_scales(scene, pixel_samples(settings, scene), tables);
   return tables;
 }
 

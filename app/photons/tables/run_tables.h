@@ -23,8 +23,12 @@ struct RunTables : tracing::SceneTables {
   double energy_scale = 1;                    ///< energy quanta per watt, a power of two
 };
 
-/// Makes the tables for the present lights; relight/layer_light.h does for lights to come. Throws bad_input as
-/// tracing::make_scene_tables and make_cluster_shares do, and for a threshold that cluster_wavelengths refuses.
+/// Settings::pixel_samples or its default. Where all lamps are points, only edges within pixels need samples.
+int pixel_samples(const Settings& settings, const scene::Scene& scene);
+
+/// Makes the tables for the present lights, for settings of a preset or of a plan; relight/layer_light.h does for
+/// lights to come. Throws bad_input as tracing::make_scene_tables and make_cluster_shares do, and for a threshold that
+/// cluster_wavelengths refuses.
 RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
                           const tracing::LeaveOut& leave_out);
 
