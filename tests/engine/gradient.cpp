@@ -39,9 +39,10 @@ public:
 
   void advance() override {
     std::mt19937_64 random(seed_ * 1000003 + static_cast<std::uint64_t>(done_));
-    std::normal_distribution<double> noise(0, settings_.noise / std::sqrt(settings_.samples_per_pass));
+    const double sigma = settings_.noise / std::sqrt(settings_.samples_per_pass);
+    std::normal_distribution<double> noise;
     auto& half = sums_[static_cast<std::size_t>(done_ % 2)];
-    for (std::size_t i = 0; i < half.size(); ++i) half[i] += truth(i) + noise(random);
+    for (std::size_t i = 0; i < half.size(); ++i) half[i] += truth(i) + sigma * noise(random);
     ++done_;
   }
   bool finished() const override { return done_ >= passes_; }

@@ -181,7 +181,7 @@ Waves waves_in(const Layout& layout, const Solid& solid) {
       for (int k = first_wave; k <= n / 2; ++k) {
         std::complex<double> sum = 0;
         for (int x = 0; x < n; ++x)
-          sum += std::polar(light[index_at(x, y, n)] / mean - 1, -2 * glm::pi<double>() * k * x / n) *
+          sum += (light[index_at(x, y, n)] / mean - 1) * std::polar(1.0, -2 * glm::pi<double>() * k * x / n) *
                  (1 - std::cos(2 * glm::pi<double>() * (x + 0.5) / n));
         spectra.back().push_back(2.0 / n * sum);
       }
