@@ -12,6 +12,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
+#include <span>
 
 namespace nephroid::inverse {
 namespace {
@@ -75,15 +77,40 @@ std::vector<glm::dvec3> places_seen(const scene::Mesh& mesh, const glm::dvec3& t
   return places;
 }
 
+/// The middles of equal parts and the mean covariance in them.
+LightPoints middles_of(const std::vector<std::span<glm::dvec3>>& parts) {
+  LightPoints points;
+  for (const std::span<glm::dvec3> part : parts) {
+    const auto count = static_cast<double>(part.size());
+    const glm::dvec3 middle = std::reduce(part.begin(), part.end()) / count;
+    points.at.push_back(middle);
+    for (const glm::dvec3& p : part)
+      points.left += glm::outerProduct(p - middle, p - middle) / (count * static_cast<double>(parts.size()));
+  }
+  return points;
+}
+
+/// Of a disc with a covariance of 1. count: LightPoints::most or few.
+LightPoints disc_points(std::size_t count) {
+  const bool few = count == LightPoints::few;
+  const double left = few ? 0.27 : 0.22, first = few ? 1.0 / 6 : 1.0 / 16;
+  LightPoints points{{}, glm::dmat3(left)};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double phi = 2 * glm::pi<double>() * (first + static_cast<double>(i) / static_cast<double>(count));
+    points.at.push_back(std::sqrt(2 * (1 - left)) * glm::dvec3(std::cos(phi), std::sin(phi), 0));
+  }
+  return points;
+}
+
 } // namespace
 
 Lamp flat_lamp(const Light& light, const glm::dvec3& middle) {
-  Lamp lamp{middle, {}};
+  Lamp lamp{middle, {}, light.shape == Light::Shape::disc};
   const glm::dvec2 half = glm::dvec2(light.size_mm[0], light.size_mm[1]) / 2.0;
   for (int y = 0; y < places_across; ++y)
     for (int x = 0; x < places_across; ++x) {
       const glm::dvec2 p = (2.0 * glm::dvec2(x, y) + 1.0) / static_cast<double>(places_across) - 1.0;
-      lamp.places.emplace_back(half * (light.shape == Light::Shape::disc ? to_disc(p) : p), 0, 1);
+      lamp.places.emplace_back(half * (lamp.is_disc ? to_disc(p) : p), 0, 1);
     }
   order(lamp.places);
   return lamp;
@@ -127,20 +154,54 @@ Lamp mesh_lamp(const Light& light, const glm::dvec3& origin, double thickness, c
 }
 
 glm::dmat3 covariance_of_places(const Lamp& lamp, double thickness) {
-  const double distance = lamp.middle.z - thickness, each = 1.0 / static_cast<double>(lamp.places.size());
-  glm::dvec3 mean(0);
-  glm::dmat3 squares(0);
-  for (const glm::dvec4& place : lamp.places) {
-    const glm::dvec3 p = glm::dvec3(place) * distance / (distance + place.z);
-    mean += each * p;
-    squares += each * glm::outerProduct(p, p);
+  return points_of_places(lamp, thickness, 1).left;
+}
+
+LightPoints points_of_places(const Lamp& lamp, double thickness, std::size_t count) {
+  const double distance = lamp.middle.z - thickness;
+  std::vector<glm::dvec3> places;
+  for (const glm::dvec4& place : lamp.places) places.push_back(glm::dvec3(place) * distance / (distance + place.z));
+  // All parts are halved across the same axis, for what is left in them is one covariance.
+  std::vector<std::span<glm::dvec3>> parts{places};
+  LightPoints points = middles_of(parts);
+  const glm::dvec3 middle = points.at.front();
+  if (lamp.is_disc && count > 1) {
+    const glm::dmat3 squares = points.left;
+    points = disc_points(count);
+    for (glm::dvec3& p : points.at) p *= glm::dvec3(std::sqrt(squares[0][0]), std::sqrt(squares[1][1]), 0);
+    points.left = points.left * squares;
+    return points;
   }
-  return squares - glm::outerProduct(mean, mean);
+  while (parts.size() < count) {
+    const int axis = points.left[0][0] > points.left[1][1] ? 0 : 1;
+    std::vector<std::span<glm::dvec3>> halves;
+    for (const std::span<glm::dvec3> part : parts) {
+      const std::size_t half = part.size() / 2;
+      std::ranges::nth_element(part, part.begin() + static_cast<std::ptrdiff_t>(half), {},
+                               [&](const glm::dvec3& p) { return p[axis]; });
+      halves.push_back(part.first(half));
+      halves.push_back(part.subspan(half));
+    }
+    parts = std::move(halves);
+    points = middles_of(parts);
+  }
+  for (glm::dvec3& p : points.at) p -= middle;
+  return points;
+}
+
+const LightPoints& points_of(const Illumination& light, bool few) {
+  static const LightPoints disc = disc_points(LightPoints::most), few_of_disc = disc_points(LightPoints::few);
+  if (light.lamp_places.empty()) return few ? few_of_disc : disc;
+  return few ? light.few_points : light.points;
+}
+
+glm::dmat3x2 seen_along(const glm::dvec2& sines) {
+  const glm::dvec2 t = sines / std::sqrt(1 - glm::dot(sines, sines));
+  return {1, 0, 0, 1, t.x, t.y}; // moves a place along the light to the distance of the middle
 }
 
 glm::dmat2 root_of_places(const Illumination& light, const glm::dvec2& sines) {
-  const glm::dvec2 t = sines / std::sqrt(1 - glm::dot(sines, sines));
-  const glm::dmat3x2 seen(1, 0, 0, 1, t.x, t.y); // moves a place along the light to the distance of the middle
+  const glm::dmat3x2 seen = seen_along(sines);
   return lower_root(seen * light.lamp_covariance * glm::transpose(seen));
 }
 

@@ -11,6 +11,7 @@ namespace nephroid::inverse {
 struct Lamp {
   glm::dvec3 middle{0}; ///< in the layout's millimetres, as all that follows
   std::vector<glm::dvec4> places;
+  bool is_disc = false; ///< whether they fill a disc, or an ellipse along x and y
 };
 
 /// Type area: parallel to the front.
@@ -21,6 +22,17 @@ Lamp mesh_lamp(const Light& light, const glm::dvec3& origin, double thickness, c
 
 /// In square millimetres: of the places, each scaled from the front's middle to the distance of the lamp's middle.
 glm::dmat3 covariance_of_places(const Lamp& lamp, double thickness);
+
+/// The middles of equal parts of the places, which are scaled as for their covariance; count: LightPoints::most or few.
+/// Those of a disc are on a circle: where its radius is 0.5 to 1.2 cells, 8 put 0.002 to 0.02 of the light elsewhere,
+/// one box 0.01 to 0.1.
+LightPoints points_of_places(const Lamp& lamp, double thickness, std::size_t count);
+
+/// The light's points, LightPoints::most of them or `few`: 4. Those of light that is no such lamp are a disc's.
+const LightPoints& points_of(const Illumination& light, bool few);
+
+/// What a facet that gets the light at the lamp's middle with these sines sees of a place.
+glm::dmat3x2 seen_along(const glm::dvec2& sines);
 
 /// lower_root of the covariance along x and y of the light's lamp, as a facet sees it that gets the light at its middle
 /// with these sines.

@@ -23,12 +23,21 @@ struct Incoming {
   glm::dmat2 spread{0}; ///< change of the sines over x and y: a lamp's light has another direction at each place
 };
 
+/// Points that stand for light with a width: the middles of equal parts of it, and the covariance that is left in a
+/// part, on average. Those of a lamp are in millimetres from its middle, those of a disc have a covariance of 1.
+struct LightPoints {
+  static constexpr std::size_t most = 8, few = 4; ///< for light with one wavelength, and with many
+  std::vector<glm::dvec3> at;
+  glm::dmat3 left{0};
+};
+
 /// Where the light comes from, and how much of it falls on the facets.
 struct Illumination {
   glm::dvec2 sines{0};                 ///< parallel light: x and y of its unit direction before the front
   std::optional<glm::dvec3> lamp;      ///< a point light's place, or the middle of one of some size
   std::vector<glm::dvec4> lamp_places; ///< Lamp::places; empty: a point, or parallel light
   glm::dmat3 lamp_covariance{0};       ///< covariance_of_places
+  LightPoints points{}, few_points{};  ///< of the lamp's places
   /// The light on each facet. None: parallel light falls straight on a rectangle and is the same on all facets.
   std::optional<std::vector<Incoming>> facets;
 };

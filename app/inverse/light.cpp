@@ -161,7 +161,11 @@ Layout lit_by_lamp(const Layout& layout, const Light& light, const Location& whe
                     "move the light away, or make the object smaller");
   }
   Layout lit = with_lamp(layout, lamp.middle);
-  if (!lamp.places.empty()) lit.light.lamp_covariance = covariance_of_places(lamp, layout.thickness);
+  if (!lamp.places.empty()) {
+    lit.light.lamp_covariance = covariance_of_places(lamp, layout.thickness);
+    lit.light.points = points_of_places(lamp, layout.thickness, LightPoints::most);
+    lit.light.few_points = points_of_places(lamp, layout.thickness, LightPoints::few);
+  }
   lit.light.lamp_places = std::move(lamp.places);
   return lit;
 }

@@ -123,11 +123,6 @@ std::vector<std::string> notes_of(const preset::Preset& preset, const Design& de
         "fewer cells",
         l.facet().x, l.facet().y, l.cell().x, l.cell().y,
         s.method == Settings::Method::lens ? "even grey shows them as a pattern" : "the pictures become soft"));
-  const auto is_mesh = [&](const Receiver& r) { return r.light.value_or(s.light).type == Light::Type::mesh; };
-  if (s.method == Settings::Method::assign && std::ranges::any_of(s.receivers, is_mesh))
-    notes.push_back(
-        "the search takes a lamp that is a mesh for an ellipse: what is cast differs from what is believed where the "
-        "lamp has several parts, or is long and askew");
   std::ranges::move(picture_notes(s, l, design.targets, design.best()), std::back_inserter(notes));
   std::ranges::move(workshop_notes(s, l), std::back_inserter(notes));
   if (s.method == Settings::Method::lens)

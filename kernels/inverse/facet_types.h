@@ -15,8 +15,17 @@ namespace nephroid::shared {
 // The most beams of a footprint, 2^4.
 #define BEAMS 16
 #define INDEX_LEVELS 5
-// The beams that stand for the disc of light with one wavelength and a width.
-#define DISC_BEAMS 8
+// The beams that stand for light with a width and one wavelength.
+#define LIGHT_POINTS 8
+#define FEW_POINTS 4 // and many wavelengths
+// The light of all, and one for each receiver.
+#define MOST_LIGHTS 17
+
+// inverse::LightPoints, all and few. left: xx, yy, zz, yz, xz, xy.
+typedef struct {
+  float at[3 * LIGHT_POINTS], few_at[3 * FEW_POINTS];
+  float left[6], few_left[6];
+} DeviceLightPoints;
 
 typedef struct {
   float size_x, size_y; // size of the object
@@ -39,8 +48,7 @@ typedef struct {
   float index_over[2 * BEAMS - 1];          // index minus n, level after level
   float index_part[2 * BEAMS - 1];          // part of what counts, in the same order
   float index_within[INDEX_LEVELS];         // variance of the index that is left in the groups of a level
-  float disc[2 * DISC_BEAMS], coarse_disc[8];    // x and y of points
-  float left_of_disc, left_of_coarse_disc;  // part of the variance left for each point
+  DeviceLightPoints points[MOST_LIGHTS];    // of the light of all, then of the receivers' own
   float piece_in_cells, wide_in_cells;
 } DeviceLayout;
 
@@ -106,7 +114,7 @@ typedef struct {
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceFront) == 128 && sizeof(DeviceWayOut) == 48);
-static_assert(sizeof(DeviceLayout) == 472 && sizeof(DeviceReceiver) == 32 && sizeof(DeviceIncoming) == 48);
+static_assert(sizeof(DeviceLayout) == 3632 && sizeof(DeviceReceiver) == 32 && sizeof(DeviceIncoming) == 48);
 } // namespace nephroid::shared
 #endif
 

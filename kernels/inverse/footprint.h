@@ -56,9 +56,10 @@ static inline int edge_cell(float edge, int cells) { return (int)clamp(edge, 0.0
 typedef struct {
   Beam x, y;
 #if NEPHROID_SPREAD
-  int groups, points; // groups of indices, and points of a disc about each
+  int groups, points; // groups of indices, and points of the light of each
+  int light;          // whose points
   float2 by_index;    // what follows is in cells
-  float3 root;        // root of the disc's covariance: xx, xy, yy of a lower triangle
+  float2 by_x, by_y, by_z; // the shift of a point by its place
   float2 low, high;   // bounds of all shifts
 #endif
 } Footprint;
@@ -158,7 +159,9 @@ typedef struct {
   float power; // in facets that send all of their light
 #if NEPHROID_SPREAD
   float2 by_index;   // change of the slope
-  float3 covariance; // the slope's covariance by the sun's disc and roughness: xx, xy, yy
+  float2 variance;   // of the slope, by the light's width and roughness
+  float2 by_x, by_y, by_z; // change of the slope by the place of a point of the light
+  float beside;            // variance by what is no part of a lamp: roughness
 #endif
 } Beams;
 
@@ -185,8 +188,13 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
               rough = layout->scatter * layout->scatter;
   const float2 x = sun * (change.by_sine_x * (1.0f - s.x * s.x * shrinks) - change.by_sine_y * s.x * s.y * shrinks),
                y = sun * (change.by_sine_y * (1.0f - s.y * s.y * shrinks) - change.by_sine_x * s.x * s.y * shrinks);
-  beams.covariance = (float3)(x.x * x.x + y.x * y.x + rough, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y + rough);
+  beams.variance = x * x + y * y + rough;
   beams.by_index = change.by_index;
+  const float xx = sqrt(beams.variance.x), xy = xx > 0.0f ? (x.x * x.y + y.x * y.y) / xx : 0.0f;
+  beams.by_x = (float2)(xx, xy); // the covariance's root
+  beams.by_y = (float2)(0.0f, sqrt(fmax(0.0f, beams.variance.y - xy * xy)));
+  beams.by_z = (float2)(0.0f);
+  beams.beside = 0.0f;
 #endif
 #if NEPHROID_INCOMING
   if (layout->spreads > 0.0f) { // by_sines * spread * (1 + inside g^T)
@@ -197,10 +205,15 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
     beams.map_by_distance = (float4)(change.by_sine_x * around.x + change.by_sine_y * around.y,
                                      change.by_sine_x * around.z + change.by_sine_y * around.w);
 #if NEPHROID_SPREAD
-    const float2 by_x = change.by_sine_x * s.x + change.by_sine_y * s.y, // of the lamp's places
-                 by_y = change.by_sine_x * s.z + change.by_sine_y * s.w;
-    const float2 a = facet->lamp.x * by_x + facet->lamp.y * by_y, b = facet->lamp.z * by_y;
-    beams.covariance += (float3)(a.x * a.x + b.x * b.x, a.x * a.y + b.x * b.y, a.y * a.y + b.y * b.y);
+    if (facet->lamp.x + facet->lamp.z > 0.0f) {
+      beams.beside = rough; // lamps have a size of their own instead of the sun's
+      beams.by_x = change.by_sine_x * s.x + change.by_sine_y * s.y;
+      beams.by_y = change.by_sine_x * s.z + change.by_sine_y * s.w;
+      const float2 way = facet->sines * rsqrt(1.0f - dot(facet->sines, facet->sines));
+      beams.by_z = way.x * beams.by_x + way.y * beams.by_y;
+      const float2 a = facet->lamp.x * beams.by_x + facet->lamp.y * beams.by_y, b = facet->lamp.z * beams.by_y;
+      beams.variance = a * a + b * b + rough;
+    }
 #endif
   }
 #endif
@@ -253,12 +266,11 @@ static inline float part_of(global const DeviceLayout* layout, const Footprint* 
 
 // How far beam i is from the middle, in cells.
 static inline float2 shift_of(global const DeviceLayout* layout, const Footprint* print, int i) {
-  float2 shift = layout->index_over[print->groups - 1 + i / print->points] * print->by_index;
+  const float2 shift = layout->index_over[print->groups - 1 + i / print->points] * print->by_index;
   if (print->points == 1) return shift;
-  const int k = 2 * (i % print->points);
-  const float2 p = print->points == 4 ? (float2)(layout->coarse_disc[k], layout->coarse_disc[k + 1])
-                                      : (float2)(layout->disc[k], layout->disc[k + 1]);
-  return shift + (float2)(print->root.x * p.x, print->root.y * p.x + print->root.z * p.y);
+  global const DeviceLightPoints* of = layout->points + print->light;
+  global const float* at = (print->points == FEW_POINTS ? of->few_at : of->at) + 3 * (i % print->points);
+  return shift + at[0] * print->by_x + at[1] * print->by_y + at[2] * print->by_z;
 }
 #endif
 
@@ -269,9 +281,8 @@ static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Fac
   const float2 cell = (float2)(layout->cell_x, layout->cell_y);
   float2 variance = (float2)(0.0f); // variance of the slope that is left in each beam
 #if NEPHROID_SPREAD
-  const float3 both = beams->covariance;
   const float fine = fmin(cell.x, cell.y) / way; // a cell as a slope
-  const bool is_wide = sqrt(6.0f * (both.x + both.z)) > layout->wide_in_cells * fine;
+  const bool is_wide = sqrt(6.0f * (beams->variance.x + beams->variance.y)) > layout->wide_in_cells * fine;
   const float line = length(beams->by_index) * layout->index_spread;
   int level = 0;
   while (level + 1 < (is_wide ? INDEX_LEVELS - 2 : INDEX_LEVELS) && level + 1 < layout->index_levels &&
@@ -279,13 +290,21 @@ static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Fac
     ++level;
   variance += layout->index_within[level] * beams->by_index * beams->by_index;
   print.groups = 1 << level;
-  print.points = !is_wide ? 1 : level == 0 ? DISC_BEAMS : 4;
+  print.points = !is_wide ? 1 : level == 0 ? LIGHT_POINTS : FEW_POINTS;
+  print.light = receiver.light;
   const float2 per_slope = way / (float2)(cell.x, -cell.y);
   print.by_index = beams->by_index * per_slope;
-  const float xx = sqrt(both.x), xy = both.x > 0.0f ? both.y / xx : 0.0f, yy = sqrt(fmax(0.0f, both.z - xy * xy));
-  print.root = (float3)(xx * per_slope.x, xy * per_slope.y, yy * per_slope.y);
-  variance += (is_wide ? print.points == 4 ? layout->left_of_coarse_disc : layout->left_of_disc : 1.0f) *
-              (float2)(both.x, both.z);
+  if (is_wide) {
+    const float2 x = beams->by_x, y = beams->by_y, z = beams->by_z;
+    print.by_x = x * per_slope;
+    print.by_y = y * per_slope;
+    print.by_z = z * per_slope;
+    global const DeviceLightPoints* of = layout->points + print.light;
+    global const float* left = print.points == FEW_POINTS ? of->few_left : of->left;
+    variance += beams->beside + left[0] * x * x + left[1] * y * y + left[2] * z * z +
+                2.0f * (left[3] * y * z + left[4] * x * z + left[5] * x * y);
+  } else
+    variance += beams->variance;
   print.low = print.high = shift_of(layout, &print, 0);
   for (int i = 1; i < print.groups * print.points; ++i) {
     print.low = fmin(print.low, shift_of(layout, &print, i));

@@ -154,10 +154,12 @@ TEST(OwnLights, AMeshIsFoundBesideThePreset) {
 }
 
 TEST(OwnLights, DeviceAndHostSendTheSameLight) {
-  const LampMesh lamp = bar();
-  for (const preset::Overrides& of : {preset::Overrides{},
-                                      {"inverse.sun_deg=0.53"},
-                                      {"inverse.light=" + lamp.light(), "inverse.receivers.0.light=null"}}) {
+  const LampMesh lamp = bar(), away = strip();
+  for (const preset::Overrides& of :
+       {preset::Overrides{},
+        {"inverse.sun_deg=0.53"},
+        {"inverse.light=" + lamp.light(), "inverse.receivers.0.light=null"},
+        {"inverse.light=" + lamp.light(), "inverse.receivers.0.light=" + away.light(), "inverse.scatter_deg=0.3"}}) {
     const Layout l = layout_of(of);
     const std::vector<Target> targets = ring_and_disc(l);
     DeviceFacets facets(test::shared_context(), l, targets, picture_weights(l, targets));
@@ -189,8 +191,11 @@ TEST(OwnLights, ALampsSizeBlursAsRaysSay) {
   const auto flat = [](const char* shape) {
     return R"({"type": "area", "distance_mm": 500, "shape": ")" + std::string(shape) + R"(", "size_mm": [60, 30]})";
   };
-  const LampMesh askew = bar(), round = ball(25), away = strip();
-  for (const std::string& light : {flat("disc"), flat("rectangle"), askew.light(), round.light(), away.light()}) {
+  const LampMesh askew = bar(), round = ball(25), away = strip(),
+                 two{"v -30 -5 0\nv -20 -5 0\nv -20 5 0\nv -30 5 0\nv 20 -5 0\nv 30 -5 0\nv 30 5 0\nv 20 5 0\n"
+                     "f 1 2 3 4\nf 5 6 7 8\n"};
+  for (const std::string& light :
+       {flat("disc"), flat("rectangle"), askew.light(), round.light(), away.light(), two.light()}) {
     const Layout l = layout_of({"inverse.light=" + light, "inverse.receivers.0.light=null",
                                 "inverse.receivers.1.light=null", "inverse.receivers.1.distance_mm=300"});
     ASSERT_TRUE(l.own_lights.empty());

@@ -10,7 +10,7 @@
 #include <cmath>
 
 namespace nephroid::inverse {
-static_assert(BEAMS == Beams::most && DISC_BEAMS == disc_beams);
+static_assert(BEAMS == Beams::most && LIGHT_POINTS == LightPoints::most && FEW_POINTS == LightPoints::few);
 
 namespace {
 
@@ -128,10 +128,7 @@ shared::DeviceLayout device_layout(const Layout& l) {
                             .index_over = {},
                             .index_part = {},
                             .index_within = {},
-                            .disc = {},
-                            .coarse_disc = {},
-                            .left_of_disc = number(left_of_disc(DISC_BEAMS)),
-                            .left_of_coarse_disc = number(left_of_disc(4)),
+                            .points = {},
                             .piece_in_cells = number(piece_in_cells),
                             .wide_in_cells = number(wide_in_cells)};
   for (int level = 0; level < INDEX_LEVELS; ++level) {
@@ -141,14 +138,18 @@ shared::DeviceLayout device_layout(const Layout& l) {
     made.index_within[level] = number(groups.within);
     made.index_levels = level + 1;
   }
-  const auto put_points = [&](int count, float* to) {
-    for (const glm::dvec2& p : disc_points(count)) {
-      *to++ = number(p.x);
-      *to++ = number(p.y);
+  const auto put_points = [&](const LightPoints& points, float* at, float* left) {
+    for (const glm::dvec3& p : points.at)
+      for (int c = 0; c < 3; ++c) *at++ = number(p[c]);
+    for (int c = 0; c < 3; ++c) {
+      left[c] = number(points.left[c][c]);
+      left[3 + c] = number(points.left[(c + 1) % 3][(c + 2) % 3]);
     }
   };
-  put_points(DISC_BEAMS, made.disc);
-  put_points(4, made.coarse_disc);
+  for (std::size_t k = 0; k <= l.own_lights.size(); ++k) {
+    put_points(points_of(l.numbered(k), false), made.points[k].at, made.points[k].left);
+    put_points(points_of(l.numbered(k), true), made.points[k].few_at, made.points[k].few_left);
+  }
   return made;
 }
 

@@ -7,7 +7,6 @@
 #include "inverse/light.h"
 
 #include <glm/gtc/constants.hpp>
-#include <glm/gtc/matrix_access.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -82,20 +81,20 @@ void part_colours(const Layout& layout, const glm::dvec2& by_index, double longe
   blur.variance += groups.within * by_index * by_index;
 }
 
-/// Each beam becomes `points`; `spread` makes of a variance of 1 that of the blur.
-void part_disc(const glm::dmat2& spread, int points, Blur& blur) {
-  const std::vector<glm::dvec2> disc = disc_points(points);
+/// Each beam becomes one for each point; `to_slope` makes of a point the change of the slope.
+void part_width(const glm::dmat3x2& to_slope, const LightPoints& points, Blur& blur) {
+  const int count = static_cast<int>(points.at.size());
   for (int k = blur.count - 1; k >= 0; --k) {
     const glm::dvec2 middle = blur.shifts[static_cast<std::size_t>(k)];
-    const double part = blur.parts[static_cast<std::size_t>(k)] / points;
-    for (int i = 0; i < points; ++i) {
-      blur.shifts[index_at(i, k, points)] = middle + spread * disc[static_cast<std::size_t>(i)];
-      blur.parts[index_at(i, k, points)] = part;
+    const double part = blur.parts[static_cast<std::size_t>(k)] / count;
+    for (int i = 0; i < count; ++i) {
+      blur.shifts[index_at(i, k, count)] = middle + to_slope * points.at[static_cast<std::size_t>(i)];
+      blur.parts[index_at(i, k, count)] = part;
     }
   }
-  blur.count *= points;
-  const glm::dvec2 x = glm::row(spread, 0), y = glm::row(spread, 1);
-  blur.variance += left_of_disc(points) * glm::dvec2(glm::dot(x, x), glm::dot(y, y));
+  blur.count *= count;
+  const glm::dmat2 left = to_slope * points.left * glm::transpose(to_slope);
+  blur.variance += glm::dvec2(left[0][0], left[1][1]);
 }
 
 /// `fine` is a cell as a slope.
@@ -108,16 +107,21 @@ Blur blur_of(const Layout& layout, const Illumination& light, const Incoming& in
   const double sun = layout.sun_radius / 2, cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
   const glm::dmat2 disc =
       sun * change.by_sines * (glm::dmat2(1) - glm::outerProduct(in.sines, in.sines) / (1 + cosine));
-  const glm::dmat2 lamp = change.by_sines * in.spread * root_of_places(light, in.sines);
-  const glm::dmat2 both = disc * glm::transpose(disc) + lamp * glm::transpose(lamp) +
-                          glm::dmat2(layout.scatter * layout.scatter); // covariance
+  const glm::dmat2 of_lamp = change.by_sines * in.spread, lamp = of_lamp * root_of_places(light, in.sines),
+                   rough(layout.scatter * layout.scatter),
+                   both = disc * glm::transpose(disc) + lamp * glm::transpose(lamp) + rough; // covariance
   const bool is_wide = std::sqrt(12 * (both[0][0] + both[1][1]) / 2) > wide_in_cells * fine;
   if (layout.spectrum)
     part_colours(layout, change.by_index, piece_in_cells * fine, is_wide ? Beams::most / 4 : Beams::most, blur);
-  if (is_wide) {
-    part_disc(lower_root(both), blur.count == 1 ? disc_beams : 4, blur);
-  } else
+  const LightPoints& points = points_of(light, blur.count > 1);
+  if (!is_wide)
     blur.variance += glm::dvec2(both[0][0], both[1][1]);
+  else if (light.lamp_places.empty())
+    part_width(glm::dmat3x2(lower_root(both)), points, blur);
+  else { // a lamp has a size of its own instead of the sun's
+    part_width(of_lamp * seen_along(in.sines), points, blur);
+    blur.variance += glm::dvec2(rough[0][0], rough[1][1]);
+  }
   return blur;
 }
 
@@ -161,16 +165,6 @@ IndexGroups index_groups(const Layout& layout, int count) {
   }
   groups.within = std::max(0.0, squares);
   return groups;
-}
-
-std::vector<glm::dvec2> disc_points(int count) {
-  const double r = std::sqrt(2 * (1 - left_of_disc(count))), first = count == disc_beams ? 1.0 / 16 : 1.0 / 6;
-  std::vector<glm::dvec2> points;
-  for (int i = 0; i < count; ++i) {
-    const double phi = 2 * glm::pi<double>() * (first + static_cast<double>(i) / count);
-    points.push_back(r * glm::dvec2(std::cos(phi), std::sin(phi)));
-  }
-  return points;
 }
 
 double part_before(const Beam& beam, double t) {

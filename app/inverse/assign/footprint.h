@@ -31,12 +31,6 @@ struct IndexGroups {
 };
 IndexGroups index_groups(const Layout& layout, int count);
 
-/// Points on a circle, disc_beams or 4, for a disc with a variance of 1 along each axis, left_of_disc of which is a box
-/// about each. Where the disc's radius is 0.5 to 1.2 cells, 8 put 0.002 to 0.02 of it elsewhere, one box 0.01 to 0.1.
-inline constexpr int disc_beams = 8;
-std::vector<glm::dvec2> disc_points(int count);
-constexpr double left_of_disc(int points) { return points == disc_beams ? 0.22 : 0.27; }
-
 /// A facet's light on a receiver, in cells: `count` beams of one shape, each with its shift from x.middle and y.middle
 /// and its part of the light. A cell gets a beam's part along x times its part along y.
 struct Beams {
@@ -51,8 +45,9 @@ struct Beams {
 /// facet with gradient g, light starts at z = g . p and meets a plane at (1 + slope g^T) p from where the middle's
 /// does: a parallelogram. Its projections on x and y are exact; how they depend on each other is not kept. A lamp's
 /// light has another slope at each p. A spectrum is a line along the change of the slope with the index: as many beams
-/// as make its pieces short, 16 at most. The sun's disc and roughness, where they are wide, are 8 beams, or 4 for each
-/// of up to 4 pieces of a spectrum. What is left of a blur is a box along each axis with its variance.
+/// as make its pieces short, 16 at most. A lamp of some size, or else the sun's disc and roughness, are 8 beams where
+/// they are wide, or 4 for each of up to 4 pieces of a spectrum. What is left of a blur, and roughness beside a lamp,
+/// is a box along each axis with its variance.
 Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver,
                double height = 0);
 
