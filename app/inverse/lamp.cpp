@@ -153,10 +153,6 @@ Lamp mesh_lamp(const Light& light, const glm::dvec3& origin, double thickness, c
   return lamp;
 }
 
-glm::dmat3 covariance_of_places(const Lamp& lamp, double thickness) {
-  return points_of_places(lamp, thickness, 1).left;
-}
-
 LightPoints points_of_places(const Lamp& lamp, double thickness, std::size_t count) {
   const double distance = lamp.middle.z - thickness;
   std::vector<glm::dvec3> places;

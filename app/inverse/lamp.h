@@ -20,15 +20,12 @@ Lamp flat_lamp(const Light& light, const glm::dvec3& middle);
 /// that reaches the front and for one of which the object sees only an edge.
 Lamp mesh_lamp(const Light& light, const glm::dvec3& origin, double thickness, const Location& where);
 
-/// In square millimetres: of the places, each scaled from the front's middle to the distance of the lamp's middle.
-glm::dmat3 covariance_of_places(const Lamp& lamp, double thickness);
-
-/// The middles of equal parts of the places, which are scaled as for their covariance; count: LightPoints::most or few.
-/// Those of a disc are on a circle: where its radius is 0.5 to 1.2 cells, 8 put 0.002 to 0.02 of the light elsewhere,
-/// one box 0.01 to 0.1.
+/// The middles of equal parts of the places, each place scaled from the front's middle to the distance of the lamp's
+/// middle. count: LightPoints::most or few, or 1, of which the whole covariance is left. Those of a disc are on a
+/// circle: where its radius is 0.5 to 1.2 cells, 8 put 0.002 to 0.02 of the light elsewhere, one box 0.01 to 0.1.
 LightPoints points_of_places(const Lamp& lamp, double thickness, std::size_t count);
 
-/// The light's points, LightPoints::most of them or `few`: 4. Those of light that is no such lamp are a disc's.
+/// LightPoints::most or few of the light: a lamp's own where it has a size, else a disc's.
 const LightPoints& points_of(const Illumination& light, bool few);
 
 /// What a facet that gets the light at the lamp's middle with these sines sees of a place.

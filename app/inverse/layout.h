@@ -36,7 +36,7 @@ struct Illumination {
   glm::dvec2 sines{0};                 ///< parallel light: x and y of its unit direction before the front
   std::optional<glm::dvec3> lamp;      ///< a point light's place, or the middle of one of some size
   std::vector<glm::dvec4> lamp_places; ///< Lamp::places; empty: a point, or parallel light
-  glm::dmat3 lamp_covariance{0};       ///< covariance_of_places
+  glm::dmat3 lamp_covariance{0};       ///< of its places, in mm^2: points_of_places
   LightPoints points{}, few_points{};  ///< of the lamp's places
   /// The light on each facet. None: parallel light falls straight on a rectangle and is the same on all facets.
   std::optional<std::vector<Incoming>> facets;

@@ -162,7 +162,7 @@ Layout lit_by_lamp(const Layout& layout, const Light& light, const Location& whe
   }
   Layout lit = with_lamp(layout, lamp.middle);
   if (!lamp.places.empty()) {
-    lit.light.lamp_covariance = covariance_of_places(lamp, layout.thickness);
+    lit.light.lamp_covariance = points_of_places(lamp, layout.thickness, 1).left;
     lit.light.points = points_of_places(lamp, layout.thickness, LightPoints::most);
     lit.light.few_points = points_of_places(lamp, layout.thickness, LightPoints::few);
   }
