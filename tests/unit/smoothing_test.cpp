@@ -38,8 +38,12 @@ Photons scatter(const Density& density, unsigned seed) {
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       const double mean = density(x, y);
-      std::poisson_distribution<int> half(mean > 0 ? mean / 2 : 1); // takes no 0
-      const int a = mean > 0 ? half(random) : 0, b = mean > 0 ? half(random) : 0;
+      int a = 0, b = 0;
+      if (mean > 0) {
+        std::poisson_distribution<int> half(mean / 2);
+        a = half(random);
+        b = half(random);
+      }
       for (int c = 0; c < 3; ++c) {
         photons.rgb.push_back(static_cast<float>(a + b));
         photons.error_draw.push_back(static_cast<float>(a - b));
