@@ -2,6 +2,7 @@
 // The preset: the whole state of a run as plain structs. Fields, units, ranges, defaults and sentences are described
 // once, in describe.h; reading, writing, --set, the schema, the editor and the docs are visitors over that description.
 #pragma once
+#include "kernels/scatter/material_types.h"
 #include "preset/settings.h"
 
 #include <array>
@@ -78,7 +79,9 @@ struct Coating {
 };
 
 struct Material {
-  enum class Type { diffuse, dielectric, mirror, conductor, plastic };
+#define NEPHROID_MATERIAL_WORD(word, NAME) word,
+  enum class Type { MATERIALS(NEPHROID_MATERIAL_WORD) };
+#undef NEPHROID_MATERIAL_WORD
   Type type = Type::diffuse;
   Reflectance reflectance;        ///< diffuse, mirror; plastic: of its base, as seen in even light
   std::optional<Texture> texture; ///< diffuse, plastic: what the reflectance is multiplied by

@@ -22,17 +22,6 @@ static_assert(WAVELENGTH_COUNT == wavelength_count, "kernels and host mean the s
 
 using MaterialType = scene::Material::Type;
 
-int device_type(MaterialType type) {
-  switch (type) {
-  case MaterialType::dielectric: return MATERIAL_DIELECTRIC;
-  case MaterialType::mirror:
-  case MaterialType::conductor: return MATERIAL_MIRROR;
-  case MaterialType::plastic: return MATERIAL_PLASTIC;
-  case MaterialType::diffuse: break;
-  }
-  return MATERIAL_DIFFUSE;
-}
-
 float4 to_float4(const glm::dvec4& v) { return tracing::to_float4(glm::dvec3(v), v.w); }
 
 std::vector<bool> used_materials(const scene::Scene& scene) {
@@ -106,7 +95,7 @@ void add_material_rows(const scene::Scene& scene, WavelengthTables& tables,
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const scene::Material& material = scene.materials[i];
     shared::DeviceMaterial& row = materials[i];
-    row.type = device_type(material.type);
+    row.type = static_cast<int>(material.type); // both are of the list MATERIALS
     if (!used[i]) continue;
     row.alpha = static_cast<float>(material.alpha);
     row.texture = number(material.texture); // in the order of make_texture_tables

@@ -4,6 +4,8 @@
 #ifndef NEPHROID_SHARED_TYPES_H
 #define NEPHROID_SHARED_TYPES_H
 
+#include "kernels/scatter/material_types.h"
+
 #ifndef __OPENCL_C_VERSION__
 #include <cstdint>
 namespace nephroid::shared {
@@ -34,11 +36,6 @@ struct alignas(8) uint2 {
 #define GUIDE_BINS_Z 16
 #define GUIDE_CELLS (GUIDE_BINS_X * GUIDE_BINS_Y * GUIDE_BINS_Z)
 #define GUIDE_FLOATS (GUIDE_BINS_X + GUIDE_BINS_X * GUIDE_BINS_Y + GUIDE_CELLS)
-
-#define MATERIAL_DIFFUSE 0
-#define MATERIAL_DIELECTRIC 1
-#define MATERIAL_MIRROR 2
-#define MATERIAL_PLASTIC 3
 
 #define LIGHT_POINT 0
 #define LIGHT_SPOT 1

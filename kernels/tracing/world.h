@@ -221,7 +221,7 @@ static inline bool bend_about(const World* world, Path* path, uint triangle, con
                               Bend* bend) {
   *n_ratio = 1.0f;
 #if NEPHROID_MIRRORS
-  if (material->type == MATERIAL_MIRROR) {
+  if (material->type == MATERIAL_MIRROR || material->type == MATERIAL_CONDUCTOR) {
     *bend = bend_at_surface(path->direction, bent_at, 1.0f, 1.0f, no_layer(), -1.0f);
     bend->reflectance = 1.0f;
     lose_at_mirror(world, path, material, band, -dot(path->direction, bend->normal));
