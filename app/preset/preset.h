@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -79,7 +80,7 @@ struct Coating {
 };
 
 struct Material {
-#define NEPHROID_MATERIAL_WORD(word, NAME) word,
+#define NEPHROID_MATERIAL_WORD(word, NAME, lobes) word,
   enum class Type { MATERIALS(NEPHROID_MATERIAL_WORD) };
 #undef NEPHROID_MATERIAL_WORD
   Type type = Type::diffuse;
@@ -100,34 +101,22 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
-/// Whether a surface sends a path on in one direction (`bend_path` of kernels/tracing/world.h), all of it or a part.
-constexpr bool is_specular(Material::Type type) {
-  switch (type) {
-  case Material::Type::diffuse: return false;
-  case Material::Type::dielectric:
-  case Material::Type::mirror:
-  case Material::Type::conductor:
-  case Material::Type::plastic: break;
-  }
-  return true;
+/// LOBE_* of kernels/scatter/material_types.h.
+constexpr unsigned lobes(Material::Type type) {
+#define NEPHROID_MATERIAL_LOBES(word, NAME, lobes) lobes,
+  constexpr unsigned of_type[] = {MATERIALS(NEPHROID_MATERIAL_LOBES)};
+#undef NEPHROID_MATERIAL_LOBES
+  return of_type[static_cast<std::size_t>(type)];
 }
+
+/// Whether a surface sends a path on in one direction or about it, all of it or a part.
+constexpr bool is_specular(Material::Type type) { return (lobes(type) & (LOBE_REFLECTION | LOBE_TRANSMISSION)) != 0; }
 
 /// Whether a surface scatters a path to all sides, all of it or a part: what caustics fall on.
-constexpr bool is_matt(Material::Type type) {
-  return type == Material::Type::diffuse || type == Material::Type::plastic;
-}
+constexpr bool is_matt(Material::Type type) { return (lobes(type) & LOBE_DIFFUSE) != 0; }
 
 /// Whether light passes the surface.
-constexpr bool is_refractive(Material::Type type) {
-  switch (type) {
-  case Material::Type::dielectric: return true;
-  case Material::Type::diffuse:
-  case Material::Type::mirror:
-  case Material::Type::conductor:
-  case Material::Type::plastic: break;
-  }
-  return false;
-}
+constexpr bool is_refractive(Material::Type type) { return (lobes(type) & LOBE_TRANSMISSION) != 0; }
 
 /// Applied in the order scale, rotate (about x, then y, then z), translate.
 struct Transform {
