@@ -35,7 +35,7 @@ std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, co
   return weights;
 }
 
-/// As the function of that name in kernels/tracing/light.h.
+/// As the function of that name in kernels/lights/light.h.
 bool is_narrow(const shared::DeviceLight& light) {
   return light.type == LIGHT_SPOT && light.one_minus_cos < NARROW_SPOT;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of lamps that are a mesh, have a picture or photometry (kernels/tracing/lamp.h).
+// The tables of lamps that are a mesh, have a picture or photometry (kernels/lights/lamp.h).
 #pragma once
 #include "tracing/scene_tables.h"
 

@@ -86,7 +86,7 @@ unsigned light_type_bits(const scene::Scene& scene) {
   return bits;
 }
 
-/// A mesh becomes an area light at each of its places (kernels/tracing/lamp.h).
+/// A mesh becomes an area light at each of its places (kernels/lights/lamp.h).
 unsigned types_in_kernels(unsigned types) { return (types >> LIGHT_MESH & 1) != 0 ? types | 1u << LIGHT_AREA : types; }
 
 bool has_picture(const scene::Light& light) { return light.picture != nullptr; }

@@ -30,12 +30,12 @@ struct LeaveOut {
   bool smooth_normals = all; ///< kernels without interpolated normals
 };
 
-/// The environment as a light, as kernels/tracing/sky.h reads it.
+/// The environment as a light, as kernels/lights/sky.h reads it.
 struct SkyTables {
   shared::DeviceBackground size{};
   SKY_TABLES(TABLE_VECTOR)
   shared::float4 mean_colour{}; ///< the mean over all photons
-  double peak_part = 0;         ///< of the light, what is above the mean over all directions (kernels/tracing/sky.h)
+  double peak_part = 0;         ///< of the light, what is above the mean over all directions (kernels/lights/sky.h)
   shared::float4 peak_colour{}; ///< mean_colour of that part, less by as much
 };
 
@@ -44,7 +44,7 @@ struct TextureTables {
   TEXTURE_TABLES(TABLE_VECTOR)
 };
 
-/// What lamps have beyond their DeviceLight, as kernels/tracing/lamp.h reads it.
+/// What lamps have beyond their DeviceLight, as kernels/lights/lamp.h reads it.
 struct LampTables {
   LAMP_TABLES(TABLE_VECTOR)
   /// [light] a mesh's surfaces, in the order of its table; else nothing.

@@ -8,7 +8,7 @@
 #include "kernels/materials/rough.h"
 #include "kernels/tracing/media.h"
 #include "kernels/tracing/attenuation.h"
-#include "kernels/tracing/emission.h"
+#include "kernels/lights/emission.h"
 #include "kernels/tracing/work_item.h"
 
 // The order of app/check/arithmetic.cpp.

@@ -2,7 +2,7 @@
 // Algorithm 3.1 of the thesis: photons of parallel light from one direction meet an object of glass or a mirror, and
 // mark each sphere about its middle that they cross afterwards, outside of it.
 #include "kernels/environment/sphere_map.h"
-#include "kernels/tracing/emission.h"
+#include "kernels/lights/emission.h"
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/outcomes.h"
 #include "kernels/tracing/work_item.h"

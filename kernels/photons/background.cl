@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "background": paths from the eye that meet no diffuse surface, straight or through glass and mirrors, end
 // at the environment. A path through glass has one wavelength, unless all go the same way: then it has all of them.
-#include "kernels/tracing/light.h"
+#include "kernels/lights/light.h"
 // Where the environment is no light, its peaks are not known.
 #define NEPHROID_PLACE_DIFFERENTIALS (NEPHROID_LIGHT_TYPES >> LIGHT_ENVIRONMENT & 1)
 #include "kernels/tracing/camera.h"

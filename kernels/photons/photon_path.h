@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A photon's way from a light to its end: its emitter, its random numbers at the start, what it meets.
-#include "kernels/tracing/emission.h"
+#include "kernels/lights/emission.h"
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/outcomes.h"
 #include "kernels/tracing/world.h"

@@ -6,8 +6,8 @@
 // The environment's mean over them takes two directions, weighted by the balance heuristic (Veach 1997, 9.2.2): the
 // sample's own, and one drawn by the map's peaks, which counts if it is among them. So a sun much smaller than the
 // piece is there with its share, and what is even is seen as without differentials.
-#include "kernels/tracing/background.h"
-#include "kernels/tracing/emission.h"
+#include "kernels/lights/background.h"
+#include "kernels/lights/emission.h"
 #include "kernels/tracing/world.h"
 
 typedef struct {

@@ -113,7 +113,7 @@ typedef struct {
   float4 position;  // area: its centre; directional, environment, mesh: unused
   float4 direction; // unit, the way the light goes; point: of its photometry; environment, mesh: unused
   float4 edge_u;    // area: the full edges; environment: the mean colour of its photons; mesh: XYZ of its spectrum;
-  float4 edge_v;    // photometry: unit, the way to C = 0, 90 degrees; w: of a picture (tracing/lamp.h) as_int, its
+  float4 edge_v;    // photometry: unit, the way to C = 0, 90 degrees; w: of a picture (lights/lamp.h) as_int, its
                     // width, height; of a mesh as_int, how many surfaces it has, the first of them in the table of
                     // triangles
   int type;            // LIGHT_*

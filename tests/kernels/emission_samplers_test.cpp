@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/emission.h, first in extreme places: a far and small target, and a light inside of one.
+// kernels/lights/emission.h, first in extreme places: a far and small target, and a light inside of one.
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test_kernels.h"
@@ -13,8 +13,8 @@ using namespace shared;
 constexpr const char* source = R"(
 #include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/random.h"
-#include "kernels/tracing/light.h"
-#include "kernels/tracing/emission.h"
+#include "kernels/lights/light.h"
+#include "kernels/lights/emission.h"
 #include "kernels/tracing/work_item.h"
 kernel void sample(global const DeviceTarget* targets, int target_count, float4 from, uint2 seed, global float4* out, uint count)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/sky.h: directions are drawn by the flux of texels or by their peaks, evenly by solid angle inside of
+// kernels/lights/sky.h: directions are drawn by the flux of texels or by their peaks, evenly by solid angle inside of
 // one, and a direction is of the texel that is seen there. The truth is the map's definition (scene/environment.h),
 // written here anew in double precision.
 #include "kernels/tracing/shared_types.h"
@@ -15,7 +15,7 @@ using shared::float4;
 
 constexpr const char* source = R"(
 #include "kernels/tracing/random.h"
-#include "kernels/tracing/sky.h"
+#include "kernels/lights/sky.h"
 #include "kernels/tracing/work_item.h"
 kernel void places(global const float* cdf, global const float* colour, DeviceBackground size, uint2 seed, int by_peaks, global float4* out,
                    uint count)

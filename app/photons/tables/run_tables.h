@@ -15,7 +15,7 @@ struct RunTables : tracing::SceneTables {
   unsigned batches = 1;                        ///< batches of a pass: fair samples of its splatted photons
   unsigned eye_paths = 1;                      ///< paths of a pixel in a pass that gather photons (maps/photon_map.h)
   unsigned photons_per_pass() const { return batches * photons_per_batch; }
-  bool has_even_sky = false; ///< whether photons of the environment are of its peaks alone (kernels/tracing/sky.h), and
+  bool has_even_sky = false; ///< whether photons of the environment are of its peaks alone (kernels/lights/sky.h), and
                              ///< even_sky_stage brings the rest
   std::vector<double> importance;             ///< [cluster] 0..1, the largest 1: see ClusterShares
   double caustic_scale = 1, direct_scale = 1; ///< film quanta per unit of XYZ radiance, powers of two

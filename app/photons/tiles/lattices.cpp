@@ -41,7 +41,7 @@ struct Disc {
   double part;
 };
 
-/// one_minus_cos_of in kernels/tracing/emission.h.
+/// one_minus_cos_of in kernels/lights/emission.h.
 double one_minus_cos(const shared::float4& sphere, const glm::dvec3& from) {
   const double distance2 = glm::dot(vector(sphere) - from, vector(sphere) - from),
                radius2 = double{sphere.w} * sphere.w;

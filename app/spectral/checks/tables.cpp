@@ -111,7 +111,7 @@ Result beer_lambert(const compute::Context& context, std::uint64_t) {
                   t.clusters.size()));
 }
 
-// kernels/tracing/emission.h: the photons of a light towards spheres carry the power that the light sends there, also
+// kernels/lights/emission.h: the photons of a light towards spheres carry the power that the light sends there, also
 // where the spheres overlap. Errors are in standard deviations of the photons' own spread.
 
 constexpr std::size_t photon_count = 1 << 17;

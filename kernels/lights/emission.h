@@ -4,7 +4,7 @@
 // inside it. Where `count` targets overlap, each could have made a photon: its density is count / (sum of all).
 #include "kernels/tracing/differential.h"
 #include "kernels/tracing/frame.h"
-#include "kernels/tracing/light.h"
+#include "kernels/lights/light.h"
 #include "kernels/tracing/registers.h"
 
 typedef struct {
@@ -176,7 +176,7 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
   return emission;
 }
 
-// targets: the whole table. light: as source_of (world.h) turns it into a light for one photon.
+// targets: the whole table. light: as source_of (spectrum.h) turns it into a light for one photon.
 COMPILED_ONCE Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
                             float4 random, float2 place) {
   targets += light->first_target;

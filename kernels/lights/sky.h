@@ -10,7 +10,7 @@
 // Its light is even up to the mean over all directions; what is above is its peaks. Surfaces draw by the peaks alone.
 // Their second draw, by the cosine, finds the rest (Karlik et al. 2019, "MIS compensation"). Photons of caustics are
 // of the peaks alone where even_sky.cl brings the rest.
-#include "kernels/tracing/light.h"
+#include "kernels/lights/light.h"
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/scene_table_types.h"
 

@@ -2,7 +2,7 @@
 // The environment as a latitude-longitude picture at infinity: its colour in a direction, and that colour's XYZ at one
 // wavelength. The picture has colours, but glass bends and absorbs wavelengths. So a colour stands for a spectrum, the
 // sum of the fixed spectra of the three sRGB primaries (app/optics/colour.h).
-#include "kernels/tracing/light.h"
+#include "kernels/lights/light.h"
 #include "kernels/tracing/shared_types.h"
 
 typedef struct {
