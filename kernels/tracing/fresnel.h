@@ -9,13 +9,18 @@ static inline float refracted_cosine(float cos_i, float eta) {
   return cos2 < 0.0f ? -1.0f : sqrt(cos2);
 }
 
-// Mean of the reflectances of both polarisations, squares of the amplitudes
+// The amplitudes that light polarised across the plane of incidence and in it keeps,
 //   r_s = (n_i cos_i - n_t cos_t) / (n_i cos_i + n_t cos_t),  r_p = (n_t cos_i - n_i cos_t) / (n_t cos_i + n_i cos_t).
 // cos_t from refracted_cosine, not negative.
+static inline float2 fresnel_amplitudes(float cos_i, float cos_t, float n_i, float n_t) {
+  return (float2)((n_i * cos_i - n_t * cos_t) / (n_i * cos_i + n_t * cos_t),
+                  (n_t * cos_i - n_i * cos_t) / (n_t * cos_i + n_i * cos_t));
+}
+
+// Mean of the reflectances of both polarisations, squares of the amplitudes.
 static inline float fresnel_reflectance(float cos_i, float cos_t, float n_i, float n_t) {
-  const float s = (n_i * cos_i - n_t * cos_t) / (n_i * cos_i + n_t * cos_t);
-  const float p = (n_t * cos_i - n_i * cos_t) / (n_t * cos_i + n_i * cos_t);
-  return 0.5f * (s * s + p * p);
+  const float2 r = fresnel_amplitudes(cos_i, cos_t, n_i, n_t);
+  return 0.5f * (r.x * r.x + r.y * r.y);
 }
 
 // normal: unit, against the incoming direction; cos_i = -dot(direction, normal) >= 0.

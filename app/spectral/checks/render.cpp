@@ -47,6 +47,15 @@ double plate_transmittance(double theta, double n) {
   return (1 - r) / (1 + r);
 }
 
+double pane_transmittance(double theta, double n) {
+  const double inside = std::asin(std::sin(theta) / n), less = theta - inside, more = theta + inside;
+  if (theta == 0) return plate_transmittance(0, n);
+  double sum = 0;
+  for (const double amplitude : {std::sin(less) / std::sin(more), std::tan(less) / std::tan(more)})
+    sum += (1 - amplitude * amplitude) / (1 + amplitude * amplitude);
+  return sum / 2;
+}
+
 double z_of_transmitted(const compute::Context& context, preset::Preset p, double truth, double left) {
   constexpr int photons = 1 << 17;
   p.scene.materials["white"] = white();

@@ -51,6 +51,9 @@ inline double luminance(const job::Layer& layer, int width, int row, int column)
 /// inside added up. The first face reflects R of the light; of the 1 - R that go in, 1 - R leave at the second face and
 /// R go back, and so on: T = (1 - R)^2 (1 + R^2 + R^4 + ...) = (1 - R) / (1 + R).
 double plate_transmittance(double theta, double n);
+/// The same of a pane without thickness, in which light keeps its polarisation: the mean of both polarisations' sums,
+/// with Fresnel's r_s = sin(i - t) / sin(i + t) and r_p = tan(i - t) / tan(i + t).
+double pane_transmittance(double theta, double n);
 
 /// How far the fraction of the power of a pencil of one wavelength that reaches the floor below `p`'s objects is from
 /// `truth` times `left`, the part that a photon keeps, in sigma of the count.
