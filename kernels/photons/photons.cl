@@ -3,7 +3,7 @@
 // and mirrors, and are splatted into the pixel that sees the diffuse surface they reach.
 #include "kernels/photons/guide.h"
 #include "kernels/photons/pass_band.h"
-#include "kernels/photons/photon_map.h"
+#include "kernels/photons/store.h"
 #include "kernels/photons/stretch.h"
 #include "kernels/tracing/work_item.h"
 
@@ -16,10 +16,6 @@
 #ifndef NEPHROID_SPLAT
 #define NEPHROID_SPLAT 1
 #endif
-// 1: photons are stored for maps too.
-#ifndef NEPHROID_STORE
-#define NEPHROID_STORE 0
-#endif
 
 // The square of a contribution to the film in linear sRGB, in units of 2^12 of the film's quanta squared, at most 2^40.
 // The sum over an emitter's photons decides its number of photons (app/photons/effort/emitters.h).
@@ -29,26 +25,6 @@ static inline long squared(float3 xyz, float scale) {
               b = dot(q, (float3)(0.0557f, -0.2040f, 1.0570f));
   const float sum = r * r + g * g + b * b;
   return convert_long_rte(sum < 0x1p40f ? sum : 0x1p40f);
-}
-
-// Stores a photon on a diffuse surface in its slot of a photon map. band: pass_band.h. xyz: reflected power. scale:
-// quanta per unit of power. dither: uniform in [0, 1). False where a photon carries too much; then the slot is empty.
-static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band,
-                                int object_count, float3 xyz, float scale, float dither) {
-  const float3 quanta = xyz * scale;
-  const bool fits = quanta.x <= PHOTON_LIMIT && quanta.y <= PHOTON_LIMIT && quanta.z <= PHOTON_LIMIT;
-  StoredPhoton photon;
-  photon.group =
-      fits ? photon_group(surface->object, dot(arriving, surface->geometric) < 0.0f, band, object_count) : NO_PHOTON;
-  photon.position[0] = surface->position.x;
-  photon.position[1] = surface->position.y;
-  photon.position[2] = surface->position.z;
-  photon.xyz[0] = convert_int_sat_rte(quanta.x + dither - 0.5f);
-  photon.xyz[1] = convert_int_sat_rte(quanta.y + dither - 0.5f);
-  photon.xyz[2] = convert_int_sat_rte(quanta.z + dither - 0.5f);
-  photon.padding = 0;
-  *slot = photon;
-  return fits;
 }
 
 // Follows `count` photons offset, offset + stride, ... of the batch `iteration` and those that follow it. map_pass is

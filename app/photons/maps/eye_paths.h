@@ -14,11 +14,12 @@ class EyePaths {
 public:
   /// The pixels that have paths: all of them, or those that may show glass or a mirror.
   enum class Pixels { all, glass };
-  EyePaths(StageContext& world, Pixels pixels)
+  /// defines: more than those of the world.
+  EyePaths(StageContext& world, Pixels pixels, const compute::Defines& defines = {})
       : world_(world), begin_(pixels == Pixels::all ? 0 : world.pixels.count),
         size_(pixels == Pixels::all ? world.pixels.count : static_cast<std::uint32_t>(world.pixels.glass.size())),
         points_(world.context, "visible points", point_count(world.tables.camera)),
-        view_(compute::Program(world.context, "photons/view.cl", world.eye_defines()).kernel("view")),
+        view_(compute::Program(world.context, "photons/view.cl", joined(defines, world.eye_defines())).kernel("view")),
         slices_(size_, 1024, static_cast<std::int64_t>(points_.size())) {}
   static std::uint64_t bytes(const shared::DeviceCamera& camera) {
     return point_count(camera) * sizeof(shared::VisiblePoint);
@@ -74,6 +75,12 @@ public:
   }
 
 private:
+  /// Of both the first, and the others of the second.
+  static compute::Defines joined(compute::Defines first, const compute::Defines& second) {
+    first.insert(second.begin(), second.end());
+    return first;
+  }
+
   /// About as many points as make work for a slice.
   static std::size_t point_count(const shared::DeviceCamera& camera) {
     return std::min<std::size_t>(1 << 16,
