@@ -60,9 +60,11 @@ bool has_map(const scene::Scene& scene, const RunTables& tables) {
 }
 
 /// The wavelengths of a cluster in a pass, where photons of the map share them with paths from the eye: 32 in all, as
-/// in map_stage.cpp.
+/// in map_stage.cpp, where there are as many.
 int shared_bands(const RunTables& tables) {
-  return std::max(1, 32 / std::max(static_cast<int>(tables.wavelengths.clusters.size()), 1));
+  const auto clusters = std::max<std::size_t>(tables.wavelengths.clusters.size(), 1),
+             wavelengths = std::min<std::size_t>(tables.wavelengths.cluster_wavelengths.size(), 32);
+  return static_cast<int>(std::max<std::size_t>(1, wavelengths / clusters));
 }
 
 /// tables belong to the same scene. photons is the number wanted in a pass.
