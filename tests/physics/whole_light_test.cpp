@@ -29,6 +29,7 @@ preset::Preset with_all_light(int resolution, Estimator estimator) {
   spectral::settings(p).direct = spectral::settings(p).indirect = true;
   spectral::settings(p).estimator = estimator;
   spectral::settings(p).max_surfaces = 200;
+  spectral::settings(p).photons_per_pass = spectral::settings(p).indirect_photons_per_pass = 1 << 15;
   return p;
 }
 
@@ -63,8 +64,7 @@ TEST_P(Furnaces, NothingCanBeSeen) {
                      .power_w = power,
                      .object = "room"}};
   p.scene.camera = {.position = {0, 0, 1.6}, .target = {0.1, 0, -0.4}, .fov_deg = 40, .resolution = {16, 16}};
-  p.stop.passes = 32;
-  spectral::settings(p).indirect_photons_per_pass = 1 << 16;
+  p.stop.passes = 16;
   const auto estimates = render_passes(p, [](const job::Snapshot& snapshot) { return std::vector{mean_of(snapshot)}; });
   const double of_a_watt =
       optics::to_xyz(GetParam().disperses ? optics::illuminant("E") : spectrum_of(p.scene.lights[0]))[1];
@@ -101,7 +101,7 @@ TEST(Pool, HasStillWater) {
   }
   p.scene.lights = {parallel_light({std::sin(theta) * 0.8, -std::cos(theta), std::sin(theta) * 0.6})};
   p.scene.camera = {.position = {0, 6, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}, .fov_deg = 4, .resolution = {8, 8}};
-  p.stop.passes = 64;
+  p.stop.passes = 32;
 
   double outside = 0; // R_out, by steps of the sine squared
   constexpr int steps = 100000;
