@@ -20,28 +20,14 @@ constexpr double half_rounding = 0x1p-9;
 
 const glm::dvec3 slanted = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
 
-TEST(Bake, AGlassBallIsAsSnellAndFresnelHaveIt) {
-  const preset::Preset p =
-      bake_preset(glass_ball, {"environment.resolution=48", "environment.spheres=5", "environment.photons=2000000"});
-  const Bake bake = bake_of(p, {slanted});
-  ASSERT_EQ(bake.channels, 1);
-  EXPECT_EQ(bake.size, 2);
-  EXPECT_NEAR(bake.baked[0].met, pi / 4, 1e-5);
-  for (std::size_t i = 0; i < bake.radii.size(); ++i) {
-    const std::vector<double> expected =
-        environment::ball_map(bake.map, slanted, bake.radii[i], environment::ball_rays(1.5));
-    const double distance = relative_distance(bake, 0, i, [&](std::size_t t) { return expected[t]; });
-    EXPECT_LT(distance, 0.02) << "radius " << bake.radii[i];
-    fmt::print("radius {:.3f}: {:.2f} % off\n", bake.radii[i], 100 * distance);
-  }
-}
-
 // All spheres beyond the surface get the same, which is what left the ball: E r^2 is a power per solid angle.
 TEST(Bake, EverySphereGetsTheSamePower) {
   const Bake bake = bake_of(bake_preset(glass_ball, {"environment.spheres=8"}), {slanted});
   for (std::size_t i = 0; i < bake.radii.size(); ++i)
     EXPECT_NEAR(power_through(bake, 0, i).x, bake.baked[0].sent, half_rounding * bake.baked[0].sent) << i;
   EXPECT_NEAR(bake.baked[0].sent + bake.baked[0].lost, bake.baked[0].met, 1e-9);
+  EXPECT_NEAR(bake.baked[0].met, pi / 4, 1e-5); // of a square of side 2, as much as the ball's disc
+  EXPECT_EQ(bake.channels, 1);
 }
 
 // The same for a box, whose corners the inner spheres cut: those beyond the corners get all of it, the inner ones less.
