@@ -39,7 +39,7 @@ function(nephroid_unity target most)
 endfunction()
 
 # Reading, saying and drawing: -O1 compiles it in two thirds of the time, and nobody waits for it when it runs.
-set(nephroid_computes_little cli formats job plan preset report run ui)
+set(nephroid_computes_little cli export import job plan preset report run ui)
 
 # nephroid_library(NAME [FOLDERS folder...] [LIBS lib...]): every .cpp of the current folder, and of these folders in
 # it, as the static library nephroid_NAME.

@@ -8,7 +8,7 @@
 #include "scene/materials.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
-#include "tests/unit/imports_scenes.h"
+#include "tests/import/imports_scenes.h"
 
 #include <numbers>
 #include <zlib.h>

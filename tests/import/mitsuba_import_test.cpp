@@ -4,7 +4,7 @@
 #include "image/image.h"
 #include "scene/materials.h"
 #include "scene/mesh.h"
-#include "tests/unit/imports_scenes.h"
+#include "tests/import/imports_scenes.h"
 
 #include <zlib.h>
 

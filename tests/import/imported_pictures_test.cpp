@@ -2,7 +2,7 @@
 // Imports of pictures that say how rough a surface is, what passes it and how its normal leans.
 #include "image/image.h"
 #include "scene/scene.h"
-#include "tests/unit/imports_scenes.h"
+#include "tests/import/imports_scenes.h"
 
 namespace nephroid::imported_pictures_test {
 
