@@ -8,8 +8,6 @@
 
 namespace nephroid::spectral_input_test {
 
-using nlohmann::json;
-
 class SpectralInput : public test::ProgramTest {
 protected:
   scene::Scene load(const std::string& scene_fields) const {
@@ -117,46 +115,6 @@ TEST_F(SpectralInput, AnIndexThatIsNoneIsRefusedWhereverItStands) {
     EXPECT_THAT(refusal(glass(R"("bad.yml")")),
                 AllOf(StartsWith(at),
                       HasSubstr(fmt::format("bad.yml:5: \"{}\" is no number; expected a finite number", no_number))));
-  }
-}
-
-/// Every n, and the wavelengths of every cluster, by `nephroid clusters`.
-std::vector<std::set<int>> clusters_of(const test::Ended& ended) {
-  EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  const json all = json::parse(ended.out);
-  EXPECT_TRUE(all["total_theta_deg2"].is_number()) << "a number that is not finite is null in JSON";
-  std::vector<std::set<int>> clusters;
-  std::size_t wavelengths = 0;
-  for (const json& cluster : all["clusters"]) {
-    EXPECT_TRUE(cluster["n_mean"].is_number() && cluster["theta_deg2"].is_number());
-    clusters.push_back(cluster["wavelengths_nm"].get<std::set<int>>());
-    wavelengths += clusters.back().size();
-  }
-  EXPECT_EQ(wavelengths, 401u);
-  return clusters;
-}
-
-TEST_F(SpectralInput, OddCurvesAreClusteredFinitely) {
-  write("staircase.yml", table_file("        0.38 1.9\n        0.48 1.9\n        0.481 1.7\n        0.78 1.7\n"));
-  write("flat.yml", table_file("        0.38 1.5\n        0.78 1.5\n"));
-  write("crossing.yml",
-        table_file("        0.38 1.5\n        0.48 1.7\n        0.58 1.5\n        0.68 1.7\n        0.78 1.5\n"));
-  for (const std::string method : {"optimal", "thesis"}) {
-    const auto clusters = [&](const char* file) {
-      return clusters_of(run({"clusters", "--ior", file, "--method", method, "--json"}));
-    };
-    // The step's lower side and its upper side never share a path; the wavelength from which n jumps is alone.
-    const std::vector<std::set<int>> staircase = clusters("staircase.yml");
-    EXPECT_THAT(staircase, Contains(std::set<int>{480})) << method;
-    for (const std::set<int>& cluster : staircase)
-      EXPECT_TRUE(*cluster.rbegin() <= 480 || *cluster.begin() >= 481) << method;
-
-    EXPECT_EQ(clusters("flat.yml").size(), 1u) << method;
-    // Each n is met on up to four slopes, whose wavelengths bend alike: clusters reach over the crests between them.
-    const std::vector<std::set<int>> crossing = clusters("crossing.yml");
-    EXPECT_TRUE(std::any_of(crossing.begin(), crossing.end(), [](const std::set<int>& c) {
-      return *c.rbegin() - *c.begin() > 200;
-    })) << method;
   }
 }
 
@@ -285,23 +243,6 @@ TEST_F(DamagedMeshes, ASoundMeshIsAccepted) {
   const scene::Scene sound = load(scene_of("glass", "refuse"));
   EXPECT_THAT(sound.warnings, IsEmpty());
   expect_outwards(sound);
-}
-
-TEST_F(DamagedMeshes, TheProgramRefusesWithOneLine) {
-  write("cube.obj", cube(false, false, true));
-  write("open.json", R"({"engine":"spectral","scene":{)" + scene_of("glass", "refuse") + "}}");
-  const test::Ended refused = run({"plan", "open.json"});
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_EQ(refused.out, "");
-  EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
-  EXPECT_THAT(refused.err,
-              StartsWith("nephroid: open.json#/scene/objects/1: object 'die': dielectric, but not closed: 4 edges"));
-  const test::Ended reported = run({"plan", "open.json", "--set", "scene.damaged_meshes=report"});
-  EXPECT_EQ(reported.exit_code, 0);
-  EXPECT_THAT(
-      reported.out,
-      HasSubstr(
-          "object 'die': dielectric, but not closed: 4 edges with one triangle; light that enters may never leave"));
 }
 
 } // namespace nephroid::spectral_input_test

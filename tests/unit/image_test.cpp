@@ -5,7 +5,6 @@
 #include "image/image.h"
 #include "measure/read_picture.h"
 #include "tests/support/test.h"
-#include "tests/support/tiff.h"
 
 #include <sys/mount.h>
 
@@ -73,20 +72,6 @@ TEST(Shown, EqualsTheRoundedEncodingEverywhere) {
     if (std::abs(code - std::floor(code) - 0.5) < 1e-4) continue; // a tie within single precision
     ASSERT_EQ(shown(float(linear)), std::lround(code)) << linear;
   }
-}
-
-// As phones write pictures: 6 says that the first row is the right column of what was seen.
-TEST_F(Pictures, AreTurnedAsTheirFileSays) {
-  write_file_whole(folder / "as-seen.tif", test::tiff(3, 1, 1, "\x10\x20\x30"));
-  write_file_whole(folder / "turned.tif", test::tiff(3, 1, 6, "\x10\x20\x30"));
-  const Image as_seen = read_image(folder / "as-seen.tif"), turned = read_image(folder / "turned.tif");
-  EXPECT_EQ(as_seen.width, 3);
-  EXPECT_EQ(turned.width, 1);
-  ASSERT_EQ(turned.height, 3);
-  EXPECT_EQ(turned.data, as_seen.data);
-  write_file_whole(folder / "mirrored.tif", test::tiff(3, 1, 2, "\x10\x20\x30"));
-  const Image mirrored = read_image(folder / "mirrored.tif");
-  EXPECT_EQ(mirrored.data, (std::vector<float>{as_seen.data[2], as_seen.data[1], as_seen.data[0]}));
 }
 
 TEST_F(Pictures, ScreenshotsKeepTheirBytes) {

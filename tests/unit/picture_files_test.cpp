@@ -229,6 +229,7 @@ TEST_F(PictureFiles, AreTurnedAsTheirFileSays) {
       codes.push_back(std::lround(value * 255));
     return codes;
   };
+  EXPECT_THAT(greys(2), ElementsAre(2, 1, 0, 5, 4, 3));
   EXPECT_THAT(greys(5), ElementsAre(0, 3, 1, 4, 2, 5));
   EXPECT_THAT(greys(6), ElementsAre(3, 0, 4, 1, 5, 2));
   EXPECT_THAT(greys(7), ElementsAre(5, 2, 4, 1, 3, 0));
