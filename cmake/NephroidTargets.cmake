@@ -38,8 +38,9 @@ function(nephroid_unity target most)
   endforeach()
 endfunction()
 
-# Reading, saying and drawing: -O1 compiles it in two thirds of the time, and nobody waits for it when it runs.
-set(nephroid_computes_little cli export import job plan preset report run ui)
+# Reading, saying, drawing, and what runs once: -O1 compiles it in two thirds to three quarters of the time, and nobody
+# waits for it when it runs.
+set(nephroid_computes_little check cli compute engine export import job optics plan preset report run spectral ui)
 
 # nephroid_library(NAME [FOLDERS folder...] [LIBS lib...]): every .cpp of the current folder, and of these folders in
 # it, as the static library nephroid_NAME.

@@ -42,6 +42,7 @@ set(implot ${imgui_bundle}/external/implot/implot)
 add_library(nephroid_implot STATIC ${implot}/implot.cpp ${implot}/implot_items.cpp)
 target_include_directories(nephroid_implot SYSTEM PUBLIC ${implot})
 target_compile_definitions(nephroid_implot PRIVATE "IMPLOT_CUSTOM_NUMERIC_TYPES=(double)")
+target_compile_options(nephroid_implot PRIVATE $<$<CONFIG:Release>:-O1>) # 20 core-seconds, not 35
 target_link_libraries(nephroid_implot PUBLIC nephroid_imgui)
 
 set(imguizmo ${imgui_bundle}/external/ImGuizmo/ImGuizmo/src)
